@@ -33,7 +33,7 @@ def searches():
         spin_up_many(scene, starts, 100, 3000, fast=True)
         tests = tests_of(scene)
         for field in tests.fixed + tests.moving:
-            tests.certifier(field, (2, 4), fast=True).constants(starts[0], 1e-9, fast=True)
+            tests.certifier(field, (2, 4)).constants(starts[0], 1e-9, fast=True)
 
 
 def proofs():

@@ -84,6 +84,16 @@ class Form:
         return added, rate
 
 
+def corrections(form, orders):
+    """(added to X^2/2, left of its rate, m, added to |zeta|^2 (1 + m/(M X)), left of its rate); M X + m is
+    left out of the second."""
+    spin = {key: c for key, c in form.drive.items() if key != (0, 0, 0)}
+    high, rest = form.eliminated(product({(0, 0, -1): mp.mpc(1)}, spin), orders[0])
+    m = rest.pop((0, 0, 0), mp.mpc(0)).real
+    return high, rest, m, *form.eliminated(form.price({(1, 1, 0): mp.mpc(1), (1, 1, 1): mp.mpc(m / form.M)}),
+                                           orders[1])
+
+
 def holds(claims, state) -> bool:
     """Whether the inequality that a certificate claims about the fixed centre holds at a state (three numbers
     of mpmath)."""
@@ -93,11 +103,7 @@ def holds(claims, state) -> bool:
         A, z, gain = (number(said[key]) for key in ("cone", "least", "gain"))
         if not (form.M > 0 and A > 0 and z > 0 and gain > 0):
             return False
-        spin = {key: c for key, c in form.drive.items() if key != (0, 0, 0)}
-        high, rest = form.eliminated(product({(0, 0, -1): mp.mpc(1)}, spin), said["orders"][0])
-        m = rest.pop((0, 0, 0), mp.mpc(0)).real
-        wide, left = form.eliminated(form.price({(1, 1, 0): mp.mpc(1), (1, 1, 1): mp.mpc(m / form.M)}),
-                                     said["orders"][1])
+        high, rest, m, wide, left = corrections(form, said["orders"])
         if min(n for _, _, n in (*high, *rest, (0, 0, 0))) < 0 or min((n for _, _, n in left), default=2) < 2:
             return False
         X, zeta = form.place(state)

@@ -11,7 +11,7 @@ import pytest
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.certificate import certificate
 from stabilab.unreduced.spin_up.centres import moving_centre
-from stabilab.unreduced.spin_up.certificate import MovingCertifier
+from stabilab.unreduced.spin_up.certificate import Certifier
 from stabilab.unreduced.spin_up.form import forms_of
 from stabilab.unreduced.spin_up.symmetric import equatorial
 from stabilab.verify import verify
@@ -121,7 +121,7 @@ def test_corrected_energy_and_amplitude_change_at_the_rates_that_are_written_dow
 def found_by(scene, field, state, orders):
     """(about, axis, sense, cone, least, gain) that the analysis' test in doubles finds for a state; None
     where it does not hold."""
-    found = MovingCertifier(field, orders).constants(state)
+    found = Certifier(field, orders).constants(state)
     if found is None:
         return None
     cone, least, gain = map(F, found[:3])

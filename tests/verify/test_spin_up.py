@@ -12,7 +12,7 @@ import pytest
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, load
 from stabilab.answers.certificate import certificate
 from stabilab.unreduced.spin_up.centres import FixedCentre
-from stabilab.unreduced.spin_up.certificate import FixedCertifier
+from stabilab.unreduced.spin_up.certificate import Certifier
 from stabilab.unreduced.spin_up.form import forms_of
 from stabilab.verify import verify
 from stabilab.verify.inequality import Inequality
@@ -185,7 +185,7 @@ def test_what_the_test_in_doubles_finds_holds_in_balls(orders):
         for form in forms_of(scene):
             state = np.array(sphere(rng, 2))
             state[form.axis] = form.sense * rng.choice((3, 6, 12))
-            found = FixedCertifier(FixedCentre(form), orders).constants(state)
+            found = Certifier(FixedCentre(form), orders).constants(state)
             if found is None:
                 continue
             seen += 1

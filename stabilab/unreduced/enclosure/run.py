@@ -12,7 +12,7 @@ every state of the set there.
 
 The theorem's inequality (`spin_up.certificate`) is tested for the ball that holds the enclosure at the time
 when it fired. Its test is one in doubles, whose rounding is bounded beforehand: forms are exact before the
-one root, each coefficient comes with a bound of its rounding (`spin_up.elimination`), the place of the ball
+one root, each coefficient comes with a bound of its rounding (`spin_up.centres`), the place of the ball
 is taken at its worse ends, and every comparison leaves room for the rest. So nothing in the answer rests on a
 run that was not enclosed.
 """
@@ -246,7 +246,7 @@ def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | No
     scene = effective(checked_scene(scene))
     own, unit = natural(scene)
     rates = "" if scene.variables == "scaled" else " rad/s"
-    test = tests_of(own).certifier(before.field, before.orders, fast)
+    test = tests_of(own).certifier(before.field, before.orders)
     way = _Way(scene, state, found.t * LATER[-1], bits, plain)
     for later in LATER:
         reached = way.to(found.t * later, steps)

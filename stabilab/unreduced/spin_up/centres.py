@@ -5,14 +5,13 @@ Taking away what oscillates about a moving centre: corrected energy and correcte
 Quantities are sums of c zeta^j zeta*^k p^(-a/4) q^(-b/4), many terms at a time in arrays (`Terms`); p and q
 are linear in the spin x. Along the motion, with `Algebra`'s names,
 
-    zeta' = i om p^(-turn_a/4) q^(-turn_b/4) zeta + x' carried,        x' = x_rate,
-    d/dt  = i Om (zeta d - zeta* d*) + x' [d/dx + along carried].
+    zeta' = i om p^(-turn_a/4) q^(-turn_b/4) zeta + x' carried + drift,        x' = x_rate,
+    d/dt  = i Om (zeta d - zeta* d*) + x' [d/dx + along carried] + along drift.
 
 An oscillating term c zeta^j zeta*^k f(x) of a rate (j != k) is taken away by adding -c/(i Om (j - k)) zeta^j
 zeta*^k f(x) to the quantity: its rate then holds -c zeta^j zeta*^k f(x) and the price, what the rest of d/dt
 makes of the added term, smaller by at least one power of the spin. What does not oscillate (j = k) stays.
-Level of a term: four times the power of 1/x with which it falls. (About a fixed centre p = X, there is no q,
-and `fixed_kernel` does the same in loops over dense tables.)
+Level of a term: four times the power of 1/x with which it falls.
 
 Rounding. Beside each coefficient goes its majorant, formed by the same operations on sizes, without
 subtraction: a coefficient is a sum of products, its majorant the sum of the same products' sizes. Each
@@ -23,13 +22,28 @@ ROUNDING majorant, ROUNDING = 2^-32, which covers that 64 times over.
 The forms in which spin-up is certified: about the fixed centre, and about a moving one for nearly equal
 moments with a wheel and for spin-up in the equator of a symmetric body.
 
-In every such field x is the spin that grows and D1 x' = drive + what oscillates. About the fixed centre x is
-the X of `form`. About the moving one, axis 1, frame and names as in `form`; d2, d3 need not share a sign
-where one vanishes. With P = d3 x + l1, Q = d2 x + l1 (x = omega1), p = s P > 0 and q = s Q > 0, the
-transverse rates oscillate about w2* = (l2 x - M3)/Q, w3* = (l3 x + M2)/P, where omega2' and omega3' would
-vanish. Put rho = (q/p)^(1/4), u = omega2 - w2*, v = omega3 - w3*, eta = sqrt(D2) rho u + i s sqrt(D3) v/rho.
-From D2 u' = -P v - D2 x' dw2*/dx and D3 v' = Q u - D3 x' dw3*/dx, with dw2*/dx = n3/Q^2, n3 = d2 M3 + l1 l2,
-dw3*/dx = -n2/P^2, n2 = d3 M2 - l1 l3, exactly
+In every such field x is the spin that grows and D1 x' = drive + what oscillates.
+
+Fixed centre. x is the X of `form`, p = X, q = 1, zeta' = i om X zeta + i h zeta* + mu and D1 X' = G = M1 +
+gam Im zeta^2 + Re(kap* zeta). The energy D1 X^2/2 has the rate X G = M1 X + m* + what is left. Order 0 is the
+classical D1 X^2/2 + (gam/2om) Re zeta^2 - Im(kap* zeta)/om - Im(nu zeta)/(om^2 X): what is taken at X^1 is
+all of X (G - M1), at X^0 what h and mu make of it, Re(nu zeta)/om, and m* = -Im(kap* mu)/om stays exactly. It
+is formed exactly in `form.drag` and left out of the rate with M1 X: the drive.
+
+The amplitude |zeta|^2 (1 + m*/(M1 X)) starts from |zeta|^2 + R/(om X), R = h Re zeta^2 - 2 Im(mu* zeta),
+which takes out of (|zeta|^2)' = 2 h Im zeta^2 + 2 Re(mu* zeta) all there is at X^0. The price at X^-1 is
+[along i h zeta* + mu] of R, and that vanishes identically: h Re zeta^2 gives 2 h Re(mu zeta), and -2 Im(mu*
+zeta) gives -2 h Re(mu zeta). So the rate is -X' R/(om X^2), written down so, with no term at X^-1 at all, and
+every term left falls as X^-2 or faster. The weight (which does not stand among the added terms) adds (m*/M1)
+(|zeta|^2/X)', whose mean part -m* |zeta|^2/(D1 X^2) cancels that of -X' R/(om X^2) up to rounding (which the
+sums hold): the flow keeps volume, so its mean does.
+
+Moving centre. Axis 1, frame and names as in `form`; d2, d3 need not share a sign where one vanishes. With P =
+d3 x + l1, Q = d2 x + l1 (x = omega1), p = s P > 0 and q = s Q > 0, the transverse rates oscillate about w2* =
+(l2 x - M3)/Q, w3* = (l3 x + M2)/P, where omega2' and omega3' would vanish. Put rho = (q/p)^(1/4), u = omega2
+- w2*, v = omega3 - w3*, eta = sqrt(D2) rho u + i s sqrt(D3) v/rho. From D2 u' = -P v - D2 x' dw2*/dx and D3
+v' = Q u - D3 x' dw3*/dx, with dw2*/dx = n3/Q^2, n3 = d2 M3 + l1 l2, dw3*/dx = -n2/P^2, n2 = d3 M2 - l1 l3,
+exactly
 
     eta' = i Om eta + x' (r eta* + f),   D1 x' = G0 + g Im eta^2 + Re(k* eta),   Om = sqrt(p q/(D2 D3)),
     r = rho'/rho = s l1 (a2 - a3)/(4 p q),   f = -sqrt(D2) rho n3/q^2 + i s sqrt(D3) n2/(rho p^2),   g = s
@@ -51,12 +65,13 @@ must fall faster than 1/x, and its integral is infinite where one does not (`mov
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
 
-from .form import NormalForm, signed_square
+from .form import NormalForm, over_root
 
 ROUNDING = 2.0**-32
 _A, _K, _J = 1 << 16, 1 << 32, 1 << 40
@@ -132,16 +147,21 @@ def terms_of(table: dict) -> Terms:
     return Terms(np.array([packed(*key) for key in table], np.int64), c, np.abs(c))
 
 
+def joined(parts: Sequence[Terms]) -> Terms:
+    """The sum of sums of terms, like keys not yet added up."""
+    return Terms(*(np.concatenate([getattr(part, name) for part in parts]) for name in ("keys", "c", "m")))
+
+
 def gathered(*parts: Terms) -> Terms:
     """The sum of sums of terms."""
     parts = tuple(part for part in parts if len(part.keys))
     if not parts:
         return terms_of({})
-    keys, c, m = (np.concatenate([getattr(part, name) for part in parts]) for name in ("keys", "c", "m"))
-    order = np.argsort(keys, kind="stable")
-    keys = keys[order]
+    whole = joined(parts)
+    order = np.argsort(whole.keys, kind="stable")
+    keys = whole.keys[order]
     first = np.flatnonzero(np.append(True, keys[1:] != keys[:-1]))
-    return Terms(keys[first], np.add.reduceat(c[order], first), np.add.reduceat(m[order], first))
+    return Terms(keys[first], np.add.reduceat(whole.c[order], first), np.add.reduceat(whole.m[order], first))
 
 
 def product(one: Terms, other: Terms) -> Terms:
@@ -160,8 +180,8 @@ class Algebra:
     """What the time derivative of a form is made of.
 
     lift: i/om; turn: (a, b) of the turning rate Om = om p^(-a/4) q^(-b/4); fall: the factors of d/dx,
-    -slope/4 of p and of q; x_rate: terms of x'; carried: terms of zeta' over x'; weights: what p and q count
-    in the level, 0 for a q that is constant.
+    -slope/4 of p and of q; x_rate: terms of x'; carried: terms of zeta' over x'; drift: its other terms;
+    weights: what p and q count in the level, 0 for a q that is constant.
     """
 
     lift: complex
@@ -169,6 +189,7 @@ class Algebra:
     fall: tuple
     x_rate: Terms
     carried: Terms
+    drift: Terms
     weights: tuple = (1, 1)
 
     def levels(self, terms: Terms):
@@ -178,27 +199,27 @@ class Algebra:
 
     def rest_of_rate(self, terms: Terms) -> Terms:
         """The rate of a quantity apart from what turning makes of it, like keys not yet added up."""
-        return product(gathered(self.slope(terms), *self._along_carried(terms)), self.x_rate)
-
-    def _along_carried(self, terms):
-        """The derivative of terms along zeta' = carried."""
-        if not len(self.carried.keys):
-            return []
-        j, k, _, _ = terms.powers
-        return [product(terms.moved(-packed(*step)).times(n)[n != 0], toward)
-                for step, n, toward in (((1, 0, 0, 0), j, self.carried),
-                                        ((0, 1, 0, 0), k, self.carried.conjugate()))]
+        moved = product(gathered(self.slope(terms), *_along(terms, self.carried)), self.x_rate)
+        return joined([moved, *_along(terms, self.drift)])
 
     def slope(self, terms: Terms) -> Terms:
         """d/dx of terms at constant zeta."""
         _, _, a, b = terms.powers
-        return gathered(*(terms.moved(packed(0, 0, *step)).times(n).times(fall)[n != 0]
-                          for step, fall,
-                          n in (((4, 0), self.fall[0], a), ((0, 4), self.fall[1], b)) if fall))
+        return joined([terms.moved(packed(0, 0, *step)).times(n * fall)[n != 0]
+                       for step, fall, n in (((4, 0), self.fall[0], a), ((0, 4), self.fall[1], b)) if fall])
 
     def removed(self, terms: Terms) -> Terms:
         """What is added to a quantity to take oscillating terms out of its rate."""
         return terms.moved(-packed(0, 0, *self.turn)).times(self.lift).over(terms.apart)
+
+
+def _along(terms: Terms, rate: Terms) -> list[Terms]:
+    """The derivative of terms along zeta' = rate."""
+    if not len(rate.keys):
+        return []
+    j, k, _, _ = terms.powers
+    return [product(terms.moved(-packed(*step)).times(n)[n != 0], toward)
+            for step, n, toward in (((1, 0, 0, 0), j, rate), ((0, 1, 0, 0), k, rate.conjugate()))]
 
 
 @dataclass(frozen=True)
@@ -225,32 +246,56 @@ def corrected(algebra: Algebra, rate: Terms, order: int) -> Corrected:
 
 
 class FixedCentre:
-    """The normal form about its fixed centre."""
+    """The normal form about its fixed centre: p = X, q = 1, and all powers are whole."""
 
-    name, sharp = "fixed centre", True
+    name, sharp, parts = "fixed centre", True, 1
+    a2, a3, offsets, turn_size = 0.0, 1.0, (1.0, 0.0), 1.0
 
     def __init__(self, form: NormalForm):
-        self.form = form
-        self.D1, self.M1, self.axis, self.sense = form.D1, form.M1, form.axis, form.sense
+        self.form = f = form
+        self.D1, self.M1, self.axis, self.sense = f.D1, f.M1, f.axis, f.sense
+        self.basis = np.zeros((3, 3))
+        self.basis[range(3), f.order] = f.turn
+        self.frame = (f.shift, *f.centre, *f.scale)
+        self.G0 = {(0, 0, 0, 0): f.M1, (0, 0, 4, 0): f.drag}
+        self.swing = _present({(2, 0, 0, 0): -0.5j * f.gam, (0, 2, 0, 0): 0.5j * f.gam,
+                               (1, 0, 0, 0): 0.5 * f.kap.conjugate(), (0, 1, 0, 0): 0.5 * f.kap})
+        x_rate = terms_of({(0, 0, 0, 0): f.M1} | self.swing).times(1 / f.D1)
+        drift = terms_of(_present({(0, 1, 0, 0): 1j * f.h, (0, 0, 0, 0): f.mu}))
+        self.algebra = Algebra(1j / f.om, (-4, 0), (-0.25, 0.0), x_rate, terms_of({}), drift)
+
+    def energy(self, order: int) -> Corrected:
+        """D1 X^2/2, corrected; the drive M1 X + m* is left out of its rate."""
+        start = terms_of(self.swing).moved(packed(0, 0, -4, 0))
+        found = corrected(self.algebra, start, order)
+        return Corrected(found.added, found.rate[found.rate.keys != packed(0, 0, 0, 0)])
+
+    def amplitude(self, order: int) -> Corrected:
+        """(1 + m*/(M1 X)) |zeta|^2, corrected from |zeta|^2 + R/(om X) on."""
+        f, algebra = self.form, self.algebra
+        first = terms_of(_present({(2, 0, 4, 0): 0.5 * f.h / f.om, (0, 2, 4, 0): 0.5 * f.h / f.om,
+                                   (1, 0, 4, 0): 1j * f.mu.conjugate() / f.om,
+                                   (0, 1, 4, 0): -1j * f.mu / f.om}))
+        weight = terms_of(_present({(1, 1, 4, 0): f.drag / f.M1}))
+        rate = product(first.moved(packed(0, 0, 4, 0)).times(-1), algebra.x_rate)
+        found = corrected(algebra, gathered(rate, algebra.rest_of_rate(weight)), order)
+        return Corrected(gathered(first, found.added), found.rate)
 
     def transverse(self, A, z):
         """((low, high), (low, high)) of omega2 and omega3 of the form while |zeta| <= A."""
         return tuple((c - A / abs(scale), c + A / abs(scale)) for c,
                      scale in zip(self.form.centre, self.form.scale))
 
-    @property
-    def basis(self):
-        """The form's three axes in principal axes of the body, rows."""
-        basis = np.zeros((3, 3))
-        for row, (t, n) in enumerate(zip(self.form.turn, self.form.order)):
-            basis[row, n] = t
-        return basis
+
+def _present(table: dict) -> dict:
+    """The terms that do not vanish."""
+    return {key: c for key, c in table.items() if c}
 
 
 class MovingCentre:
     """The form about the moving centre."""
 
-    name, sharp = "moving centre", False
+    name, sharp, parts = "moving centre", False, 4
 
     def __init__(self, D, wheel, torque, basis, s, axis=None, sense=1):
         """D, wheel, torque: Fractions in the frame of the form, M1 > 0. basis: its three axes in principal
@@ -263,22 +308,22 @@ class MovingCentre:
         self.D1, self.M1, self.roots = float(D1), float(M1), (float(D2) ** 0.5, float(D3) ** 0.5)
         self.a2, self.a3, self.c = float(s * d2), float(s * d3), float(s * l1)
         self.wheel, self.torque = (float(l2), float(l3)), (float(M2), float(M3))
-        self.n2, self.n3, eps = float(d3 * M2 - l1 * l3), float(d2 * M3 + l1 * l2), d3 - d2
+        self.offsets, eps = (self.c, self.c), d3 - d2
+        self.frame = (s, *self.wheel, *self.torque, *self.roots, float(d3 * M2 - l1 * l3),
+                      float(d2 * M3 + l1 * l2))
         self.G0 = self._folded({(0, 0, 0, 0): float(M1), (0, 0, 0, 4): float(s * l2 * M2),
                                 (0, 0, 4, 0): float(s * l3 * M3),
                                 (0, 0, 4, 4): float(-eps * M2 * M3)})
-        root = lambda value, square: (lambda sign,
-                                      squared: sign * float(squared) ** 0.5)(*signed_square(value, square))
-        g = root(s * eps / 2, D2 * D3)
-        k = {(3, 1): root(s * eps * M2, D2), (3, -3): root(-l3, D2), (-3, 3): 1j * root(s * l2, D3),
-             (1, 3): 1j * root(-eps * M3, D3)}
+        g = over_root(s * eps / 2, D2 * D3)
+        k = {(3, 1): over_root(s * eps * M2, D2), (3, -3): over_root(-l3, D2),
+             (-3, 3): 1j * over_root(s * l2, D3), (1, 3): 1j * over_root(-eps * M3, D3)}
         self.swing = self._folded({(2, 0, 0, 0): -0.5j * g, (0, 2, 0, 0): 0.5j * g})
         self.pull = self._folded({(1, 0, *key): 0.5 * c.conjugate() for key, c in k.items()}
                                  | {(0, 1, *key): 0.5 * c for key, c in k.items()})
         self.k = self._folded({(0, 0, *key): complex(c) for key, c in k.items()})
         self.r = self._folded({(0, 0, 4, 4): float(s * l1 * s * (d2 - d3) / 4)})
-        self.f = self._folded({(0, 0, 1, 7): -root(d2 * M3 + l1 * l2, 1 / D2),
-                               (0, 0, 7, 1): 1j * s * root(d3 * M2 - l1 * l3, 1 / D3)})
+        self.f = self._folded({(0, 0, 1, 7): -over_root(d2 * M3 + l1 * l2, 1 / D2),
+                               (0, 0, 7, 1): 1j * s * over_root(d3 * M2 - l1 * l3, 1 / D3)})
         self.g = g
         rate = gathered(*map(terms_of, (self.G0, self.swing, self.pull))).times(1 / self.D1)
         carried = terms_of({(0, 1, a, b): c for (_, _, a, b), c in self.r.items()} | self.f)
@@ -286,7 +331,7 @@ class MovingCentre:
         # sqrt(p q): a constant q is part of the number
         (((_, _, *turn), self.turn_size),) = self._folded({(0, 0, -2, -2): 1.0}).items()
         self.algebra = Algebra(1j / (om * self.turn_size), tuple(turn), (-self.a3 / 4, -self.a2 / 4),
-                               rate, carried, (1, 1 if self.a2 else 0))
+                               rate, carried, terms_of({}), (1, 1 if self.a2 else 0))
 
     @property
     def least_fall(self) -> float | None:
@@ -297,7 +342,7 @@ class MovingCentre:
     def _folded(self, terms):
         """Terms without those that vanish; a constant q becomes part of their numbers."""
         if self.a2:
-            return {key: c for key, c in terms.items() if c}
+            return _present(terms)
         out = {}
         for (j, k, a, b), c in terms.items():
             if c:

@@ -24,23 +24,20 @@ centre), and int_x^(z+) Om >= (z+ - x) Om(x) gives z+.
 
 Rounding. The place of a state is known within its blur (rounding and, asked for, a ball of states about it):
 x and |zeta| are taken at their worse ends and each term at the start within the change that the blur can make
-of it. Coefficients hold their rounding (`elimination`), sums of positive numbers are off by less than 2^-40
+of it. Coefficients hold their rounding (`centres`), sums of positive numbers are off by less than 2^-40
 of themselves, and every comparison leaves SLACK = 2^-30 of the sum of the sizes in it.
 
-A and z are searched from the smallest that could do, by `fixed_kernel` and `moving_kernel`: compiled, or as
-they are written.
+A and z are searched from the smallest that could do, by `moving_kernel`: compiled, or as it is written.
 """
 from __future__ import annotations
 
 import math
 from functools import cached_property, lru_cache
-from types import ModuleType
-from typing import NamedTuple
 
 import numpy as np
 
 from ...integrate.quadratic_series import in_unit
-from . import fixed_kernel, moving_kernel
+from . import moving_kernel as kernel
 from .centres import FixedCentre, MovingCentre, Terms, moving_centre, sizes
 from .compiled import functions
 from .form import forms_of
@@ -54,23 +51,35 @@ EQUATORIAL_ORDERS = ((2, 4), (4, 6))
 
 
 class Certifier:
-    """The inequality of the theorem in one field at one pair of orders, by the functions of a kernel over
-    tables that are made once."""
+    """The inequality of the theorem in one field (`centres`) at one pair of orders, by the functions of the
+    kernel over tables that are made once."""
 
-    kernel: ModuleType
-    numbers: tuple  # the arguments of the kernel's `decide` from the seventh on, but for arrays to work in
-
-    def work(self) -> tuple:
-        """Arrays to work in: new ones for each question, for threads may share a test."""
-        raise NotImplementedError
+    def __init__(self, field: FixedCentre | MovingCentre, orders: tuple[int, int]):
+        with np.errstate(all="ignore"):  # what overflows is not finite, and certifies nothing
+            energy, amplitude = field.energy(orders[0]), field.amplitude(orders[1])
+            (a, b), size, parts = field.algebra.turn, field.turn_size, field.parts
+            quantities = _quantity(energy.added, parts), _quantity(amplitude.added, parts)
+            sums = (kernel.Sum(*_sums(amplitude.rate, sizes(amplitude.rate), parts)),
+                    kernel.Sum(*_sums(energy.rate, sizes(energy.rate) / size, parts, (-a, -b))))
+        exponents = [*(one.exponents for one in quantities), *(one.exponents for one in sums)]
+        reach = 5 + max(int(np.abs(one).sum(axis=0).max()) for one in exponents)
+        self.degrees = 1 + max(int(one.powers.max()) for one in quantities)
+        self.columns = max(one.shape[1] for one in exponents)
+        drive = [(m * parts // 4, n * parts // 4) for _, _, m, n in field.G0]
+        form = kernel.Form(field.basis, np.array(field.frame, float), field.D1, field.M1, field.a2, field.a3,
+                           *field.offsets, parts, a * parts // 4, b * parts // 4, size, reach,
+                           np.ascontiguousarray(np.array(drive).T), np.array([*field.G0.values()], float))
+        self.numbers = form, *quantities, *sums
 
     def decide(self, rows, states, reach, fired, number, found, fast: bool = False):
         """The test for those of rows that no test has fired for, balls of radius reach (n,) about states (n,
         3): fired (n,) becomes number, found (6, n) the constants A, z, eta, z_up, eta_up, k of the
-        theorem."""
-        with np.errstate(all="ignore"):  # what overflows is not finite, and certifies nothing
-            decide = functions(self.kernel, fast)["decide"]
-            decide(rows, states, reach, fired, number, found, *self.numbers, *self.work())
+        theorem. The arrays to work in are new ones for each question, for threads may share a test."""
+        work = (np.ones((4, 2 * kernel.MIDDLE + 1)), np.zeros(self.degrees, complex),
+                *np.zeros((2, self.columns)), np.zeros(6))
+        with np.errstate(all="ignore"):
+            decide = functions(kernel, fast)["decide"]
+            decide(rows, states, reach, fired, number, found, *self.numbers, *work)
 
     def constants(self, state, near: float = 0.0, fast: bool = False) -> tuple[float, ...] | None:
         """The six constants for all states of the ball of radius `near` about one (3,); None where the
@@ -80,113 +89,26 @@ class Certifier:
         return None if fired[0] else tuple(found[:, 0].tolist())
 
 
-class Gathered(NamedTuple):
-    """Sums of sizes and of majorants of a quantity by degree (rows) and power (columns from n = first on),
-    without the outer rows and columns of zeros."""
-
-    first: int
-    sums: np.ndarray
-    most: np.ndarray
-
-    @classmethod
-    def of(cls, c, m) -> Gathered:
-        """Of coefficients c[j, k, n] and their majorants m."""
-        degree = np.add.outer(*[np.arange(c.shape[0])] * 2)
-        sums, most = np.zeros((2, 2 * c.shape[0], c.shape[2]))
-        np.add.at(sums, degree, np.abs(c) + fixed_kernel.ROUNDING * m)
-        np.add.at(most, degree, m)
-        degrees, columns = np.flatnonzero(most.any(axis=1)), np.flatnonzero(most.any(axis=0))
-        rows, first, end = (degrees[-1] + 1, columns[0], columns[-1] + 1) if columns.size else (1, 0, 1)
-        return cls(first, *(np.ascontiguousarray(table[:rows, first:end]) for table in (sums, most)))
-
-    def tails(self):
-        """The sums for integrals of the factors over all greater x: X^(1 - n) gives z^(2 - n)/(n - 2), and
-        infinity where it does not fall faster than 1/X."""
-        fall = self.first + np.arange(self.sums.shape[1]) - 2.0
-        return np.where(fall > 0, self.sums / np.where(fall > 0, fall, 1.0),
-                        np.where(self.sums > 0, np.inf, 0.0))
-
-    def terms(self, c):
-        """(powers of zeta and of its conjugate (2, m), coefficients (m, columns)) of a quantity's terms with
-        j >= k, doubled for their conjugates."""
-        j, k = np.nonzero(np.tril((c != 0).any(axis=2)))
-        columns = slice(self.first, self.first + self.sums.shape[1])
-        return np.stack([j, k]), np.where(j == k, 1.0, 2.0)[:, None] * c[j, k, columns]
-
-
-class FixedCertifier(Certifier):
-    """The test about the fixed centre."""
-
-    kernel = fixed_kernel
-
-    def __init__(self, field: FixedCentre, orders: tuple[int, int], fast: bool = False):
-        f = field.form
-        top, powers = max(orders) + 8, max(orders) + 5
-        made = [np.zeros((top, top, powers), kind) for _ in range(4) for kind in (complex, float)]
-        added_e, most_e, rate_e, rise_e, added_b, most_b, rate_b, rise_b = made
-        numbers, rest = np.array([f.D1, f.M1, f.gam, f.h]), np.array([f.mu, f.kap], complex)
-        with np.errstate(all="ignore"):
-            functions(fixed_kernel, fast)["tables"](np.array(orders), f.om, f.drag, numbers, rest, *made)
-            e, b = Gathered.of(added_e, most_e), Gathered.of(added_b, most_b)
-            r, k = Gathered.of(rate_b, rise_b), Gathered.of(rate_e, rise_e)
-            tails, terms = r.tails(), (*e.terms(added_e), *b.terms(added_b))
-        self.top, self.columns = top, max(q.sums.shape[1] for q in (e, b, r, k))
-        frame = np.array([*f.turn, f.shift, *f.centre, *f.scale], float)
-        self.numbers = (np.array(f.order), frame, f.D1, f.M1, f.drag, *terms, e.sums, e.most, b.sums, b.most,
-                        tails, k.sums, np.array([q.first for q in (e, b, r, k)]))
-
-    def work(self):
-        return np.zeros(self.top, complex), *np.zeros((2, self.columns)), np.zeros(6)
-
-
-class MovingCertifier(Certifier):
-    """The test about a moving centre."""
-
-    kernel = moving_kernel
-
-    def __init__(self, field: MovingCentre, orders: tuple[int, int], fast: bool = False):
-        with np.errstate(all="ignore"):
-            energy, amplitude = field.energy(orders[0]), field.amplitude(orders[1])
-        turn = field.algebra.turn
-        e_pairs, e = _sums(energy.added, sizes(energy.added))
-        b_pairs, b = _sums(amplitude.added, sizes(amplitude.added))
-        r_pairs, r = _sums(amplitude.rate, sizes(amplitude.rate))
-        k_pairs, k = _sums(energy.rate, sizes(energy.rate) / field.turn_size, (-turn[0], -turn[1]))
-        (_, e_most), (_, b_most) = (_sums(part, part.m) for part in (energy.added, amplitude.added))
-        values = *_values(energy.added), *_values(amplitude.added)
-        all_pairs = np.concatenate([e_pairs, b_pairs, r_pairs, k_pairs], axis=1)
-        reach = 5 + int(np.abs(all_pairs).sum(axis=0).max())
-        drive = np.array([(a, b, c) for (_, _, a, b), c in field.G0.items()], float).reshape(-1, 3).T
-        frame = np.array([field.s, *field.wheel, *field.torque, *field.roots, field.n2, field.n3], float)
-        self.degrees = 1 + max(int(values[n].max()) for n in (1, 3))
-        self.numbers = (field.basis, frame, field.D1, field.M1, field.a2, field.a3, field.c, reach,
-                        np.ascontiguousarray(drive), *values, e_pairs, e, e_most, b_pairs, b, b_most,
-                        r_pairs, r, k_pairs, k)
-
-    def work(self):
-        return np.zeros((4, 2 * moving_kernel.MIDDLE + 1)), np.zeros(self.degrees, complex), np.zeros(6)
-
-
-def _sums(terms: Terms, coefficients, shift=(0, 0)):
-    """(exponents a, b (2, pairs), table (degrees, pairs)) of a sum of coefficients by degree and exponents;
-    of no terms one that is 0."""
+def _sums(terms: Terms, coefficients, parts: int, shift=(0, 0)):
+    """(exponents (2, columns), table (degrees, columns)) of a sum of coefficients by degree and exponents; of
+    no terms one that is 0."""
     j, k, a, b = terms.powers
-    pairs, column = _distinct(a + shift[0], b + shift[1])
-    table = np.zeros((1 + int((j + k).max(initial=0)), pairs.shape[1]))
+    exponents, column = _distinct((a + shift[0]) * parts // 4, (b + shift[1]) * parts // 4)
+    table = np.zeros((1 + int((j + k).max(initial=0)), exponents.shape[1]))
     np.add.at(table, (j + k, column), coefficients)
-    return pairs, table
+    return exponents, table
 
 
-def _values(terms: Terms):
-    """(table (powers, pairs), j and k (2, powers)) of a sum's value, j >= k, for terms come with their
-    conjugates; pairs in the order of `_sums`."""
+def _quantity(terms: Terms, parts: int) -> kernel.Quantity:
+    """What is added to a quantity: its terms come with their conjugates."""
     j, k, a, b = terms.powers
-    half = j >= k
-    pairs, column = _distinct(a, b)
+    exponents, sums = _sums(terms, sizes(terms), parts)
+    _, most = _sums(terms, terms.m, parts)
+    half, (_, column) = j >= k, _distinct(a, b)
     powers, row = _distinct(j[half], k[half])
-    table = np.zeros((powers.shape[1], pairs.shape[1]), complex)
-    np.add.at(table, (row, column[half]), np.where(j == k, 1, 2)[half] * terms.c[half])
-    return table, powers
+    values = np.zeros((powers.shape[1], exponents.shape[1]), complex)
+    np.add.at(values, (row, column[half]), np.where(j == k, 1, 2)[half] * terms.c[half])
+    return kernel.Quantity(exponents, sums, most, values, powers)
 
 
 def _distinct(a, b):
@@ -257,15 +179,14 @@ class Tests:
     def __bool__(self):
         return bool(self.often)
 
-    def certifier(self, field, orders: tuple[int, int], fast: bool = False) -> Certifier:
-        """The test itself; fast: its tables made by compiled functions. What others made does not alter an
-        answer."""
-        key = id(field), orders, fast and field.sharp
+    def certifier(self, field, orders: tuple[int, int]) -> Certifier:
+        """The test itself. What others made does not alter an answer."""
+        key = id(field), orders
         if key not in self.made:
             # before it is made: another thread that finds it made looks for its number
             if (field, orders) not in self.asked:
                 self.asked.append((field, orders))
-            self.made[key] = (FixedCertifier if field.sharp else MovingCertifier)(field, orders, fast)
+            self.made[key] = Certifier(field, orders)
         return self.made[key]
 
 

@@ -113,7 +113,7 @@ def _ask(out, rows, which, fast):
     for form, orders in which:
         if not rows.size:
             break
-        test, number = out.tests.certifier(form, orders, fast), out.tests.asked.index((form, orders))
+        test, number = out.tests.certifier(form, orders), out.tests.asked.index((form, orders))
         test.decide(rows, out.states, out.reach, out.fired, number, out.constants, fast)
         rows = rows[out.fired[rows] < 0]
 

@@ -43,21 +43,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 from ...equilibrium.gyrostat import gyrostat_equilibria
-from ...numbers.vectors import Number
 from ...orbit.far_states import in_range
 
 HALF_TURN = (-1, 1, -1)  # about axis 2: a rotation of the body, so every vector takes part
-
-
-class Floats:
-    """The kind of number that forms are made of: doubles, each rounded once from its exact value or its exact
-    square."""
-
-    real, root, pair = float, math.sqrt, complex
-    i = 1j
 
 
 @dataclass(frozen=True)
@@ -66,26 +56,24 @@ class NormalForm:
     `sense`.
 
     order: body axes in the order 1, 2, 3 of the form; shift: X - omega1; centre: what omega2 and omega3
-    oscillate about; scale: zeta = scale[0] U + i scale[1] V; all in the turned frame. Numbers are of the kind
-    that made them; their relative errors, where they are doubles, are at most 4 units of rounding: rational
-    parts are exact before the one root.
+    oscillate about; scale: zeta = scale[0] U + i scale[1] V; all in the turned frame. Relative errors are at
+    most 4 units of rounding: rational parts, and squares of irrational ones, are exact before the one root.
     """
 
     axis: int
     sense: int
     order: tuple
-    D1: Number
-    M1: Number
-    om: Number
-    gam: Number
-    h: Number
-    mu: Number
-    kap: Number
-    shift: Number
+    D1: float
+    M1: float
+    om: float
+    gam: float
+    h: float
+    mu: complex
+    kap: complex
+    shift: float
     centre: tuple
     scale: tuple
-    drag: Number  # m* = -Im(kap* mu)/om = l2 M2/d2 + l3 M3/d3, exact before it is rounded
-    kind: Any = Floats
+    drag: float  # m* = -Im(kap* mu)/om = l2 M2/d2 + l3 M3/d3, exact before it is rounded
 
     @property
     def turn(self) -> tuple:
@@ -100,11 +88,11 @@ class NormalForm:
     def place(self, state):
         """(X, zeta) of a state (three rates in the body's principal axes)."""
         w1, w2, w3 = (turn * state[i] for turn, i in zip(self.turn, self.order))
-        return w1 + self.shift, self.kind.pair(self.scale[0] * (w2 - self.centre[0]),
-                                               self.scale[1] * (w3 - self.centre[1]))
+        return w1 + self.shift, complex(self.scale[0] * (w2 - self.centre[0]),
+                                        self.scale[1] * (w3 - self.centre[1]))
 
 
-def normal_form(D, wheel, torque, axis: int, kind=Floats) -> NormalForm | None:
+def normal_form(D, wheel, torque, axis: int) -> NormalForm | None:
     """The normal form about a body axis; None where the torque has no component there, or the axis is neither
     the major nor the minor one (or shares its moment with another).
 
@@ -121,52 +109,46 @@ def normal_form(D, wheel, torque, axis: int, kind=Floats) -> NormalForm | None:
     M1, M2, M3 = (t * torque[n] for t, n in zip(turn, order))
     D1, D2, D3, s = D[i], D[j], D[k], 1 if d2 > 0 else -1
     a2, a3 = abs(d2), abs(d3)
-    real, root = kind.real, lambda value: kind.root(kind.real(value))
-    part = lambda sign, square: sign * root(square)
-    m2, m3, gam = M2 - l1 * l3 / d3, M3 + l1 * l2 / d2, signed_square((a3 - a2) / 2, D2 * D3 * a2 * a3)
+    m2, m3 = M2 - l1 * l3 / d3, M3 + l1 * l2 / d2
     return NormalForm(
-        axis, sense, order, real(D1), real(M1), root(a2 * a3 / (D2 * D3)), part(*gam),
-        part(*signed_square(s * l1 * (a3 - a2) / 2, D2 * D3 * a2 * a3)),
-        kind.pair(part(*signed_square(m2, D2 / a2)), part(*signed_square(s * m3, D3 / a3))),
-        kind.pair(part(*signed_square(-l3 * a2 / a3, D2 * a2)),
-                  part(*signed_square(s * l2 * a3 / a2, D3 * a3))),
-        real(s * l1 * (a2 + a3) / (2 * a2 * a3)), (real(l2 / d2), real(l3 / d3)),
-        (root(D2 * a2), s * root(D3 * a3)),
-        real(l2 * M2 / d2 + l3 * M3 / d3), kind)
+        axis, sense, order, float(D1), float(M1), math.sqrt(a2 * a3 / (D2 * D3)),
+        over_root((a3 - a2) / 2, D2 * D3 * a2 * a3), over_root(s * l1 * (a3 - a2) / 2, D2 * D3 * a2 * a3),
+        complex(over_root(m2, D2 / a2), over_root(s * m3, D3 / a3)),
+        complex(over_root(-l3 * a2 / a3, D2 * a2), over_root(s * l2 * a3 / a2, D3 * a3)),
+        float(s * l1 * (a2 + a3) / (2 * a2 * a3)), (float(l2 / d2), float(l3 / d3)),
+        (math.sqrt(D2 * a2), s * math.sqrt(D3 * a3)), float(l2 * M2 / d2 + l3 * M3 / d3))
 
 
-def signed_square(numerator, square):
-    """numerator/sqrt(square) as (sign, its square): exact."""
-    return (numerator > 0) - (numerator < 0), numerator * numerator / square
+def over_root(numerator, square) -> float:
+    """numerator/sqrt(square) of exact numbers: its square is exact before the root."""
+    size = math.sqrt(numerator * numerator / square)
+    return -size if numerator < 0 else size
 
 
-def scaled_normal_form(a, b, mu, axis: int, kind=Floats) -> NormalForm | None:
+def scaled_normal_form(a, b, mu, axis: int) -> NormalForm | None:
     """The normal form of the scaled gyrostat about x1 or x3 (index 0 or 2); None where mu vanishes there, and
     about x2."""
     a, b, mu = Fraction(a), Fraction(b), tuple(map(Fraction, mu))
     sense = (mu[axis] > 0) - (mu[axis] < 0)
     if not sense or axis == 1:
         return None
-    real, one, half = kind.real, kind.real(Fraction(1)), kind.real(Fraction(1, 2))
     a, b, m1, m3 = sense * a, sense * b, sense * mu[0], sense * mu[2]
     if axis == 0:
-        return NormalForm(0, sense, (0, 1, 2), one, real(m1), one, half, real((b - a) / 2),
-                          kind.pair(real(mu[1]), real(m3)), kind.pair(0 * one, 0 * one),
-                          real((a + b) / 2), (0 * one, 0 * one), (one, one), 0 * one, kind)
-    return NormalForm(2, sense, (2, 1, 0), one, real(m3), one, half, 0 * one,
-                      kind.pair(real(mu[1]), real(m1)), kind.pair(real(b - a), 0 * one),
-                      0 * one, (0 * one, real(-a)), (one, one), real((a - b) * m1), kind)
+        return NormalForm(0, sense, (0, 1, 2), 1.0, float(m1), 1.0, 0.5, float((b - a) / 2),
+                          complex(mu[1], m3), 0j, float((a + b) / 2), (0.0, 0.0), (1.0, 1.0), 0.0)
+    return NormalForm(2, sense, (2, 1, 0), 1.0, float(m3), 1.0, 0.5, 0.0, complex(mu[1], m1),
+                      complex(b - a), 0.0, (0.0, float(-a)), (1.0, 1.0), float((a - b) * m1))
 
 
-def forms_of(scene, kind=Floats) -> list[NormalForm]:
+def forms_of(scene) -> list[NormalForm]:
     """The normal forms of a scene (gyrostat and constant torque): one for each extremal axis that bears a
     torque."""
     with in_range("scene"):
         if scene.variables == "scaled":
-            forms = [scaled_normal_form(*scene.exact_ab, scene.exact_mu, i, kind) for i in range(3)]  # type: ignore[call-arg]
+            forms = [scaled_normal_form(*scene.exact_ab, scene.exact_mu, i) for i in range(3)]  # type: ignore[call-arg]
         else:
             forms = [normal_form(scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque"),
-                                 i, kind) for i in range(3)]
+                                 i) for i in range(3)]
     return [form for form in forms if form]
 
 

@@ -1,40 +1,94 @@
-"""The certificate about the moving centre in straight loops: the search for A and z of one state.
+"""The certificate in straight loops: the search for A and z of one state, about a fixed or a moving centre.
 
-The theorem and its inequality are those of `certificate`, the form that of `centres.MovingCentre`. A sum is a
-table[degree, pair] with the exponents (2, pairs) of p^(-a/4) q^(-b/4); powers of p, q and of their greatest
-ratios come from four rows of a work table, made by multiplication. All in one file: numba's cache on disk
-watches no other.
+The theorem and its inequality are those of `certificate`, the forms those of `centres`. A sum is a
+table[degree, column] with the exponents (2, columns) of p^(-a/parts) q^(-b/parts): quarters about a moving
+centre, whole numbers about the fixed one, where p = X and q = 1. Powers of p, q and of their greatest ratios
+come from four rows of a work table, made by multiplication. All in one file: numba's cache on disk watches no
+other.
 """
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
-# As of `fixed_kernel`; the tests hold them equal
-SLACK, GROWTH, PASSES, COEFFICIENT, BLUR = 2.0**-30, 1 + 1e-7, 25, 2.0**-36, 2.0**-50
+import numpy as np
+
+# rounding of the terms' values, of their majorant: four times that of the coefficients alone
+COEFFICIENT = 2.0**-36
+SLACK = 2.0**-30
+GROWTH = 1 + 1e-7       # of A between passes: strict inequalities need room
+PASSES = 25             # of the search for A and z: it is monotone and settles in ten or never
+BLUR = 2.0**-50         # relative, in the place of a state: a dozen operations, each within half of 2^-52
 CONDITION = 2.0**8 * BLUR  # rounding of p and q over themselves; 2^-36 in the powers that occur
 MIDDLE = 200  # place of the power 0 in a row
 
 
-def fill(row, base, reach):
-    """base^(n/4) at MIDDLE + n for |n| <= reach."""
-    up = math.sqrt(math.sqrt(base))
+class Form(NamedTuple):
+    """What a field is to the search: D1 x' = drive + what oscillates, p = a3 x + c3, q = a2 x + c2, Om =
+    turn_size p^(-turn_a/parts) q^(-turn_b/parts).
+
+    basis: (3, 3) axes in the body, rows; frame: the numbers of `place`; reach: the greatest power in a row;
+    exponents (2, n), drive (n,): terms of the drive.
+    """
+
+    basis: np.ndarray
+    frame: np.ndarray
+    D1: float
+    M1: float
+    a2: float
+    a3: float
+    c2: float
+    c3: float
+    parts: int
+    turn_a: int
+    turn_b: int
+    turn_size: float
+    reach: int
+    exponents: np.ndarray
+    drive: np.ndarray
+
+
+class Sum(NamedTuple):
+    """sums: (degrees, columns) of sizes; exponents: (2, columns)."""
+
+    exponents: np.ndarray
+    sums: np.ndarray
+
+
+class Quantity(NamedTuple):
+    """The same of what is added to a quantity, with its value: most (degrees, columns): of majorants; terms
+    (powers, columns) of zeta^j zeta*^k, j >= k in powers (2, powers), doubled for their conjugates."""
+
+    exponents: np.ndarray
+    sums: np.ndarray
+    most: np.ndarray
+    terms: np.ndarray
+    powers: np.ndarray
+
+
+def fill(row, base, parts, reach):
+    """base^(n/parts) at MIDDLE + n for |n| <= reach."""
+    up = base if parts == 1 else math.sqrt(math.sqrt(base))
     down, one, other = 1 / up, 1.0, 1.0
-    row[MIDDLE] = 1.0
     for n in range(1, reach + 1):
         one *= up
         other *= down
         row[MIDDLE + n], row[MIDDLE - n] = one, other
 
 
-def prepare(rows, p, q, a2, a3, reach):
-    """Rows of powers: of p and q falling, of the greatest q/p and p/q from here on rising."""
-    fill(rows[0], 1 / p, reach)
+def prepare(rows, x, form):
+    """Rows of powers, ones at first: of p and q falling, of the greatest q/p and p/q from x on rising."""
+    p, q, a2, a3 = form.a3 * x + form.c3, form.a2 * x + form.c2, form.a2, form.a3
+    fill(rows[0], 1 / p, form.parts, form.reach)
     if a2 > 0:
-        fill(rows[1], 1 / q, reach)
-        fill(rows[2], max(q / p, a2 / a3), reach)
-        fill(rows[3], max(p / q, a3 / a2), reach)
-    else:
-        rows[1, :] = 1.0
+        fill(rows[1], 1 / q, form.parts, form.reach)
+        fill(rows[2], max(q / p, a2 / a3), form.parts, form.reach)
+        fill(rows[3], max(p / q, a3 / a2), form.parts, form.reach)
+
+
+def turning(rows, form):
+    """Om over its constant."""
+    return form.turn_size * rows[0, MIDDLE + form.turn_a] * rows[1, MIDDLE + form.turn_b]
 
 
 def greatest(a, b, rows, a2):
@@ -49,188 +103,233 @@ def greatest(a, b, rows, a2):
             else rows[3, MIDDLE - a] * rows[1, MIDDLE + a + b])
 
 
-def tail(a, b, rows, a2, a3):
+def tail(a, b, rows, a2, a3, parts):
     """The least of four bounds of the integral of the factor over all greater x: of factors that both fall,
     one stays as it is; or a power of the ratio splits off. Infinity where it does not fall faster than
     1/x."""
     best = math.inf
-    if a > 4 and b >= 0:
-        best = rows[1, MIDDLE + b] * rows[0, MIDDLE + a - 4] / (a3 * (a / 4 - 1))
+    if a > parts and b >= 0:
+        best = rows[1, MIDDLE + b] * rows[0, MIDDLE + a - parts] / (a3 * (a / parts - 1))
     if a2 == 0:
         return best
-    if b > 4 and a >= 0:
-        best = min(best, rows[0, MIDDLE + a] * rows[1, MIDDLE + b - 4] / (a2 * (b / 4 - 1)))
-    n = (a + b) / 4
+    if b > parts and a >= 0:
+        best = min(best, rows[0, MIDDLE + a] * rows[1, MIDDLE + b - parts] / (a2 * (b / parts - 1)))
+    n = (a + b) / parts
     if n > 1:
         by_p = rows[3, MIDDLE + b] if b > 0 else rows[2, MIDDLE - b]
         by_q = rows[2, MIDDLE + a] if a > 0 else rows[3, MIDDLE - a]
-        best = min(best, by_p * rows[0, MIDDLE + a + b - 4] / (a3 * (n - 1)),
-                   by_q * rows[1, MIDDLE + a + b - 4] / (a2 * (n - 1)))
+        best = min(best, by_p * rows[0, MIDDLE + a + b - parts] / (a3 * (n - 1)),
+                   by_q * rows[1, MIDDLE + a + b - parts] / (a2 * (n - 1)))
     return best
 
 
-def total(table, pairs, A, rows, a2, a3, kind, dx, p, q):
-    """Sum of table[d, pair] A^d times the factor's bound (kind 0), its integral's (1), or its bound times
-    steepness times dx (2)."""
-    result = 0.0
+def columns(table, A, row):
+    """Sum of table[d, n] A^d over d, into row[n]."""
     for n in range(table.shape[1]):
-        part = 0.0
+        result = 0.0
         for d in range(table.shape[0] - 1, -1, -1):
-            part = part * A + table[d, n]
-        if part != 0:
-            a, b = pairs[0, n], pairs[1, n]
-            factor = tail(a, b, rows, a2, a3) if kind == 1 else greatest(a, b, rows, a2)
-            if kind == 2:
-                factor *= (abs(a) * a3 / p + abs(b) * a2 / q) / 4 * dx
-            result += part * factor
+            result = result * A + table[d, n]
+        row[n] = result
+
+
+def summed(row, exponents, rows, form):
+    """Sum of the columns in a row times the bounds of their factors."""
+    result = 0.0
+    for n in range(exponents.shape[1]):
+        if row[n] != 0:
+            result += row[n] * greatest(exponents[0, n], exponents[1, n], rows, form.a2)
     return result
 
 
-def value_of(table, degrees, pairs, zeta, rows, powers):
-    """The value of a quantity whose terms come with their conjugates: table[power, pair] of zeta^j zeta*^k, j
-    >= k."""
+def total(table, exponents, A, rows, form, row):
+    """Sum of table[d, n] A^d times the factor's bound."""
+    columns(table, A, row)
+    return summed(row, exponents, rows, form)
+
+
+def integrated(table, exponents, A, rows, form, row):
+    """Sum of table[d, n] A^d times the bound of the factor's integral."""
+    columns(table, A, row)
+    result = 0.0
+    for n in range(exponents.shape[1]):
+        if row[n] != 0:
+            result += row[n] * tail(exponents[0, n], exponents[1, n], rows, form.a2, form.a3, form.parts)
+    return result
+
+
+def steepness(a, b, x, form):
+    """How fast the factor changes with x, over itself."""
+    p, q = form.a3 * x + form.c3, form.a2 * x + form.c2
+    return (abs(a) * form.a3 / p + abs(b) * form.a2 / q) / form.parts
+
+
+def value_of(quantity, zeta, rows, powers, row):
+    """The value of a quantity whose terms come with their conjugates."""
     powers[0] = 1
     for j in range(1, powers.size):
         powers[j] = powers[j - 1] * zeta
+    exponents, terms = quantity.exponents, quantity.terms
+    count = exponents.shape[1]
+    for n in range(count):
+        row[n] = rows[0, MIDDLE + exponents[0, n]] * rows[1, MIDDLE + exponents[1, n]]
     result = 0.0
-    for row in range(table.shape[0]):
-        inner = 0j
-        for n in range(table.shape[1]):
-            inner += table[row, n] * (rows[0, MIDDLE + pairs[0, n]] * rows[1, MIDDLE + pairs[1, n]])
-        result += (inner * powers[degrees[0, row]] * powers[degrees[1, row]].conjugate()).real
+    for m in range(terms.shape[0]):
+        factor = powers[quantity.powers[0, m]] * powers[quantity.powers[1, m]].conjugate()
+        along = across = 0.0
+        for n in range(count):
+            along += terms[m, n].real * row[n]
+            across += terms[m, n].imag * row[n]
+        result += along * factor.real - across * factor.imag
     return result
 
 
-def drives(drive, p, q):
-    """(least, greatest) of G0 from here on; drive (3, n): a, b, c of its terms."""
+def blurred(quantity, zeta, size, x, low, dx, form, rows, powers, row):
+    """(value, blur) of a quantity at a place known within dx and within size - |zeta|."""
+    prepare(rows, x, form)
+    value = value_of(quantity, zeta, rows, powers, row)
+    prepare(rows, low, form)
+    exponents = quantity.exponents
+    inner = total(quantity.sums, exponents, abs(zeta), rows, form, row)
+    most = total(quantity.sums, exponents, size, rows, form, row)
+    for n in range(exponents.shape[1]):
+        row[n] *= steepness(exponents[0, n], exponents[1, n], low, form)
+    moved = summed(row, exponents, rows, form) * dx
+    return value, ((most - inner) + moved * (1 + SLACK) + SLACK * most
+                   + COEFFICIENT * total(quantity.most, exponents, size, rows, form, row))
+
+
+def drives(form, rows):
+    """(least, greatest) of the drive from here on: its terms are constant or fall."""
     low = high = 0.0
-    for n in range(drive.shape[1]):
-        a, b, c = drive[0, n], drive[1, n], drive[2, n]
-        if a == 0 and b == 0:
-            low += c
-            high += c
-        else:
-            value = c * p ** (-a / 4) * q ** (-b / 4)
-            low, high = low + min(value, 0.0), high + max(value, 0.0)
+    for n in range(form.drive.size):
+        a, b = form.exponents[0, n], form.exponents[1, n]
+        value = form.drive[n] * rows[0, MIDDLE + a] * rows[1, MIDDLE + b]
+        constant = a == 0 and b == 0
+        low += value if constant else min(value, 0.0)
+        high += value if constant else max(value, 0.0)
     return low, high
 
 
-def weight_within(drive, p, q, p_low, q_low, a2, a3, dx, M1):
-    """A bound of G0/M1 within dx."""
+def weight_within(form, x, low, dx, rows):
+    """A bound of the weight, the drive over M1, within dx."""
     result = 0.0
-    for n in range(drive.shape[1]):
-        a, b, c = drive[0, n], drive[1, n], drive[2, n]
-        steep = (abs(a) * a3 / p_low + abs(b) * a2 / q_low) / 4
-        result += (c * p ** (-a / 4) * q ** (-b / 4)
-                   + abs(c) * p_low ** (-a / 4) * q_low ** (-b / 4) * (steep * dx + CONDITION))
-    return result / M1
+    prepare(rows, x, form)
+    for n in range(form.drive.size):
+        a, b = form.exponents[0, n], form.exponents[1, n]
+        result += form.drive[n] * rows[0, MIDDLE + a] * rows[1, MIDDLE + b]
+    prepare(rows, low, form)
+    for n in range(form.drive.size):
+        a, b = form.exponents[0, n], form.exponents[1, n]
+        result += (abs(form.drive[n]) * rows[0, MIDDLE + a] * rows[1, MIDDLE + b]
+                   * (steepness(a, b, low, form) * dx + CONDITION))
+    return result / form.M1
 
 
-def search(x, zeta, dx, dz, D1, M1, a2, a3, c, reach, drive, value_e, degrees_e, value_b, degrees_b, pairs_e,
-           e_sums, e_most, pairs_b,
-           b_sums, b_most, pairs_r, r_sums, pairs_k, k_sums, rows, powers, out):
-    """Whether the inequality holds at one place, and its constants A, z, eta, z_up, eta_up, k in out (6,)."""
-    low, top = x - dx, x + dx
-    p, q, p_low, q_low = a3 * x + c, a2 * x + c, a3 * low + c, a2 * low + c
-    well = p_low > 0 and q_low > 0 and p_low * 256 > a3 * low + abs(c) and q_low * 256 > a2 * low + abs(c)
-    if not (well and low > 0 and dx < x / 8):
+def valid(x, form):
+    """Where p and q are positive, well formed, and x is."""
+    p, q = form.a3 * x + form.c3, form.a2 * x + form.c2
+    return (x > 0 and p > 0 and q > 0 and p * 256 > form.a3 * x + abs(form.c3)
+            and q * 256 > form.a2 * x + abs(form.c2))
+
+
+def search(x, zeta, dx, dz, form, energy, amplitude, r, k, rows, powers, kept, row, out):
+    """Whether the inequality holds at one place, and its constants A, z, eta, z_up, eta_up, k in out (6,):
+    see `certificate`. energy, amplitude: Quantity; r, k: Sum. rows, powers, kept, row: for work."""
+    low, top, D1, M1 = x - dx, x + dx, form.D1, form.M1
+    if not (dx < x / 8 and valid(low, form)):
         return False
-    size, turning = abs(zeta) * (1 + SLACK) + dz, math.sqrt(p_low * q_low)
-    prepare(rows, p_low, q_low, a2, a3, reach)
-    if not total(k_sums, pairs_k, size, rows, a2, a3, 0, 0.0, p, q) < drives(drive, p_low, q_low)[1]:
-        return False
-    ends = (0.0, 0.0, 0.0, 0.0)
-    for which in range(2):
-        prepare(rows, p, q, a2, a3, reach)
-        if which == 0:
-            value = value_of(value_e, degrees_e, pairs_e, zeta, rows, powers)
-        else:
-            value = value_of(value_b, degrees_b, pairs_b, zeta, rows, powers)
-        prepare(rows, p_low, q_low, a2, a3, reach)
-        sums, pairs = (e_sums, pairs_e) if which == 0 else (b_sums, pairs_b)
-        most = e_most if which == 0 else b_most
-        wide = total(sums, pairs, size, rows, a2, a3, 0, 0.0, p, q)
-        blur = wide - total(sums, pairs, abs(zeta), rows, a2, a3, 0, 0.0, p, q) + SLACK * wide
-        blur += total(sums, pairs, size, rows, a2, a3, 2, dx, p_low, q_low) * (1 + SLACK)
-        blur += COEFFICIENT * total(most, pairs, size, rows, a2, a3, 0, 0.0, p, q)
-        ends = (value - blur, value + blur, ends[2],
-                ends[3]) if which == 0 else (ends[0], ends[1], value - blur, value + blur)
-    energy, energy_up = ends[0], ends[1]
-    amplitude = weight_within(drive, p, q, p_low, q_low, a2, a3, dx, M1) * size * size * (1 + SLACK) + ends[3]
-    A, z, growth = size * GROWTH, low / GROWTH, 1e-6
-    for _ in range(PASSES):
-        step = min(1e-2, growth)
+    size = abs(zeta) * (1 + SLACK) + dz
+    prepare(rows, low, form)
+    turn = turning(rows, form)
+    if not total(k.sums, k.exponents, size, rows, form, row) < drives(form, rows)[0]:
+        return False  # necessary, for k grows with A and as z falls: nothing else need be looked at
+    value, blur = blurred(energy, zeta, size, x, low, dx, form, rows, powers, row)
+    start, start_up = value - blur, value + blur
+    A, z, growth, wide = size * GROWTH, low / GROWTH, 1e-6, 0.0
+    for number in range(PASSES):
+        step = min(1e-2, growth)  # ever faster past a slow approach
         growth *= 4
-        for _ in range(2):
-            if not valid(z, a2, a3, c):
+        columns(energy.sums, A, kept)
+        for _ in range(2):  # the equation for z is nearly linear
+            if not valid(z, form):
                 z = low
-            pz, qz = a3 * z + c, a2 * z + c
-            prepare(rows, pz, qz, a2, a3, reach)
-            need = (max(total(e_sums, pairs_e, A, rows, a2, a3, 0, 0.0, p, q) - energy, 0.0) * (GROWTH + step)
-                    + 1e-7 * low * turning)
-            z = low - 2 * need / (D1 * (turning + math.sqrt(pz * qz)))
-            if not valid(z, a2, a3, c):
+            prepare(rows, z, form)
+            need = (max(summed(kept, energy.exponents, rows, form) - start, 0.0) * (GROWTH + step)
+                    + 1e-7 * low * turn)
+            z = low - 2 * need / (D1 * (turn + turning(rows, form)))
+            if not valid(z, form):
                 z = low
         if not z < low:
             return False
-        pz, qz = a3 * z + c, a2 * z + c
-        prepare(rows, pz, qz, a2, a3, reach)
-        k = total(k_sums, pairs_k, A, rows, a2, a3, 0, 0.0, p, q)
-        least_drive, most_drive = drives(drive, pz, qz)
-        eta, least = least_drive - k - SLACK * (M1 + k), least_drive / M1 - SLACK
+        prepare(rows, z, form)
+        left = total(k.sums, k.exponents, A, rows, form, row)
+        least_drive, most_drive = drives(form, rows)
+        eta, least = least_drive - left - SLACK * (M1 + left), least_drive / M1 - SLACK
         if not (eta > 0 and least > 0):
             return False
-        b, r = total(b_sums, pairs_b, A, rows, a2, a3, 0, 0.0, p,
-                     q), total(r_sums, pairs_r, A, rows, a2, a3, 1, 0.0, p, q)
-        F = (amplitude + b + r * D1 / eta) / least
+        if number == 0:  # its value costs most, and half of the searches end before
+            value, blur = blurred(amplitude, zeta, size, x, low, dx, form, rows, powers, row)
+            weight = weight_within(form, x, low, dx, rows)
+            wide = weight * size * size * (1 + SLACK) + value + blur
+            prepare(rows, z, form)
+        F = (wide + total(amplitude.sums, amplitude.exponents, A, rows, form, row)
+             + integrated(r.sums, r.exponents, A, rows, form, row) * D1 / eta) / least
         if not F < 1e100:
             return False
         if F * (1 + SLACK) < A * A and size < A:
-            e = total(e_sums, pairs_e, A, rows, a2, a3, 0, 0.0, p, q)
-            gained = D1 * (low - z) * (turning + math.sqrt(pz * qz)) / 2
-            if gained * (1 - SLACK) - SLACK * D1 * low * turning * 2.0**-8 > e - energy:
-                out[0], out[1], out[2], out[5] = A, z * (1 - SLACK), eta, k
-                out[3] = top + (e + energy_up) / (D1 * turning) * (1 + SLACK) + SLACK * top
-                out[4] = (most_drive + k) * (1 + SLACK)
+            e = summed(kept, energy.exponents, rows, form)
+            gained = D1 * (low - z) * (turn + turning(rows, form)) / 2
+            if gained * (1 - SLACK) - SLACK * D1 * low * turn * 2.0**-8 > e - start:
+                out[0], out[1], out[2], out[5] = A, z * (1 - SLACK), eta, left
+                out[3] = top + (e + start_up) / (D1 * turn) * (1 + SLACK) + SLACK * top
+                out[4] = (most_drive + left) * (1 + SLACK)
                 return True
         A = max(A, math.sqrt(max(F, 0.0))) * (1 + step)
     return False
 
 
-def valid(x, a2, a3, c):
-    """Where p and q are positive, well formed, and x is."""
-    p, q = a3 * x + c, a2 * x + c
-    return p > 0 and q > 0 and p * 256 > a3 * abs(x) + abs(c) and q * 256 > a2 * abs(x) + abs(c) and x > 0
+def place_about_fixed(w1, w2, w3, near, form):
+    """(x, zeta, how far the one and the other may be off); frame: shift, centre, scale of the form."""
+    shift, centre2, centre3 = form.frame[0], form.frame[1], form.frame[2]
+    scale2, scale3 = form.frame[3], form.frame[4]
+    size = abs(w1) + abs(w2) + abs(w3) + abs(centre2) + abs(centre3)
+    return (w1 + shift, complex(scale2 * (w2 - centre2), scale3 * (w3 - centre3)),
+            BLUR * (abs(w1) + abs(shift)) + near, max(abs(scale2), abs(scale3)) * (BLUR * size + near))
 
 
-def decide(chosen, states, reach, fired, number, found, basis, frame, D1, M1, a2, a3, c, reach_of_powers,
-           drive, value_e, degrees_e, value_b, degrees_b,
-           pairs_e, e_sums, e_most, pairs_b, b_sums, b_most, pairs_r, r_sums, pairs_k, k_sums, rows, powers,
-           constants):
-    """As `fixed_kernel.decide`; basis (3, 3), frame (9,): s, wheel, torque, roots, n2, n3 of the form."""
-    s, l2, l3, M2, M3 = frame[0], frame[1], frame[2], frame[3], frame[4]
-    r2, r3, n2, n3 = frame[5], frame[6], frame[7], frame[8]
+def place_about_moving(w1, w2, w3, near, form):
+    """The same; frame: s, wheel, torque, roots, n2, n3 of the form. x = 0 where there is none."""
+    s, l2, l3, M2, M3 = form.frame[0], form.frame[1], form.frame[2], form.frame[3], form.frame[4]
+    r2, r3, n2, n3 = form.frame[5], form.frame[6], form.frame[7], form.frame[8]
+    size, a2, a3 = abs(w1) + abs(w2) + abs(w3), form.a2, form.a3
+    p, q, near = a3 * w1 + form.c3, a2 * w1 + form.c2, near + BLUR * size
+    if not (p > 0 and q > 0 and near * max(a3 / p, a2 / q) < 1 / 64):
+        return 0.0, 0j, 0.0, 0.0
+    rho = math.sqrt(math.sqrt(q / p))
+    eta = complex(r2 * rho * (w2 - s * (l2 * w1 - M3) / q), s * r3 / rho * (w3 - s * (l3 * w1 + M2) / p))
+    moved2 = CONDITION * (size + (abs(l2 * w1) + abs(M3)) / q) + near * (1 + abs(n3) / (q * q))
+    moved3 = CONDITION * (size + (abs(l3 * w1) + abs(M2)) / p) + near * (1 + abs(n2) / (p * p))
+    turned = near * abs(form.c3 * (a2 - a3)) / (4 * p * q)
+    return w1, eta, near, 1.25 * (r2 * rho * moved2 + r3 / rho * moved3 + (turned + CONDITION) * abs(eta))
+
+
+def decide(chosen, states, reach, fired, number, found, form, energy, amplitude, r, k, rows, powers, kept,
+           row, out):
+    """Ask for those of chosen rows that no test has fired for: fired (n,) becomes `number`, found (6, n) the
+    constants, where the inequality holds for the whole ball of radius reach (n,) about the state."""
+    basis = form.basis
     for n in chosen:
         if fired[n] >= 0:
             continue
-        w1, w2, w3 = states[n, 0], states[n, 1], states[n, 2]
-        size = abs(w1) + abs(w2) + abs(w3)
-        x, y, z = (basis[0, 0] * w1 + basis[0, 1] * w2 + basis[0, 2] * w3,
-                   basis[1, 0] * w1 + basis[1, 1] * w2 + basis[1, 2] * w3,
-                   basis[2, 0] * w1 + basis[2, 1] * w2 + basis[2, 2] * w3)
-        p, q = a3 * x + c, a2 * x + c
-        near = reach[n] + BLUR * size
-        if not (x > 0 and p > 0 and q > 0 and near * max(a3 / p, a2 / q) < 1 / 64):
-            continue
-        rho = math.sqrt(math.sqrt(q / p))
-        eta = complex(r2 * rho * (y - s * (l2 * x - M3) / q), s * r3 / rho * (z - s * (l3 * x + M2) / p))
-        moved2 = CONDITION * (size + (abs(l2 * x) + abs(M3)) / q) + near * (1 + abs(n3) / (q * q))
-        moved3 = CONDITION * (size + (abs(l3 * x) + abs(M2)) / p) + near * (1 + abs(n2) / (p * p))
-        turned = near * abs(c * (a2 - a3)) / (4 * p * q)
-        dz = 1.25 * (r2 * rho * moved2 + r3 / rho * moved3 + (turned + CONDITION) * abs(eta))
-        if search(x, eta, near, dz, D1, M1, a2, a3, c, reach_of_powers, drive, value_e, degrees_e, value_b,
-                  degrees_b, pairs_e, e_sums, e_most, pairs_b,
-                  b_sums, b_most, pairs_r, r_sums, pairs_k, k_sums, rows, powers, constants):
+        v1, v2, v3 = states[n, 0], states[n, 1], states[n, 2]
+        w1 = basis[0, 0] * v1 + basis[0, 1] * v2 + basis[0, 2] * v3
+        w2 = basis[1, 0] * v1 + basis[1, 1] * v2 + basis[1, 2] * v3
+        w3 = basis[2, 0] * v1 + basis[2, 1] * v2 + basis[2, 2] * v3
+        if form.parts == 1:
+            x, zeta, dx, dz = place_about_fixed(w1, w2, w3, reach[n], form)
+        else:
+            x, zeta, dx, dz = place_about_moving(w1, w2, w3, reach[n], form)
+        if x > 0 and search(x, zeta, dx, dz, form, energy, amplitude, r, k, rows, powers, kept, row, out):
             fired[n] = number
             for i in range(6):
-                found[i, n] = constants[i]
+                found[i, n] = out[i]
