@@ -98,7 +98,7 @@ def _box(course: Course | None, t: float, state: Sequence[Any]) -> Any:
         middle = np.array([float(v) for v in state])
         off = sum(abs(v - Fraction(m)) for v, m in zip(state, middle.tolist()))
         return middle, float(off) * (1 + 2.0**-40)
-    course.advance(t, min(STEPS, allowed(course.bits)) - course.steps)
+    course.advance(t, min(STEPS, allowed()) - course.steps)
     now = course.now
     return (now.middle, float(np.abs(now.rest).sum() + now.radius.sum())
             * (1 + 2.0**-40)) if course.status == kernel.DONE else None

@@ -66,7 +66,7 @@ def first_crossing(scene, state, limit: float, weights=None, component: int | No
               if weights is None else list(weights))
     end = t_max if t_max is not None else FAR / natural(scene)[1]
     course, search = Course(scene, state, end), _Search(float(limit) ** 2, chosen)
-    steps = allowed(course.bits) if steps is None else steps
+    steps = allowed() if steps is None else steps
     while course.status == kernel.GOING and course.steps < steps:
         band = course.advance(end, steps - course.steps, band=True)
         if band is not None and search.found_in(band):
@@ -148,7 +148,7 @@ def ranges_until(scene, state, t: float, steps: int | None = None) -> np.ndarray
     """(3, 2) bounds of each rate over [0, t]; None where the steps do not reach. Arguments as of
     `run.Course`."""
     course, out = Course(scene, state, t), np.array([[math.inf, -math.inf]] * 3)
-    steps = allowed(course.bits) if steps is None else steps
+    steps = allowed() if steps is None else steps
     while course.status == kernel.GOING and course.steps < steps:
         band = course.advance(t, steps - course.steps, band=True)
         if band is not None:

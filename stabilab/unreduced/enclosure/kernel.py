@@ -190,10 +190,10 @@ def length_of(x, y, z):
     return sqrt(x * x + y * y + z * z)
 
 
-def judged(numbers, energy, fine, a, V, B, rad, h, x, error, spread, moved, E, P):
+def judged(numbers, energy, a, V, B, rad, h, x, error, spread, moved, E, P):
     """Bounds of one step of length h (x in the unit of the coefficients a, V): |w - p| (error), |u| (spread),
     what it is beside V's part (moved), the error of each column of V (E), the sums P; True where they hold.
-    fine: what the recursion of a errs by."""
+    """
     alpha = np.empty((3, ORDER + 1))
     P[0], P[1], P[2] = 0.0, 0.0, 0.0
     v, vsum, tails = np.empty((3, 3, ORDER + 1)), np.zeros((3, 3)), np.zeros(ORDER + 2)
@@ -220,7 +220,7 @@ def judged(numbers, energy, fine, a, V, B, rad, h, x, error, spread, moved, E, P
         kappa, rho, sigma, m = abs(numbers[0, i]), abs(numbers[1, i]), abs(numbers[2, i]), abs(numbers[3, i])
         M[i, k] = (kappa * (S[j] + margin) + rho) * h * WIDER
         M[i, j] = (kappa * (S[k] + margin) + sigma) * h * WIDER
-        rounding = fine * (kappa * P[j] * P[k] + rho * P[k] + sigma * P[j] + m)
+        rounding = FINE * (kappa * P[j] * P[k] + rho * P[k] + sigma * P[j] + m)
         tail = kappa * beyond(alpha[j], alpha[k], tails) + rho * alpha[k, ORDER] + sigma * alpha[j, ORDER]
         d[i] = h * (rounding + tail / (ORDER + 1)) * WIDER + TINY
     bound_of_flow(M, G)
@@ -249,7 +249,7 @@ def judged(numbers, energy, fine, a, V, B, rad, h, x, error, spread, moved, E, P
             D[i, c] = h * (rounding + moving + tail / (ORDER + 1)) * WIDER
     for i in range(3):
         moved[i] = (G[i, 0] * quadratic[0] + G[i, 1] * quadratic[1] + G[i, 2] * quadratic[2]) * WIDER
-        moved[i] += (error[i] + fine * P[i]) * WIDER + TINY
+        moved[i] += (error[i] + FINE * P[i]) * WIDER + TINY
         for c in range(3):
             E[i, c] = (G[i, 0] * D[0, c] + G[i, 1] * D[1, c] + G[i, 2] * D[2, c]
                        + COARSE * vsum[i, c]) * WIDER
@@ -408,7 +408,7 @@ def advance(numbers, low_numbers, energy, tolerance, t, t_end, grain, steps, cen
                 h = on_grain(h, grain)
             if not h > 0.0:
                 return ENDLESS, t, number
-            holds = judged(numbers, energy, FINE, a, V, B, rad, h, h / unit, error, spread, moved, E, P)
+            holds = judged(numbers, energy, a, V, B, rad, h, h / unit, error, spread, moved, E, P)
             if holds:
                 break
             h *= 0.5

@@ -3,9 +3,9 @@
 One motion under a constant torque of any direction, enclosed from an exact start: a set at each time, a
 band between them.
 
-The steps are those of `kernel` (compiled) or of `digits` (python-flint, as many bits as are asked for, no
-compiler). Scenes are taken at their exact numbers. Those of a frame of principal axes that is irrational have
-an error of 2^-240 (`numbers.principal`): each step allows the coefficients FINE = 2^-92 of themselves.
+The steps are those of `kernel`, compiled where there is a compiler, with the same bits where there is none.
+Scenes are taken at their exact numbers. Those of a frame of principal axes that is irrational have an error
+of 2^-240 (`numbers.principal`): each step allows the coefficients FINE = 2^-92 of themselves.
 
 A certified spin-up proved: the way from an exact start to the inequality enclosed, and the inequality for
 every state of the set there.
@@ -21,25 +21,24 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from ...errors import InputError
 from ...numbers.exact import exact_vector
-from ...numbers.numba_door import installed
+from ...numbers.numba_door import compiled, installed
 from ...physics.coefficients import effective
 from ...validation import checked_scene
 from ..spin_up.certificate import natural, tests_of
 from ..spin_up.result import SpinUp, Trap
 from . import kernel
-from .digits import DigitSteps, advance, energy_of, loaded, rows_of, twofold
 
 # at most, unless others are asked for: compiled some three seconds, else some ten
 STEPS, SLOW_STEPS = 200_000, 2_000
 CHUNK = 512  # steps kept at a time between which the band is asked for
 TOLERANCE = 2.0**-88  # of a step's tail, beside the state: as small as the rounding of its coefficients
-BITS = 104  # of the compiled steps
 WHY = {kernel.DONE: "enclosed", kernel.GOING: "not finished: the steps allowed were used up",
        kernel.LOST: "lost: the set has grown too wide to follow",
        kernel.ENDLESS: "lost: a step would be below the grain of time"}
@@ -95,8 +94,7 @@ class Enclosed:
 
     t: exact, the scene's unit of time; middle: (3,) rates (rad/s, or x when scaled); rest: (3,), to be added
     to them: the centre is a sum of two doubles; radius: (3,) each true rate is within it of the centre.
-    steps: so many; status: "enclosed" where t is the time asked for, else "stopped", and reason says why;
-    bits: of the centre.
+    steps: so many; status: "enclosed" where t is the time asked for, else "stopped", and reason says why.
     """
 
     t: float
@@ -106,7 +104,6 @@ class Enclosed:
     steps: int
     status: str
     reason: str
-    bits: int
 
     @property
     def box(self):
@@ -123,24 +120,24 @@ class Course:
     scene: gyrostat and constant torque, physical or scaled; state: three rates at t = 0, each an exact number
     (a double at its word, a Fraction, a decimal in a string). t_end: the end of what will be asked for; its
     last binary digit is the grain of time, and every step ends at a whole number of grains, so that times are
-    exact. bits: None for the compiled steps (104 bits, `digits` where numba is not installed), else of
-    python-flint's. plain: so many first ones of the compiled steps are taken by the interpreter unless the
-    compiled code is loaded, to the same bits (powers are those of one library): a motion may be at its end
-    before that is.
+    exact. plain: so many first steps are taken by the interpreter unless the compiled code is loaded, to the
+    same bits (powers are those of one library): a motion may be at its end before that is.
     """
 
-    def __init__(self, scene, state, t_end: float, bits: int | None = None, plain: int = 0):
+    def __init__(self, scene, state, t_end: float, plain: int = 0):
         scene = effective(checked_scene(scene))
         scene.quadratic()  # says which effect of the scene is not covered
         start = exact_vector(state, "state")
         if not (math.isfinite(t_end) and t_end > 0):
             raise InputError(f"t: expected a time above 0, got {t_end!r}")
         own, self.unit = natural(scene)
-        self.t, self.steps, self.status = 0.0, 0, kernel.GOING
+        self.t, self.steps, self.status, self.plain = 0.0, 0, kernel.GOING, plain
         self._end = t_end * self.unit
         self._grain = math.ulp(self._end)
-        self._work = (Doubles(own, start, self.unit, plain) if bits is None and installed()
-                      else DigitSteps(own, start, self.unit, bits or 128))
+        form = own.quadratic()
+        self._numbers = *twofold([form.kappa, form.rho, form.sigma, form.m]), energy_of(own), TOLERANCE
+        centre, low = twofold([v / Fraction(self.unit) for v in start])
+        self._set = [centre, low, np.eye(3), np.abs(centre) * 2.0**-104 + kernel.TINY]
 
     def advance(self, t: float, steps: int | None = None, band: bool = False) -> Band | None:
         """Carry the motion on to the time t (taken down to the grain of time), by at most so many steps, at
@@ -150,75 +147,79 @@ class Course:
         asked for and a step was made."""
         t = min(t * self.unit, self._end)
         t = float(int(t / self._grain)) * self._grain
-        steps = max(0, allowed(self.bits) - self.steps) if steps is None else steps
+        steps = max(0, allowed() - self.steps) if steps is None else steps
         size = min(steps, CHUNK) if band else 0
-        times, polynomials, radii = np.empty(size), np.empty((size, 3, kernel.ORDER + 1)), np.empty((size, 3))
+        kept = [np.empty(size), np.empty((size, 3, kernel.ORDER + 1)), np.empty((size, 3))]
         begun = self.t * self.unit
-        self.status, now, made = self._work.advance(begun, t, self._grain, size or steps, times, polynomials,
-                                                    radii)
+        now, made = self._carried(begun, t, size or steps, kept)
         self.t, self.steps = now / self.unit, self.steps + made
         if not (band and made):
             return None
-        return Band(np.append(begun, times[:made]) / self.unit, polynomials[:made] * self.unit,
-                    radii[:made] * self.unit)
+        times, polynomials, radii = (rows[:made] for rows in kept)
+        return Band(np.append(begun, times) / self.unit, polynomials * self.unit, radii * self.unit)
+
+    def _carried(self, t, t_end, steps, kept):
+        """(time, steps made) of the set carried on; what is told of each step goes to arrays `kept`."""
+        made, plainly = 0, not installed() or self.plain > 0 and not loaded()
+        if plainly:
+            before, most = [v.copy() for v in self._set], min(steps, self.plain) if installed() else steps
+            try:
+                t, made = self._run(_plainly, t, t_end, most, kept)
+                self.plain -= made
+            except (ArithmeticError, ValueError):  # what is no number has no whole part for the interpreter
+                self._set, self.plain = before, 0
+                self.status = kernel.GOING if installed() else kernel.LOST
+        if installed() and (not plainly or self.status == kernel.GOING and made < steps):
+            rest = [rows[made:] for rows in kept]
+            t, more = self._run(functions()["advance"], t, t_end, steps - made, rest)
+            made += more
+        return t, made
+
+    def _run(self, by, t, t_end, steps, kept):
+        self.status, t, made = by(*self._numbers, t, t_end, self._grain, steps, *self._set, *kept)
+        return t, made
 
     @property
     def now(self) -> Enclosed:
         """Where the motion is."""
-        middle, rest, radius = self._work.box()
+        centre, low, B, rad = self._set
         status = "enclosed" if self.status == kernel.DONE else "stopped"
-        return Enclosed(self.t, middle * self.unit, rest * self.unit, radius * self.unit, self.steps, status,
-                        WHY[self.status], self.bits)
-
-    @property
-    def bits(self) -> int:
-        """Of the centre."""
-        return self._work.bits
+        return Enclosed(self.t, centre * self.unit, low * self.unit,
+                        np.abs(B) @ rad * kernel.WIDER * self.unit, self.steps, status, WHY[self.status])
 
 
-def allowed(bits: int) -> int:
-    """How many steps take some seconds, with a centre of so many bits."""
-    return STEPS if bits == BITS else SLOW_STEPS
+def allowed() -> int:
+    """How many steps take some seconds."""
+    return STEPS if installed() else SLOW_STEPS
 
 
-class Doubles:
-    """The set of the compiled steps, in a scene's natural unit."""
+def twofold(values):
+    """Exact numbers, nested lists of them, as two arrays of doubles whose sum they are to 105 bits."""
+    values = np.array(values, dtype=object)
+    high = np.array([float(v) for v in values.ravel()])
+    low = np.array([float(v - Fraction(h)) for v, h in zip(values.ravel(), high.tolist())])
+    return high.reshape(values.shape), low.reshape(values.shape)
 
-    bits = BITS
 
-    def __init__(self, own, start, unit, plain: int = 0):
-        self.numbers, self.low = twofold(rows_of(own))
-        self.centre, self.low_centre = twofold([v / Fraction(unit) for v in start])
-        self.energy = energy_of(own)
-        self.B, self.rad, self.plain = np.eye(3), np.abs(self.centre) * 2.0**-104 + kernel.TINY, plain
+def energy_of(own):
+    """(4,) roots of the moments, and the greatest rate at which the root of the sum of D omega^2 grows; zeros
+    for scaled variables."""
+    if own.variables == "scaled":
+        return np.zeros(4)
+    D, M = (np.array([float(v) for v in vector])
+            for vector in (own.body.exact, own.vector("constant_torque")))
+    return np.append(np.sqrt(D), math.sqrt(float((M * M / D).sum())))
 
-    def advance(self, t, t_end, grain, steps, times, polynomials, radii):
-        made = 0
-        if self.plain and not loaded():
-            first = min(steps, self.plain)
-            kept = [v.copy() for v in (self.centre, self.low_centre, self.B, self.rad)]
-            try:
-                status, t, made = self._advance(_plainly, t, t_end, grain, first, times[:first],
-                                                polynomials[:first], radii[:first])
-            except (ArithmeticError,
-                    ValueError):  # what is no number has no whole part here; compiled code goes on
-                self.centre, self.low_centre, self.B, self.rad = kept
-                self.plain = 0
-            else:
-                self.plain -= made
-                if status != kernel.GOING or made == steps:
-                    return status, t, made
-        status, t, more = self._advance(advance(), t, t_end, grain, steps - made, times[made:],
-                                        polynomials[made:], radii[made:])
-        return status, t, made + more
 
-    def _advance(self, by, t, t_end, grain, steps, times, polynomials, radii):
-        return by(self.numbers, self.low, self.energy, TOLERANCE, t, t_end, grain, steps, self.centre,
-                  self.low_centre, self.B, self.rad,
-                  times, polynomials, radii)
+@lru_cache(maxsize=1)
+def functions() -> dict:
+    """The kernel's functions by name, compiled."""
+    return compiled(kernel)
 
-    def box(self):
-        return self.centre.copy(), self.low_centre.copy(), np.abs(self.B) @ self.rad * kernel.WIDER
+
+def loaded() -> bool:
+    """Whether these are at hand, without loading them."""
+    return bool(functions.cache_info().currsize)
 
 
 def _plainly(*arguments):
@@ -233,13 +234,13 @@ LATER = (1.0, 1.0625, 1.25, 1.5, 2.0)
 WIDER = 1 + 2.0**-40
 
 
-def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | None = None, fast: bool = False,
+def proved(scene, state, found: SpinUp, steps: int | None = None, fast: bool = False,
            plain: int = 0) -> SpinUp:
     """The answer of `spin_up` for the motion from a state (three exact numbers: floats at their word,
     Fractions, decimals in strings), with level "proved" where its way can be enclosed in so many validated
     steps and the inequality holds for the whole set there; else as it was found, its cause told what
-    hindered. bits, plain: as of `Course`. fast: ask the inequality by compiled loops, for which
-    the first of an installation waits some seconds: where those that found it have loaded them."""
+    hindered. plain: as of `Course`. fast: ask the inequality by compiled loops, for which the first of an
+    installation waits some seconds: where those that found it have loaded them."""
     if found.level != "certified":
         return found
     before: Any = found.trap  # of a motion off the axes of symmetry
@@ -247,7 +248,7 @@ def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | No
     own, unit = natural(scene)
     rates = "" if scene.variables == "scaled" else " rad/s"
     test = tests_of(own).certifier(before.field, before.orders)
-    way = _Way(scene, state, found.t * LATER[-1], bits, plain)
+    way = _Way(scene, state, found.t * LATER[-1], plain)
     for later in LATER:
         reached = way.to(found.t * later, steps)
         if reached is None:
@@ -273,9 +274,9 @@ def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | No
 class _Way:
     """The motion at rising times, as the centre and radius of a ball."""
 
-    def __init__(self, scene, state, t_end, bits, plain):
+    def __init__(self, scene, state, t_end, plain):
         self.start = exact_vector(state, "state")
-        self.course = Course(scene, state, t_end, bits, plain) if t_end else None
+        self.course = Course(scene, state, t_end, plain) if t_end else None
         self.t, self.steps, self.why = 0.0, 0, ""
 
     def to(self, t, steps):
@@ -283,7 +284,7 @@ class _Way:
         if self.course is None:
             middle = np.array([float(v) for v in self.start])
             return middle, _up([abs(v - Fraction(m)) for v, m in zip(self.start, middle.tolist())])
-        steps = allowed(self.course.bits) if steps is None else steps
+        steps = allowed() if steps is None else steps
         if not self.course.steps:
             self.course.advance(t, min(steps, TRIED))
             slow = self.course.t * steps < t * self.course.steps / HOPELESS

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stabilab.unreduced.enclosure import kernel
-from stabilab.unreduced.enclosure.digits import twofold
+from stabilab.unreduced.enclosure.run import twofold
 
 
 def test_the_bound_of_a_flow_is_one():
