@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import struct
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
@@ -24,68 +23,14 @@ class Mesh:
 def triangulate(branch) -> Mesh:
     """The mesh of a branch. Points of the grid that coincide (a row shrunk to the fold; columns 0 and -1 at
     the saddle) become one vertex, and triangles that lost a corner or their area are dropped."""
-    points, residual = np.asarray(branch.points, float), np.abs(np.asarray(branch.residual, float))
-    tip, closed = bool((points[0] == points[0, 0]).all()), bool((points[:, 0] == points[:, -1]).all())
-    kept = np.s_[int(tip):, :points.shape[1] - int(closed)]
-    if _coincide(points, kept):
-        return _merged(branch, points + 0.0, residual)  # -0.0 and 0.0 are one place, here and below
-    if closed:
-        np.maximum(residual[:, 0], residual[:, -1], out=residual[:, 0])
-    rest = points[kept]
-    vertices, values = np.empty((tip + rest.shape[0] * rest.shape[1],
-                                 3)), np.empty(tip + rest.shape[0] * rest.shape[1])
-    np.add(rest, 0.0, out=vertices[int(tip):].reshape(rest.shape))
-    values[int(tip):].reshape(rest.shape[:2])[:] = residual[kept]
-    if tip:
-        vertices[0], values[0] = points[0, 0] + 0.0, residual[0].max()
-    return Mesh(branch.name, vertices, _plain_triangles(*points.shape[:2], tip, closed, branch.cut), values)
-
-
-def _coincide(points, kept) -> bool:
-    """Whether neighbours of a grid, or a point and its mirror image, coincide elsewhere than at a tip and at
-    saddles."""
-    rest = points[kept]
-    half = points.shape[1] // 2
-    there = points[kept[0]]
-    return (_same(rest[1:], rest[:-1]) or _same(rest[:, 1:], rest[:, :-1])
-            or _same(there[:, 1:half], there[:, -2:-half - 1:-1]))
-
-
-def _same(a, b) -> bool:
-    """Whether any point of a (n, m, 3) is that of b in its place; the component that is most likely to tell
-    them apart is asked first."""
-    if not a.size:
-        return False
-    first = int(np.abs(a[-1, a.shape[1] // 2] - b[-1, a.shape[1] // 2]).argmax())
-    equal = a[..., first] == b[..., first]
-    return bool(equal.any()
-                and (equal & (a[..., first - 1] == b[..., first - 1])
-                     & (a[..., first - 2] == b[..., first - 2])).any())
-
-
-def _merged(branch, points, residual) -> Mesh:
-    """The mesh where any points may coincide."""
+    points = np.asarray(branch.points, float) + 0.0  # -0.0 and 0.0 are one place
     vertices, where = np.unique(points.reshape(-1, 3), axis=0, return_inverse=True)
     triangles = _triangles(where.reshape(points.shape[:2]), branch.cut)
     corner = vertices[triangles]
     area = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1)
-    largest = np.zeros(len(vertices))
-    np.maximum.at(largest, where.ravel(), residual.ravel())
-    return Mesh(branch.name, vertices, triangles[area > 0], largest)
-
-
-@lru_cache(maxsize=32)
-def _plain_triangles(rows, columns, tip, closed, cut):
-    """Triangles of a grid whose points are distinct but for a tip (row 0) and the saddles (columns 0 and -1).
-    """
-    where = np.arange((rows - tip) * (columns - closed)).reshape(rows - tip, columns - closed) + int(tip)
-    if closed:
-        where = np.concatenate([where, where[:, :1]], axis=1)
-    if tip:
-        where = np.concatenate([np.zeros((1, columns), int), where])
-    triangles = _triangles(where, cut)
-    triangles.flags.writeable = False  # meshes of one shape share it
-    return triangles
+    residual = np.zeros(len(vertices))
+    np.maximum.at(residual, where.ravel(), np.abs(np.asarray(branch.residual, float)).ravel())
+    return Mesh(branch.name, vertices, triangles[area > 0], residual)
 
 
 def _triangles(where, cut):
