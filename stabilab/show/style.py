@@ -64,10 +64,6 @@ SERIES = (BLUE, ORANGE, GREEN, PURPLE, VERMILION)               # one curve each
 
 PACKAGES = ("matplotlib", "PIL")  # of every picture
 DPI = 110
-# level at which a PNG is packed; the most of 9 takes ten times as long for 3 to 8 % less, which only the
-# large ones are worth:
-QUICK = 6
-LARGE = 100_000  # bytes
 LETTER, KEY = 0.07, 0.7  # inches that a letter of a legend, and its key with the gap, take
 # the blanks within a measured value: lambda3 = 0.1 N m s
 MEASURED = re.compile(r"(?<= =) | (?==)|(?<=\d) (?=[^\W\d])|(?<=\bN) (?=m\b)|(?<=\bm) (?=s\b)")
@@ -121,21 +117,22 @@ _UNDATED = {".svg": {"Date": None, "Creator": None},
 
 def save(figure, path, dpi: float | None = None) -> Path:
     """Write a picture in the format of its ending (.png, .svg, .pdf), whole or not at all, with no date or
-    version inside: the same picture gives the same bytes. dpi: dots an inch, None for those of the house.
-    Raises InputError for other endings."""
+    version inside: the same picture gives the same bytes. A .png has 256 colours, which keeps a drawing well
+    under 200 kB. dpi: dots an inch, None for those of the house. Raises InputError for other endings."""
     path = endings.file(path, endings.PICTURES)
     kind = endings.ending(path)
-    if kind == ".png":
-        write_small(_drawn(figure, dpi or DPI), path)
-    else:
-        with whole_file(path) as waiting:
+    with whole_file(path) as waiting:
+        if kind == ".png":
+            from PIL import Image
+            small = _drawn(figure, dpi or DPI).quantize(256, dither=Image.Dither.NONE)
+            small.save(waiting, format="png", optimize=True)
+        else:
             figure.savefig(waiting, format=kind[1:], dpi=dpi or DPI, metadata=_UNDATED[kind])
     return path
 
 
 def _drawn(figure, dpi):
-    """The figure as a Pillow image. A canvas lays it out and draws it once; savefig would draw it twice, and
-    pack what is unpacked at once."""
+    """The figure as a Pillow image. A canvas lays it out and draws it once; savefig would draw it twice."""
     import numpy as np
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from PIL import Image
@@ -157,47 +154,6 @@ def write(out, draw, dpi: float | None = None) -> Path:
     target = endings.file(out, endings.PICTURES)
     with drawing() as plt:
         return save(draw(plt), target, dpi)
-
-
-def write_small(image, path) -> None:
-    """Write a Pillow image as a PNG of 256 colours, the style's own among them: well under 200 kB for a
-    drawing."""
-    import numpy as np
-    from PIL import Image
-    image = image.convert("RGB")
-    ours = [[int(c[i:i + 2], 16) for i in (1, 3, 5)] for c in (BLACK, "#FFFFFF", *BRANCHES, GREY)]
-    common = np.reshape(image.quantize(256 - len(ours), dither=Image.Dither.NONE).getpalette(), (-1, 3))
-    palette = np.vstack([ours, common])[:256].astype(np.int32)
-    parts = np.asarray(image).astype(np.int32)
-    pixels = parts[..., 0] << 16 | parts[..., 1] << 8 | parts[..., 2]  # a number a colour
-    # of all colours there are: a mark and a look are quicker than to sort a million pixels
-    place = np.zeros(1 << 24, bool)
-    place[pixels] = True
-    numbers = np.flatnonzero(place)
-    entry = place.view(np.uint8)
-    entry[numbers] = _nearest(np.stack([numbers >> 16, numbers >> 8 & 255, numbers & 255], axis=1), palette)
-    small = Image.fromarray(entry[pixels])
-    small.putpalette(palette.astype(np.uint8).tobytes())
-    packed = _packed(small, QUICK)
-    with whole_file(path) as waiting:
-        waiting.write_bytes(packed if len(packed) < LARGE else _packed(small, 9))
-
-
-def _packed(image, level) -> bytes:
-    import io
-    image.save(buffer := io.BytesIO(), format="png", compress_level=level)
-    return buffer.getvalue()
-
-
-def _nearest(colours, palette):
-    """Of each colour the entry of the palette that is nearest, the first of equals. Pillow's own search is
-    coarse (white comes out as 252); this one is exact: squares and products of such numbers are whole numbers
-    below 2^24, which single precision holds."""
-    import numpy as np
-    known = palette.astype(np.float32)
-    squares = (known**2).sum(axis=1)
-    return np.concatenate([(squares - 2 * (part.astype(np.float32) @ known.T)).argmin(axis=1)
-                           for part in np.array_split(colours, len(colours) // 4096 + 1)])
 
 
 def explained(rows) -> tuple[list, list[str]]:
