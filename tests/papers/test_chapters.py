@@ -85,7 +85,7 @@ def test_the_panel_says_how_far_a_cut_model_goes():
     with style.drawing() as plt:
         (figure,) = panels.draw_lines(plt, "", [(ROW, [_column(np.sin, np.exp)])])
         words = [text.get_text() for text in figure.axes[0].texts]
-    assert words == [f"cut: reaches {math.exp(10):.0f}"]
+    assert words == [f"cut: to {math.exp(10):.0f}"]
 
 
 def test_a_plane_says_of_which_of_its_two_quantities_a_cut_curve_goes_so_far():
@@ -111,7 +111,7 @@ def test_a_curve_that_leaves_a_panel_on_both_sides_tells_both_ends(over_time, to
     assert words == [told]
 
 
-def test_words_on_cuts_without_room_side_by_side_stand_one_above_the_other():
+def test_words_on_cuts_stand_one_above_the_other():
     from stabilab.show import style
     run = ({"exact": (t := np.linspace(0, 10, 101), np.sin(t))}
            | {name: (t, 1e4 * np.cos(t)) for name in ("linear", "corrected", "printed")})

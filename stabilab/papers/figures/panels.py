@@ -8,7 +8,6 @@ panels than six are divided among several pictures.
 """
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, field
 from textwrap import fill
 from typing import Any
@@ -45,13 +44,7 @@ ALONE = tuple({"color": c, "linewidth": 1.6, "linestyle": s, "zorder": z}
               for c, (s, z) in zip((style.ORANGE, "#9A5B00", "#4A2C00"), DASHES))
 BESIDE = tuple({"color": c, "linewidth": 0.8, "linestyle": s, "zorder": z - 0.5}
                for c, (s, z) in zip((style.PURPLE, "#9C4A7B", "#4F2440"), DASHES))
-# of the words on cuts, where they have room side by side
-CORNERS = ((1.0, "right"), (0.0, "left"), (0.5, "center"))
-# inches of a letter of these words, of what stands beside a panel; letters where room is short
-LETTER, BESIDE_PANEL, SMALL = 0.07, 0.75, 0.88
-LINE = 13  # points from a line of such words to the next
-# in the legend where the words of a panel leave it out for want of room
-ENDS = "above a panel: from where to where a curve goes that is cut"
+LINE = 13  # points from a line of words above a panel to the next
 # in the legend, after the exact motion
 ORDER = ("printed", "corrected", "averaged1", "linear", "averaged2", "lindstedt")
 WORDS = comparison.WORDS | {"corrected": "corrected integrals, frequency (8)"}
@@ -119,9 +112,9 @@ def _picture(plt, title, lines, size, words, mark_words, own):
     """A figure of lines of cells (Row, all columns of its line, its own or None for printed curves alone)."""
     width, height = size
     heights, count = [height * (TALL if line[0][0].equal else 1) for line in lines], max(map(len, lines))
-    told = [[_words(row, _cuts(row, c, _window(row, [c] if own else columns)) if c else [],
-                    (width / count - BESIDE_PANEL) / LETTER) for row, columns, c in line] for line in lines]
-    stacked = [max(map(_height, line)) - 1 for line in told]
+    told = [[_cuts(row, c, _window(row, [c] if own else columns)) if c else [] for row, columns, c in line]
+            for line in lines]
+    stacked = [max(0, *(len(cuts) - 1 for cuts in line)) for line in told]
     figure, axes = plt.subplots(len(lines), count, squeeze=False, layout="constrained", height_ratios=heights,
                                 figsize=(width, 1 + sum(heights) + sum(stacked) * LINE / 72))
     headings = [[f"{words['printed']}, alone" if c is None else c.heading for *_, c in line]
@@ -149,8 +142,7 @@ def _picture(plt, title, lines, size, words, mark_words, own):
     # numbers at the ends of axes, headings below labels
     figure.get_layout_engine().set(w_pad=0.09, h_pad=0.04 if len(set(map(tuple, headings))) < 2 else 0.12)
     figure.suptitle(title, fontsize=11)
-    style.legend(figure, _entries(lines, words, mark_words)
-                 + [(ENDS, {"linestyle": "none"})] * any(short for line in told for _, short, _ in line))
+    style.legend(figure, _entries(lines, words, mark_words))
     return figure
 
 
@@ -237,20 +229,18 @@ def _curve(row, column, name):
     return None if picked is None else tuple(np.asarray(v, float) for v in picked)
 
 
-def _cuts(row, column, limits) -> list:
-    """(model, parts of the words how far) of every curve of a panel that leaves its limits, upwards,
-    downwards or sideways: a part each quantity."""
+def _cuts(row, column, limits) -> list[tuple[str, str]]:
+    """(model, words how far it goes) of every curve of a panel that leaves its limits, upwards, downwards or
+    sideways."""
     found = []
     for name in ("exact", *reversed(ORDER)):
         picked = _curve(row, column, name)
         if picked is None or not len(picked[0]):
             continue
+        labels = ("", "") if row.over_time else (f"{_bare(row.xlabel)} ", f"{_bare(row.ylabel)} ")
         spans = [_beyond(v, *ends) for v, ends in zip(picked, limits)]
-        if row.over_time:
-            parts: list[tuple[str, ...]] = [(spans[1],)] if spans[1] else []
-        else:
-            parts = [(_bare(label), span) for label, span in zip((row.xlabel, row.ylabel), spans) if span]
-        found += [(name, parts)] if parts else []
+        told = [label + span for label, span in zip(labels, spans) if span]
+        found += [(name, f"cut: {', '.join(told)}")] * bool(told)
     return found
 
 
@@ -259,47 +249,14 @@ def _beyond(values, low, high) -> str:
     them."""
     ends = [comparison.short(end) for end, out in ((np.nanmin(values), np.nanmin(values) < low),
                                         (np.nanmax(values), np.nanmax(values) > high)) if out]
-    return " to ".join(ends)
+    return f"from {ends[0]} to {ends[1]}" if len(ends) == 2 else "".join(f"to {end}" for end in ends)
 
 
-def _words(row, cuts, room) -> tuple:
-    """((model, its words) of every cut, whether these leave out that they tell of one, whether they stand
-    side by side), as so many letters have room."""
-    def written(both, between):
-        return [between.join(" ".join([*label,
-                                       both + span if " to " in span else ("to " if label else "reaches ")
-                                       + span]) for *label, span in parts)
-                for _, parts in cuts]
-
-    def fits(words, share=1.0):
-        return sum(map(_letters, words)) + 2 * (len(words) - 1) <= room / share
-    names, whole, brief = [name for name, _ in cuts], written("from ", ", "), written("", "\n")
-    if len(cuts) > 1 and row.over_time and fits(whole):
-        return tuple(zip(names, whole)), False, True
-    if len(cuts) == 2 and not row.over_time or len(cuts) > 1 and row.over_time and fits(brief, SMALL):
-        return tuple(zip(names, brief)), True, True
-    return tuple((name, f"cut: {words}") for name, words in zip(names, whole)), False, False
-
-
-def _letters(words) -> int:
-    return len(re.sub(r"\\\w+|[${}^_]", "", words))
-
-
-def _height(words) -> int:
-    """How many lines the words of `_words` take."""
-    cuts, _, beside = words
-    heights = [text.count("\n") + 1 for _, text in cuts] or [1]
-    return max(heights) if beside else sum(heights)
-
-
-def _tell_cuts(ax, words):
-    """Above a panel, how far each curve goes that leaves it."""
-    cuts, short, beside = words
-    for n, (name, text) in enumerate(cuts):
-        x, side = CORNERS[n if beside else 0]
-        ax.annotate(text, (x, 1.01), (0, 0 if beside else LINE * n), xycoords="axes fraction",
-                    textcoords="offset points", color=INK[name], ha=side,
-                    va="bottom", ma=side, linespacing=1.25, fontsize=8.6 * (SMALL if short else 1))
+def _tell_cuts(ax, cuts):
+    """Above a panel, how far each curve goes that leaves it, in its colour."""
+    for n, (name, words) in enumerate(cuts):
+        ax.annotate(words, (1.0, 1.01), (0, LINE * n), xycoords="axes fraction", textcoords="offset points",
+                    color=INK[name], ha="right", va="bottom", fontsize=8.6)
 
 
 def _bare(label) -> str:
