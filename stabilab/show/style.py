@@ -157,16 +157,22 @@ def write(out, draw, dpi: float | None = None) -> Path:
 
 
 def explained(rows) -> tuple[list, list[str]]:
-    """(handles, names) for a legend of rows (name, look); a look with a colour of its face is an area."""
+    """(handles, names) for a legend of rows (name, look), each name once; a look with a colour of its face is
+    an area."""
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
-    handles = [Patch(**look) if "facecolor" in look else Line2D([], [], **look) for _, look in rows]
-    return handles, [name for name, _ in rows]
+    looks = dict(rows)
+    handles = [Patch(**look) if "facecolor" in look else Line2D([], [], **look) for look in looks.values()]
+    return handles, list(looks)
 
 
-def legend(figure, rows, columns=4):
-    """One legend below the picture: rows of (name, look)."""
-    figure.legend(*explained(rows), loc="outside lower center", ncols=min(columns, len(rows)))
+def legend(figure, rows, columns: int | None = None):
+    """One legend below the picture, if there is anything to tell: rows of (name, look). columns: at most;
+    None for as many as fit."""
+    handles, names = explained(rows)
+    if names:
+        most = fitting(names, figure.get_figwidth()) if columns is None else min(columns, len(names))
+        figure.legend(handles, names, loc="outside lower center", ncols=most)
 
 
 def letters(size: tuple[float, float] | None) -> dict[str, float]:

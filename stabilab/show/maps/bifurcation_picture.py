@@ -13,8 +13,8 @@ from ...maps.bifurcation.plane import rows as arcs_of
 from .. import style
 from ..axes import axes_of
 from ..units import units_of, with_unit
-from .over_values import OWN, counts_above
-from .shades import light, own_place
+from .over_values import counts_above
+from .shades import light, mark_own, own_values
 
 CROWD = 6.0  # a component that goes to infinity is cut at so many times what nine tenths of the points reach
 LOOKS = {"stable": ("stable", "stable"), "unstable": ("unstable", "unstable"),
@@ -84,9 +84,8 @@ def _panel(ax: Any, found: Diagram, rows: list[Branch], i: int, one: float) -> N
             word = "changes meet" if found.kind == BORDERS else " and ".join(event.kinds)
             ax.plot([event.value] * len(met), met, label=word, zorder=4, **style.MARKER["degenerate"])
     span = found.family.spans[0]
-    for own in own_place(found.family.spans, found.family.data) or ():
-        ax.axvline(own, label="the case itself", zorder=3, **OWN)
     ax.set_xlim(float(span.low), float(span.high))
+    mark_own(ax, own_values(found.family.spans, found.family.data))
     heights = sorted(abs(state[i] * one) for branch in rows for state in branch.states)
     if heights and heights[-1] > CROWD * (usual := heights[int(0.9 * (len(heights) - 1))]) > 0:
         ax.set_ylim(-1.5 * usual, 1.5 * usual)
@@ -125,9 +124,6 @@ def _plane(found: Plane, size: tuple[float, float] | None, plt: Any) -> tuple[An
                 **style.MEANING[CURVE_LOOKS[wall.kinds[0]]])
     for cusp in found.cusps:
         ax.plot(*cusp.at, label="cusp", zorder=5, clip_on=False, **style.MARKER["degenerate"])
-    if own := own_place(found.family.spans, found.family.data):
-        ax.plot(*[[value] for value in own], label="the case itself", zorder=7, clip_on=False,
-                **style.MARKER["start"] | {"markeredgecolor": "white"})
     whole = float((first.high - first.low) * (second.high - second.low))
     for region in _regions(bands, float(second.high - second.low)):
         if sum(band["area"] for band in region) > SMALL * whole:
@@ -140,6 +136,7 @@ def _plane(found: Plane, size: tuple[float, float] | None, plt: Any) -> tuple[An
                     va="center", fontsize=13, fontweight="bold", zorder=6)
     ax.set_xlim(float(first.low), float(first.high))
     ax.set_ylim(float(second.low), float(second.high))
+    mark_own(ax, own_values(found.family.spans, found.family.data))
     for told, span in ((ax.set_xlabel, first), (ax.set_ylabel, second)):
         told(with_unit(span.label, span.shown_unit))
     case = found.family.case

@@ -12,7 +12,8 @@ from ...equilibrium.circular_orbit.result import OrbitEquilibrium
 from ...numbers.vectors import dot
 from .. import style
 from ..units import Units
-from .over_values import OWN, counts_above
+from .over_values import counts_above
+from .shades import mark_own
 
 WORDS = {"stable": "stable (Lyapunov)", "unstable": "unstable",
          "undecided": "undecided by energy (gyroscopic)"}
@@ -32,26 +33,24 @@ def _drawn(case: Case, found: CircularOrbit, rows: Any, units: Units, plt: Any) 
         ("orbit normal to momentum", math.pi, lambda at: math.acos(_within(dot(at.normal, wheel)))),
         ("vertical to minor axis", math.pi / 2, lambda at: math.acos(_within(abs(at.vertical[minor]))))]
     figure, axes = plt.subplots(2, 1, sharex=True, layout="constrained", figsize=(8, 7))
-    own, ends = math.hypot(*found.momentum), (0.0, found.spans[-1].high)  # type: ignore[index]
+    ends = 0.0, found.spans[-1].high  # type: ignore[index]
     for ax, (words, most, angle) in zip(axes, panels):
         for branch in rows:
             ax.plot(branch.momenta, [angle(at) * one for at in branch.points],
                     **style.MEANING[branch.verdict])
         for span in found.spans:  # type: ignore[union-attr]
             ax.axvline(span.high, color=style.GREY, linewidth=0.7, linestyle=":", zorder=0)
-        if own <= ends[1]:
-            ax.axvline(own, zorder=3, **OWN)
         ax.set_ylim(-0.03 * most * one, 1.03 * most * one)
         ax.set_ylabel(f"{words} ({name})")
     axes[-1].set_xlim(*ends)
+    own = [mark_own(ax, [math.hypot(*found.momentum)]) for ax in axes]
     axes[-1].set_xlabel("momentum of the wheels (N m s)")
     counts_above(axes[0], ends, [(span.low, span.high, str(span.count)) for span in found.spans],
                  [span.low for span in found.spans])
     figure.suptitle(f"{style.literal(case.title or case.name)}\nin bold: the number of equilibria, two or "
                     "more a line", x=0.02, ha="left", fontsize=10.5, wrap=True)
     kinds = dict.fromkeys(branch.verdict for branch in rows)
-    style.legend(figure, [*((WORDS[kind], style.MEANING[kind]) for kind in kinds),
-                          *([("the case itself", OWN)] if own <= ends[1] else [])])
+    style.legend(figure, {WORDS[kind]: style.MEANING[kind] for kind in kinds} | own[0])
     return figure
 
 

@@ -4,13 +4,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from .. import style
-
 # of the values above the panel: points, rows at the most, inches of the figure beside the panel
 SIZE, ROWS, MARGIN = 7.5, 3, 1.2
 GLYPH = 0.64  # width of a digit of the house's font over the size of the font
 GAP = 4.0  # points between two labels of a row
-OWN = {"color": style.BLACK, "linewidth": 1.0, "linestyle": (0, (1, 2))}
 
 
 def counts_above(ax: Any, ends: tuple[float, float], pieces: Sequence[tuple[float, float, str]],

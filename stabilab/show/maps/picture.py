@@ -19,7 +19,7 @@ from ..files import endings
 from ..plot import basins as basin_picture
 from ..plot.to_file import check_size
 from ..terminal.letters import written
-from ..units import Units, units_of
+from ..units import Units, units_of, with_unit
 from . import basins as basin_data
 from . import shades
 
@@ -43,23 +43,29 @@ def curves(data: Any, plan: Any, kind: str, along: str, size: Any, plt: Any) -> 
     figure, axes = plt.subplots(len(panels), 1, sharex=True, squeeze=False, layout="constrained",
                                 figsize=size or (8, 1.4 + 2.2 * len(panels)))
     x, behind = np.asarray(data[along]), kind if kind in shades.FLAGS else "fate"
-    order = np.argsort(x)
+    order, rows = np.argsort(x), {}
+    shades.furnish(axes[-1, 0], data, along)
+    axes[0, 0].set_title(_title(data), loc="left", wrap=True)
     for ax, names in zip(axes[:, 0], panels):
         if behind in data:
             _bands(ax, x[order], np.asarray(data[behind])[order], shades.looks(data, behind))
+            rows |= shades.flag_legend(data, behind)
         _lines(ax, data, x, order, names)
+        if len(ax.lines) > 1:  # beside the panel, whose curves it would cover
+            ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
         ax.set_xlim(x.min(), x.max())
-        shades.scale_axes(ax, x)
-    axes[-1, 0].set_xlabel(shades.label(data, along))
-    axes[0, 0].set_title(style.literal(data.attrs.get("title", "")), loc="left", wrap=True)
-    own = shades.own_value(plan,
-                    next(n for n, axis in enumerate(plan.axes)
-                         if axis.key.name == data[along].attrs["long_name"]))
-    if own is not None and x.min() <= own <= x.max():
-        for ax in axes[:, 0]:
-            ax.axvline(own, color=style.BLACK, linewidth=0.8, linestyle=":", label="the case itself")
-    _legend(figure, shades.flag_legend(data, behind) if behind in data else [], axes[:, 0])
+        rows |= shades.mark_own(ax, [shades.own_value(plan, _dimension(data, plan, along))])
+    style.legend(figure, rows)
     return figure
+
+
+def _title(data: Any) -> str:
+    return style.literal(str(data.attrs.get("title", "")))
+
+
+def _dimension(data: Any, plan: Any, name: str) -> int:
+    """The place of a dimension of the data in the order of the sweep."""
+    return [axis.key.name for axis in plan.axes].index(data[name].attrs["long_name"])
 
 
 def _bands(ax, x, flags, look):
@@ -108,19 +114,6 @@ def _broken(data, order, values):
     return ends
 
 
-def _legend(figure, rows, axes):
-    for ax in axes:
-        handles, words = ax.get_legend_handles_labels()
-        if len(words) > 1 + ("the case itself" in words):
-            kept = [(h, w) for h, w in zip(handles, words) if w != "the case itself"]
-            # beside the panel, whose curves it would cover
-            ax.legend(*zip(*kept), loc="center left", bbox_to_anchor=(1.0, 0.5))
-        rows += [(h, w) for h, w in zip(handles, words) if w == "the case itself"
-                 and w not in [w for _, w in rows]]
-    if rows:
-        figure.legend(*zip(*rows), loc="outside lower center", ncols=min(5, len(rows)))
-
-
 # --- A sweep along two axes: a map of the fate with the boundary and lines of equal margin, or of any
 # number; several side by side
 COUNTS = ("equilibria", "stable", "unstable", "open")
@@ -139,33 +132,33 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
                                 figsize=size
                                 or ((7.2, 6.0) if len(panels) == 1
                                     else (3.0 * across + 0.8, 2.8 * down + 1.2)))
-    rows: dict[str, Any] = {}
-    shown = None
+    rows = shades.flag_legend(data, kind) if kind in shades.FLAGS else _blank(data, kind)
     limits = _limits(data, kind)
-    for ax, place in zip(axes.flat, panels):
+    for n, (ax, place) in enumerate(zip(axes.flat, panels)):
         here = data.isel(place)
         shown = _map(ax, here, data, kind, moving, limits)
         if kind == "fate":
             rows |= _boundary(ax, here, plan, moving, _index(data, plan, place))
             if "margin" in here and len(panels) == 1:
                 rows |= _levels(ax, here, moving)
-        shades.scale_axes(ax, np.asarray(here[moving[0]]), np.asarray(here[moving[1]]))
-        rows |= _own(ax, here, plan, moving) if not place else {}
-        if place:
-            ax.set_title(",\n".join(
-                f"{shades.spoken_key(data, name)} = {float(data[name][n]):.4g} {_unit(data, name)}".strip()
-                for name, n in place.items()))
+        if kind == SHARE:
+            x, y = (np.asarray(here[name]) for name in moving[:2])
+            ax.contour(x, y, np.asarray(here[kind].transpose(*moving[:2])).T, levels=[5, 50, 95],
+                       colors=style.BLACK, linewidths=(0.6, 1.2, 0.6))
+        shades.furnish(ax, data, *moving[:2])
+        ax.label_outer()
+        if n + across >= len(panels):  # the last of its column
+            ax.xaxis.set_tick_params(labelbottom=True)
+            ax.set_xlabel(shades.label(data, moving[0]))
+        rows |= {} if place else shades.mark_own(
+            ax, [shades.own_value(plan, _dimension(data, plan, name)) for name in moving[:2]])
+        ax.set_title(",\n".join(
+            f"{shades.spoken_key(data, name)} = {float(data[name][n]):.4g} {_unit(data, name)}".strip()
+            for name, n in place.items()))
     for ax in axes.flat[len(panels):]:
         ax.set_visible(False)
-    for ax in (axes.flat[n] for n in range(len(panels)) if n + across >= len(panels)):
-        ax.set_xlabel(shades.label(data, moving[0]))
-        ax.xaxis.set_tick_params(labelbottom=True)
-    for ax in axes[:, 0]:
-        ax.set_ylabel(shades.label(data, moving[1]))
-    figure.suptitle(style.literal(str(data.attrs.get("title", ""))) + _of_all(data, panels), fontsize=10.5,
-                    wrap=True)
+    figure.suptitle(_title(data) + _of_all(data, panels), fontsize=10.5, wrap=True)
     if kind not in shades.FLAGS:
-        rows |= _blank(data, kind)
         of_axes = (f", {'least' if kind == 'least' else 'greatest'} of the three axes"
                    if "axis" in data[kind].dims else "")
         bar = figure.colorbar(shown, ax=axes, label=shades.label(data, kind) + of_axes)
@@ -174,10 +167,7 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
                        or (np.asarray(data[kind]) == n).any()]
             bar.set_ticks(numbers, labels=[WITHOUT.get(n, str(n)) for n in numbers])
             bar.ax.tick_params(length=0)
-    handles = [*(shades.flag_legend(data, kind) if kind in shades.FLAGS else []),
-               *((h, w) for w, h in rows.items())]
-    if handles:
-        figure.legend(*zip(*handles), loc="outside lower center", ncols=min(4, len(handles)))
+    style.legend(figure, rows)
     return figure
 
 
@@ -194,8 +184,8 @@ def _of_all(data, panels) -> str:
 
 def _index(data, plan, place) -> tuple[int, ...]:
     """The place along every dimension of the sweep; 0 where the map varies."""
-    by_key = {data[name].attrs["long_name"]: n for name, n in place.items()}
-    return tuple(by_key.get(axis.key.name, 0) for axis in plan.axes)
+    places = {_dimension(data, plan, name): n for name, n in place.items()}
+    return tuple(places.get(n, 0) for n in range(len(plan.axes)))
 
 
 def values_of(data, kind) -> np.ndarray:
@@ -208,27 +198,15 @@ def values_of(data, kind) -> np.ndarray:
 
 def _blank(data, kind) -> dict[str, Any]:
     """What the cells mean that are left white."""
-    from matplotlib.patches import Patch
     values = values_of(data, kind)
     told = [words for words, there in ((ENDS.get(kind, "without end"), np.isinf(values)),
                                        ("not known", np.isnan(values))) if there.any()]
-    return {f"white: {' or '.join(told)}": Patch(facecolor="white", edgecolor=style.GREY)} if told else {}
-
-
-def _own(ax, data, plan, moving) -> dict[str, Any]:
-    """The case's own place on the map, where it is on it."""
-    from matplotlib.lines import Line2D
-    keys = [axis.key.name for axis in plan.axes]
-    at = [shades.own_value(plan, keys.index(data[name].attrs["long_name"])) for name in moving[:2]]
-    ends = [(float(data[name].min()), float(data[name].max())) for name in moving[:2]]
-    if any(value is None or not low <= value <= high for value, (low, high) in zip(at, ends)):
-        return {}
-    look: dict[str, Any] = style.MARKER["start"] | {"markeredgecolor": "white"}
-    ax.plot(*[[value] for value in at], **look)
-    return {"the case itself": Line2D([], [], **look)}
+    return {f"white: {' or '.join(told)}": {"facecolor": "white", "edgecolor": style.GREY}} if told else {}
 
 
 def _limits(data, kind) -> tuple[float, float]:
+    if kind == SHARE:
+        return 0.0, 100.0
     values = np.asarray(values_of(data, kind), float)
     values = values[np.isfinite(values)]
     return (float(values.min()), float(values.max())) if values.size else (0.0, 1.0)
@@ -274,21 +252,12 @@ def _levels(ax, data, moving) -> dict[str, Any]:
     if not any(len(line) for level in drawn.allsegs for line in level):
         return {}
     ax.clabel(drawn, fontsize=7, fmt="%.3g")
-    unit = _unit(data, "margin")
-    return {f"equal margin{f' ({unit})' if unit else ''}": _line("level", 0.6)}
-
-
-def _line(meaning: str, width: float) -> Any:
-    """A line of a legend."""
-    from matplotlib.lines import Line2D
-    look: dict[str, Any] = style.MEANING[meaning] | {"linewidth": width}
-    return Line2D([], [], **look)
+    return {with_unit("equal margin", data["margin"].attrs["units"]): style.MEANING["level"]}
 
 
 def _boundary(ax, data, plan, moving, index) -> dict[str, Any]:
     from matplotlib.collections import LineCollection
-    dims = [next(n for n, axis in enumerate(plan.axes) if axis.key.name == data[name].attrs["long_name"])
-            for name in moving[:2]]
+    dims = [_dimension(data, plan, name) for name in moving[:2]]
     exact = known_exactly(plan, *dims)
     fates = np.asarray(data["fate"].transpose(*moving[:2]))
     margin = np.asarray(data["margin"].transpose(*moving[:2])) if "margin" in data else None
@@ -298,9 +267,9 @@ def _boundary(ax, data, plan, moving, index) -> dict[str, Any]:
                                     fates)) if exact else (lambda at, along: _zero(margin, at, along))
     x, y = (np.asarray(data[name]) for name in moving[:2])
     segments = segments_of(fates, x, y, way)
-    ax.add_collection(LineCollection(list(segments), color=style.BLACK, linewidth=1.4))
-    words = "separatrix (exact)" if exact else "margin zero"
-    return {words: _line("separatrix", 1.4)} if len(segments) else {}
+    look = style.MEANING["separatrix"] | {"linewidth": 1.4}
+    ax.add_collection(LineCollection(list(segments), color=look["color"], linewidth=look["linewidth"]))
+    return {"separatrix (exact)" if exact else "margin zero": look} if len(segments) else {}
 
 
 def _exact(plan, index, dims, at, along, fates):
@@ -347,16 +316,22 @@ def segments_of(fates: np.ndarray, x: np.ndarray, y: np.ndarray, way: Any) -> np
 # --- A sweep over random samples: how the numbers spread, or, beside other axes, what share of the samples
 # spins up
 BINS = 60
+SHARE = "share"  # a column of the share of the samples that spins up
 
 
-def spread(data: Any, kind: str, moving: list[str], size: Any, plt: Any) -> Any:
+def spread(data: Any, plan: Any, kind: str, moving: list[str], size: Any, plt: Any) -> Any:
     """The figure: histograms of samples alone, shares of fates along one axis, the share that spins up along
-    two."""
+    two or more."""
     if not moving:
         return _histograms(data, kind, size, plt)
     if "fate" not in data:
         raise InputError("plot: shares of samples need the fate: ask for it with --answer fate")
-    return (_shares if len(moving) == 1 else _share_map)(data, moving, size, plt)
+    if len(moving) == 1:
+        return _shares(data, moving, size, plt)
+    share = 100 * (data["fate"] == Fate.SPIN_UP).mean(shades.SAMPLE)
+    words = f"share of {data.sizes[shades.SAMPLE]:,} samples that spins up, lines at 5, 50 and 95"
+    return fields(data.assign({SHARE: share.assign_attrs(long_name=words, units="%")}), plan, SHARE, moving,
+                  _panels(data, moving), size, plt)
 
 
 def _histograms(data, kind, size, plt):
@@ -385,50 +360,25 @@ def _histograms(data, kind, size, plt):
         ax.set_ylabel("samples")
         if "fate" in data:
             ax.legend(loc="best")
-    title, count = style.literal(data.attrs.get("title", "")), data.sizes[shades.SAMPLE]
-    axes[0, 0].set_title(f"{title}: {count:,} samples", loc="left", wrap=True)
+    axes[0, 0].set_title(f"{_title(data)}: {data.sizes[shades.SAMPLE]:,} samples", loc="left", wrap=True)
     return figure
 
 
 def _shares(data, moving, size, plt):
     figure, ax = plt.subplots(layout="constrained", figsize=size or (8, 4.5))
     x, fates = np.asarray(data[moving[0]]), np.asarray(data["fate"].transpose(moving[0], shades.SAMPLE))
-    base = np.zeros(len(x))
-    for fate, (words, colour) in shades.FATES.items():
-        share = 100 * (fates == fate).mean(axis=1)
-        if share.any():
-            ax.fill_between(x, base, base + share, facecolor=shades.light(colour), edgecolor=colour,
-                            linewidth=0.6, label=words)
+    base, rows = np.zeros(len(x)), shades.flag_legend(data, "fate")
+    for fate, (words, _) in shades.FATES.items():
+        if words in rows:
+            share = 100 * (fates == fate).mean(axis=1)
+            ax.fill_between(x, base, base + share, linewidth=0.6, **rows[words])
             base = base + share
     ax.set_xlim(x.min(), x.max())
     ax.set_ylim(0, 100)
-    shades.scale_axes(ax, x)
-    ax.set_xlabel(shades.label(data, moving[0]))
+    shades.furnish(ax, data, moving[0])
     ax.set_ylabel(f"share of {data.sizes[shades.SAMPLE]:,} samples (%)")
-    ax.set_title(style.literal(data.attrs.get("title", "")), loc="left", wrap=True)
-    figure.legend(loc="outside lower center", ncols=4)
-    return figure
-
-
-def _share_map(data, moving, size, plt):
-    if len(moving) > 2:
-        raise InputError(
-            "plot: samples beside three axes have no picture; choose a place along one in Python: "
-            "xarray.open_dataset(...).isel(...)")
-    figure, ax = plt.subplots(layout="constrained", figsize=size or (7.2, 6.0))
-    x, y = (np.asarray(data[name]) for name in moving)
-    share = 100 * (np.asarray(data["fate"].transpose(*moving, shades.SAMPLE)) == Fate.SPIN_UP).mean(axis=-1)
-    drawn = ax.pcolormesh(x, y, share.T, shading="nearest", cmap="cividis", vmin=0, vmax=100, rasterized=True)
-    ax.grid(False)
-    ax.contour(x, y, share.T, levels=[5, 50, 95], colors=style.BLACK,
-               linewidths=(0.6, 1.2, 0.6)) if min(share.shape) > 1 else None
-    figure.colorbar(drawn,
-                    label=f"share of {data.sizes[shades.SAMPLE]:,} samples that spins up (%); lines at 5, 50 "
-                          f"and 95 %")
-    shades.scale_axes(ax, x, y)
-    ax.set_xlabel(shades.label(data, moving[0]))
-    ax.set_ylabel(shades.label(data, moving[1]))
-    ax.set_title(style.literal(data.attrs.get("title", "")), loc="left", wrap=True)
+    ax.set_title(_title(data), loc="left", wrap=True)
+    style.legend(figure, rows)
     return figure
 
 
@@ -584,7 +534,7 @@ def drawn(data: xarray.Dataset, plan: Plan, kind: str, size: tuple[float, float]
     moving = [name for name in dimensions_of(data) if data.sizes[name] > 1]
     data = data.isel({name: 0 for name in dimensions_of(data) if name not in moving})
     if shades.SAMPLE in data.sizes:
-        return spread(data, kind, moving, size, plt)
+        return spread(data, plan, kind, moving, size, plt)
     if len(moving) < 2:
         if not moving:
             raise InputError("a sweep of one point has no picture: stabilab plot draws its case")
@@ -592,8 +542,7 @@ def drawn(data: xarray.Dataset, plan: Plan, kind: str, size: tuple[float, float]
     # of three axes one may be finite where the greatest is not
     if not np.isfinite(values_of(data, kind)).any():
         raise InputError(f"plot: nothing to draw: no point has a finite value of {kind}")
-    panels = _panels(data, moving)
-    return fields(data, plan, kind, moving, panels, size, plt)
+    return fields(data, plan, kind, moving, _panels(data, moving), size, plt)
 
 
 def _panels(data, moving: list[str]) -> list[dict[str, int]]:

@@ -134,17 +134,39 @@ def short_label(data: Any, name: str) -> str:
 
 def is_log(values: np.ndarray) -> bool:
     """Whether values are spread in equal ratios rather than in equal steps."""
-    if len(values) < 3 or not ((values > 0).all() or (values < 0).all()):
+    if len(values) < 3 or not (values > 0).all():
         return False
     ratios, steps = values[1:] / values[:-1], np.diff(values)
     return bool(np.ptp(ratios) < 1e-6 * abs(ratios[0]) and np.ptp(steps) > 1e-6 * abs(steps).max())
 
 
-def scale_axes(ax: Any, x: np.ndarray, y: np.ndarray | None = None) -> None:
-    """Logarithmic scales where the values are."""
-    for setter, values in ((ax.set_xscale, x), (ax.set_yscale, y)):
-        if values is not None and is_log(values) and (values > 0).all():
-            setter("log")
+def furnish(ax: Any, data: Any, across: str, up: str | None = None) -> None:
+    """Labels of the axes along dimensions, and logarithmic scales where the values are."""
+    ax.set_xlabel(label(data, across))
+    if is_log(np.asarray(data[across])):
+        ax.set_xscale("log")
+    if up is not None:
+        ax.set_ylabel(label(data, up))
+        if is_log(np.asarray(data[up])):
+            ax.set_yscale("log")
+
+
+ITSELF = "the case itself"
+OWN = {"color": style.BLACK, "linewidth": 1.0, "linestyle": (0, (1, 2))}
+
+
+def mark_own(ax: Any, at: Sequence[float | None]) -> dict[str, Any]:
+    """Mark the case itself, at one value by an upright line, at two by a point, where it is within the limits
+    of the axes; the row of the legend."""
+    for value, limits in zip(at, (ax.get_xlim(), ax.get_ylim())):
+        if value is None or not min(limits) <= value <= max(limits):
+            return {}
+    look: dict[str, Any] = OWN if len(at) == 1 else style.MARKER["start"] | {"markeredgecolor": "white"}
+    if len(at) == 1:
+        ax.axvline(at[0], zorder=3, label=ITSELF, **look)
+    else:
+        ax.plot(*[[value] for value in at], zorder=7, clip_on=False, label=ITSELF, **look)
+    return {ITSELF: look}
 
 
 def own_value(plan: Plan, dimension: int) -> float | None:
@@ -161,12 +183,9 @@ def value_in(data: Any, key: Key, unit: str) -> float | None:
     return None if exact is None else float(exact / unit_of(unit).size) if unit else float(exact)
 
 
-def own_place(spans: Sequence[Span], data: Any) -> list[float] | None:
-    """Where the case itself lies in a diagram over ranges of its numbers; None where it is outside."""
-    at = [value_in(data, span.key, span.unit) for span in spans]
-    inside = [value for value, span in zip(at, spans)
-              if value is not None and float(span.low) <= value <= float(span.high)]
-    return inside if len(inside) == len(spans) else None
+def own_values(spans: Sequence[Span], data: Any) -> list[float | None]:
+    """The same along ranges of the numbers of a case file with such data."""
+    return [value_in(data, span.key, span.unit) for span in spans]
 
 
 def looks(data: Any, kind: str) -> dict[int, tuple[str, str]]:
@@ -182,9 +201,8 @@ def looks(data: Any, kind: str) -> dict[int, tuple[str, str]]:
             for n, value in enumerate(present)}
 
 
-def flag_legend(data: Any, kind: str) -> list[tuple[Any, str]]:
-    """(patch, words) of every flag of a column that occurs."""
-    from matplotlib.patches import Patch
+def flag_legend(data: Any, kind: str) -> dict[str, dict[str, Any]]:
+    """Words -> look of every flag of a column that occurs."""
     values = np.asarray(data[kind])
-    return [(Patch(facecolor=light(colour), edgecolor=colour), words) for value,
-            (words, colour) in looks(data, kind).items() if (values == value).any()]
+    return {words: {"facecolor": light(colour), "edgecolor": colour}
+            for value, (words, colour) in looks(data, kind).items() if (values == value).any()}

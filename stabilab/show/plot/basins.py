@@ -13,7 +13,7 @@ from ...maps.basins.ask import BOUNDED, NO_AXIS, UNDECIDED, Basins
 from ...packages import demand
 from .. import style
 from ..maps.basins import basin_name, cells_of
-from ..maps.shades import dimensions, drawn, light, own_value, said, spinning
+from ..maps.shades import drawn, light, mark_own, own_value, said, spinning
 from . import canvas
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def basin(found: Basins, ax: Axes | None = None, size: tuple[float, float] | Non
                          '"angular_velocity[3]": "-60:60 deg/s"}), then stabilab.plot.basin(found)')
     demand(*style.PACKAGES)
     with canvas.on(ax, size or canvas.SQUARE) as target:
-        rows = _areas(target, found) + _line(target, found) + _own(target, found)
+        rows = _areas(target, found) + _line(target, found)
         target.grid(False)
         for setter, axis, name in zip((target.set_xlabel, target.set_ylabel), found.plan.axes,
                                       said([axis.key.name for axis in found.plan.axes])):
@@ -44,6 +44,7 @@ def basin(found: Basins, ax: Axes | None = None, size: tuple[float, float] | Non
         for setter, axis, (_, text) in zip((target.set_xscale, target.set_yscale), found.plan.axes,
                                            found.plan.vary):
             setter("log" if text.count(":") == 3 and axis.values[0] > 0 else "linear")
+        rows += mark_own(target, [own_value(found.plan, n) for n in range(2)]).items()
         rough = found.dimension
         edge = ("" if math.isnan(rough.value)
                 else f"boundary: box dimension {rough.value:.3f} ± {rough.uncertainty:.3f}")
@@ -120,14 +121,3 @@ def _line(ax: Any, found: Basins) -> list[tuple[str, dict[str, Any]]]:
     ax.add_collection(LineCollection(list(pieces), color=look["color"], linewidth=look["linewidth"],
                                      capstyle="round"))
     return [("separatrix (exact)", look)]
-
-
-def _own(ax: Any, found: Basins) -> list[tuple[str, dict[str, Any]]]:
-    """The case's own state, where it is in the picture."""
-    at = [own_value(found.plan, n) for n in range(len(dimensions(found.plan)))]
-    if any(value is None or not min(axis.values) <= value <= max(axis.values) for value,
-           axis in zip(at, found.plan.axes)):
-        return []
-    look: dict[str, Any] = style.MARKER["start"] | {"markeredgecolor": "white"}
-    ax.plot(*[[value] for value in at], **look)
-    return [("the case itself", look)]
