@@ -123,9 +123,7 @@ def save(figure, path, dpi: float | None = None) -> Path:
     kind = endings.ending(path)
     with whole_file(path) as waiting:
         if kind == ".png":
-            from PIL import Image
-            small = _drawn(figure, dpi or DPI).quantize(256, dither=Image.Dither.NONE)
-            small.save(waiting, format="png", optimize=True)
+            _of_few_colours(_drawn(figure, dpi or DPI)).save(waiting, format="png", optimize=True)
         else:
             figure.savefig(waiting, format=kind[1:], dpi=dpi or DPI, metadata=_UNDATED[kind])
     return path
@@ -145,6 +143,18 @@ def _drawn(figure, dpi):
     finally:
         figure.dpi = before[0]
         figure.set_canvas(before[1])
+
+
+def _of_few_colours(image):
+    """A Pillow image in 256 colours, those of the house among them: stripes below it make them common, and
+    are cut off again."""
+    from PIL import Image
+    ours = dict.fromkeys((BLACK, "#FFFFFF", GREY, BROWN, *BRANCHES, *BESIDE))
+    tall = Image.new("RGB", (image.width, image.height + 4 * len(ours)))
+    tall.paste(image)
+    for n, colour in enumerate(ours):
+        tall.paste(colour, (0, image.height + 4 * n, image.width, image.height + 4 * n + 4))
+    return tall.quantize(256, dither=Image.Dither.NONE).crop((0, 0, *image.size))
 
 
 def write(out, draw, dpi: float | None = None) -> Path:

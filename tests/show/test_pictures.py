@@ -315,7 +315,7 @@ def test_in_a_surface_picture_everything_is_drawn_and_the_box_holds_the_surface(
         stage.close()
 
 
-def test_a_picture_is_drawn_once_and_white_stays_white_in_its_few_colours(tmp_path, monkeypatch):
+def test_a_picture_is_drawn_once_and_colours_of_the_house_stay_in_its_few_colours(tmp_path, monkeypatch):
     """The drawing itself by the way of savefig."""
     from matplotlib.figure import Figure
 
@@ -325,9 +325,13 @@ def test_a_picture_is_drawn_once_and_white_stays_white_in_its_few_colours(tmp_pa
         figures = [plt.subplots(layout="constrained", figsize=(3, 2)) for _ in range(2)]
         for _, ax in figures:
             ax.imshow(np.random.default_rng(3).random((12, 16)), cmap="twilight")
+            ax.plot(3, 3, **style.MEANING["bounded"] | style.SPACE["nearest point of the separatrix"])
         small = Image.open(style.save(figures[0][0], tmp_path / "drawn.png", dpi=70))
         assert len(drawn) == 1
         figures[1][0].savefig(whole := io.BytesIO(), format="png", dpi=70)
     wanted, kept = (np.asarray(image.convert("RGB")).astype(int) for image in (Image.open(whole), small))
-    assert small.mode == "P" and (kept[(wanted == 255).all(axis=-1)] == 255).all()
+    assert small.mode == "P"
+    for colour in ((255, 255, 255), tuple(int(style.YELLOW[n:n + 2], 16) for n in (1, 3, 5))):
+        same = (wanted == colour).all(axis=-1)
+        assert same.any() and (kept[same] == colour).all()
     assert np.abs(kept - wanted).mean() < 0.5
