@@ -1,27 +1,33 @@
 """All equilibria of a scene in the space of rates."""
 from __future__ import annotations
 
+import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...answers.equilibria import STOPPED
 from ...answers.equilibria import equilibria as all_of
+from ...equilibrium.result import Equilibria
 from ...errors import InputError
 from .. import style
-from ..space import Box
-from ..units import with_unit
+from ..space import Box, Space, curves_of, look, marks_of
+from ..space import space as drawn_in
+from ..spans import spread
 from . import canvas, in_space
-from .in_space import CURVES, FOLD, POINTS, Rest, disc, holds, inside, meanings, rest_states
+from .in_space import POINTS, disc, holds, inside, marker, plane_of
 from .subject import Subject, measures, subject
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-MANY, FEW = 600, 90  # points on a piece of a curve: a formula, or a search each
+# places on a piece of a curve, to find what is in the box and to draw it: of a formula, or by a search each
+MANY, FEW = (90, 600), (40, 90)
 FLAT = 1e-9  # of the picture: equilibria nearer than this to a plane across an axis are drawn in it
 BEYOND = 2.4  # times the farthest fold, or the nearest point of a curve without one: how far a curve is shown
+FOLD: dict[str, Any] = {"marker": "D", "color": style.GREEN, "markersize": 6, "linestyle": "none"}
 
 
 def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str | None = None,
@@ -39,84 +45,73 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
     found = all_of(one.scene)
     if not found.points and not found.curves:
         raise InputError(f"plot equilibria: there is nothing to draw: {found.reason}")
-    rest, scale = rest_states(found, MANY if one.twin.plain else FEW), measures(one, units)
-    box = _box(rest, one)
-    flat = _flat_axis(rest, box) if ax is None or getattr(ax, "name", "") != "3d" else None
+    scale, per = measures(one, units), measures(one, units).rate[1]
+    planes = [curve for curve in found.curves if curve.name.startswith("plane")]
+    bent = replace(found, curves=tuple(curve for curve in found.curves if curve not in planes))
+    folds = np.array([fold[:3] for curve in bent.curves for fold in curve.folds], float).reshape(-1, 3)
+    number = MANY if one.twin.plain else FEW
+    box = _box(found, folds, one, number[0])
+    drawn = drawn_in(scale.names, scale.rate, box, (), [], marks_of(one.state, None, found),
+                     curves_of(bent, box, *number), "")
+    spatial = planes or getattr(ax, "name", "") == "3d"
+    flat = None if spatial else _flat_axis(drawn, found)
+    rows = {words: look(words) for words, _ in drawn.curves}
     with canvas.on(ax, size, space=flat is None) as target:
-        labels = tuple(with_unit(name, scale.rate[0]) for name in scale.names)
+        for plane in planes:
+            kinds = [style.kind_of(segment) for segment in plane.segments]
+            kind = max(kinds, key=kinds.count)
+            colour = style.MEANING[kind]["color"]
+            in_space.polygon(target, disc(plane_of(plane), box.half[0] * per), colour, 0.3)
+            rows[f"plane of {style.EQUILIBRIA[kind]}"] = {"facecolor": colour, "alpha": 0.35}
         if flat is None:
-            _in_space(target, rest, box, scale.rate[1], labels, [] if one.state is None else [one.state])
+            for axis in np.eye(3):
+                in_space.line(target, np.outer((-1, 1), axis) * box.half[0] * per, in_space.THIN)
+            in_space.draw(target, drawn)
+            in_space.line(target, folds[holds(box, folds)] * per, FOLD, zorder=9)
         else:
-            _in_plane(target, rest, box, scale.rate[1], labels, flat)
-        rows = meanings(rest)
+            _in_plane(target, drawn, folds, flat)
+        rows |= {f"{kind} equilibrium": POINTS[kind] for kind in map(style.kind_of, found.points)}
+        rows |= {"change of stability": FOLD} if len(folds) else {}
         if one.state is not None:
-            kept = [n for n in range(3) if n != flat]
-            target.plot(*[[one.state[n] * scale.rate[1]] for n in kept], zorder=6, **style.MARKER["start"])
-            rows.append(("start of the motion" if flat is None
-                         else "start of the motion, seen along the axis", style.MARKER["start"]))
-        plane = ("" if flat is None
-                 else f"all have {scale.plain(flat)} = {_constant(rest, flat) * scale.rate[1] + 0.0:.4g} "
-                      f"{scale.rate[0]}".rstrip())
+            rows["start of the motion" if flat is None
+                 else "start of the motion, seen along the axis"] = style.MARKER["start"]
+        plane = ("" if flat is None else f"all have {scale.plain(flat)} = "
+                 f"{drawn.curves[0][1][0][flat] * per + 0.0:.4g} {scale.rate[0]}".rstrip())
         after = STOPPED if found.reason.endswith(STOPPED) else ""
         words = "; ".join(filter(None, (plane, after)))
-        return canvas.explained(target, rows if legend else [], ax is None, one.heading, words)
+        return canvas.explained(target, list(rows.items()) if legend else [], ax is None, one.heading, words)
 
 
-def _box(rest: Rest, one: Subject) -> Box:
+def _box(found: Equilibria, folds: np.ndarray, one: Subject, number: int) -> Box:
     """What to show: all points and folds, the start, and of curves as much again."""
-    marks = [np.zeros(3), *(at for _, at in rest.points), *rest.folds,
-             *([np.array(one.state)] if one.state is not None else [])]
-    near = [np.linalg.norm(points, axis=1).min() for _, points in rest.curves if len(points)]
-    size = max([*(float(np.abs(mark).max()) for mark in marks), *near], default=0.0) or 1.0
-    reach = size * (BEYOND if rest.curves or rest.planes else 1.1)
-    return Box((0.0,) * 3, (reach,) * 3)
+    marks = [at for _, at in marks_of(one.state, None, found)] + folds.tolist()
+    near = [min(size for t in spread(*segment.t, number)
+                if math.isfinite(size := math.hypot(*curve.point(t)[:3])))
+            for curve in found.curves if not curve.name.startswith("plane") for segment in curve.segments]
+    size = max([*(abs(v) for at in marks for v in at), *near], default=0.0) or 1.0
+    return Box((0.0,) * 3, (size * (BEYOND if found.curves else 1.1),) * 3)
 
 
-def _flat_axis(rest: Rest, box) -> int | None:
+def _flat_axis(drawn: Space, found: Equilibria) -> int | None:
     """The axis across which all equilibria lie in one plane; None where they do not, or lie on one line."""
-    if rest.planes:
-        return None
-    places = np.concatenate([*(points[holds(box, points)] for _, points in rest.curves),
-                             *(at[None] for _, at in rest.points)])
+    places = np.array([*(at for _, curve in drawn.curves for at in curve if drawn.box.holds(at)),
+                       *(point.at[:3] for point in found.points)], float)
     if len(places) < 3:
         return None
-    flat = [axis for axis in range(3) if np.ptp(places[:, axis]) < FLAT * box.half[0]]
+    flat = [axis for axis in range(3) if np.ptp(places[:, axis]) < FLAT * drawn.box.half[0]]
     return flat[0] if len(flat) == 1 else None
 
 
-def _constant(rest: Rest, axis: int) -> float:
-    return float(next(points[0, axis] for _, points in rest.curves if len(points)))
-
-
-def _in_space(ax, rest, box, per_rate, labels, start):
-    in_units = box.scaled(per_rate)
-    for kind, spanning in rest.planes:
-        in_space.polygon(ax, disc(spanning, box.half[0] * per_rate), CURVES[kind]["color"], 0.3)
-    for kind, points in rest.curves:
-        in_space.line(ax, inside(box, points) * per_rate, CURVES[kind])
-    in_space.depth(ax, in_units, np.empty((0, 3)),
-                   [np.array(at) * per_rate for at in (*start, *(at for _, at in rest.points))])
-    for kind, at in rest.points:
-        in_space.line(ax, at[None] * per_rate, POINTS[kind])
-    in_space.line(ax, rest.folds[holds(box, rest.folds)] * per_rate, FOLD)
-    for axis in range(3):
-        ends = np.zeros((2, 3))
-        ends[:, axis] = in_units.low[axis], in_units.high[axis]
-        in_space.line(ax, ends, in_space.THIN)
-    in_space.furnish(ax, in_units, labels)
-
-
-def _in_plane(ax, rest, box, per_rate, labels, flat):
+def _in_plane(ax: Any, drawn: Space, folds: np.ndarray, flat: int) -> None:
     first, second = (n for n in range(3) if n != flat)
-    for kind, points in rest.curves:
-        shown = inside(box, points)[:, [first, second]] * per_rate
-        ax.plot(*shown.T, **CURVES[kind])
-    for kind, at in rest.points:
-        ax.plot(at[first] * per_rate, at[second] * per_rate, zorder=5, **POINTS[kind])
-    ax.plot(rest.folds[:, first] * per_rate, rest.folds[:, second] * per_rate, zorder=5, **FOLD)
+    per, box = drawn.rate, drawn.box.scaled(drawn.rate)
+    for words, places in drawn.curves:
+        ax.plot(*inside(box, per * np.array(places))[:, [first, second]].T, **look(words))
+    for words, at in drawn.marks:
+        ax.plot(per * at[first], per * at[second], zorder=5, **marker(words))
+    ax.plot(folds[:, first] * per, folds[:, second] * per, zorder=5, **FOLD)
     ax.axhline(0, color=style.GREY, linewidth=0.6, zorder=1)
     ax.axvline(0, color=style.GREY, linewidth=0.6, zorder=1)
-    ax.set(xlabel=labels[first], ylabel=labels[second],
-           xlim=(box.low[first] * per_rate, box.high[first] * per_rate),
-           ylim=(box.low[second] * per_rate, box.high[second] * per_rate))
+    ax.set(xlabel=drawn.names[first], ylabel=drawn.names[second],
+           xlim=(box.low[first], box.high[first]), ylim=(box.low[second], box.high[second]))
     ax.set_aspect("equal", adjustable="box")

@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -32,7 +32,6 @@ from ..space import (
 )
 from ..space import THIN as SHORT
 from ..space import space as drawn_in
-from ..spans import spread
 from . import canvas
 from . import subject as which
 from .path import path, thinned, turning
@@ -271,35 +270,7 @@ def levels(x: np.ndarray, y: np.ndarray, height: np.ndarray, values: Any) -> lis
 CURVES: dict[str, Look] = {kind: style.MEANING[kind] for kind in style.EQUILIBRIA}
 POINTS: dict[str, Look] = {kind: style.MARKER[mark] for kind, mark in zip(
     style.EQUILIBRIA, ("centre", "saddle", "undecided"))}
-FOLD: dict[str, Any] = {"marker": "D", "color": style.GREEN, "markersize": 6, "linestyle": "none"}
 TURN = np.linspace(0, 2 * np.pi, 73)
-
-
-class Rest(NamedTuple):
-    """curves: (verdict, points (n, 3)); planes: (verdict, two unit vectors that span it (2, 3)) through the
-    origin; points: (verdict, place (3,)); folds: (n, 3), where curves change their verdict. Rates in the
-    scene's variables."""
-
-    curves: list[tuple[str, np.ndarray]]
-    planes: list[tuple[str, np.ndarray]]
-    points: list[tuple[str, np.ndarray]]
-    folds: np.ndarray
-
-
-def rest_states(found: Equilibria, number: int = 600) -> Rest:
-    """All equilibria of a scene, so many on every piece of their curves."""
-    curves, planes, folds = [], [], []
-    for curve in found.curves:
-        if curve.name.startswith("plane"):
-            kinds = [style.kind_of(segment) for segment in curve.segments]
-            planes.append((max(kinds, key=kinds.count), plane_of(curve)))
-            continue
-        folds += [fold[:3] for fold in curve.folds]
-        for segment in curve.segments:
-            points = np.array([curve.point(t)[:3] for t in spread(*segment.t, number)], float)
-            curves.append((style.kind_of(segment), points[np.isfinite(points).all(axis=1)]))
-    return Rest(curves, planes, [(style.kind_of(p), np.array(p.at[:3], float)) for p in found.points],
-                np.array(folds, float).reshape(-1, 3))
 
 
 def plane_of(curve: EquilibriumCurve) -> np.ndarray:
@@ -311,17 +282,6 @@ def plane_of(curve: EquilibriumCurve) -> np.ndarray:
 def disc(spanning: np.ndarray, radius: float) -> np.ndarray:
     """The rim (n, 3) of a disc about the origin in the plane of two vectors."""
     return radius * (np.cos(TURN)[:, None] * spanning[0] + np.sin(TURN)[:, None] * spanning[1])
-
-
-def meanings(rest: Rest, words: str = "equilibria") -> list[tuple[str, dict[str, Any]]]:
-    """Rows of a legend for what there is."""
-    rows = [(f"{kind} {words}", CURVES[kind]) for kind in CURVES
-            if any(kind == one for one, *_ in rest.curves)]
-    rows += [(f"plane of {kind} {words}", {"facecolor": CURVES[kind]["color"], "alpha": 0.35})
-             for kind in CURVES if any(kind == p for p, _ in rest.planes)]
-    rows += [(f"{kind} equilibrium", POINTS[kind]) for kind in POINTS
-             if any(kind == p for p, _ in rest.points)]
-    return rows + ([("change of stability", FOLD)] if len(rest.folds) else [])
 
 
 # --- A motion in the space of rates, beside the separatrix
@@ -389,7 +349,7 @@ def draw(ax: Any, found: Space) -> None:
     for at, step in found.arrows:
         line(ax, per * _head(np.array(at), np.array(step), found), style.MEANING["this motion"], zorder=8)
     for words, at in reversed(found.marks):  # the start above all
-        line(ax, per * np.array([at]), _marker(words), zorder=9)
+        line(ax, per * np.array([at]), marker(words), zorder=9)
     furnish(ax, box, found.names, found.view)
 
 
@@ -401,7 +361,8 @@ def _head(at: np.ndarray, step: np.ndarray, found: Space) -> np.ndarray:
     return at + half * np.array([-along / 2 + 0.4 * aside, along / 2, -along / 2 - 0.4 * aside])
 
 
-def _marker(words: str) -> Look:
+def marker(words: str) -> Look:
+    """How a point is drawn, by its words in a legend."""
     return next((POINTS[kind] for kind, name in style.EQUILIBRIA.items() if name == words),
                 look(words))
 
@@ -411,7 +372,7 @@ def rows(found: Space) -> list[tuple[str, Look]]:
     surfaces = {branch.name for _, branch in found.branches}
     curves = {words for words, _ in found.curves} | {"this motion"}
     return [(words, {"facecolor": pale(colour)} if words in surfaces
-             else look(words) if words in curves else _marker(words))
+             else look(words) if words in curves else marker(words))
             for words, colour in found.legend.items()]
 
 
