@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -70,38 +71,25 @@ def inside(box: Box, line: np.ndarray) -> np.ndarray:
 
 def clipped(box: Box, triangles: np.ndarray) -> np.ndarray:
     """The parts of triangles (n, 3, 3) that lie inside, as triangles."""
-    for axis in range(3):
-        triangles = _cut(triangles, triangles[..., axis] - box.low[axis])
-        triangles = _cut(triangles, box.high[axis] - triangles[..., axis])
-    return triangles
+    whole = holds(box, triangles).all(axis=1)
+    outside = ((triangles < box.low).all(axis=1) | (triangles > box.high).all(axis=1)).any(axis=1)
+    parts = [triangles[whole]]
+    for corners in triangles[~whole & ~outside]:
+        for axis, sign in product(range(3), (1, -1)):
+            corners = _above(corners, sign * (corners[:, axis] - box.middle[axis]) + box.half[axis])
+        if len(corners) > 2:  # a polygon without hollows
+            first = np.tile(corners[0], (len(corners) - 2, 1))
+            parts.append(np.stack([first, corners[1:-1], corners[2:]], axis=1))
+    return np.concatenate(parts)
 
 
-def _cut(triangles, height):
-    """What of the triangles has height >= 0, which is linear on each; heights (n, 3) at the corners."""
-    above = height >= 0
-    number = above.sum(axis=1)
-    one, two = _turned(triangles, height, number == 1, above), _turned(triangles, height, number == 2, ~above)
-    corner, left, right = _crossings(*one)
-    kept = np.stack([corner, left, right], axis=1)
-    lost, left, right = _crossings(*two)
-    b, c = two[0][:, 1], two[0][:, 2]
-    return np.concatenate([triangles[number == 3], kept, np.stack([left, b, c], axis=1),
-                           np.stack([left, c, right], axis=1)])
-
-
-def _turned(triangles, height, chosen, first):
-    """The chosen triangles and their heights, the corner that is alone in front."""
-    at = np.argmax(first[chosen], axis=1)
-    order = (at[:, None] + np.arange(3)) % 3
-    rows = np.arange(len(at))[:, None]
-    return triangles[chosen][rows, order], height[chosen][rows, order]
-
-
-def _crossings(corners, heights):
-    """(first corner, where the edges from it to the second and to the third cross height 0)."""
-    a = corners[:, 0]
-    shares = [heights[:, :1] / (heights[:, :1] - heights[:, n:n + 1]) for n in (1, 2)]
-    return a, *(a + share * (corners[:, n] - a) for n, share in zip((1, 2), shares))
+def _above(corners: np.ndarray, height: np.ndarray) -> np.ndarray:
+    """The polygon (n, 3) cut off where a height (n,), which is linear on it, is below 0."""
+    after, above = np.roll(height, -1), height >= 0
+    with np.errstate(divide="ignore", invalid="ignore"):
+        crossing = corners + (height / (height - after))[:, None] * (np.roll(corners, -1, axis=0) - corners)
+    kept = np.stack([above, above != (after >= 0)], axis=1).ravel()
+    return np.stack([corners, crossing], axis=1).reshape(-1, 3)[kept]
 
 
 def pale(colour: str, share: float = PALE) -> tuple[float, ...]:

@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -33,8 +32,8 @@ if TYPE_CHECKING:
 FRAMES = 150
 # a body turns by no more from one picture to the next: the eye would see it turn backwards
 STEP = np.radians(15)
-# of a step's width; of the length of a film, to which its longest is found, in so many runs
-ROUNDED, NEAR, TRIES = 1.02, 1.1, 20
+ROUNDED = 1.02  # of a step's width
+TRIED = np.geomspace(1e-9, 1.0, 3000)  # shares of the span, of which one ends the film
 THINNEST = 0.06  # of the longest edge
 
 
@@ -111,23 +110,13 @@ def _share(one, omega):
 
 def _reached(one, low, high, frames):
     """(the motion at the times of the pictures, whether they reach the end of the span). The greatest rate up
-    to an end grows with it, so the ends at which no step is too wide are those up to one; it is enclosed
-    between one that is short enough and one that is too long."""
-    length, direction, short, long, kept = abs(high - low), float(np.sign(high - low)), 0.0, math.inf, None
-    for _ in range(TRIES):
-        found = _at(one, low + direction * np.linspace(0.0, length, frames))
-        fastest = float(np.linalg.norm(found[2], axis=1).max(initial=0.0))
-        reach = STEP * (frames - 1) / fastest if fastest else math.inf
-        if length <= ROUNDED * reach:
-            if math.isinf(long):
-                return found, True
-            short, kept = length, found
-        else:
-            short, long = max(short, reach), length  # a shorter way meets no greater rate
-        if kept is not None and long <= NEAR * short:
-            break
-        length = math.sqrt(short * long)
-    return kept or _at(one, low + direction * np.linspace(0.0, short, frames)), False
+    to an end grows with it, so the ends at which no step is too wide are those up to one."""
+    length, direction = abs(high - low), float(np.sign(high - low))
+    t, _, omega = _at(one, low + direction * length * np.concatenate([[0.0], TRIED]))
+    fastest = np.maximum.accumulate(np.linalg.norm(omega, axis=1))
+    fits = fastest * np.abs(t - low) <= ROUNDED * STEP * (frames - 1)
+    end = float(t[fits][-1])
+    return _at(one, np.linspace(low, end, frames)), bool(fits.all() and len(t) > len(TRIED))
 
 
 def _at(one, times):
