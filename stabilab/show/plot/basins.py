@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
 AREAS = {BOUNDED: light(style.OUTCOME["bounded"]), UNDECIDED: light(style.OUTCOME["undecided"]),
          NO_AXIS: spinning(0)} | {axis: spinning(axis) for axis in (1, 2, 3, -1, -2, -3)}
-DOTS = 1200     # of the picture's own grid along an axis, at most
 
 
 def basin(found: Basins, ax: Axes | None = None, size: tuple[float, float] | None = None,
@@ -59,57 +58,28 @@ def write(found: Basins, out: str | Path, size: tuple[float, float] | None = Non
 
 
 def _areas(ax: Any, found: Basins) -> list[tuple[str, dict[str, Any]]]:
-    """The colours, and what they mean."""
-    from matplotlib.colors import ListedColormap
-    labels = list(found.shares)
-    shown = raster(found)
-    ranks = np.searchsorted(np.sort(labels), shown)
-    colours = [AREAS[label] for label in sorted(labels)]
+    """The cells in the colours of their lower corners, and what these mean."""
+    from matplotlib.collections import PolyCollection
+    cells = cells_of(found)
+    (left, right), (below, above) = (
+        (np.array(axis.values)[cells[name]], np.array(axis.values)[cells[name] + cells["width"]])
+        for axis, name in zip(found.plan.axes, ("first", "second")))
+    corners = np.array([[left, below], [right, below], [right, above], [left, above]])
+    labels = np.array(list(found.shares))
+    order = np.argsort(labels)
+    colours = np.array([AREAS[label] for label in labels[order].tolist()])
+    shown = colours[np.searchsorted(labels[order], cells["label"])]
     black = not found.exact and len(found.boundary)
     if black:
-        ranks = np.where(_on_boundary(found, shown.shape), len(labels), ranks)
-        colours.append((0.0, 0.0, 0.0))
-    x, y = (_edges(axis.values, n) for axis, n in zip(found.plan.axes, shown.shape))
-    ax.pcolormesh(x, y, ranks.T, cmap=ListedColormap(colours), vmin=-0.5, vmax=len(colours) - 0.5,
-                  shading="flat", rasterized=True)
+        number = found.mesh.number(found.mesh.depth, cells["first"], cells["second"])
+        shown[(cells["width"] == 1) & np.isin(number, found.boundary)] = 0.0
+    ax.add_collection(PolyCollection(np.moveaxis(corners, 2, 0), facecolors=shown, edgecolors="none",
+                                     antialiaseds=False, rasterized=True))
+    ax.set(xlim=(corners[:, 0].min(), corners[:, 0].max()), ylim=(corners[:, 1].min(), corners[:, 1].max()))
     rows = [(basin_name(found, label), {"facecolor": AREAS[label], "edgecolor": style.GREY})
-            for label in labels]
+            for label in found.shares]
     return (rows + ([("finest cells on the boundary", {"facecolor": "black", "edgecolor": "black"})] if black
                     else []))
-
-
-def raster(found: Basins) -> np.ndarray:
-    """Labels on an even grid of as many cells as a picture shows: of each cell that of its lower corner."""
-    mesh = found.mesh
-    fine = _fine(found)
-    out = np.zeros([n << fine for n in mesh.cells], np.int64)
-    cells, shift = cells_of(found), mesh.depth - fine
-    for width in np.unique(cells["width"])[::-1].tolist():  # coarse ones first
-        chosen = cells["width"] == width
-        row, column, label = (cells[name][chosen] for name in ("first", "second", "label"))
-        for i in range(max(1, width >> shift)):
-            for j in range(max(1, width >> shift)):
-                out[(row >> shift) + i, (column >> shift) + j] = label
-    return out
-
-
-def _fine(found: Basins) -> int:
-    depth = found.mesh.depth
-    while depth and max(found.mesh.cells) << depth > DOTS:
-        depth -= 1
-    return depth
-
-
-def _on_boundary(found: Basins, shape: tuple[int, ...]) -> np.ndarray:
-    out = np.zeros(shape, bool)
-    row, column = found.mesh.at(found.mesh.depth, found.boundary)
-    shift = found.mesh.depth - _fine(found)
-    out[row >> shift, column >> shift] = True
-    return out
-
-
-def _edges(values: tuple[float, ...], cells: int) -> np.ndarray:
-    return np.array(values)[::(len(values) - 1) // cells]
 
 
 def _line(ax: Any, found: Basins) -> list[tuple[str, dict[str, Any]]]:

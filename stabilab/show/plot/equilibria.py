@@ -60,7 +60,7 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
         for plane in planes:
             kinds = [style.kind_of(segment) for segment in plane.segments]
             kind = max(kinds, key=kinds.count)
-            colour = style.MEANING[kind]["color"]
+            colour = str(style.MEANING[kind]["color"])
             in_space.polygon(target, disc(plane_of(plane), box.half[0] * per), colour, 0.3)
             rows[f"plane of {style.EQUILIBRIA[kind]}"] = {"facecolor": colour, "alpha": 0.35}
         if flat is None:
@@ -75,10 +75,10 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
         if one.state is not None:
             rows["start of the motion" if flat is None
                  else "start of the motion, seen along the axis"] = style.MARKER["start"]
-        plane = ("" if flat is None else f"all have {scale.plain(flat)} = "
+        constant = ("" if flat is None else f"all have {scale.plain(flat)} = "
                  f"{drawn.curves[0][1][0][flat] * per + 0.0:.4g} {scale.rate[0]}".rstrip())
         after = STOPPED if found.reason.endswith(STOPPED) else ""
-        words = "; ".join(filter(None, (plane, after)))
+        words = "; ".join(filter(None, (constant, after)))
         return canvas.explained(target, list(rows.items()) if legend else [], ax is None, one.heading, words)
 
 

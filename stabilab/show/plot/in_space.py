@@ -72,7 +72,7 @@ def inside(box: Box, line: np.ndarray) -> np.ndarray:
 def clipped(box: Box, triangles: np.ndarray) -> np.ndarray:
     """The parts of triangles (n, 3, 3) that lie inside, as triangles."""
     whole = holds(box, triangles).all(axis=1)
-    outside = ((triangles < box.low).all(axis=1) | (triangles > box.high).all(axis=1)).any(axis=1)
+    outside = np.any((triangles < box.low).all(axis=1) | (triangles > box.high).all(axis=1), axis=1)
     parts = [triangles[whole]]
     for corners in triangles[~whole & ~outside]:
         for axis, sign in product(range(3), (1, -1)):

@@ -84,15 +84,16 @@ def test_a_file_that_was_changed_is_refused(minor, tmp_path):
 
 
 def test_the_picture_shows_each_basin_where_its_states_are(minor):
-    """Colours of the picture's own grid, beside the fates of states asked by themselves."""
-    shown = picture.raster(minor)
-    x, y = (0.5 * (edges[1:] + edges[:-1])
-            for edges in (np.linspace(-4, 4, shown.shape[0] + 1), np.linspace(-3, 3.1, shown.shape[1] + 1)))
-    states = np.stack(np.broadcast_arrays(x[:, None], 4.0, y), axis=-1)
-    expected = np.where(stabilab.fate(stabilab.load(MINOR).scene, states).labels == stabilab.Fate.SPIN_UP, 3,
-                        0)
-    assert (shown != expected).mean() < minor.blur
+    """Colours of the cells that are drawn, beside the fates of states in their middles."""
     ax = stabilab.plot.basin(minor)
+    corners = np.array([path.vertices[:4] for path in ax.collections[0].get_paths()])
+    middle, sides = corners.mean(axis=1), np.ptp(corners, axis=1)
+    states = np.insert(middle, 1, 4.0, axis=1)
+    spun = stabilab.fate(stabilab.load(MINOR).scene, states).labels == stabilab.Fate.SPIN_UP
+    wrong = (ax.collections[0].get_facecolor()[:, :3] != np.where(spun[:, None], picture.AREAS[3],
+                                                                  picture.AREAS[0])).any(axis=1)
+    assert sides.prod(axis=1).sum() == pytest.approx(8 * 6.1)
+    assert sides[wrong].prod(axis=1).sum() < minor.blur * 8 * 6.1
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("$x_1$",
                                                   "$x_3$") and len(ax.collections[-1].get_segments()) == len(
                                                       minor.boundary)
