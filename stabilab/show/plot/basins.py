@@ -73,7 +73,7 @@ def _areas(ax: Any, found: Basins) -> list[tuple[str, dict[str, Any]]]:
     if black:
         number = found.mesh.number(found.mesh.depth, cells["first"], cells["second"])
         shown[(cells["width"] == 1) & np.isin(number, found.boundary)] = 0.0
-    ax.add_collection(PolyCollection(np.moveaxis(corners, 2, 0), facecolors=shown, edgecolors="none",
+    ax.add_collection(PolyCollection(list(np.moveaxis(corners, 2, 0)), facecolors=shown, edgecolors="none",
                                      antialiaseds=False, rasterized=True))
     ax.set(xlim=(corners[:, 0].min(), corners[:, 0].max()), ylim=(corners[:, 1].min(), corners[:, 1].max()))
     rows = [(basin_name(found, label), {"facecolor": AREAS[label], "edgecolor": style.GREY})

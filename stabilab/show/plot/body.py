@@ -162,31 +162,18 @@ def _ring(ax, axis, radius):
     ax.plot(*ring.T, color=style.BLUE, linewidth=3.0, zorder=7)
 
 
-def _wheel(ax, one, effect, sides):
-    """The rotor and its momentum."""
-    axis = _along(effect.moment, 1.0)
-    _ring(ax, axis, 0.2)
-    look = _arrow(ax, (0, 0, 0), 0.55 * axis, r"momentum $\lambda$", style.BLUE, 3.2)
-    return f"momentum of the wheel λ = {_vector(effect.moment)} kg m²/s", look
-
-
-def _motor(ax, one, effect, sides):
-    """The rotor that it turns, and its torque on it."""
-    axis = _along(effect.motor, 1.0)
-    _ring(ax, axis, 0.27)
-    look = _arrow(ax, (0, 0, 0), 0.8 * axis, "motor u", style.SKY, 2.4)
-    end = "" if effect.duration is None else f" for {float(effect.duration):g} s"
-    return f"torque of the motor on its wheel u = {_vector(effect.motor)} N m{end}", look
-
-
-def _torque(ax, one, effect, sides):
-    look = _arrow(ax, (0, 0, 0), _along(effect.vector, 0.85), "torque M", style.VERMILION)
-    return f"constant torque M = {_vector(effect.vector)} N m", look
-
-
-def _force(ax, one, effect, sides):
-    look = _arrow(ax, (0, 0, 0), _along(effect.vector, 1.0), "force f", style.GREEN)
-    return f"constant force f = {_vector(effect.vector)} N", look
+def _vector_of(attribute: str, length: float, label: str, colour: str, words: str, width: float = 2.4,
+               ring: float = 0.0) -> Callable:
+    """What draws an effect that is a vector, along it; a rotor with a ring about it."""
+    def draw(ax, one, effect, sides):
+        axis = _along(getattr(effect, attribute), 1.0)
+        if ring:
+            _ring(ax, axis, ring)
+        duration = getattr(effect, "duration", None)
+        end = "" if duration is None else f" for {float(duration):g} s"
+        look = _arrow(ax, (0, 0, 0), length * axis, label, colour, width)
+        return words.format(_vector(getattr(effect, attribute))) + end, look
+    return draw
 
 
 def _charge(ax, one, effect, sides):
@@ -225,22 +212,21 @@ def _damper(ax, one, effect, sides):
             _ball(ax, sides, "damper"))
 
 
+def _against(one: Subject, ax: Any, matrix: Any, label: str) -> dict[str, Any]:
+    """An arrow against a multiple of the angular velocity at the start; its look in the legend."""
+    torque = -np.array(matrix) @ np.array((0, 0, 0) if one.state is None else one.state)
+    if not np.any(torque):
+        return {"color": style.BLACK, "linewidth": 1.6}
+    return _arrow(ax, (0, 0, 0), _along(torque, 0.8), label, style.BLACK, 1.6)
+
+
 def _resistance(ax, one, effect, sides):
-    """Against the momentum of the body at the start."""
-    look = {"color": style.BLACK, "linewidth": 1.6}
-    if one.state is not None and np.any(one.state):
-        spin = -np.array(which.bodily(one).body.inertia) * one.state
-        look = _arrow(ax, (0, 0, 0), _along(spin, 0.8), r"resistance $-cD\omega$", style.BLACK, 1.6)
+    look = _against(one, ax, np.diag(which.bodily(one).body.inertia), r"resistance $-cD\omega$")
     return f"resistance −c Dω, c = {effect.coefficient:g} 1/s, at the start", look
 
 
 def _rate_damper(ax, one, effect, sides):
-    """Against the angular velocity at the start."""
-    look = {"color": style.BLACK, "linewidth": 1.6}
-    torque = -np.array(effect.coefficient) @ np.array((0, 0, 0) if one.state is None else one.state)
-    if np.any(torque):
-        look = _arrow(ax, (0, 0, 0), _along(torque, 0.8), r"damping $-C\omega$", style.BLACK, 1.6)
-    return "linear damper −C ω, at the start", look
+    return "linear damper −C ω, at the start", _against(one, ax, effect.coefficient, r"damping $-C\omega$")
 
 
 def _eddy(ax, one, effect, sides):
@@ -281,10 +267,16 @@ def _attraction(ax, one, effect, sides):
 
 BOX = "box with the body's principal moments"
 PARTS: dict[str, tuple[str, Callable]] = {  # effect -> its words in the caption, and what draws it
-    "gyrostat": ("the momentum of its wheel", _wheel), "constant_torque": ("the constant torque", _torque),
-    "body_force": ("the constant force", _force), "charge": ("the charge and the field", _charge),
-    "liquid_cavity": ("the cavity of liquid", _liquid), "resistance": ("the resistance", _resistance),
+    "gyrostat": ("the momentum of its wheel", _vector_of(
+        "moment", 0.55, r"momentum $\lambda$", style.BLUE, "momentum of the wheel λ = {} kg m²/s", 3.2, 0.2)),
+    "constant_torque": ("the constant torque", _vector_of(
+        "vector", 0.85, "torque M", style.VERMILION, "constant torque M = {} N m")),
+    "body_force": ("the constant force", _vector_of(
+        "vector", 1.0, "force f", style.GREEN, "constant force f = {} N")),
+    "charge": ("the charge and the field", _charge), "liquid_cavity": ("the cavity of liquid", _liquid),
+    "resistance": ("the resistance", _resistance),
     "gravity": ("fixed point, centre of mass and weight", _weight),
     "newtonian_field": ("the attracting centre", _attraction), "viscous_damper": ("the damper", _damper),
     "rate_damper": ("the linear damper", _rate_damper), "eddy_currents": ("the magnetic field", _eddy),
-    "wheel_motor": ("the motor of the wheel", _motor)}
+    "wheel_motor": ("the motor of the wheel", _vector_of(
+        "motor", 0.8, "motor u", style.SKY, "torque of the motor on its wheel u = {} N m", 2.4, 0.27))}
