@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 
 from ..errors import printable
 from .axes import IN_FILE, axes_of
@@ -22,7 +23,7 @@ def back(case, vector) -> list | None:
     """A vector of an answer in the frame of the file; None where the two frames are one."""
     frame = _turned(case)
     return (None if frame is None or vector is None
-            else [float(v) for v in frame.back([_exact(v) for v in vector])])
+            else [float(v) for v in frame.back([Fraction(float(v)) for v in vector])])
 
 
 def rows(case, run) -> dict:
@@ -91,7 +92,3 @@ def _turned(case):
     frame = getattr(case, "frame", None)
     return None if frame is None or frame.as_given else frame
 
-
-def _exact(value):
-    from fractions import Fraction
-    return Fraction(float(value))

@@ -13,6 +13,7 @@ import numpy as np
 from ...case.read import Case
 from ...show import style
 from ...show.plot.body import BOX, PARTS, body
+from ...show.plot.in_space import levels
 from ...show.terminal.letters import written
 from ...show.text.cost.comparison import short
 from ...show.text.cost.words import share
@@ -115,12 +116,10 @@ PIECES = 16    # of a piece of a curve, where it is cut off at an edge
 def level_curves(integral: Callable, level: float, x_range: Sequence, y_range: Sequence) -> list[np.ndarray]:
     """The curves integral(x, y) = level in a rectangle, arrays (n, 2) each, traced on a grid; where the
     integral has no real value there is no curve."""
-    from contourpy import contour_generator
     x, y = (np.linspace(low, high, POINTS) for low, high in (x_range, y_range))
     with np.errstate(invalid="ignore", divide="ignore"):
         values = integral(*np.meshgrid(x, y))
-    traced = contour_generator(x, y, np.ma.masked_invalid(values)).lines(level)
-    return [np.asarray(curve, float) for curve in traced]
+    return levels(x, y, np.ma.masked_invalid(values), [level])
 
 
 def within(curve: np.ndarray, x_range: Sequence, y_range: Sequence) -> np.ndarray:

@@ -212,7 +212,7 @@ def _panel(ax, row, column, limits):
         if (picked := _curve(row, column, name)) is None:
             continue
         x, y = picked
-        ax.plot(*_clipped(x, y, limits), **LOOKS[name])
+        ax.plot(x, y, **LOOKS[name])
         if comparison.stops(column.runs[name]) and len(x):
             ax.plot(x[-1:], y[-1:], color=LOOKS[name]["color"], **comparison.END)
     if column.mark is not None and row.over_time:
@@ -262,13 +262,6 @@ def _tell_cuts(ax, cuts):
 def _bare(label) -> str:
     """The label of an axis without its unit."""
     return label.split(" (")[0]
-
-
-def _clipped(x, y, limits):
-    """The curve with what lies far outside of the limits brought near them: long lines off the page cost ink
-    and bytes."""
-    reach = [(high - low) * 4 for low, high in limits]
-    return [np.clip(v, low - r, high + r) for v, (low, high), r in zip((x, y), limits, reach)]
 
 
 def _window(row, columns):

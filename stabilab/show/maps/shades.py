@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import Any
 
 import numpy as np
@@ -28,12 +28,11 @@ LETTERS = {"angular_velocity": "ω", "mu": "μ"}  # of keys that have one
 def names(keys: Sequence[str]) -> list[str]:
     """A short name for each key, in letters, digits and underscores: its last word, or as many of its words
     as tell it from the others."""
-    parts = [re.split(r"\.", key) for key in keys]
-    for words in range(1, max(map(len, parts), default=0) + 1):
-        found = [_plain("_".join(part[-words:])) for part in parts]
-        if len(set(found)) == len(found) and not set(found) & {SAMPLE, "axis"}:
-            return found
-    return [_plain(f"{key}_{n}") for n, key in enumerate(keys, 1)]
+    def plain(words: Sequence[str]) -> str:
+        name = re.sub(r"[^0-9A-Za-z]+", "_", "_".join(words)).strip("_") or "key"
+        return name if name[0].isalpha() else f"key_{name}"
+    return (_told_apart([key.split(".") for key in keys], plain, {SAMPLE, "axis"})
+            or [plain([f"{key}_{n}"]) for n, key in enumerate(keys, 1)])
 
 
 def said(keys: Sequence[str]) -> list[str]:
@@ -42,22 +41,24 @@ def said(keys: Sequence[str]) -> list[str]:
     parts = [[LETTERS.get(stem, stem) + index for stem,
               index in (re.match(r"([^\[]*)(.*)", word, re.S).groups() for word in key.split("."))]
              for key in keys]
+    return _told_apart(parts, ".".join) or list(keys)
+
+
+def _told_apart(parts: Sequence[Sequence[str]], name: Callable[[Sequence[str]], str],
+                taken: Collection[str] = ()) -> list[str]:
+    """Names of as few of the last words of each as tell it from the others, none of them taken; none where
+    there are no such names."""
     for words in range(1, max(map(len, parts), default=0) + 1):
-        found = [".".join(part[-words:]) for part in parts]
-        if len(set(found)) == len(found):
+        found = [name(part[-words:]) for part in parts]
+        if len({*found, *taken}) == len(found) + len(taken):
             return found
-    return list(keys)
+    return []
 
 
 def drawn(name: str) -> str:
     """The same on an axis of a picture: a letter with its index set as in formulas, ω[1] as ω with 1 below
     it; other keys as they are."""
     return re.sub(r"^([ωμx])\[([123])\]$", r"$\1_\2$", name)
-
-
-def _plain(text: str) -> str:
-    plain = re.sub(r"[^0-9A-Za-z]+", "_", text).strip("_") or "key"
-    return plain if plain[0].isalpha() else f"key_{plain}"
 
 
 def dimensions(plan: Plan) -> list[str]:

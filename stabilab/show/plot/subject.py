@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -165,6 +165,8 @@ FAR = (
     "other units")
 
 
+ALIKE = ("no approximate theory comes with a wheel and a constant torque: the rates over time are the exact "
+         "motion")
 NO_BODY = "scaled variables have no body: give the case in physical units"
 
 
@@ -290,20 +292,6 @@ def _section(one: Subject) -> str:
         f"any plane {LEAST} times")
 
 
-def _state(one: Subject) -> str:
-    return (
-        "no approximate theory comes with a wheel and a constant torque: the rates over time are the exact "
-        "motion" if one.scene.plain else "")
-
-
-def _budget(one: Subject) -> str:
-    return "it needs a span: the time up to which the motion is followed" if one.span is None else ""
-
-
-def _attitude(one: Subject) -> str:
-    return "" if one.physical else "scaled variables have no body to turn: give the case in physical units"
-
-
 def free(one: Subject) -> bool:
     """Whether no torque acts on the body of a scene of wheel and torque."""
     return not any(one.twin.quadratic().m)
@@ -314,9 +302,13 @@ def _beyond(one: Subject) -> str:
     return f"{', '.join(others)} and {last}" if others else last
 
 
-_REASONS = {"phase": _phase, "potential": _phase, "sphere": _sphere, "state": _state, "attitude": _attitude,
-            "budget": _budget, "tilt": _tilt, "wheel": _wheel, "time": _far, "space": _far,
-            "section": _section}
+_REASONS: dict[str, Callable[[Subject], str]] = {
+    "phase": _phase, "potential": _phase, "sphere": _sphere, "tilt": _tilt, "wheel": _wheel, "time": _far,
+    "space": _far, "section": _section,
+    "state": lambda one: ALIKE * one.scene.plain,
+    "attitude": lambda one: "scaled variables have no body to turn: give the case in physical units"
+                            * (not one.physical),
+    "budget": lambda one: "it needs a span: the time up to which the motion is followed" * (one.span is None)}
 
 
 # --- The units of the axes of a plot: name and factor of rates, times and angles, and the names of

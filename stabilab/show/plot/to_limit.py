@@ -21,6 +21,7 @@ from .subject import measures, subject
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+FAR = 10.0  # times the top of the picture: where a band ends that is open above
 TALL = 8.0  # times the least: of times farther apart the logarithm is drawn
 ANGLES = np.radians(np.geomspace(0.1, 10.0, 4))  # and more where times bend
 EARLIEST = {"color": style.VERMILION, "linewidth": 2.0}
@@ -60,8 +61,8 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
         top = (1.2 if ends else 3.0) * per * float(finite.max(initial=0.0))
         reached = np.isfinite(found.earliest)
         if reached.any():
-            target.fill_between(np.repeat(degrees, 2), np.repeat(per * found.earliest, 2),
-                                _open_above(per * found.latest, top), where=np.repeat(reached, 2), **BAND)
+            target.fill_between(degrees, per * found.earliest, np.minimum(per * found.latest, FAR * top),
+                                where=reached, **BAND)
             target.plot(degrees[reached], per * found.earliest[reached], **EARLIEST)
             rows.append((f"to the latest of {SIDES} directions", BAND))
         if found.not_before.any():
@@ -90,16 +91,6 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
         target.set_ylabel(f"time to {reaches} {least} ({unit})")
         return canvas.explained(target, rows if legend else [], ax is None,
                                 one.heading, canvas.answer(one, scale))
-
-
-def _open_above(latest: np.ndarray, top: float) -> np.ndarray:
-    """(2n,) the upper edge of a band, before and behind each of n places: at the top beside one that is
-    infinite."""
-    edge = np.stack([latest, latest], axis=1)
-    never = np.isinf(latest)
-    edge[1:, 0][never[:-1]] = edge[:-1, 1][never[1:]] = top
-    edge[never] = top
-    return edge.ravel()
 
 
 def wheel(case: Any, ax: Axes | None = None, units: str | None = None,
