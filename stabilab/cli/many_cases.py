@@ -19,7 +19,9 @@ from .options import (
     UnitsOption,
     Until,
     Workers,
+    flag,
     opens,
+    option,
 )
 
 commands = typer.Typer()
@@ -29,27 +31,22 @@ commands = typer.Typer()
 @opens("maps.sweep")
 def sweep(
         case: CaseFile,
-        vary: Annotated[list[str] | None, typer.Option(
-            metavar="KEY=VALUES",
-            help='A number that varies: "torque[3]=0:0.1:101", '
-                 '"motion.angular_velocity[1]=-30:30:61 deg/s", "speed=1:1000:31:log rpm", "torque[1]=0, '
-                 '1, 2". Up to four.')] = None,
-        samples: Annotated[int | None, typer.Option(
-            metavar="N", help="Random points over the uncertainties that the case states.")] = None,
-        seed: Annotated[int, typer.Option(metavar="S", help="Of the random points.")] = 1,
-        answer: Annotated[str | None, typer.Option(
-            metavar="A,B,...",
-            help="fate, level, reason, island, margin, distance, extremes, period, when, "
-                 "equilibria, verdict, chaos. Default: fate,level,margin.")] = None,
-        out: Annotated[Path | None, typer.Option(
-            metavar="FILE.nc",
-            help="Write NetCDF. What is finished outlives a killed run: the same command goes on.")] = None,
+        vary: Annotated[list[str] | None, option("KEY=VALUES",
+            'A number that varies: "torque[3]=0:0.1:101", "motion.angular_velocity[1]=-30:30:61 '
+            'deg/s", "speed=1:1000:31:log rpm", "torque[1]=0, 1, 2". Up to four.')] = None,
+        samples: Annotated[int | None, option(
+            "N", "Random points over the uncertainties that the case states.")] = None,
+        seed: Annotated[int, option("S", "Of the random points.")] = 1,
+        answer: Annotated[str | None, option("A,B,...",
+            "fate, level, reason, island, margin, distance, extremes, period, when, equilibria, "
+            "verdict, chaos. Default: fate,level,margin.")] = None,
+        out: Annotated[Path | None, option("FILE.nc",
+            "Write NetCDF. What is finished outlives a killed run: the same command goes on.")] = None,
         workers: Workers = None, scheduler: Scheduler = None,
-        rate: Annotated[str | None, typer.Option(
-            metavar="RATE", help="Limits of the answer when, as of stabilab when.")] = None,
+        rate: Annotated[str | None, option("RATE", "Limits of the answer when, as of stabilab when.")] = None,
         component: Component = None, energy: Energy = None, tilt: TiltBy = None, until: Until = None,
         follow: Follow = None,
-        csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout: a line for each point.")] = False,
+        csv: Annotated[bool, flag("--csv", "CSV on stdout: a line for each point.")] = False,
         json: Json = False, strict: StrictFate = False):
     """Answer a case over ranges of its numbers.
 
@@ -64,29 +61,23 @@ def sweep(
 @opens("maps.atlas")
 def atlas(
         case: CaseFile,
-        torque: Annotated[str | None, typer.Option(
-            metavar="SIZE", help='Size of the torque: "1 N m". Default: that of the case.')] = None,
-        wheel: Annotated[str | None, typer.Option(
-            metavar="[AXIS=]VALUES",
-            help='Wheel momenta beside each of which all directions are mapped: "0:2:5" along '
-                 'the wheel of the case, "z=-2:2:5" (x, y, z of the file, or 1, 2, 3). Default: as in '
-                 "the case.")] = None,
-        level: Annotated[int, typer.Option(
-            metavar="N", help="8 times 4^N cells of equal area at first.")] = 3,
-        refine: Annotated[int, typer.Option(
-            metavar="N", help="How often cells along a boundary are cut in four.")] = 2,
-        rate: Annotated[str | None, typer.Option(
-            metavar="RATE",
-            help="Limit for the answer when, as of stabilab when; default: that of [limits].")] = None,
+        torque: Annotated[str | None, option(
+            "SIZE", 'Size of the torque: "1 N m". Default: that of the case.')] = None,
+        wheel: Annotated[str | None, option("[AXIS=]VALUES",
+            'Wheel momenta beside each of which all directions are mapped: "0:2:5" along the wheel '
+            'of the case, "z=-2:2:5" (x, y, z of the file, or 1, 2, 3). Default: as in the case.')] = None,
+        level: Annotated[int, option("N", "8 times 4^N cells of equal area at first.")] = 3,
+        refine: Annotated[int, option("N", "How often cells along a boundary are cut in four.")] = 2,
+        rate: Annotated[str | None, option(
+            "RATE", "Limit for the answer when, as of stabilab when; default: that of [limits].")] = None,
         component: Component = None, energy: Energy = None, tilt: TiltBy = None, until: Until = None,
-        no_time: Annotated[bool, typer.Option(
-            "--no-time", help="Leave out the time to a limit, which takes most of the work.")] = False,
-        certify: Annotated[bool, typer.Option(
-            "--certify", help="Prove fates and times where that succeeds, whatever it takes.")] = False,
-        out: Annotated[list[Path] | None, typer.Option(
-            metavar="FILE.nc|.png|.svg|.pdf|.html",
-            help="Write cells, a picture or a page that answers the pointer; may be given "
-                 "again. What is finished outlives a killed run.")] = None,
+        no_time: Annotated[bool, flag(
+            "--no-time", "Leave out the time to a limit, which takes most of the work.")] = False,
+        certify: Annotated[bool, flag(
+            "--certify", "Prove fates and times where that succeeds, whatever it takes.")] = False,
+        out: Annotated[list[Path] | None, option("FILE.nc|.png|.svg|.pdf|.html",
+            "Write cells, a picture or a page that answers the pointer; may be given again. What "
+            "is finished outlives a killed run.")] = None,
         workers: Workers = None, scheduler: Scheduler = None, follow: Follow = None,
         units: UnitsOption = None, csv: CsvOfCells = False, json: Json = False, strict: StrictFate = False):
     """Map all directions of a torque: fates, axes, times.
@@ -102,16 +93,13 @@ def atlas(
 @opens("maps.basin")
 def basin(
         case: CaseFile,
-        vary: Annotated[list[str] | None, typer.Option(
-            metavar="KEY=FROM:TO[:N]",
-            help='A rate of the initial state and its range: "x[1]=-4:4", '
-                 '"angular_velocity[3]=-30:30:33 deg/s" for 33 points of '
-                 'the coarse grid. Two of them.')] = None,
-        depth: Annotated[int, typer.Option(
-            metavar="K", help="How often a cell is halved whose corners have different fates.")] = 5,
-        out: Annotated[list[Path] | None, typer.Option(
-            metavar="FILE.png|.svg|.pdf|.nc",
-            help="Draw, or write NetCDF, whose parts outlive a killed run; may be repeated.")] = None,
+        vary: Annotated[list[str] | None, option("KEY=FROM:TO[:N]",
+            'A rate of the initial state and its range: "x[1]=-4:4", '
+            '"angular_velocity[3]=-30:30:33 deg/s" for 33 points of the coarse grid. Two of them.')] = None,
+        depth: Annotated[int, option(
+            "K", "How often a cell is halved whose corners have different fates.")] = 5,
+        out: Annotated[list[Path] | None, option("FILE.png|.svg|.pdf|.nc",
+            "Draw, or write NetCDF, whose parts outlive a killed run; may be repeated.")] = None,
         workers: Workers = None, scheduler: Scheduler = None, follow: Follow = None, csv: CsvOfCells = False,
         json: Json = False, strict: StrictFate = False):
     """Show which initial states spin up, and how rough the edge is.
@@ -127,21 +115,17 @@ def basin(
 @opens("maps.bifurcation")
 def bifurcation(
         case: CaseFile,
-        vary: Annotated[list[str] | None, typer.Option(
-            metavar="KEY=FROM:TO",
-            help='A number that varies: "torque[3]=0:0.5", "wheels.pitch.speed=-3000:3000 '
-                 'rpm". One or two.')] = None,
-        curve: Annotated[bool, typer.Option(
-            "--curve",
-            help="Of a torque on a principal axis: where stability changes along the whole "
-                 "curve of equilibria, whatever the motion.")] = False,
-        out: Annotated[Path | None, typer.Option(
-            metavar="FILE.png", help="Draw it: .png, .svg or .pdf.")] = None,
-        certify: Annotated[Path | None, typer.Option(
-            metavar="FILE.json",
-            help="Of one number: write a certificate of every value and count, which `stabilab "
-                 "verify` checks by other algebra.")] = None,
-        csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout: points of all branches.")] = False,
+        vary: Annotated[list[str] | None, option("KEY=FROM:TO",
+            'A number that varies: "torque[3]=0:0.5", "wheels.pitch.speed=-3000:3000 rpm". One or '
+            "two.")] = None,
+        curve: Annotated[bool, flag("--curve",
+            "Of a torque on a principal axis: where stability changes along the whole curve of "
+            "equilibria, whatever the motion.")] = False,
+        out: Annotated[Path | None, option("FILE.png", "Draw it: .png, .svg or .pdf.")] = None,
+        certify: Annotated[Path | None, option("FILE.json",
+            "Of one number: write a certificate of every value and count, which `stabilab verify` "
+            "checks by other algebra.")] = None,
+        csv: Annotated[bool, flag("--csv", "CSV on stdout: points of all branches.")] = False,
         json: Json = False):
     """Find where equilibria appear and vanish.
 

@@ -7,7 +7,7 @@ from typing import Annotated  # typer reads the annotations at run time
 
 import typer
 
-from .options import CaseFile, Csv, Json, Order, Strict, UnitsOption, opens
+from .options import CaseFile, Csv, Json, Order, Strict, UnitsOption, argument, flag, opens, option
 
 commands = typer.Typer()
 
@@ -27,8 +27,7 @@ def show(case: CaseFile):
 @opens("accuracy.compare")
 def compare(
         case: CaseFile, order: Order = None,
-        out: Annotated[Path | None, typer.Option(
-            metavar="FILE.csv", help="Write the errors over time.")] = None,
+        out: Annotated[Path | None, option("FILE.csv", "Write the errors over time.")] = None,
         json: Json = False, strict: Strict = False, units: UnitsOption = None):
     """Set the analytic models of a case beside its exact motion.
 
@@ -42,15 +41,13 @@ def compare(
 @opens("accuracy.precision")
 def precision(
         case: CaseFile, json: Json = False, csv: Csv = False,
-        out: Annotated[Path | None, typer.Option(
-            metavar="FILE.png|.svg|.pdf|.csv", help="Write the picture or the points.")] = None,
-        until: Annotated[str | None, typer.Option(
-            metavar="TIME",
-            help="End of the span: \"10 min\"; default: the case's own, or some periods.")] = None,
-        quick: Annotated[bool, typer.Option(
-            "--quick", help="Few settings: seconds instead of a minute.")] = False,
-        all_settings: Annotated[bool, typer.Option(
-            "--all", help="Every setting of every method, and the findings in words.")] = False,
+        out: Annotated[Path | None, option(
+            "FILE.png|.svg|.pdf|.csv", "Write the picture or the points.")] = None,
+        until: Annotated[str | None, option(
+            "TIME", "End of the span: \"10 min\"; default: the case's own, or some periods.")] = None,
+        quick: Annotated[bool, flag("--quick", "Few settings: seconds instead of a minute.")] = False,
+        all_settings: Annotated[bool, flag(
+            "--all", "Every setting of every method, and the findings in words.")] = False,
         strict: Strict = False):
     """Measure what accuracy costs: every method, error and time.
 
@@ -63,16 +60,13 @@ def precision(
 @commands.command(name="import")
 @opens("one_case.import_")
 def import_(
-        file: Annotated[Path, typer.Argument(
-            metavar="FILE", show_default=False,
-            help="A NASA 42 spacecraft file, or JSON or a Python dictionary with Basilisk's names.")],
-        out: Annotated[Path | None, typer.Option(
-            metavar="FILE.toml", help="Write the case to a file.")] = None,
-        stuck: Annotated[list[str] | None, typer.Option(
-            metavar="NAME", help="A thruster that is stuck open; may be repeated.")] = None,
-        body: Annotated[int | None, typer.Option(
-            metavar="N", show_default="all, joined",
-            help="Of several bodies in a NASA 42 file, one alone.")] = None):
+        file: Annotated[Path, argument(
+            "FILE", "A NASA 42 spacecraft file, or JSON or a Python dictionary with Basilisk's names.")],
+        out: Annotated[Path | None, option("FILE.toml", "Write the case to a file.")] = None,
+        stuck: Annotated[list[str] | None, option(
+            "NAME", "A thruster that is stuck open; may be repeated.")] = None,
+        body: Annotated[int | None, option(
+            "N", "Of several bodies in a NASA 42 file, one alone.", show_default="all, joined")] = None):
     """Write another program's spacecraft as a case.
 
     Several bodies on joints become one rigid body, the joints locked as the file places them.
@@ -94,8 +88,7 @@ def doctor():
 
 @commands.command()
 @opens("one_case.example")
-def example(name: Annotated[str | None, typer.Argument(
-        metavar="NAME", help="Of a case; without one all are listed.")] = None):
+def example(name: Annotated[str | None, argument("NAME", "Of a case; without one all are listed.")] = None):
     """Write a case to begin with: a phone, a CubeSat, an asteroid.
 
     Example: stabilab example phone > phone.toml

@@ -12,49 +12,58 @@ import typer
 from .. import commands
 from ..show.terminal import completion
 
-CaseFile = Annotated[Path, typer.Argument(
-    metavar="CASE", show_default=False, autocompletion=completion.cases, help="A case file (TOML).")]
-CaseFiles = Annotated[list[Path], typer.Argument(
-    metavar="CASE...", show_default=False, autocompletion=completion.cases, help="Case files (TOML).")]
-Json = Annotated[bool, typer.Option("--json", help="JSON on stdout instead of text.")]
-Csv = Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")]
-Digits = Annotated[int | None, typer.Option(
-    metavar="N",
-    help="Reach N digits (1 to 50) the cheapest way and check them; exit 5 where they are not reached. "
-         "Without it 10 are the aim.")]
-Follow = Annotated[str | None, typer.Option(
-    metavar="T",
-    help="How long to follow a motion that only a run with a certificate decides (torque off the "
-         "principal axes), with a unit or in the time of the case. Default: a second of work.")]
-Prove = Annotated[bool, typer.Option(
-    "--certify",
-    help="Enclose a motion that has to be followed, so that its fate is proved; classify "
-         "--certify writes the proof down.")]
-Tilt = Annotated[str | None, typer.Option(
-    metavar="ANGLE",
-    help='What a tilt of the torque by up to so much, "1 deg", does to a motion that a torque on an '
-         "axis keeps bounded. By itself where the case states a misalignment or [limits].")]
-UnitsOption = Annotated[str | None, typer.Option(
-    "--units", metavar="UNIT", autocompletion=completion.units,
-    help="Of rates in text: deg (deg/s), deg/day, rpm, rev/s, or si (rad/s, and all times in s). Default: "
-         "[output] units of the case, else deg; deg/day for a free body below 0.01 deg/s.")]
-Si = Annotated[bool, typer.Option("--si", hidden=True, help="The same as --units si.")]
-Why = Annotated[bool, typer.Option("--why", "-v", help="With proofs, derivations and algebra.")]
-Strict = Annotated[bool, typer.Option(
-    "--strict",
-    help="Exit with 3 where a fate is undecided or an approximate law does not hold along the motion.")]
-StrictFate = Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate is undecided.")]
-Workers = Annotated[int | None, typer.Option(
-    metavar="N", help="Processes that share the work; default: one a core where that pays.")]
-Scheduler = Annotated[str | None, typer.Option(
-    metavar="tcp://...", help="Let the workers of this Dask scheduler do it (extra cluster).")]
-Component = Annotated[str | None, typer.Option(metavar="AXIS=RATE", hidden=True)]
-Energy = Annotated[str | None, typer.Option(metavar="ENERGY", hidden=True)]
-TiltBy = Annotated[str | None, typer.Option(metavar="AXIS=ANGLE", hidden=True)]
-Until = Annotated[str | None, typer.Option(metavar="TIME", hidden=True)]
-CsvOfCells = Annotated[bool, typer.Option("--csv", help="CSV on stdout: a line for each cell.")]
-Folder = Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")]
-Order = Annotated[int | None, typer.Option(metavar="N", min=1, help="Order of the lindstedt expansion.")]
+
+def option(metavar: str, words: str | None = None, *names: str, **more: Any) -> Any:
+    """An option that takes a value: what that is called in the help, and what is said of it."""
+    return typer.Option(*names, metavar=metavar, help=words, **more)
+
+
+def flag(name: str, words: str, *names: str, **more: Any) -> Any:
+    """An option that is given or not, and has no negative."""
+    return typer.Option(name, *names, help=words, **more)
+
+
+def argument(metavar: str, words: str, **more: Any) -> Any:
+    """An argument, by its place in the line."""
+    return typer.Argument(metavar=metavar, help=words, show_default=False, **more)
+
+
+CaseFile = Annotated[Path, argument("CASE", "A case file (TOML).", autocompletion=completion.cases)]
+CaseFiles = Annotated[list[Path], argument("CASE...", "Case files (TOML).", autocompletion=completion.cases)]
+Json = Annotated[bool, flag("--json", "JSON on stdout instead of text.")]
+Csv = Annotated[bool, flag("--csv", "CSV on stdout instead of text.")]
+Digits = Annotated[int | None, option("N",
+    "Reach N digits (1 to 50) the cheapest way and check them; exit 5 where they are not reached. Without "
+    "it 10 are the aim.")]
+Follow = Annotated[str | None, option("T",
+    "How long to follow a motion that only a run with a certificate decides (torque off the principal "
+    "axes), with a unit or in the time of the case. Default: a second of work.")]
+Prove = Annotated[bool, flag("--certify",
+    "Enclose a motion that has to be followed, so that its fate is proved; classify --certify writes the "
+    "proof down.")]
+Tilt = Annotated[str | None, option("ANGLE",
+    'What a tilt of the torque by up to so much, "1 deg", does to a motion that a torque on an axis keeps '
+    "bounded. By itself where the case states a misalignment or [limits].")]
+UnitsOption = Annotated[str | None, option("UNIT",
+    "Of rates in text: deg (deg/s), deg/day, rpm, rev/s, or si (rad/s, and all times in s). Default: "
+    "[output] units of the case, else deg; deg/day for a free body below 0.01 deg/s.",
+    autocompletion=completion.units)]
+Si = Annotated[bool, flag("--si", "The same as --units si.", hidden=True)]
+Why = Annotated[bool, flag("--why", "With proofs, derivations and algebra.", "-v")]
+Strict = Annotated[bool, flag("--strict",
+    "Exit with 3 where a fate is undecided or an approximate law does not hold along the motion.")]
+StrictFate = Annotated[bool, flag("--strict", "Exit with 3 where a fate is undecided.")]
+Workers = Annotated[int | None, option(
+    "N", "Processes that share the work; default: one a core where that pays.")]
+Scheduler = Annotated[str | None, option(
+    "tcp://...", "Let the workers of this Dask scheduler do it (extra cluster).")]
+Component = Annotated[str | None, option("AXIS=RATE", hidden=True)]
+Energy = Annotated[str | None, option("ENERGY", hidden=True)]
+TiltBy = Annotated[str | None, option("AXIS=ANGLE", hidden=True)]
+Until = Annotated[str | None, option("TIME", hidden=True)]
+CsvOfCells = Annotated[bool, flag("--csv", "CSV on stdout: a line for each cell.")]
+Folder = Annotated[Path, option("DIR", "Folder for the files.")]
+Order = Annotated[int | None, option("N", "Order of the lindstedt expansion.", min=1)]
 
 
 def opens(place: str, **fixed: str) -> Callable[[Callable[..., None]], Callable[..., None]]:

@@ -8,7 +8,7 @@ from typing import Annotated  # typer reads the annotations at run time
 import typer
 
 from ..show.terminal import completion
-from .options import CaseFile, Folder, Json, opens
+from .options import CaseFile, Folder, Json, argument, flag, opens, option
 
 commands = typer.Typer()
 
@@ -16,15 +16,13 @@ commands = typer.Typer()
 @commands.command()
 @opens("certificates.verify")
 def verify(
-        certificate: Annotated[Path, typer.Argument(
-            metavar="CERTIFICATE", show_default=False, autocompletion=completion.certificates,
-            help="A certificate.json of classify --certify or bifurcation --certify.")],
-        case: Annotated[Path | None, typer.Option(
-            metavar="CASE.toml",
-            help="The case it must be of: exit with 5 where scene or state differ.")] = None,
+        certificate: Annotated[Path, argument("CERTIFICATE",
+            "A certificate.json of classify --certify or bifurcation --certify.",
+            autocompletion=completion.certificates)],
+        case: Annotated[Path | None, option(
+            "CASE.toml", "The case it must be of: exit with 5 where scene or state differ.")] = None,
         json: Json = False,
-        strict: Annotated[bool, typer.Option(
-            "--strict", help="Exit with 3 where a claim could not be checked.")] = False):
+        strict: Annotated[bool, flag("--strict", "Exit with 3 where a claim could not be checked.")] = False):
     """Check a certificate with separate code.
 
     Shares only python-flint with the analysis. Exits with 5 where a claim is wrong.
@@ -37,12 +35,10 @@ def verify(
 @opens("simulate.reference")
 def reference(
         case: CaseFile,
-        at: Annotated[list[str] | None, typer.Option(
-            metavar="T1,T2,...",
-            help="Times from 0 on, with a unit or in that of the case. Default: 201 times over "
-                 "the span.")] = None,
-        digits: Annotated[int, typer.Option(metavar="N", help="Digits (1 to 50) of every state.")] = 30,
-        out: Annotated[Path | None, typer.Option(metavar="FILE.csv|.json", help="Write to a file.")] = None,
+        at: Annotated[list[str] | None, option("T1,T2,...",
+            "Times from 0 on, with a unit or in that of the case. Default: 201 times over the span.")] = None,
+        digits: Annotated[int, option("N", "Digits (1 to 50) of every state.")] = 30,
+        out: Annotated[Path | None, option("FILE.csv|.json", "Write to a file.")] = None,
         json: Json = False):
     """Write a motion with guaranteed digits, to test integrators.
 
@@ -56,14 +52,13 @@ def reference(
 @commands.command()
 @opens("papers.audit")
 def audit(
-        paper: Annotated[str | None, typer.Argument(
-            metavar="[PAPER]", show_default=False, autocompletion=completion.audited,
-            help="A paper on record or a file of claims, .toml; default: all papers.")] = None,
-        equation: Annotated[str | None, typer.Option(
-            metavar="N", help="One equation or claim, as 17 or text-8a.")] = None,
+        paper: Annotated[str | None, argument("[PAPER]",
+            "A paper on record or a file of claims, .toml; default: all papers.",
+            autocompletion=completion.audited)] = None,
+        equation: Annotated[str | None, option("N", "One equation or claim, as 17 or text-8a.")] = None,
         json: Json = False,
-        out: Annotated[Path | None, typer.Option(
-            "--html", metavar="FILE.html", help="Write a page with the formulas typeset.")] = None):
+        out: Annotated[Path | None, option(
+            "FILE.html", "Write a page with the formulas typeset.", "--html")] = None):
     """Check published formulas against the equations of motion.
 
     Each row: holds, holds only under a condition, wrong (with what is right), definition, or not checkable.
@@ -75,12 +70,10 @@ def audit(
 @commands.command()
 @opens("papers.validate")
 def validate(
-        source: Annotated[str | None, typer.Argument(
-            metavar="[SOURCE]", show_default=False, autocompletion=completion.sources,
-            help="nesc, basilisk, orekit or 42; default: all.")] = None,
+        source: Annotated[str | None, argument("[SOURCE]",
+            "nesc, basilisk, orekit or 42; default: all.", autocompletion=completion.sources)] = None,
         json: Json = False,
-        out: Annotated[Path | None, typer.Option(
-            "--html", metavar="FILE.html", help="Write a page with the table.")] = None):
+        out: Annotated[Path | None, option("FILE.html", "Write a page with the table.", "--html")] = None):
     """Compare other tools' published numbers with ours.
 
     Ours with proved digits, theirs, the difference, and its cause. Exits with 5 where a difference is not
@@ -93,11 +86,9 @@ def validate(
 @commands.command()
 @opens("report.rerun")
 def rerun(
-        manifest: Annotated[Path, typer.Argument(
-            metavar="MANIFEST", show_default=False, autocompletion=completion.certificates,
-            help="A manifest.json, or the folder that holds it.")],
-        out: Annotated[Path | None, typer.Option(
-            metavar="DIR", help="Keep the new files in an empty folder.")] = None):
+        manifest: Annotated[Path, argument("MANIFEST",
+            "A manifest.json, or the folder that holds it.", autocompletion=completion.certificates)],
+        out: Annotated[Path | None, option("DIR", "Keep the new files in an empty folder.")] = None):
     """Repeat what made a folder and compare every byte.
 
     Exits with 2 where inputs are missing or changed, with 5 where a file differs.
@@ -109,9 +100,8 @@ def rerun(
 @commands.command()
 @opens("papers.papers")
 def papers(
-        paper: Annotated[str | None, typer.Argument(
-            metavar="[PAPER]", autocompletion=completion.audited, show_default=False,
-            help="A paper of `stabilab audit`; none: all.")] = None,
+        paper: Annotated[str | None, argument(
+            "[PAPER]", "A paper of `stabilab audit`; none: all.", autocompletion=completion.audited)] = None,
         json: Json = False):
     """List equations, figures, tables, claims with verdicts.
 
@@ -133,13 +123,12 @@ def tables(out: Folder = ...):  # type: ignore[assignment]  # typer: must be giv
 @commands.command()
 @opens("papers.figures")
 def figures(
-        numbers: Annotated[list[int] | None, typer.Argument(
-            metavar="[N...]", show_default=False, help="Figure numbers of one paper; none: all.")] = None,
-        paper: Annotated[str | None, typer.Option(
-            metavar="NAME", autocompletion=completion.papers,
-            help="constant-torque, charged, cavity or top. Default: constant-torque where "
-                 "numbers are given, else all.")] = None,
-        out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the pictures.")] = Path("figures")):
+        numbers: Annotated[list[int] | None, argument(
+            "[N...]", "Figure numbers of one paper; none: all.")] = None,
+        paper: Annotated[str | None, option("NAME",
+            "constant-torque, charged, cavity or top. Default: constant-torque where numbers are given, "
+            "else all.", autocompletion=completion.papers)] = None,
+        out: Annotated[Path, option("DIR", "Folder for the pictures.")] = Path("figures")):
     """Draw the figures of the papers.
 
     Each picture gets a text file: caption, command, version, tolerance.

@@ -7,7 +7,7 @@ from typing import Annotated  # typer reads the annotations at run time
 import typer
 
 from ..show.terminal import completion
-from .options import CaseFile, Folder, Json, Order, Strict, UnitsOption, opens
+from .options import CaseFile, Folder, Json, Order, Strict, UnitsOption, argument, flag, opens, option
 
 commands = typer.Typer()
 
@@ -16,34 +16,25 @@ commands = typer.Typer()
 @opens("simulate.simulate")
 def simulate(
         case: CaseFile,
-        at: Annotated[list[str] | None, typer.Option(
-            metavar="T1,T2,...",
-            help='Times, with a unit ("2 min") or in that of the case; the state is at 0. '
-                 "Default: 201 times over the span of the case.")] = None,
-        model: Annotated[str, typer.Option(
-            metavar="NAME", autocompletion=completion.models,
-            help="exact, or an analytic solution that applies: linear, corrected, printed, "
-                 "averaged1, averaged2, lindstedt.")] = "exact",
+        at: Annotated[list[str] | None, option("T1,T2,...",
+            'Times, with a unit ("2 min") or in that of the case; the state is at 0. Default: 201 '
+            "times over the span of the case.")] = None,
+        model: Annotated[str, option("NAME",
+            "exact, or an analytic solution that applies: linear, corrected, printed, averaged1, averaged2, "
+            "lindstedt.", autocompletion=completion.models)] = "exact",
         order: Order = None,
-        method: Annotated[str | None, typer.Option(
-            metavar="NAME", autocompletion=completion.methods,
-            help="taylor (default), a method of SciPy's solve_ivp by name, or reduced (any "
-                 "time at one cost); for the exact model.")] = None,
-        rtol: Annotated[float | None, typer.Option(
-            metavar="TOL", help="Relative tolerance; default: the method's own.")] = None,
-        digits: Annotated[int | None, typer.Option(
-            metavar="N",
-            help="Reach N digits (1 to 15) the cheapest way, check them, or exit with 5. "
-                 "Without it 10 are the aim, unless --model, --method or --rtol is given.")] = None,
-        angles: Annotated[bool, typer.Option(
-            "--angles", help="Euler angles ψ, θ, φ of the vertical, too.")] = False,
-        attitude: Annotated[bool, typer.Option(
-            "--attitude",
-            help="The attitude as a quaternion and the angular momentum in space, too.")] = False,
-        matrix: Annotated[bool, typer.Option(
-            "--matrix", help="The same with the attitude as a rotation matrix.")] = False,
-        out: Annotated[Path | None, typer.Option(
-            metavar="FILE.nc|.csv", help="Write the states to a file.")] = None,
+        method: Annotated[str | None, option("NAME",
+            "taylor (default), a method of SciPy's solve_ivp by name, or reduced (any time at one cost); "
+            "for the exact model.", autocompletion=completion.methods)] = None,
+        rtol: Annotated[float | None, option("TOL", "Relative tolerance; default: the method's own.")] = None,
+        digits: Annotated[int | None, option("N",
+            "Reach N digits (1 to 15) the cheapest way, check them, or exit with 5. Without it 10 "
+            "are the aim, unless --model, --method or --rtol is given.")] = None,
+        angles: Annotated[bool, flag("--angles", "Euler angles ψ, θ, φ of the vertical, too.")] = False,
+        attitude: Annotated[bool, flag(
+            "--attitude", "The attitude as a quaternion and the angular momentum in space, too.")] = False,
+        matrix: Annotated[bool, flag("--matrix", "The same with the attitude as a rotation matrix.")] = False,
+        out: Annotated[Path | None, option("FILE.nc|.csv", "Write the states to a file.")] = None,
         json: Json = False, strict: Strict = False, units: UnitsOption = None):
     """Follow a motion in time.
 
@@ -57,22 +48,18 @@ def simulate(
 @opens("pictures.plot")
 def plot(
         case: CaseFile,
-        kind: Annotated[str | None, typer.Option(
-            metavar="KIND", autocompletion=completion.kinds,
-            help="time, phase, potential, sphere, space, section, equilibria, budget, tilt, wheel, body, "
-                 "state or attitude (moves). Default: the one that says most of the case.")] = None,
-        out: Annotated[Path | None, typer.Option(
-            metavar="FILE.png|.svg|.pdf",
-            help="Picture to write; default: CASE.png in the current folder. Of an attitude "
-                 ".html, .gif or .mp4.")] = None,
-        size: Annotated[str | None, typer.Option(
-            metavar="WxH", help='Width and height in inches: "8x5".')] = None,
-        dpi: Annotated[float | None, typer.Option(
-            metavar="N", help="Dots an inch of a .png; default: 110.")] = None,
-        until: Annotated[str | None, typer.Option(
-            metavar="TIME", help='Draw up to this time: "10 min".')] = None,
-        neighbours: Annotated[int | None, typer.Option(
-            metavar="N", help="Of a section: so many motions beside this one; default: 6.")] = None,
+        kind: Annotated[str | None, option("KIND",
+            "time, phase, potential, sphere, space, section, equilibria, budget, tilt, wheel, body, state "
+            "or attitude (moves). Default: the one that says most of the case.",
+            autocompletion=completion.kinds)] = None,
+        out: Annotated[Path | None, option("FILE.png|.svg|.pdf",
+            "Picture to write; default: CASE.png in the current folder. Of an attitude .html, .gif "
+            "or .mp4.")] = None,
+        size: Annotated[str | None, option("WxH", 'Width and height in inches: "8x5".')] = None,
+        dpi: Annotated[float | None, option("N", "Dots an inch of a .png; default: 110.")] = None,
+        until: Annotated[str | None, option("TIME", 'Draw up to this time: "10 min".')] = None,
+        neighbours: Annotated[int | None, option(
+            "N", "Of a section: so many motions beside this one; default: 6.")] = None,
         units: UnitsOption = None, strict: Strict = False):
     """Draw a case: rates over time, phase plane, separatrix, more.
 
@@ -86,8 +73,7 @@ def plot(
 @commands.command()
 @opens("pictures.surface")
 def surface(
-        case: CaseFile,
-        out: Folder = ...,  # type: ignore[assignment]  # typer: must be given
+        case: CaseFile, out: Folder = ...,  # type: ignore[assignment]  # typer: must be given
         json: Json = False, strict: Strict = False):
     """Write the separatrix surfaces as meshes and a picture.
 
@@ -101,19 +87,16 @@ def surface(
 @commands.command()
 @opens("report.report")
 def report(
-        cases: Annotated[list[Path] | None, typer.Argument(
-            metavar="[CASE...]", show_default=False, autocompletion=completion.cases,
-            help="Case files; none: everything that stabilab brings.")] = None,
-        out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the report.")] = Path("report"),
-        papers: Annotated[bool, typer.Option(
-            "--papers",
-            help="The papers' tables and figures, the audit of their formulas and other "
-                 "tools' numbers as well: minutes.")] = False,
-        precision: Annotated[bool, typer.Option("--precision", help="What accuracy costs, too.")] = False,
-        certify: Annotated[bool, typer.Option(
-            "--certify", help="A certificate of each case, checked, too.")] = False,
-        workers: Annotated[int | None, typer.Option(
-            metavar="N", min=1, help="Processes that share the work; default: one a core.")] = None,
+        cases: Annotated[list[Path] | None, argument("[CASE...]",
+            "Case files; none: everything that stabilab brings.", autocompletion=completion.cases)] = None,
+        out: Annotated[Path, option("DIR", "Folder for the report.")] = Path("report"),
+        papers: Annotated[bool, flag("--papers",
+            "The papers' tables and figures, the audit of their formulas and other tools' numbers "
+            "as well: minutes.")] = False,
+        precision: Annotated[bool, flag("--precision", "What accuracy costs, too.")] = False,
+        certify: Annotated[bool, flag("--certify", "A certificate of each case, checked, too.")] = False,
+        workers: Annotated[int | None, option(
+            "N", "Processes that share the work; default: one a core.", min=1)] = None,
         strict: Strict = False):
     """Write a report on your cases: web pages.
 
@@ -127,20 +110,17 @@ def report(
 @commands.command()
 @opens("pictures.explore")
 def explore(
-        case: Annotated[Path | None, typer.Argument(
-            metavar="[CASE]", show_default=False, autocompletion=completion.cases,
-            help="A case file (TOML). Default: one that stabilab brings.")] = None,
-        port: Annotated[int, typer.Option(
-            metavar="N", min=0, max=65535, help="Port of this machine; 0: a free one.")] = 0,
-        browser: Annotated[bool, typer.Option(
-            "--browser/--no-browser", help="Open the page, or only print its address.")] = True,
-        static: Annotated[Path | None, typer.Option(
-            metavar="DIR",
-            help="Write the page as a folder for any web server: Python answers in the browser.")] = None,
-        pyodide: Annotated[Path | None, typer.Option(
-            metavar="DIR",
-            help="With --static: a folder with Pyodide and python-flint's wheel, to be copied "
-                 "in. Without: loaded from where they are published.")] = None):
+        case: Annotated[Path | None, argument("[CASE]",
+            "A case file (TOML). Default: one that stabilab brings.",
+            autocompletion=completion.cases)] = None,
+        port: Annotated[int, option("N", "Port of this machine; 0: a free one.", min=0, max=65535)] = 0,
+        browser: Annotated[bool, flag(
+            "--browser/--no-browser", "Open the page, or only print its address.")] = True,
+        static: Annotated[Path | None, option(
+            "DIR", "Write the page as a folder for any web server: Python answers in the browser.")] = None,
+        pyodide: Annotated[Path | None, option("DIR",
+            "With --static: a folder with Pyodide and python-flint's wheel, to be copied in. "
+            "Without: loaded from where they are published.")] = None):
     """Move a case with sliders, and the verdict follows.
 
     Separatrix, equilibria, motion, phase plane and rates over time; the verdict changes as you drag. The page
