@@ -69,31 +69,13 @@ class Units:
         """A point in time: "t = 2.5 s", or "tau = 2.5" of a scaled case."""
         return f"tau = {number(value, digits)}" if self.scaled else f"t = {self.time(value, digits)}"
 
-    def momentum(self, value: float, digits: int = DIGITS) -> str:
-        """An angular momentum, given in N m s."""
-        return self.told(value, self.plain("N m s"), digits)
-
     def torque(self, value: float, digits: int = DIGITS) -> str:
         """A torque, given in N m."""
-        return self.told(value, self.plain("N m"), digits)
+        return self.told(value, self.of("N m"), digits)
 
     def energy(self, value: float, digits: int = DIGITS) -> str:
         """An energy, given in J."""
-        return self.told(value, self.plain("J"), digits)
-
-    def Q(self, value: float, digits: int = DIGITS) -> str:
-        """The invariant of the conic, given in rad^2/s^2."""
-        return self.told(value, self.squares, digits)
-
-    @property
-    def squares(self) -> Unit:
-        """The unit of a squared angular velocity."""
-        name, one = self.rates
-        return (f"({name})^2" if name else "", one * one)
-
-    def plain(self, name: str) -> Unit:
-        """A unit that both systems share; no name where numbers have no dimension."""
-        return ("" if self.scaled else name, 1.0)
+        return self.told(value, self.of("J"), digits)
 
     def times(self, longest: float) -> Unit:
         """The unit of time that suits times up to `longest` seconds."""
@@ -132,8 +114,11 @@ class Units:
         return before + self.told(float(last), (name, one), digits)
 
     def of(self, unit: str) -> Unit:
-        """The unit in which numbers of this SI unit are told."""
-        return {"rad/s": self.rates, "rad": self.angles}.get(unit, (unit, 1.0))
+        """The unit in which numbers of this SI unit are told; those of a scaled case have none."""
+        name, one = self.rates
+        turns = {"rad/s": self.rates, "rad": self.angles,
+                 "(rad/s)^2": (f"({name})^2" if name else "", one * one)}
+        return turns.get(unit, ("" if self.scaled and unit != "1" else unit, 1.0))
 
     def vector(self, values, unit: Unit, digits: int = DIGITS) -> str:
         """Several numbers in one unit: "(1, 2, 3) deg/s"."""

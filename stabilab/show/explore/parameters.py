@@ -47,7 +47,7 @@ def groups(case: Case, units: Units) -> list[dict[str, Any]]:
     """The groups of sliders as a page takes them: {title, axis of the torque where it is of that, controls}.
     """
     axis, size, tilt, azimuth = direction(vector(case, "torque"))
-    torque = [Control("size", "size", units.plain("N m")[0], size,
+    torque = [Control("size", "size", units.of("N m")[0], size,
                       *_around(abs(size) or _usual_torque(case))),
               Control("tilt", "tilt off it", "deg", tilt, 0.0, nice(max(TILTED, ROOM * tilt))),
               Control("azimuth", "towards", "deg", azimuth, -180.0, 180.0)]

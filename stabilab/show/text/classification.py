@@ -87,7 +87,7 @@ def _equilibria(case, equilibria, units, proofs):
                 f"  {turning[0].parametrisation.split(', omega')[0]}: the vertical gamma, about which the "
                 f"body turns at the rate Omega"))
     for curve in equilibria.curves:
-        lines += _proved_curve(curve, units) if proofs else _curve(curve, units)
+        lines += _curve(curve, units, proofs)
     return lines
 
 
@@ -124,33 +124,18 @@ def _point(case, point, units, proofs):
 
 
 def spectrum(point, units) -> str:
-    """The characteristic polynomial of three rates, where its coefficients are doubles, and the eigenvalues.
-    """
-    roots = ", ".join(_pairs(map(complex, point.eigenvalues)))
-    known = len(point.eigenvalues) == 3 and all(map(math.isfinite, point.characteristic))
-    polynomial = _characteristic(point) + ", " if known else ""
-    return f"{polynomial}eigenvalues {roots}{per_second(units)}"
+    """The characteristic polynomial of three rates where its coefficients are doubles; the eigenvalues."""
+    told = f"eigenvalues {', '.join(_pairs(map(complex, point.eigenvalues)))}{per_second(units)}"
+    if len(point.eigenvalues) != 3 or not all(map(math.isfinite, point.characteristic)):
+        return told
+    terms = [f" {'-' if value < 0 else '+'} {number(abs(value), 6)}{power}"
+             for value, power in zip(point.characteristic[1:], (" z²", " z", "")) if value]
+    return f"z³{''.join(terms)}, {told}"
 
 
 def per_second(units) -> str:
     """The unit of an eigenvalue after a blank; nothing in scaled variables."""
     return "" if units.scaled else " 1/s"
-
-
-def _characteristic(point) -> str:
-    """z^3 + c z^2 + m z + n with numbers; terms that vanish are left out."""
-    words = "z³"
-    for value, power in zip(point.characteristic[1:], (" z²", " z", "")):
-        if value:
-            words += f" {'-' if value < 0 else '+'} {number(abs(value), 6)}{power}"
-    return words
-
-
-def _curve(curve, units):
-    """Its equation and states along it."""
-    told = in_units(curve, units)
-    return [f"  {lettered(f'{units.axes.sentence(told.name)}: {told.equation}')}, along it:",
-            *_samples(curve, units)]
 
 
 def _samples(curve, units):
@@ -165,23 +150,20 @@ def _samples(curve, units):
     return [f"    {known:<22}{place:<{wide}}  {roots}" for known, place, roots in rows]
 
 
-def _proved_curve(curve, units):
-    """All pieces with their reasons; equations in rates are in the unit of rates, those of a field in rad/s
-    and s."""
+def _curve(curve, units, proofs):
+    """Its equation and states along it, with proofs also all pieces with their reasons; equations in rates
+    are in the unit of rates, those of a field in rad/s and s."""
     told = in_units(curve, units)
     words = lettered(f"{units.axes.sentence(told.name)}: {told.equation}")
+    if not proofs:
+        return [f"  {words}, along it:", *_samples(curve, units)]
     lines = [f"  {words}" + (f"  (ω in {told.unit})" if told.unit else ""),
              f"    {lettered(told.parametrisation)}"]
     for piece in curve.segments:
-        low, high = (_end(t * told.one) for t in piece.t)
+        low, high = (number(t * told.one, 6).replace("unbounded", "∞") for t in piece.t)
         lines += [f"    t from {low} to {high}: {piece.verdict} (linear: {piece.linear})",
                   f"      {reason(piece.because, units)}"]
     return [*lines, *(f"    fold at {state(fold, units)}" for fold in curve.folds), *_samples(curve, units)]
-
-
-def _end(t) -> str:
-    """An end of a piece of a curve."""
-    return number(t, 6) if math.isfinite(t) else "∞" if t > 0 else "-∞"
 
 
 def _pairs(roots):
@@ -212,7 +194,12 @@ def as_dict(case, equilibria, motion) -> dict:
     return {"schema": "stabilab.classify/1", "case": case.name, "variables": case.variables,
             "equilibria": {"kind": equilibria.kind, "reason": equilibria.reason,
                            "points": [_point_dict(case, p) | _input(case, p.at) for p in equilibria.points],
-                           "curves": [_curve_dict(case, c) for c in equilibria.curves]},
+                           "curves": [values_of(c, "name equation parametrisation")
+                                      | {"samples": [_point_dict(case, p) for p in c.samples],
+                                         "folds": c.folds,
+                                         "segments": [values_of(s, "t linear verdict because")
+                                                      for s in c.segments]}
+                                      for c in equilibria.curves]},
             "motion": None if motion is None else _motion_dict(case, motion) | _input(case, motion.at)
             } | ({} if motion is None else limiting.key(case, motion.caveats)) | frame.key(case)
 
@@ -229,12 +216,6 @@ def _point_dict(case, p) -> dict:
     jacobian = case.scene.quadratic().jacobian(tuple(map(float, p.at))) if case.scene.plain else None
     return {"at": p.at, "jacobian": jacobian} | values_of(
         p, "characteristic eigenvalues linear verdict because")
-
-
-def _curve_dict(case, c) -> dict:
-    return values_of(c, "name equation parametrisation") | {
-        "samples": [_point_dict(case, p) for p in c.samples], "folds": c.folds,
-        "segments": [values_of(s, "t linear verdict because") for s in c.segments]}
 
 
 def _motion_dict(case, m) -> dict:

@@ -10,15 +10,15 @@ from ..units import DEG, DIGITS, Units, but_for_rounding, number
 from .headline import rate_margin, span_words
 
 WIDE = 24  # columns of a name
-# Of invariants and of what a run showed: what it is called, and which number of `Units` it is.
+# Of invariants and of what a run showed: what it is called, and its unit in SI or what else it is.
 QUANTITIES = {
-    "Q": ("invariant Q", "Q"), "energy": ("energy", "energy"), "momentum": ("angular momentum", "momentum"),
-    "rate_bound": ("|ω| never exceeds", "rate"), "late_rate_bound": ("|ω| in the end at most", "rate"),
+    "Q": ("invariant Q", "(rad/s)^2"), "energy": ("energy", "J"), "momentum": ("angular momentum", "N m s"),
+    "rate_bound": ("|ω| never exceeds", "rad/s"), "late_rate_bound": ("|ω| in the end at most", "rad/s"),
     "J": ("J of the law", "(N m s)^2"), "J_rate": ("J changes by", "(N m s)^2/s"),
-    "span": ("followed for", "time"), "size_start": ("|ω| at the start", "rate"),
-    "size_end": ("|ω| at the end", "rate"), "size_largest": ("largest |ω| seen", "rate"),
-    "energy_start": ("energy at the start", "energy"), "energy_end": ("energy at the end", "energy"),
-    "energy_change": ("change of energy", "energy"), "t_certificate": ("certificate holds from", "moment"),
+    "span": ("followed for", "s"), "size_start": ("|ω| at the start", "rad/s"),
+    "size_end": ("|ω| at the end", "rad/s"), "size_largest": ("largest |ω| seen", "rad/s"),
+    "energy_start": ("energy at the start", "J"), "energy_end": ("energy at the end", "J"),
+    "energy_change": ("change of energy", "J"), "t_certificate": ("certificate holds from", "moment"),
     "followed_until": ("followed until", "moment"), "release_time": ("last reversal of the turn", "reversal"),
     "release_estimate": ("barrier gone by about", "moment"), "rate_end": ("rates at the end", "rates"),
     "energy_trend": ("the energy", ""), "certificate": ("how it is certified", ""),
@@ -139,7 +139,7 @@ def why(case, motion, units: Units, proofs: bool) -> list[str]:
 def constants(motion, units: Units) -> list[tuple[str, str]]:
     """(name, words) of the invariants and of what a run showed. A potential is in the energy of a reduced
     motion, and none of its parts is that of the whole body."""
-    reduced = {"energy": ("energy, reduced motion", "energy")} if "Q" in motion.invariants else {}
+    reduced = {"energy": ("energy, reduced motion", "J")} if "Q" in motion.invariants else {}
     found = [((QUANTITIES | reduced)[name], value) for part in (motion.invariants, motion.evidence)
              for name, value in part.items()
              if value is not None and (name, value) != ("steps", 0)]  # a law needed no run
@@ -162,10 +162,9 @@ def quantity(kind: str, value, units: Units) -> str:
         return told if value or kind == "moment" else "none after the start"
     if not kind or not isinstance(value, float):
         return number(value, DIGITS) if isinstance(value, float) else MEANINGS.get(str(value), str(value))
-    if kind.startswith("("):
-        per = " per unit of tau" if units.scaled and kind.endswith("/s") else ""
-        return units.told(value, units.plain(kind)) + per
-    return getattr(units, kind)(value)
+    if kind == "s":
+        return units.time(value)
+    return units.told(value, units.of(kind)) + " per unit of tau" * (units.scaled and kind.endswith(")^2/s"))
 
 
 def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
@@ -181,7 +180,7 @@ def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
         lines.append(f"    shortest time found   {units.clock(found.low, found.high)} ({found.level})")
         if proofs:
             lines.append(f"    at azimuth            {_angle(found.azimuth)}, torque "
-                         f"{units.vector(found.torque, units.plain('N m'))}")
+                         f"{units.vector(found.torque, units.of('N m'))}")
     else:
         many, far = len(found.times), units.time(found.followed)
         told = (f"{many} azimuths were followed for {far} or more" if many > 1

@@ -21,10 +21,14 @@ SHOWN = 12  # digits of a number that is not written out, where more than a tabl
 
 def fate(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:
     """The fate, margins, bounds for all times, what a tilt does, and why."""
-    margin = "" if told.values is None else _energy(told, units, all_digits)
-    rows = [row(name, words) for name,
-            words in (("margin, rate", rate_margin(motion, units, DIGITS)), ("margin, energy", margin))
-            if words]
+    margin, size = "", units.energy
+    if told.values is not None:
+        if all_digits:
+            decimals = told.decimals or number(told.values, max(SHOWN, told.asked))
+            size = lambda _: f"{decimals.removeprefix('-')} {units.of('J')[0]}".rstrip()
+        margin = energy_margin(told.values, size)
+    margins = (("margin, rate", rate_margin(motion, units, DIGITS)), ("margin, energy", margin))
+    rows = [row(name, words) for name, words in margins if words]
     bounds = bound_lines(case, replace(motion, extremes=None), units)
     return "\n".join([f"{case.name}: {verdict(case, motion, units)}", *rows, *bounds,
                       *tilt_lines(case, motion, units, proofs),
@@ -32,18 +36,9 @@ def fate(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: 
                       *([_said(told, units, " of the margin, energy")] * say)])
 
 
-def _energy(told, units, all_digits):
-    if not all_digits:
-        return energy_margin(told.values, units.energy)
-    decimals = told.decimals or number(told.values, max(SHOWN, told.asked))
-    return energy_margin(told.values,
-                         lambda _: f"{decimals.removeprefix('-')} {units.plain('J')[0]}".rstrip())
-
-
 def extremes(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:
     """The largest rate and the fate, a line a component, and bounds for all times."""
-    shown = (motion if told.values is None
-             else replace(motion, extremes=tuple(tuple(map(float, pair)) for pair in told.values)))
+    shown = _with(motion, told)
     parts, most = [*outcome(shown, units), cause(shown, units)], [largest(shown, units)]
     parts = [*parts, *most] if motion.fate.word == "spin-up" else [*most, *parts]
     rows = [f"  extremes: {shown.extremes_over}"]
@@ -59,24 +54,19 @@ def _all_digits(case, motion, told):
     """A line a component, every digit that was asked for; in rad/s, in which they were checked."""
     unit = "" if case.variables == "scaled" else "rad/s"
     pairs = told.decimals or [[number(v, max(SHOWN, told.asked)) for v in pair] for pair in motion.extremes]
-    wide = max(24, told.asked + 8)
-    rows = (f"  {greek(name):<8}{_word(low):>{wide}}{_word(high):>{wide}}  {unit}".rstrip()
+    wide, word = max(24, told.asked + 8), lambda end: "unbounded" if end in ("inf", "-inf") else end
+    rows = (f"  {greek(name):<8}{word(low):>{wide}}{word(high):>{wide}}  {unit}".rstrip()
             for name, (low, high) in zip(case.scene.components, pairs))
     return [f"  over {motion.extremes_over}, least and greatest:", *rows]
 
 
-def _word(decimal) -> str:
-    return "unbounded" if decimal in ("inf", "-inf") else decimal
-
-
 def _said(told, units, of: str = "") -> str:
     """How many digits were checked, of what, and how."""
-    if told.digits is None:
-        return f"  {reason(told.because, units)}"
-    if math.isinf(told.digits):
-        return f"  exact: {reason(told.because, units)}"
-    reached = f"{min(told.digits, 99.0):.1f}".removesuffix(".0")
-    return f"  {reached} digits{of}: {reason(told.because, units)}"
+    because, digits = reason(told.because, units), told.digits
+    if digits is None:
+        return f"  {because}"
+    return f"  exact: {because}" if math.isinf(digits) else (
+        f"  {f'{min(digits, 99.0):.1f}'.removesuffix('.0')} digits{of}: {because}")
 
 
 def period(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:
@@ -99,24 +89,23 @@ def period(case, motion, told, units: Units, all_digits: bool, say: bool, proofs
 
 
 # --- As JSON and CSV
-def digits(told) -> dict:
-    """What is said of the digits; reached: null where there is no number to judge."""
+def _object(question, case, motion, told, found) -> dict:
+    """What the objects of all questions have, and what was found; digits: reached is null where there is no
+    number to judge."""
     shown = None if told.digits is None else min(told.digits, 99.0)
-    return {"asked": told.asked, "reached": shown} | values_of(told, "method because decimals")
+    return ({"schema": f"stabilab.{question}/1", "case": case.name, "variables": case.variables,
+             "at": motion.at, "fate": motion.fate.word} | found
+            | {"digits": {"asked": told.asked, "reached": shown}
+               | values_of(told, "method because decimals")}
+            | limiting.key(case, motion.caveats) | frame.key(case))
 
 
 def extremes_dict(case, motion, told) -> dict:
     """One object of `stabilab extremes --json`; null where a component is unbounded or unknown (see fate)."""
     motion = _with(motion, told)
-    found = {"schema": "stabilab.extremes/1", "case": case.name, "variables": case.variables, "at": motion.at,
-             "fate": motion.fate.word, "components": case.scene.components, "extremes": motion.extremes,
-             "over": motion.extremes_over}
-    return found | followed(motion) | _around(case, motion) | {"digits": digits(told)}
-
-
-def _around(case, motion) -> dict:
-    """The caveats and the frame."""
-    return limiting.key(case, motion.caveats) | frame.key(case)
+    return _object("extremes", case, motion, told, {
+        "components": case.scene.components, "extremes": motion.extremes, "over": motion.extremes_over,
+        **followed(motion)})
 
 
 def _with(motion, told):
@@ -127,19 +116,16 @@ def _with(motion, told):
 def fate_dict(case, motion, told) -> dict:
     """One object of `stabilab fate --json`; margin: barrier minus energy, null where none stands ahead."""
     margin = motion.margin_energy if told.values is None else told.values
-    return {"schema": "stabilab.fate/1", "case": case.name, "variables": case.variables, "at": motion.at,
-            "fate": motion.fate.word,
-            **axes_of(case).key(motion.axis), "sense": motion.sense or None, "because": motion.because,
-            "margin": margin, "digits": digits(told), "tilt": when.tilt_dict(motion.tilt)
-            } | followed(motion) | _around(case, motion)
+    return _object("fate", case, motion, told, {
+        **axes_of(case).key(motion.axis), "sense": motion.sense or None, "because": motion.because,
+        "margin": margin, "tilt": when.tilt_dict(motion.tilt), **followed(motion)})
 
 
 def period_dict(case, motion, told) -> dict:
     """One object of `stabilab period --json`; null where the motion does not repeat, or is undecided (see
     fate, digits.because)."""
-    return {"schema": "stabilab.period/1", "case": case.name, "variables": case.variables, "at": motion.at,
-            "fate": motion.fate.word, "period": told.values, "time": case.scene.time_unit,
-            "digits": digits(told)} | _around(case, motion)
+    return _object("period", case, motion, told,
+                   {"period": told.values, "time": case.scene.time_unit})
 
 
 def extremes_csv(answered) -> str:

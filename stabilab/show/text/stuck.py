@@ -28,8 +28,7 @@ SOON = 2  # times a margin: the fate is back before a change as great
 
 
 def as_dict(case, found) -> dict:
-    """One object of `stabilab stuck --json`: SI units, rates in rad/s; axes are numbered as in "principal".
-    """
+    """One object of `stabilab stuck --json`: SI units, rates in rad/s; axes are those of "principal"."""
     return {"schema": "stabilab.stuck/2", "case": found.case, "rows": [_row(row, case) for row in found.rows],
             "principal": {"moments": list(found.principal.moments),
                           "axes": [list(axis) for axis in found.principal.axes]}}
@@ -70,7 +69,12 @@ def _margin_sizes(row) -> dict:
 
 def text(case, found, units: Units) -> str:
     """The answer in five lines at most, then the details."""
-    head = _ranking(found, units) if found.ranked else _first(found.rows[0], units)
+    if found.ranked:  # a line a thruster, the worst first
+        head = [f"{printable(row_name(row))} {answer_line(row, units)}" for row in found.rows]
+        if len(head) > FIRST:
+            head[FIRST - 1:] = [f"and {len(head) - FIRST + 1} more below, none of them sooner"]
+    else:
+        head = _first(found.rows[0], units)
     lines = [f"{printable(case.name)}: {head[0]}", *head[1:FIRST]]
     for row in found.rows:
         lines += ["", *_details(row, units)]
@@ -94,19 +98,15 @@ def swept(answers, units: Units):
                      else ""), [("fate", ""), ("axis", ""), ("limit in", name)], cells
 
 
-def _ranking(found, units):
-    """A line a thruster, the worst first; what the first lines have no place for stands in the details."""
-    told = [f"{printable(row_name(row))} {answer_line(row, units)}" for row in found.rows]
-    return (told if len(told) <= FIRST
-            else [*told[:FIRST - 1], f"and {len(told) - FIRST + 1} more below, none of them sooner"])
-
-
 def _first(row, units):
+    torque = f"torque {number(math.hypot(*row.torque))} N m, {vector(row.torque)} in the frame of the file"
+    if row.largest_rate is not None and row.fate == "spin-up":
+        torque += f"; largest rate until then {units.rate(row.largest_rate, SHORT)}"
     wheel = next((w for w in row.wheels if w.keeps_bounded),
                  next((w for w in row.wheels if w.best is not None), None))
     more = (_margins(row, units), wheel and _wheel(wheel, units),
             row.helpers and _helper(row.helpers[0], units))
-    return [answer_line(row, units), f"  {_torque(row, units)}", *(f"  {line}" for line in more if line)]
+    return [answer_line(row, units), f"  {torque}", *(f"  {line}" for line in more if line)]
 
 
 def row_name(row) -> str:
@@ -124,7 +124,11 @@ def _answer(row, units):
     if row.fate == "spin-up":
         return f"SPINS UP {_about(row, units.axes)}{', ' + when if when else ''}{_known(row)}"
     if row.fate == "undecided":
-        return f"UNDECIDED{', but ' + when if when else ': ' + _so_far(row, units)}"
+        if when:
+            return f"UNDECIDED, but {when}"
+        until = units.time(row.followed, SHORT)
+        return (f"UNDECIDED: followed for {until}" if row.limit is None
+                else f"UNDECIDED: not at {_limit(row.limit, units)} before {until} ({row.time_level})")
     words = FATES[row.fate]
     if row.fate == "equilibrium":
         words = f"{words if row.largest_rate else REST}: every rate stays as it is"
@@ -169,19 +173,6 @@ def _limit(limit, units) -> str:
             return f"{number(limit[0] * one)} {name} in a component"
         return f"the limit of a component ({', '.join(number(v * one) for v in limit)} {name})"
     return f"{number(limit * one)} {name}"
-
-
-def _so_far(row, units) -> str:
-    if row.limit is None:
-        return f"followed for {units.time(row.followed, SHORT)}"
-    return f"not at {_limit(row.limit, units)} before {units.time(row.followed, SHORT)} ({row.time_level})"
-
-
-def _torque(row, units) -> str:
-    known = row.largest_rate is not None and row.fate == "spin-up"
-    largest = f"; largest rate until then {units.rate(row.largest_rate, SHORT)}" if known else ""
-    size = number(math.hypot(*row.torque))
-    return f"torque {size} N m, {vector(row.torque)} in the frame of the file{largest}"
 
 
 def _margins(row, units) -> str:
@@ -230,8 +221,9 @@ def _unit(name, units):
 def _wheel(wheel, units) -> str:
     name = printable(wheel.wheel)
     if wheel.keeps_bounded:
-        momenta = " or ".join(map(_interval, merged(wheel.keeps_bounded)))
-        return f"wheel {name}, now {number(wheel.now)} N m s, keeps it bounded at {momenta}"
+        momenta = [_span_of(low, high) + "".join(f" but {number(s, 12)} N m s" for s in without)
+                   for low, high, without in merged(wheel.keeps_bounded)]
+        return f"wheel {name}, now {number(wheel.now)} N m s, keeps it bounded at {' or '.join(momenta)}"
     if wheel.best is None:
         return f"wheel {name}: no momentum is known to keep it bounded: {wheel.because}"
     later = ("not reached while followed" if wheel.best_time is None
@@ -253,11 +245,6 @@ def merged(intervals):
         else:
             out.append((low, high, ()))
     return out
-
-
-def _interval(part) -> str:
-    low, high, without = part
-    return _span_of(low, high) + "".join(f" but {number(s, 12)} N m s" for s in without)
 
 
 def _span_of(low, high) -> str:
@@ -296,11 +283,9 @@ def _helper(helper, units) -> str:
 
 
 def _details(row, units) -> list[str]:
-    lines = [f"{printable(row_name(row))}",
-             f"  torque, principal axes   {vector(row.torque_principal)} N m",
-             f"  torque, frame of file    {vector(row.torque)} N m",
-             f"  fate                     {row.fate} ({row.level})",
-             f"  because                  {lettered(units.words(row.because))}"]
+    found = [("torque, principal axes", f"{vector(row.torque_principal)} N m"),
+             ("torque, frame of file", f"{vector(row.torque)} N m"),
+             ("fate", f"{row.fate} ({row.level})"), ("because", lettered(units.words(row.because)))]
     margins = {}
     for name, margin in row.margins.items():
         told = lettered(holds_for(name, margin, units))
@@ -309,14 +294,14 @@ def _details(row, units) -> list[str]:
             told = f"{amount(name, margin.size, units)}{along}" + (f": {told}" if told else "")
         margins[name] = told
     if len(margins) > 1 and len(set(margins.values())) == 1:  # nothing is known of any, for one reason
-        lines.append(f"  {'margins':<24} {told}")
+        found.append(("margins", told))
     else:
-        lines += [f"  {'margin, ' + name:<24} {told}" for name, told in margins.items()]
+        found += [(f"margin, {name}", told) for name, told in margins.items()]
     if row.tilt is not None and not row.tilt.ranges:
-        early = f"{units.time(row.tilt.not_before)}"
-        lines.append(
-            f"  {'tilted, not before':<24} {early}, whatever the azimuth and for any smaller tilt (proved)")
-    return lines + [f"  {line}" for line in means(row, units)]
+        found.append(("tilted, not before", f"{units.time(row.tilt.not_before)}, whatever the azimuth and "
+                                            "for any smaller tilt (proved)"))
+    return [printable(row_name(row)), *(f"  {name:<24} {told}" for name, told in found),
+            *(f"  {line}" for line in means(row, units))]
 
 
 def means(row, units) -> list[str]:

@@ -115,7 +115,7 @@ def of_motions(motions: Sequence, units: Units) -> tuple[list[tuple[str, str]], 
              ("largest rate", name, lambda m: "" if _largest(m) is None else number(_largest(m) * one, 6)),
              ("margin", name, lambda m: rate_margin(m, units, 6).removesuffix(f" {name}") if name
               else rate_margin(m, units, 6)),
-             ("to barrier", units.plain("J")[0],
+             ("to barrier", units.of("J")[0],
               lambda m: "" if m.margin_energy is None else shown(m.margin_energy)),
              ("period", time, lambda m: "" if m.period is None else number(m.period * per_time, 6))]
     return filled(columns, motions)

@@ -89,17 +89,14 @@ def _answer(limit, found, low, high, units):
 
 def asked(limit, units):
     """A limit in words: "|omega| = 60 deg/s", of several "|ωx| or |ωy| = 5 deg/s" where it is one number."""
-    unit = {"energy": units.plain("J"), "tilt": units.angles}.get(limit.kind, units.rates)
-    names = [units.axes.sentence(_named(name)) for name in limit.names]
+    unit = {"energy": units.of("J"), "tilt": units.angles}.get(limit.kind, units.rates)
+    # the rate about an axis as everywhere else: "|omega 3|" is |ω3|, and "|omega z|" |ωz|
+    names = [units.axes.sentence(re.sub(r"\|(omega|x) ([123xyz])\|", r"|\1\2|", name))
+             for name in limit.names]
     told = [units.told(most, unit, DIGITS) for most in limit.limits]
     if len(set(told)) == 1:
         return f"{listed(names, 'or')} = {told[0]}"
     return " or ".join(f"{name} = {most}" for name, most in zip(names, told))
-
-
-def _named(quantity):
-    """The rate about an axis as everywhere else: "|omega 3|" is |ω3|, and "|omega z|" |ωz|."""
-    return re.sub(r"\|(omega|x) ([123xyz])\|", r"|\1\2|", quantity)
 
 
 def tilt_dict(found) -> dict | None:
