@@ -52,7 +52,11 @@ def precision(case, json, csv, out, until, quick, all_settings, strict):
         shown.checked(out)
     loaded = load_cases([case], motion=True)
     effort = "quick" if quick else "full"
-    measured = [_measured(one, effort, _end(one, until)) for one in one_by_one(loaded)]
+    measured = []
+    for one in one_by_one(loaded):
+        end = _end(one, until)
+        with blamed_on(one):
+            measured.append(measure(one, effort, end))
     if out:
         write_each(out, [(found.case, partial(shown.write, found)) for found in measured])
     if json:
@@ -64,11 +68,6 @@ def precision(case, json, csv, out, until, quick, all_settings, strict):
                                    caveats=found.case.caveats) for found in measured))
     all_reached((found.case, found.reference.reason) for found in measured if not found.questions)
     hold_laws(strict, (found.validity for found in measured), [found.case for found in measured])
-
-
-def _measured(case, effort, end):
-    with blamed_on(case):
-        return measure(case, effort, end)
 
 
 def _end(case, until):

@@ -24,7 +24,9 @@ def text() -> str:
             f"python        {platform.python_version()} ({platform.platform()})"]
     rows += [f"{name:<14}{_version(name)}{f' (extra {EXTRAS[name]})' if name in EXTRAS else ''}"
              for name in _needed()]
-    return "\n".join(rows + [f"{'rendering':<14}{_rendering(found)}", f"{'processor':<14}{_processor()}"])
+    rendering = (f"works ({found.words})" if found.available
+                 else f"does not work: {found.words}; cure: {found.cure}")
+    return "\n".join(rows + [f"{'rendering':<14}{rendering}", f"{'processor':<14}{_processor()}"])
 
 
 def _needed() -> list[str]:
@@ -63,11 +65,6 @@ def _answer(found) -> str:
     parts = [f"NOT INSTALLED: {', '.join(broken)}"] if broken else ["all that stabilab needs is installed"]
     parts += [f"not the extra{'s' * (len(extras) > 1)} {', '.join(extras)}"] if extras else []
     return f"{', but '.join(parts)}; pictures of surfaces {'can' if found.available else 'CANNOT'} be drawn"
-
-
-def _rendering(found) -> str:
-    return (f"works ({found.words})" if found.available
-            else f"does not work: {found.words}; cure: {found.cure}")
 
 
 def _processor() -> str:

@@ -50,8 +50,9 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, mat
                 for one in one_by_one(loaded)]
     if matrix:
         runs = [(one, in_matrices(run), reached) for one, run, reached in runs]
-    if angles:
-        runs = [(one, _with_angles(one, run, model, order), reached) for one, run, reached in runs]
+    for n, (one, run, reached) in enumerate(runs if angles else ()):
+        with blamed_on(one):
+            runs[n] = one, with_euler_angles(one, run, model, order), reached
     if out:
         write_each(out, [(one, partial(simulation.write, one, run)) for one, run, _ in runs])
     if json:
@@ -61,33 +62,27 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, mat
                          for followed, system in zip(runs, systems)))
     else:
         say_laws([(case, run.validity) for case, run, _ in runs])
-        _say_digits(runs)
-        _say_lost(runs)
+        for one, _, reached in runs:
+            if reached and not reached.enough:
+                say(f"{one.place}: checked to {reached.digits:.1f} digits: {reached.because}")
+        for one, run, _ in runs:
+            for name, error in simulation.lost_columns(run):
+                say(f"{one.place}: {name}: {simulation.zero_within(error)} where it is smaller than that")
     _judge(runs, digits)
     hold_laws(strict, (run.validity for _, run, _ in runs), loaded)
 
 
 def _followed(case, times, model, method, rtol, order, digits):
     """(the motion, what the check of its digits showed or None)."""
-    with blamed_on(case):
-        return _run_or_best(case, times, model, method, rtol, order, digits)
-
-
-def _run_or_best(case, times, model, method, rtol, order, digits):
     chosen = model != "exact" or not (method is None and rtol is None and order is None)
-    if digits is None and chosen:
-        return follow(case, times, model, method, rtol, order), None
-    if chosen:
-        raise InputError("--digits chooses method and tolerance of the exact motion itself: give it without "
-                         "--model, --method, "
-                         "--rtol and --order")
-    reached = best_reached(case, times, DEFAULT if digits is None else digits, aim=digits is None)
-    return reached.run, reached
-
-
-def _with_angles(case, run, model, order):
     with blamed_on(case):
-        return with_euler_angles(case, run, model, order)
+        if digits is None and chosen:
+            return follow(case, times, model, method, rtol, order), None
+        if chosen:
+            raise InputError("--digits chooses method and tolerance of the exact motion itself: give it "
+                             "without --model, --method, --rtol and --order")
+        reached = best_reached(case, times, DEFAULT if digits is None else digits, aim=digits is None)
+        return reached.run, reached
 
 
 def _as_dict(case, run, reached) -> dict:
@@ -99,39 +94,17 @@ def _as_dict(case, run, reached) -> dict:
 def _as_text(case, run, reached, digits, units, width) -> str:
     checked = "checked to " if digits is None else ""
     last = f"\n# {checked}{reached.digits:.1f} digits: {reached.because}" if reached else ""
-    told = "".join(f"\n# {lettered(units.words(line))}" for line in _theory(case, run, words=True))
-    table = simulation.text(case, run, units, None if digits is None else _known(reached, digits), width)
+    told = "".join(f"\n# {lettered(units.words(line))}" for line in lines(_theory(case, run)))
+    # as many as the check vouches for, those asked for at least: exit code 5 says where they are not reached
+    known = None if digits is None else max(digits, int(min(reached.digits, 99.0)))
+    table = simulation.text(case, run, units, known, width)
     return law.first(run.validity, table + last + told, units, case.caveats)
 
 
-def _known(reached, digits) -> int:
-    """Digits of a state that are told: as many as the check vouches for, those asked for at least; exit code
-    5 says where they are not reached."""
-    return max(digits, int(min(reached.digits, 99.0)))
-
-
-def _theory(case, run, words=False):
-    """What the theory of an analytic model says, as rows or lines; nothing of an exact run."""
-    if run.model == "exact":
-        return []
-    found = theory(case, model=run.model, end=max(map(float, run.t), key=abs, default=None))
-    return lines(found) if words else found
-
-
-def _say_digits(runs):
-    """What the check of a run showed, where that is less than the aim and the states go to a file."""
-    for case, _, reached in runs:
-        if reached and not reached.enough:
-            say(f"{case.place}: checked to {reached.digits:.1f} digits: {reached.because}")
-
-
-def _say_lost(runs):
-    """Which columns of a file hold numbers that are no more than their error."""
-    for case, run, _ in runs:
-        names, rows = simulation.columns(run)
-        for name, error, values in zip(names, simulation.errors(run), zip(*rows)):
-            if any(simulation.lost(t, value, error) for t, value in zip(run.t, values)):
-                say(f"{case.place}: {name}: {simulation.zero_within(error)} where it is smaller than that")
+def _theory(case, run) -> list:
+    """What the theory of an analytic model says, as rows; nothing of an exact run."""
+    return ([] if run.model == "exact"
+            else theory(case, model=run.model, end=max(map(float, run.t), key=abs, default=None)))
 
 
 def _judge(runs, digits):

@@ -18,7 +18,7 @@ from ..data import csv_lines
 from ..files import endings
 from ..results import of_parts
 from ..terminal.letters import lettered, written
-from ..units import DIGITS, SHORT, Units
+from ..units import DIGITS, SHORT, Units, with_unit
 
 ALL = 16  # digits of a double
 GAP = 2
@@ -29,11 +29,10 @@ def text(case, run, units: Units, known: int | None = None, width: int | None = 
     for; width: of a terminal, where the columns are told part by part if they do not fit."""
     digits = DIGITS if known is None else min(ALL, known)
     names, rows = columns(run)
-    factors = _factors(run, units)
-    head, scale = [f"t ({written(case.scene.time_unit)})"], [1.0]
-    head += [lettered(f"{name} ({unit})" if unit else name) for name, (unit, _) in zip(names, factors)]
-    scale += [one for _, one in factors]
-    off = [0.0, *errors(run)]
+    measures = [units.of(unit) for unit in _units(run)]
+    head = [f"t ({written(case.scene.time_unit)})",
+            *(lettered(with_unit(name, unit)) for name, (unit, _) in zip(names, measures))]
+    scale, off = [1.0, *(one for _, one in measures)], [0.0, *errors(run)]
     cells = [[zero_within(error * one) if lost(t, value, error) else f"{value * one + 0.0:.{digits}g}"
               for value, one, error in zip((t, *row), scale, off)] for t, row in zip(run.t, rows)]
     laws = [f"# {lettered(name)}: largest relative departure {value:.3g}"
@@ -81,14 +80,6 @@ def _size(t, size, error, units):
             else units.rate(size, SHORT))
 
 
-def _factors(run, units) -> list[tuple[str, float]]:
-    """(unit, how many of it make one of the run's own) of every column."""
-    found: list[tuple[str, float]] = []
-    for name in run.state:
-        found += [units.of(PARTS[name].unit)] * len(PARTS[name].components)
-    return found
-
-
 def _columns(head, cells, width, wide):
     """Lines of right-aligned columns, the time first; in several tables where they are wider than a terminal.
     """
@@ -124,6 +115,11 @@ def columns(run) -> tuple[list[str], list[list[float]]]:
     return names, np.hstack(parts).tolist()
 
 
+def _units(run) -> list[str]:
+    """The SI unit of each of the columns."""
+    return [PARTS[name].unit for name in run.state for _ in PARTS[name].components]
+
+
 def errors(run) -> list[float]:
     """The error of each of the columns, 0 where none is known."""
     return [float(v) for name, values in run.state.items()
@@ -133,6 +129,13 @@ def errors(run) -> list[float]:
 def lost(t: float, value: float, error: float) -> bool:
     """Whether a number is no more than its error: rounding. What a start gives is known."""
     return t != 0 and 0 < abs(value) <= error
+
+
+def lost_columns(run) -> list[tuple[str, float]]:
+    """(name, error) of the columns that hold numbers which are no more than their error."""
+    names, rows = columns(run)
+    return [(name, error) for name, error, values in zip(names, errors(run), zip(*rows))
+            if any(lost(t, value, error) for t, value in zip(run.t, values))]
 
 
 # --- As files: NetCDF with units and provenance, or CSV
@@ -154,11 +157,9 @@ def write(case, run, path) -> Path:
 
 def _csv(case, run, path):
     names, rows = columns(run)
-    units = [unit for name in run.state for unit in [PARTS[name].unit] * len(PARTS[name].components)]
     time = "tau" if case.variables == "scaled" else "t (s)"
-    named = [f"{name} ({unit})" if unit else name for name, unit in zip(names, units, strict=True)]
-    path.write_text(csv_lines([(time, *named),
-                                 *((float(t), *row) for t, row in zip(run.t, rows))]), encoding="utf-8",
+    path.write_text(csv_lines([(time, *map(with_unit, names, _units(run))),
+                               *((float(t), *row) for t, row in zip(run.t, rows))]), encoding="utf-8",
                     newline="")
 
 
