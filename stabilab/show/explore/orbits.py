@@ -1,17 +1,10 @@
-"""Motions of the explorer for scenes without a reduction.
+"""The motion as a page draws it: in plain floats where these are sure of it, else in as many digits as it
+takes once the hand rests, for on an unstable plane, and on the separatrix itself, whatever a step in floats
+leaves grows until the line is another motion's; and why a body on which more acts than wheels and a torque
+has no separatrix and no phase plane.
 
-What a page shows of a body on which more acts than wheels and a torque: the motion, followed in time, and why
-there is no separatrix and no phase plane.
-
-A charge that only adds to the wheel has the rates of a gyrostat, and is no such body. A liquid, a medium,
-weight and a field take the law away from which separatrix and phase plane come; what is left are the verdict,
-the equilibria, and the motion with its rates.
-
-The motion as a page draws it: in plain floats where these are sure of it, else in as many digits as it takes
-once the hand rests.
-
-On an unstable plane, and on the separatrix itself, whatever a step in floats leaves grows until the line is
-another motion's.
+A liquid, a medium, weight and a field take the law away from which both come; a charge that only adds to the
+wheel has the rates of a gyrostat, and is no such body.
 """
 from __future__ import annotations
 
@@ -23,7 +16,6 @@ from ...case.read import Case
 from ...equilibrium.result import Equilibria
 from ...errors import InputError, StabilabError
 from ...integrate.quadratic_series import Path, followed, parting
-from ...numbers.principal import PrincipalAxes
 from ...packages import demand, present
 from ...physics.coefficients import content
 from ...physics.effects.base import effect_words
@@ -52,10 +44,16 @@ def check(case: Case) -> None:
     if not needed(case.scene):
         return
     demand("numpy", "scipy")
-    if case.frame is not None and not (case.frame.as_given or _alike(case.scene, case.frame)):
+    scene, turned = case.scene, case.frame
+    if turned is None or turned.as_given:
+        return
+    # the same along all axes, as an isotropic damper is
+    alike = scene.blocks == ("omega",) and all(effect.turned(turned) is effect for effect in scene.beyond)
+    if not alike:
+        names = " and ".join(effect_words(effect.name) for effect in scene.beyond)
         raise InputError(f"{case.place}: explore turns wheels and torque into the principal axes, but not "
-                         f"{_names(case.scene)}: state the case along its "
-                         "principal axes (stabilab show tells them), or ask stabilab classify or report")
+                         f"{names}: state the case along its principal axes (stabilab show tells them), or "
+                         f"ask stabilab classify or report")
 
 
 def why(scene: AnyScene) -> str:
@@ -74,15 +72,6 @@ def why(scene: AnyScene) -> str:
     return (
         f"No separatrix and no phase plane: {' and '.join(reasons)}, so no law keeps the rates on a curve "
         f"that is known; what is drawn is the motion itself")
-
-
-def _alike(scene: AnyScene, frame: PrincipalAxes) -> bool:
-    """Whether the effects beside wheels and torque are the same along all axes, as an isotropic damper is."""
-    return scene.blocks == ("omega",) and all(effect.turned(frame) is effect for effect in scene.beyond)
-
-
-def _names(scene: AnyScene) -> str:
-    return " and ".join(effect_words(effect.name) for effect in scene.beyond)
 
 
 def path(case: Case, until: float) -> Path:

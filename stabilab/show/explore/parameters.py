@@ -1,6 +1,4 @@
-"""What may be changed in the explorer: sliders, and the case with a number changed.
-
-A case with what the sliders changed: as the text of a case file, and as the case that this text states.
+"""The sliders of the explorer, and the case that they changed, as the text of a case file.
 
 What the page shows is always the answer for that very text, so a case that is saved is the one that was seen.
 Numbers that no hand touched stay as the file has them. Sliders count along principal axes; where the file's
@@ -15,7 +13,7 @@ from typing import Any
 
 from ...case.read import Case, read_text
 from ...case.table import Written
-from ...case.write import data_of, exact_text, text_of
+from ...case.write import data_of, data_of_scene, exact_text, text_of
 from ...errors import CaseError, InputError
 from ...physics.scene import Scene
 from ...verify.numbers import shown
@@ -44,8 +42,7 @@ class Control:
 
 
 def groups(case: Case, units: Units) -> list[dict[str, Any]]:
-    """The groups of sliders as a page takes them: {title, axis of the torque where it is of that, controls}.
-    """
+    """The groups of sliders as a page takes them: {title, axis of the torque where it is its, controls}."""
     axis, size, tilt, azimuth = direction(vector(case, "torque"))
     torque = [Control("size", "size", units.of("N m")[0], size,
                       *_around(abs(size) or _usual_torque(case))),
@@ -55,7 +52,10 @@ def groups(case: Case, units: Units) -> list[dict[str, Any]]:
              ("Wheel and moments" if units.scaled else "Wheel momentum about axis", None, _wheel(case)),
              ("Rates at the start", None, _start(case, units)),
              ("Moments of inertia about axis", None, _moments(case))]
-    return [{"title": title, "axis": along, "controls": _plain(rows)} for title, along, rows in found if rows]
+    # with six digits at most, as a person reads a slider; the case keeps all of its own
+    return [{"title": title, "axis": along,
+             "controls": [asdict(one) | {"value": float(f"{one.value:.6g}")} for one in rows]}
+            for title, along, rows in found if rows]
 
 
 def vector(case: Case, name: str) -> tuple[float, ...]:
@@ -149,11 +149,6 @@ def nice(value: float) -> float:
     return float(f"{next(n for n in (1, 2, 3, 5, 8, 10, 20) if n * ten >= value * (1 - 1e-12)) * ten:.6g}")
 
 
-def _plain(controls: list[Control]) -> list[dict[str, Any]]:
-    """With six digits at most, as a person reads a slider; the case keeps all of its own."""
-    return [asdict(one) | {"value": float(f"{one.value:.6g}")} for one in controls]
-
-
 SPOKEN_FOR = ("expect", "sweep")  # tables that speak of the file's own numbers
 LENGTH = 40  # letters of a number at most
 SMALLEST = 1e-300  # but zero: what is drawn of smaller ones has fewer digits than doubles
@@ -207,27 +202,20 @@ def _left_out(case: Case, fires: bool) -> str:
 def _base(case: Case) -> dict[str, Any]:
     """The data of the case to be changed, along principal axes."""
     data = {key: value for key, value in data_of(case.text).items() if key not in SPOKEN_FOR}
-    scene = case.scene
-    if scene.variables == "scaled":
-        motion = {key: value for key, value in data.get("motion", {}).items() if key in ("x", "tau")}
-        own = {"a": exact_text(scene.exact_ab[0]), "b": exact_text(scene.exact_ab[1]),
-               "mu": [exact_text(v) for v in scene.exact_mu]}
-        return (_kept(data, "title", "source")
-                | {"scaled": own, **_kept(data, "output"), **({"motion": motion} if motion else {})})
-    if case.frame is None or case.frame.as_given:
+    scaled = case.scene.variables == "scaled"
+    if not scaled and (case.frame is None or case.frame.as_given):
         return data
-    body = {"inertia": [exact_text(v) for v in scene.body.exact]} | _kept(data["body"], "mass")
-    vectors: Any = {effect.name: (type(effect).keys[0], scene.vector(effect.name))
-                    for effect in scene.effects if effect.name in ("gyrostat", "constant_torque")}
-    # the others are alike along all axes (`orbits.check`)
-    effects = ({effect.name: data["effects"][effect.name] for effect in scene.effects
-                if effect.name not in vectors}
-               | {name: {key: [exact_text(v) for v in vector]} for name, (key, vector) in vectors.items()})
-    motion = ({"angular_velocity": [exact_text(v) for v in case.exact_state or ()]}
-              | _kept(data.get("motion", {}), "span"))
-    limits = {} if case.limits is None or case.limits.rate is None else _kept(data, "limits")
-    return (_kept(data, "title", "source") | {"body": body, "effects": effects, **limits,
-                                              **_kept(data, "output"), "motion": motion})
+    made = data_of_scene(case.scene, case.exact_state)
+    if "motion" in made:
+        made["motion"] |= _kept(data.get("motion", {}), *(("x", "tau") if scaled else ("span",)))
+    if not scaled:
+        made["body"] |= _kept(data["body"], "mass")
+        for name in made.get("effects", {}).keys() - {"gyrostat", "constant_torque"}:
+            made["effects"][name] = data["effects"][name]  # alike along all axes (`orbits.check`)
+        if case.limits is not None and case.limits.rate is not None:
+            made |= _kept(data, "limits")
+    made |= _kept(data, "title", "source", "output")
+    return _kept(made, "title", "source", "scaled", "body", "effects", "limits", "output", "motion")
 
 
 def _kept(data: dict[str, Any], *keys: str) -> dict[str, Any]:

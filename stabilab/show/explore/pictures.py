@@ -1,18 +1,10 @@
-"""What the explorer draws: the plane of the reduced motion and rates over time; numbers packed for the
-browser.
+"""What the explorer draws: the plane of the reduced motion and the rates over time, as bytes for a page.
 
-An answer as bytes for a page: a header in JSON, and behind it the numbers of all curves and surfaces.
-
-    4 bytes: length of the header, little-endian | header | zeros up to a multiple of 4 | numbers
+    4 bytes: length of the header, little-endian | header, JSON | zeros up to a multiple of 4 | numbers
 
 In the header a row of numbers is {"type": "int16" or "float32", "from": byte in the numbers, "count": how
-many}.
-
-The phase plane of the motion from one state, in plain floats: heights of the reduced potential from which a
-page draws every level curve.
-
-`orbit.phase_plane` has the same plane in arrays, to the last digit; this one serves a hand that moves, and a
-browser without NumPy.
+many}. `orbit.phase_plane` has the same plane in arrays, to the last digit; the one here, in plain floats,
+serves a hand that moves, and a browser without NumPy.
 """
 from __future__ import annotations
 
@@ -31,6 +23,7 @@ from ...orbit.reduction import Reduction, reduce
 from ...orbit.result import Motion
 from ...physics.scene import AnyScene
 from ...verify.numbers import shown
+from ..data import plain
 from ..space import packed
 from ..spans import limit_time
 from ..units import Units, with_unit
@@ -57,7 +50,7 @@ class Bag:
 
     def framed(self, header: dict[str, Any]) -> bytes:
         """Header and numbers as the page reads them. Numbers that are not finite become null."""
-        text = json.dumps(finite(header), ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode()
+        text = json.dumps(plain(header), ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode()
         return b"".join([struct.pack("<I", len(text)), text, b"\0" * (-(4 + len(text)) % 4), *self._parts])
 
 
@@ -65,15 +58,6 @@ def unframed(message: bytes) -> tuple[dict[str, Any], bytes]:
     """(header, numbers) of `Bag.framed`."""
     (length,) = struct.unpack_from("<I", message)
     return json.loads(message[4:4 + length]), message[4 + length + (-(4 + length) % 4):]
-
-
-def finite(value: Any) -> Any:
-    """The same with null for what JSON has no number for."""
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    if isinstance(value, dict):
-        return {key: finite(one) for key, one in value.items()}
-    return [finite(one) for one in value] if isinstance(value, (list, tuple)) else value
 
 
 POINTS = 361  # of the potential across the picture
@@ -131,7 +115,12 @@ def plane_of(scene: AnyScene, state: tuple[float, ...]) -> Plane | None:
     pot, place, W0, unit = potential(r), *_start(r, state)
     force = pot.force(place)
     height = lambda y: pot.rise(float(y), place, force)
-    low, high = _walls(pot, place, height, W0) if r.geometry.walled else _round(pot, place)
+    if r.geometry.walled:
+        low, high = _walls(pot, place, height, W0)
+    else:  # of a circle: about the middle of the equilibria within half a turn
+        near = list(_rests(pot, place, [-math.pi + 2 * math.pi * n / POINTS for n in range(POINTS + 1)]))
+        middle = sum(near) / len(near) if near else 0.0
+        low, high = middle - CIRCLE, middle + CIRCLE
     y = [low + (high - low) * n / (POINTS - 1) for n in range(POINTS)]
     rests = [(at, height(at), pot.slope(pot.move(place, at)) > 0) for at in _rests(pot, place, y)]
     return Plane(r, pot, place, W0, unit, y, [height(v) for v in y], rests)
@@ -144,13 +133,6 @@ def _start(r: Reduction, state: tuple[float, ...]) -> tuple[tuple[float, float],
     x, z, w = r.canonical_exact(state)
     first, second = r.geometry.place(x, z)
     return (float(first), float(second)), float(w), r.constants["flip"] / r.constants["n"]
-
-
-def _round(pot, place):
-    """What is shown of a circle: about the middle of the equilibria within half a turn."""
-    found = list(_rests(pot, place, [-math.pi + 2 * math.pi * n / POINTS for n in range(POINTS + 1)]))
-    middle = sum(found) / len(found) if found else 0.0
-    return middle - CIRCLE, middle + CIRCLE
 
 
 def _rests(pot, place, y):
@@ -232,19 +214,20 @@ def over_time(bag: Bag, case: Case, motion: Motion | None, times: list[float], p
     name, one = units.times(times[-1])
     label, rate = units.rates
     symbol = "x" if units.scaled else "ω"
-    known = motion is not None and motion.extremes is not None and motion.extremes_over == "all time"
-    extremes = ([[v * rate for v in pair] for pair in motion.extremes] if known and motion is not None
-                and motion.extremes is not None else None)
+    extremes = period = reached = None
+    if motion is not None:
+        if motion.extremes is not None and motion.extremes_over == "all time":
+            extremes = [[v * rate for v in pair] for pair in motion.extremes]
+        period = None if motion.period is None else motion.period * one
+        reached = None if (at := limit_time(motion)) is None else at * one
     return {"times": bag.add("float32", [t * one for t in times]),
             "rates": [bag.add("float32", [x[n] * rate for x in path]) for n in range(3)],
-            "extremes": extremes, "period": None if motion is None or motion.period is None
-            else motion.period * one,
+            "extremes": extremes, "period": period, "reached": reached,
             "x": "time τ" if units.scaled else with_unit("time", name),
             "y": with_unit("x" if units.scaled else "rate", label),
             "names": [*(f"{symbol}{n}" for n in (1, 2, 3)), f"|{symbol}|"],
             "size": bag.add("float32", [math.hypot(*x) * rate for x in path]),
-            "limits": [float(v) * rate for v in _limits(case)],
-            "reached": None if motion is None or (at := limit_time(motion)) is None else at * one}
+            "limits": [float(v) * rate for v in _limits(case)]}
 
 
 def _limits(case: Case) -> list[Any]:

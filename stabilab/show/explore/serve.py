@@ -1,6 +1,4 @@
-"""The explorer as a local server.
-
-The page and its answers on the loopback address, by the standard library alone.
+"""The explorer as a local server: the page and its answers on the loopback address, by the standard library.
 
 Who may ask: a page that knows the random token in the address, from this machine, under the address that was
 printed. A name that some other server lets point here is refused by the header Host, a page of another origin
@@ -51,15 +49,15 @@ class Explorer(ThreadingHTTPServer):
     daemon_threads = True
 
     def __init__(self, case: Case, port: int = 0) -> None:
-        self.session, self.token, self.newest, self._numbers = Session(case), secrets.token_urlsafe(
-            24), 0, itertools.count(1)
+        self.session, self.token = Session(case), secrets.token_urlsafe(24)
+        self.newest, self._numbers = 0, itertools.count(1)
         self.html = page(self.session.about(), "explore-server.js", HOW).encode()
         try:
             super().__init__((HOST, port), _Handler)
         except (OSError, OverflowError) as error:
-            raise InputError(
-                f"--port: {port} cannot be had: {getattr(error, 'strerror', None) or error}; leave it out, "
-                f"and a free one is taken") from None
+            why = getattr(error, "strerror", None) or error
+            raise InputError(f"--port: {port} cannot be had: {why}; leave it out, and a free one is taken"
+                             ) from None
 
     @property
     def hosts(self) -> tuple[str, str]:

@@ -1,7 +1,5 @@
-"""One explorer session: a case, a change, and what the page shows then.
-
-What a page asks of a case and what it is answered: the verdict of the changed case, and everything that the
-page draws.
+"""One session of the explorer: what a page asks of a case, and what it is answered: the verdict of the
+changed case, and everything that the page draws.
 
 An answer for a moving hand is brief (no search for the nearest point of the separatrix, no run of a motion
 off the axes, a coarser surface); one for a resting hand is whole. All of it does without NumPy (then the
@@ -11,7 +9,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from itertools import groupby
@@ -25,7 +23,7 @@ from ...case.write import data_of
 from ...equilibrium.result import Equilibria
 from ...errors import StabilabError
 from ...orbit.result import Motion
-from ...orbit.separatrix.plain_branches import REACH, PlainBranch
+from ...orbit.separatrix.plain_branches import REACH
 from ...packages import explained, present
 from ...physics.coefficients import content, gyrostat_scene
 from ...physics.effects import effect_class
@@ -40,7 +38,6 @@ from ..axes import with_moments
 from ..report.one_case.tiles import tiles
 from ..space import (
     PLACES,
-    Box,
     beside_limit,
     box_of,
     branches_of,
@@ -166,7 +163,8 @@ class Session:
         if found is not None:
             found = law.judged(case, found, brief=True)
             if case.limits is not None and not moving and present("numpy"):
-                found = self._first(case, found)
+                from ...answers.when import with_first
+                found = with_first(case, found, QUICK)
             words = headline(case, found, units)
         settled = time.process_time()
         twin = self._twin(case)
@@ -176,16 +174,19 @@ class Session:
         times, path = self._once("line", (case.scene, case.state, until, moving),
                                  lambda: line(case, form, until, moving))
         picture = self._space(bag, case, twin, found, at_rest, times, path, asked.get("box"), moving)
+        about_axes = frame.components(self.case, units.axes)  # of the file, where they are others
+        turns = not self.units.scaled and present("numpy") and (case.scene.plain or not moving)
         made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word,
                 "look": "conditional" if found is None else look(found),
                 "moving": moving, "start": clicked,
                 "note": " ".join(filter(None, (note, self._swept, cut, _law(found, units),
                                                    *map(_capital, limiting.beside(case.caveats, units))))),
                 "toml": case.text, "axes": _named(units), "space": picture,
-                "rows": self._components(units) + ([] if found is None else rows(case, found, units)),
+                "rows": [*([["axes", lettered(about_axes)]] if about_axes else []),
+                         *([] if found is None else rows(case, found, units))],
                 "plane": None if twin is None else planes.drawn_planes(bag, twin, case.state, units),
                 "time": planes.over_time(bag, case, found, times, path, units),
-                "film": self._film(bag, case, times[-1], moving, units)}
+                "film": other.film(case, times[-1], bag, units) if turns else None}
         made["equilibria"] = equilibrium_rows(at_rest, units) if at_rest else other.NOT_YET
         return made | {"analysis": 1e3 * (settled - began), "work": 1e3 * (time.process_time() - began)}
 
@@ -194,17 +195,6 @@ class Session:
         if not isinstance(case.scene, Scene):
             return self.units
         return replace(self.units, axes=with_moments(self.units.axes, case.scene.body.exact))
-
-    def _components(self, units: Units) -> list[list[str]]:
-        """The row that says about which axes of the file the rates are."""
-        told = frame.components(self.case, units.axes)
-        return [["axes", lettered(told)]] if told else []
-
-    def _film(self, bag: Bag, case: Case, until: float, moving: bool, units: Units) -> dict[str, Any] | None:
-        """The body as it turns; None where it waits until the hand rests, or is not to be had."""
-        if self.units.scaled or not present("numpy") or moving and not case.scene.plain:
-            return None
-        return other.film(case, until, bag, units)
 
     def _motion(self, case: Case, moving: bool, stopped) -> tuple[Motion | None, str]:
         """(what is known of the motion, the verdict in a line); None where a run would keep a moving hand
@@ -229,20 +219,13 @@ class Session:
         self._cost[kind] = time.process_time() - began
         return found, ""
 
-    def _first(self, case: Case, found: Motion) -> Motion:
-        """The motion with the time at which it reaches the limit of its case, by work that a hand waits for.
-        """
-        from ...answers.when import with_first
-        return with_first(case, found, QUICK)
-
     def _twin(self, case: Case) -> AnyScene | None:
         """The scene of wheel and torque alone with the same rates; None where there is none."""
         return (None if other.needed(case.scene) else case.scene if case.scene.plain
                 else gyrostat_scene(content(case.scene)))
 
     def _at_rest(self, case: Case, twin: AnyScene | None, moving: bool) -> Equilibria | None:
-        """The equilibria; None where they take so long that they wait until the hand rests, or are not known.
-        """
+        """The equilibria; None where they wait until the hand rests, for they take long, or are not known."""
         if twin is not None:
             return self._once("equilibria", twin, lambda: equilibria(twin))
         slow = self._cost.get("equilibria", math.inf) > PATIENCE
@@ -260,7 +243,12 @@ class Session:
         limit = limit_of(case)
         rests = [*beside_limit(limit, near), *([] if moving else nearest(at_rest, near))]
         box = box_of(near, marks + rests, reaching=True, asked=asked, kept=moving or ghost)
-        branches, words = ((), other.why(case.scene)) if bare is None else self._branches(bare, box, moving)
+        branches, words = (), other.why(case.scene)
+        if bare is not None:  # as far as the box reaches
+            reach = self._kept.get("reach", (None, REACH))[1]
+            branches, words, far = self._once("branches", (bare, box, moving), lambda: branches_of(
+                bare, box, plain=PLAIN if moving else None, reach=reach))
+            self._kept["reach"], words = (None, far), _capital(words)
         names = [component.replace("omega", "ω") for component in case.scene.components]
         curves = self._once("curves", (case.scene, box, moving, at_rest is None),
                             lambda: curves_of(at_rest, box, *POINTS[moving]))
@@ -272,14 +260,6 @@ class Session:
                         else ""))
         return data(drawn, partial(bag.add, "int16")) | {
             "words": words, "box": {"middle": box.middle, "half": box.half}}
-
-    def _branches(self, scene: AnyScene, box: Box, moving: bool) -> tuple[Sequence[PlainBranch], str]:
-        """(branches as far as the box reaches, what they part or why there are none)."""
-        reach = self._kept.get("reach", (None, REACH))[1]
-        found, words, far = self._once("branches", (scene, box, moving), lambda: branches_of(
-            scene, box, plain=PLAIN if moving else None, reach=reach))
-        self._kept["reach"] = (None, far)
-        return found, _capital(words)
 
     def _once(self, name: str, key: Any, make: Callable[[], Any]) -> Any:
         """What `make` gave for this key the last time, or gives now."""

@@ -49,7 +49,8 @@ def write(case: Case, out: Path, pyodide: Path | None = None) -> Path:
     if pyodide is not None:
         wheels = _wheels(pyodide)
         for name in (*NEEDED, *wheels):
-            _copied(pyodide / name, out / "pyodide" / name)
+            with whole_file(out / "pyodide" / name) as waiting:
+                shutil.copyfile(pyodide / name, waiting)
     words = f"Pyodide {PYODIDE} from {ADDRESS}" if wheels is None else "Pyodide from the folder of this page"
     flint = ("python-flint and NumPy from where Pyodide finds them" if wheels is None
              else f"{' and '.join(wheels)} too")
@@ -95,11 +96,6 @@ def _wheels(folder: Path) -> list[str]:
     if not found["python_flint"]:
         raise InputError(f"--pyodide: {folder} has no wheel python_flint-*-{tag}: {CURE}")
     return [names[-1] for names in found.values() if names]
-
-
-def _copied(source: Path, target: Path) -> None:
-    with whole_file(target) as waiting:
-        shutil.copyfile(source, waiting)
 
 
 def _written(path: Path, content: bytes) -> None:
