@@ -43,6 +43,13 @@ def whole_file(path):
                 waiting.unlink(missing_ok=True)
 
 
+def write_text(path, text: str) -> Path:
+    """Write a text as a file, whole or not at all; its path. Raises InputError as `whole_file` does."""
+    with whole_file(path) as waiting:
+        waiting.write_text(text, encoding="utf-8", newline="")
+    return Path(path)
+
+
 @contextmanager
 def new_folder(out):
     """A temporary folder inside `out` (on the same disk, even where `out` is a mount of its own) that

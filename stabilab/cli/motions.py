@@ -1,5 +1,4 @@
-"""Answers about a motion: what becomes of it, its extremes and period, when it reaches a limit, what helps.
-"""
+"""Answers about a motion: what becomes of it, its extremes and period, when it reaches a limit."""
 from __future__ import annotations
 
 from pathlib import Path

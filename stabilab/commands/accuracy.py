@@ -7,6 +7,7 @@ from functools import partial
 from ..case.read import blamed_on
 from ..cost.accuracy import precision as measure
 from ..errors import InputError
+from ..show.files import endings
 from ..show.spans import natural, seen
 from ..show.text import law
 from ..show.text.cost import comparison
@@ -22,7 +23,7 @@ def compare(case, order, out, json, strict, units):
     loaded = load_cases([case], motion=True)
     systems = units_asked(loaded, units)
     if out:
-        comparison.checked(out)
+        endings.file(out, (".csv",))
     compared = [(one, _compared(one, order)) for one in one_by_one(loaded)]
     if out:
         write_each(out, [(one, partial(comparison.write, one, found)) for one, found in compared])

@@ -7,6 +7,7 @@ import re
 from importlib import metadata
 
 from ..packages import EXTRAS
+from ..processes import machine
 from ..show.surface.render_probe import probe
 from ..show.terminal.page import tell
 
@@ -26,7 +27,8 @@ def text() -> str:
              for name in _needed()]
     rendering = (f"works ({found.words})" if found.available
                  else f"does not work: {found.words}; cure: {found.cure}")
-    return "\n".join(rows + [f"{'rendering':<14}{rendering}", f"{'processor':<14}{_processor()}"])
+    processor = f"{machine()['processor']}, {os.cpu_count()} logical"
+    return "\n".join(rows + [f"{'rendering':<14}{rendering}", f"{'processor':<14}{processor}"])
 
 
 def _needed() -> list[str]:
@@ -65,12 +67,3 @@ def _answer(found) -> str:
     parts = [f"NOT INSTALLED: {', '.join(broken)}"] if broken else ["all that stabilab needs is installed"]
     parts += [f"not the extra{'s' * (len(extras) > 1)} {', '.join(extras)}"] if extras else []
     return f"{', but '.join(parts)}; pictures of surfaces {'can' if found.available else 'CANNOT'} be drawn"
-
-
-def _processor() -> str:
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8", errors="replace") as stream:
-            names = [line.split(":", 1)[1].strip() for line in stream if line.startswith("model name")]
-    except OSError:
-        names = []
-    return f"{names[0] if names else platform.processor() or platform.machine()}, {os.cpu_count()} logical"

@@ -8,7 +8,7 @@ from ..case.source import EXAMPLES, command_of, source_text
 from ..case.source import example as text_of
 from ..case.write import data_of
 from ..errors import InputError, printable
-from ..files import whole_file
+from ..files import write_text
 from ..show.text.scene import of_all
 from .common.cases import load_cases
 from .common.output import say, tell, write
@@ -41,9 +41,7 @@ def import_(file, out, stuck, body=None):
             f"--body counts the bodies of a NASA 42 spacecraft file, and {printable(str(file))} is none")
     text = case_text(craft, file, stuck or ())
     if out:
-        with whole_file(out) as waiting:
-            waiting.write_text(text, encoding="utf-8")
-        say(f"written: {out}")
+        say(f"written: {write_text(out, text)}")
     else:
         write(text)
     for words in craft.said:

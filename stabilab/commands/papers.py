@@ -13,7 +13,7 @@ from ..papers.validation import validated
 from ..show.files import manifest
 from ..show.progress import counted
 from ..show.terminal.page import width
-from .common.output import either, say, write_paths
+from .common.output import either, say, write
 
 
 def audit(paper, equation, json, out):
@@ -49,7 +49,7 @@ def tables(out):
     with manifest.written(out, sys.argv[1:], table.case_files(table.STEMS), table.TOLERANCES) as folder:
         with counted() as tell:
             made = table.write_tables(folder, tell=tell)
-    write_paths([out / path.relative_to(folder) for path in made], out)
+    write("\n".join(str(out / path.relative_to(folder)) for path in made))
 
 
 def figures(numbers, paper, out):
@@ -58,4 +58,4 @@ def figures(numbers, paper, out):
     with manifest.written(out, sys.argv[1:], table.case_files(),
                           {row.file: row.tolerance for row in rows}) as folder:
         made = catalogue.write(numbers, folder, paper_name=paper)
-    write_paths([out / path.relative_to(folder) for path in made], out)
+    write("\n".join(str(out / path.relative_to(folder)) for path in made))

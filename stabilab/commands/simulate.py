@@ -13,6 +13,7 @@ from ..case.read import blamed_on, fires_on_schedule, load_burning
 from ..errors import InputError, ToleranceNotMet
 from ..show import reference as outside
 from ..show.data import as_json
+from ..show.files import endings
 from ..show.terminal import page
 from ..show.terminal.letters import lettered
 from ..show.text import law, simulation
@@ -122,7 +123,7 @@ def reference(case, at, digits, out, json):
     loaded, made = load_cases([case], motion=True), []
     say_repeated(loaded[0], at)
     if out:
-        outside.checked(out)
+        endings.file(out, outside.KINDS)
     for one in loaded:
         with blamed_on(one):
             made.append((one, *outside.as_dict(one, exact_times_asked(one, at), digits, sys.argv[1:])))

@@ -5,7 +5,8 @@ import re
 from pathlib import Path
 
 from ..errors import printable
-from ..files import whole_file
+from ..files import write_text
+from ..representation import values_of
 from .files import endings
 from .terminal.letters import some
 
@@ -20,11 +21,8 @@ def checked(path) -> Path:
 def write(certificate: dict, path) -> Path:
     """The certificate as a JSON file, whole or not at all. Raises InputError where it cannot be written."""
     import json
-    path = checked(path)
-    with whole_file(path) as waiting:
-        waiting.write_text(json.dumps(certificate, indent=1, ensure_ascii=False, allow_nan=False) + "\n",
-                           encoding="utf-8")
-    return path
+    text = json.dumps(certificate, indent=1, ensure_ascii=False, allow_nan=False)
+    return write_text(checked(path), f"{text}\n")
 
 
 def summary(certificate: dict) -> str:
@@ -47,21 +45,18 @@ def summary(certificate: dict) -> str:
 def text(found, first: str, other: str = "", physical: bool = False) -> str:
     """The verdict on the whole, what it is about, then one line a claim. other: the case that it should be of
     and is not. physical: the checker's x1 is a rate in rad/s, which all other commands call ω1."""
-    lines = [*(f"{f.status:<12} {f.claim}{f': {f.reason}' if f.reason else ''}" for f in found.findings)]
+    counts = {word: sum(f.status == word for f in found.findings)
+              for word in ("proved", "not checked", "refuted")}
+    count = ", ".join(f"{n} {word}" for word, n in counts.items() if n) or "no claims"
+    lines = [f"{f.status:<12} {f.claim}{f': {f.reason}' if f.reason else ''}" for f in found.findings]
     if physical:
         lines = [re.sub(r"\bx(?=[123]\b)", "ω", line) for line in lines]
     silent = f"; nothing is claimed of: {', '.join(found.silent)}" if found.silent else ""
     another = f"OF ANOTHER CASE than {printable(str(other))}; its own claims: " if other else ""
-    return "\n".join([f"{another}{found.status.upper()}: {_count(found)}{silent}", first, *lines])
-
-
-def _count(found) -> str:
-    numbers = {word: sum(f.status == word for f in found.findings)
-               for word in ("proved", "not checked", "refuted")}
-    return ", ".join(f"{n} {word}" for word, n in numbers.items() if n) or "no claims"
+    return "\n".join([f"{another}{found.status.upper()}: {count}{silent}", first, *lines])
 
 
 def as_dict(found, about: dict) -> dict:
     """The object of `stabilab verify --json`."""
     return {"schema": SCHEMA, "status": found.status, "about": about, "silent": list(found.silent),
-            "findings": [{"claim": f.claim, "status": f.status, "reason": f.reason} for f in found.findings]}
+            "findings": [values_of(f, "claim status reason") for f in found.findings]}

@@ -91,4 +91,3 @@ def silent(case) -> list[str]:
 def _turned(case):
     frame = getattr(case, "frame", None)
     return None if frame is None or frame.as_given else frame
-

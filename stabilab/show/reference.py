@@ -13,7 +13,7 @@ from ..answers.digits.ask import ask
 from ..answers.motion import motion
 from ..answers.tabulated import Tabulated, tabulated
 from ..caveat import key
-from ..files import whole_file
+from ..files import write_text
 from ..numbers.balls import working
 from ..physics.coefficients import effective
 from .data import as_json, csv_lines
@@ -41,7 +41,11 @@ def as_dict(case, times, digits: int, arguments=()) -> tuple[dict, Tabulated]:
                                     for t, row in zip(run.t, run.states)
                                     for texts in [[written(v, digits) for v in row]]]},
             "events": {"because": run.events_because,
-                       "list": [_event(one, run, digits) for one in run.events]},
+                       "list": [{"kind": one.kind, "component": run.components[one.component],
+                                 "t": t, "t_within": within([one.t], [t]),
+                                 "value": value, "value_within": within([one.value], [value])}
+                                for one in run.events
+                                for t, value in [(written(one.t, digits), written(one.value, digits))]]},
             "period": _told(told["period"]),
             "extremes": _told(told["extremes"]) | {"over": known.extremes_over}
             } | key(limited(known, case.scene, case).caveats), run
@@ -80,13 +84,6 @@ def within(balls, texts) -> float:
     with working(BITS) as numbers:
         return max(math.nextafter(float((ball - numbers.ball(Fraction(text))).abs_upper()), math.inf)
                    for ball, text in zip(balls, texts))
-
-
-def _event(one, run, digits):
-    t, value = written(one.t, digits), written(one.value, digits)
-    return {"kind": one.kind, "component": run.components[one.component], "t": t,
-            "t_within": within([one.t], [t]),
-            "value": value, "value_within": within([one.value], [value])}
 
 
 def _told(told) -> dict:
@@ -129,15 +126,6 @@ def csv(made: dict) -> str:
     return csv_lines(rows)
 
 
-def checked(path) -> Path:
-    """The path of the file, whose ending says the format; InputError for another."""
-    return endings.file(path, KINDS)
-
-
 def write(made: dict, path) -> Path:
     """The reference as a file."""
-    path = Path(path)
-    with whole_file(path) as waiting:
-        waiting.write_text(csv(made) if endings.ending(path) == ".csv" else as_json(made) + "\n",
-                           encoding="utf-8")
-    return path
+    return write_text(path, csv(made) if endings.ending(path) == ".csv" else as_json(made) + "\n")

@@ -52,8 +52,6 @@ def short(result: Any) -> str:
 
 
 # --- Cells and words that the kinds below have in common
-
-
 def _texts(dims: tuple[str, ...], values: Iterable[Any], **words: str):
     return dims, np.array(list(values), dtype=object), words
 
@@ -89,8 +87,6 @@ def _about(found) -> str:
 
 
 # --- Each kind of result: its line, its numbers
-
-
 def of_parts(parts: Mapping[str, Any], time: str = "time",
              errors: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """Parts of the state over time, with units and words; time: the name of their first dimension; errors: of
@@ -427,8 +423,6 @@ KINDS: dict[str, tuple[Callable[[Any], str], Callable[[Any], Variables]]] = {
 
 
 # --- Any kind: as a data set, a table, a page
-
-
 def dataset(result: Any) -> xarray.Dataset:
     """The numbers of a result with their dimensions, units and words."""
     demand("xarray")
@@ -440,8 +434,7 @@ def dataset(result: Any) -> xarray.Dataset:
 
 
 def frame(result: Any) -> pandas.DataFrame:
-    """The numbers of a result as a table; a column for every component, what belongs to the whole in `attrs`.
-    """
+    """The numbers of a result as a table; a column a component, what belongs to the whole in `attrs`."""
     demand("pandas")
     import pandas
     found = variables(result)
@@ -466,8 +459,7 @@ def columns(found: Variables) -> list[tuple[str, np.ndarray]]:
 
 
 def _index(found: Variables) -> Any:
-    """Times or axes where they are known, else numbers; several dimensions of states as pandas counts them.
-    """
+    """Times or axes where they are known, else numbers; several dimensions as pandas counts them."""
     import pandas
     shape = next(iter(found.values.values()))[1].shape[:len(found.index)]
     if not found.index:

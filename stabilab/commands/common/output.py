@@ -9,7 +9,7 @@ import typer
 from ...errors import UNDECIDED, ToleranceNotMet
 from ...show.data import as_json
 from ...show.files.endings import labelled
-from ...show.terminal import page
+from ...show.terminal.page import say, tell
 from ...show.text import law
 
 
@@ -17,16 +17,6 @@ def write(text: str):
     """Text to stdout as it is: data, or names of files."""
     sys.stdout.write(text.rstrip("\n") + "\n")
     sys.stdout.flush()
-
-
-def tell(text: str):
-    """Text for people to stdout."""
-    page.tell(text)
-
-
-def say(text: str):
-    """A message to stderr."""
-    page.say(text)
 
 
 def either(json: bool, data, words):
@@ -49,11 +39,6 @@ def write_answer(shown, found, json: bool, csv: bool, *more):
 def write_json(cases, rows):
     """An object for a case, a list of them for the combinations of a [sweep]."""
     write(as_json(rows if any(case.variant for case in cases) else rows[0]))
-
-
-def write_paths(paths, otherwise):
-    """The files a command wrote, one a line."""
-    write("\n".join(map(str, paths)) if isinstance(paths, (list, tuple)) else str(paths or otherwise))
 
 
 def write_each(out, writers):

@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import shlex
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -41,7 +42,10 @@ def written(out, arguments=None, inputs=(), tolerances=None):
     with files.new_folder(out) as folder:
         yield folder
         run["tolerances"] = dict(tolerances or {})
-        run["outputs"] = [_output(file, folder) for file in files.inside(folder)]
+        run["outputs"] = [{"path": path, "sha256": sha256(file), "bytes": file.stat().st_size}
+                          | ({"timed": True} if path.startswith(TIMED) else {})
+                          for file in files.inside(folder)
+                          for path in [file.relative_to(folder).as_posix()]]
         with files.alone_in(out):
             earlier = _kept(out, {row["path"] for row in run["outputs"]})
             if earlier:  # while files move, no command whose files are replaced counts as complete
@@ -120,16 +124,11 @@ def _sources() -> str:
 def _run(out, arguments, inputs) -> dict:
     # tells from where paths are meant, and is the same on every machine
     here = os.path.relpath(Path.cwd(), out.resolve())
-    return {"schema": SCHEMA, "command": None if arguments is None
-            else " ".join(["stabilab", *map(_quoted, arguments)]),
-            "arguments": None if arguments is None else [str(word) for word in arguments],
+    words = None if arguments is None else list(map(str, arguments))
+    return {"schema": SCHEMA, "command": None if words is None else shlex.join(["stabilab", *words]),
+            "arguments": words,
             "started_in": Path(here).as_posix(),
             "inputs": inputs, **environment(), "seeds": SEEDS}
-
-
-def _quoted(word) -> str:
-    import shlex
-    return shlex.quote(str(word))
 
 
 def _described(path) -> dict:
@@ -137,12 +136,6 @@ def _described(path) -> dict:
         return {"path": os.fspath(path), "sha256": sha256(path), "bytes": os.stat(path).st_size}
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
-
-
-def _output(file, folder) -> dict:
-    path = file.relative_to(folder).as_posix()
-    row = {"path": path, "sha256": sha256(file), "bytes": file.stat().st_size}
-    return row | ({"timed": True} if path.startswith(TIMED) else {})
 
 
 def _kept(out, replaced) -> list[dict]:
@@ -158,5 +151,4 @@ def _kept(out, replaced) -> list[dict]:
 
 
 def _write(out, data):
-    with files.whole_file(out / NAME) as waiting:
-        waiting.write_text(json.dumps(data, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    files.write_text(out / NAME, json.dumps(data, indent=1, allow_nan=False) + "\n")

@@ -7,7 +7,7 @@ from functools import lru_cache
 from html import escape, unescape
 from pathlib import Path
 
-from ...files import whole_file
+from ...files import write_text
 from .. import style
 from ..terminal.letters import ALPHABET, written
 
@@ -131,7 +131,4 @@ def anchored(page: str) -> str:
 
 def write(path, template: str, **values) -> Path:
     """The page as a file, whole or not at all."""
-    path = Path(path)
-    with whole_file(path) as waiting:
-        waiting.write_text(anchored(render(template, **values)), encoding="utf-8")
-    return path
+    return write_text(path, anchored(render(template, **values)))

@@ -69,7 +69,11 @@ def _section(case, folder, effort):
             "csv": f"precision/{case.name}.csv", "flat": flat(found), "times": len(found.reference.t),
             "command": f"stabilab precision {case.path}", "error": f"{found.reference.error.max():.0e}",
             "prices": [_price(rows.get(digits)) for digits in DOUBLES],
-            "rows": list(map(_row, rows.values()))}, None
+            "rows": [{"digits": row["digits"], "relative": so_many(row["relative"], 3),
+                      "method": NAMES.get(row["method"], row["method"]), "time": duration(row["seconds"]),
+                      "second": second and NAMES.get(second["method"], second["method"]),
+                      "its": second and duration(second["seconds"])}
+                     for row in rows.values() for second in [row["second"] or ""]]}, None
 
 
 def _price(row) -> str:
@@ -78,11 +82,3 @@ def _price(row) -> str:
         return "–"
     named = "" if row["method"] == "taylor" else f", {SHORT.get(row['method'], row['method'])}"
     return duration(row["seconds"]) + named
-
-
-def _row(row) -> dict:
-    second = row["second"]
-    return {"digits": row["digits"], "method": NAMES.get(row["method"], row["method"]),
-            "time": duration(row["seconds"]), "relative": so_many(row["relative"], 3),
-            "second": "" if second is None else NAMES.get(second["method"], second["method"]),
-            "its": "" if second is None else duration(second["seconds"])}

@@ -78,15 +78,13 @@ def meanings(found, questions=None, prices=True) -> list[tuple[str, dict]]:
     price of a digit or alone, and the front."""
     asked = [p.method for p in found.points if questions is None or p.question in questions]
     asked += ["reference"] * ("span" in (questions or found.questions))
-    methods_drawn = [(_legend(found, m) if prices else NAMES.get(m, m), LOOKS[m]) for m in LOOKS
-                     if m in asked]
-    return [*methods_drawn, ("front: no single run beats it" if prices else "front", FRONT)]
-
-
-def _legend(found, method) -> str:
-    factor = next((f for q in found.questions if (f := digit_price(found.of(q, method))) is not None), None)
-    name = NAMES.get(method, method)
-    return name if factor is None else f"{name}: {price(factor)} a digit"
+    rows = []
+    for method in (one for one in LOOKS if one in asked):
+        factors = (digit_price(found.of(q, method)) for q in found.questions) if prices else ()
+        factor = next((f for f in factors if f is not None), None)
+        rows.append((NAMES.get(method, method) + ("" if factor is None else f": {price(factor)} a digit"),
+                     LOOKS[method]))
+    return [*rows, ("front: no single run beats it" if prices else "front", FRONT)]
 
 
 def panel(ax, found, question):

@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import re
-from functools import lru_cache
 
 from ...physics.equations import Equations
 from ..text.scene import PRODUCTS, right_side
@@ -18,15 +17,11 @@ def equations_of_motion(equations: Equations) -> list:
     the right."""
     rows = []
     for number, (moment, part) in enumerate(zip(equations.inertia, equations.state)):
-        left = ("" if moment == 1 else inner(moment)) + _dotted(inner(part))
-        rows.append(display(f"{left}<mo>=</mo>{in_lines(right_side(equations, number))}"))
+        factor = "" if moment == 1 else inner(moment)
+        # the dot above the letter, not above the middle of letter and index
+        dotted = re.sub(r"<mi>[^<]*</mi>", r"<mover>\g<0><mo>&#x2D9;</mo></mover>", inner(part), count=1)
+        rows.append(display(f"{factor}{dotted}<mo>=</mo>{in_lines(right_side(equations, number))}"))
     return rows
-
-
-def _dotted(mathml: str) -> str:
-    """A symbol with a dot above its letter, not above the middle of letter and index."""
-    return re.sub(r"<mi>[^<]*</mi>", lambda letter: f"<mover>{letter[0]}<mo>&#x2D9;</mo></mover>", mathml,
-                  count=1)
 
 
 def display(content: str):
@@ -43,13 +38,8 @@ def inline(expression):
 
 def symbol(name: str):
     """A symbol by its name: lambda1 with its Greek letter and its index."""
-    return inline(_symbol(name))
-
-
-@lru_cache(maxsize=256)
-def _symbol(name):
     from sympy import Symbol
-    return Symbol(name)
+    return inline(Symbol(name))
 
 
 def law(balance) -> str:
@@ -83,21 +73,15 @@ def in_lines(expression) -> str:
         if lines[-1] and sum(map(_width, lines[-1])) + _width(term) > LINE:
             lines.append([])
         lines[-1].append(term)
-    rows = "".join(f'<mtr><mtd style="text-align: left">{_continued(line, n)}</mtd></mtr>' for n,
-                   line in enumerate(lines))
+    rows = ""
+    for number, terms in enumerate(lines):  # the later ones begin with their sign
+        sign = "<mo>+</mo>" if number and not terms[0].could_extract_minus_sign() else ""
+        rows += f'<mtr><mtd style="text-align: left"><mrow>{sign}{inner(Add(*terms))}</mrow></mtd></mtr>'
     return f'<mtable displaystyle="true">{rows}</mtable>'
 
 
-def _continued(terms, number) -> str:
-    """A line of a sum: the later ones begin with their sign."""
-    from sympy import Add
-    sign = "<mo>+</mo>" if number and not terms[0].could_extract_minus_sign() else ""
-    return f"<mrow>{sign}{inner(Add(*terms))}</mrow>"
-
-
 def _width(term) -> float:
-    """How many symbols and digits stand beside each other in a term: a fraction is as wide as its wider part.
-    """
+    """How many symbols and digits stand beside each other in a term: a fraction counts by its wider part."""
     from sympy import fraction
     return max(sum(len(word) if word[0].isdigit() else 1.3
                    for word in re.findall(r"[A-Za-z]\w*|[\d.]+|[-+(]", str(part))) for part in fraction(term))
@@ -112,13 +96,9 @@ def inner(expression) -> str:
     text = re.sub(r"<msub><mi>(\w+)</mi><mi>(\d)</mi></msub>",
                   lambda found: _product(found[1] + found[2]) or found[0], text)
     text = re.sub(r"<mi>(\w+)</mi>", lambda found: _product(found[1]) or found[0], text)
-    return re.sub(r"<msup>(<mrow>.*?</mrow>)", lambda found: f"<msup>{_fenced(found[1])}"
-                  if found[1] in map(_product, PRODUCTS) else found[0], text)
-
-
-def _fenced(row) -> str:
-    """What a power is of, in parentheses."""
-    return f"<mrow><mo>(</mo>{row}<mo>)</mo></mrow>"
+    for product in map(_product, PRODUCTS):  # a power is that of all its letters
+        text = text.replace(f"<msup>{product}", f"<msup><mrow><mo>(</mo>{product}<mo>)</mo></mrow>")
+    return text
 
 
 def numbered(mathml: str) -> str:

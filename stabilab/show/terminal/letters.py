@@ -56,14 +56,13 @@ def printed(text: str) -> str:
     """Words of the analysis for a page: letters as `lettered`, minus, products and powers of ten as a book
     sets them. What stands between backquotes is a command and stays as it is."""
     parts = re.split(r"(`[^`]*`)", text)
-    return "".join(part if part.startswith("`") else _printed(part) for part in parts)
-
-
-def _printed(text):
-    text = lettered(text)
-    for plain, sign in PRINTED:
-        text = re.sub(plain, sign, text)
-    return greek(text)
+    for n, part in enumerate(parts):
+        if not part.startswith("`"):
+            part = lettered(part)
+            for plain_sign, sign in PRINTED:
+                part = re.sub(plain_sign, sign, part)
+            parts[n] = greek(part)
+    return "".join(parts)
 
 
 def _in_letters(text):

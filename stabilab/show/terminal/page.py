@@ -29,7 +29,7 @@ def tell(text: str) -> None:
     columns = width()
     if columns is not None:
         text = wrapped(text, columns)
-        if _coloured():
+        if not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb":
             return _in_colours(text)
     out.write(text)
     out.flush()
@@ -62,8 +62,7 @@ def wrapped(text: str, columns: int) -> str:
 
 
 def _hang(line, columns):
-    """Where what does not fit goes on: below the words after a column of names, else two columns further in.
-    """
+    """Where what does not fit goes on: below the words after a column of names, else two columns in."""
     named = re.match(r"( +\S.*? {2,})\S", line)
     if named and len(named[1]) <= columns // 2:
         return len(named[1])
@@ -102,10 +101,6 @@ def width(stream=None) -> int | None:
         return os.get_terminal_size(stream.fileno()).columns or USUAL
     except OSError:  # it has no descriptor of its own
         return USUAL
-
-
-def _coloured() -> bool:
-    return not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
 
 
 def _in_colours(text):

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 
+from ...representation import values_of
 from .. import limiting
 from ..units import DIGITS, Units, bracket, number, vector
 from .attitude import in_file
@@ -13,8 +14,8 @@ SHOWN = 12  # switches in text; JSON has them all
 
 def as_dict(case, found) -> dict:
     """The object of `stabilab burn --json`: SI units, vectors in the frame of the file."""
-    return {"schema": "stabilab.burn/1", "case": case.name, "thrusters": list(found.thrusters),
-            "switches": [{"time": one.time, "firing": list(one.firing),
+    return {"schema": "stabilab.burn/1", "case": case.name, "thrusters": found.thrusters,
+            "switches": [{"time": one.time, "firing": one.firing,
                           "torque": in_file(case, one.torque), "rates": in_file(case, one.rates)}
                          for one in found.switches],
             "closed": _closed(case, found.closed), "latest": _latest(found.latest),
@@ -31,7 +32,7 @@ def _closed(case, one) -> dict | None:
             "fate": one.motion.fate.word, "because": one.motion.because,
             "mode": turn and turn.mode, "rotation_period": turn and turn.rotation_period,
             "precession_period": turn and turn.precession_period,
-            "fired": list(one.fired), "propellant_used": list(one.used)}
+            "fired": one.fired, "propellant_used": one.used}
 
 
 def _latest(one) -> dict | None:
@@ -40,12 +41,11 @@ def _latest(one) -> dict | None:
     it is not known."""
     if one is None:
         return None
-    reached = "never" if math.isinf(one.low) else "yes" if math.isfinite(one.high) else "unknown"
-    return {"limit": one.limit, "reached": reached,
-            "time": [one.low, one.high] if reached == "yes" else None,
-            "not_before": None if reached == "never" else one.low, "level": one.level,
-            "because": one.because, "again": [list(pair) for pair in one.again],
-            "surely": one.surely and [v if math.isfinite(v) else None for v in one.surely]}
+    known = math.isfinite(one.high)
+    return {"limit": one.limit,
+            "reached": "never" if math.isinf(one.low) else "yes" if known else "unknown",
+            "time": [one.low, one.high] if known else None, "not_before": one.low,
+            **values_of(one, "level because again surely")}
 
 
 def text(case, found, units: Units) -> str:

@@ -2,24 +2,24 @@
 from __future__ import annotations
 
 from ...equilibrium.circular_orbit.result import yaw_pitch_roll
+from ...representation import values_of
 from .. import limiting
 from ..units import DIGITS, SHORT, Units, number, vector
 from .attitude import in_file
 from .motion import row
 
-ASSUMED = "a circular orbit about a sphere, wheels whose momentum relative to the body is constant, no " \
-          "other torque"
+ASSUMED = ("a circular orbit about a sphere, wheels whose momentum relative to the body is constant, no "
+           "other torque")
 
 
 def as_dict(case, found) -> dict:
     """The object of `stabilab orbit --json`: SI units, vectors in the frame of the file."""
     result = found.equilibria
-    return {"schema": "stabilab.orbit/1", "case": case.name, "rate": found.rate, "period": found.period,
-            "moments": list(found.moments), "momentum": list(in_file(case, found.momentum)),
-            "kind": result.kind, "reason": result.reason,
+    return {"schema": "stabilab.orbit/1", "case": case.name, **values_of(found, "rate period moments"),
+            "momentum": in_file(case, found.momentum), **values_of(result, "kind reason"),
             "equilibria": [_object(case, found, one) for one in result.points],
             "families": [_object(case, found, one) | {"family": one.family,
-                                                      "axis": one.axis and list(in_file(case, one.axis))}
+                                                      "axis": one.axis and in_file(case, one.axis)}
                          for one in result.families],
             "momentum_spans": None if found.spans is None else
             [{"low": one.low, "high": one.high, "families" if one.families else "equilibria": one.count,
@@ -28,12 +28,9 @@ def as_dict(case, found) -> dict:
 
 def _object(case, found, one) -> dict:
     frame = _frame(case, one)
-    return {"velocity": list(frame[0]), "normal": list(frame[1]), "vertical": list(frame[2]),
-            "yaw_pitch_roll": list(yaw_pitch_roll(*frame)), "linear": one.linear, "verdict": one.verdict,
-            "because": one.because, "minimum": one.minimum,
-            "eigenvalues": [[z.real, z.imag] for z in one.eigenvalues],
-            "frequencies": list(one.frequencies), "per_orbit": [f / found.rate for f in one.frequencies],
-            "potential": one.potential}
+    return {**dict(zip(("velocity", "normal", "vertical"), frame)), "yaw_pitch_roll": yaw_pitch_roll(*frame),
+            **values_of(one, "linear verdict because minimum eigenvalues frequencies"),
+            "per_orbit": [f / found.rate for f in one.frequencies], "potential": one.potential}
 
 
 def _frame(case, one):

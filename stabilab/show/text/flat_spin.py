@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 
+from ...representation import values_of
 from .. import limiting
 from ..axes import Axes, axes_of
 from ..units import DIGITS, Units, number
@@ -14,25 +15,16 @@ NAMES = {"phase": "phase", "nutation": "nutation angle", "damping": "strength of
 
 def as_dict(case, found) -> dict:
     """The object of `stabilab flat-spin --json`: SI units, vectors in the frame of the file. Times: [s, error
-    in s], null where past at the start or not reached."""
-    return {"schema": "stabilab.flat_spin/1", "case": case.name, "outcome": found.outcome,
-            "level": found.level, "because": found.because, "minor_axis": found.minor,
-            "momentum": found.momentum, "final_rate": found.final_rate,
-            "final_rates": found.rates and in_file(case, found.rates), "energy": found.energy,
-            "final_energy": found.final_energy, "energy_lost": found.lost, "within": found.within,
-            "leaves": _time(found.leaves), "crosses": _time(found.crosses), "settles": _time(found.settles),
-            "passage": found.passage, "growth_time": found.growth, "decay_time": found.decay,
-            "changes": {one.name: [_end(one.down), _end(one.up)] for one in found.spans},
+    in s], null where past at the start or not reached; changes: null where none was found."""
+    times = {name: one and [one.at, one.error]
+             for name, one in values_of(found, "leaves crosses settles").items()}
+    return {"schema": "stabilab.flat_spin/1", "case": case.name, **values_of(found, "outcome level because"),
+            "minor_axis": found.minor, **values_of(found, "momentum final_rate"),
+            "final_rates": found.rates and in_file(case, found.rates),
+            **values_of(found, "energy final_energy"), "energy_lost": found.lost, "within": found.within,
+            **times, "passage": found.passage, "growth_time": found.growth, "decay_time": found.decay,
+            "changes": {one.name: [one.down, one.up] for one in found.spans},
             "steps": found.steps} | axes_of(case).key(found.axis) | limiting.key(case, found.caveats)
-
-
-def _time(one) -> list[float] | None:
-    return one and [one.at, one.error]
-
-
-def _end(value: float) -> float | None:
-    """null: no change was found."""
-    return value if math.isfinite(value) else None
 
 
 def text(case, found, units: Units) -> str:

@@ -1,5 +1,4 @@
-"""How far approximate laws hold: the first line of a text, a key of JSON, a line of a picture, an exit code.
-"""
+"""How far approximate laws hold: the first line of a text, a key of JSON, a line of a picture, exit code."""
 from __future__ import annotations
 
 import math

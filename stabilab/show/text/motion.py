@@ -82,8 +82,7 @@ def state(at, units: Units, blocks=("omega", "gamma")) -> str:
 
 
 def energy_margin(value, tell) -> str:
-    """The energy that is missing to the barrier, or by how much it is above. tell: of a size, with its unit.
-    """
+    """The energy missing to the barrier, or by how much it is above. tell: of a size, with its unit."""
     return f"{tell(-value)} above the barrier" if value < 0 else tell(value)
 
 
@@ -125,8 +124,7 @@ def bound_lines(case, motion, units: Units) -> list[str]:
 
 
 def why(case, motion, units: Units, proofs: bool) -> list[str]:
-    """The reason; with `proofs` also what is not known of the margin, the invariants, and what a run showed.
-    """
+    """The reason; with `proofs` also what is not known of the margin, invariants, and what a run showed."""
     lines = [f"why: {reason(motion.because, units)}"]
     if proofs and motion.velocity_because:
         rate = "" if motion.velocity_bounds else "margin, rate: "

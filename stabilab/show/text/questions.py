@@ -21,12 +21,12 @@ SHOWN = 12  # digits of a number that is not written out, where more than a tabl
 
 def fate(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:
     """The fate, margins, bounds for all times, what a tilt does, and why."""
-    margin, size = "", units.energy
-    if told.values is not None:
-        if all_digits:
-            decimals = told.decimals or number(told.values, max(SHOWN, told.asked))
-            size = lambda _: f"{decimals.removeprefix('-')} {units.of('J')[0]}".rstrip()
-        margin = energy_margin(told.values, size)
+    def size(value: float) -> str:
+        if not all_digits:
+            return units.energy(value)
+        decimals = told.decimals or number(told.values, max(SHOWN, told.asked))
+        return f"{decimals.removeprefix('-')} {units.of('J')[0]}".rstrip()
+    margin = "" if told.values is None else energy_margin(told.values, size)
     margins = (("margin, rate", rate_margin(motion, units, DIGITS)), ("margin, energy", margin))
     rows = [row(name, words) for name, words in margins if words]
     bounds = bound_lines(case, replace(motion, extremes=None), units)

@@ -12,7 +12,7 @@ from .. import frame, limiting
 from ..axes import axes_of
 from ..terminal.letters import lettered, listed, some, written
 from ..terminal.page import table, width
-from ..units import DIGITS, number, parameter_unit, units_of
+from ..units import DEG, DIGITS, number, parameter_unit, units_of
 from .sweep import swept_columns
 
 SHORT = 12  # letters of a ratio that is told as such
@@ -46,21 +46,24 @@ def of_all(cases) -> str:
 
 
 def _whole(case, equations, own) -> str:
-    """Scene, parameters, equations of motion as text and LaTeX, invariants. own: the laws of this very scene.
-    """
-    parts = [_head(case), _parameters(equations, case.variables == "physical"), "Equations of motion",
-             *(f"  {lettered(_products(line))}" for line in lines(equations)), "",
+    """Scene, parameters, equations of motion as text and LaTeX, invariants. own: the laws of this scene."""
+    unit = parameter_unit if case.variables == "physical" else lambda name: ""
+    parts = [_head(case), "Parameters",
+             *(f"  {written(name)} = {_value(v)} {unit(name)}".rstrip()
+               for name, v in equations.parameters.items()), "",
+             "Equations of motion", *(f"  {lettered(_products(line))}" for line in lines(equations)), "",
              "Jacobian, the derivatives of each rate by the state", *_jacobian(case, equations), "",
              "In LaTeX", latex(equations), "", "Laws that hold for every value of the parameters"]
     axes = axes_of(case)
     parts += [f"  {lettered(axes.sentence(law.words))}" for law in equations.balances]
+    parts += ["", "Laws of this scene: first integrals, and what changes at a known rate"]
+    for law in own:
+        rate = "" if law.rate == 0 else f"   at the rate {_short(law.rate)}"
+        parts += [f"  {lettered(axes.sentence(law.words))}", f"    {_short(law.quantity)}{rate}"]
     effects = listed([effect_words(effect.name) for effect in case.scene.effects] or ["no effect"])
-    answer = (
-        f"{case.name}: a {'scaled gyrostat' if case.variables == 'scaled' else 'body with ' + effects}; laws "
-        f"known of this scene: {len(own)}")
-    return "\n".join([answer, *parts, "",
-                      "Laws of this scene: first integrals, and what changes at a known rate",
-                      *(_laws(own, axes) or ["  none is known"])])
+    scene = "scaled gyrostat" if case.variables == "scaled" else f"body with {effects}"
+    return "\n".join([f"{case.name}: a {scene}; laws known of this scene: {len(own)}", *parts,
+                      *([] if own else ["  none is known"])])
 
 
 def _head(case) -> str:
@@ -70,9 +73,11 @@ def _head(case) -> str:
         f"  variables: {case.variables} ({', '.join(case.scene.components)}; time in {case.scene.time_unit})"]
     if case.physical:
         rows.append(f"  body with inertia {_triple(case.physical.body.inertia)} kg m^2")
-        rows += [f"  {effect_words(effect.name)}: {_values(effect)}" for effect in case.physical.effects]
-    rows += [f"  {line}" for line in frame.lines(case)]
-    rows += [f"  {line}" for line in _craft(case)]
+        for effect in case.physical.effects:
+            values = [f"{written(name)} = {_number(v)} {parameter_unit(name)}".rstrip()
+                      for name, v in effect.parameters().items()]
+            rows.append(f"  {effect_words(effect.name)}: {', '.join(values)}")
+    rows += [f"  {line}" for line in (*frame.lines(case), *_craft(case))]
     rows += _scaled(case)
     units = units_of(case)
     rows += [f"  motion from {units.vector(case.state[:3], units.rates, DIGITS)}"] if case.state else []
@@ -109,15 +114,12 @@ def _craft(case) -> list[str]:
                      f"{_triple(t.position)} m, torque {_triple(t.torque)} N m, all in the frame of the file")
     lines += [f"wheel {w.name}: {_number(w.momentum)} N m s about {_triple(w.axis)} in the frame of the file"
               for w in case.wheels]
-    if case.limits:
-        words = f"|omega| up to {_degrees(case.limits.rate)}" if case.limits.rate is not None else (
-            f"components up to {', '.join(map(_degrees, case.limits.rates))} in the frame of the file")
-        lines.append(f"limit: {words}")
+    if case.limits and case.limits.rate is not None:
+        lines.append(f"limit: |omega| up to {DEG.rate(case.limits.rate)}")
+    elif case.limits:
+        rates = ", ".join(map(DEG.rate, case.limits.rates))
+        lines.append(f"limit: components up to {rates} in the frame of the file")
     return lines
-
-
-def _degrees(rate) -> str:
-    return f"{math.degrees(rate):.6g} deg/s"
 
 
 def _triple(vector) -> str:
@@ -130,29 +132,11 @@ def _number(value) -> str:
     return given if Fraction(given) == Fraction(str(value)) else number(float(value), DIGITS)
 
 
-def _values(effect) -> str:
-    return ", ".join(f"{written(name)} = {_number(v)} {parameter_unit(name)}".rstrip()
-                     for name, v in effect.parameters().items())
-
-
-def _parameters(equations, physical) -> str:
-    units = {name: parameter_unit(name) if physical else "" for name in equations.parameters}
-    return ("Parameters\n" + "\n".join(f"  {written(name)} = {_value(v)} {units[name]}".rstrip()
-                                       for name, v in equations.parameters.items()) + "\n")
-
-
 def _value(v) -> str:
     """Exact where that is short, with its decimal; else the decimal alone."""
     exact = str(v)
     return (exact if "/" not in exact and len(exact) <= SHORT
             else f"{exact} = {_number(v)}" if len(exact) <= SHORT else _number(v))
-
-
-def _laws(laws, axes) -> list[str]:
-    return [row for law in laws for row in (f"  {lettered(axes.sentence(law.words))}",
-                                            f"    {_short(law.quantity)}"
-                                            + ("" if law.rate == 0
-                                               else f"   at the rate {_short(law.rate)}"))]
 
 
 def _short(expression) -> str:
@@ -179,12 +163,9 @@ def _products(formula: str) -> str:
 # --- The equations of motion as lines of text and as LaTeX
 def lines(equations: Equations) -> tuple[str, ...]:
     """The equations of motion as plain text, one line each."""
-    return tuple(f"{_left(d, x)}' = {right_side(equations, i)}"
+    factor = lambda d: "" if d == 1 else f"({d}) " if d.is_Add else f"{d} "
+    return tuple(f"{factor(d)}{x}' = {right_side(equations, i)}"
                  for i, (d, x) in enumerate(zip(equations.inertia, equations.state)))
-
-
-def _left(d: Symbolic, x: Symbolic) -> str:
-    return str(x) if d == 1 else f"({d}) {x}" if d.is_Add else f"{d} {x}"
 
 
 def right_side(equations: Equations, i: int) -> Symbolic:

@@ -81,8 +81,7 @@ def _size(t, size, error, units):
 
 
 def _columns(head, cells, width, wide):
-    """Lines of right-aligned columns, the time first; in several tables where they are wider than a terminal.
-    """
+    """Lines of right-aligned columns, the time first; in several tables where they do not fit a terminal."""
     sizes = [max(wide, len(name) + GAP, 1 + max((len(row[i]) for row in cells), default=0))
              for i, name in enumerate(head)]
     fit = len(head) - 1 if width is None else max(1, (width - sizes[0]) // max(sizes[1:], default=1))

@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import math
-from collections import Counter
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 
 from ...errors import printable
@@ -13,6 +12,7 @@ from ..data import Endless, csv_lines
 from ..terminal.letters import lettered
 from ..units import DIGITS, SHORT, Units, bracket, number, vector
 from .headline import REST, STEADY
+from .sweep import counted
 from .when import tilt_dict
 
 CSV = ("case", "thrusters", "torque_x", "torque_y", "torque_z", "torque_1", "torque_2", "torque_3", "fate",
@@ -30,8 +30,7 @@ SOON = 2  # times a margin: the fate is back before a change as great
 def as_dict(case, found) -> dict:
     """One object of `stabilab stuck --json`: SI units, rates in rad/s; axes are those of "principal"."""
     return {"schema": "stabilab.stuck/2", "case": found.case, "rows": [_row(row, case) for row in found.rows],
-            "principal": {"moments": list(found.principal.moments),
-                          "axes": [list(axis) for axis in found.principal.axes]}}
+            "principal": values_of(found.principal, "moments axes")}
 
 
 def _row(row, case) -> dict:
@@ -85,11 +84,7 @@ def swept(answers, units: Units):
     """(the answer in a line, columns, rows) of a sweep: what becomes of each, about which axis, and when the
     limit is reached."""
     rows = [found.rows[0] for _, found in answers]
-    fates = Counter(row.fate for row in rows)
-    told = {fate: FATES[fate] + limiting.shared([row.caveats for row in rows if row.fate == fate], units)
-            for fate in fates}
-    counts = "; ".join(f"{told[fate]}: {n}" if len(fates) > 1 else f"each {told[fate]}"
-                       for fate, n in fates.most_common())
+    counts = counted([(row.fate, row.caveats) for row in rows], FATES, units, "; ")
     ends = [row.time_to_limit[1] for row in rows if row.time_to_limit]
     name, one = units.times(max(ends, default=0.0))
     cells = [[row.fate, units.axes.signed(row.axis, row.sense),

@@ -1,11 +1,10 @@
-"""All combinations of a [sweep] as one table: a column for each key that varies, then the answer's numbers.
-"""
+"""All combinations of a [sweep] as one table: a column a key that varies, then the answer's numbers."""
 from __future__ import annotations
 
 import math
 import re
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from ...numbers.units import DIMENSIONS, NAMES
@@ -53,8 +52,9 @@ def swept_columns(cases: Sequence) -> list[tuple[str, str, list[str]]]:
 def key_columns(cases: Sequence, place: int) -> list[tuple[str, str, list[str]]]:
     """(head, unit, a cell a case) of one swept key, the number of which is `place`."""
     key, values = cases[0].swept[place][0], [case.swept[place][1] for case in cases]
-    label = ".".join(LETTERS.get(word, word)
-                     for word in key.split(".")[-1 if _alone(key, cases[0].swept) else -2:])
+    path = key.split(".")
+    alone = sum(other.split(".")[-1] == path[-1] for other, _ in cases[0].swept) == 1
+    label = ".".join(LETTERS.get(word, word) for word in path[-1 if alone else -2:])
     # a matrix: which of those in the file
     if any(isinstance(v, list) and any(isinstance(one, list) for one in v) for v in values):
         return [(label, "", [f"no. {case.variant.split('-')[1 + place]}" for case in cases])]
@@ -74,19 +74,19 @@ def _unit(key: str, values) -> str:
     return greek(NAMES[of].partition("(")[2].rstrip(")"))
 
 
-def _alone(key, swept) -> bool:
-    return sum(other.split(".")[-1] == key.split(".")[-1] for other, _ in swept) == 1
+def counted(answers: Sequence[tuple], words: Mapping[str, str], units: Units, between: str) -> str:
+    """How many of the (fate, caveats) have which fate, with the condition that these share."""
+    counts, told = Counter(fate for fate, _ in answers), []
+    for fate, count in counts.most_common():
+        where = limiting.shared([caveats for one, caveats in answers if one == fate], units)
+        name = (words[fate].removesuffix(" for ever") if where else words[fate]) + where
+        told.append(f"{name}: {count}" if len(counts) > 1 else f"each {name}")
+    return between.join(told)
 
 
 def fates(motions: Sequence, units: Units) -> str:
     """How many motions have which fate, and the range of their largest rates."""
-    counts = Counter(motion.fate.word for motion in motions)
-    while_ = {fate: limiting.shared([motion.caveats for motion in motions if motion.fate.word == fate], units)
-              for fate in counts}
-    told = {fate: f"{WORDS[fate].removesuffix(' for ever') if where else WORDS[fate]}{where}"
-            for fate, where in while_.items()}
-    words = ", ".join(f"{told[fate]}: {count}" if len(counts) > 1 else f"each {told[fate]}"
-                      for fate, count in counts.most_common())
+    words = counted([(motion.fate.word, motion.caveats) for motion in motions], WORDS, units, ", ")
     sizes = [size for size in map(_largest, motions) if size is not None]
     if not sizes:
         return words

@@ -132,17 +132,14 @@ def _lines(subject, over, units) -> list[str]:
             f"    flips at {over.changes_at:.6g} times the uncertainties (found by search, checked exactly)")
     elif over.answer == "holds" and over.proved < math.inf:
         lines.append("    no change was found up to 100 times the uncertainties")
-    return lines + [line for w in over.witnesses for line in _witness(w, units)]
-
-
-def _witness(w, units) -> list[str]:
-    """A place of the box, to six digits: JSON has them all."""
-    known = UNITS | ({"state": "rad/s"} if "torque" in w.values else {})
-    measures = {name: units.of(known.get(name, "")) for name in w.values}
-    numbers = "; ".join(f"{name} = {', '.join(told(float(v) * measures[name][1], DIGITS) for v in values)} "
-                        f"{measures[name][0]}".rstrip()
-                        for name, values in w.values.items())
-    return [f"    {units.axes.sentence(w.verdict)} at {numbers}"]
+    for w in over.witnesses:  # to six digits: JSON has them all
+        known, numbers = UNITS | ({"state": "rad/s"} if "torque" in w.values else {}), []
+        for name, values in w.values.items():
+            unit, one = units.of(known.get(name, ""))
+            row = ", ".join(told(float(v) * one, DIGITS) for v in values)
+            numbers.append(f"{name} = {row} {unit}".rstrip())
+        lines.append(f"    {units.axes.sentence(w.verdict)} at {'; '.join(numbers)}")
+    return lines
 
 
 def open_fate(found) -> bool:

@@ -21,13 +21,10 @@ def as_dict(case, limit, found) -> dict:
     not known; reached: "yes", "never" or "unknown"; not_before: the limit is not reached before, null where
     it never is."""
     low, high = float(found.low), float(found.high)
-    known = math.isfinite(high)
     return {"schema": "stabilab.when/1", "case": case.name, "variables": case.variables, "kind": limit.kind,
-            "quantities": list(limit.names),
-            "limits": list(limit.limits), "reached": _reached(low, high),
-            "time": [low, high] if known else None,
-            "not_before": low if math.isfinite(low) else None, "level": str(found.level),
-            "because": str(found.words)
+            "quantities": limit.names, "limits": limit.limits, "reached": _reached(low, high),
+            "time": [low, high] if math.isfinite(high) else None, "not_before": low,
+            "level": str(found.level), "because": str(found.words)
             } | limiting.key(case, found.caveats) | frame.key(case)
 
 

@@ -1,5 +1,4 @@
-"""The pictures of one motion on its page: the plots that a user can ask for, of each kind that the case has.
-"""
+"""The pictures of one motion on its page: the plots that a user can ask for, of each kind it has."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -43,10 +42,12 @@ def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg", at_re
     found, offered = [], [kind for kind in SHOWN if not which.why_not(kind, one)]
     # what another part of the page has: table and space the single points, the plane what is wrapped round a
     # surface
-    spared = {"equilibria": at_rest is not None and not at_rest.curves, "body": not _acted_on(one),
-              "sphere": "phase" in offered and not which.free(one)}
+    case, bodily = one.case, which.bodily(one)
+    # a sketch of the body shows more than its moments: effects, or axes that the file has not
+    acted_on = (bodily and bodily.effects) or case.thrusters or case.frame and not case.frame.as_given
+    spared = {"equilibria": at_rest is not None and not at_rest.curves, "body": not acted_on,
+              "sphere": "phase" in offered and not which.free(one), "state": which.rates_alone(one)}
     exact_alone = models_of(one.scene) == ("exact",)
-    spared["state"] = which.rates_alone(one)
     for kind, (title, caption) in SHOWN.items():
         if kind in offered and (deep or kind in BRIEF) and not spared.get(kind):
             if kind == "state" and exact_alone:
@@ -62,12 +63,6 @@ def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg", at_re
                                  more=[path.name for path in more],
                                  command=f"stabilab plot {one.path} --kind {kind}"))
     return found
-
-
-def _acted_on(one) -> bool:
-    """Whether a sketch of the body shows more than its moments: effects, or axes that the file has not."""
-    case, scene = one.case, which.bodily(one)
-    return bool(scene and scene.effects or case.thrusters or case.frame and not case.frame.as_given)
 
 
 def _later(one) -> str:

@@ -1,5 +1,4 @@
-"""A file with [sweep] as one page: a row a combination, a column a swept key, and one picture of all motions.
-"""
+"""A file with [sweep] as one page: a row a combination, a column a swept key, one picture of all motions."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -49,7 +48,7 @@ def sections(cases, folder: Path, stem: str) -> dict:
             "caveats": [printed(line) for line in limiting.beside(caveats, units)],
             "heads": [with_unit(head, unit) for head, unit in heads],
             "source": first.source, "path": first.path, "text": first.text, "rows": rows,
-            "keys": [_head(label, unit) for key in keys for label, unit, _ in key],
+            "keys": [with_unit(label.replace("_", " "), unit) for key in keys for label, unit, _ in key],
             "equations": _equations(first),
             "picture": _picture(moved, keys, cases, units, folder / f"{stem}-sweep.png") if moved else None,
             "headline": f"{some(len(rows), 'combination')}: {'; '.join(answers)}",
@@ -70,11 +69,6 @@ def _answer(case):
 def _places(case):
     """Which value of each key a combination has."""
     return [int(word) - 1 for word in case.variant.split("-")[1:]]
-
-
-def _head(label, unit):
-    """A swept key with its unit: momentum[3] (N m s)."""
-    return with_unit(label.replace("_", " "), unit)
 
 
 def _equations(case):

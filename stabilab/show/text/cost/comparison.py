@@ -6,12 +6,12 @@ from pathlib import Path
 
 import numpy as np
 
+from ....files import write_text
 from ....physics.scene import PARTS
 from ....representation import values_of
 from ....theories.theory import lines as told
 from ... import style
 from ...data import csv_lines
-from ...files import endings
 from ...terminal.letters import lettered, written
 from ...units import SHORT, Units, number, units_of
 
@@ -98,21 +98,11 @@ def _closest(found) -> str:
     return f"{best.model} is closest, its {written(best.part)} off by {by} at most"
 
 
-def checked(path) -> Path:
-    """The path, if its ending is one that can be written."""
-    return endings.file(path, (".csv",))
-
-
 def write(case, found, path) -> Path:
     """Errors over time as CSV, whole or not at all."""
-    path = checked(path)
     head = [case.scene.time_unit, *(f"{d.model} {d.part}" for d in found.departures)]
-    with style.whole_file(path) as waiting:
-        waiting.write_text(csv_lines([head,
-                                        *(map(float, row)
-                                          for row in zip(found.t, *(d.error for d in found.departures)))]),
-                           encoding="utf-8")
-    return path
+    rows = zip(found.t, *(d.error for d in found.departures))
+    return write_text(path, csv_lines([head, *(map(float, row) for row in rows)]))
 
 
 def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = None, more: str = ""):
@@ -131,7 +121,10 @@ def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = 
             unit, one = units.of(PARTS[part].unit)
             _curves(ax, {name: (np.asarray(run.t) * second, np.asarray(run.state[part])[:, column] * one)
                          for name, run in runs.items() if part in run.state}, looks)
-            _no_rounding(ax, float(np.abs(runs["exact"].state[part]).max(initial=0.0)) * one)
+            low, high = ax.get_ylim()
+            size = float(np.abs(runs["exact"].state[part]).max(initial=0.0)) * one
+            if high - low < ROUNDING * size:  # beside the whole part of the state no motion
+                ax.set_ylim((low + high) / 2 - size / 20, (low + high) / 2 + size / 20)
             for name, run in runs.items():
                 if stops(run) and part in run.state and len(run.t):
                     ax.plot(run.t[-1] * second, run.state[part][-1][column] * one, color=LOOKS[name]["color"],
@@ -141,7 +134,8 @@ def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = 
         ax.set_xlabel(f"$t$ ({written(clock)})")
     figure.suptitle(style.literal(case.heading + more), fontsize=10 * style.share(), wrap=True)
     rows = [(WORDS[name] + (f", ends at {run.t[-1] * second:.3g} {written(clock)}" if stops(run)
-                            and len(run.t) else ""), _in_legend(looks[name]))
+                            and len(run.t) else ""),
+             looks[name] | ({"linewidth": 2.4} if LOOKS[name] != looks[name] else {}))  # of a ground: seen
             for name, run in runs.items()]
     style.legend(figure, rows, columns=style.fitting([words for words, _ in rows], figure.get_figwidth()))
     return figure
@@ -150,11 +144,6 @@ def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = 
 def stops(run) -> bool:
     """Whether a run ends before the last time that was asked for."""
     return getattr(run, "status", "reached") != "reached"
-
-
-def _in_legend(look) -> dict:
-    """A look as the legend shows it: a ground of thin lines as a pale line that is seen."""
-    return look | {"linewidth": 2.4} if look["linewidth"] < 1 else look
 
 
 def _labelled(ax, name, unit) -> str:
@@ -193,15 +182,9 @@ def _curves(ax, runs, looks):
     wide = half * REACH or 1e-9 * max(abs(middle), 1)
     if half and (high - low) > 6 * half:  # a model far off must not flatten the motion itself
         ax.set_ylim(middle - 2 * wide, middle + 2 * wide)
-        _tell_cut(ax,
-                  [(name, values) for name, (_, values) in runs.items() if _leaves(values, ax.get_ylim())])
-
-
-def _no_rounding(ax, size):
-    """Limits that do not draw as motion what is rounding beside the size of the whole part of the state."""
-    low, high = ax.get_ylim()
-    if high - low < ROUNDING * size:
-        ax.set_ylim((low + high) / 2 - size / 20, (low + high) / 2 + size / 20)
+        low, high = ax.get_ylim()
+        _tell_cut(ax, [(name, values) for name, (_, values) in runs.items()
+                       if len(values) and (values.min() < low or values.max() > high)])
 
 
 def _tell_cut(ax, models):
@@ -221,7 +204,3 @@ def _tell_cut(ax, models):
 def short(value) -> str:
     """Three digits without a power of ten where that reads better."""
     return (f"{value:.0f}" if 1000 <= abs(value) < 1e5 else f"{value:.3g}").replace("-", "−")
-
-
-def _leaves(values, limits):
-    return len(values) and (values.min() < limits[0] or values.max() > limits[1])

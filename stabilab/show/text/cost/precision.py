@@ -6,6 +6,7 @@ from pathlib import Path
 
 from ....answers.caveats import caveats_of
 from ....cost.accuracy import digit_price
+from ....files import write_text
 from ....packages import demand
 from ....processes import machine, versions
 from ... import limiting, style
@@ -97,14 +98,12 @@ def _row(found, p) -> dict:
 
 def csv(*measured) -> str:
     """One line per point of every case; empty where a count does not exist, inf where no answer came."""
-    return csv_lines([(*COLUMNS, "caveats"),
-                        *((*_row(found, p).values(), _limits(found)) for found in measured
-                          for p in found.points)])[:-1]
-
-
-def _limits(found) -> str:
-    return limiting.cell(found.case,
-                         caveats_of(found.case.scene, validity=found.validity, file=found.case.caveats))
+    lines: list = [(*COLUMNS, "caveats")]
+    for found in measured:
+        case = found.case
+        caveats = caveats_of(case.scene, validity=found.validity, file=case.caveats)
+        lines += [(*_row(found, p).values(), limiting.cell(case, caveats)) for p in found.points]
+    return csv_lines(lines)[:-1]
 
 
 def write(found, path, size=None, most=None) -> Path:
@@ -112,9 +111,7 @@ def write(found, path, size=None, most=None) -> Path:
     `picture`."""
     path = checked(path)
     if endings.ending(path) == ".csv":
-        with style.whole_file(path) as waiting:
-            waiting.write_text(csv(found) + "\n", encoding="utf-8")
-        return path
+        return write_text(path, csv(found) + "\n")
     with style.drawing() as plt:
         return style.save(picture(plt, found, size, most), path)
 

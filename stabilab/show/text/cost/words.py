@@ -17,13 +17,16 @@ NAMES = {"taylor": "Taylor series (heyoka)",
 DOUBLES = WANTED[:-1]  # that a run in doubles may have
 SPAN = re.compile(r"(up to t = [\d.e+-]+ of [\d.e+-]*\d)")
 BLAMED = 20  # an error this many times the effect of the start's last place has other causes
+SIX = 6  # digits at which the methods are set side by side
+FATES = {"energy": "{0}, by the energy in doubles with its error bound in {1}",
+         "balls": "in many digits the energy is {0}: {1}"}
 
 
 def words(found) -> list[str]:
     """The measurement in plain words, one sentence or two a string."""
+    fates = [FATES[f.method].format(f.word, duration(f.seconds)) for f in found.fates]
     return [_reference_words(found), *(s for q in found.questions for s in _question_words(found, q)),
-            *_fate_words(found),
-            *_model_words(found)]
+            *([f"Fate: {'; '.join(fates)}."] if fates else []), *_model_words(found)]
 
 
 def _reference_words(found) -> str:
@@ -45,27 +48,23 @@ def _question_words(found, question):
     if not prices:
         yield f"{head}: no method has {DOUBLES[0]} digits."
         return
-    yield from _six(found, question, head)
+    enough = found.cheapest(SIX, question)
+    if len(enough) > 1:
+        costs = ", ".join(f"{duration(p.seconds)} with {p.method}" for p in enough)
+        yield f"{head}: six digits cost {costs}."
+    most = {id(p): (digits, p) for digits, p in prices}  # the most digits that one setting has
     parts = [f"{digits} digits cost {duration(p.seconds)} ({p.method}{setting(p)})"
-             for digits, p in _merged(prices)]
-    yield f"{head}: " + ", ".join(parts) + "." + _against(points, prices) + _digit_words(found, question)
+             for digits, p in most.values()]
+    each = {m: digit_price(found.of(question, m)) for m in methods(found, question) if m != "taylor-batch"}
+    known = [f"{m} {price(factor)}" for m, factor in each.items() if factor is not None]
+    more = f" One more digit: {', '.join(known)}." if known else ""
+    yield f"{head}: {', '.join(parts)}.{_against(points, prices)}{more}"
     missing = next((d for d in DOUBLES if d > prices[-1][0]), None)
     best = max(points, key=lambda p: p.digits)
     if missing:
         reached = f"{best.digits:.1f} ({best.method}{setting(best)})"
         because = _because(found, question, missing, best)
         yield f"No method gets {missing} digits: the best is {reached}{because}."
-
-
-SIX = 6  # digits at which the methods are set side by side
-
-
-def _six(found, question, head):
-    """What six digits cost by each method, cheapest first."""
-    enough = found.cheapest(SIX, question)
-    if len(enough) > 1:
-        yield f"{head}: six digits cost " + ", ".join(f"{duration(p.seconds)} with {p.method}"
-                                                      for p in enough) + "."
 
 
 def title(found, question) -> str:
@@ -112,11 +111,6 @@ def flat(found) -> str:
             f"order, which costs little.")
 
 
-def _merged(prices):
-    """Where one setting has the digits of several lines, the most digits alone."""
-    return [(d, p) for (d, p), following in zip(prices, [*prices[1:], (None, None)]) if following[1] is not p]
-
-
 def _against(points, prices) -> str:
     """How much longer SciPy's best takes, for the most digits that it reaches."""
     for digits, p in reversed(prices):
@@ -126,12 +120,6 @@ def _against(points, prices) -> str:
             return (f" SciPy's best for {digits} digits among the settings tried, {other.method}, takes "
                     f"{so_many(other.seconds / p.seconds, 3)} times as long ({duration(other.seconds)}).")
     return ""
-
-
-def _digit_words(found, question) -> str:
-    prices = {m: digit_price(found.of(question, m)) for m in methods(found, question)}
-    known = [f"{m} {price(v)}" for m, v in prices.items() if v is not None and m != "taylor-batch"]
-    return f" One more digit: {', '.join(known)}." if known else ""
 
 
 def price(factor) -> str:
@@ -148,16 +136,6 @@ def _because(found, question, missing, best) -> str:
     if found.left_out:
         return "; rounding on the way has the last word, or the finer settings that were left out"
     return "; rounding on the way has the last word"
-
-
-def _fate_words(found):
-    if found.fates:
-        yield "Fate: " + "; ".join(_FATE[f.method].format(f.word, duration(f.seconds))
-                                   for f in found.fates) + "."
-
-
-_FATE = {"energy": "{0}, by the energy in doubles with its error bound in {1}",
-         "balls": "in many digits the energy is {0}: {1}"}
 
 
 def _model_words(found):
