@@ -1,6 +1,7 @@
 """The numbers of a case that a map varies, by name, and their values or ranges."""
 from __future__ import annotations
 
+import copy
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -60,16 +61,20 @@ def _tight(text: str) -> str:
     return "".join(text.split())
 
 
-def value_at(data: Any, path: tuple[Any, ...]) -> Any:
+def value_at(data: Any, path: Iterable[Any]) -> Any:
     """What stands there."""
     for part in path:
         data = data[part]
     return data
 
 
-def put(data: Any, path: tuple[Any, ...], value: Any) -> None:
-    """Let the value stand there."""
-    value_at(data, path[:-1])[path[-1]] = value
+def with_values(data: dict[str, Any], values: Iterable[tuple[Key, Any]]) -> dict[str, Any]:
+    """A copy of a case's data in which other values stand for these numbers."""
+    changed = copy.deepcopy(data)
+    for key, value in values:
+        for *tables, last in key.paths:
+            value_at(changed, tables)[last] = value
+    return changed
 
 
 def _numbers(value: Any, name: str, path: tuple[Any, ...]) -> Iterator[tuple[str, tuple[Any, ...]]]:
@@ -83,14 +88,9 @@ def _numbers(value: Any, name: str, path: tuple[Any, ...]) -> Iterator[tuple[str
             own = part.get("name") if tables else None
             yield from _numbers(part, f"{name}.{own}" if isinstance(own, str) else f"{name}[{n + 1}]",
                                 (*path, n))
-    elif _is_number(value):
+    elif (isinstance(value, (int, Written)) and not isinstance(value, bool)
+          or isinstance(value, str) and (states_uncertainty(value) or split(value) is not None)):
         yield name, path
-
-
-def _is_number(value: Any) -> bool:
-    if isinstance(value, str) and not isinstance(value, Written):
-        return states_uncertainty(value) or split(value) is not None
-    return isinstance(value, (int, Written)) and not isinstance(value, bool)
 
 
 def _both_sides(path: tuple[Any, ...]) -> tuple[tuple[Any, ...], ...]:
@@ -101,19 +101,15 @@ def _both_sides(path: tuple[Any, ...]) -> tuple[tuple[Any, ...], ...]:
 
 
 def _near(asked: str, known: dict[str, Key]) -> str:
-    tails = {name.rpartition(".")[2].lower(): name for name in known}
+    wholes, tails = ({part(name).lower(): name for name in known}
+                     for part in (str, lambda name: name.rpartition(".")[2]))
     words = asked[:80].lower()
-    found = [_closest(words, {name.lower(): name for name in known}),
-             _closest(words.rpartition(".")[2], tails), _closest(words, tails)]
-    _, near = max((one for one in found if one), key=lambda one: one[0], default=(0, None))
-    return (f"; did you mean {printable(near)}?" if near
-            else f"; it has {_names_in_words(list(known))}" if known else "; it has none that may vary")
-
-
-def _closest(asked: str, names: dict[str, str]) -> tuple[float, str] | None:
-    """(how near, the name) of the nearest; None where none is near."""
-    return next(((SequenceMatcher(None, asked, found).ratio(), names[found])
-                 for found in get_close_matches(asked, names, n=1, cutoff=0.6)), None)
+    found = [(SequenceMatcher(None, text, near).ratio(), names[near])
+             for text, names in ((words, wholes), (words.rpartition(".")[2], tails), (words, tails))
+             for near in get_close_matches(text, names, n=1)]
+    if found:
+        return f"; did you mean {printable(max(found, key=lambda one: one[0])[1])}?"
+    return f"; it has {_names_in_words(list(known))}" if known else "; it has none that may vary"
 
 
 def _names_in_words(names: list[str]) -> str:
@@ -151,9 +147,10 @@ class Axis(_Varied):
     values: tuple[float, ...]
     unit: str = ""
 
-    def written(self, number: int) -> str:
+    def written(self, number: int) -> str | Written:
         """A value as a case file would give it: the shortest decimal of the double, with its unit."""
-        return f"{self.values[number]!r} {self.unit}".strip()
+        text = repr(self.values[number])
+        return f"{text} {self.unit}" if self.unit else Written(text)
 
     @cached_property
     def si(self) -> tuple[float, ...]:

@@ -7,13 +7,12 @@ same command goes on from it. Refinements, each a sweep, have folders of their o
 """
 from __future__ import annotations
 
-import copy
 import hashlib
 import json
 import re
 import shlex
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
@@ -43,89 +42,59 @@ from ..orbit.extremes_and_periods import extremes_and_periods
 from ..orbit.result import Fate
 from ..physics.coefficients import effective
 from ..physics.states import start_of
-from .axes import put
+from .axes import Key, with_values
 from .columns import ENDLESS, LEVELS, LIMIT_LEVELS, NO_CASE, NONE, OPEN, record
 from .plan import Chunk, Plan
 
+
 # --- The cases and states of a sweep's points: a case for every scene, rows of rates for the states of one
-Puts = list[tuple[tuple[Any, ...], Any]]  # (path, what stands there in a case file)
-
-
 def case_of(plan: Plan, scene: int) -> Case:
     """The case of a scene, with the first of its states. Raises CaseError where its numbers make none."""
     if plan.pointed is not None:
         return plan.pointed.case(plan.case, scene)
-    data = copy.deepcopy(plan.data)
     places = np.unravel_index(scene, [plan.shape[n] for n in plan.outer]) if plan.outer else ()
-    for dimension, at in zip(plan.outer, places):
-        for path, value in puts(plan, dimension, int(at)):
-            put(data, path, value)
-    return with_data(plan.path, plan.text, data)
-
-
-def puts(plan: Plan, dimension: int, at: int) -> Puts:
-    """What a place along a dimension puts into the case."""
-    if dimension < len(plan.axes):
-        axis = plan.axes[dimension]
-        text = axis.written(at)
-        return [(path, text if axis.unit else Written(text)) for path in axis.key.paths]
-    row = plan.sampled.values(at, at + 1)[0].tolist()
-    return [(path, Written(repr(value))) for key, value in zip(plan.sampled.keys, row) for path in key.paths]
+    values: list[tuple[Key, str]] = []
+    for n, at in zip(plan.outer, map(int, places)):
+        if n < len(plan.axes):
+            values.append((plan.axes[n].key, plan.axes[n].written(at)))
+        else:
+            row = plan.sampled.values(at, at + 1)[0].tolist()
+            values += zip(plan.sampled.keys, (Written(repr(value)) for value in row))
+    return with_data(plan.path, plan.text, with_values(plan.data, values))
 
 
 def states_of(plan: Plan, case: Case, low: int, high: int) -> np.ndarray:
     """(high - low, 3): states of a scene in its own variables, along its principal axes."""
-    return _turned(case, _as_written(plan, low, high)) if plan.inner else np.array([case.state], float)
+    if not plan.inner:
+        return np.array([case.state], float)
+    shape = [plan.shape[n] for n in plan.inner]
+    return states_at(plan, case, np.unravel_index(plan.places(low, high), shape))
 
 
-def states_between(plan: Plan, case: Case, index: np.ndarray, dimension: int,
-                   share: np.ndarray) -> np.ndarray:
-    """(n, 3): the same of places between points: rows of `index` (n, dimensions), each moved by a share of
-    the way to the next along a dimension."""
-    states = np.tile(_base(plan), (len(index), 1))
-    for n in plan.inner:
-        axis, at = plan.axes[n], index[:, n]
-        values = np.array(axis.si)
-        here = values[at]
-        states[:, axis.key.paths[0][2]] = (here + (values[np.minimum(at + 1, len(values) - 1)] - here) * share
-                                           if n == dimension else here)
-    return _turned(case, states)
-
-
-def _turned(case: Case, written: np.ndarray) -> np.ndarray:
-    frame = case.frame
-    if frame is None or frame.as_given:
-        return written
-    # sums in one order, whatever library would multiply matrices
-    rows = [[float(part) for part in axis] for axis in frame.axes]
-    return np.stack([(row[0] * written[:, 0] + row[1] * written[:, 1]) + row[2] * written[:, 2]
-                     for row in rows], axis=1)
-
-
-def _as_written(plan: Plan, low: int, high: int) -> np.ndarray:
-    """The same in the frame of the file."""
-    states = np.tile(_base(plan), (high - low, 1))
-    asked = plan.places(low, high)
-    places = np.unravel_index(np.arange(low, high) if isinstance(asked, range) else np.array(asked),
-                              [plan.shape[n] for n in plan.inner])
-    for dimension, at in zip(plan.inner, places):
-        if dimension < len(plan.axes):
-            axis = plan.axes[dimension]
-            states[:, axis.key.paths[0][2]] = np.array(axis.si)[at]
+def states_at(plan: Plan, case: Case, places: Sequence[np.ndarray], moved: int = -1,
+              share: np.ndarray | float = 0.0) -> np.ndarray:
+    """(n, 3): the same of the points at `places`, (n,) along each inner dimension, each moved by a share of
+    the way to the next along the dimension `moved`."""
+    first = plan.inner[0]
+    varied = plan.axes[first].key if first < len(plan.axes) else plan.sampled.keys[0]
+    motion_table = Table(("motion",), plan.data["motion"], Faults(KeyLines()))
+    states = np.tile([float(value) for value in motion_table.vector(varied.paths[0][1])], (len(places[0]), 1))
+    for n, at in zip(plan.inner, places):
+        if n < len(plan.axes):
+            values = np.array(plan.axes[n].si)
+            ahead = values[np.minimum(at + 1, len(values) - 1)] - values[at]
+            states[:, plan.axes[n].key.paths[0][2]] = values[at] + ahead * share if n == moved else values[at]
         else:
             begin = int(at.min())
             rows = plan.sampled.values(begin, int(at.max()) + 1)[at - begin]
-            for n, sampled in enumerate(plan.sampled.keys):
-                states[:, sampled.paths[0][2]] = rows[:, n]
-    return states
-
-
-def _base(plan: Plan) -> list[float]:
-    """The rates as the file gives them."""
-    first = plan.inner[0]
-    varied = plan.axes[first].key if first < len(plan.axes) else plan.sampled.keys[0]
-    return [float(value) for value in Table(("motion",), plan.data["motion"],
-                                            Faults(KeyLines())).vector(varied.paths[0][1])]
+            for column, sampled in zip(rows.T, plan.sampled.keys):
+                states[:, sampled.paths[0][2]] = column
+    frame = case.frame
+    if frame is None or frame.as_given:
+        return states
+    # sums in one order, whatever library would multiply matrices
+    x, y, z = states.T
+    return np.stack([(float(a) * x + float(b) * y) + float(c) * z for a, b, c in frame.axes], axis=1)
 
 
 # --- The answers for a chunk of points, in rows of one record each
@@ -187,7 +156,11 @@ def _many(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
     """The states of a scene whose answers come in arrays."""
     asked, scene = plan.answers, case.scene
     if {"fate", "level", "reason", "island", "margin", "distance"} & set(asked):
-        found = fate(scene, states, **_following(plan, case))
+        many: dict[str, Any] = {}
+        if plan.pointed is not None and KINDS[kind_of(effective(scene))].follows:
+            # each motion of an atlas is alone in its scene, and all of them together are worth the compiler
+            many = {"fast": installed() or None, "proof": plan.pointed.certify}
+        found = fate(scene, states, follow=plan.longest, **many)
         columns: dict[str, Callable[[], Any]] = {
             "fate": lambda: found.labels, "spin_axis": lambda: found.axis * found.sense,
             "reason": lambda: found.reasons, "margin": lambda: found.margins,
@@ -197,23 +170,11 @@ def _many(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
             if name in out.dtype.names:
                 out[name] = column()
     if {"extremes", "period"} & set(asked):
-        box, times = _extremes_and_periods(case, states, "extremes" in asked, "period" in asked)
-        if box is not None:
-            out["least"], out["greatest"] = box[..., 0], box[..., 1]
-        if times is not None:
-            out["period"] = times
+        _extremes_and_periods(case, states, "extremes" in asked, "period" in asked, out)
     if "when" in asked:
         limit = plan.limit_of(case)
         brief: dict[str, Any] = {} if plan.pointed is None or plan.pointed.certify else {"work": POINTED_WORK}
         _times(time_to(scene, states, **limit.ask, t_max=limit.until, **brief), out)
-
-
-def _following(plan: Plan, case: Case) -> dict[str, Any]:
-    """How motions of an atlas are followed: each is alone in its scene, and all of them together are worth
-    the compiler."""
-    if plan.pointed is None or not KINDS[kind_of(effective(case.scene))].follows:
-        return {"follow": plan.longest}
-    return {"follow": plan.longest, "fast": installed() or None, "proof": plan.pointed.certify}
 
 
 def _chaos(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
@@ -224,25 +185,25 @@ def _chaos(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
     out["chaos"], out["megno"], out["lyapunov"] = found.labels, found.megno, found.lyapunov
 
 
-def _extremes_and_periods(case: Case, states: np.ndarray, box: bool,
-                          times: bool) -> tuple[np.ndarray | None, np.ndarray | None]:
-    """(extremes or None, periods or None). Whether numba serves hangs on the number of states alone, not on
-    what this process did before: its last digits are not those of plain Python."""
+def _extremes_and_periods(case: Case, states: np.ndarray, box: bool, times: bool, out: np.ndarray) -> None:
+    """Whether numba serves hangs on the number of states alone, not on what this process did before: its last
+    digits are not those of plain Python."""
     kind = kind_of(effective(case.scene))
     if kind == "orbit":
-        return extremes_and_periods(case.scene, states, box=box, period=times,
-                                    by_numba=len(states) >= COMPILED)
-    return (_extremes(case, states, KINDS[kind].follows) if box else None,
-            period(case.scene, states) if times else None)
-
-
-def _extremes(case: Case, states: np.ndarray, follows: bool) -> np.ndarray:
-    try:
-        return extremes(case.scene, states, case.span)
-    except InputError:
-        if follows:  # no state of this scene has bounds
-            return np.full((*states.shape, 2), np.nan)
-        raise
+        found, periods = extremes_and_periods(case.scene, states, box=box, period=times,
+                                              by_numba=len(states) >= COMPILED)
+    else:
+        try:
+            found = extremes(case.scene, states, case.span) if box else None
+        except InputError:
+            if not KINDS[kind].follows:
+                raise
+            found = np.full((*states.shape, 2), np.nan)  # no state of this scene has bounds
+        periods = period(case.scene, states) if times else None
+    if found is not None:
+        out["least"], out["greatest"] = found[..., 0], found[..., 1]
+    if periods is not None:
+        out["period"] = periods
 
 
 def _times(found, out: np.ndarray) -> None:

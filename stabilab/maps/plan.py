@@ -193,9 +193,9 @@ class Plan:
     def points(self) -> int:
         return self.scenes * self.states
 
-    def places(self, low: int, high: int) -> Any:
+    def places(self, low: int, high: int) -> np.ndarray:
         """Which places of the grid along the inner dimensions the states [low, high) are."""
-        return unpacked(self.listed)[low:high] if self.listed else range(low, high)
+        return unpacked(self.listed)[low:high] if self.listed else np.arange(low, high)
 
     @cached_property
     def stated_limit(self) -> StatedLimit | None:
@@ -223,7 +223,7 @@ class Plan:
     @cached_property
     def chunks(self) -> tuple[Chunk, ...]:
         """All points, in order."""
-        most = self._points_of_a_chunk()
+        most = max(1, min(LARGEST, int(CHUNK_SECONDS / self.cost)))
         if self.states >= most:
             return tuple(Chunk(n, n + 1, low, min(low + most, self.states)) for n in range(self.scenes)
                          for low in range(0, self.states, most))
@@ -239,9 +239,6 @@ class Plan:
         scene = effective(self.case.scene)
         slow = not scene.plain or KINDS[kind_of(scene)].follows
         return sum(COST[name][slow] for name in self.answers) + SCENE_COST[slow] / self.states
-
-    def _points_of_a_chunk(self) -> int:
-        return max(1, min(LARGEST, int(CHUNK_SECONDS / self.cost)))
 
     def as_json(self, brief: bool = False) -> str:
         """All of the plan, for another process. brief: without the folder of the case, for a file that is to

@@ -38,7 +38,7 @@ from ..processes import cores, helpers
 from ..streams import Progress
 from ..version import __version__
 from . import parts
-from .parts import answered, case_of, states_between
+from .parts import answered, case_of, states_at
 from .plan import Plan, from_json
 
 ADDRESS = re.compile(r"\w+://[^\s/]+:\d+")
@@ -253,7 +253,8 @@ def run(plan: Plan, out: Path | None = None, workers: int | None = None, schedul
     otherwise. out: the file that the parts are for, None to keep none. workers: processes on this machine;
     None: one a core where that pays. scheduler: address of a Dask scheduler whose workers do it instead.
     command: of what the sweep is part of."""
-    _judge(workers)
+    if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int) or workers < 1):
+        raise InputError(f"workers: expected a number of processes of at least 1, got {workers!r:.40}")
     with _folder(plan, out, command) as folder:
         left = parts.missing(plan, folder)
         points = sum(plan.chunks[number].points for number in left)
@@ -263,11 +264,6 @@ def run(plan: Plan, out: Path | None = None, workers: int | None = None, schedul
         yield _finished(plan, parts.whole(plan, folder), plan.points - points)
         if out is not None:
             parts.remove(folder)
-
-
-def _judge(workers: int | None) -> None:
-    if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int) or workers < 1):
-        raise InputError(f"workers: expected a number of processes of at least 1, got {workers!r:.40}")
 
 
 @contextmanager
@@ -353,16 +349,13 @@ def changes(plan: Plan, index: tuple[int, ...], dimension: int, lower: np.ndarra
     whether the lower point spins up. By halving the line, each half asked for its fate: to the last digits of
     a picture and beyond.
     """
-    case = case_of(plan, _scene(plan, index))
+    shape = [plan.shape[n] for n in plan.outer]
+    case = case_of(plan, int(np.ravel_multi_index([index[n] for n in plan.outer], shape)) if shape else 0)
+    places = [lower[:, n] for n in plan.inner]
     low, high = np.zeros(len(lower)), np.ones(len(lower))
     for _ in range(halvings):
         middle = 0.5 * (low + high)
-        same = (fate(case.scene, states_between(plan, case, lower, dimension, middle)).labels
-                == Fate.SPIN_UP) == spun
+        states = states_at(plan, case, places, dimension, middle)
+        same = (fate(case.scene, states).labels == Fate.SPIN_UP) == spun
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     return 0.5 * (low + high)
-
-
-def _scene(plan: Plan, index: tuple[int, ...]) -> int:
-    shape = [plan.shape[n] for n in plan.outer]
-    return int(np.ravel_multi_index([index[n] for n in plan.outer], shape)) if shape else 0

@@ -272,10 +272,6 @@ class Atlas:
         rows = [[float(part) for part in axis] for axis in frame.axes]
         return np.stack([sum(directions[:, i] * rows[i][n] for i in range(3)) for n in range(3)], axis=1)
 
-    def wheel(self, number: int) -> Exact3:
-        """A wheel's momentum along the principal axes, N m s."""
-        return self.asked.wheels[number]
-
 
 def kinds_of(records: np.ndarray) -> np.ndarray:
     """(n,): a number for each fate with its axis and sense, for an island that is seen, and for each number

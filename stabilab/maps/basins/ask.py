@@ -71,31 +71,17 @@ def dimension(counts: tuple[int, ...]) -> Dimension:
             "deeper")
         why = few if counts[-1] else "there is no boundary"
         return Dimension(math.nan, math.nan, depths, counts, used, why)
-    heights = [math.log2(counts[n]) for n in used]
-    slope, error = _line(used, heights)
-    parts = [_line(used[low:high], heights[low:high])[0]
-             for low, high in ((1, len(used)), (0, len(used) - 1))] if len(used) > FEWEST else \
-            [b - a for a, b in zip(heights, heights[1:])]
-    moved = max(abs(part - slope) for part in parts)
+    heights = np.log2([counts[n] for n in used])
+    (slope, _), variance = np.polyfit(used, heights, 1, cov=True)
+    parts = ([np.polyfit(used[part], heights[part], 1)[0] for part in (slice(1, None), slice(-1))]
+             if len(used) > FEWEST else np.diff(heights))
+    moved = np.abs(np.subtract(parts, slope)).max()
+    far = np.array(used) - np.mean(used)
+    one_cell = np.abs(far) @ [1 / (counts[n] * math.log(2)) for n in used] / (far @ far)
     words = (f"slope of log2(cells) over depths {used[0]} to {used[-1]}; twice its standard error, how far "
              "it moves without the coarsest or finest depth, and what one cell at every depth makes of it")
-    return Dimension(slope, SHARE * error + moved + _of_one_cell(used, counts), depths, counts, used, words)
-
-
-def _of_one_cell(used: tuple[int, ...], counts: tuple[int, ...]) -> float:
-    """By how much the slope may change where each count changes by one."""
-    far = np.array(used) - np.mean(used)
-    return float(np.abs(far) @ [1 / (counts[n] * math.log(2)) for n in used] / (far @ far))
-
-
-def _line(x, y) -> tuple[float, float]:
-    """(slope, its standard error) of the line of least squares."""
-    x, y = np.array(x, float), np.array(y, float)
-    dx = x - x.mean()
-    square = float(dx @ dx)
-    slope = float(dx @ y) / square
-    rest = y - y.mean() - slope * dx
-    return slope, math.sqrt(float(rest @ rest) / (len(x) - 2) / square) if len(x) > 2 else 0.0
+    return Dimension(float(slope), float(SHARE * math.sqrt(variance[0, 0]) + moved + one_cell), depths,
+                     counts, used, words)
 
 
 Ask = Callable[[np.ndarray], np.ndarray]  # keys of places (n,), rising -> their labels (n,)

@@ -25,7 +25,7 @@ from ...equilibrium.gyrostat import WELL, gyrostat_equilibria
 from ...equilibrium.stability import POSITIVE_EIGENVALUE, invariants, isolated_verdict, linear_word
 from ...numbers.algebraic import Cut, between, cuts, gaps, univariate
 from ...numbers.balls import Unclear, evaluated, rational, settled, sign
-from ...numbers.vectors import Float3, dot, nearest_first
+from ...numbers.vectors import CYCLE, Float3, dot, nearest_first
 from ...physics.coefficients import effective
 from ...physics.scene import QuadraticForm, euler_form
 from .eliminated import Eliminated, Leant, Root
@@ -126,8 +126,6 @@ def _words_at(family: Family, value: Fraction) -> Told:
     found = gyrostat_equilibria(effective(family.at((value,)).scene))
     if found.kind == "all":
         return Told(ENDLESS, "every state is an equilibrium")
-    if found.kind == "none":
-        return Told(0, "")
     return Told(ENDLESS if found.curves else len(found.points),
                 ", ".join(curve.name for curve in found.curves))
 
@@ -151,10 +149,8 @@ def _named(family: Family) -> Iterator[tuple[fmpq_mpoly, str]]:
     rows += [(lam[i], f"the wheel's part along axis {i + 1} vanishes") for i in range(3)]
     rows += [(M[i], f"the torque's part along axis {i + 1} vanishes") for i in range(3)]
     rows += [(load, "the wheel is across the torque")]
-    for c in range(3):
-        i, j = (c + 1) % 3, (c + 2) % 3
-        rows.append(((D[i] - D[c]) * dot(M, M) + lam[c] * (lam[j] * M[i] - lam[i] * M[j]),
-                     "the conic falls apart into lines"))
+    rows += [((D[i] - D[c]) * dot(M, M) + lam[c] * (lam[j] * M[i] - lam[i] * M[j]),
+              "the conic falls apart into lines") for c, (i, j) in enumerate(CYCLE)]
     return ((f, words) for f, words in rows if not f.is_zero())
 
 
@@ -202,17 +198,12 @@ def _kinds(roots: Sequence[Root], sides: Sequence[Piece | None]) -> tuple[str, .
     """What happens, by how many branches meet in a root, and whether their number changes."""
     counts = [piece.count for piece in sides if piece is not None]
     many = max((root.times for root in roots), default=1)
-    kinds = []
+    if many > 2:
+        return ("pitchfork",)
     if many > 1:
-        if many > 2:
-            kinds.append("pitchfork")
-        elif len(counts) == 1 or counts[0] != counts[-1]:
-            kinds.append("fold")
-        else:
-            kinds.append("touch" if len(roots) > counts[0] else "crossing")
-    elif any(count != len(roots) for count in counts):
-        kinds.append("infinity")
-    return tuple(kinds)
+        fold = len(counts) == 1 or counts[0] != counts[-1]
+        return ("fold" if fold else "touch" if len(roots) > counts[0] else "crossing",)
+    return ("infinity",) if any(count != len(roots) for count in counts) else ()
 
 
 def _states_at(family: Family, kind: str, eliminated: Eliminated, cut: Cut, bits: int,
@@ -339,13 +330,7 @@ def spread(low: Fraction, high: Fraction, points: int, near: int) -> list[Fracti
 
 def _solved(diagram: Diagram, eliminated: Eliminated, value: Fraction, count: int) -> list[Float3] | None:
     try:
-        states = settled(lambda digits: [_state(diagram, root.y, value)
-                                         for root in eliminated.at_general((value,))], most=1024)
+        states = settled(partial(general_states, diagram.family, diagram.kind, eliminated, value), most=1024)
     except Unclear:
         return None
-    return states if len(states) == count else None
-
-
-def _state(diagram: Diagram, y, value: Fraction) -> Float3:
-    u = ball_form(diagram.family, [rational(value)])[1] if diagram.family.scaled else []
-    return tuple(float(v.mid()) + 0.0 for v in state_of(diagram.family, y, u))
+    return [state.at for state in states] if len(states) == count else None

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from math import prod
 from typing import NamedTuple
 
 from flint import arb, fmpq_mpoly, fmpq_poly
@@ -82,10 +83,7 @@ class Eliminated:
             parts.append(R.resultant(R.derivative("x"), "x"))
         parts += [f for f, _ in _factors(self.main.R) if f.degrees()[0] < 1]
         parts.append(self.system.special)
-        found: dict[str, fmpq_mpoly] = {}
-        for part in parts:
-            for factor, _ in _factors(part):
-                found.setdefault(str(factor), factor)
+        found = {str(factor): factor for part in parts for factor, _ in _factors(part)}
         return tuple(factor for factor in found.values() if not factor.is_constant())
 
     def _leant(self, lean: Fraction) -> Leant | None:
@@ -101,18 +99,15 @@ class Eliminated:
 
     def once(self, R: fmpq_mpoly) -> fmpq_mpoly:
         """The product of its different factors that hold the unknown."""
-        out = self.family.ring.constant(1)
-        for factor, _ in _factors(R):
-            if factor.degrees()[0] > 0:
-                out *= factor
-        return out
+        return prod((factor for factor, _ in _factors(R) if factor.degrees()[0] > 0),
+                    start=self.family.ring.constant(1))
 
     def at_general(self, values: tuple[Fraction, ...], view: Leant | None = None) -> list[Root]:
         """The same at a point where nothing happens, by one view, else the main one: rising in x, so that
         branches keep their numbers."""
-        view = view or self.main
-        return self._with_states(view, real_roots_of(univariate(at_rational(view.R, values))),
-                                 [rational(v) for v in values])
+        view, at = view or self.main, [rational(v) for v in values]
+        return [Root(x, times, self.state(view, x, at))
+                for x, times in real_roots_of(univariate(at_rational(view.R, values)))]
 
     def at_algebraic(self, number: Algebraic, bits: int) -> list[Root] | None:
         """The equilibria at an algebraic p (a family of one number), None where they are not isolated.
@@ -121,15 +116,15 @@ class Eliminated:
         if split is None:
             return None
         view, powers = split
-        return self._with_states(view, number.real_roots(powers, bits), [number.ball(bits)])
+        return [Root(x, times, self.state(view, x, [number.ball(bits)]))
+                for x, times in number.real_roots(powers, bits)]
 
     def _split(self, number: Algebraic) -> tuple[Leant, Powers] | None:
         """(view, R there in square-free factors with their powers), of the view with most roots; once for
         each number."""
         key = (str(number.polynomial), number.index)
         if key not in self._known:
-            made = [(view, number.powers(f)) for view in self._needed(number)
-                    if not all(_zero_at(c, number) for c in view.guard)
+            made = [(view, number.powers(f)) for view in self._needed(number) if not _lost(view, number)
                     if (f := number.trimmed(over_field(view.R)))]
             self._known[key] = (max(made, key=lambda one: sum(len(factor) - 1 for factor, _ in one[1]))
                                 if made else self._of_lines(number))
@@ -160,10 +155,8 @@ class Eliminated:
 
     def _needed(self, number: Algebraic) -> Sequence[Leant]:
         """The main view alone where it has no two points in line, else as many as tell."""
-        apart = self.apart
-        one = (apart is not None and not _zero_at(apart, number)
-               and not all(_zero_at(c, number) for c in self.main.guard))
-        return (self.main,) if one else self.views[:SPARE + 1]
+        apart = self.apart is not None and number.reduced(univariate(self.apart, 2)) != 0
+        return (self.main,) if apart and not _lost(self.main, number) else self.views[:SPARE + 1]
 
     @cached_property
     def apart(self) -> fmpq_mpoly | None:
@@ -189,9 +182,6 @@ class Eliminated:
             total = number.reduced(total * x + c)
         return bool(total == 0)
 
-    def _with_states(self, view: Leant, roots: list[tuple[arb, int]], values: list) -> list[Root]:
-        return [Root(x, times, self.state(view, x, values)) for x, times in roots]
-
     def state(self, view: Leant, x: arb, values: list) -> tuple[arb, ...]:
         """The state y above a root x, in balls, at values of the numbers that vary."""
         of = lambda polynomial, *unknowns: evaluated(polynomial,
@@ -201,10 +191,8 @@ class Eliminated:
             return tuple((of(s) + x * of(a)) / below for s, a in zip(self.system.start, self.system.along))
         rows = [[of(c, x) for c in coefficients(h, 1, 3)] for h in (view.f, view.g)]
         y = _common(rows)
-        place = [arb(0)] * 3
-        j, k = (self.system.axis + 1) % 3, (self.system.axis + 2) % 3
-        place[j], place[k] = x + y * rational(view.lean), y
-        return tuple(place)
+        place = {(self.system.axis + 1) % 3: x + y * rational(view.lean), (self.system.axis + 2) % 3: y}
+        return tuple(place.get(n, arb(0)) for n in range(3))
 
 
 def _distinct(f: fmpq_poly) -> int:
@@ -245,5 +233,6 @@ def over_field(f: fmpq_mpoly, variable: int = 0) -> list[fmpq_poly]:
     return [univariate(c, 2) for c in coefficients(f, variable)]
 
 
-def _zero_at(c: fmpq_mpoly, number: Algebraic) -> bool:
-    return number.reduced(univariate(c, 2)) == 0
+def _lost(view: Leant, number: Algebraic) -> bool:
+    """Whether its guard vanishes at the number."""
+    return all(number.reduced(univariate(c, 2)) == 0 for c in view.guard)

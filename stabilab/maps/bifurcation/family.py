@@ -7,7 +7,6 @@ direction or a product of inertia turns axes, by roots, and is refused.
 """
 from __future__ import annotations
 
-import copy
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -24,7 +23,7 @@ from ...numbers.balls import rational
 from ...numbers.vectors import Float3
 from ...physics.coefficients import effective
 from ...representation import Shown
-from ..axes import Span, put
+from ..axes import Span, with_values
 
 DEGREE = 3  # in each number that varies; a thruster's arm, force and a wheel's speed come to one each
 CHECKS = 2  # further values at which the polynomials must hold
@@ -41,11 +40,8 @@ class Family:
 
     def at(self, values: tuple[Fraction, ...]) -> Case:
         """The case with these values, exactly. Raises InputError where they make none."""
-        data = copy.deepcopy(self.data)
-        for span, value in zip(self.spans, values):
-            for path in span.key.paths:
-                put(data, path, span.written(value))
-        return with_data(self.case.path, self.case.text, data)
+        written = [(span.key, span.written(value)) for span, value in zip(self.spans, values)]
+        return with_data(self.case.path, self.case.text, with_values(self.data, written))
 
     @cached_property
     def ring(self) -> fmpq_mpoly_ctx:

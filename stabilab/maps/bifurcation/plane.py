@@ -13,7 +13,6 @@ common root over the field of p.
 """
 from __future__ import annotations
 
-import copy
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -26,7 +25,7 @@ from ...errors import InputError
 from ...numbers.algebraic import Algebraic, Cut, coefficients, cuts, gaps, real_balls, univariate
 from ...numbers.balls import Unclear, evaluated, rational, real_roots_of, settled
 from ...representation import Shown
-from ..axes import put
+from ..axes import with_values
 from .diagram import ball_form, diagram, doubles, spread, state_of
 from .eliminated import Eliminated, at_rational, over_field
 from .equations import chosen, common_divisor
@@ -52,7 +51,13 @@ def cusps(family: Family, eliminated: Eliminated, curves: Sequence[fmpq_mpoly]) 
         return []
     lead = coefficients(R, 0)[-1]
     conditions = _conditions(R)
-    more = cache(lambda: [c for view in _others(eliminated) for c in _conditions(view)])
+
+    @cache
+    def more() -> list[fmpq_mpoly]:
+        """Along one more direction: points that the main view has in line by chance are apart there."""
+        others = [view.R for view in eliminated.views[:2]
+                  if view is not eliminated.main and not view.R.is_zero()]
+        return [c for other in others[:1] for c in _conditions(eliminated.once(other))]
     found: dict[tuple[float, ...], Cusp] = {}
     for F in curves:
         others = [c for c in conditions if c.gcd(F).is_constant()]
@@ -67,12 +72,6 @@ def _conditions(R: fmpq_mpoly) -> tuple[fmpq_mpoly, fmpq_mpoly]:
     slope = R.derivative("x")
     bend = slope.derivative("x")
     return R.resultant(bend, "x"), slope.resultant(bend, "x")
-
-
-def _others(eliminated: Eliminated) -> list[fmpq_mpoly]:
-    """R along one more direction: points that the main view has in line by chance are apart there."""
-    return [eliminated.once(view.R) for view in eliminated.views[:2] if view is not eliminated.main
-            and not view.R.is_zero()][:1]
 
 
 def _on_curve(family: Family, R: fmpq_mpoly, eliminated: Eliminated, F: fmpq_mpoly,
@@ -105,29 +104,24 @@ def _truly(number: Algebraic, common: Any, eliminated: Eliminated,
            more: Callable[[], Sequence[fmpq_mpoly]]) -> Any:
     """Of common roots q those where three points meet, and are not in line by chance: where that may be,
     another direction is asked."""
-    apart = eliminated.apart
-    if len(common) < 2:
-        return common
-    line = (common if apart is None else number.gcd(common, f) if (f := number.trimmed(over_field(apart, 3)))
-            else common)
+    apart = eliminated.apart and number.trimmed(over_field(eliminated.apart, 3))
+    line = number.gcd(common, apart) if apart and len(common) > 1 else common
     if len(line) < 2:
         return common
     sure = number.divided(common, line)
     for c in more():
         line = number.gcd(line, number.trimmed(over_field(c, 3))) if len(line) > 1 else line
-    product = number.trimmed([sum((sure[i] * line[n - i] for i in range(len(sure)) if 0 <= n - i < len(line)),
-                                  line[0] * 0)
-                              for n in range(len(sure) + len(line) - 1)])
-    return product
+    return number.trimmed([sum((sure[i] * line[n - i] for i in range(len(sure)) if 0 <= n - i < len(line)),
+                               line[0] * 0)
+                           for n in range(len(sure) + len(line) - 1)])
 
 
 def _places(family: Family, R: fmpq_mpoly, eliminated: Eliminated, number: Algebraic, common, digits: Any):
     """[((p, q), state)] of the common roots q over the field of p, each with its triple root."""
-    at, out = number.ball(digits.bits), []
-    for q, _ in number.real_roots(number.powers(common), digits.bits):
-        x = _triple_root(R, at, q)
-        out.append(((float(at.mid()), float(q.mid())), _state(family, eliminated, x, at, q, digits.bits)))
-    return out
+    at = number.ball(digits.bits)
+    return [((float(at.mid()), float(q.mid())),
+             _state(family, eliminated, _triple_root(R, at, q), at, q, digits.bits))
+            for q, _ in number.real_roots(number.powers(common), digits.bits)]
 
 
 def _state(family: Family, eliminated: Eliminated, x: arb, p: arb, q: arb, bits: int) -> tuple[float, ...]:
@@ -228,7 +222,11 @@ def plane(family: Family, borders: bool = False) -> Plane:
         raise InputError(
             f"the curves of these ranges turn and meet at {len(found)} values; at most {MOST} are followed: "
             "narrow the ranges")
-    strips = _strips(family, borders, curves, found)
+    strips = []
+    for gap in gaps(found, family.spans[0].low, family.spans[0].high):
+        if gap:
+            line = diagram(fixed(family, 0, gap.sample), borders)
+            strips.append(Strip(*gap, line, tuple(_arc(curves, gap.sample, event) for event in line.events)))
     walls = [wall for cut in found for wall in _walls(family, borders, cut, curves, strips)]
     return Plane(family, kind, what, curves, tuple(strips), tuple(walls),
                  tuple(cusps(family, eliminated, curves)), notes)
@@ -254,20 +252,10 @@ def _projected(family: Family, curves: Sequence[fmpq_mpoly]):
 
 def fixed(family: Family, which: int, value: Fraction) -> Family:
     """The family over the other number, with this one at a value."""
-    data, span = copy.deepcopy(family.data), family.spans[which]
-    for path in span.key.paths:
-        put(data, path, span.written(value))
-    return Family(family.at(tuple(value if n == which else other.low
-                                  for n, other in enumerate(family.spans))), data, (family.spans[1 - which],))
-
-
-def _strips(family: Family, borders: bool, curves: Sequence[fmpq_mpoly], found: Sequence[Cut]) -> list[Strip]:
-    out = []
-    for gap in gaps(found, family.spans[0].low, family.spans[0].high):
-        if gap:
-            line = diagram(fixed(family, 0, gap.sample), borders)
-            out.append(Strip(*gap, line, tuple(_arc(curves, gap.sample, event) for event in line.events)))
-    return out
+    span = family.spans[which]
+    values = tuple(value if n == which else other.low for n, other in enumerate(family.spans))
+    return Family(family.at(values), with_values(family.data, [(span.key, span.written(value))]),
+                  (family.spans[1 - which],))
 
 
 def _arc(curves: Sequence[fmpq_mpoly], sample: Fraction, event: Event) -> Arc:
@@ -335,11 +323,9 @@ def count_at(found: Plane, p: Fraction, q: Fraction) -> int:
 
 
 def _q_of(F: fmpq_mpoly, p: Fraction, index: int) -> float:
-    return settled(lambda digits: _root(F, p, index), most=1024)
-
-
-def _root(F: fmpq_mpoly, p: Fraction, index: int) -> float:
-    found = real_roots_of(univariate(at_rational(F, (p,)), 3))
-    if index >= len(found):
-        raise Unclear
-    return float(found[index][0].mid())
+    def root(digits: Any) -> float:
+        found = real_roots_of(univariate(at_rational(F, (p,)), 3))
+        if index >= len(found):
+            raise Unclear
+        return float(found[index][0].mid())
+    return settled(root, most=1024)
