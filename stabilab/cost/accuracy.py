@@ -193,13 +193,14 @@ def precision(case, effort: str = "full", until: float | None = None, progress=N
     took = time.process_time() - began
     points: list[Point] = []
     left_out: list[Any] = []
-    for method in (m for m in methods(task, most.every)
-                   if m.name not in most.without) if len(exact.t) else ():
-        tell(method.name)
-        _states(task, method, exact, most, points, left_out)
+    spans = [exact.t, exact.t[-1:]][:2 if most.ends else 1]
+    for method in methods(task, most.every) if len(exact.t) else ():
+        if method.name not in most.without:
+            tell(method.name)
+            _measured(task, method, exact, most, spans, points, left_out)
     for method in answer_methods(task, period, most.every) if exact.period else ():
         tell(f"{method.name}, period and extremes")
-        _answers(task, method, exact, most, points, left_out)
+        _measured(task, method, exact, most, [None], points, left_out)
     fates = tuple(FateAnswer(name, word, *timing) for name, call in fate_methods(task) for word,
                   *timing in [_timed(call, most)])
     return Precision(case, task, exact.t, exact, tuple(points), fates, _sensitivity(task, exact),
@@ -216,50 +217,31 @@ def _timed(call, effort):
     return answer, min(seconds), max(seconds), len(seconds)
 
 
-def _rungs(task, method: Method, effort, left_out):
-    """(setting, run, seconds of preparation) up the ladder; the evaluations of the last run are to be sent
-    back."""
+def _measured(task, method: Method, exact, effort, spans, points, left_out):
+    """Put what every rung of a method's ladder reaches into `points`, or into `left_out`. spans: times of its
+    runs, rising to the end; None of a run that answers with period and extremes."""
     last, growth = 0, 1.0
     for value in method.ladder:
-        expected = last * growth
-        if method.name in SCIPY_METHODS and expected > effort.evaluations:
+        if method.name in SCIPY_METHODS and last * growth > effort.evaluations:
             left_out.append((method.name, value,
                              f"more than the {effort.evaluations} evaluations allowed, by the growth so far"))
             continue
         start = time.process_time()
         run = method.prepare(task, value)
-        used = yield value, run, time.process_time() - start
-        growth = max(1.0, used / last) if used and last else 1.0
-        last = used or 0
-
-
-def _climbed(task, method, effort, left_out):
-    """(setting, run, seconds of preparation, take) up the ladder; take(used) is to be called with the
-    evaluations used."""
-    ladder, used = _rungs(task, method, effort, left_out), [None]
-    while True:
-        try:
-            rung = next(ladder) if used[0] is None else ladder.send(used[0])
-        except StopIteration:
-            return
-        yield *rung, lambda n: used.__setitem__(0, n or 0)
-
-
-def _states(task, method, exact, effort, points, left_out):
-    asked = [("span", exact.t), ("end", exact.t[-1:])][:2 if effort.ends else 1]
-    for value, run, compiled, take in _climbed(task, method, effort, left_out):
-        for question, times in asked:
+        compiled = time.process_time() - start
+        for question, times in zip(("span", "end"), spans):
             answer, fast, slow, repeats = _timed(partial(run, times), effort)
-            error = _state_error(task, answer, exact, len(times))
-            if math.isinf(error):
+            known = "" if times is None or set(answer.parts) == set(task.slices) else ", ".join(answer.parts)
+            errors = ({"period": _period_error(answer, exact), "extremes": _extremes_error(answer, exact)}
+                      if times is None else {question: _state_error(task, answer, exact, len(times))})
+            if errors.get("span") == math.inf or errors.get("end") == math.inf:
                 left_out.append((method.name, value, "no answer over the whole span"))
                 break
-            known = "" if set(answer.parts) == set(task.slices) else ", ".join(answer.parts)
-            points.append(Point(question, method.name, method.setting, value, error, answer.steps,
-                                answer.evaluations,
-                                fast / method.lanes, slow / method.lanes, repeats, compiled, method.lanes,
-                                known))
-        take(answer.evaluations)
+            points += [Point(name, method.name, method.setting, value, error, answer.steps,
+                             answer.evaluations, fast / method.lanes, slow / method.lanes, repeats, compiled,
+                             method.lanes, known) for name, error in errors.items()]
+        used = answer.evaluations or 0
+        growth, last = max(1.0, used / last) if last and used else 1.0, used
 
 
 def _state_error(task, answer, exact, count) -> float:
@@ -275,17 +257,6 @@ def _state_error(task, answer, exact, count) -> float:
         gap = np.abs((values - exact.states[-count:, part]) - exact.rest[-count:, part]).max() / size
         worst = max(worst, float(gap)) if np.isfinite(gap) else math.inf
     return worst
-
-
-def _answers(task, method, exact, effort, points, left_out):
-    for value, run, compiled, take in _climbed(task, method, effort, left_out):
-        answer, fast, slow, repeats = _timed(partial(run, None), effort)
-        for question, error in (("period", _period_error(answer, exact)),
-                                ("extremes", _extremes_error(answer, exact))):
-            points.append(Point(question, method.name, method.setting, value, error, answer.steps,
-                                answer.evaluations, fast,
-                                slow, repeats, compiled))
-        take(answer.evaluations)
 
 
 def _period_error(answer, exact) -> float:

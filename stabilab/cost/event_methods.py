@@ -112,24 +112,25 @@ def _balls(task, _):
 def known_period(task: Problem):
     """The period of a motion that repeats, or None where the question does not arise (or no reduction answers
     it)."""
+    if _landscape(task) is None:
+        return None
+    found = float(period(task.scene, task.start))
+    return found if 0 < found < np.inf else None
+
+
+def _landscape(task: Problem):
     try:
-        if task.equations.blocks != ("omega",) or landscape(task.scene) is None:
-            return None
-        found = float(period(task.scene, task.start))
+        return landscape(task.scene) if task.equations.blocks == ("omega",) else None
     except InputError:
         return None
-    return found if 0 < found < np.inf else None
 
 
 def fate_methods(task: Problem) -> list:
     """(name, call) of the ways to the fate: by energy in doubles, and by energy in balls; call() -> its word.
     """
-    try:
-        if task.equations.blocks != ("omega",) or landscape(task.scene) is None:
-            return []
-    except InputError:
+    if (found := _landscape(task)) is None:
         return []
-    reduction = landscape(task.scene).reduction
+    reduction = found.reduction
 
     def in_balls():
         margin = (float(free_margin(task.scene, task.start)) if is_free(task.scene)
