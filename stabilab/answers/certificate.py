@@ -155,8 +155,10 @@ def _motion(scene: AnyScene, state: tuple[Fraction, ...], uncertified: list[str]
     if label not in (Fate.BOUNDED, Fate.SPIN_UP):
         uncertified.append(f"motion: {label.word}: {found.because}")
         return None
-    return claims | {"fate": label.word, "axis": found.axis, "sense": found.sense,
-                     "extremes": _extremes(orbit, label), "period": _period(orbit, label)}
+    extremes = [[_ends(v) for v in pair] for pair in extreme_balls(orbit, label, certain=int(DIGITS * 3.33))]
+    period = _ends(period_ball(orbit), PERIOD_DIGITS) if label == Fate.BOUNDED else None
+    return claims | {"fate": label.word, "axis": found.axis, "sense": found.sense, "extremes": extremes,
+                     "period": period}
 
 
 def _without_reduction(scene: AnyScene, state: tuple[Fraction, ...], claims: dict[str, Any],
@@ -170,15 +172,6 @@ def _without_reduction(scene: AnyScene, state: tuple[Fraction, ...], claims: dic
         return None
     return (claims | {"fate": Fate.SPIN_UP.word, "axis": found["axis"], "sense": found["sense"],
                       "spin_up": found})
-
-
-def _extremes(orbit: Any, label: Fate) -> list[list[Any]]:
-    balls = extreme_balls(orbit, label, certain=int(DIGITS * 3.33))
-    return [[_ends(v) for v in pair] for pair in balls]
-
-
-def _period(orbit: Any, label: Fate) -> Any:
-    return _ends(period_ball(orbit), PERIOD_DIGITS) if label == Fate.BOUNDED else None
 
 
 def _ends(value: Any, digits: int = DIGITS) -> Any:

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..equilibrium.gyrostat import gyrostat_equilibria
 from ..equilibrium.result import Equilibria
-from ..physics.coefficients import Content, content, limits_of
+from ..physics.coefficients import content, limits_of
 from ..physics.scene import AnyScene
 from ..validation import checked_scene, is_case
 
@@ -39,14 +39,9 @@ def equilibria(scene: Any) -> Equilibria:
     does not cover.
     """
     scene = checked_scene(scene.scene if is_case(scene) else scene)
-    found = _found(scene)
+    found = (None if scene.plain else other_equilibria(scene)) or gyrostat_equilibria(scene)
     limits = limits_of(scene)
     return replace(found, validity=limits.at_equilibria(scene, found)) if limits else found
-
-
-def _found(scene: AnyScene) -> Equilibria:
-    found = None if scene.plain else other_equilibria(scene)
-    return gyrostat_equilibria(scene) if found is None else found
 
 
 def other_equilibria(scene: AnyScene) -> Equilibria | None:
@@ -60,13 +55,9 @@ def other_equilibria(scene: AnyScene) -> Equilibria | None:
     parts = content(scene)
     if parts is None:
         return None
-    if parts.duration is not None:
-        found = _of_parts(parts.without_motor)
-        return replace(found, reason=f"{found.reason}; {STOPPED}")
-    return _of_parts(parts)
-
-
-def _of_parts(parts: Content) -> Equilibria:
+    stops = parts.duration is not None
+    parts = parts.without_motor if stops else parts
     module, answer = BY_KIND[parts.kind]
     found = getattr(import_module(f"..equilibrium.{module}", __package__), answer)(parts)
-    return replace(found, reason=f"{found.reason}; {parts.note}") if parts.note else found
+    words = (found.reason, parts.note, STOPPED if stops else "")
+    return replace(found, reason="; ".join(filter(None, words)))

@@ -40,20 +40,15 @@ def motion(scene: Any, state: Any = None, span: Any = None, brief: bool = False,
     limits = limits_of(scene)
     found = (replace(found, validity=limits.of_motion(scene, found)) if limits and found.validity is None
              else found)
-    return limited(replace(found, largest=_largest(scene, found),
-                           energy_integral=None if brief else _energy_integral(scene, found, exact)),
-                   scene, case)
-
-
-def _energy_integral(scene: AnyScene, found: Motion, exact: Sequence[Fraction] | None) -> Any:
-    """The paper's G1, G2 or G3 of the motion; None where there is none."""
     twin = effective(scene)
-    return energy_integral(twin, exact or found.at[:3], found.margin_energy) if twin.plain else None
+    integral = (None if brief or not twin.plain
+                else energy_integral(twin, exact or found.at[:3], found.margin_energy))
+    return limited(replace(found, largest=_largest(twin, found), energy_integral=integral), scene, case)
 
 
-def _largest(scene: AnyScene, found: Motion) -> float | None:
+def _largest(twin: AnyScene, found: Motion) -> float | None:
     """|omega| at the most, of a motion that repeats or rests, where its extremes are known over all time."""
-    twin, pairs = effective(scene), found.extremes
+    pairs = found.extremes
     if found.fate == Fate.EQUILIBRIUM:
         return math.hypot(*found.at[:3])
     if not twin.plain or found.period is None or pairs is None or found.extremes_over != "all time":

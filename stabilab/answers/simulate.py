@@ -88,9 +88,8 @@ def _method(name: str) -> str:
 def _by_quadrature(scene: AnyScene, equations: Equations, state: np.ndarray, times: np.ndarray,
                    rtol: float | None) -> Trajectory:
     if equations.blocks != ("omega",):
-        raise InputError(f"method reduced: it gives the rates alone, and the state has the blocks "
-                         f"{', '.join(equations.blocks)}; take "
-                         "method taylor")
+        raise InputError("method reduced: it gives the rates alone, and the state has the blocks "
+                         f"{', '.join(equations.blocks)}; take method taylor")
     if rtol is not None:
         raise InputError(
             "method reduced: it takes as many nodes as doubles need and has no tolerance; leave rtol out")
@@ -251,16 +250,11 @@ def in_quaternions(scene: Scene, state: dict[str, np.ndarray]) -> dict[str, np.n
 
 
 def _simulation(run: Trajectory, state: dict[str, np.ndarray], *why: str) -> Simulation:
-    return Simulation(run.t, state, "exact", run.method, run.rtol, run.invariant_drift, run.counters,
-                      run.status, _reason(run, *why),
-                      run.validity, errors_of(state, max(run.rtol or 0.0, ROUNDING)))
-
-
-def _reason(run: Trajectory, *why: str) -> str:
-    """Say why the run stopped and what is to be said of its method. Where it did not stop, say that all times
-    were reached."""
+    """why: what is to be said of its method, in place of that all times were reached."""
     told = "; ".join(filter(None, (run.reason if run.status != "reached" else "", *why)))
-    return told or run.reason
+    return Simulation(run.t, state, "exact", run.method, run.rtol, run.invariant_drift, run.counters,
+                      run.status, told or run.reason, run.validity,
+                      errors_of(state, max(run.rtol or 0.0, ROUNDING)))
 
 
 def _chosen(scene: AnyScene, start: Mapping[str, Sequence[float]], times: np.ndarray, method: str | None,
@@ -277,10 +271,9 @@ def _chosen(scene: AnyScene, start: Mapping[str, Sequence[float]], times: np.nda
     turn = float(np.linalg.norm(start["omega"])) if len(equations.blocks) > 1 else 0.0
     if stiffness <= STIFF or fastest < TURNING * turn:
         return "taylor", rtol, ""
-    return STIFF_METHOD, STIFF_RTOL if rtol is None else rtol, (f"stiff: the fastest decay, {fastest:.3g}/s, "
-                                                                f"runs down {stiffness:.2g} times "
-                                                                       f"over the span, so the implicit "
-                                                                       f"method {STIFF_METHOD} was taken")
+    return STIFF_METHOD, STIFF_RTOL if rtol is None else rtol, (
+        f"stiff: the fastest decay, {fastest:.3g}/s, runs down {stiffness:.2g} times over the span, so the "
+        f"implicit method {STIFF_METHOD} was taken")
 
 
 def _with_attitude(scene: Scene, start: Any, first: Any, times: np.ndarray, method: str, rtol: float | None,

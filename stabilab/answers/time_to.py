@@ -21,7 +21,7 @@ from .passage.enclosed import STEPS as BAND_STEPS
 from .passage.enclosed import WORK, banded, enclosed
 from .passage.limit import Limit, asked
 from .passage.never import after_a_period, by_clock, earliest, never, never_bounded
-from .passage.run import Found, TimeTo, by_run
+from .passage.run import Found, TimeTo, by_run, times_of
 
 LATER = 1e-6  # of the time that a run finds: the enclosure goes on for so long after it
 
@@ -67,11 +67,8 @@ def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = Non
     parts = content(given) if scene is not given else None
     if parts is not None and parts.note:  # what the twin takes for granted of the scene
         found = [replace(one, words=f"{one.words}; {parts.note}") for one in found]
-    column = lambda name, kind: np.array([getattr(one, name) for one in found], kind).reshape(shape)[()]
-    low = column("low", float)
-    return TimeTo(low, column("high", float), column("level", object), column("words", object), limit.words,
-                  given, array,
-                  caveats_of(given, bool(np.isinf(low).any())))
+    caveats = caveats_of(given, any(one.never for one in found))
+    return times_of(found, shape, limit.words, given, array, caveats)
 
 
 def time_of_case(case: Any, ask: dict[str, Any], t_max: float | Fraction | None = None,

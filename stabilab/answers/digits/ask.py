@@ -54,7 +54,8 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
     by `NEAR` is not done again. Told.digits may be below what was asked: see Told.required.
     """
     digits = checked_digits(digits, MOST_DECIMALS)
-    twin, land = _reduced(scene)
+    twin = effective(scene)  # it turns alike and has nothing but a wheel and a torque, if `plain`
+    land = landscape(twin) if twin.plain else None
     if known is None:  # by a reduction none of the three questions needs the distance from the separatrix
         known = motion(scene, state, span, brief=land is not None, exact=exact)
     if question != "extremes" and _number(question, known) is None:
@@ -100,12 +101,6 @@ def ask_all(question: str, scene: AnyScene, states: Any, digits: int, values: An
                            dtype=object).reshape((*shape, *np.shape(worst.decimals))))
     return replace(worst, values=values.reshape((*shape, *values.shape[1:])), because=worst.because + sampled,
                    decimals=texts)
-
-
-def _reduced(scene: AnyScene) -> tuple[AnyScene, Landscape | None]:
-    """(the scene that turns alike and has nothing but a wheel and a torque, its landscape or None)."""
-    twin = effective(scene)
-    return twin, landscape(twin) if twin.plain else None
 
 
 def _number(question: str, known: Motion) -> Any:
@@ -249,9 +244,7 @@ def _by_small_loop(question: str, form: QuadraticForm, values: Any, digits: int,
         if None in found:
             return Told(question, values, digits, 0.0, "run",
                         "no return was found in many digits within the work allowed")
-        pairs = zip(_each(found[0]), _each(found[1]))
-        error = max(max(float(abs(a - b) / abs(size)) if size != 0 else 0.0 for (a, _), (b, size) in pairs),
-                    10.0**-more)
+        error = max(_balls_apart(found[1], found[0]), 10.0**-more)
         if digits <= MOST and (gap := max(_gap(values, found[1]), error)) <= 10.0**-digits:
             return Told(question, values, digits, digits_of(gap), "run",
                         f"its series from the start in many digits, {gap:.1e} apart")
@@ -324,12 +317,9 @@ def _many_digits(equations: Equations, start: Sequence[Number], length: float, d
 
 
 def _balls_apart(now: Any, before: Any) -> float:
-    """Largest distance of pairs, relative to the size of their component."""
-    worst = 0.0
-    for one, two in zip(now, before):
-        size = max(map(abs, one))
-        worst = max([worst, *(float(abs(a - b) / (size or 1)) for a, b in zip(one, two))])
-    return worst
+    """Largest distance of balls, relative to the size of their component."""
+    return max(float(abs(a - b) / abs(size)) if size != 0 else 0.0
+               for (a, size), (b, _) in zip(_each(now), _each(before)))
 
 
 def _series_extremes(recursion: Recursion, start: Sequence[Number], length: float, digits: int,

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -34,10 +34,6 @@ from ...physics.states import (
 from ...physics.to_numpy import to_numpy
 from ..simulate import STIFF_METHOD, Simulation, errors_of, in_quaternions, simulate
 from .checked import CAUTION, DEFAULT, MOST, NEAR, checked_digits, digits_of
-
-if TYPE_CHECKING:
-    from ...physics.law_limits import Validity
-
 
 # --- The reduced form as one of the ways to follow a motion: `reduced_motion` at a given resolution
 SAMPLES = (8, 16, 32, 64, 128, 256, 512)  # of the phase over a turn, for motions that repeat
@@ -232,8 +228,6 @@ def _integrated(case: Any, times: np.ndarray, method: str, rtol: float | None) -
 
 
 def _reduced(case: Any, times: np.ndarray, method: str, nodes: float) -> Simulation:
-    if case.blocks or case.scene.blocks != ("omega",) or (times < 0).any():
-        raise InputError("the reduced form gives the rate alone, from time 0 on")
     orbit = reduced_motion(case.scene, case.state, int(nodes))
     counters = {"evaluations": int(orbit.evaluations)}  # of the integrand in its preparation
     return Simulation(times, {_first(case): orbit.states(times)}, "exact", REDUCED_FORM, None,
@@ -260,9 +254,10 @@ def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
         return None
     states = np.empty_like(found.states)
     states[order] = found.states
-    validity = _validity(case.scene, {name: states[:, part] for name, part in found.slices.items()})
-    parts: Any = {_first(case) if name == "omega" else name: states[:, part]
-                  for name, part in found.slices.items()}
+    blocks: Any = {name: states[:, part] for name, part in found.slices.items()}
+    limits = limits_of(case.scene)
+    validity = limits.along(case.scene, blocks, "at the times given") if limits else None
+    parts: Any = {_first(case) if name == "omega" else name: values for name, values in blocks.items()}
     error = float(found.error.max()) + 2.0**-53
     if as_quaternion(case.blocks.get("attitude", ())):
         parts = in_quaternions(case.scene, parts)
@@ -277,12 +272,6 @@ def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
     run = Simulation(times, parts, "exact", MANY, None, counters={"multiplications": found.work},
                      reason=because, validity=validity)
     return _told(run, asked, error, because)
-
-
-def _validity(scene: AnyScene, blocks: Any) -> Validity | None:
-    """Of the laws at the times asked for; None where all are exact."""
-    limits = limits_of(scene)
-    return limits.along(scene, blocks, "at the times given") if limits else None
 
 
 def _with_angles(case: Any, times: np.ndarray, parts: dict[str, np.ndarray]) -> dict[str, np.ndarray] | None:

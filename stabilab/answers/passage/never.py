@@ -110,19 +110,14 @@ def never(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> tuple[
     if kind not in REDUCED:
         return None, None
     row = np.array(state, float)
-    if kind == "aligned" and not _repeats(scene, row):
+    bounded = lambda: fate(scene, row).labels == Fate.BOUNDED
+    if kind == "aligned" and not (bounded() and math.isfinite(float(period(scene, row)))):
         return None, None  # its extremes over all time are not known
     if limit.beyond(extremes(scene, row).tolist(), SLACK):
         return Found(math.inf, math.inf, "exact",
                      f"{limit.words}: never, the extremes over all time stay below it"), None
-    if fate(scene, row).labels != Fate.BOUNDED:
-        return None, None
-    repeats = float(period(scene, row)) if kind == "orbit" else math.inf
+    repeats = float(period(scene, row)) if kind == "orbit" and bounded() else math.inf
     return None, repeats * (1 + SLACK) if 0 < repeats < math.inf else None
-
-
-def _repeats(scene: AnyScene, row: np.ndarray) -> bool:
-    return bool(fate(scene, row).labels == Fate.BOUNDED) and math.isfinite(float(period(scene, row)))
 
 
 def after_a_period(limit: Limit) -> Found:
@@ -138,12 +133,13 @@ def never_bounded(scene: AnyScene, state: Any, limit: Limit) -> Found | None:
         return None
     found = motion(scene, state, brief=True)
     bound = found.invariants.get("rate_bound", math.inf)
-    if found.fate == Fate.EQUILIBRIUM or (found.fate == Fate.BOUNDED
-                                          and limit.beyond_rate(bound * (1 + SLACK))):
-        why = ("the state is an equilibrium" if found.fate == Fate.EQUILIBRIUM
-               else f"|omega| <= {bound:.6g} rad/s always")
-        return Found(math.inf, math.inf, "exact", f"{limit.words}: never, {why}")
-    return None
+    if found.fate == Fate.EQUILIBRIUM:
+        why = "the state is an equilibrium"
+    elif found.fate == Fate.BOUNDED and limit.beyond_rate(bound * (1 + SLACK)):
+        why = f"|omega| <= {bound:.6g} rad/s always"
+    else:
+        return None
+    return Found(math.inf, math.inf, "exact", f"{limit.words}: never, {why}")
 
 
 def earliest(scene: AnyScene, start: Sequence[Number], limit: Limit) -> Fraction:

@@ -93,6 +93,24 @@ class Found:
     words: str
     steps: int = 0
 
+    @property
+    def time(self) -> tuple[float, float] | None:
+        """(low, high); None where it is never within what is known."""
+        return (self.low, self.high) if math.isfinite(self.high) else None
+
+    @property
+    def never(self) -> bool:
+        """Whether it is known never to be reached."""
+        return math.isinf(self.low)
+
+
+def times_of(found: Sequence[Found], shape: tuple[int, ...], quantity: str, scene: AnyScene,
+             states: np.ndarray, caveats: tuple[Caveat, ...]) -> TimeTo:
+    """The answers of motions, one after another, in this shape."""
+    column = lambda name, kind: np.array([getattr(one, name) for one in found], kind).reshape(shape)[()]
+    return TimeTo(column("low", float), column("high", float), column("level", object),
+                  column("words", object), quantity, scene, states, caveats=caveats)
+
 
 DRIFT_ROUNDING = 1e-9  # of the limit's square: far beyond the rounding of these lines
 POINTS = 720  # to a turn of the phase; between them a bound of the slope counts
@@ -105,8 +123,11 @@ def stays_below(scene: Scene, state: Float3, rate: float, sideways: float,
     """A time before which |omega| < `rate`, for every torque whose component along its axis is within `along`
     (N m) and whose part across it is at most `sideways`; constant, but otherwise any. scene: with the torque
     on an axis; state: three floats, rad/s. 0 where nothing is proved."""
-    crude = _by_energy(scene, state, rate, math.hypot(sideways, max(map(abs, along))))
     D, l = (np.array([float(v) for v in row]) for row in (scene.body.exact, scene.vector("gyrostat")))
+    # T = W^2/2: |W'| <= |D^(-1/2) M| bounds |omega| <= W/min(D)^(1/2)
+    least, torque = math.sqrt(D.min()), math.hypot(sideways, max(along, key=abs))
+    room = rate * least - math.sqrt(D @ np.square(state))
+    crude = max(0.0, room) * least / torque * (1 - DRIFT_ROUNDING)
     i = next(n for n, m in enumerate(scene.vector("constant_torque")) if m)
     j, k = CYCLE[i]
     a = np.array([D[j] - D[i], D[k] - D[i]])
@@ -122,14 +143,6 @@ def stays_below(scene: Scene, state: Float3, rate: float, sideways: float,
         middle = 0.5 * (low + high)
         low, high = (middle, high) if well.holds(middle) else (low, middle)
     return float(max(crude, low))
-
-
-def _by_energy(scene: Scene, state: Float3, rate: float, torque: float) -> float:
-    """T = W^2/2: |W'| <= |D^(-1/2) M| bounds |omega| <= W/min(D)^(1/2)."""
-    D = [float(v) for v in scene.body.exact]
-    least = math.sqrt(min(D))
-    return (max(0.0, rate * least - math.sqrt(sum(d * w * w for d, w in zip(D, state)))) * least / torque
-            * (1 - DRIFT_ROUNDING))
 
 
 class _Well:

@@ -174,9 +174,8 @@ def _slowest(scenario: Scenario, torque: Sequence[Fraction], sets: Any, seen: Ou
 
 def _run(scenario: Scenario, torque: Sequence[Fraction], chosen: Any, duty: Duty, seen: Outcome) -> float:
     """The time of the limit by a plain run, inf where it is not reached for long."""
-    left = _left(torque, [arm for _, arm in chosen], duty)
-    t_max = PATIENCE * (seen.when.time[0] if seen.when.time else seen.when.followed)
-    return first_time(scenario, left, None, t_max)
+    left, alone = _left(torque, [arm for _, arm in chosen], duty), seen.when.time
+    return first_time(scenario, left, None, PATIENCE * (alone[0] if alone else seen.followed))
 
 
 def _in_the_box(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]]) -> list[Duty]:
@@ -222,17 +221,15 @@ def stuck(case: Any, all_thrusters: bool = False, progress: Callable[[str], Any]
     rows = []
     for chosen in _chosen(case, scenario, all_thrusters):
         if progress:
-            progress(f"{case.name}: {_named(chosen)}")
+            names = " and ".join(thruster.name for thruster in chosen)
+            progress(f"{case.name}: {names or 'the torque of the case'}")
         rows.append(_row(scenario, chosen))
-    if all_thrusters:
-        rows.sort(key=_soonest)
+    if all_thrusters:  # the limit is reached soon; what spins up later, or is not known; never
+        rows.sort(key=lambda row: (row.time_to_limit[0] if row.time_to_limit else math.inf,
+                                   {"spin-up": 0, "undecided": 1}.get(row.fate, 2)))
     principal = Principal(floats(scenario.axes.moments),
                           tuple(tuple(float(v) + 0.0 for v in axis) for axis in scenario.axes.axes))
     return Stuck(case.name, tuple(rows), principal, all_thrusters)
-
-
-def _named(thrusters: Sequence[Any]) -> str:
-    return " and ".join(t.name for t in thrusters) or "the torque of the case"
 
 
 def _chosen(case: Any, scenario: Scenario, all_thrusters: bool) -> list[tuple[Any, ...]]:
@@ -250,13 +247,6 @@ def _chosen(case: Any, scenario: Scenario, all_thrusters: bool) -> list[tuple[An
     return [marked] + ([(t,) for t in marked] if len(marked) > 1 else [])
 
 
-def _soonest(row: Row) -> tuple[Any, ...]:
-    """In front: the limit is reached soon; then what spins up later or is not known, then what never reaches
-    it."""
-    return (row.time_to_limit[0] if row.time_to_limit else math.inf,
-            {"spin-up": 0, "undecided": 1}.get(row.fate, 2))
-
-
 def _row(scenario: Scenario, thrusters: Sequence[Any]) -> Row:
     torque = scenario.torque(thrusters)
     seen = outcome_of(scenario, torque)
@@ -270,7 +260,7 @@ def _row(scenario: Scenario, thrusters: Sequence[Any]) -> Row:
         fate=seen.fate.word, level=seen.level, axis=seen.axis or None, sense=seen.sense or None,
         direction=seen.direction and scenario.in_file(seen.direction), limit=scenario.limit,
         time_to_limit=seen.when.time, time_level=seen.when.level, never=seen.when.never,
-        largest_rate=seen.largest, followed=seen.when.followed, because=seen.because,
+        largest_rate=seen.largest, followed=seen.followed, because=seen.because,
         margins=margins(scenario, scene, seen),
         wheels=tuple(_wheel(scenario, torque, seen, wheel) for wheel in scenario.case.wheels),
         helpers=helpers(scenario, torque, others, seen) if seen.fate not in STEADY else (),

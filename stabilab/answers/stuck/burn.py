@@ -22,7 +22,7 @@ from ..attitude.ask import of_motion
 from ..attitude.result import Attitude
 from ..motion import motion
 from ..passage.limit import Limit, asked
-from ..passage.run import ROUNDING, WIDER, Found, TimeTo, largest_rate
+from ..passage.run import ROUNDING, WIDER, Found, TimeTo, largest_rate, times_of
 from .chain import Chain, Piece, limit_after
 from .closing import Latest, largest_after, largest_of_run, latest
 from .crossing import RUN_STEPS, Link, crossing_of, first_along, links_of
@@ -163,33 +163,30 @@ def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = Non
     (but for the angle of an axis).
     """
     chain = Chain(burning)
-    case, limit = chain.case, asked(chain.base, **ask)
+    limit = asked(chain.base, **ask)
+    found = _first(chain, limit, ask, until)
+    return times_of([found], (), limit.words, chain.base, np.array(chain.case.state), chain.case.caveats)
+
+
+def _first(chain: Chain, limit: Limit, ask: dict[str, Any], until: Fraction | None) -> Found:
+    case, closed = chain.case, chain.closed
     if limit.reached_by(case.exact_state or case.state):
-        return _time(chain, limit, Found(0.0, 0.0, "exact", f"{limit.words}: reached already at the start"))
+        return Found(0.0, 0.0, "exact", f"{limit.words}: reached already at the start")
     if until is None and limit.kind == "rate" and chain.free:
         largest = limit_after(chain.base, in_si(ask["rate"], RATE, "rate"))
         after = crossing_of(chain, largest) or first_along(list(links_of(chain)), largest)
-        if math.isinf(after.low):
-            return _time(chain, limit, replace(after, words=f"{limit.words}: never, neither while thrusters "
-                                                            "fire nor after"))
-    closed = chain.closed
+        if after.never:
+            return replace(after, words=f"{limit.words}: never, neither while thrusters fire nor after")
     end = until if until is not None else max(closed, Fraction(case.span[1]) if case.span else closed)
     found = crossing_of(chain, limit, end)
     if found is None and limit.kind != "tilt":
         rest = [Piece(closed, end - closed, (), chain.base)] if end > closed else []
         found = first_along(list(links_of(chain, [*chain.pieces(), *rest])), limit, every=True)
-    if found is None or not found.low <= end:
-        known = 0.0 if found is None else float(end)
-        found = Found(known, math.nan, "undecided" if found is None else found.level,
-                      f"{limit.words}: not reached before {known:.10g} s")
-    return _time(chain, limit, found)
-
-
-def _time(chain: Chain, limit: Limit, found: Found) -> TimeTo:
-    scalar = lambda value, kind: np.array(value, kind)[()]  # as `time_to` has it
-    return TimeTo(scalar(found.low, float), scalar(found.high, float), scalar(found.level, object),
-                  scalar(found.words, object), limit.words, chain.base, np.array(chain.case.state),
-                  caveats=chain.case.caveats)
+    if found is not None and found.low <= end:
+        return found
+    known = 0.0 if found is None else float(end)
+    return Found(known, math.nan, "undecided" if found is None else found.level,
+                 f"{limit.words}: not reached before {known:.10g} s")
 
 
 def _positive(value: Any, unit: Dimension, name: str) -> Fraction:

@@ -20,7 +20,7 @@ from ...unreduced.spin_up.follow import spin_up
 from ...validation import came
 from ..kinds import kind_of, one
 from ..passage.limit import Limit, asked
-from ..passage.run import largest_rate, run_once
+from ..passage.run import Found, largest_rate, run_once
 from ..time_to import of_one
 from ..when import limit_of
 
@@ -122,28 +122,13 @@ EXACT = ("axis", "law")  # certificates of growth that are closed solutions
 
 
 @dataclass(frozen=True)
-class When:
-    """What is known of the time to the limit, without one that it is not reached.
-
-    time: (low, high), s, None where it is never within what is known; level: how it is known; never: it is
-    known never to be reached; followed: s, up to where it is known not to be reached; unsure: why no more is
-    known, in words.
-    """
-
-    time: tuple[float, float] | None
-    level: str
-    never: bool
-    followed: float
-    unsure: str = ""
-
-
-@dataclass(frozen=True)
 class Outcome:
     """What becomes of one motion: fate, level, axis (1, 2, 3 of the scene or 0), sense, direction (scene's
     axes) and because as in `SpinUp`.
 
-    motion: of a scene with an orbit or a law, None elsewhere; largest: |omega| up to the limit, or for ever,
-    rad/s, None where unbounded or unknown.
+    motion: of a scene with an orbit or a law, None elsewhere; when: what is known of the time to the limit,
+    without one that it is not reached; largest: |omega| up to the limit, or for ever, rad/s, None where
+    unbounded or unknown.
     """
 
     fate: Fate
@@ -153,16 +138,23 @@ class Outcome:
     direction: Float3 | None
     because: str
     motion: Any
-    when: When
+    when: Found
     largest: float | None
+
+    @property
+    def followed(self) -> float:
+        """Up to where the limit is known not to be reached, s."""
+        if self.motion is not None and self.fate != Fate.SPIN_UP and self.motion.period is not None:
+            return math.inf
+        return self.when.high if self.when.time else self.when.low
 
 
 def outcome_of(scenario: Scenario, torque: Sequence[Fraction]) -> Outcome:
     """What becomes of the scenario's motion under a torque."""
     scene = scenario.scene(torque)
     if rests(scene.quadratic(), scenario.state):
-        why, when = "every rate vanishes at the state, exactly", When(None, "exact", True, math.inf)
-        return Outcome(Fate.EQUILIBRIUM, "exact", 0, 0, None, why, None, when, math.hypot(*scenario.start))
+        why, never = "every rate vanishes at the state, exactly", Found(math.inf, math.inf, "exact", "")
+        return Outcome(Fate.EQUILIBRIUM, "exact", 0, 0, None, why, None, never, math.hypot(*scenario.start))
     return _off_axis(scenario, scene) if kind_of(scene) == "off axis" else _by_law(scenario, scene)
 
 
@@ -191,7 +183,7 @@ def _off_axis(scenario: Scenario, scene: Scene) -> Outcome:
     when = _when(scenario, scene, None if spins or seen.fate == Fate.BOUNDED else seen.t, spun=certified)
     axis, sense, direction = (seen.axis, seen.sense, seen.direction) if spins else (0, 0, None)
     return Outcome(seen.fate, "run" if seen.level == "undecided" else seen.level, axis, sense, direction,
-                   f"{seen.cause}{when.unsure}", None, when,
+                   f"{seen.cause}{_unsure(when)}", None, when,
                    _largest(scenario, scene, when, None if spins else seen.t))
 
 
@@ -204,26 +196,26 @@ def _by_law(scenario: Scenario, scene: Scene) -> Outcome:
     if largest is None and not spins and math.isfinite(bound := _bound(motion)):
         largest = bound
     return Outcome(motion.fate, _level(scene, motion), motion.axis, motion.sense,
-                   _direction(scene, motion) if spins else None, f"{motion.because}{when.unsure}", motion,
-                   replace(when, followed=math.inf) if repeats else when, largest)
+                   _direction(scene, motion) if spins else None, f"{motion.because}{_unsure(when)}", motion,
+                   when, largest)
 
 
-def _when(scenario: Scenario, scene: Scene, t_max: float | None, *work: Any, spun: Any = None) -> When:
+def _when(scenario: Scenario, scene: Scene, t_max: float | None, *work: Any, spun: Any = None) -> Found:
     """When the limit is reached, by `time_to`; t_max: how far an undecided motion was followed, s; work,
     spun: as of `time_to.of_one`."""
     if scenario.limit is None:
-        return When(None, "run", False, 0.0 if t_max is None else t_max)
+        return Found(t_max or 0.0, math.nan, "run", "")
     end = None if t_max is None else Fraction(t_max)
     # work is no more than two
-    seen = of_one(scene, scenario.start, scenario.state, scenario.exact_limit, end, *work, spun=spun)  # type: ignore[misc]
-    if math.isinf(seen.low):
-        return When(None, seen.level, True, math.inf)
-    if math.isfinite(seen.high):
-        return When((seen.low, seen.high), seen.level, False, seen.high)
-    return When(None, seen.level, False, seen.low, f"; {seen.words}")
+    return of_one(scene, scenario.start, scenario.state, scenario.exact_limit, end, *work, spun=spun)  # type: ignore[misc]
 
 
-def _largest(scenario: Scenario, scene: Scene, when: When, otherwise: float | None) -> float | None:
+def _unsure(when: Found) -> str:
+    """Why no more is known of the time, in words."""
+    return "" if when.time or when.never or not when.words else f"; {when.words}"
+
+
+def _largest(scenario: Scenario, scene: Scene, when: Found, otherwise: float | None) -> float | None:
     """|omega| at the most until the limit is reached, or until another time (None: not told)."""
     if when.time is not None and isinstance(scenario.limit, float) and when.time[1] > 0:
         return scenario.limit

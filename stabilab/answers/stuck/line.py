@@ -52,6 +52,7 @@ MOST = 2_000  # cells that are looked at
 INF = math.inf
 FINE = Fraction(1, 1 << 51)  # of an end, or of the size of the whole: an end is known to this
 NEAR = Fraction(1, 10**9)  # of the unit: how near to a candidate its change of fate is looked for first
+HALF = Fraction(1, 2)
 TRIES = 400  # halvings or doublings at most: doubles have 2,098 binary orders, these bodies a few
 # half a turn h -> the two quadratics, highest coefficient first
 Pair: TypeAlias = Callable[[Any], tuple[Triple, Triple]]
@@ -380,11 +381,12 @@ def change_between(answer: Callable[[Fraction], tuple[bool, float]], inside: Fra
         least = FINE * max(abs(inside), abs(outside), scale * FINE)
         if abs(outside - inside) <= least:
             break
-        middle = _short(_next(inside, outside, margins, least) if n % 4 < 3 else (inside + outside) / 2)
-        if not min(inside, outside) < middle < max(inside, outside):
-            middle = _short((inside + outside) / 2)
-            if not min(inside, outside) < middle < max(inside, outside):
-                break
+        share = _share(margins, least / abs(outside - inside)) if n % 4 < 3 else HALF
+        # doubles: numbers do not grow while an interval is halved
+        tried = [Fraction(float(inside + part * (outside - inside))) for part in (share, HALF)]
+        middle = next((one for one in tried if min(inside, outside) < one < max(inside, outside)), None)
+        if middle is None:
+            break
         holds, margin = answer(middle)
         inside, outside = (middle, outside) if holds else (inside, middle)
         margins = ([margin, margins[1] / (2 if last is True else 1)] if holds
@@ -393,15 +395,10 @@ def change_between(answer: Callable[[Fraction], tuple[bool, float]], inside: Fra
     return inside, outside
 
 
-def _next(inside: Fraction, outside: Fraction, margins: list[float], least: Fraction) -> Fraction:
+def _share(margins: list[float], edge: Fraction) -> Fraction:
+    """Where the line through two margins vanishes, a share of the way, at least `edge` from either end."""
     a, b = margins
     if not (a > 0 > b and math.isfinite(a - b)):
-        return (inside + outside) / 2
-    share = Fraction(min(max(a / (a - b), 0.0), 1.0))
-    edge = min(Fraction(1, 2), least / abs(outside - inside))
-    return inside + min(max(share, edge), 1 - edge) * (outside - inside)
-
-
-def _short(value: Fraction) -> Fraction:
-    """The double nearest to it: numbers do not grow while an interval is halved."""
-    return Fraction(float(value))
+        return HALF
+    edge = min(HALF, edge)
+    return min(max(Fraction(a / (a - b)), edge), 1 - edge)

@@ -98,30 +98,18 @@ def _walled(family: Family | None) -> bool:
 
 def _parameters(scenario: Scenario, family: Family | None) -> dict[str, Margin]:
     """Those of torque and wheel momentum."""
-    words = _no_barrier(family)
-    if words or family is None:
-        found = {name: Margin(because=words) for name in ("wheel", "torque")}
-        if family is not None and _on_plane(family):
-            found["torque"] = _torque(scenario, family, True)
-        return found
-    steady = family.fate() in STEADY
-    return {"wheel": _wheel(scenario, family, steady), "torque": _torque(scenario, family, steady)}
-
-
-def _no_barrier(family: Family | None) -> str:
-    if family is None:
-        return "no torque acts: the motion is bounded whatever the wheel does"
-    reduction = family.reduction(family.wheel)
-    if reduction is None:
-        return "the wheel has momentum along the torque: no motion is bounded, and no separatrix divides them"
-    return ("" if not _walled(family)
-            else "every motion is bounded but for a set of measure zero: the fate does not change")
-
-
-def _on_plane(family: Family) -> bool:
-    """Whether the start is where no wall need hold it: the torque may let it go."""
-    reduction = family.reduction(family.wheel)
-    return reduction is not None and reduction.geometry.walled and not any(loose(reduction, family.state))
+    reduction = None if family is None else family.reduction(family.wheel)
+    if family is not None and reduction is not None and not reduction.geometry.walled:
+        steady = family.fate() in STEADY
+        return {"wheel": _wheel(scenario, family, steady), "torque": _torque(scenario, family, steady)}
+    words = ("no torque acts: the motion is bounded whatever the wheel does" if family is None else
+             "the wheel has momentum along the torque: no motion is bounded, and no separatrix divides them"
+             if reduction is None else
+             "every motion is bounded but for a set of measure zero: the fate does not change")
+    found = {name: Margin(because=words) for name in ("wheel", "torque")}
+    if family is not None and reduction is not None and not any(loose(reduction, family.state)):
+        found["torque"] = _torque(scenario, family, True)  # no wall need hold the start: it may be let go
+    return found
 
 
 def _torque(scenario: Scenario, family: Family, steady: bool) -> Margin:
@@ -164,7 +152,9 @@ def _wheel(scenario: Scenario, family: Family, steady: bool) -> Margin:
     j, k = family.across
     # size, from where on it is back, direction
     heights, best = _Rise(family), (math.inf, math.inf, [Fraction(0)] * 3)
-    if steady and (straight := _to_pure_spin(family)):
+    # towards the momentum at which the orbit's circle is a point and nothing stands in the way of a spin-up
+    if steady and any(straight := _to_point(family)):
+        straight = list(unit_vector(straight))
         best = min(best, (*_along(family, straight, steady), straight))
     for angle, near in _nearest(heights, steady):
         for turn in TURNS if near < min(MOST * family.momentum_unit, best[0] * (1 + CLOSE)) else ():
@@ -176,9 +166,8 @@ def _wheel(scenario: Scenario, family: Family, steady: bool) -> Margin:
                 break
     size, until, step = best
     if size == math.inf:
-        return Margin(
-            because="no wheel momentum across the torque is known to change the fate, up to a thousand times "
-                    "the body's own")
+        return Margin(because="no wheel momentum across the torque is known to change the fate, up to a "
+                              "thousand times the body's own")
     words = "of a wheel momentum that stays across the torque, the least found over its directions"
     if until < math.inf:
         words += _again(until, "N m s", steady)
@@ -191,17 +180,11 @@ def _along(family: Family, step: Sequence[Fraction], steady: bool) -> tuple[floa
     return nearest_change(across(family, family.wheel, step)[0], steady)
 
 
-def _to_pure_spin(family: Family) -> list[Fraction] | None:
-    """The unit vector towards the momentum at which the orbit's circle is a point and nothing stands in the
-    way of a spin-up."""
-    step = [_pure_spin(family, n) - family.wheel[n] if n in family.across else Fraction(0) for n in range(3)]
-    return list(unit_vector(step)) if any(step) else None
-
-
-def _pure_spin(family: Family, n: int) -> Fraction:
-    """The wheel's momentum along axis n with which omega_n = -s_n of the reduction."""
+def _to_point(family: Family) -> list[Fraction]:
+    """The change of the wheel's momentum across the torque with which omega_n = -s_n of the reduction."""
     D = family.body.exact
-    return (D[family.axis] - D[n]) * family.state[n]
+    return [(D[family.axis] - D[n]) * family.state[n] - family.wheel[n] if n in family.across else Fraction(0)
+            for n in range(3)]
 
 
 def _nearest(heights: _Rise, steady: bool) -> list[tuple[float, float]]:
@@ -238,8 +221,8 @@ class _Rise:
         floats: Any = lambda numbers: np.array([float(v) for v in numbers])
         self.fixed, self.at = floats(lines[0].fixed), floats(lines[0].at)
         self.changes = [floats(line.change) for line in lines]
-        self.centre = math.atan2(float(_pure_spin(family, k) - family.wheel[k]),
-                                 float(_pure_spin(family, j) - family.wheel[j]))
+        straight = _to_point(family)
+        self.centre = math.atan2(float(straight[k]), float(straight[j]))
         # a great momentum raises the potential close to the start, before or behind it
         ends = 2 * math.pi * np.geomspace(1e-7, 1 / TURN, TURN // 4)
         self.half = np.concatenate([ends, np.linspace(0, 2 * math.pi, TURN + 1)[1:], 2 * math.pi - ends]) / 2

@@ -23,7 +23,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...numbers.affine import Affine, lifted, squared
-from ...numbers.vectors import CYCLE, Number, Triple
+from ...numbers.vectors import CYCLE, Number, Triple, cross, dot
 from ...orbit.reduction import Reduction, reduction_about
 from ...physics.scene import QuadraticForm
 from ..equilibria import equilibria
@@ -85,10 +85,6 @@ def _free(D: Sequence[Number], lam: Sequence[Number]) -> list[Condition]:
     return [Condition(D[i] - D[j], f"moments {i + 1} and {j + 1} are equal") for i, j in pairs]
 
 
-def _dot(u: Sequence[Number], v: Sequence[Number]) -> Number:
-    return sum((a * b for a, b in zip(u, v)), Fraction(0))
-
-
 def _off_axis(D: Sequence[Number], lam: Sequence[Number], M: Sequence[Number],
               acting: Sequence[int]) -> list[Condition]:
     """Of a torque about several axes: the signs of the quadratic on the line along v."""
@@ -97,12 +93,11 @@ def _off_axis(D: Sequence[Number], lam: Sequence[Number], M: Sequence[Number],
     gaps = [D[j] - D[k] for j, k in CYCLE]
     v = [-(M[j] * M[k] * gaps[i]) for i, (j, k) in enumerate(CYCLE)]
     area = sum((squared(c) for c in v), Fraction(0))
-    DM, load = [d * m for d, m in zip(D, M)], _dot(lam, M)
-    foot = [load * (_dot(M, DM) * m - _dot(M, M) * dm) / area if present(load) else load
+    DM, load = [d * m for d, m in zip(D, M)], dot(lam, M)
+    foot = [load * (dot(M, DM) * m - dot(M, M) * dm) / area if present(load) else load
             for m, dm in zip(M, DM)]
     pair = lambda x, y: sum((M[i] * gaps[i] * x[j] * y[k] for i, (j, k) in enumerate(CYCLE)), Fraction(0))
-    turn = lambda x: sum((M[i] * (lam[j] * x[k] - lam[k] * x[j]) for i, (j, k) in enumerate(CYCLE)),
-                         Fraction(0))
+    turn = lambda x: dot(M, cross(lam, x))
     q2, q1 = pair(v, v), pair(v, foot) + pair(foot, v) + turn(v)
     q0 = pair(foot, foot) + turn(foot) + sum((squared(m) for m in M), Fraction(0))
     plane = Condition(area, "the torque comes to lie along a principal axis")
@@ -147,7 +142,9 @@ def _line(r: Reduction) -> list[Condition]:
 
 def equilibria_over(box: Box) -> Over:
     """What the box does to the equilibria: their kind, number, and verdicts. See `uncertain.uncertain`."""
-    box = _without_state(box)
+    middle, half = ({name: numbers for name, numbers in of.items() if name != "state"}
+                    for of in (box.middle, box.half))
+    box = replace(box, middle=middle, half=half)
     look = lambda point: (signature_at(box, point), np.nan)
     here, _ = look(np.zeros(len(box.places)))
     if not box.places:
@@ -159,11 +156,6 @@ def equilibria_over(box: Box) -> Over:
         return _by_conditions(box, here, look)
     except Unknown as unknown:
         return by_trial(box, here, look, str(unknown))
-
-
-def _without_state(box: Box) -> Box:
-    keep = lambda numbers: {name: v for name, v in numbers.items() if name != "state"}
-    return replace(box, middle=keep(box.middle), half=keep(box.half))
 
 
 def signature_at(box: Box, point: Point) -> str | None:

@@ -112,9 +112,14 @@ def _root(box: Box, stretch: float = 1.0) -> Any:
         return box.numbers(np.zeros((1, n)), np.ones((1, n)), stretch)
 
 
+def _sign(number: Number) -> int:
+    """Over the whole box; 0 where it is open."""
+    return int(np.ravel(sign_over(number))[0])
+
+
 def _signs(r: Reduction) -> tuple[int, ...] | None:
     """(sign of p, sign of q) over the whole box, or None."""
-    signs = [int(np.ravel(sign_over(v))[0]) for v in (r.p, r.q)]
+    signs = [_sign(v) for v in (r.p, r.q)]
     return None if any(s == 0 and present(v) for s, v in zip(signs, (r.p, r.q))) else tuple(signs)
 
 
@@ -165,7 +170,7 @@ def _senses(box: Box, family: Family, stretch: float) -> tuple[int, ...] | None:
         r = reduction_about(box.rates(numbers), family.axis)
         if r is None or _signs(r) != family.signs:
             return None
-        sign = int(np.ravel(sign_over(r.m))[0])
+        sign = _sign(r.m)
     return (sign,) if sign else (1, -1)
 
 
@@ -183,49 +188,30 @@ def _against_gradient(family: Family) -> tuple[np.ndarray, np.ndarray]:
 
 def _between_walls(box: Box, here: Any, look: Look, r: Reduction, numbers: Numbers, signs: Any) -> Over:
     """The potential grows on both sides: bounded, but for a set of measure zero."""
-    state = numbers["state"]
+    state, curved = numbers["state"], bool(signs[0] * signs[1])
+    # they vanish where nothing holds a spin back: a pure one, or one force all along the parabola
+    loose = ([state[n] + shift for n, shift in zip((r.j, r.k), r.centre)] if curved
+             else derivatives_on_parabola(r, state[r.j], state[r.k]))
     if here != Fate.BOUNDED.word:
-        flat = not signs[0] * signs[1] and _flat(r, state) or _spins(r, state)
-        if flat and here.startswith("spin-up") and int(np.ravel(sign_over(r.m))[0]):
+        if not any(map(present, loose)) and here.startswith("spin-up") and _sign(r.m):
             return Over("holds", here, REASONS[Reason.PURE_SPIN], proved=1.0)
         return by_trial(box, here, look,
                         "the middle lies on a set of measure zero, and no proof covers what is around it")
-    if not signs[0] * signs[1]:
+    if not curved:
         return Over("holds", here, REASONS[Reason.WALLS], proved=1.0,
                     but="where the force is the same all along the parabola, nothing holds the spin back")
-    if _certain_plane(r, state):
+    u, v = loose
+    certain = not any(isinstance(n, Affine) for n in (u, v, r.p, r.q))
+    if certain and v * v * abs(r.p) == u * u * abs(r.q):
         return by_sample(box, here, look,
                          "every motion of the box lies on an invariant plane Q = 0, where a barrier decides, "
                          "and the plane's motions are not followed over a box")
     with np.errstate(all="ignore"):
         orbit = orbit_of(r, state, signs)
-        clear = all(int(np.ravel(sign_over(lifted(side)))[0])
-                    for side in (orbit.x + orbit.z, orbit.x - orbit.z))
+        clear = all(_sign(lifted(side)) for side in (orbit.x + orbit.z, orbit.x - orbit.z))
     but = ("" if clear
            else "the box meets an invariant plane Q = 0, where a motion may spin up or tend to a saddle")
     return Over("holds", here, REASONS[Reason.WALLS], proved=1.0, but=but)
-
-
-def _shifted(r: Reduction, state: Sequence[Number]) -> tuple[Number, Number]:
-    sj, sk = r.centre
-    return state[r.j] + sj, state[r.k] + sk
-
-
-def _spins(r: Reduction, state: Sequence[Number]) -> bool:
-    """Pure spin about the axis for every number of the box."""
-    return bool(present(r.p) and present(r.q)) and not any(map(present, _shifted(r, state)))
-
-
-def _flat(r: Reduction, state: Sequence[Number]) -> bool:
-    """Whether the force is the same all along the parabola for every number of the box."""
-    return not any(map(present, derivatives_on_parabola(r, state[r.j], state[r.k])))
-
-
-def _certain_plane(r: Reduction, state: Sequence[Number]) -> bool:
-    u, v = _shifted(r, state)
-    if any(isinstance(n, Affine) for n in (u, v, r.p, r.q)):
-        return False
-    return v * v * abs(r.p) == u * u * abs(r.q)
 
 
 # -- no reduction
@@ -234,7 +220,7 @@ def _certain_plane(r: Reduction, state: Sequence[Number]) -> bool:
 def _under_law(box: Box, look: Look, numbers: Numbers, form: QuadraticForm, axis: int) -> Over:
     """A gyrostatic moment along the torque: |H|^2/2 - D_i T grows at the rate lambda_i M_i."""
     along = numbers["momentum"][axis] if box.variables == "physical" else -form.sigma[1] - form.rho[2]
-    if int(np.ravel(sign_over(along * form.m[axis]))[0]):
+    if _sign(along * form.m[axis]):
         return Over("holds", UNBOUNDED,
                     f"{REASONS[Reason.UNBOUNDED_LAW]}; the axis it ends about is not followed over the box",
                     proved=1.0)

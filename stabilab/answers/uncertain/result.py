@@ -214,9 +214,7 @@ def bracketed(box: Box, here: Any, answer: Answer, change: Change | None,
         proved = 1.0 if proof.holds else 0.0
     more, looked = _farthest(change, attempt, proved)
     proved, parts = max(proved, more), parts + looked
-    sides = () if change is None else tuple(
-        Witness(answer(p), box.values(p))
-        for p in (np.zeros(len(box.places)), change.direction * change.stretch))
+    sides = () if change is None else _sides(box, answer, change.direction * change.stretch)
     found: dict[str, Any] = {"proved": proved, "changes_at": change and change.stretch, "witnesses": sides,
                              "parts": parts}
     if proved >= 1:
@@ -250,6 +248,11 @@ def _farthest(change: Change | None, attempt: Callable[[float, int], Proof],
     return safe, looked
 
 
+def _sides(box: Box, answer: Answer, point: Point) -> tuple[Witness, ...]:
+    """The middle, and a point that does otherwise."""
+    return tuple(Witness(answer(p), box.values(p)) for p in (np.zeros(len(box.places)), point))
+
+
 def _of_point(point: Point, answer: Answer, here: str) -> Change | None:
     """The change at a point that contradicts a claim, where the ordinary code confirms it."""
     size = float(np.abs(point).max())
@@ -269,8 +272,8 @@ def by_trial(box: Box, here: Any, look: Look, because: str) -> Over:
             if answer(direction * stretch) not in (None, here, UNDECIDED):
                 found = confirmed(Change(direction, stretch, 0.0), answer, here)
                 point = direction * (found.stretch if found else stretch)
-                sides = tuple(Witness(answer(p), box.values(p)) for p in (np.zeros(n), point))
-                return Over("depends", here, because, changes_at=float(np.abs(point).max()), witnesses=sides)
+                return Over("depends", here, because, changes_at=float(np.abs(point).max()),
+                            witnesses=_sides(box, answer, point))
     tried = len(trial) * len(STRETCHES)
     return by_sample(box, here, look,
                      f"{because}; {tried} other points of the box, tried one by one, do as the middle does")
@@ -296,9 +299,10 @@ def by_sample(box: Box, here: Any, look: Look, because: str) -> Over:
     found = Sampled(len(margins), SEED, dict(sorted(counts.items(), key=lambda pair: -pair[1])), spread)
     because = f"{because}; {found.words}"
     other = next((word for word in places if word not in (here, Fate.UNDECIDED.word, UNDECIDED)), None)
-    if other is None or here in (Fate.UNDECIDED.word, UNDECIDED):
-        return Over("sampled" if set(counts) == {here} and here not in (Fate.UNDECIDED.word, UNDECIDED)
-                    else "undecided", here, because, samples=found)
-    sides = (Witness(here, box.values(np.zeros(len(box.places)))), Witness(other, box.values(places[other])))
-    return Over("depends", here, because, changes_at=float(np.abs(places[other]).max()), witnesses=sides,
-                samples=found)
+    if here in (Fate.UNDECIDED.word, UNDECIDED) or (other is None and set(counts) != {here}):
+        return Over("undecided", here, because, samples=found)
+    if other is None:
+        return Over("sampled", here, because, samples=found)
+    return Over("depends", here, because, changes_at=float(np.abs(places[other]).max()), samples=found,
+                witnesses=(Witness(here, box.values(np.zeros(len(box.places)))),
+                           Witness(other, box.values(places[other]))))

@@ -10,7 +10,6 @@ import pytest
 import stabilab
 from stabilab.answers.digits import run as precision_digits
 from stabilab.answers.digits.run import OWN
-from stabilab.errors import InputError
 from tests.shared import case
 
 
@@ -43,8 +42,6 @@ def test_digits_that_no_way_gives_are_told(tmp_path):
         "[scaled]\na = 0.2\nb = 0.4\nmu = [0, 0, 1]\n[motion]\nx = [2.5, 4.0, 0.1]\ntau = [0, 5]\n")
     case = stabilab.load(path)
     assert precision_digits._many_digits(case, np.array([-1.0, 1.0]), 20) is None  # one run goes one way
-    with pytest.raises(InputError, match="from time 0 on"):
-        precision_digits._reduced(case, np.array([-1.0, 1.0]), "reduced", 16)
     run = SimpleNamespace(status="stopped", reason="it ran out of steps")
     words = [precision_digits.missed(case, SimpleNamespace(run=one, asked=12, digits=3.25, because="a check"))
              for one in
