@@ -180,12 +180,9 @@ def axis_of(key: Key, asked: Any) -> Axis:
 
 def _of_numbers(asked: Any) -> list[float]:
     try:
-        numbers = list(asked) if isinstance(asked, Iterable) else None
+        return [_double(exact(value)) for value in asked]
     except TypeError:
-        numbers = None
-    if numbers is None:
-        raise InputError(f"{EXPECTED}, got {asked!r:.60}")
-    return [_double(exact(value)) for value in numbers]
+        raise InputError(f"{EXPECTED}, got {asked!r:.60}") from None
 
 
 def _of_text(text: str) -> tuple[list[float], str]:
@@ -301,7 +298,7 @@ def spans_of(data: dict[str, Any], vary: Sequence[tuple[str, Any]]) -> tuple[Spa
 def span_of(key: Key, asked: Any) -> Span:
     """The range of one number: a text, or two numbers in SI units. Raises InputError that names the key."""
     try:
-        low, high, unit = _range_of_text(asked) if isinstance(asked, str) else (*_range_of_numbers(asked), "")
+        low, high, unit = _range_of(asked)
         if unit:
             in_dimension(unit, dimension_of(key.paths[0]), asked)
         if low >= high:
@@ -311,15 +308,12 @@ def span_of(key: Key, asked: Any) -> Span:
     return Span(key, low, high, unit)
 
 
-def _range_of_numbers(asked: Any) -> tuple[Fraction, Fraction]:
-    ends = list(asked) if isinstance(asked, (tuple, list)) else []
-    if len(ends) != 2:
-        raise InputError(f"{EXPECTED_RANGE} or two numbers, got {asked!r:.60}")
-    return exact(ends[0]), exact(ends[1])
-
-
-def _range_of_text(text: str) -> tuple[Fraction, Fraction, str]:
-    parts = text.split(":")
+def _range_of(asked: Any) -> tuple[Fraction, Fraction, str]:
+    if not isinstance(asked, str):
+        if not isinstance(asked, (tuple, list)) or len(asked) != 2:
+            raise InputError(f"{EXPECTED_RANGE} or two numbers, got {asked!r:.60}")
+        return exact(asked[0]), exact(asked[1]), ""
+    text, parts = asked, asked.split(":")
     if len(parts) in (3, 4):
         raise InputError(
             f'{EXPECTED_RANGE}, got "{printable(text)[:60]}": a diagram is exact and has no number of steps '

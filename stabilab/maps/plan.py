@@ -28,7 +28,7 @@ from ..case.read import Case, read_all, read_text
 from ..case.source import parsed, source_text
 from ..case.table import Uncertain
 from ..errors import InputError, printable
-from ..numbers.units import NONE, TIME, quantity
+from ..numbers.units import NONE, TIME, in_si
 from ..physics.coefficients import effective
 from ..version import __version__
 from .atlas.pointed import Pointed, pointed_from
@@ -212,10 +212,7 @@ class Plan:
         unasked."""
         if self.follow is None:
             return None
-        try:
-            found = float(quantity(self.follow, NONE if self.case.variables == "scaled" else TIME)[0])
-        except InputError as error:
-            raise InputError(f"follow: {error}") from None
+        found = float(in_si(self.follow, NONE if self.case.variables == "scaled" else TIME, "follow"))
         if not found > 0:
             raise InputError(f"follow: expected a time above zero, got {printable(self.follow)[:40]}")
         return found

@@ -181,16 +181,12 @@ class Pointed:
     def case(self, case: Case, number: int) -> Case:
         """The case with the torque and the wheel of a point."""
         point = self.points[number]
-        torque = tuple(self.torque * part for part in self._direction(case, number))
+        direction = self._middles.get(number) or named_direction(case, point.level, point.number)
+        torque = tuple(self.torque * Fraction(part) for part in direction)
         wheel = without_trace(self.wheels[point.wheel], torque)
         body = case.scene.body  # type: ignore[union-attr]
         effects = effect_class("gyrostat")(wheel), effect_class("constant_torque")(torque)
         return replace(case, scene=Scene(body, *effects))
-
-    def _direction(self, case: Case, number: int) -> Exact3:
-        point = self.points[number]
-        return (tuple(map(Fraction, self._middles[number])) if point.level >= 0
-                else named_direction(case, point.level, point.number))
 
     @cached_property
     def _middles(self) -> dict[int, list[float]]:
@@ -225,8 +221,7 @@ def along_axes(case: Case, vector: Exact3) -> Exact3:
 
 # --- The cells of an atlas at their depths: which lies beside which, and which are to be cut because the
 # answer changes across an edge
-@dataclass(frozen=True)
-class Leaves:
+class Leaves(NamedTuple):
     """wheel, level, number: (n,) of each cell, together the whole sphere once for every wheel; in order along
     it."""
 
@@ -245,7 +240,7 @@ class Leaves:
 
     def taken(self, rows: np.ndarray) -> Leaves:
         """Some of them."""
-        return Leaves(self.wheel[rows], self.level[rows], self.number[rows])
+        return Leaves(*(column[rows] for column in self))
 
     def holding(self, wheel: int, places: np.ndarray) -> np.ndarray:
         """(n,): rows of the cells that hold places (n, 3) on the octahedron, beside one wheel; cells in

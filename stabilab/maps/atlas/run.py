@@ -17,7 +17,7 @@ from ...case.read import Case, blamed_on, read_text
 from ...errors import InputError, printable
 from ...numbers.exact import sqrt_fraction, unit_vector
 from ...numbers.principal import NOTHING
-from ...numbers.units import TORQUE, quantity
+from ...numbers.units import TORQUE, in_si
 from ...numbers.vectors import Exact3, dot
 from ...orbit.result import Fate
 from ..axes import Key, axis_of
@@ -172,10 +172,7 @@ def _size(case: Case, torque: Any) -> Fraction:
                 f'{case.place}: no torque acts, so its size is not known: give --torque "1 N m", or mark a '
                 f'thruster of the case as stuck')
         return sqrt_fraction(dot(own, own))
-    try:
-        size, _ = quantity(str(torque), TORQUE)
-    except InputError as error:
-        raise InputError(f"torque: {error}") from None
+    size = in_si(torque, TORQUE, "torque")
     if size <= 0:
         raise InputError(f"torque: expected a positive size, got {printable(str(torque))[:60]}")
     return size
@@ -303,9 +300,7 @@ def drawn(asked: Asked, out: Path | None = None, workers: int | None = None,
         while len(rows := leaves.to_cut(kinds_of(records), asked.level + asked.refine)):
             number += 1
             parts = leaves.children(rows)
-            found = told(tuple(Point(*one)
-                               for one in zip(parts.wheel.tolist(), parts.level.tolist(),
-                                              parts.number.tolist())))
+            found = told(tuple(Point(*one) for one in zip(*(column.tolist() for column in parts))))
             leaves, records = _replaced(leaves, records, rows, parts, found)
         yield Atlas(asked, leaves, records, named, named_records, done, resumed)
 
@@ -315,7 +310,6 @@ def _replaced(leaves: Leaves, records: np.ndarray, rows: np.ndarray, parts: Leav
     """The cells with these rows given up for their parts, in order."""
     kept = np.setdiff1d(np.arange(len(records)), rows)
     stay = leaves.taken(kept)
-    joined = Leaves(*(np.concatenate([getattr(stay, name), getattr(parts, name)])
-                      for name in ("wheel", "level", "number")))
+    joined = Leaves(*map(np.concatenate, zip(stay, parts)))
     order = joined.order()
     return joined.taken(order), np.concatenate([records[kept], found])[order]

@@ -64,7 +64,8 @@ def connections(family: Family, system: Any, pieces: tuple[Piece, ...]) -> list[
     for piece in pieces:
         if sum(state.linear == "unstable" for state in piece.states) == 2:
             found += _of_piece(family, eliminated, system.axis, piece, budget)
-    return _once(sorted(found, key=lambda event: event.value))
+    # each value once: where the torque about the centre vanishes both ways round come to one height together
+    return list({event.value: event for event in sorted(found, key=lambda event: event.value)}.values())
 
 
 def _of_piece(family: Family, eliminated: Eliminated, axis: int, piece: Piece,
@@ -101,12 +102,6 @@ def _places(family: Family, eliminated: Eliminated, saddles: list[int], value: F
     """The states of the saddles at a value, by their places in the order there."""
     states = settled(partial(general_states, family, LEAF, eliminated, value))
     return [states[n].at for n in saddles]
-
-
-def _once(events: list[Event]) -> list[Event]:
-    """Each value once: where the torque about the centre vanishes both ways round come to one height
-    together."""
-    return [event for n, event in enumerate(events) if not n or event.value != events[n - 1].value]
 
 
 def _event(family: Family, eliminated: Eliminated, piece: Piece, value: Fraction) -> Event:
