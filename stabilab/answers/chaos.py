@@ -134,7 +134,10 @@ def chaos(scene: AnyScene, states: ArrayLike, until: float | None = None,
         history[~leaving], stiff[~leaving] = found.megno, found.stiff
     labels = np.where(leaving, Order.SPIN_UP,
                       np.where(fates == Fate.EQUILIBRIUM, Order.REGULAR, _labels(history)))
-    rate, error = _rates(history, times, labels)
+    # MEGNO is half the rate times the time, where neighbours part exponentially
+    last, before = 2 * history[:, -1] / times[-1], 2 * history[:, -2] / times[-2]
+    rate, error = (np.select([labels == Order.CHAOTIC, labels == Order.REGULAR], [found, 0.0], np.nan)
+                   for found in (last, np.abs(last - before)))
     shaped = lambda values: values.reshape(array.shape[:-1] + values.shape[1:])[()]
     return Chaos(shaped(labels), shaped(history[:, -1]), times, shaped(history), shaped(rate), shaped(error),
                  turn, scene, shaped(stiff))
@@ -167,12 +170,3 @@ def _labels(history: np.ndarray) -> np.ndarray:
     flat = (last < FLAT) & (before < FLAT)
     steep = (last > STEEP) & (last > DOUBLES * before)
     return np.where(flat, Order.REGULAR, np.where(steep, Order.CHAOTIC, Order.UNDECIDED))
-
-
-def _rates(history: np.ndarray, times: np.ndarray, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """MEGNO is half the rate times the time, where neighbours part exponentially."""
-    now, before = 2 * history[:, -1] / times[-1], 2 * history[:, -2] / times[-2]
-    chaotic, regular = labels == Order.CHAOTIC, labels == Order.REGULAR
-    return np.where(chaotic, now,
-                    np.where(regular, 0.0, np.nan)), np.where(chaotic, np.abs(now - before),
-                                                              np.where(regular, 0.0, np.nan))

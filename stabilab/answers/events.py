@@ -61,10 +61,13 @@ def crossings(scene: AnyScene, start: Any, until: float, events: Any) -> Crossin
     second = _zeros(scene, _blocks(equations, moved_row(state, MOVED)), until, asked)
     error = [WIDER * np.abs(one - two) + 4 * EPS * one if len(one) == len(two)
              else np.full(len(one), math.inf) for one, two in zip(times, second[0])]
-    end, ended = _terminal(asked, times, float(run.t[-1]) if len(run.t) else 0.0)
+    end = float(run.t[-1]) if len(run.t) else 0.0
+    ends = [float(row[int(count) - 1]) for event, row in zip(asked, times)
+            if (count := getattr(event, "terminal", 0) or 0) and len(row) >= int(count)]
+    end = min(ends, default=end)
     within = lambda rows: tuple(row[one <= end] for row, one in zip(rows, times))
     return Crossings(within(times), within(states), within(error), end,
-                     "ended" if ended else "reached" if run.status == "reached" else "stopped",
+                     "ended" if ends else "reached" if run.status == "reached" else "stopped",
                      f"changes of sign between {SAMPLES} samples of every step of a run ({run.method}), each "
                      "found to rounding; two zeros between neighbouring samples are not seen"
                      + ("" if run.status == "reached" else f"; {run.reason}"))
@@ -87,17 +90,14 @@ def _event(given: Any, names: list[str]) -> Callable[[float, np.ndarray], Any]:
 
 
 def _value(event: Callable[[float, np.ndarray], Any], t: float, y: np.ndarray) -> float:
+    name = getattr(event, "__name__", type(event).__name__)
     try:
         value = float(event(t, y))
     except (TypeError, ValueError) as error:
-        raise InputError(f"events: {_called(event)} gives no number at t = {t:.6g}: {error}") from None
+        raise InputError(f"events: {name} gives no number at t = {t:.6g}: {error}") from None
     if not math.isfinite(value):
-        raise InputError(f"events: {_called(event)} gives {value} at t = {t:.6g}; expected a finite number")
+        raise InputError(f"events: {name} gives {value} at t = {t:.6g}; expected a finite number")
     return value
-
-
-def _called(event: Any) -> str:
-    return getattr(event, "__name__", type(event).__name__)
 
 
 def _zeros(scene: AnyScene, start: Any, until: float, events: Sequence[Any]
@@ -140,10 +140,3 @@ def _root(scene: AnyScene, run: Trajectory, n: int, values: np.ndarray,
     value = lambda s: values[n + 1] if s == step else _value(event, float(run.t[n]) + s, state(s))
     after = float(brentq(value, 0.0, step, xtol=4 * EPS * step, rtol=4 * EPS))
     return float(run.t[n]) + after, state(after)
-
-
-def _terminal(events: Sequence[Any], times: Sequence[np.ndarray], until: float) -> tuple[float, bool]:
-    """(where the search ends, whether an event ended it)."""
-    ends = [float(row[int(count) - 1]) for event, row in zip(events, times)
-            if (count := getattr(event, "terminal", 0) or 0) and len(row) >= int(count)]
-    return (min(ends), True) if ends else (until, False)

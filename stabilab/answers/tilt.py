@@ -189,9 +189,8 @@ class Spread:
             return f"{by} " + ", ".join(f"{word} in {count}" for word, count in self.fates) + f" {many}"
         reaches = f"reaches {self.limit:.6g} rad/s"
         if self.earliest is None:
-            return (
-                f"{by} was not found to reach {self.limit:.6g} rad/s within {self.followed:.6g} s in any "
-                f"{many}")
+            return (f"{by} was not found to reach {self.limit:.6g} rad/s within {self.followed:.6g} s in any "
+                    f"{many}")
         first = f"{by} {reaches} after {self.earliest[0]:.6g} s at the earliest"
         if self.latest is None:
             return f"{first} {many} ({self.level}), in some of them not within {self.followed:.6g} s"
@@ -348,9 +347,7 @@ def nearest_round(value: Callable[[float], float], tried: Tried) -> Tried:
     and closer to the least."""
     step = math.pi / AZIMUTHS
     for _ in range(REFINED):
-        best = min(tried)[1]
-        tried = [*tried,
-                 *((value(azimuth), azimuth)
-                   for azimuth in ((best - step) % (2 * math.pi), (best + step) % (2 * math.pi)))]
+        beside = [(min(tried)[1] + way) % (2 * math.pi) for way in (-step, step)]
+        tried = [*tried, *((value(azimuth), azimuth) for azimuth in beside)]
         step /= 2
     return tried

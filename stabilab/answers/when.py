@@ -113,7 +113,9 @@ def limit_of(case: Any) -> dict[str, Any] | None:
 def of_tilt(case: Any, angle: float | None, ask: dict[str, Any] | None, steady: bool) -> Tilt | Spread | None:
     """What the torques of the cone do: to a steady motion under one on an axis always, else where a tilt is
     asked for or stated; why not, where it is not looked at."""
-    loose, on_axis = angle is not None or bool(misaligned(case)), steady and _on_axis(case.scene)
+    loose = angle is not None or bool(misaligned(case))
+    on_axis = (steady and case.variables != "scaled" and bool(torque_axis(case.scene))
+               and kind_of(case.scene) == "orbit")
     if not loose and not on_axis:
         return None
     plain = case.variables != "scaled" and case.scene.plain
@@ -132,7 +134,3 @@ def of_tilt(case: Any, angle: float | None, ask: dict[str, Any] | None, steady: 
 def _too_fast(case: Any, ask: dict[str, Any] | None) -> bool:
     limit = None if ask is None or "tilt" in ask else asked(case.scene, **ask).least_rate()
     return max(*map(abs, case.state), limit or 0.0) > FASTEST
-
-
-def _on_axis(scene: Any) -> bool:
-    return bool(scene.variables != "scaled" and torque_axis(scene) and kind_of(scene) == "orbit")

@@ -55,8 +55,9 @@ def attitude(scene: Any, state: Any = None, digits: int | None = None) -> Attitu
                          "motion as angular_velocity, in rad/s")
     axis = None if scene.plain else axis_of_top(scene)
     if not scene.plain and axis is None:
+        others = ", ".join(sorted({effect.with_article for effect in scene.beyond}))
         raise InputError("attitude: it is known of a body with wheels and a torque constant in the body, and "
-                         f"of a heavy symmetric top; this scene also has {', '.join(sorted(_others(scene)))}")
+                         f"of a heavy symmetric top; this scene also has {others}")
     exact = exact or tuple(Fraction(v) for v in state[:3])
     found = motion(scene, state, brief=True, exact=exact)
     found = found if case is None else limited(found, scene, case)
@@ -100,10 +101,6 @@ def in_closed_form(scene: Any) -> bool:
     """Whether it is a body alone, whose attitude takes no run."""
     return scene.variables == "physical" and scene.plain and not any(scene.vector("gyrostat")) and not any(
         scene.vector("constant_torque"))
-
-
-def _others(scene: Scene) -> set[str]:
-    return {effect.with_article for effect in scene.beyond}
 
 
 def _at_start(scene: Scene, omega: Sequence[Fraction], found: Motion) -> Attitude:

@@ -40,15 +40,16 @@ def _of_gyrostat(scene: Scene, base: Attitude, found: Motion, period: float) -> 
         h = D * omega + wheel
         h /= np.linalg.norm(h, axis=1)[:, None]
         across = 1 - h * h  # of each axis, the square of the sine of its angle from H
-        winds = [_winding(h, i) for i in range(3)]
-        e = _axis([i for i in names if winds[i]], across)
+        # the long or the short axis where H goes round it alone; else the axis that H keeps farthest from
+        encircled = [i for i in names if _winding(h, i)]
+        e = encircled[0] if len(encircled) == 1 else int(across.min(axis=0).argmax())
         rates = (np.einsum("ij,ij->i", omega, h) - omega[:, e] * h[:, e]) / across[:, e]
         mean = float(rates.mean())
         if abs(mean - before) <= SUM_ERROR * abs(mean) or count >= MOST:
             break
         before, count = mean, 2 * count
     error = max(SUM_ERROR, abs(mean - before) / abs(mean))
-    mode = names[e] if [i for i in names if winds[i]] == [e] else None
+    mode = names[e] if encircled == [e] else None
     words = (f"no torque: the angular momentum goes round the {mode[:-5]} axis in the body" if mode else
              "no torque: in the body the angular momentum goes round neither the long nor the short axis "
              "alone, so none of them precesses about it")
@@ -74,18 +75,12 @@ def _long_and_short(D: Sequence[Fraction]) -> dict[int, str]:
     return {**({low: LONG} if D[low] < D[middle] else {}), **({high: SHORT} if D[middle] < D[high] else {})}
 
 
-def _axis(encircled: Sequence[int], across: Any) -> int:
-    """The long or the short axis where H goes round it alone; else the axis that H keeps farthest from."""
-    return encircled[0] if len(encircled) == 1 else int(across.min(axis=0).argmax())
-
-
 def _under_torque(scene: Scene, base: Attitude, period: float) -> Attitude:
     """The turn after one period of the rates; the attitude is followed."""
     run = simulate(scene, base.at, [0.0, period], {"attitude": (0.0, 0.0, 0.0, 1.0)})
-    x, y, z, w = run.state["quaternion"][-1].tolist()
-    size = math.hypot(x, y, z)
-    sign = math.copysign(1.0, w)
-    axis = (sign * x / size, sign * y / size, sign * z / size) if size else None
+    *vector, w = run.state["quaternion"][-1].tolist()
+    size = math.hypot(*vector)
+    axis = tuple(math.copysign(1.0, w) * v / size for v in vector) if size else None
     return replace(base, rotation_period=period, turn_angle=2 * math.atan2(size, abs(w)), turn_axis=axis,
                    error=RUN_ERROR,
                    because="a torque changes the angular momentum: no axis precesses about it; the rates "

@@ -95,34 +95,25 @@ def best_reached(case: Any, times: np.ndarray, digits: int = DEFAULT, aim: bool 
     checked_digits(digits, MOST)
     times = np.atleast_1d(np.asarray(times, float))
     best: Any = None  # `simulate`'s own way always has an answer
-    far = _turned(case, times) > (FAR if aim else FARTHEST)
-    for method, value in _ways(case, times):
-        if best is not None and _hopeless(method, best, far):
+    turned, reduced = _turned(case, times), [("reduced", nodes) for nodes in _resolutions(case, times)]
+    far = turned > (FAR if aim else FARTHEST)
+    # what `simulate` chooses itself and many digits, with the reduced form before the one that costs more
+    for method, value in [*reduced, OWN, (MANY, 0.0)] if turned > FAR else [OWN, *reduced, (MANY, 0.0)]:
+        if best is not None and method != "reduced" and _hopeless(method, best, far):
             continue
         found = _checked(case, times, method, value, digits)
         if found is None:
             continue
         if found.run.status == "reached" and found.digits >= digits - NEAR * aim:
             return found
-        best = (found if best is None
-                or (found.run.status == "reached", found.digits) > (best.run.status == "reached", best.digits)
-                else best)
+        best = max(best or found, found, key=lambda one: (one.run.status == "reached", one.digits))
     return best
 
 
 def _hopeless(method: str, best: Reached, far: bool) -> bool:
-    """Whether a way is not worth trying after what was found: steps where steps stopped or where the reduced
-    form, which makes none, has answered first; many digits where the way is far."""
-    if method == "reduced":
-        return False
+    """Whether steps are not worth trying after what was found: where steps stopped, or the reduced form,
+    which makes none, has answered first; many digits where the way is far."""
     return best.run.status != "reached" or (far if method == MANY else best.run.method == REDUCED_FORM)
-
-
-def _ways(case: Any, times: np.ndarray) -> list[tuple[str, float]]:
-    """(method, setting) to try, in order: what `simulate` chooses itself and many digits, with the reduced
-    form before the one that costs more."""
-    ladder = [("reduced", nodes) for nodes in _resolutions(case, times)]
-    return [*ladder, OWN, (MANY, 0.0)] if _turned(case, times) > FAR else [OWN, *ladder, (MANY, 0.0)]
 
 
 def _turned(case: Any, times: np.ndarray) -> float:

@@ -140,8 +140,8 @@ def flat_spin(case: Any, within: Any = "5 deg") -> FlatSpin:
         raise InputError('within: expected an angle from 0.01 deg to below 90 deg, such as "5 deg", got '
                          f"{math.degrees(angle):.6g} deg")
     found = _answered(Spinner.of(case), angle)
-    found = replace(found, caveats=(*(one for one in case.caveats if one.kind != "uncertain"),
-                                    *found.caveats))
+    own = [one for one in case.caveats if one.kind != "uncertain"]
+    found = replace(found, caveats=(*own, *found.caveats))
     return _over_the_box(case, found) if case.uncertain and found.outcome in (POSITIVE, NEGATIVE) else found
 
 
@@ -156,8 +156,8 @@ def _over_the_box(case: Any, found: FlatSpin) -> FlatSpin:
             share = Fraction(draws.uniform(-1, 1))
             reduce(getitem, tables, data)[last] = str(one.middle + one.half * share)
         spinner = Spinner.of(with_data(case.path, case.text, data))
-        side = (1 if spinner.momentum[found.axis - 1] > 0 else -1) if found.crosses is None else _side_of(
-            spinner, spinner.start, found.crosses.at)
+        side = (spinner.momentum[found.axis - 1] if found.crosses is None
+                else _side_of(spinner, spinner.start, found.crosses.at))
         ends[POSITIVE if side > 0 else NEGATIVE] += 1
     told = (f"of {drawn} motions drawn from their box {ends[POSITIVE]} end about the positive and "
             f"{ends[NEGATIVE]} about the negative side of axis {found.axis}")
@@ -170,32 +170,28 @@ def _over_the_box(case: Any, found: FlatSpin) -> FlatSpin:
 
 def _answered(spinner: Spinner, angle: float) -> FlatSpin:
     """The answer of one start: exactly where it rests or is past the separatrix, else by runs."""
-    D1, D2, D3 = spinner.moments
+    D1, D2, _ = spinner.moments
     size, axis = spinner.size, spinner.order[0]
     growth, decay = spinner.constants
-    blank = FlatSpin(
+    found = FlatSpin(
         UNDECIDED, "", "undecided", axis + 1, spinner.order[2] + 1, size, size / float(D1), None,
         float(spinner.energy), float(dot(spinner.momentum, spinner.momentum) / (2 * D1)), angle,
         growth=growth, decay=decay)
     if spinner.permanent:
-        return _at_rest(spinner, blank)
+        return _at_rest(spinner, found)
     if spinner.ratio * D2 < 1 and D1 > D2:
-        direction = 1 if spinner.momentum[axis] > 0 else -1
-        found = replace(_ended(blank, direction), level="exact", because=(
-            "2 T D2 < |H|^2 at the start: the separatrix is crossed already, with the angular momentum on "
-            f"{_axis(direction, axis)}, where it stays and tends to that axis"))
-        return _timed(spinner, found, angle)
-    return _timed(spinner, blank, angle)
+        found = _ended(found, spinner.momentum[axis], "exact",
+                       "2 T D2 < |H|^2 at the start: the separatrix is crossed already, with the angular "
+                       "momentum on the {} side of axis {}, where it stays and tends to that axis")
+    return _timed(spinner, found, angle)
 
 
-def _axis(direction: int, axis: int) -> str:
-    return f"the {'positive' if direction > 0 else 'negative'} side of axis {axis + 1}"
-
-
-def _ended(found: FlatSpin, direction: int) -> FlatSpin:
-    """With the rates at the end."""
-    rates = tuple(direction * found.final_rate if i == found.axis - 1 else 0.0 for i in range(3))
-    return replace(found, outcome=POSITIVE if direction > 0 else NEGATIVE, rates=rates)
+def _ended(found: FlatSpin, direction: Fraction | int, level: str, words: str) -> FlatSpin:
+    """With the rates at the end; words: why, with places for the side and the number of the axis."""
+    sign, side = (1, "positive") if direction > 0 else (-1, "negative")
+    rates = tuple(sign * found.final_rate if i == found.axis - 1 else 0.0 for i in range(3))
+    return replace(found, outcome=POSITIVE if sign > 0 else NEGATIVE, rates=rates, level=level,
+                   because=words.format(side, found.axis))
 
 
 def _at_rest(spinner: Spinner, found: FlatSpin) -> FlatSpin:
@@ -206,8 +202,7 @@ def _at_rest(spinner: Spinner, found: FlatSpin) -> FlatSpin:
         if D1 == D2:
             return replace(found, outcome=ACROSS, level="exact", because=words,
                            rates=tuple(map(float, spinner.omega)))
-        direction = 1 if spinner.momentum[spinner.order[0]] > 0 else -1
-        return replace(_ended(found, direction), level="exact", because=words)
+        return _ended(found, spinner.momentum[spinner.order[0]], "exact", words)
     name = "minor" if spinner.ratio * spinner.moments[2] == 1 else "intermediate"
     return replace(found, because=(
         f"the start is exactly the rotation about the {name} axis, an equilibrium that is unstable: either "
@@ -253,12 +248,10 @@ def _timed(spinner: Spinner, found: FlatSpin, angle: float) -> FlatSpin:
             "the start is within rounding of the boundary between the two directions: a run and a second "
             f"one, from a start moved by {MOVED:.0f} in its last place with tolerance {SECOND_RTOL:.0e}, end "
             "at opposite directions of the major axis"))
-    words = ("2 T D2 falls below |H|^2 with the angular momentum on "
-             f"{_axis(directions[0], spinner.order[0])}; from then on it cannot cross, and tends to that "
-             f"axis; a second run, from a start moved by {MOVED:.0f} in its last place with tolerance "
-             f"{SECOND_RTOL:.0e}, agrees")
-    return replace(_ended(found, directions[0]), level="run", because=words,
-                   spans=_spans_of(spinner, directions[0], found))
+    words = ("2 T D2 falls below |H|^2 with the angular momentum on the {} side of axis {}; from then on it "
+             "cannot cross, and tends to that axis; a second run, from a start moved by "
+             f"{MOVED:.0f} in its last place with tolerance {SECOND_RTOL:.0e}, agrees")
+    return replace(_ended(found, directions[0], "run", words), spans=_spans_of(spinner, directions[0], found))
 
 
 # --- By how much the start, or what takes energy, may change before the spin ends in the other direction

@@ -54,9 +54,13 @@ class Limit:
         if self.kind == "tilt":
             return False
         sizes = [max(abs(low), abs(high)) * (1 + slack) for low, high in extremes]
-        return all(_below(terms, [size if any(vector[n] for _, vector in terms) else 0.0
-                                  for n, size in enumerate(sizes)], most)
-                   for terms, most in self.parts)
+
+        def below(terms: Any, most: Fraction) -> bool:
+            """In exact numbers, as squares of doubles may be none."""
+            own = [size if any(vector[n] for _, vector in terms) else 0.0 for n, size in enumerate(sizes)]
+            return all(map(math.isfinite, own)) and most > sum(
+                c * sum(abs(a) * Fraction(size) for a, size in zip(vector, own)) ** 2 for c, vector in terms)
+        return all(below(terms, most) for terms, most in self.parts)
 
     def raised(self, share: Fraction) -> Limit:
         """The same limit, greater by a share of itself."""
@@ -82,15 +86,6 @@ def along_axes(terms: Iterable[Any]) -> list[float] | None:
             return None
         weights[entries[0]] += float(c * vector[entries[0]] ** 2)
     return weights
-
-
-def _below(terms: Iterable[Any], sizes: list[float], most: Fraction) -> bool:
-    """Whether sum c (a . omega)^2 stays below a value for rates of these sizes: in exact numbers, as squares
-    of doubles may be none."""
-    if not all(map(math.isfinite, sizes)):
-        return False
-    exactly = list(map(Fraction, sizes))
-    return sum(c * sum(abs(a) * size for a, size in zip(vector, exactly)) ** 2 for c, vector in terms) < most
 
 
 def asked(scene: AnyScene, rate: Any = None, component: Any = None, energy: Any = None,

@@ -93,20 +93,14 @@ def _stops(scenario: Scenario, torque: Sequence[Fraction], names: tuple[str, ...
             helper = Helper(names, tuple(map(float, duty)), "zero", math.sqrt(float(dot(left, left))),
                             "bounded", None)
             return helper, (Fraction(0),) * 3
-    best, axis = None, 0
-    for i in range(3):
-        duty = _onto_axis(torque, arms, i)
-        if not _possible(duty):
-            continue
-        size = _left(torque, arms, duty)[i]
-        if size and (best is None or abs(size) < abs(best[1])):
-            fate = Family(scenario.body, i, size, scenario.wheel, tuple(map(Fraction, scenario.state))).fate()
-            best, axis = ((duty, size, fate), i) if fate in STEADY else (best, axis)
-    if best is None:
-        return None
-    duty, size, fate = best
-    helper = Helper(names, tuple(map(float, duty)), "bounded", abs(float(size)), fate.word, None)
-    return helper, tuple(size * (n == axis) for n in range(3))
+    onto = [(i, duty) for i in range(3) if _possible(duty := _onto_axis(torque, arms, i))]
+    for size, i, duty in sorted(((_left(torque, arms, duty)[i], i, duty) for i, duty in onto),
+                                key=lambda one: abs(one[0])):
+        fate = Family(scenario.body, i, size, scenario.wheel, scenario.state).fate() if size else None
+        if fate in STEADY:
+            helper = Helper(names, tuple(map(float, duty)), "bounded", abs(float(size)), fate.word, None)
+            return helper, tuple(size * (n == i) for n in range(3))
+    return None
 
 
 def _possible(duty: Duty | None) -> TypeGuard[Duty]:

@@ -103,9 +103,9 @@ def latest(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
     if links and limit.reached_by(links[0].exact or links[0].start.tolist()):
         return Latest(size, 0.0, 0.0, "exact", f"{words}: the motion before the burn reaches it already")
     found = _first(chain, links, limit)
-    if math.isinf(found.low):
+    if found.never:
         return Latest(size, math.inf, math.inf, found.level, f"{words}: never, whenever the thrusters close")
-    again = _again(base, links, found.high, size) if math.isfinite(found.high) else ()
+    again = _again(base, links, found.high, size) if found.time else ()
     return Latest(size, found.low, found.high, found.level, found.words, again)
 
 
@@ -124,17 +124,17 @@ def _by_runs(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
     energy = asked(base, energy=min(base.body.exact) * below**2 / 2)
     started = energy.reached_by(links[0].exact or links[0].start.tolist())
     early = Found(0.0, 0.0, "exact", "") if started else _first(chain, links, energy, every=True)
-    if math.isinf(early.low):
+    if early.never:
         return Latest(size, math.inf, math.inf, early.level,
                       f"{words}: never, for 2T/D1 stays below its square")
     late = _first(chain, links, asked(base, rate=below), every=True)
-    end = late.high if math.isfinite(late.high) else math.inf
+    end = late.high if late.time else math.inf
     known = f"early enough up to {early.low:.10g} s (2T/D1 is below its square, {early.level})"
     if end < math.inf:
         known += f", too late from {end:.10g} s on (|omega| reaches it, {late.level})"
     bracket = _bracket(base, links, (early.low, end), size)
     if bracket is None:
-        return Latest(size, math.inf if math.isinf(end) else early.low, end, "run",
+        return Latest(size, early.low if late.time else math.inf, end, "run",
                       f"{words}: not after any of some {WHEEL_LOOKS} closing times, no proof; {known}",
                       surely=(early.low, end))
     one, times = bracket

@@ -98,7 +98,7 @@ def _first(link: Link, limit: Limit) -> Found | None:
     start = link.start.tolist()
     found = (of_one(link.scene, start, link.exact, limit, link.length) if link.exact
              else by_run(link.scene, start, limit, float(link.length), RUN_STEPS, link.second))
-    if math.isfinite(found.high):
+    if found.time:
         return found
     whole = found.low >= float(link.length) * (1 - 2 * ROUNDING)
     return None if whole else replace(found, level="undecided")

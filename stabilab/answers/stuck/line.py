@@ -249,11 +249,17 @@ def resultant(f: Sequence[Number], g: Sequence[Number]) -> Number:
 def candidates(line: Line) -> list[float] | None:
     """Every s at which the start may lie on a separatrix, ascending, in doubles; None where `MOST` cells do
     not tell."""
+    found = line.others()
     with working(BITS, ORDER + 1) as numbers:
         pair = line.pair(numbers.ball)
-        kept = _isolated(pair)
-        found = None if kept is None else [s for h in kept for s in _roots_at(pair, h, line.unit(h))]
-    return None if found is None else sorted([*found, *line.others()])
+        zeros = _isolated(pair)
+        if zeros is None:
+            return None
+        for h in zeros:  # the start may lie on a separatrix at real roots of f, one or both shared by g
+            if h >= NARROW and (unit := line.unit(h)):
+                f, _ = pair(numbers.ball(h))
+                found += [s / unit for s in real_roots([float(v.mid()) for v in f])]
+    return sorted(found)
 
 
 def _isolated(pair: Pair) -> list[float] | None:
@@ -304,15 +310,6 @@ def _narrowed(pair: Pair, low: Number, high: Number) -> tuple[Number, Number] | 
     most = middle - float((step.mid() - step.rad()).lower())
     low, high = max(low, least - 1e-15), min(high, most + 1e-15)
     return (low, high) if low <= high else None
-
-
-def _roots_at(pair: Pair, h: float, unit: float) -> list[float]:
-    """The s at which the start may lie on a separatrix with a zero at h: real roots of f, one or both shared
-    by g."""
-    from flint import arb
-    if h < NARROW or not unit:
-        return []
-    return [s / unit for s in real_roots([float(v.mid()) for v in pair(arb(h))[0]])]
 
 
 def real_roots(quadratic: Sequence[float]) -> list[float]:

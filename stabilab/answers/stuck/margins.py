@@ -197,12 +197,11 @@ def _nearest(heights: _Rise, steady: bool) -> list[tuple[float, float]]:
     sizes = np.array([heights.first_change(a, steady) for a in angles])
     least = [n for n in range(len(angles)) if sizes[n] <= min(sizes[n - 1], sizes[(n + 1) % len(angles)])
              and math.isfinite(sizes[n])]
-    least = sorted(least, key=lambda n: sizes[n])[:FEW]
+    round_and_on = np.concatenate([angles[-1:] - 2 * math.pi, angles, angles[:1] + 2 * math.pi])
     found = []
-    for n in least:
-        low = angles[n - 1] - 2 * math.pi * (n == 0)
-        high = angles[(n + 1) % len(angles)] + 2 * math.pi * (n + 1 == len(angles))
-        closer = golden_section(lambda a: heights.first_change(a, steady), low, high, CLOSER)
+    for n in sorted(least, key=lambda n: sizes[n])[:FEW]:
+        closer = golden_section(lambda a: heights.first_change(a, steady), round_and_on[n],
+                                round_and_on[n + 2], CLOSER)
         found.append(min(*closer, (angles[n], sizes[n]), key=lambda one: one[1]))
     return found
 

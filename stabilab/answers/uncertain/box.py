@@ -66,12 +66,9 @@ class Box:
         return {name: tuple(numbers) for name, numbers in out.items()}
 
     def at(self, point: Point, reach: float = 1) -> tuple[AnyScene, Float3 | None]:
-        """(scene, state or None) at a point, exact. Raises InputError where there is no such body."""
-        return self.scene_of(self.values(point, reach))
-
-    def scene_of(self, values: Numbers) -> tuple[AnyScene, Float3 | None]:
-        """(scene, state or None) of exact numbers. Raises InputError where there is no such body or no such
+        """(scene, state or None) at a point, exact. Raises InputError where there is no such body or no such
         scaling."""
+        values = self.values(point, reach)
         state = tuple(map(float, values["state"])) if "state" in values else None
         if not self.bodily:
             return ScaledGyrostat(values["a"][0], values["b"][0], values["mu"]), state

@@ -52,9 +52,9 @@ class Orbit(NamedTuple):
         """Seen so that the torque of this sign points ahead (the reflection of theta)."""
         return self if sense > 0 else self._replace(x=-self.x, w=-self.w, c=-self.c, mu=-self.mu)
 
-    def middle(self) -> Orbit:
+    def middle(self, n: int) -> Orbit:
         """The middle of every number, (n, 1)."""
-        return Orbit(*(np.reshape(lifted(v).c, (-1, 1)) for v in self))
+        return Orbit(*(np.broadcast_to(np.reshape(lifted(v).c, (-1, 1)), (n, 1)) for v in self))
 
 
 def orbit_of(r: Reduction, state: Sequence[Number], signs: Any) -> Orbit:
@@ -163,7 +163,7 @@ class Family:
         """(margin, sense, possible) of each point (n, places), in floats: highest excess ahead; the torque's
         sign."""
         orbit, none = self.orbit(points, np.zeros_like(points), stretch)
-        flat = Orbit(*(np.broadcast_to(v, (len(points), 1)) for v in orbit.middle()))
+        flat = orbit.middle(len(points))
         sense = np.where(flat.mu[:, 0] < 0, -1, 1)
         towards = sense[:, None]
         ahead = Orbit(flat.x * towards, flat.z, flat.w * towards, flat.G, flat.c * towards, flat.d,
@@ -244,7 +244,7 @@ def _bounded(family: Family, sense: int, stretch: float, most: int) -> Proof:
     def judge(parts: Parts) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         orbit, none = family.orbit(parts.centres, parts.widths, stretch)
         orbit = orbit.turned(sense)
-        middle = Orbit(*(np.broadcast_to(v, (len(none), 1)) for v in orbit.middle()))
+        middle = orbit.middle(len(none))
         angle, top = highest_ahead(middle)
         at_top = Affine(angle, np.zeros((1, 1)), np.zeros(1))
         push, stiff = lifted(force(orbit, at_top)), stiffness(middle, angle[:, None])
@@ -273,7 +273,7 @@ def _spin_up(family: Family, sense: int, stretch: float, most: int) -> Proof:
         height, torque = lifted(excess(orbit, angle)), sign_over(orbit.mu)
         first = (parts.angle - parts.reach <= 1e-12 * parts.reach) & (lifted(force(orbit, angle)).low > 0)
         settled = none | ((torque > 0) & ((height.high < 0) | first))
-        m = Orbit(*(np.broadcast_to(v, (len(none), 1)) for v in orbit.middle()))
+        m = orbit.middle(len(none))
         against = ~none & (excess(m, parts.angle[:, None])[:, 0] > _slack(m, parts.angle))
         against |= ~none & (m.mu[:, 0] < 0)
         weights = np.hstack([importance(height.g[:, :-1], height.e, parts.widths), np.abs(height.g[:, -1:])])

@@ -71,7 +71,10 @@ def nearest_change(box: Box, codes: Codes, answer: Answer, here: Any,
     n = len(box.places)
     middle = int(codes(np.zeros((1, n)))[0])
     directions = rays(n, favoured)
-    first = _first_change(codes, middle, directions)
+    # the first rung at which each ray has changed, inf where none
+    changed = _changed(codes, middle, (directions[:, None, :] * LADDER[None, :, None]).reshape(-1, n))
+    changed = changed.reshape(len(directions), -1)
+    first = np.where(changed.any(1), LADDER[changed.argmax(1)], np.inf)
     chosen = np.argsort(first, kind="stable")[:NEAREST]
     chosen = chosen[np.isfinite(first[chosen])]
     if not len(chosen):
@@ -92,13 +95,6 @@ def _changed(codes: Codes, here: int, points: np.ndarray) -> np.ndarray:
     """(m,): whether another code than `here` is known at points (m, n)."""
     found = np.concatenate([codes(points[i:i + CHUNK]) for i in range(0, max(1, len(points)), CHUNK)])
     return (found != here) & (found != UNKNOWN)
-
-
-def _first_change(codes: Codes, here: int, directions: np.ndarray) -> np.ndarray:
-    """The first rung at which each ray has changed, inf where none."""
-    points = (directions[:, None, :] * LADDER[None, :, None]).reshape(-1, directions.shape[1])
-    changed = _changed(codes, here, points).reshape(len(directions), -1)
-    return np.where(changed.any(1), LADDER[changed.argmax(1)], np.inf)
 
 
 def _bisected(codes: Codes, here: int, directions: np.ndarray, starts: np.ndarray,
@@ -209,8 +205,10 @@ def bracketed(box: Box, here: Any, answer: Answer, change: Change | None,
     if change is None or change.stretch > 1:
         proof = attempt(1.0, PARTS)
         parts += proof.parts
-        if proof.holds is False:
-            change = _of_point(proof.point, answer, here) or change
+        if proof.holds is False:  # the ordinary code is to confirm it
+            point = np.array(proof.point)
+            if (size := float(np.abs(point).max())) and answer(point) not in (None, here):
+                change = Change(point / size, size, 0.0)
         proved = 1.0 if proof.holds else 0.0
     more, looked = _farthest(change, attempt, proved)
     proved, parts = max(proved, more), parts + looked
@@ -251,14 +249,6 @@ def _farthest(change: Change | None, attempt: Callable[[float, int], Proof],
 def _sides(box: Box, answer: Answer, point: Point) -> tuple[Witness, ...]:
     """The middle, and a point that does otherwise."""
     return tuple(Witness(answer(p), box.values(p)) for p in (np.zeros(len(box.places)), point))
-
-
-def _of_point(point: Point, answer: Answer, here: str) -> Change | None:
-    """The change at a point that contradicts a claim, where the ordinary code confirms it."""
-    size = float(np.abs(point).max())
-    if not size or answer(np.array(point)) in (None, here):
-        return None
-    return Change(np.array(point) / size, size, 0.0)
 
 
 def by_trial(box: Box, here: Any, look: Look, because: str) -> Over:
