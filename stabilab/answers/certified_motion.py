@@ -114,16 +114,13 @@ def _holding(tests: Any, ways: list[tuple[str, Any, tuple[int, int]]], box: Any,
         if constants:
             A, z, eta, *_ = map(Fraction, constants)
             u = Fraction(unit)
-            cone, gain = A / Fraction(_scale(about, field)) * u, eta / Fraction(field.D1) * u * u * SURE
+            # the field's amplitude over that of a checker, who knows the rates and no moments: of U + i q V,
+            # or of w u + i tau v/w
+            scale = abs(field.form.scale[0]) if about == "fixed centre" else np.sqrt(np.prod(field.roots))
+            cone, gain = A / Fraction(float(scale)) * u, eta / Fraction(field.D1) * u * u * SURE
             return {"about": about, "orders": list(orders),
                     "cone": str(cone), "least": str(z * u), "gain": _decimal(gain, 12)}
     return None
-
-
-def _scale(about: str, field: Any) -> float:
-    """The field's amplitude over that of a checker, who knows the rates and no moments: of U + i q V, or of w
-    u + i tau v/w."""
-    return float(abs(field.form.scale[0]) if about == "fixed centre" else np.sqrt(np.prod(field.roots)))
 
 
 def _decimal(value: Fraction, digits: int) -> str:

@@ -122,22 +122,16 @@ def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction 
     if proof.high is not None:
         return Found(down(proof.low), up(proof.high), "proved",
                      f"{limit.words}: the motion enclosed, its first crossing by roots")
+    if proof.done and proof.low is not None:  # the search reached its end, and no crossing is sure
+        return Found(down(proof.low), math.nan, "proved",
+                     f"{limit.words}: touched at t = {float(proof.low):.10g} {scene.time_unit} as closely as "
+                     f"{2.0**-50:.0e}:  whether it is reached is not known")
     if proof.done:
-        return _at_the_end(proof, limit, last is not end, scene.time_unit)
+        return after_a_period(limit) if last is not end else Found(
+            down(proof.until), math.nan, "proved",
+            f"{limit.words}: not reached by the end of the search, the motion enclosed")
     return _beyond_integers(scene, state, start, limit, end, max(down(proof.until), down(before)),
                             bands if work else 0, spun)
-
-
-def _at_the_end(proof: Any, limit: Limit, whole: Any, unit: Any) -> Found:
-    """The search reached its end, and no crossing is sure."""
-    if proof.low is not None:
-        return Found(down(proof.low), math.nan, "proved",
-                     f"{limit.words}: touched at t = {float(proof.low):.10g} {unit} as closely as "
-                     f"{2.0**-50:.0e}:  whether it is reached is not known")
-    if whole:
-        return after_a_period(limit)
-    return Found(down(proof.until), math.nan, "proved",
-                 f"{limit.words}: not reached by the end of the search, the motion enclosed")
 
 
 def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction | None,

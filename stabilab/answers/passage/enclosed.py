@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from ...integrate.integer_flow import IntegerFlow, Piece, Search
+from ...integrate.integer_flow import IntegerFlow, Search
 from ...numbers.exact import sqrt_fraction
 from ...numbers.numba_door import installed
 from ...numbers.vectors import Exact3, Number
@@ -111,9 +111,9 @@ class _Attempt:
             now, shorter, length = flow.now, length, float(piece.length)
             if self.switches and now == self.switches[0][0]:
                 flow.turn_on(self.switches.pop(0)[1])
-            if flow.work * TRIED > work and length < STEADY * shorter and self._hopeless(
-                piece, flow.work - before, work - flow.work):
-                return self._answer(until, False)
+            if (flow.work * TRIED > work and length < STEADY * shorter and (self.earliest - piece.start)
+                    * (flow.work - before) > HOPELESS * (work - flow.work) * piece.length):
+                return self._answer(until, False)  # steps like this one would take much more than is left
             if proving:
                 until = now
             elif (excess := flow.error.bit_length() - flow.bits) > 0:
@@ -125,11 +125,6 @@ class _Attempt:
                     return self._answer(until, ended)
                 self.needs = needs + 1
                 return self._answer(until, False)
-
-    def _hopeless(self, piece: Piece, work: int, left: int) -> bool:
-        """Whether steps like this one would take much more than the work that is left to come to where the
-        limit may first be reached."""
-        return (self.earliest - piece.start) * work > HOPELESS * left * piece.length
 
     def _answer(self, until: Fraction, done: bool) -> Enclosed:
         low = min((one.low for one in self.proved if one.low is not None), default=None)

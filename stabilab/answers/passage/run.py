@@ -168,27 +168,19 @@ class _Well:
         tilt = max(map(abs, self.along)) / abs(self.n)
         across = math.hypot(*self.centre) + rhos[1] / min(self.scale)
         energy = self.energy + t * (self.sideways * across + tilt * self.pull / rhos[0])
-        ends = [self._first_closed(way, rhos, energy) for way in (self.behind, self.ahead)]
-        known = [end for end in ends if end is not None]
-        if len(known) < 2:
-            return False
-        inside = np.concatenate([way[:end + 1] for way, end in zip((self.behind, self.ahead), known)])
-        return self._most(inside, rhos, energy) < self.rate**2 * (1 - DRIFT_ROUNDING)
-
-    def _first_closed(self, way: np.ndarray, rhos: tuple[float, float], energy: float) -> int | None:
-        """Index of the first place of a way that the phase cannot pass, None where there is none."""
-        least = -self._greatest(way, rhos, -0.5 * self.D[1:], 1.0)
-        closed = np.nonzero(least > energy * (1 + DRIFT_ROUNDING))[0]
-        return int(closed[0]) if closed.size else None
-
-    def _most(self, way: np.ndarray, rhos: tuple[float, float], energy: float) -> float:
-        """Most of |omega|^2 at these places and half a step around them."""
+        inside = []
+        for way in (self.behind, self.ahead):  # up to the first place that the phase cannot pass
+            least = -self._greatest(way, rhos, -0.5 * self.D[1:], 1.0)
+            closed = np.nonzero(least > energy * (1 + DRIFT_ROUNDING))[0]
+            if not closed.size:
+                return False
+            inside.append(way[:closed[0] + 1])
+        # the most of |omega|^2 at these places and half a step around them
         weights = 1 - self.D[1:] / self.D[0]
-        value = 2 * energy / self.D[0] + self._greatest(way, rhos, weights, 2 / self.D[0])
+        value = 2 * energy / self.D[0] + self._greatest(np.concatenate(inside), rhos, weights, 2 / self.D[0])
         fastest = np.abs(self.centre) + rhos[1] / self.scale
-        slope = (2 * np.abs(weights) * fastest * rhos[1]
-                 / self.scale).sum() + 2 / self.D[0] * max(map(abs, self.along)) / abs(self.n)
-        return float(value.max()) + slope * self.step / 2
+        slope = (2 * np.abs(weights) * fastest * rhos[1] / self.scale).sum() + 2 / self.D[0] * tilt
+        return bool(value.max() + slope * self.step / 2 < self.rate**2 * (1 - DRIFT_ROUNDING))
 
     def _greatest(self, way: np.ndarray, rhos: tuple[float, float], weights: np.ndarray,
                   factor: float) -> np.ndarray:

@@ -236,29 +236,21 @@ class _Rise:
             q = -0.5 * (B + np.where(B >= 0, 1, -1) * root)
             low, high = np.sort(np.stack([np.where(C != 0, q / C, np.nan), np.where(q != 0, A / q, np.nan)])
                                 / self.sine, axis=0)
-        real = B * B - 4 * A * C > 0
-        s = _end_of(C, real, low, high) if steady else _begin_of(C, real, low, high)
-        return s * self.unit
+        return self.unit * _first_end(C, B * B - 4 * A * C > 0, low, high, steady)
 
 
-def _begin_of(C: np.ndarray, real: Any, low: Number, high: Number) -> float:
-    """The least s > 0 at which one of the quadratics A + B s + C s^2 becomes positive."""
-    # outside the roots where it opens upwards, between them where downwards
-    at = np.where(C > 0, np.where(low > 0, np.inf, high), low)
-    at = np.where(real & np.isfinite(at) & (at > 0), at, np.where((C > 0) & real & (high > 0), high, np.inf))
-    return float(np.min(at, initial=np.inf))
-
-
-def _end_of(C: np.ndarray, real: Any, low: Number, high: Number) -> float:
-    """The least s > 0 from which on, for a while, none of them is positive."""
+def _first_end(C: np.ndarray, real: Any, low: Number, high: Number, steady: bool) -> float:
+    """Of quadratics in s with highest coefficients C, real roots or none, and these: the least s > 0 at which
+    one becomes positive; if steady, from which on, for a while, none is."""
+    # positive outside the roots where it opens upwards, between them where downwards
     starts = np.concatenate([np.where(C > 0, -np.inf, low), np.where(C > 0, high, np.inf)])
     ends = np.concatenate([np.where(C > 0, low, high), np.where(C > 0, np.inf, -np.inf)])
-    always = (C > 0) & ~real
-    if always.any():
-        return math.inf
-    kept = np.concatenate([real, real]) & (ends > starts)
+    real = np.concatenate([real, real])
+    if not steady:  # a straight line has no second end
+        return float(np.min(starts[real & (starts > 0) & ~(ends <= starts)], initial=np.inf))
+    kept = real & (ends > starts)
     order = np.argsort(starts[kept])
-    now = 0.0
+    now = math.inf if ((C > 0) & ~real[:len(C)]).any() else 0.0
     for start, end in zip(starts[kept][order], ends[kept][order]):
         if start > now + 1e-9 * abs(now) and now > 0:
             break

@@ -211,15 +211,12 @@ def _states_at(family: Family, kind: str, eliminated: Eliminated, cut: Cut, bits
     values = [cut.number.ball(bits)]
     roots = eliminated.at_algebraic(cut.number, bits) or []
     flat = kind == ISOLATED and any(root.times > 1 for root in roots) and eliminated.flat(cut.number)
-    return tuple(judged_state(family, kind, values, root, _going_on(root, sides) if kind == LEAF else 0, flat)
+    # the sign of m on a branch that goes on through a meeting of an odd number: that of the side where one
+    # branch alone arrives
+    alone = [1 if piece.states[0].linear == "stable" else -1 for piece in sides
+             if kind == LEAF and piece is not None and piece.count == 1]
+    return tuple(judged_state(family, kind, values, root, alone[0] if alone and root.times % 2 else 0, flat)
                  for root in roots)
-
-
-def _going_on(root: Root, sides: Sequence[Piece | None]) -> int:
-    """The sign of m on a branch that goes on through a meeting of an odd number: that of the side where one
-    branch alone arrives."""
-    alone = [piece for piece in sides if piece is not None and piece.count == 1]
-    return 0 if not alone or root.times % 2 == 0 else 1 if alone[0].states[0].linear == "stable" else -1
 
 
 def _on_an_axis(family: Family, system: OnLine | Conics, cut: Cut) -> tuple[int, tuple[State, ...], str]:
