@@ -22,8 +22,7 @@ UNPHYSICAL = "no rigid body has these moments of inertia"
 
 
 def caveats_of(scene: AnyScene, steady: bool = False, tilt: Any = None, first: tuple[str, Any] | None = None,
-               validity: Any = None,
-               file: Iterable[Caveat] = ()) -> tuple[Caveat, ...]:
+               validity: Any = None, file: Iterable[Caveat] = ()) -> tuple[Caveat, ...]:
     """The caveats of one answer.
 
     steady: whether it says that the motion is bounded or an equilibrium, or that it never reaches a limit;

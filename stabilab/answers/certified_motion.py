@@ -75,8 +75,7 @@ def certified_spin_up(scene: AnyScene, state: Sequence[Any]) -> tuple[dict[str, 
             t = Fraction(course.t) if course else Fraction(0)
             return {"axis": found.axis, "sense": found.sense, "t": str(t), **inequality,
                     "way": _checkpoints(scene, state, course, t)}, ""
-    return (None,
-            f"{found.fate.word}: {found.cause}; no inequality that a checker knows holds up to t = "
+    return (None, f"{found.fate.word}: {found.cause}; no inequality that a checker knows holds up to t = "
             f"{times[-1]:.6g}")
 
 

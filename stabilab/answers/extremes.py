@@ -16,8 +16,7 @@ if TYPE_CHECKING:
 
 
 def extremes(scene: Any, states: ArrayLike | None = None, span: Any = None, digits: int | None = None,
-             fast: bool | None = None,
-             follow: float | None = None) -> np.ndarray:
+             fast: bool | None = None, follow: float | None = None) -> np.ndarray:
     """Smallest and largest value of each component over all t >= 0: array (..., 3, 2) in the scene's
     variables. A case stands for its scene, its own start and span.
 

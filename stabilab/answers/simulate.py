@@ -49,8 +49,7 @@ KNOWN = {m.lower(): m for m in (*METHODS, REDUCED)}
 
 
 def trajectory(scene: AnyScene, state: Any, times: ArrayLike, method: str = "taylor",
-               rtol: float | None = None, steps: list[float] | None = None,
-               laws: bool = True) -> Trajectory:
+               rtol: float | None = None, steps: list[float] | None = None, laws: bool = True) -> Trajectory:
     """States of a scene at the given times, the motion being at `state` at t = 0.
 
     state: three numbers, the angular velocity (x when scaled); for scenes with more blocks of state all their
@@ -105,8 +104,7 @@ def _by_quadrature(scene: AnyScene, equations: Equations, state: np.ndarray, tim
         watch.note(row)
     return Trajectory(times, states, REDUCED, None, drift, {"evaluations": motion.evaluations}, "reached",
                       "all times reached, without steps: time as an integral over the reduced coordinate, "
-                      "inverted",
-                      validity=watch and watch.result())
+                      "inverted", validity=watch and watch.result())
 
 
 STIFF = 1e6  # fastest decay times duration beyond which an explicit method would only shorten its steps
@@ -153,8 +151,7 @@ def errors_of(state: Mapping[str, np.ndarray], share: float) -> dict[str, np.nda
 
 def simulate(scene: Any, omega: Any = None, times: ArrayLike | None = None,
              blocks: Mapping[str, Sequence[float]] | None = None,
-             method: str | None = None, rtol: float | None = None,
-             attitude: str | None = None) -> Simulation:
+             method: str | None = None, rtol: float | None = None, attitude: str | None = None) -> Simulation:
     """The exact motion of a scene from angular velocity `omega` at the given times. A case stands for its
     scene; its own start holds where none is given, and the two ends of its span where no times are.
 

@@ -165,8 +165,7 @@ def _roots(curve: _Curve, i: int, order: int, first: bool) -> tuple[list[Any], b
 
 
 def tabulated(scene: Any, start: Sequence[Any], exact: Sequence[Fraction], times: Sequence[Fraction],
-              digits: int = 30,
-              work: int | None = None, events: bool = True) -> Tabulated:
+              digits: int = 30, work: int | None = None, events: bool = True) -> Tabulated:
     """The motion at increasing times from 0 on. start: all of the state; exact: its first three components,
     as they are meant; work: multiplications of a run at most; events: look for them."""
     work = work or WORK
@@ -272,6 +271,5 @@ def _twice(scene: AnyScene, start: Any, exact: Any, times: Sequence[Fraction], d
     if not reached:
         because += f"; only up to {float(times[len(states) - 1]) if states else 0:.6g} {scene.time_unit}"
     return Tabulated(tuple(times[:len(states)]), tuple(states), components, digits, TWICE, because, reached,
-                     (),
-                     "events are found where a wheel and a constant torque are all that acts, as their "
+                     (), "events are found where a wheel and a constant torque are all that acts, as their "
                      "enclosure needs")

@@ -198,8 +198,7 @@ class Spread:
 
 
 def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = None, case: Any = None,
-         exact: Exact3 | None = None,
-         ask: dict[str, Any] | None = None) -> Tilt:
+         exact: Exact3 | None = None, ask: dict[str, Any] | None = None) -> Tilt:
     """What a tilt of the torque does to a bounded motion under a torque on a principal axis.
 
     scene: of a body; state: three rates; angle: rad, the half-angle of the cone of torques (None: what the

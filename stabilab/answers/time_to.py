@@ -27,8 +27,7 @@ LATER = 1e-6  # of the time that a run finds: the enclosure goes on for so long 
 
 
 def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = None, energy: Any = None,
-            tilt: Any = None,
-            t_max: float | Fraction | None = None, exact: Sequence[Fraction] | None = None,
+            tilt: Any = None, t_max: float | Fraction | None = None, exact: Sequence[Fraction] | None = None,
             work: int = WORK) -> TimeTo:
     """The first time t >= 0 at which each motion reaches a limit, between a lower and an upper bound.
 
@@ -101,8 +100,7 @@ def _end(t_max: float | Fraction | None) -> Fraction | None:
 
 
 def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction | None, work: int = WORK,
-           bands: int = BAND_STEPS,
-           spun: Any = None) -> Found:
+           bands: int = BAND_STEPS, spun: Any = None) -> Found:
     """The answer for one motion of a plain scene: three floats, and the three rationals that they round.
     work: multiplications that an enclosure in integers may take; bands: compiled steps that enclose what goes
     on longer; spun: what `spin_up` says of the motion, where it was asked already."""

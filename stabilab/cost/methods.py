@@ -152,8 +152,7 @@ def _scipy(name):
 
         def run(times):
             solver = getattr(integrate, name)(lambda _, y: rate(y.tolist()), 0.0, task.start, times[-1],
-                                              rtol=rtol,
-                                              atol=floor, **options)
+                                              rtol=rtol, atol=floor, **options)
             out, done, steps = np.full((len(times), task.start.size), np.nan), 0, 0
             while solver.status == "running" and solver.nfev < STOP:
                 solver.step()

@@ -276,8 +276,7 @@ def from_json(text: str) -> Plan:
     rows = lambda name: tuple((key, value) for key, value in told[name])
     pointed = pointed_from(told["pointed"]) if "pointed" in told else None
     return Plan(told["path"], told["text"], rows("vary"), told["samples"], told["seed"],
-                tuple(told["answers"]), rows("limit"), told.get("listed", ""),
-                told.get("follow"), pointed)
+                tuple(told["answers"]), rows("limit"), told.get("listed", ""), told.get("follow"), pointed)
 
 
 def split_keys(words: Sequence[str],
@@ -311,8 +310,7 @@ def planned(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Seque
     rows = [(name, asked if isinstance(asked, str) else _plain(name, asked)) for name,
             asked in (vary.items() if isinstance(vary, Mapping) else vary)]
     plan = Plan(path, text, tuple(rows), samples, seed, asked_answers(answer),
-                tuple((k, v) for k, v in limit.items() if v is not None),
-                follow=follow)
+                tuple((k, v) for k, v in limit.items() if v is not None), follow=follow)
     _judge(plan)
     return plan
 

@@ -44,8 +44,7 @@ LAW_BITS = 200  # of the numbers of a law that holds for all time: more than MOS
 
 
 def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = None,
-        known: Motion | None = None, exact: Exact3 | None = None,
-        aim: bool = False) -> Told:
+        known: Motion | None = None, exact: Exact3 | None = None, aim: bool = False) -> Told:
     """The extremes, the period, or the margin of the "fate" of one state, to `digits` decimal digits (1 to
     50).
 

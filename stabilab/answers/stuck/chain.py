@@ -151,5 +151,4 @@ def _joined(runs: Sequence[Simulation]) -> Simulation:
         state={name: np.concatenate([run.state[name] for run in runs]) for name in first.state},
         invariant_drift={name: float(v) for name, v in most([run.invariant_drift for run in runs]).items()},
         counters={name: sum(run.counters.get(name, 0) for run in runs) for name in first.counters},
-        error=most([run.error for run in runs]),
-        reason=f"{last.reason}; thrusters switch at exact times")
+        error=most([run.error for run in runs]), reason=f"{last.reason}; thrusters switch at exact times")

@@ -160,8 +160,7 @@ def _bracket(base: Scene, links: Sequence[Link], span: tuple[float, float],
     return None
 
 
-def _looks(links: Sequence[Link], span: tuple[float, float],
-           most: int) -> Iterator[tuple[Link, np.ndarray]]:
+def _looks(links: Sequence[Link], span: tuple[float, float], most: int) -> Iterator[tuple[Link, np.ndarray]]:
     """Each link that fires within a span, with times after its begin, from 0 on; some `most` in all."""
     last = links[-1]
     end = min(span[1], float(last.begin + last.length))

@@ -202,8 +202,7 @@ def _place(reduction: Reduction, state: Sequence[Fraction]) -> tuple[Fraction, .
     """x, z, c, d, and the speed about the torque's axis."""
     g = reduction.exact_constants
     return (g["flip"] * (state[reduction.j] + g["sj"]) / g["rx"], (state[reduction.k] + g["sk"]) / g["rz"],
-            g["c"], g["d"],
-            g["n"] * (state[reduction.axis] + reduction.s))
+            g["c"], g["d"], g["n"] * (state[reduction.axis] + reduction.s))
 
 
 def rise(fixed: Any, at: Any, change: Any, h: Number, S: Number, K: Number, wheel: bool) -> Triple:

@@ -65,8 +65,7 @@ def orbit_of(r: Reduction, state: Sequence[Number], signs: Any) -> Orbit:
     (sj, sk), (across_j, across_k) = r.centre, r.across
     # torque m: the three other terms of `Reduction.torque` cancel for a body and for the scaled system
     return Orbit(x=(state[r.j] + sj) / rp, z=(state[r.k] + sk) / (sp * rq), w=rp * rq * (state[r.axis] + r.s),
-                 G=sp * r.kappa * ap * aq, c=sp * across_j * aq * rp, d=across_k * ap * rq,
-                 mu=rp * rq * r.m)
+                 G=sp * r.kappa * ap * aq, c=sp * across_j * aq * rp, d=across_k * ap * rq, mu=rp * rq * r.m)
 
 
 def _sin_cos(y: Number) -> tuple[Number, Number]:
