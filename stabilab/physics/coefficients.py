@@ -175,12 +175,10 @@ class Together(Effect):
     works: ClassVar[bool] = False
 
     exact: Exact3
-
-    def parameters(self) -> dict[str, Fraction]:
-        return dict(zip(("lambda1", "lambda2", "lambda3"), self.exact))
+    symbols: ClassVar[tuple[str, ...]] = ("lambda1", "lambda2", "lambda3")
 
     def momentum(self, p: Mapping[str, Number]) -> Triple:
-        return (p["lambda1"], p["lambda2"], p["lambda3"])
+        return tuple(p[name] for name in self.symbols)
 
 
 def gyrostat_scene(parts: Content) -> Scene:

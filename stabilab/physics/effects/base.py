@@ -71,6 +71,8 @@ class Effect(metaclass=Asked):
     needs: ClassVar[tuple[str, ...]] = ()
     # True: its law holds up to its `limits`; an exact law is never asked for any
     approximate: ClassVar[bool] = False
+    symbols: ClassVar[tuple[str, ...]] = ()  # of the numbers in `exact`, in order
+    isotropic: ClassVar[bool] = False  # True: it is the same along all axes
 
     @classmethod
     def from_case(cls, table: Any, context: Any) -> Effect | None:
@@ -92,7 +94,8 @@ class Effect(metaclass=Asked):
 
     def parameters(self) -> dict[str, Fraction]:
         """Symbol name to exact value, in the order of declaration."""
-        return {}
+        exact: Any = getattr(self, "exact", ())
+        return dict(zip(self.symbols, exact if isinstance(exact, tuple) else (exact,)))
 
     @property
     def with_article(self) -> str:
@@ -127,8 +130,8 @@ class Effect(metaclass=Asked):
 
     def turned(self, frame: PrincipalAxes) -> Effect | None:
         """The same effect along the principal axes of `frame` (numbers.principal), from the frame that a case
-        gives it in; None where it cannot be turned. An effect that is alike in every frame is itself."""
-        return None
+        gives it in; None where it cannot be turned."""
+        return self if self.isotropic else None
 
     def momentum(self, p: Mapping[str, Number]) -> Triple | None:
         """Angular momentum carried inside the body, body frame, kg m^2/s, from the parameter symbols `p`."""

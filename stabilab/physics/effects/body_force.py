@@ -3,7 +3,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from fractions import Fraction
 from typing import Any, ClassVar
 
 from ...numbers.exact import floats
@@ -20,6 +19,7 @@ class BodyForce(Effect):
     name: ClassVar[str] = "body_force"
     article: ClassVar[str] = "a"
     keys: ClassVar[tuple[str, ...]] = ("force",)
+    symbols: ClassVar[tuple[str, ...]] = ("f1", "f2", "f3")
     works: ClassVar[bool] = False
     needs = ("position",)
 
@@ -37,8 +37,5 @@ class BodyForce(Effect):
             return None
         return super().from_case(table, context)
 
-    def parameters(self) -> dict[str, Fraction]:
-        return dict(zip(("f1", "f2", "f3"), self.exact))
-
     def force(self, motion: Any, p: Mapping[str, Number]) -> Triple:
-        return p["f1"], p["f2"], p["f3"]
+        return tuple(p[name] for name in self.symbols)

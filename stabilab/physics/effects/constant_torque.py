@@ -3,7 +3,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from fractions import Fraction
 from typing import Any, ClassVar
 
 from ...errors import InputError
@@ -21,6 +20,7 @@ class ConstantTorque(Effect):
     name: ClassVar[str] = "constant_torque"
     article: ClassVar[str] = "a"
     keys: ClassVar[tuple[str, ...]] = ("torque", "mu")
+    symbols: ClassVar[tuple[str, ...]] = ("M1", "M2", "M3")
     small: ClassVar[bool] = True
 
     vector: Sequence[Given]
@@ -51,8 +51,5 @@ class ConstantTorque(Effect):
     def turned(self, frame: PrincipalAxes) -> ConstantTorque:
         return ConstantTorque(frame.turned(self.exact))
 
-    def parameters(self) -> dict[str, Fraction]:
-        return dict(zip(("M1", "M2", "M3"), self.exact))
-
     def torque(self, omega: Triple, p: Mapping[str, Number]) -> Triple:
-        return (p["M1"], p["M2"], p["M3"])
+        return tuple(p[name] for name in self.symbols)

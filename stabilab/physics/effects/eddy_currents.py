@@ -7,7 +7,6 @@ from fractions import Fraction
 from typing import Any, ClassVar
 
 from ...errors import InputError
-from ...numbers.principal import PrincipalAxes
 from ...numbers.units import EDDY, FLUX, in_si
 from ...numbers.vectors import Given, Number, Triple, cross
 from .base import Effect
@@ -26,6 +25,7 @@ class EddyCurrents(Effect):
 
     name: ClassVar[str] = "eddy_currents"
     keys: ClassVar[tuple[str, ...]] = ("coefficient", "field")
+    isotropic: ClassVar[bool] = True
     small: ClassVar[bool] = True
     keeps_volume: ClassVar[bool] = False
     needs = ("gamma",)
@@ -52,9 +52,6 @@ class EddyCurrents(Effect):
 
     def written(self) -> dict[str, Any]:
         return dict(zip(self.keys, self.exact))
-
-    def turned(self, frame: PrincipalAxes) -> EddyCurrents:
-        return self
 
     def parameters(self) -> dict[str, Fraction]:
         k, B = self.exact

@@ -3,7 +3,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from fractions import Fraction
 from typing import Any, ClassVar
 
 from ...numbers.exact import exact, floats
@@ -20,6 +19,7 @@ class Gravity(Effect):
 
     name: ClassVar[str] = "gravity"
     keys: ClassVar[tuple[str, ...]] = ("weight", "centre_of_mass")
+    symbols: ClassVar[tuple[str, ...]] = ("Mgx", "Mgy", "Mgz")
     needs = ("gamma",)
 
     weight: Given
@@ -44,11 +44,8 @@ class Gravity(Effect):
         weight = exact(self.weight)
         return Gravity(weight, tuple(c / weight for c in frame.turned(self.exact))) if weight else self
 
-    def parameters(self) -> dict[str, Fraction]:
-        return dict(zip(("Mgx", "Mgy", "Mgz"), self.exact))
-
     def _arm(self, p: Mapping[str, Number]) -> Triple:
-        return p["Mgx"], p["Mgy"], p["Mgz"]
+        return tuple(p[name] for name in self.symbols)
 
     def torque_along(self, motion: Any, p: Mapping[str, Number]) -> Triple:
         return cross(self._arm(p), motion.gamma)

@@ -3,7 +3,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from fractions import Fraction
 from typing import ClassVar
 
 from ...numbers.exact import floats
@@ -25,6 +24,7 @@ class Gyrostat(Effect):
     name: ClassVar[str] = "gyrostat"
     article: ClassVar[str] = "a"
     keys: ClassVar[tuple[str, ...]] = ("momentum",)
+    symbols: ClassVar[tuple[str, ...]] = ("lambda1", "lambda2", "lambda3")
     works: ClassVar[bool] = False
 
     moment: Sequence[Given]
@@ -37,8 +37,5 @@ class Gyrostat(Effect):
     def turned(self, frame: PrincipalAxes) -> Gyrostat:
         return Gyrostat(frame.turned(self.exact))
 
-    def parameters(self) -> dict[str, Fraction]:
-        return dict(zip(("lambda1", "lambda2", "lambda3"), self.exact))
-
     def momentum(self, p: Mapping[str, Number]) -> Triple:
-        return (p["lambda1"], p["lambda2"], p["lambda3"])
+        return tuple(p[name] for name in self.symbols)

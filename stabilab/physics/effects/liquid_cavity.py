@@ -10,7 +10,6 @@ from typing import Any, ClassVar
 
 from ...errors import InputError
 from ...numbers.exact import precise
-from ...numbers.principal import PrincipalAxes
 from ...numbers.units import DENSITY, LENGTH, LENGTH_7, VISCOSITY, in_si
 from ...numbers.vectors import Given, Number, Triple, cross, dot
 from .base import Effect, Limit
@@ -81,6 +80,8 @@ class LiquidCavity(Effect):
     name: ClassVar[str] = "liquid_cavity"
     article: ClassVar[str] = "a"
     keys: ClassVar[tuple[str, ...]] = ("density", "viscosity", "P0", "radius", "torque")
+    symbols: ClassVar[tuple[str, ...]] = ("kappa",)
+    isotropic: ClassVar[bool] = True
     small: ClassVar[bool] = True
     keeps_volume: ClassVar[bool] = False
     approximate: ClassVar[bool] = True
@@ -130,12 +131,6 @@ class LiquidCavity(Effect):
 
     def written(self) -> dict[str, Any]:
         return {"density": self.density, "viscosity": self.viscosity, "P0": self.P0, "torque": self.law}
-
-    def turned(self, frame: PrincipalAxes) -> LiquidCavity:
-        return self
-
-    def parameters(self) -> dict[str, Fraction]:
-        return {"kappa": self.exact}
 
     def torque_along(self, motion: Any, p: Mapping[str, Number]) -> Triple:
         first, second = motion.undisturbed(free=self.law == "printed")

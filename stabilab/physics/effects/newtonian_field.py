@@ -7,7 +7,6 @@ from fractions import Fraction
 from typing import Any, ClassVar
 
 from ...errors import InputError
-from ...numbers.principal import PrincipalAxes
 from ...numbers.units import LENGTH, PER_SECOND_2, in_si
 from ...numbers.vectors import Given, Number, Triple, cross
 from .base import Effect, Limit
@@ -26,6 +25,8 @@ class NewtonianField(Effect):
     name: ClassVar[str] = "newtonian_field"
     article: ClassVar[str] = "a"
     keys: ClassVar[tuple[str, ...]] = ("strength", "lambda", "R")
+    symbols: ClassVar[tuple[str, ...]] = ("N",)
+    isotropic: ClassVar[bool] = True
     needs = ("gamma",)
 
     strength: Given
@@ -82,12 +83,6 @@ class NewtonianField(Effect):
             return {"strength": self.exact}
         distance = Fraction(self.distance)
         return {"lambda": self.exact * distance**3 / 3, "R": distance}
-
-    def turned(self, frame: PrincipalAxes) -> NewtonianField:
-        return self
-
-    def parameters(self) -> dict[str, Fraction]:
-        return {"N": self.exact}
 
     def torque_along(self, motion: Any, p: Mapping[str, Number]) -> Triple:
         spread = tuple(d * g for d, g in zip(motion.D, motion.gamma))

@@ -7,7 +7,6 @@ from fractions import Fraction
 from typing import Any, ClassVar
 
 from ...errors import InputError
-from ...numbers.principal import PrincipalAxes
 from ...numbers.units import PER_SECOND, in_si
 from ...numbers.vectors import Given, Number, Triple
 from .base import Effect
@@ -20,6 +19,8 @@ class Resistance(Effect):
 
     name: ClassVar[str] = "resistance"
     keys: ClassVar[tuple[str, ...]] = ("coefficient",)
+    symbols: ClassVar[tuple[str, ...]] = ("zeta",)
+    isotropic: ClassVar[bool] = True
     small: ClassVar[bool] = True
     keeps_volume: ClassVar[bool] = False
 
@@ -37,12 +38,6 @@ class Resistance(Effect):
     def from_case(cls, table: Any, context: Any) -> Resistance | None:
         value = table.positive("coefficient", zero=True) if table.required("coefficient") else None
         return None if value is None else cls(value)
-
-    def turned(self, frame: PrincipalAxes) -> Resistance:
-        return self
-
-    def parameters(self) -> dict[str, Fraction]:
-        return {"zeta": self.exact}
 
     def torque_along(self, motion: Any, p: Mapping[str, Number]) -> Triple:
         return tuple(-p["zeta"] * d * w for d, w in zip(motion.D, motion.omega))

@@ -7,7 +7,6 @@ from fractions import Fraction
 from typing import Any, ClassVar
 
 from ...errors import InputError
-from ...numbers.principal import PrincipalAxes
 from ...numbers.units import INERTIA, MOMENTUM, in_si
 from ...numbers.vectors import Given, Number, Triple, cross, dot
 from .base import Effect, Part
@@ -32,6 +31,8 @@ class ViscousDamper(Effect):
     name: ClassVar[str] = "viscous_damper"
     article: ClassVar[str] = "a"
     keys: ClassVar[tuple[str, ...]] = ("inertia", "coefficient")
+    symbols: ClassVar[tuple[str, ...]] = ("kd", "cd")
+    isotropic: ClassVar[bool] = True
     small: ClassVar[bool] = True
     keeps_volume: ClassVar[bool] = False
     needs = ("damper",)
@@ -70,12 +71,6 @@ class ViscousDamper(Effect):
             f"the sphere's moment of inertia, {float(self.exact[0]):.6g} kg m^2, must be smaller than every "
             f"principal moment of the body, which hold it: the least is {float(least):.6g}; give the moments "
             "of the whole, or a smaller sphere")
-
-    def turned(self, frame: PrincipalAxes) -> ViscousDamper:
-        return self
-
-    def parameters(self) -> dict[str, Fraction]:
-        return dict(zip(("kd", "cd"), self.exact))
 
     def part(self, motion: Any, p: Mapping[str, Number]) -> Part:
         k, c, sigma, omega = p["kd"], p["cd"], motion.damper, motion.omega

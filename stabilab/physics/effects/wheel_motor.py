@@ -37,6 +37,7 @@ class WheelMotor(Effect):
     name: ClassVar[str] = "wheel_motor"
     article: ClassVar[str] = "a"
     keys: ClassVar[tuple[str, ...]] = ("torque", "duration")
+    symbols: ClassVar[tuple[str, ...]] = ("u1", "u2", "u3")
     needs = ("wheel",)
 
     motor: Sequence[Given]
@@ -86,10 +87,7 @@ class WheelMotor(Effect):
     def turned(self, frame: PrincipalAxes) -> WheelMotor:
         return WheelMotor(frame.turned(self.exact), self.duration)
 
-    def parameters(self) -> dict[str, Fraction]:
-        return dict(zip(("u1", "u2", "u3"), self.exact))
-
     def part(self, motion: Any, p: Mapping[str, Number]) -> Part:
-        u, h = (p["u1"], p["u2"], p["u3"]), motion.wheel
+        u, h = tuple(p[name] for name in self.symbols), motion.wheel
         turning = tuple(t - v for t, v in zip(cross(h, motion.omega), u))
         return Part(0, h, 0, turning, dot(u, motion.omega), lambda change: u)
