@@ -2,6 +2,7 @@
 stands above the cases and is therefore imported by name."""
 from __future__ import annotations
 
+from collections.abc import Callable
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -9,48 +10,30 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 
+def _asked(name: str, words: str) -> Callable[..., Any]:
+    """A question as a method."""
+    def ask(self: Any, *given: Any, **named: Any) -> Any:
+        return _public(name)(self, *given, **named)
+    ask.__name__, ask.__doc__ = name, f"{words}: see `stabilab.{name}`."
+    return ask
+
+
 class Questions:
     """What a case can be asked; the arguments are those of the function of the same name in `stabilab`."""
 
-    def fate(self, *given: Any, **named: Any) -> Any:
-        """What becomes of the motion: see `stabilab.fate`."""
-        return _public("fate")(self, *given, **named)
-
-    def motion(self, *given: Any, **named: Any) -> Any:
-        """All that is known of the motion: see `stabilab.motion`."""
-        return _public("motion")(self, *given, **named)
-
-    def equilibria(self) -> Any:
-        """Every equilibrium with its stability: see `stabilab.equilibria`."""
-        return _public("equilibria")(self)
-
-    def period(self, *given: Any, **named: Any) -> Any:
-        """The period of the motion: see `stabilab.period`."""
-        return _public("period")(self, *given, **named)
-
-    def extremes(self, *given: Any, **named: Any) -> Any:
-        """The least and greatest value of each component: see `stabilab.extremes`."""
-        return _public("extremes")(self, *given, **named)
+    fate = _asked("fate", "What becomes of the motion")
+    motion = _asked("motion", "All that is known of the motion")
+    equilibria = _asked("equilibria", "Every equilibrium with its stability")
+    period = _asked("period", "The period of the motion")
+    extremes = _asked("extremes", "The least and greatest value of each component")
+    attitude = _asked("attitude", "How the motion turns in space")
+    when = _asked("when", "When the motion first reaches a limit")
+    stuck = _asked("stuck", "What the stuck thrusters do, and what helps")
+    burn = _asked("burn", "What the stuck thrusters leave when they close, and by when they must")
 
     def simulate(self, times: Any = None, **named: Any) -> Any:
         """The motion at the given times: see `stabilab.simulate`."""
         return _public("simulate")(self, times=times, **named)
-
-    def attitude(self, *given: Any, **named: Any) -> Any:
-        """How the motion turns in space: see `stabilab.attitude`."""
-        return _public("attitude")(self, *given, **named)
-
-    def when(self, *given: Any, **named: Any) -> Any:
-        """When the motion first reaches a limit: see `stabilab.when`."""
-        return _public("when")(self, *given, **named)
-
-    def stuck(self, *given: Any, **named: Any) -> Any:
-        """What the stuck thrusters do, and what helps: see `stabilab.stuck`."""
-        return _public("stuck")(self, *given, **named)
-
-    def burn(self, **named: Any) -> Any:
-        """What the stuck thrusters leave when they close, and by when they must: see `stabilab.burn`."""
-        return _public("burn")(self, **named)
 
     @property
     def plot(self) -> Plots:
@@ -69,9 +52,7 @@ class Questions:
 class BurningQuestions:
     """What a case whose thrusters fire on a schedule can be asked."""
 
-    def burn(self, **named: Any) -> Any:
-        """What the burn leaves, and by when it must close: see `stabilab.burn`."""
-        return _public("burn")(self, **named)
+    burn = _asked("burn", "What the burn leaves, and by when it must close")
 
     def simulate(self, times: Any = None, attitude: str | None = None) -> Any:
         """The motion at the given times, over all switches: see `stabilab.simulate`; attitude: as there."""
