@@ -17,12 +17,12 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from ..numbers.balls import many_digits
+from ..numbers.balls import MANY_BITS, working
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.principal import SLACK, principal_minors
 from ..numbers.vectors import CYCLE, Exact3, cross, dot
 from ..physics.coefficients import Content
-from ..physics.scene import euler_form
+from ..physics.scene import ZERO3, euler_form
 from .field_balance import Field, blocks, rotations_at
 from .field_states import around
 from .liquid import balanced_equilibria, damped_equilibria, liquid_equilibria
@@ -47,25 +47,27 @@ def resisted_equilibria(parts: Content) -> Equilibria:
     """All equilibria with resistance or a linear damper (and no liquid), each with its stability."""
     if not decay(parts):
         return _left_free(parts)
-    form, none = euler_form(parts.D, parts.Lambda, parts.M), Fraction(0)
+    form = euler_form(parts.D, parts.Lambda, parts.M)
     if not any(parts.M):
-        J = _jacobian(parts, form, (none,) * 3, Fraction(1))
-        rest = EquilibriumPoint((0.0,) * 3, _spectrum_of(J), "stable", "asymptotically stable",
-                                f"{GLOBAL}{RUBBED}" if parts.damped else REST)
-        return Equilibria("points", f"{RUBBED}, so only rest is an equilibrium" if parts.damped else
-                          "resistance without a torque: T' = -2 c T, so only rest is an equilibrium", (rest,))
+        return (_rest_alone(parts, RUBBED, f"{GLOBAL}{RUBBED}") if parts.damped
+                else _rest_alone(parts, "resistance without a torque: T' = -2 c T", REST))
     chosen = next((found for e in _axes(parts.D) if (found := elimination(parts, form, e)) is not None), None)
     if chosen is None:
         return Equilibria("undecided",
                           "undecided: on every axis the elimination meets a rate at which the other two are "
                           "not determined")
     numerators, q, P, e = chosen
-    points = []
-    for t in real_roots(P, BITS):
-        points.append(_point(parts, form, numerators, q, P, t))
+    points = [_point(parts, form, numerators, q, P, t) for t in real_roots(P, BITS)]
     reason = (f"omega{e + 1} determines the other two rates, and it is a root of a polynomial of degree "
               f"{P.degree} with exact coefficients, whose real roots are {len(points)} by Sturm's theorem")
     return Equilibria("points", reason, tuple(points))
+
+
+def _rest_alone(parts: Content, reason: str, because: str, linear: str = "stable") -> Equilibria:
+    """Those of a body whose motions all tend to rest."""
+    J = _jacobian(parts, euler_form(parts.D, parts.Lambda, parts.M), ZERO3, Fraction(1))
+    rest = EquilibriumPoint((0.0,) * 3, _spectrum_of(J), linear, "asymptotically stable", because)
+    return Equilibria("points", f"{reason}, so only rest is an equilibrium", (rest,))
 
 
 def _left_free(parts: Content) -> Equilibria:
@@ -73,12 +75,8 @@ def _left_free(parts: Content) -> Equilibria:
     axis = None if any(parts.M) else free_axis(parts)
     if axis is None or goes_on(parts, axis) != ():
         return Equilibria("undecided", PARTLY)
-    none = (Fraction(0),) * 3
-    J = _jacobian(parts, euler_form(parts.D, parts.Lambda, parts.M), none, Fraction(1))
-    linear = "stable" if any(cross(parts.Lambda, axis)) else "degenerate"
-    rest = EquilibriumPoint((0.0,) * 3, _spectrum_of(J), linear, "asymptotically stable",
-                            f"{GLOBAL}{DIES_OUT}")
-    return Equilibria("points", f"{DIES_OUT}, so only rest is an equilibrium", (rest,))
+    return _rest_alone(parts, DIES_OUT, f"{GLOBAL}{DIES_OUT}",
+                       "stable" if any(cross(parts.Lambda, axis)) else "degenerate")
 
 
 def free_axis(parts: Content) -> Exact3 | None:
@@ -280,7 +278,10 @@ def dissipative_equilibria(parts: Content) -> Equilibria:
     if not parts.c and not any(parts.M) and not parts.damped:
         return liquid_equilibria(parts)
     if not any(parts.M) and not any(parts.Lambda):
-        return _rest_with_liquid(parts)
+        takes = "T' <= -omega . R omega" if parts.damped else "T' <= -2 c T"
+        other = "so does what resists" if parts.damped else "the medium takes 2 c T"
+        return _rest_alone(parts, takes,
+                           f"{GLOBAL}{takes}, since the liquid only takes energy and {other}")
     return balanced_equilibria(parts)
 
 
@@ -302,19 +303,9 @@ def held_in_a_field(parts: Content) -> Equilibria:
     return rest_positions(parts)
 
 
-def _rest_with_liquid(parts: Content) -> Equilibria:
-    none = Fraction(0)
-    J = _jacobian(parts, euler_form(parts.D, parts.Lambda, parts.M), (none,) * 3, Fraction(1))
-    takes = "T' <= -omega . R omega" if parts.damped else "T' <= -2 c T"
-    rest = EquilibriumPoint((0.0,) * 3, _spectrum_of(J), "stable", "asymptotically stable",
-                            f"every motion tends to it: {takes}, since the liquid only takes energy and "
-                            f"{'so does what resists' if parts.damped else 'the medium takes 2 c T'}")
-    return Equilibria("points", f"{takes}, so only rest is an equilibrium", (rest,))
-
-
 def rest_positions(parts: Content) -> Equilibria:
     """Rest positions of a body in a field with a resisting medium: (omega, gamma) with omega = 0."""
-    with many_digits():
+    with working(MANY_BITS):
         field = Field.of(parts)
         found = [(rotation, _rest(parts, field, rotation)) for rotation in rotations_at(field, Fraction(0))]
     points = tuple(point for rotation, point in found if not rotation.circle)

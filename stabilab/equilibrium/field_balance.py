@@ -26,7 +26,7 @@ from typing import Any
 from flint import Ordering, acb, arb, fmpq, fmpq_mpoly_ctx, fmpq_poly
 
 from ..numbers.algebraic import univariate
-from ..numbers.balls import BITS, rational, working
+from ..numbers.balls import MANY_BITS, rational, working
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import Number, cross, dot
 from ..physics.coefficients import linear_rates
@@ -104,13 +104,9 @@ def coefficients(field: Field, Omega, mu, gamma, q=1):
     turn = [[x * 0, -z, y], [z, x * 0, -x], [-y, x, x * 0]]  # gamma x
     pairs = [(i, j) for i in range(3) for j in range(3)]
     square = sum((A[i][j] * A[j][i] + B[i][j] * turn[j][i] * 2 for i, j in pairs), x * 0)
-    a = Omega * Omega * q * q - square * _half()
+    a = Omega * Omega * q * q - square * fmpq(1, 2)
     determinant, _ = second_variation(field, Omega, mu, gamma, q)
     return a, determinant * (1 / (field.D[0] * field.D[1] * field.D[2]))
-
-
-def _half():
-    return fmpq(1, 2)
 
 
 @dataclass(frozen=True)
@@ -151,7 +147,7 @@ def rotations_at(field: Field, Omega: Fraction) -> list[Rotation]:
 def _directions(P, S, b, acting) -> list[Rotation]:
     """gamma_i = -b_i/(S_i - mu) at every real root mu of P, rising; with more digits where b is so small that
     S_i - mu has none left."""
-    for bits in (BITS, 4 * BITS, 16 * BITS):
+    for bits in (MANY_BITS, 4 * MANY_BITS, 16 * MANY_BITS):
         with working(bits):
             found = []
             for root in sorted((r.real for r, _ in P.numer().complex_roots() if r.imag == 0),
@@ -336,18 +332,14 @@ def _homogeneous(acting, n, b, one):
 
 def _even(f, r, square):
     """f with r^2 = square, times its mirror image in r: the same zeros, no r."""
-    return f.resultant(r * r - square, "r") if "r" in _used(f) else f
-
-
-def _used(f) -> set:
-    return {name for name, degree in zip(("mu", "r", "O"), f.degrees()) if degree > 0}
+    return f.resultant(r * r - square, "r") if f.degrees()[1] > 0 else f
 
 
 def _real_roots(f):
     """Real roots of a polynomial in Omega alone as fractions, rational ones exact; none for a constant or
     zero."""
     polynomial = univariate(f, 2)
-    return real_roots(Poly.of(polynomial), BITS) if polynomial.degree() > 0 else []
+    return real_roots(Poly.of(polynomial), MANY_BITS) if polynomial.degree() > 0 else []
 
 
 def separated(cuts) -> list[Fraction]:

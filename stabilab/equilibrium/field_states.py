@@ -36,7 +36,7 @@ from typing import Any
 from flint import arb, arb_mat
 
 from ..errors import InputError
-from ..numbers.balls import BITS, fraction, many_digits, rational
+from ..numbers.balls import MANY_BITS, fraction, rational, working
 from ..numbers.exact import sqrt_fraction
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import CYCLE, nearest_first
@@ -109,7 +109,7 @@ def _crossings(field: Field, parts: Content):
 def _same_stiffness(parts: Content, i: int, j: int) -> list[Fraction]:
     """Real roots of (Omega^2 - N)(D_i - D_j) - Omega E (i is axis 3, less j is axis 3)."""
     A, B = parts.D[i] - parts.D[j], -parts.E * ((i == 2) - (j == 2))
-    return real_roots(Poly((-parts.N * A, B, A)), BITS) if A else [Fraction(0)]
+    return real_roots(Poly((-parts.N * A, B, A)), MANY_BITS) if A else [Fraction(0)]
 
 
 def _symbolic_groups(parts: Content):
@@ -154,7 +154,7 @@ REASON = ("omega = Omega gamma, and (S - mu) gamma = -b with S = (Omega^2 - N) D
 def permanent_rotations(parts: Content) -> Equilibria:
     """Every permanent rotation as curves over Omega (rad/s, any sign; a point is omega, gamma), with spectrum
     and verdicts."""
-    with many_digits():
+    with working(MANY_BITS):
         field = Field.of(parts)
         cuts = separated(cuts_of(field))
         curves = tuple(_curve(field, number, branch, cuts)
@@ -253,7 +253,7 @@ def _at(field, branch, Omega: Fraction) -> EquilibriumPoint:
 def _point_function(field, branch):
     def point(t: float):
         Omega = Fraction(t)
-        with many_digits():
+        with working(MANY_BITS):
             for lo, hi, index in branch:
                 if (lo is None or lo < Omega) and (hi is None or Omega < hi):
                     gamma = rounded_gamma(rotations_at(field, Omega)[index])
@@ -393,7 +393,7 @@ def _steady_curve(parts, plane: Plane, lo, hi, side) -> EquilibriumCurve:
     """One side of the quadratic over one interval of tau."""
     j, k = CYCLE[plane.i]
     ends = _angle(lo, -1), _angle(hi, 1)
-    with many_digits():
+    with working(MANY_BITS):
         found = [_point(parts, plane, tau, side) for tau in _steady_samples(lo, hi)]
     samples = tuple(s for s in found if s is not None)
     words = {(s.linear, s.verdict, s.because) for s in samples}
@@ -407,7 +407,7 @@ def _steady_curve(parts, plane: Plane, lo, hi, side) -> EquilibriumCurve:
     def point(t: float):
         if not ends[0] < t < ends[1]:
             raise InputError(f"t = {t!r} lies at an end of this curve of steady states or outside it")
-        with many_digits():
+        with working(MANY_BITS):
             Omega, gamma = _state(plane, Fraction(tan(t / 2)), side)
             return tuple(float(v.mid()) for v in (*(Omega * g for g in gamma), *gamma))
     which = "lesser" if side < 0 else "greater"

@@ -362,11 +362,6 @@ def torque_free_curves(p: Pencil) -> tuple[list[RationalCurve], list[Equilibrium
     return [_main_curve(p), *axes], planes
 
 
-def _projection(p: Pencil, d: Fraction) -> bool:
-    """Whether lambda has a part in the eigenspace of d."""
-    return any(l for l, m in zip(p.lam, p.D) if m == d)
-
-
 def _line_sign(p: Pencil, i: int) -> int:
     """Sign of m on the line y_i arbitrary, s = D_i, away from the crossing: that of (D_j - D_i)(D_k - D_i) up
     to the sign that the change of variables x -> y carries."""
@@ -429,7 +424,8 @@ def _along_lambda(p: Pencil, support: list[int]) -> RationalCurve:
 
 def plane_moments(p: Pencil) -> list[Fraction]:
     """The moments that two axes share and that carry no gyrostatic moment: a plane of equilibria each."""
-    return [d for d in sorted(set(p.D)) if p.D.count(d) == 2 and not _projection(p, d)]
+    return [d for d in sorted(set(p.D))
+            if p.D.count(d) == 2 and not any(l for l, m in zip(p.lam, p.D) if m == d)]
 
 
 def plane_of_equal_moments(p: Pencil, d: Fraction) -> tuple[int, int, int, Exact3]:
@@ -468,7 +464,7 @@ def _plane(p: Pencil, d: Fraction) -> EquilibriumCurve:
         f"plane {names[k]} = {decimal(height)}",
         f"{names[k]} = {decimal(height)}, {names[i]} and {names[j]} arbitrary",
         f"{names[i]} = t, {names[j]} = 0, {names[k]} = {decimal(height)} and its turns about axis {k + 1}",
-        curve.float_point(), segments, (middle.at,), (*outer, middle))
+        curve.rounded_point, segments, (middle.at,), (*outer, middle))
 
 
 def twin_equilibria(parts: Content) -> Equilibria:

@@ -34,7 +34,7 @@ from typing import Any
 
 from flint import Ordering, arb, arb_mat, fmpq_mpoly_ctx
 
-from ..numbers.balls import evaluated, fraction, many_digits, rational
+from ..numbers.balls import MANY_BITS, evaluated, fraction, rational, working
 from ..numbers.exact import sqrt_fraction
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import CYCLE, cross, dot
@@ -324,7 +324,7 @@ def _region(parts: Content):
 def _point(parts: Content, torques, x) -> EquilibriumPoint:
     """Spectrum and verdict at a proved zero, sharpened to some fifty digits and enclosed in balls."""
     import numpy as np
-    with many_digits():
+    with working(MANY_BITS):
         ball = _enclosed(torques, x)
         J = arb_mat([[evaluated(f, ball) / rational(d) for f in row]
                      for row, d in zip(_slopes(torques), parts.D)])

@@ -118,11 +118,14 @@ class RationalCurve:
         bottom = self.denominator(t)
         return tuple(n(t) / bottom for n in self.numerators)
 
-    def float_point(self) -> Callable[[float], Float3]:
-        """point(t) for a float t, each coordinate rounded once; InputError at a pole or a t that is not
+    def rounded_point(self, t: float) -> Float3:
+        """The equilibrium at a float t, each coordinate rounded once; InputError at a pole or a t that is not
         finite."""
-        # a method of its own, unlike a function made here, can be sent to another process
-        return self._rounded_point
+        try:
+            return tuple(float(v) for v in self.exact_point(Fraction(t)))
+        except (ZeroDivisionError, OverflowError, ValueError):
+            raise InputError(
+                f"t = {t!r} lies at an end of the curve ({self.name}): no equilibrium there") from None
 
     def cut(self, cuts: Sequence[Fraction], segment: Callable[..., Any],
             fold: Callable[..., EquilibriumPoint]) -> EquilibriumCurve:
@@ -136,16 +139,9 @@ class RationalCurve:
                 folds.append(fold(t, before, after))
                 samples.append(folds[-1])
             samples += points
-        return EquilibriumCurve(self.name, self.equation, self.parametrisation, self.float_point(),
+        return EquilibriumCurve(self.name, self.equation, self.parametrisation, self.rounded_point,
                                 tuple(s for s, _ in pieces), tuple(point.at for point in folds),
                                 tuple(samples))
-
-    def _rounded_point(self, t: float) -> Float3:
-        try:
-            return tuple(float(v) for v in self.exact_point(Fraction(t)))
-        except (ZeroDivisionError, OverflowError, ValueError):
-            raise InputError(
-                f"t = {t!r} lies at an end of the curve ({self.name}): no equilibrium there") from None
 
 
 def straight_line(start: Sequence[Fraction], direction: Sequence[Fraction]) -> tuple[Poly, ...]:

@@ -13,7 +13,7 @@ and that is tried exactly.
 """
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
@@ -28,7 +28,7 @@ Element: TypeAlias = Any  # a polynomial of the algebraic number, over the ratio
 FieldPoly: TypeAlias = list[Any]  # of fmpq_poly
 Powers: TypeAlias = list[tuple[Any, int]]  # (square-free FieldPoly, how often it counts)
 
-FIRST = 1 << 61  # they are below
+FIRST = 1 << 61  # the primes are below
 
 
 def field_gcd(number: fmpq_poly, f: FieldPoly, g: FieldPoly) -> FieldPoly:
@@ -36,7 +36,7 @@ def field_gcd(number: fmpq_poly, f: FieldPoly, g: FieldPoly) -> FieldPoly:
     it."""
     whole = [int(c) for c in number.numer().coeffs()]
     size, product, found, tried = 0, 1, [[0]], 1
-    for prime in _primes():
+    for prime in (at for at in range(FIRST - 1, 1, -2) if fmpz(at).is_prime()):
         image = _image(whole, prime, f, g)
         if image is None or (size and len(image) > size):
             continue
@@ -56,10 +56,6 @@ def field_gcd(number: fmpq_poly, f: FieldPoly, g: FieldPoly) -> FieldPoly:
             if made is not None and not any(divided(number, h, made)[1] for h in (f, g)):
                 return made
     raise AssertionError  # there are always more primes
-
-
-def _primes() -> Iterator[int]:
-    return (at for at in range(FIRST - 1, 1, -2) if fmpz(at).is_prime())
 
 
 def _image(whole: list[int], prime: int, f: list[fmpq_poly], g: list[fmpq_poly]) -> list[nmod_poly] | None:

@@ -6,7 +6,7 @@ that the balls leave open raises `Unclear`, and `settled` asks it again with twi
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from threading import RLock
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 DOUBLE_BITS = 53
+MANY_BITS = 320  # of what is formed with many digits to spare
 FIRST_BITS = 64  # of a first try, which settles ordinary motions
 START_BITS = 128
 PARTED_BITS = 1 << 14  # of a place between two roots: for any of numbers that are doubles
@@ -269,14 +270,6 @@ def sign(number: Number) -> int:
     if number.is_zero():
         return 0
     raise Unclear
-
-BITS = 320
-
-
-def many_digits() -> AbstractContextManager[Digits]:
-    """Context in which flint works with `BITS` bits."""
-    return working(BITS)
-
 
 def polynomial(*coefficients: Number) -> fmpq_poly:
     """flint's polynomial with these rational coefficients, lowest power first."""

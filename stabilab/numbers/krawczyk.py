@@ -136,8 +136,6 @@ def _inverses(J: np.ndarray) -> np.ndarray:
 
 
 def _halved(m: np.ndarray, h: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    if not len(m):
-        return m, h
     side = h.argmax(axis=1)
     step = np.zeros_like(h)
     rows = np.arange(len(m))

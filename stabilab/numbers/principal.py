@@ -125,11 +125,6 @@ def fault_of(rows: Rows) -> str | None:
     return None
 
 
-def _shifted(m: Rows, shift: Fraction) -> Rows:
-    """m - shift I."""
-    return tuple(tuple(v - (shift if i == j else 0) for j, v in enumerate(row)) for i, row in enumerate(m))
-
-
 def _characteristic(m: Rows) -> Poly:
     from flint import fmpq_mat
     return Poly.of(fmpq_mat([[rational(v) for v in row] for row in m]).charpoly())
@@ -196,7 +191,7 @@ def _rounded(numbers: Sequence[Fraction], bits: int) -> Triple:
 def _column(m: Rows, moment: Fraction) -> Triple:
     """The direction that (m - moment I) leaves out: the largest column of its adjugate; zero where two
     moments are alike."""
-    a = _shifted(m, moment)
+    a = [[v - (i == j) * moment for j, v in enumerate(row)] for i, row in enumerate(m)]
     adjugate = [cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])]  # symmetric
     return adjugate[max(range(3), key=lambda i: abs(adjugate[i][i]))]
 
@@ -249,10 +244,6 @@ def _error(m: Rows, values: Sequence[Fraction], axes: Sequence[Triple]) -> Fract
         if rest and not min(gaps, default=scale) > 8 * rest:
             return None
         worst = max(worst, abs(dot(axis, axis) - 1), 2 * rest / scale, 4 * rest / min(gaps, default=scale))
-    return _rounded_up(worst)
-
-
-def _rounded_up(value: Fraction) -> Fraction:
-    return (Fraction(0) if not value
-            else Fraction(1, 1 << max(0, value.denominator.bit_length() - value.numerator.bit_length() - 1)))
+    places = worst.denominator.bit_length() - worst.numerator.bit_length() - 1
+    return worst and Fraction(1, 1 << max(0, places))  # rounded up to a power of two
 

@@ -86,13 +86,9 @@ def along_curve(satellite: Satellite, common: fmpq_mpoly, matrix: Matrix) -> Ite
                        for root, _ in real_roots_of(c))
         ends = [found[0] - 1, *found, found[-1] + 1] if found else [Fraction(-1), Fraction(1)]
         for low, high in zip(ends, ends[1:]):
-            u = rational(_short((low + high) / 2))
+            u = rational(((low + high) / 2).limit_denominator(1000))
             for piece, _ in fmpq_poly([univariate(c)(u) for c in coefficients(factor, 1)]).factor()[1]:
                 X = tuple(v % piece for v in plane_of(matrix, fmpq_poly([u]), fmpq_poly([0, 1])))
                 line = line_through(satellite, Algebraic(piece, 0), X)
                 if line is not None and line.roots(START_BITS):
                     yield Family(line, None, "one of a curve of equilibria that is no turn about an axis")
-
-
-def _short(value: Fraction) -> Fraction:
-    return value.limit_denominator(1000)

@@ -26,7 +26,7 @@ from typing import NamedTuple
 
 from flint import arb, fmpq_poly
 
-from ...numbers.balls import START_BITS, Digits, Unclear, rational, settled
+from ...numbers.balls import START_BITS, Digits, Unclear, rational, settled, sign
 from ...numbers.vectors import CYCLE, Number, Triple, dot
 from ...physics.circular_orbit import Satellite
 from .elimination import Line
@@ -129,14 +129,8 @@ def signs_at(satellite: Satellite, line: Line, index: int, family: bool = False)
                 raise Unclear  # more digits cost less than exact zeros
             vanishing.extend(_vanish(satellite, line, family))
         known = vanishing or [False] * len(values)
-        return Signs(*(0 if zero else _sign(arb(v)) for v, zero in zip(values, known)))
+        return Signs(*(0 if zero else sign(arb(v)) for v, zero in zip(values, known)))
     return settled(asked, 2 * START_BITS)
-
-
-def _sign(value: arb) -> int:
-    if value.contains(0):
-        raise Unclear
-    return 1 if value > 0 else -1
 
 
 def _vanish(satellite: Satellite, line: Line, family: bool) -> list[bool]:

@@ -17,7 +17,7 @@ from stabilab.answers.motion import motion
 from stabilab.answers.simulate import trajectory
 from stabilab.equilibrium.field_balance import Field, rotations_at
 from stabilab.errors import InputError
-from stabilab.numbers.balls import many_digits
+from stabilab.numbers.balls import MANY_BITS, working
 from stabilab.orbit.result import Fate
 from stabilab.physics.coefficients import content, rates
 from stabilab.physics.effects.charge import Charge
@@ -104,7 +104,7 @@ def by_groebner(scene, Omega):
 def test_each_rate_has_exactly_the_rotations_of_a_groebner_basis(name, values):
     field = Field.of(content(SCENES[name]))
     for value in map(Fraction, values):
-        with many_digits():
+        with working(MANY_BITS):
             count = len(rotations_at(field, value))
         assert count == by_groebner(SCENES[name], value)
 
@@ -115,7 +115,7 @@ def test_branches_hold_every_rotation_of_every_rate(name):
     field = Field.of(content(SCENES[name]))
     curves = [c for c in found(name).curves if c.name.startswith("branch")]
     for value in np.random.default_rng(5).normal(0, 4, 25):
-        with many_digits():
+        with working(MANY_BITS):
             wanted = sorted(tuple(float(g.mid()) for g in r.gamma)
                             for r in rotations_at(field, Fraction(value)))
         got = sorted(c.point(value)[3:] for c in curves if c.segments[0].t[0] < value < c.segments[-1].t[1])
