@@ -50,9 +50,10 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass
+from functools import reduce
 from operator import add
 
-from flint import acb
+from flint import acb, arb
 
 from .normal_form import MovingForm
 from .numbers import ball
@@ -389,10 +390,7 @@ class _Factors:
                 found.append((self.up**a if a > 0 else self.down**-a) * self.at(0, a + b) * Q / (self.q * n))
         if not found:
             raise Unsuited("a term of the amplitude's rate does not fall fast enough")
-        least = found[0]
-        for one in found[1:]:
-            least = least.min(one)
-        return least
+        return reduce(arb.min, found)
 
 
 def _turning(form, x):

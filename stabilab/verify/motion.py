@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
+from functools import partial, reduce
 
 from flint import arb, ctx
 
@@ -134,9 +134,7 @@ def _over(orbit, place) -> bool:
 
 def _turns_below(orbit, spots) -> int:
     """How many whole turns behind hold no barrier that reaches the energy, less one. spots: of the first."""
-    highest = orbit.excess(ball(0))
-    for spot in spots:
-        highest = highest.max(orbit.excess(spot))
+    highest = reduce(arb.max, map(orbit.excess, [ball(0), *spots]))
     if not highest < 0:
         return 0
     return max(int(below(-highest / (ball(abs(orbit.tilt)) * orbit.turn))) - 1, 0)
@@ -162,19 +160,13 @@ def _lowest(orbit, left, right):
     if orbit.kind < 0 and orbit.tilt:  # wells further back than one turn are higher
         turn = ball(orbit.past_a_turn)
         left, right = (left.max(right - turn), right) if orbit.tilt > 0 else (left, right.min(left + turn))
-    total = orbit.excess(ball(0))
-    for spot in orbit.spots(left, right):
-        total = total.min(orbit.excess(spot))
-    return total
+    return reduce(arb.min, map(orbit.excess, [ball(0), *orbit.spots(left, right)]))
 
 
 def _heights_round(orbit):
     """(greatest, least) U - E on the whole circle without torque."""
-    values = [orbit.excess(ball(0)), *map(orbit.excess, _ahead(orbit, 1))]
-    most = least = values[0]
-    for value in values[1:]:
-        most, least = most.max(value), least.min(value)
-    return most, least
+    values = [*map(orbit.excess, [ball(0), *_ahead(orbit, 1)])]
+    return reduce(arb.max, values), reduce(arb.min, values)
 
 
 def _ranges(orbit, left, right):
@@ -191,10 +183,7 @@ def _ranges(orbit, left, right):
                 if z.overlaps(end):
                     value = value.union(there)
             values.append(value)
-        least = most = values[0]
-        for value in values[1:]:
-            least, most = least.min(value), most.max(value)
-        out.append((least, most))
+        out.append((reduce(arb.min, values), reduce(arb.max, values)))
     return out
 
 
@@ -213,9 +202,7 @@ def _slowest_ahead(orbit, sense):
         behind = _behind(orbit, sense)
         low, high = (behind, ball(0)) if sense > 0 else (ball(0), behind)
         return -(-2 * _lowest(orbit, low, high)).sqrt()
-    slowest = ball(orbit.E)
-    for spot in _ahead(orbit, sense):
-        slowest = slowest.min(-orbit.excess(spot))
+    slowest = reduce(arb.min, (-orbit.excess(spot) for spot in _ahead(orbit, sense)), ball(orbit.E))
     return (2 * slowest).sqrt()
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from flint import arb, fmpq_poly
+from flint import arb, fmpq_mpoly, fmpq_poly
 
 from .numbers import Malformed, ball, field, hull, number, numbers, q, sign
 
@@ -69,7 +69,7 @@ class Rates:
 
     def _lifted(self, x):
         """The coefficients in the arithmetic of x."""
-        lift = q if isinstance(x[0], fmpq_poly) else ball if isinstance(x[0], arb) else Fraction
+        lift = q if isinstance(x[0], (fmpq_poly, fmpq_mpoly)) else ball if isinstance(x[0], arb) else Fraction
         return [[lift(v) for v in row] for row in (self.kappa, self.rho, self.sigma, self.m)]
 
 

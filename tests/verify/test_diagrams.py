@@ -14,10 +14,10 @@ from flint import fmpq_poly
 from stabilab.commands.maps import bifurcation as command
 from stabilab.errors import InputError
 from stabilab.verify import verify
-from stabilab.verify.diagram.check import Between, check_diagram
+from stabilab.verify.diagram.check import check_diagram
 from stabilab.verify.diagram.claims import claims_of
 from stabilab.verify.diagram.equations import System, count_at, critical
-from stabilab.verify.numbers import Malformed
+from stabilab.verify.numbers import Malformed, q
 from stabilab.verify.roots import MOST, Root, Work, roots
 from tests.shared import CASES
 from tests.verify.diagrams import certified, drawn, forgeries
@@ -189,7 +189,8 @@ def test_a_trace_form_counts_the_points_of_a_circle_on_a_line():
     p = lambda *c: fmpq_poly(list(c))
     system = System(2, [{(2, 0): p(1), (0, 2): p(1), (0, 0): p(-1)}, {(0, 1): p(1), (0, 0): p(0, -1)}],
                     [{(1, 0): p(1)}])
-    found = {t: count_at(system, Between(F(t), Work()), Work()) for t in (0, F(3, 5), 1, 2)}
+    found = {t: count_at(system, Root(fmpq_poly([-q(F(t)), 1]), F(t), F(t), Work()), Work())
+             for t in (0, F(3, 5), 1, 2)}
     assert [found[t].real for t in found] == [2, 2, 1, 0] and found[0].tests == ((0, True), )
     assert found[1].tests == ((0, False),)
     assert {(root.low, root.high) for root in roots(critical(system, Work()), F(-3), F(3),

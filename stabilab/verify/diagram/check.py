@@ -10,25 +10,9 @@ from typing import Any
 from flint import fmpq_poly
 
 from ..numbers import brief, exact_sign, q
-from ..roots import TOO_LARGE, Root, TooLarge, Work, roots, sign_at
+from ..roots import TOO_LARGE, Root, TooLarge, Work, roots
 from .claims import Claims, Event
 from .equations import Count, Equations, System, count_at, critical, in_unknowns
-
-
-class Between:
-    """A place between two zeros, or at an end of the range: a rational number."""
-
-    def __init__(self, at: Fraction, work: Work):
-        self.at, self.work = at, work
-
-    @property
-    def polynomial(self):
-        """t less this number."""
-        return fmpq_poly([q(-self.at), 1])
-
-    def sign(self, f) -> int:
-        """The sign of a polynomial there."""
-        return sign_at(f, self.at, self.work)
 
 
 @dataclass(frozen=True)
@@ -109,7 +93,9 @@ def _places(system: System, low: Fraction, high: Fraction, work: Work) -> list[P
     for first, second in zip(ends, ends[1:]):
         a, b = first.high if first else low, second.low if second else high
         if a < b:  # at an end of the range there may be none
-            out.append(Place(None, count_at(system, Between((a + b) / 2, work), work)))
+            between = (a + b) / 2
+            at = Root(fmpq_poly([q(-between), 1]), between, between, work)
+            out.append(Place(None, count_at(system, at, work)))
         if second:
             out.append(Place(second, count_at(system, second, work)))
     return out

@@ -14,7 +14,7 @@ from typing import Any
 from flint import fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
 from ..rates import AHEAD, written_out
-from ..roots import Work
+from ..roots import Root, Work
 from .algebra import Basis, Polynomial, Ratio, Residue, characteristic, rank_and_signature
 from .claims import Claims
 
@@ -137,8 +137,8 @@ class Count:
     tests: tuple[tuple[int, bool], ...] = ()
 
 
-def count_at(system: System, place: Any, work: Work) -> Count:
-    """At a place with a `polynomial` of which it is a zero and a `sign` of others there."""
+def count_at(system: System, place: Root, work: Work) -> Count:
+    """At a zero of a polynomial."""
     at = place.polynomial
     if system.endless is not None and system.endless % at == 0:
         return Count(None)
