@@ -177,7 +177,7 @@ def load(given: Any, state: Any = None, span: Any = None) -> Case:
     as mu (and the scaling is defined); else physical. Decimals are read exactly, the motion is rounded once.
     """
     if hasattr(given, "quadratic"):
-        return _made("scene", data_of_scene(given, state, checked_span(span)))
+        return _built("scene", *_tables("scene", data_of_scene(given, state, checked_span(span))))
     if state is not None or span is not None:
         raise InputError("load: state and span are those of a scene; a case or a file has its own [motion]")
     if isinstance(given, Case):
@@ -186,19 +186,7 @@ def load(given: Any, state: Any = None, span: Any = None) -> Case:
         raise InputError("load: expected a case whose torque never changes; thrusters of this one fire on a "
                          "schedule: ask its burn, simulate or when, or write stuck = true in place of "
                          "start, stop and the other keys of the schedule")
-    if isinstance(given, Mapping):
-        return _made("dict", plain(given))
-    if isinstance(given, str) and "\n" in given:
-        return read_text("text", given)
-    if not isinstance(given, (str, os.PathLike)):
-        raise InputError(f"load: expected a case: the path of a case file, its text, a dict, or a scene; got "
-                         f"{came(given)}")
-    return _built(*_read(given))
-
-
-def _made(path: str, data: dict) -> Case:
-    """The case of tables that stand in no file."""
-    return _built(path, *_tables(path, data))
+    return _built(*_stated(given, "load", "its text, a dict, or a scene"))
 
 
 def _tables(path: str, data: dict) -> tuple[str, dict, Faults]:
@@ -257,7 +245,7 @@ def _from_start(thruster: Any) -> Any:
     return {key: value for key, value in thruster.items() if key != "stuck"} | {"start": 0}
 
 
-def _stated(given: Any, name: str) -> tuple[Any, str, dict, Faults]:
+def _stated(given: Any, name: str, others: str = "its text, or a dict") -> tuple[Any, str, dict, Faults]:
     """(path, text, data, faults) of a case, the path of a file, a text of several lines or a dict."""
     if isinstance(given, Mapping):
         return "dict", *_tables("dict", plain(given))
@@ -268,8 +256,7 @@ def _stated(given: Any, name: str) -> tuple[Any, str, dict, Faults]:
     elif isinstance(given, (str, os.PathLike)):
         return _read(given)
     else:
-        raise InputError(f"{name}: expected a case: the path of a case file, its text, or a dict; got "
-                         f"{came(given)}")
+        raise InputError(f"{name}: expected a case: the path of a case file, {others}; got {came(given)}")
     return path, text, *parsed(path, text)
 
 
@@ -349,8 +336,7 @@ def _swept(sweep, suffix) -> tuple:
 
 def read_text(path, text: str) -> Case:
     """The case in a text that is not a file yet; `path` is named in its faults."""
-    path = os.fspath(path)
-    return _built(path, text, *parsed(path, text))
+    return _built(path := os.fspath(path), text, *parsed(path, text))
 
 
 def with_data(path, text: str, data: dict) -> Case:

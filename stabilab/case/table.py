@@ -387,10 +387,6 @@ def _extremes(table: Table, key: str):
     return [[_float(table, v, key) for v in pair] for pair in value]
 
 
-def _period(table: Table, key: str):
-    return _float(table, table.data[key], key)
-
-
 def _float(table: Table, value, key: str) -> float | None:
     """A number, or inf; a string is read as an exact number."""
     if isinstance(value, Written) and value.lstrip("+-") == "inf":
@@ -400,4 +396,5 @@ def _float(table: Table, value, key: str) -> float | None:
 
 
 READERS = {"kind": _word(KINDS), "points": _whole(0, 10**6), "fate": _word(FATES), "axis": _whole(1, 3),
-           "verdicts": _verdicts, "extremes": _extremes, "period": _period}
+           "verdicts": _verdicts, "extremes": _extremes,
+           "period": lambda table, key: _float(table, table.data[key], key)}

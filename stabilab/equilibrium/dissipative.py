@@ -114,11 +114,8 @@ def minors(rows):
 
 def _jacobian(parts: Content, form, x, q):
     """Rows of q times the derivative of omega' at omega = x/q, in any numbers."""
-    rows = [[-q * (v / d) for v in row] for row, d in zip(parts.drag, parts.D)]
-    for i, (j, k) in enumerate(CYCLE):
-        rows[i][j] += form.kappa[i] * x[k] + form.sigma[i] * q
-        rows[i][k] += form.kappa[i] * x[j] + form.rho[i] * q
-    return rows
+    return [[free - q * (v / d) for free, v in zip(rates, row)]
+            for rates, row, d in zip(form.jacobian(x, q), parts.drag, parts.D)]
 
 
 def _spectrum_of(J):

@@ -102,13 +102,9 @@ def invariants(form: QuadraticForm, x: Sequence[Number], w: Number = 1) -> tuple
     form: QuadraticForm. x, w: rationals, surds of one root, or polynomials (a rational curve, w its
     denominator).
     """
-    k, r, s = form.kappa, form.rho, form.sigma
-    j12, j13 = k[0] * x[2] + s[0] * w, k[0] * x[1] + r[0] * w
-    j23, j21 = k[1] * x[0] + s[1] * w, k[1] * x[2] + r[1] * w
-    j31, j32 = k[2] * x[1] + s[2] * w, k[2] * x[0] + r[2] * w
-    m = -(j12 * j21 + j13 * j31 + j23 * j32)
-    n = -(j12 * j23 * j31 + j13 * j21 * j32)
-    return m, n
+    J = form.jacobian(x, w)
+    return (-(J[0][1] * J[1][0] + J[0][2] * J[2][0] + J[1][2] * J[2][1]),
+            -(J[0][1] * J[1][2] * J[2][0] + J[0][2] * J[1][0] * J[2][1]))
 
 
 def eigenvalues(m: Fraction, n: Fraction, shift: Fraction = Fraction(0)) -> tuple[complex, ...]:

@@ -23,7 +23,7 @@ from ..errors import InputError
 from ..numbers.exact import exact, exact_vector, floats, sqrt_fraction
 from ..numbers.principal import PrincipalAxes, evened, principal_axes, without_trace
 from ..numbers.units import INERTIA, MASS, RATE, half_digit, in_si, vector_in_si
-from ..numbers.vectors import CYCLE, Exact3, Float3, Given, Number, Triple, dot
+from ..numbers.vectors import CYCLE, Exact3, Float3, Given, Number, Triple, cross, dot
 from ..validation import Asked
 from .effects.base import Effect, effect_words
 
@@ -209,15 +209,15 @@ class QuadraticForm:
         return [kappa[i] * x[j] * x[k] + rho[i] * x[k] + sigma[i] * x[j] + m[i] for i,
                 (j, k) in enumerate(CYCLE)]
 
-    def jacobian(self, x: Sequence[Number]) -> list[list[Number]]:
-        """3 x 3 nested list: derivative of rate i by component; entries of the type of x."""
+    def jacobian(self, x: Sequence[Number], w: Number = 1) -> list[list[Number]]:
+        """3 x 3 nested list: derivative of rate i by component at x/w, times w; entries of the type of x."""
         kappa, rho, sigma, _ = (self.coefficients if isinstance(x[0], float)
                                 else (self.kappa, self.rho, self.sigma, 0))
         rows = []
         for i, (j, k) in enumerate(CYCLE):
             row = [x[0] * 0] * 3
-            row[j] = kappa[i] * x[k] + sigma[i]
-            row[k] = kappa[i] * x[j] + rho[i]
+            row[j] = kappa[i] * x[k] + sigma[i] * w
+            row[k] = kappa[i] * x[j] + rho[i] * w
             rows.append(row)
         return rows
 
@@ -442,10 +442,9 @@ def aligned(scene: AnyScene) -> Turn | None:
     across = [Fraction(0)] * 3
     size = sqrt_fraction(unit[i] ** 2 + unit[j] ** 2)
     across[i], across[j] = -unit[j] / size, unit[i] / size
-    third = [unit[1] * across[2] - unit[2] * across[1], unit[2] * across[0] - unit[0] * across[2],
-             unit[0] * across[1] - unit[1] * across[0]]
+    third = cross(unit, across)
     even = (i, j, 3 - i - j) in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
-    rows = {i: unit, j: across, 3 - i - j: third if even else [-v for v in third]}
+    rows = {i: unit, j: across, 3 - i - j: [*third] if even else [-v for v in third]}
     rotation = [rows[n] for n in range(3)]
     turned = [dot(row, lam) for row in rotation]
     if sum(m * v for m, v in zip(M, lam)) == 0:
