@@ -198,16 +198,17 @@ class Limits:
 
 def thrusters_of(top: Table, centre: Exact3 | None) -> tuple[Thruster, ...]:
     """Those without a fault."""
-    found = [_thruster(table, f"thruster {i}", centre or ZERO3) for i,
-             table in enumerate(top.tables("thrusters"), 1)]
-    _told_apart(top, "thrusters", THRUSTER)
+    tables = top.tables("thrusters")
+    found = [_thruster(table, f"thruster {i}", centre or ZERO3) for i, table in enumerate(tables, 1)]
+    _told_apart(tables, "thrusters", THRUSTER)
     return tuple(one for one in found if one)
 
 
 def wheels_of(top: Table) -> tuple[Wheel, ...]:
     """Those without a fault."""
-    found = [_wheel(table, f"wheel {i}") for i, table in enumerate(top.tables("wheels"), 1)]
-    _told_apart(top, "wheels", WHEEL)
+    tables = top.tables("wheels")
+    found = [_wheel(table, f"wheel {i}") for i, table in enumerate(tables, 1)]
+    _told_apart(tables, "wheels", WHEEL)
     return tuple(one for one in found if one)
 
 
@@ -251,20 +252,17 @@ def _too_low(table: Table, which: str, limit, now, degrees, *place):
         f"start slower", *place)
 
 
-def _told_apart(top: Table, key: str, allowed):
+def _told_apart(tables: list[Table], key: str, allowed):
     """Note what is no key, and names that two of them share."""
-    first = {}
-    for table in top.tables(key) if isinstance(top.data.get(key),
-                                               list) and all(isinstance(t, dict)
-                                                             for t in top.data[key]) else ():
+    seen = set()
+    for table in tables:
         table.known(allowed)
         name = table.data.get("name")
-        if isinstance(name, str) and name in first:
+        if isinstance(name, str) and name in seen:
             table.fault(
                 f"two {key} have the name {described(name).removeprefix('the text ')}: give each its own",
                 "name")
-        elif isinstance(name, str):
-            first[name] = table
+        seen |= {name} if isinstance(name, str) else set()
 
 
 def _name(table: Table, otherwise: str) -> str:

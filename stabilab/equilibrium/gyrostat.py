@@ -1,24 +1,18 @@
-"""All equilibria of a body with a gyrostatic moment under a constant torque, in closed form.
+"""All equilibria of a body with a gyrostatic moment under a constant torque, in closed form. Source: derived
+here (docs/mathematics/equilibria.md, docs/mathematics/stability.md); Amer et al. 2024 treats lambda along
+axis 1 and torques on one axis.
 
 At an equilibrium (D y + lambda) x y + M = 0; dotting with y and with D y + lambda gives M.y = 0 and M.(D y +
 lambda) = 0, two linear conditions, and what is left is at most one quadratic. Existence (parallel vectors,
 signs of discriminants, conics that fall apart into lines) is decided with exact rationals; coordinates are
-rounded once. Source: derived here; Amer et al. 2024 treats lambda along axis 1 and torques on one axis.
+rounded once.
 
-A torque off every eigenvector of the inertia: none, one, two, or a whole line. M.y = 0 and M.(D y + lambda) =
-0 are two planes that meet in a line y0 + t v, v = M x D M. There (D y + lambda) x y is parallel to M, so one
-quadratic remains:
+A torque off every eigenvector of the inertia: none, one, two, or a whole line. The two conditions are planes
+that meet in a line y0 + t v, v = M x D M, on which q(t) = det(D y + lambda, y, M)/M.M + 1 = 0 remains.
 
-    q(t) = det(D y + lambda, y, M)/M.M + 1 = q2 t^2 + q1 t + q0,   q2 = det(M, D M, D^2 M) up to a positive
-    factor.
-
-q2 vanishes where a component of M does or two moments are equal. All of q vanishes where lambda = (D_v - D)
-y0 + l v, with D v = D_v v and M = l y0 x v: then D y + lambda = D_v y + l v, and the balance holds for every
-rate t about v.
-
-A torque along an eigenvector of the inertia: a conic in the plane across it. With D M = d M the two
-conditions M.y = 0 and M.(D y + lambda) = 0 are one plane if lambda.M = 0 and contradict each other otherwise.
-In the plane, with orthogonal eigenvectors P, Q of D (P x Q = w M), y = alpha P + beta Q:
+A torque along an eigenvector of the inertia, D M = d M: the two conditions are one plane if lambda.M = 0 and
+contradict each other otherwise. With orthogonal eigenvectors P, Q of D in it (P x Q = w M), y = alpha P +
+beta Q:
 
     (d_P - d_Q) alpha beta + l_P beta - l_Q alpha + 1/w = 0,   l_P = lambda.P/P.P,  l_Q = lambda.Q/Q.Q,
 
@@ -26,18 +20,10 @@ a hyperbola; two crossing lines where it passes through its own centre; one line
 lambda, or nothing, where d_P = d_Q. A torque oblique in a plane of equal moments is as good as one on a
 principal axis.
 
-On the conic the reduced potential has U' = 0 and U'' = m, and (alpha, invariant of the flow, rate about M)
-are coordinates near every equilibrium: so its centres are stable (docs/mathematics/equilibria.md,
-docs/mathematics/stability.md).
-
-Without a torque: momentum parallel to rotation, D y + lambda = s y. The curve y(s) = lambda/(s - D) between
-its poles, through y = 0 at s = infinity and, for each D_i with lambda_i = 0, a line y_i arbitrary at s = D_i.
-With s = D_p + 1/t for one axis p that carries lambda the curve is rational and whole: t = 0 is rest, and t =
-infinity is the pole at D_p. lambda = 0: the principal axes, planes for equal moments, everything for a
-sphere.
-
-Stable exactly where m > 0, by energy and Casimir; where a line meets the curve in a pitchfork, exactly where
-m > 0 on the rest of the line (proofs: docs/mathematics/stability.md).
+Without a torque: momentum parallel to rotation, D y + lambda = s y: the curve y(s) = lambda/(s - D) between
+its poles and, for each D_i with lambda_i = 0, a line y_i arbitrary at s = D_i. With s = D_p + 1/t for one
+axis p that carries lambda the curve is rational and whole. lambda = 0: the principal axes, planes for equal
+moments, everything for a sphere.
 """
 from __future__ import annotations
 

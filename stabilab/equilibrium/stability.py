@@ -1,4 +1,5 @@
-"""The balance of torques at an equilibrium of a gyrostat, and its spectrum and stability.
+"""The balance of torques at an equilibrium of a gyrostat, and its spectrum and stability (proofs:
+docs/mathematics/stability.md).
 
 Euler's equations D w' = H x w + M and the scaled system x' = h x g + mu (with g = (x1+a, x2, 0), h = (x1+b,
 0, -x3)) have one form. Replacing g by g + h leaves g x h alone and turns the scaled system, for every a and
@@ -9,15 +10,10 @@ b, into
 
 So the equilibria of both are those of one Euler balance, with exact coefficients; D need not be positive.
 
-The characteristic polynomial is z^3 + m z + n: the trace of the Jacobian is 0, so the three eigenvalues sum
-to zero. n != 0: one eigenvalue has a positive real part. Unstable, always. n = 0, m < 0: the eigenvalue
-sqrt(-m) > 0. Unstable. n = 0, m > 0: a linear centre 0, +-i sqrt(m); the nonlinear verdict comes from the
-curve the point lies on. n = 0, m = 0: degenerate; a higher term decides, where one can be proved to. Signs of
-m and n are those of rationals or of p + q sqrt(d), never of rounded numbers.
-
-A zero of m on a regular curve of equilibria that is the critical set of a one-degree-of-freedom potential:
-one of odd order is unstable, one of even order stable where m > 0 on both sides and unstable where m < 0.
-Proofs: docs/mathematics/stability.md.
+The characteristic polynomial is z^3 + m z + n. Signs of m and n are those of rationals or of p + q sqrt(d),
+never of rounded numbers. A zero of m on a regular curve of equilibria that is the critical set of a
+one-degree-of-freedom potential: one of odd order is unstable, one of even order stable where m > 0 on both
+sides and unstable where m < 0.
 """
 from __future__ import annotations
 

@@ -99,6 +99,7 @@ ORDER = 14
 SHARE = 1e-8  # of the size of the state: the last term of a step
 STEPS = 120    # of a motion at most; a revolution takes some five
 INSIDE = 12     # points a step
+SEEN = 1e-3    # of the largest rate: what is seen in a picture
 # shares by which the components of a start are moved: it leaves every plane through two of them
 APART = (1, 2, 3)
 # of the largest value: what may still exceed it between two points; golden sections for that
@@ -135,13 +136,12 @@ def followed(form: QuadraticForm, start: tuple[float, ...], until: float, steps:
     return times, states
 
 
-def largest(form: QuadraticForm, start: tuple[float, ...], until: float,
-            steps: int = 4 * STEPS) -> float | None:
-    """The largest |x| of a motion that repeats after `until`, to some eight digits; None where so many steps
-    do not come back to its start."""
+def largest(form: QuadraticForm, start: tuple[float, ...], until: float) -> float | None:
+    """The largest |x| of a motion that repeats after `until`, to some eight digits; None where 4 STEPS do not
+    come back to its start."""
     t, x = 0.0, tuple(map(float, start))
     best, size = math.hypot(*x), max(map(abs, x)) or max(map(abs, form.coefficients[3]))
-    for _ in range(steps):
+    for _ in range(4 * STEPS):
         series = coefficients(form, x)
         if not all(map(math.isfinite, (c for one in series for c in one))):
             return None
@@ -164,13 +164,13 @@ def _size(series: list[list[float]], share: float, sign: float = 1.0) -> float:
     return sign * math.hypot(*(summed(one, share) for one in series))
 
 
-def parting(form: QuadraticForm, path: Path, share: float = SHARE, seen: float = 1e-3) -> int:
+def parting(form: QuadraticForm, path: Path) -> int:
     """How many of the first points of a path (of `followed`) lie where they are seen to lie, whatever its
-    steps left: so many steps of the motion whose start is moved by `share` end within `seen` of the path's,
+    steps left: so many steps of the motion whose start is moved by SHARE end within SEEN of the path's,
     of the largest rate. A zero stays: what holds a rate at zero holds it in floats too."""
     times, states = path
-    width = seen * max(abs(v) for x in states for v in x)
-    x = tuple(v * (1 + n * share) for v, n in zip(states[0], APART))
+    width = SEEN * max(abs(v) for x in states for v in x)
+    x = tuple(v * (1 + n * SHARE) for v, n in zip(states[0], APART))
     for end in range(INSIDE, len(times), INSIDE):
         h = times[end] - times[end - INSIDE]
         x = tuple(summed(one, h) for one in coefficients(form, x))

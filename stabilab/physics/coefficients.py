@@ -346,12 +346,11 @@ def scaling(body: Body, u: Fraction) -> Scaling:
     return Scaling(tuple(sqrt_fraction(u * k) for k in (k1, k2, k3)), 1 / sqrt_fraction(u * k1 * k2 * k3), u)
 
 
-def torque_from_mu(body: Body, mu: Sequence[Number], u: Fraction = Fraction(1)) -> Exact3:
-    """M (N m), exact to 240 bits, from the dimensionless torque; u = 1 is the paper's choice."""
+def torque_from_mu(body: Body, mu: Sequence[Number]) -> Exact3:
+    """M (N m), exact to 240 bits, from the dimensionless torque for u = 1, the paper's choice."""
     ks = shape_factors(body)
     k = ks[0] * ks[1] * ks[2]
-    return tuple(d * u * sqrt_fraction(k * kj) * m for d, kj,
-                 m in zip(body.exact, ks, exact_vector(mu, "mu")))
+    return tuple(d * sqrt_fraction(k * kj) * m for d, kj, m in zip(body.exact, ks, exact_vector(mu, "mu")))
 
 
 def to_scaled(scene: Scene, mu: Sequence[Number] | None = None) -> tuple[ScaledGyrostat, Scaling]:

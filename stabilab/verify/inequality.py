@@ -1,4 +1,5 @@
-"""The inequality of spin-up, about a fixed and about a moving centre: true at one time, it is true for ever.
+"""The inequality of spin-up, about a fixed and about a moving centre: true at one time, it is true for ever
+(proof: docs/mathematics/spin-up.md).
 
 About a fixed centre. In the normal form (`normal_form`), let M > 0. Energy and amplitude are corrected by
 terms c zeta^j zeta*^k X^-n: adding -c/(i om (j - k)) zeta^j zeta*^k X^-(n+1) takes an oscillating term (j !=
@@ -15,10 +16,8 @@ A^(j+k) z^(1-n)/(n - 1) over what is left of B'. If
     X > z, |zeta| < A,    Y > z^2/2 + e,    eta = M - (max(0, -m) + k)/z > 0,    [B + b + r/eta]/(1 + min(0,
     m)/(M z)) < A^2
 
-at one time, then as long as |zeta| < A and X > z: Y' > 0, so y = sqrt(2 (Y - e)) <= X stays above z and y y'
-= Y' >= M y - max(0, -m) - k gives X >= y >= z + eta t; so the integral of X^-n is at most z^(1-n)/(eta (n -
-1)), and |zeta|^2 stays below A^2 with the margin it began with. So both hold for ever, and X grows at least
-at the rate eta.
+at one time, then for ever, and X grows at least at the rate eta: while it holds Y' > 0, and y = sqrt(2 (Y -
+e)) <= X has y y' = Y' >= M y - max(0, -m) - k.
 
 About a moving centre. In the form of `moving_form` let M > 0, z such that P, Q > 0 from z on, and Om = sqrt(P
 Q), which rises and is concave there, as P and Q do not fall and are linear. By adding -c/(i (j - k)) zeta^j
@@ -35,16 +34,11 @@ vanishes (`moving_form`), is
 
 where g Im zeta^2 r Re zeta^2 = (g r/2) Im zeta^4 is written so. The factor P^(-a/4) Q^(-b/4) of a term is at
 most its greatest value from z on, and there is a falling majorant with an integral from z on: both from P, Q
-and the quotient, which is monotone. Let e, k, b be the sums of |c| A^(j+k) times the greatest factors of Y's
-added, Y's left over Om and B's added terms, r the same with the integrals of what is left of B', and G_ <= G
-from z on. If
+and the quotient, which is monotone. With e, k, b, r of these factors, Y's left over Om, and G_ <= G from z
+on, what is tried at one time is
 
     x > z,  |zeta| < A,  (x - z) (Om(x) + Om(z))/2 + (Y's added) > e,  eta = G_ - k > 0,  [B + b + r/eta] M/G_
-    < A^2
-
-at one time, then as long as |zeta| < A and x > z: Y' >= Om eta > 0, so int_z^x Om > 0 keeps its margin, x >=
-y with Om(y) y' = Y' >= Om(y) eta, hence x >= z + eta t, the integral of B' over time is at most r/eta, and
-|zeta|^2 stays below A^2. So both hold for ever, and x grows at least at the rate eta.
+    < A^2.
 """
 from __future__ import annotations
 

@@ -100,15 +100,17 @@ def _whole(table, key: str, where: str, most: int = MOST) -> int:
     return value
 
 
+def _count(table, key: str, where: str) -> int | None:
+    return None if field(table, key, where) is None else _whole(table, key, where)
+
+
 def _event(table, where: str) -> Event:
     low, high = bracket(field(table, "t", where), f"{where}.t")
-    return Event(low, high, _whole(table, "equilibria", where)
-                 if field(table, "equilibria", where) is not None else None)
+    return Event(low, high, _count(table, "equilibria", where))
 
 
 def _piece(table, where: str, counted: str) -> Piece:
-    count = _whole(table, "equilibria", where) if field(table, "equilibria", where) is not None else None
-    stable = _whole(table, "stable", where) if field(table, "stable", where) is not None else None
+    count, stable = _count(table, "equilibria", where), _count(table, "stable", where)
     if (stable is None) != (counted == "borders" or count is None):
         raise Malformed(f"{where}.stable: expected how many of the equilibria are stable, and none where "
                         "these are endless or changes of stability")
