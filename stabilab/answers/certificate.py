@@ -1,7 +1,7 @@
 """A certificate: what was found of a case, as exact numbers and brackets that separate code can check.
 
-Equilibria come from exact algebra (rationals and surds), fate, extremes and period from ball arithmetic;
-nothing here is a rounded guess. What cannot be certified is left out and named in `uncertified`.
+Equilibria come from exact algebra (rationals and roots of polynomials), fate, extremes and period from ball
+arithmetic; nothing here is a rounded guess. What cannot be certified is left out and named in `uncertified`.
 docs/certificate.md has the form.
 """
 from __future__ import annotations
@@ -32,7 +32,7 @@ from ..physics.scene import AnyScene
 from ..version import __version__
 
 SCHEMA = "stabilab.certificate/1"
-ROOT_BITS = 150  # roots are known to 160 bits and more (`polynomials.real_roots`, `Surd.fraction`)
+ROOT_BITS = 150  # roots are known to 160 bits and more (`polynomial.real_roots`)
 BOX_BITS = 120
 TINY = Fraction(1, 2**1074)  # the least double: a decaying plane's end is only approached, to less than this
 # of the brackets: another's verified quadrature must have room in the period's
@@ -97,7 +97,7 @@ def _equilibria(scene: AnyScene) -> dict[str, Any]:
 
 
 def _exact_equilibria(p: Any) -> tuple[str, list[Any], list[Any]]:
-    """(kind, isolated states as surds, exact curves), by the cases of `equilibria`; planes come on their own.
+    """(kind, isolated states, exact curves), by the cases of `equilibria`; planes come on their own.
     """
     if not any(p.M):
         if not any(p.lam) and len(set(p.D)) == 1:
@@ -110,9 +110,8 @@ def _exact_equilibria(p: Any) -> tuple[str, list[Any], list[Any]]:
 
 
 def _point(form: Any, x: Any) -> dict[str, Any]:
-    point, middle = isolated_point(form, x), [v.fraction() for v in x]
-    exact = not any(v.d for v in x)
-    reach = Fraction(0) if exact else (max(map(abs, middle)) or Fraction(1)) / 2**BOX_BITS
+    point, middle = isolated_point(form, x), x.at
+    reach = Fraction(0) if x.exact else (max(map(abs, middle)) or Fraction(1)) / 2**BOX_BITS
     return {"box": [_bracket(v, reach) for v in middle], "linear": point.linear, "verdict": point.verdict}
 
 

@@ -27,7 +27,7 @@ from .field_balance import Field, blocks, rotations_at
 from .field_states import around
 from .liquid import balanced_equilibria, damped_equilibria, liquid_equilibria
 from .result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint, T
-from .stability import eigenvalues, ordered
+from .stability import eigenvalues, ordered, sign_at
 
 BITS = 256
 GLOBAL = "every motion tends to it: "
@@ -160,20 +160,6 @@ def _without_common(P: Poly, q: Poly) -> Poly:
     while (common := P.gcd(q)).degree > 0:
         P = P // common
     return P
-
-
-def sign_at(R: Poly, P: Poly, t: Fraction, bits: int = BITS) -> int:
-    """Exact sign of R at the root of P that t approximates to 2**-bits relative."""
-    radius = abs(t) / 2**(bits - 2)
-    value = R(t)
-    slack = radius * sum(n * abs(v) * (abs(t) + radius)**(n - 1) for n, v in enumerate(R.c) if n)
-    if abs(value) > slack or not radius:
-        return (value > 0) - (value < 0)
-    common = P.gcd(R)
-    if common.degree > 0 and any(abs(r - t) <= 4 * radius for r in real_roots(common, bits)):
-        return 0
-    finer = min(real_roots(P, 2 * bits), key=lambda r: abs(r - t))
-    return sign_at(R, P, finer, 2 * bits)
 
 
 def _point(parts, form, numerators, q, P, t) -> EquilibriumPoint:

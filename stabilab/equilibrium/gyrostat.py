@@ -29,8 +29,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from ..numbers.exact import Surd, sign_of, sqrt_fraction
-from ..numbers.polynomial import Poly
+from ..numbers.exact import sign_of, sqrt_fraction
+from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import CYCLE, Exact3, Number, Triple, cross, dot
 from ..physics.coefficients import Content, gyrostat_scene
 from ..physics.scene import AnyScene, QuadraticForm
@@ -52,7 +52,17 @@ from .result import (
     straight_line,
     sum_of,
 )
-from .stability import ONE, ZERO, Pencil, curve_with_verdicts, isolated_point, pencil, unit
+from .stability import (
+    ONE,
+    ROOT_BITS,
+    ZERO,
+    Isolated,
+    Pencil,
+    curve_with_verdicts,
+    isolated_point,
+    pencil,
+    unit,
+)
 
 # Line of equilibria along axis 1 (x1 = X, the others at y2, y3): deltas obey d2' = -P(X) d3, d3' = Q(X) d2,
 # X' = e d2 d3 + f d2 + g d3 with P, Q linear in X and m = P Q. Removing the terms linear in d from X' by X ->
@@ -91,30 +101,27 @@ def off_axis_equilibria(p: Pencil) -> tuple[str, list[EquilibriumPoint], list[Ra
     return reason, sorted((isolated_point(p.form, x) for x in states), key=lambda e: e.at), curves
 
 
-def isolated_states(p: Pencil) -> tuple[str, list[tuple[Surd, Surd, Surd]], list[RationalCurve]]:
-    """The same with each isolated equilibrium as three exact surds."""
+def isolated_states(p: Pencil) -> tuple[str, list[Isolated], list[RationalCurve]]:
+    """The same with each isolated equilibrium before its verdict."""
     start, v = meeting_line(p)
     q2, q1, q0 = quadratic_on_line(p, start, v)
     lead = "M is no eigenvector of D: the planes of the two balance conditions meet in a line, "
-    if not (q2 or q1 or q0):
+    P = Poly((q0, q1, q2))
+    if not P:
         return lead + "and every point of it is an equilibrium", [], [_whole_line(p, start, v)]
-    if not (q2 or q1):
-        return (lead
-                + "and on it the remaining condition has no solution (its coefficients of t^2 and t vanish)",
-                [], [])
-    if not q2:
-        roots, why = [Surd(-q0 / q1)], "on which the remaining condition is linear: one isolated equilibrium"
+    line = p.state(straight_line(start, v))
+    found = [Isolated(line, P, t) for t in real_roots(P, ROOT_BITS)]
+    if P.degree == 0:
+        why = "and on it the remaining condition has no solution (its coefficients of t^2 and t vanish)"
+    elif P.degree == 1:
+        why = "on which the remaining condition is linear: one isolated equilibrium"
     else:
-        disc = q1 * q1 - 4 * q2 * q0
-        if disc < 0:
-            return (lead + f"on which a quadratic without real roots remains (discriminant {decimal(disc)})",
-                    [], [])
-        middle, half = -q1 / (2 * q2), 1 / (2 * q2)
-        roots = [Surd(middle)] if not disc else [Surd(middle, -half, disc), Surd(middle, half, disc)]
-        why = ("on which a quadratic with a positive discriminant remains: two isolated equilibria" if disc
-               else
-               "on which a quadratic with a double root remains: one equilibrium, the fold of two")
-    return lead + why, [p.state(tuple(r * d + s for s, d in zip(start, v))) for r in roots], []
+        why = (f"on which a quadratic without real roots remains (discriminant "
+               f"{decimal(q1 * q1 - 4 * q2 * q0)})",
+               "on which a quadratic with a double root remains: one equilibrium, the fold of two",
+               "on which a quadratic with a positive discriminant remains: two isolated equilibria"
+               )[len(found)]
+    return lead + why, found, []
 
 
 def meeting_line(p: Pencil) -> tuple[Exact3, Exact3]:

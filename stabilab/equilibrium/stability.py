@@ -23,7 +23,7 @@ from functools import partial
 from typing import NamedTuple
 
 from ..errors import InputError
-from ..numbers.exact import Surd, sign_of, sqrt_fraction
+from ..numbers.exact import sign_of, sqrt_fraction
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import Exact3, Number, Triple
 from ..physics.scene import AnyScene, QuadraticForm
@@ -90,13 +90,13 @@ def unit(i: int) -> Exact3:
 
 
 BITS = 220  # working precision; far above double, so that each printed part is rounded once
+ROOT_BITS = 256  # of the roots at which signs are asked, and far more where these bits leave them open
 
 
 def invariants(form: QuadraticForm, x: Sequence[Number], w: Number = 1) -> tuple[Number, Number]:
     """(m, n) of the characteristic polynomial z^3 + m z + n of the Jacobian at x / w, times w^2 and w^3.
 
-    form: QuadraticForm. x, w: rationals, surds of one root, or polynomials (a rational curve, w its
-    denominator).
+    form: QuadraticForm. x, w: rationals, or polynomials (a rational curve, w its denominator).
     """
     J = form.jacobian(x, w)
     return (-(J[0][1] * J[1][0] + J[0][2] * J[2][0] + J[1][2] * J[2][1]),
@@ -169,17 +169,50 @@ def isolated_verdict(m_sign: int, n_sign: int) -> Verdict:
                         "with weights 3, 4, 5 it has a motion z ~ -60/(a t^3) that comes out of the point")
 
 
-def isolated_point(form: QuadraticForm, x: tuple[Surd, Surd, Surd]) -> EquilibriumPoint:
-    """An isolated equilibrium (exact surds) with spectrum and verdicts."""
-    m, n = invariants(form, x)
-    verdict, because = isolated_verdict(m.sign, n.sign)
+class Isolated(NamedTuple):
+    """An isolated equilibrium x(t), polynomials, at the root of P that t approximates to 2**-ROOT_BITS."""
+
+    x: tuple[Poly, ...]
+    P: Poly
+    t: Fraction
+
+    @property
+    def at(self) -> Exact3:
+        """Its components, good to some hundred bits; exact where t is the root itself."""
+        return tuple(v(self.t) for v in self.x)
+
+    @property
+    def exact(self) -> bool:
+        """Whether t is the root itself."""
+        return not self.P(self.t)
+
+
+def sign_at(R: Poly, P: Poly, t: Fraction, bits: int = ROOT_BITS) -> int:
+    """Exact sign of R at the root of P that t approximates to 2**-bits relative."""
+    radius = abs(t) / 2**(bits - 2)
+    value = R(t)
+    slack = radius * sum(n * abs(v) * (abs(t) + radius)**(n - 1) for n, v in enumerate(R.c) if n)
+    if abs(value) > slack or not radius:
+        return (value > 0) - (value < 0)
+    common = P.gcd(R)
+    if common.degree > 0 and any(abs(r - t) <= 4 * radius for r in real_roots(common, bits)):
+        return 0
+    finer = min(real_roots(P, 2 * bits), key=lambda r: abs(r - t))
+    return sign_at(R, P, finer, 2 * bits)
+
+
+def isolated_point(form: QuadraticForm, point: Isolated) -> EquilibriumPoint:
+    """An isolated equilibrium with spectrum and verdicts."""
+    both = invariants(form, point.x)
+    signs = [sign_at(v, point.P, point.t) for v in both]
+    verdict, because = isolated_verdict(*signs)
     try:
-        at = tuple(float(v.fraction()) for v in x)
-        spectrum = eigenvalues(m.fraction(), n.fraction())
+        at = tuple(map(float, point.at))
+        spectrum = eigenvalues(*(v(point.t) if sign else ZERO for v, sign in zip(both, signs)))
     except OverflowError:
         raise InputError(
             "an equilibrium or its eigenvalues lie beyond the largest double: choose other units") from None
-    return EquilibriumPoint(at, spectrum, linear_word(m.sign, n.sign), verdict, because)
+    return EquilibriumPoint(at, spectrum, linear_word(*signs), verdict, because)
 
 
 def curve_with_verdicts(form: QuadraticForm, curve: RationalCurve) -> EquilibriumCurve:

@@ -1,11 +1,10 @@
-"""Exact numbers: what the user wrote, before any rounding, and roots of quadratics."""
+"""Exact numbers: what the user wrote, before any rounding."""
 from __future__ import annotations
 
 import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from fractions import Fraction
 from numbers import Integral, Rational, Real
 from threading import RLock
@@ -14,7 +13,7 @@ from typing import Any
 
 from ..errors import InputError
 from .balls import fraction, rational, working
-from .vectors import Exact3, Number
+from .vectors import Exact3
 
 # one way only to match: else a long wrong number would be tried in exponentially many
 _DIGITS = r"\d+(?:_\d+)*"
@@ -160,53 +159,6 @@ def _nearest(value: Fraction, places: int) -> Fraction:
 def floats(values: Iterable[Any]) -> tuple[float, ...]:
     """Each exact number rounded once, to the nearest double."""
     return tuple(float(v) for v in values)
-
-
-@dataclass(frozen=True)
-class Surd:
-    """p + q sqrt(d). Arithmetic joins surds of one d and rationals."""
-
-    p: Fraction
-    q: Fraction = Fraction(0)
-    d: Fraction = Fraction(0)
-
-    def __add__(self, other: Number) -> Surd:
-        if isinstance(other, Surd):
-            return Surd(self.p + other.p, self.q + other.q, self.d)
-        return Surd(self.p + other, self.q, self.d)
-
-    def __mul__(self, other: Number) -> Surd:
-        if isinstance(other, Surd):
-            return Surd(self.p * other.p + self.q * other.q * self.d, self.p * other.q + self.q * other.p,
-                        self.d)
-        return Surd(self.p * other, self.q * other, self.d)
-
-    def __neg__(self) -> Surd:
-        return Surd(-self.p, -self.q, self.d)
-
-    def __sub__(self, other: Number) -> Surd:
-        return self + -other
-
-    __radd__, __rmul__ = __add__, __mul__
-
-    @property
-    def sign(self) -> int:
-        """-1, 0 or 1, exactly."""
-        second = 0 if not self.d else sign_of(self.q)
-        first = sign_of(self.p)
-        if first * second >= 0:
-            return first or second
-        return first * sign_of(self.p * self.p - self.q * self.q * self.d)
-
-    def fraction(self) -> Fraction:
-        """A rational within about 2**-200 relative; where the two terms oppose, by the conjugate, without
-        cancellation."""
-        if not self.sign:
-            return Fraction(0)
-        term = self.q * sqrt_fraction(self.d)
-        if self.p * term >= 0:
-            return self.p + term
-        return (self.p * self.p - self.q * self.q * self.d) / (self.p - term)
 
 
 def sign_of(value: Fraction) -> int:
