@@ -20,7 +20,7 @@ from fractions import Fraction
 from ..numbers.balls import MANY_BITS, working
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.principal import SLACK, principal_minors
-from ..numbers.vectors import CYCLE, Exact3, cross, dot
+from ..numbers.vectors import CYCLE, Exact3, cross, cross_matrix, dot
 from ..physics.coefficients import Content
 from ..physics.scene import ZERO3, euler_form
 from .field_balance import Field, blocks, rotations_at
@@ -323,8 +323,7 @@ def _spectrum(parts, field, rotation):
     import numpy as np
     A, B = (np.array([[float(v) if not hasattr(v, "mid") else float(v.mid()) for v in row] for row in block])
             for block in blocks(field, 0 * field.N, rotation.gamma))
-    x, y, z = (float(g.mid()) for g in rotation.gamma)
-    turn = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    turn = np.array(cross_matrix([float(g.mid()) for g in rotation.gamma]))
     R = np.array([[float(v / d) for v in row] for row, d in zip(parts.drag, parts.D)])
     J = np.block([[A - R, B], [turn, np.zeros((3, 3))]])
     return ordered(np.linalg.eigvals(J))

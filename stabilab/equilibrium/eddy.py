@@ -11,6 +11,7 @@ from __future__ import annotations
 from math import cos, inf, sin
 from typing import Any
 
+from ..numbers.vectors import cross_matrix
 from ..physics.coefficients import Content
 from .result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
 from .stability import ordered
@@ -68,7 +69,7 @@ def _spectrum(parts: Content, at: tuple[float, ...]) -> tuple[complex, ...]:
     D u' = D u x omega + D omega x u + k B^2 ((u - s v) x gamma) x gamma, v' = gamma x (u - s v)."""
     import numpy as np
     D, w, g = np.diag([float(d) for d in parts.D]), np.array(at[:3]), np.array(at[3:])
-    turn = lambda v: np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+    turn = lambda v: np.array(cross_matrix(v))
     s, slow = float(w @ g), float(parts.eddy) * (turn(g) @ turn(g))
     J: Any = np.block([[np.linalg.solve(D, turn(D @ w) - turn(w) @ D + slow), -s * np.linalg.solve(D, slow)],
                        [turn(g), -s * turn(g)]])

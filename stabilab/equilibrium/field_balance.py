@@ -28,7 +28,7 @@ from flint import Ordering, acb, arb, fmpq, fmpq_mpoly_ctx, fmpq_poly
 from ..numbers.algebraic import univariate
 from ..numbers.balls import MANY_BITS, rational, working
 from ..numbers.polynomial import Poly, real_roots
-from ..numbers.vectors import Number, cross, dot
+from ..numbers.vectors import Number, cross, cross_matrix, dot
 from ..physics.coefficients import linear_rates
 from .result import EquilibriumPoint
 
@@ -85,13 +85,9 @@ def blocks(field: Field, Omega, gamma, q=1):
     H[2] = H[2] - gamma[2] * field.E
     A = linear_rates(field.D, omega, H)
     spread = field_inertia(field, gamma)
-    s = [q * x for x in field.s]
-    B = []
-    for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):  # (s x g + N (g x D gamma + gamma x D g))_i
-        row = [omega[0] * 0] * 3
-        row[j] = (-s[k] + (spread[k] - gamma[k] * field.D[j]) * field.N) * (1 / field.D[i])
-        row[k] = (s[j] + (gamma[j] * field.D[k] - spread[j]) * field.N) * (1 / field.D[i])
-        B.append(row)
+    s, turn, turned = map(cross_matrix, ([q * x for x in field.s], gamma, spread))
+    B = [[(s[i][j] + (turn[i][j] * field.D[j] - turned[i][j]) * field.N) * (1 / field.D[i])
+          for j in range(3)] for i in range(3)]  # of s x gamma + N gamma x D gamma
     B[0][2] = B[0][2] + omega[1] * (field.E / field.D[0])   # E g3 omega x e3
     B[1][2] = B[1][2] - omega[0] * (field.E / field.D[1])
     return A, B
@@ -100,10 +96,9 @@ def blocks(field: Field, Omega, gamma, q=1):
 def coefficients(field: Field, Omega, mu, gamma, q=1):
     """(q^2 a, q^4 b) of z^4 + a z^2 + b."""
     A, B = blocks(field, Omega, gamma, q)
-    x, y, z = gamma
-    turn = [[x * 0, -z, y], [z, x * 0, -x], [-y, x, x * 0]]  # gamma x
+    turn = cross_matrix(gamma)
     pairs = [(i, j) for i in range(3) for j in range(3)]
-    square = sum((A[i][j] * A[j][i] + B[i][j] * turn[j][i] * 2 for i, j in pairs), x * 0)
+    square = sum((A[i][j] * A[j][i] + B[i][j] * turn[j][i] * 2 for i, j in pairs), gamma[0] * 0)
     a = Omega * Omega * q * q - square * fmpq(1, 2)
     determinant, _ = second_variation(field, Omega, mu, gamma, q)
     return a, determinant * (1 / (field.D[0] * field.D[1] * field.D[2]))

@@ -39,7 +39,7 @@ from ..errors import InputError
 from ..numbers.balls import MANY_BITS, fraction, rational, working
 from ..numbers.exact import sqrt_fraction
 from ..numbers.polynomial import Poly, real_roots
-from ..numbers.vectors import CYCLE, nearest_first
+from ..numbers.vectors import CYCLE, cross_matrix, nearest_first
 from ..physics.coefficients import Content
 from .field_balance import (
     NEXT_TO,
@@ -367,10 +367,8 @@ def _point(parts: Content, plane: Plane, tau: Fraction, side: int) -> Equilibriu
 
 def _jacobian(field: Field, Omega, gamma):
     A, B = blocks(field, Omega, gamma)
-    x, y, z = gamma
-    zero = x * 0
-    turn = [[zero, -z, y], [z, zero, -x], [-y, x, zero]]
-    return [[*A[r], *B[r]] for r in range(3)] + [[*turn[r], *(-Omega * v for v in turn[r])] for r in range(3)]
+    return ([[*a, *b] for a, b in zip(A, B)]
+            + [[*row, *(-Omega * v for v in row)] for row in cross_matrix(gamma)])
 
 
 def _verdict(e2, e3, e4):

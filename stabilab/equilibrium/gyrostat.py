@@ -30,7 +30,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from ..numbers.exact import sign_of, sqrt_fraction
-from ..numbers.polynomial import Poly, real_roots
+from ..numbers.polynomial import Poly
 from ..numbers.vectors import CYCLE, Exact3, Number, Triple, cross, dot
 from ..physics.coefficients import Content, gyrostat_scene
 from ..physics.scene import AnyScene, QuadraticForm
@@ -52,17 +52,7 @@ from .result import (
     straight_line,
     sum_of,
 )
-from .stability import (
-    ONE,
-    ROOT_BITS,
-    ZERO,
-    Isolated,
-    Pencil,
-    curve_with_verdicts,
-    isolated_point,
-    pencil,
-    unit,
-)
+from .stability import ONE, ZERO, Isolated, Pencil, curve_with_verdicts, isolated_point, pencil, unit
 
 # Line of equilibria along axis 1 (x1 = X, the others at y2, y3): deltas obey d2' = -P(X) d3, d3' = Q(X) d2,
 # X' = e d2 d3 + f d2 + g d3 with P, Q linear in X and m = P Q. Removing the terms linear in d from X' by X ->
@@ -109,8 +99,7 @@ def isolated_states(p: Pencil) -> tuple[str, list[Isolated], list[RationalCurve]
     P = Poly((q0, q1, q2))
     if not P:
         return lead + "and every point of it is an equilibrium", [], [_whole_line(p, start, v)]
-    line = p.state(straight_line(start, v))
-    found = [Isolated(line, P, t) for t in real_roots(P, ROOT_BITS)]
+    found = Isolated.all_of(p.state(straight_line(start, v)), P)
     if P.degree == 0:
         why = "and on it the remaining condition has no solution (its coefficients of t^2 and t vanish)"
     elif P.degree == 1:

@@ -37,7 +37,7 @@ from flint import Ordering, arb, arb_mat, fmpq_mpoly_ctx
 from ..numbers.balls import MANY_BITS, evaluated, fraction, rational, working
 from ..numbers.exact import sqrt_fraction
 from ..numbers.polynomial import Poly, real_roots
-from ..numbers.vectors import CYCLE, cross, dot
+from ..numbers.vectors import CYCLE, cross, cross_matrix, dot
 from ..physics.coefficients import Content, gyrostat_scene, linear_rates, liquid_torque
 from .gyrostat import torque_free_curves
 from .result import (
@@ -104,9 +104,7 @@ def validity(parts: Content) -> Fraction:
 def jacobian(parts: Content, omega, w=1):
     """Rows of w^2 J at the permanent rotation omega / w."""
     A = linear_rates(parts.D, omega, [x * d + w * l for d, x, l in zip(parts.D, omega, parts.Lambda)])
-    x, y, z = omega
-    zero = x * 0
-    turn = [[zero, -z, y], [z, zero, -x], [-y, x, zero]]
+    turn, zero = cross_matrix(omega), omega[0] * 0
     factor = [[(A[i][j] + turn[i][j]) * (parts.kappa / parts.D[i]) + (w if i == j else 0) for j in range(3)]
               for i in range(3)]
     return [[sum((factor[i][n] * A[n][j] for n in range(3)), zero) for j in range(3)] for i in range(3)]

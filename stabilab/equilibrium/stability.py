@@ -176,6 +176,11 @@ class Isolated(NamedTuple):
     P: Poly
     t: Fraction
 
+    @classmethod
+    def all_of(cls, x: tuple[Poly, ...], P: Poly) -> list[Isolated]:
+        """Those at all real roots of P, rising."""
+        return [cls(x, P, t) for t in real_roots(P, ROOT_BITS)]
+
     @property
     def at(self) -> Exact3:
         """Its components, good to some hundred bits; exact where t is the root itself."""

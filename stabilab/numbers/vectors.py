@@ -24,6 +24,13 @@ def dot(u: Sequence[Number], v: Sequence[Number]) -> Number:
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 
 
+def cross_matrix(v: Sequence[Number]) -> tuple[Triple, Triple, Triple]:
+    """Rows of the matrix that takes a vector w to v x w, any scalar type."""
+    x, y, z = v
+    zero = x * 0
+    return (zero, -z, y), (z, zero, -x), (-y, x, zero)
+
+
 def nearest_first(pairs: Iterable[tuple[float, int, int]]) -> dict[int, int]:
     """i -> j of pairs (distance, i, j), the nearest of all first, each i and each j once."""
     found: dict[int, int] = {}

@@ -31,7 +31,7 @@ from typing import Any, ClassVar
 
 from ..errors import InputError
 from ..numbers.exact import exact_vector, sqrt_fraction
-from ..numbers.vectors import Exact3, Float3, Number, Triple, cross, dot
+from ..numbers.vectors import Exact3, Float3, Number, Triple, cross, cross_matrix, dot
 from ..validation import checked_scene, real
 from .effects import effect_class
 from .effects.base import Effect
@@ -191,13 +191,8 @@ def gyrostat_scene(parts: Content) -> Scene:
 def linear_rates(D: Sequence[Number], omega: Sequence[Number], H: Sequence[Number]) -> list[list[Number]]:
     """Rows of the derivative by omega of D^-1 (D omega + Lambda) x omega, where H = D omega + Lambda (any
     scalar type)."""
-    rows = []
-    for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):  # D_i a_i = H_j omega_k - H_k omega_j
-        row = [omega[0] * 0] * 3
-        row[j] = (omega[k] * D[j] - H[k]) * (1 / D[i])
-        row[k] = (H[j] - omega[j] * D[k]) * (1 / D[i])
-        rows.append(row)
-    return rows
+    turn, spin = cross_matrix(H), cross_matrix(omega)  # D a = H x omega
+    return [[(turn[i][j] - spin[i][j] * D[j]) * (1 / D[i]) for j in range(3)] for i in range(3)]
 
 
 def rates(parts: Content, omega: Sequence[Number], gamma: Sequence[Number] | None) -> tuple[Exact3, Exact3]:
