@@ -15,7 +15,9 @@ from stabilab.orbit.landscape import landscape
 from stabilab.orbit.separatrix.far_centre import saddles_of
 from stabilab.orbit.separatrix.homoclinic_arrays import loops, residual
 from stabilab.orbit.separatrix.saddles import limit_of, saddle_branches
+from tests.hunt.disagreements import off_surface
 from tests.oracles import homoclinic
+from tests.oracles.pairs import scaled
 
 EPS = 2.0**-52
 # moments, wheel, torque; the centre is 1e11, 1e12, 1e7 and 1e4 times the size of loops away; on hyperbolas
@@ -74,13 +76,14 @@ def test_saddles_and_centres_are_equilibria_to_the_digits_of_their_own_size(name
                     / D.min()).all()
 
 
-def test_the_reported_residual_sees_a_vertex_that_is_off_a_surface_with_a_far_centre():
-    scene, _ = scene_of("slow wheel, moments equal to 1e-15")
+@pytest.mark.parametrize("scene, far", [(stabilab.ScaledGyrostat(0, 2.5, (0, 1, 0)), False),
+                                        (scene_of("slow wheel, moments equal to 1e-15")[0], True)])
+def test_the_reported_residual_sees_a_vertex_that_is_off_its_surface(scene, far):
     land = landscape(scene)
     branch = saddle_branches(land.conic, land.potential, limit_of(land.conic, 4.0))[0]
     found = loops(land, [(branch, 1)], np.array([[0.5]]), np.linspace(0, 1, 9)[None])
-    assert found.far.all() and (residual(land, found) < 8 * EPS).all()
-    size = np.abs(found.points).max()
+    assert found.far.all() == far and (residual(land, found) < 8 * EPS).all()
+    size = np.abs(found.points).max() if far else 1.0
     for n in range(3):
         off = residual(land, replace(found, points=found.points + 1e-9 * size * np.eye(3)[n]))
         assert 1e-11 < off[0, 0, 4] < 1e-8
@@ -158,3 +161,15 @@ def test_facets_of_nearly_equal_moments_stray_by_no_more_than_asked():
         rng = np.random.default_rng(1)
         for place in middles.reshape(-1, 3)[rng.integers(0, middles.size // 3, 12)]:
             assert homoclinic.in_digits(body, place.tolist(), digits=80) <= 1.05
+
+
+def test_a_loop_beside_the_centre_of_its_hyperbola_ends_where_the_potential_is_back():
+    """mu = 3e-7 and c = 18.5: equilibria stand 1e9 to 1 and 1 to 1e9 in exp(y). The saddle's height and the
+    potential at 50 digits are the check."""
+    scene, problem = scaled(3.1287795379262113, 21.64743733428723, (0, 3.2175766464241995e-07, 0))
+    branches = stabilab.separatrix(scene, shape=(7, 9)).branches
+    assert {branch.name for branch in branches} >= {"branch 2, left loop", "branch 2, right loop"}
+    for branch in branches:
+        for row in (1, 2, 4):
+            size, words = off_surface(problem, 1, branch, row, 4)
+            assert size <= 1, words

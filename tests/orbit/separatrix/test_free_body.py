@@ -15,9 +15,6 @@ import pytest
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, ScaledGyrostat, Scene
 from stabilab.answers.motion import motion
-from stabilab.orbit.fate.one_state import decide, precise_margin
-from stabilab.orbit.one_orbit import Orbit
-from stabilab.orbit.reduction import reduce
 from tests.oracles import energy
 from tests.oracles.model import scaled
 from tests.orbit.extremes.test_extremes import assert_extremes
@@ -89,15 +86,6 @@ def test_beside_the_separatrix_a_free_body_turns_as_jacobis_functions_say(order,
     found = motion(scene, state)
     assert found.fate == Fate.BOUNDED and found.period == pytest.approx(period, rel=1e-11)
     np.testing.assert_allclose(np.array(found.extremes), [rows[n] for n in order], rtol=2e-12)
-
-
-def test_on_the_separatrix_no_digit_of_a_margin_is_known_and_no_barrier_has_none():
-    tied, spinning = reduce(Scene(Body(MOMENTS))), reduce(ScaledGyrostat(0, 0, (0, 0, 1)))
-    assert precise_margin(Orbit(tied, (3.0, 1.0, 4.0)),
-                          20) is None and decide(Orbit(tied, (3.0, 1.0, 4.0))).sign == 0
-    # A^2 = 1/2 < 2: no equilibrium on the circle
-    assert precise_margin(Orbit(spinning, (0.5, 0.5, 0.0)), 20) is None
-    assert decide(Orbit(spinning, (0.5, 0.5, 0.0))).margin == -np.inf
 
 
 @pytest.mark.parametrize("speed", [0.5, -0.5, -3.0])

@@ -5,8 +5,6 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.errors import InputError
-from stabilab.orbit.separatrix.grid import _along
 from stabilab.show.surface.mesh import triangulate
 from tests.oracles.pairs import PAPER_BODY, physical, scaled
 
@@ -44,13 +42,6 @@ def test_facets_stay_within_the_accuracy_asked_for_and_not_far_below(name, accur
     assert 0.3 * accuracy <= largest_stray(scene, sheets) <= accuracy
 
 
-def test_cells_grow_like_the_inverse_of_the_accuracy():
-    """A flat facet of size h strays by a multiple of h^2; how rows and columns share that is chosen anew."""
-    coarse, fine = (stabilab.separatrix(SCENES["minor a<b"], accuracy=a).branches[0] for a in (3e-3, 3e-5))
-    flat = [sheet.error * np.prod(sheet.points.shape[:2]) for sheet in (coarse, fine)]
-    assert 0.8**2 < flat[1] / flat[0] < 1.3**2 and fine.error < 0.015 * coarse.error
-
-
 @pytest.mark.parametrize("number, most",
                          [(51, 45_000), (177, 57_000), (32, 55_000), (88, 50_000), (33, 8_000), (98, 3_000)])
 def test_random_scenes_take_few_places_and_their_sheets_keep_shapes_of_their_own(monkeypatch, number, most):
@@ -75,33 +66,3 @@ def test_planes_of_a_free_body_need_the_smallest_grid_only():
     free = stabilab.Scene(stabilab.Body((3, 2, 1)))
     for sheet in stabilab.separatrix(free, accuracy=1e-6).branches:
         assert sheet.points.shape == (3, 5, 3) and sheet.error < 1e-12
-
-
-@pytest.mark.parametrize("bad", [dict(accuracy=0), dict(accuracy=-1e-3), dict(accuracy=float("nan")),
-                                 dict(accuracy=1e-3, shape=(5, 9))])
-def test_a_bad_accuracy_is_refused(bad):
-    with pytest.raises(InputError, match="accuracy"):
-        stabilab.separatrix(SCENES["minor a<b"], **bad)
-
-
-@pytest.mark.parametrize("cut", [1, -1])
-def test_both_cuts_of_a_grid_give_a_mesh_of_the_same_outline_and_the_mirror_image_of_itself(cut):
-    from dataclasses import replace
-    sheet = replace(stabilab.separatrix(SCENES["minor a<b"], shape=(6, 9)).branches[0], cut=cut)
-    mesh = triangulate(sheet)
-    triangles = {frozenset(map(tuple, np.round(corner, 9) + 0.0)) for corner in mesh.points[mesh.triangles]}
-    mirrored = {frozenset(map(tuple, np.round(corner * [1, 1, -1], 9) + 0.0))
-                for corner in mesh.points[mesh.triangles]}
-    # the tip takes one triangle of each of its quads
-    assert len(triangles) == len(mesh.triangles) == 2 * 8 * 5 - 8
-    assert triangles == mirrored
-
-
-def test_edges_of_a_rim_that_starts_straight_stray_by_no_less_than_they_do():
-    """On y = x^6 the edge from x0 to x1 strays by the largest distance of the curve from its chord, on a fine
-    table; the curvature falls beyond zero if it is taken on linearly."""
-    x = np.linspace(0, 1, 9)
-    told, = _along(np.stack([x, x**6, 0 * x], axis=-1)[None], np.ones((1, 9), bool))
-    for x0, x1, stray in zip(x, x[1:], told):
-        between, rise = np.linspace(x0, x1, 101), (x1**6 - x0**6) / (x1 - x0)
-        assert stray >= 0.9 * np.max(x0**6 + rise * (between - x0) - between**6) / np.hypot(1, rise)
