@@ -6,13 +6,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import stabilab
 from stabilab import Body, ScaledGyrostat
 from stabilab.answers.certificate import certificate
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
-from tests.oracles.pairs import physical
+from tests.oracles.pairs import PAPER_BODY, physical, scaled
 
 CASES = Path(__file__).parents[1] / "cases"
 
@@ -72,6 +73,30 @@ def answer(command, folder, text, *options):
     done = subprocess.run([sys.executable, "-m", "stabilab", command, str(path), "--json", *options],
                           capture_output=True, text=True, check=True)
     return json.loads(done.stdout)
+
+# Every way the paper's two solvable cases and their generalisation come: name -> (scene, model).
+FAMILIES = {
+    "minor scaled +": scaled(0.2, 0.4, (0, 0, 1)),
+    "minor scaled -": scaled(-0.7, 1.1, (0, 0, -0.6)),
+    "minor scaled a=b": scaled(0.5, 0.5, (0, 0, 2.0)),
+    "middle scaled +": scaled(0.2, 0.4, (0, 1, 0)),
+    "middle scaled -, |c| above the cusp": scaled(0.5, 3.1, (0, -0.8, 0)),
+    "middle scaled, |c| far above": scaled(-1.0, -5.0, (0, 1, 0)),
+    "minor physical": physical(PAPER_BODY, (100, 50, 0), (0, 0, 204.1)),
+    "minor physical, other sign": physical((3.0, 2.0, 1.5), (-0.4, 0.7, 0), (0, 0, -0.3)),
+    "minor on axis 1": physical((1.0, 1.5, 2.0), (0, 0.3, -0.2), (0.25, 0, 0)),
+    "middle physical": physical((3.0, 2.0, 1.5), (0.4, 0, -0.9), (0, 0.3, 0)),
+    "middle physical, other sign": physical((1.4, 2.2, 3.1), (2.0, 0, 1.5), (0, -0.1, 0)),
+    "major physical": physical((3.0, 2.0, 1.5), (0, 0.8, 0.6), (0.2, 0, 0)),
+    "major physical, other sign": physical((1.3, 2.0, 2.9), (-1.8, 0.6, 0), (0, 0, -0.15)),
+    "major without gyrostat": physical((3.0, 2.0, 1.5), (0, 0, 0), (-0.2, 0, 0)),
+}
+ELLIPTIC = [name for name in FAMILIES if not name.startswith("middle")]
+
+
+def sample(name, count, spread=2.5):
+    return np.random.default_rng(sorted(FAMILIES).index(name)).normal(size=(count, 3)) * spread
+
 
 # Two equal moments, the torque on a transverse axis: the orbit's pair of rates runs along a parabola or a
 # straight line.

@@ -13,9 +13,8 @@ import pytest
 
 import stabilab
 from stabilab import Fate
-from tests.hard.agrees import agrees
 from tests.oracles import energy
-from tests.oracles.pairs import PAPER_BODY, brink, physical, scaled
+from tests.oracles.pairs import PAPER_BODY, agrees, brink, physical, scaled
 
 BOUNDED, SEPARATRIX, EQUILIBRIUM = int(Fate.BOUNDED), int(Fate.SEPARATRIX), int(Fate.EQUILIBRIUM)
 

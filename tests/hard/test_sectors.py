@@ -13,8 +13,7 @@ import pytest
 
 import stabilab
 from stabilab import Fate
-from tests.hard.agrees import agrees
-from tests.oracles.pairs import scaled
+from tests.oracles.pairs import agrees, scaled
 
 SPIN_UP, UNDECIDED = int(Fate.SPIN_UP), int(Fate.UNDECIDED)
 

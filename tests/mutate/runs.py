@@ -12,8 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 # Answers by methods that share no code with the package: the same for every fault. module -> functions
 ORACLES = {"tests.oracles.energy": ("label", "margin", "extremes", "period"),
-           "tests.oracles.brute": ("label", "extremes", "period"),
-           "tests.oracles.pairs": ("brink",), "tests.equilibrium.test_gyrostat": ("real_solutions",)}
+           "tests.oracles.pairs": ("brink",)}
 MEMORY = 8 << 30
 
 

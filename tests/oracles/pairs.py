@@ -6,7 +6,9 @@ from functools import lru_cache
 
 import mpmath as mp
 import numpy as np
+import pytest
 
+import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 from tests.oracles import energy, model
 from tests.oracles.energy import motion_of
@@ -67,14 +69,57 @@ def axis_of(problem):
 
 def assert_margin(problem, state, got, digits=60):
     """To 1e-12 of its two terms, the height of the barrier over the state and the kinetic energy; without a
-    barrier nothing holds a motion on a circle, and walls hold every other."""
+    barrier nothing holds a motion on a circle or a pure spin, and walls hold every other."""
     exact, axis = energy.margin(problem, state, digits=digits), axis_of(problem)
     if exact is None:
         circle = problem.kappa[axis - 1] * problem.kappa[axis - 2] < 0
-        assert got == (-np.inf if circle else np.inf), state
+        held = not circle and not motion_of(problem, tuple(state), digits, None).at_centre
+        assert got == (np.inf if held else -np.inf), state
         return
     exact, kinetic = float(exact), 0.5 * float(problem.weight[axis]) * float(state[axis]) ** 2
     assert abs(got - exact) <= 1e-12 * (abs(exact + kinetic) + kinetic), [float(v).hex() for v in state]
+
+
+def assert_extremes(got, exact, tolerance):
+    """Relative to the larger of a component's two finite extremes, or to the whole motion's where both nearly
+    vanish."""
+    exact = as_floats(exact)
+    finite = np.isfinite(exact)
+    np.testing.assert_array_equal(np.where(finite, 0.0, got), np.where(finite, 0.0, exact))
+    for row in range(3):
+        size = np.max(np.abs(exact[row][finite[row]]), initial=0.0)
+        off = np.abs(got[row][finite[row]] - exact[row][finite[row]])
+        assert np.all(off <= tolerance * size), (row, got[row], exact[row], off)
+
+
+def agrees(pair, states, digits=120, tolerance=1e-11, extremes=True, period=True, margins=True):
+    """Fates with axis and sense, margins, extremes and (bounded) periods of arrays, and the fate and extremes
+    of each state alone, are the potential's. Returns the words."""
+    scene, problem = pair
+    states = np.atleast_2d(np.asarray(states, float))
+    words = [energy.label(problem, tuple(s), digits=digits) for s in states.tolist()]
+    found, free = stabilab.fate(scene, states), not any(problem.m)
+    np.testing.assert_array_equal(found.labels, [WORDS[w] for w in words])
+    if not free:
+        axis, spins = axis_of(problem), found.labels == WORDS["spin-up"]
+        np.testing.assert_array_equal(found.axis, np.where(spins, axis + 1, 0))
+        np.testing.assert_array_equal(found.sense, np.where(spins, 1 if problem.m[axis] > 0 else -1, 0))
+    assert not np.any(np.isnan(found.margins))
+    boxes = stabilab.extremes(scene, states) if extremes else [None] * len(states)
+    periods = stabilab.period(scene, states) if period and extremes else [None] * len(states)
+    for state, word, margin, box, time in zip(states.tolist(), words, found.margins, boxes, periods):
+        if margins and not free and word != "equilibrium":
+            assert_margin(problem, state, margin, digits)
+        alone = stabilab.motion(scene, state, brief=True)
+        assert alone.fate == WORDS[word]
+        if extremes and word in ("bounded", "spin-up"):
+            exact = energy.extremes(problem, state, digits=digits)
+            assert_extremes(box, exact, tolerance)
+            assert_extremes(np.array(alone.extremes), exact, tolerance)
+        if time is not None and word == "bounded":
+            assert time == pytest.approx(float(energy.period(problem, state, digits=min(digits, 120))),
+                                         rel=tolerance), [v.hex() for v in state]
+    return words
 
 
 def as_floats(rows):
@@ -87,19 +132,6 @@ def random_body(rng, decades=0.0):
     shape."""
     parts = 10.0 ** rng.uniform(-decades / 2, decades / 2, 3) + rng.uniform(0.1, 1.0, 3)
     return tuple(float(parts.sum() - p) for p in parts)
-
-
-def random_problem(rng, axis, variables="physical"):
-    """A random (scene, model) with the torque on `axis` (0, 1, 2) in either sense and both perpendicular
-    gyrostatic components; scaled: random a, b."""
-    size = float(rng.choice([-1, 1]) * 10 ** rng.uniform(-1, 1))
-    if variables == "scaled":
-        mu = [0.0, 0.0, 0.0]
-        mu[axis] = size
-        return scaled(*(rng.normal(size=2) * 1.5), mu)
-    momentum, torque = rng.normal(size=3), [0.0, 0.0, 0.0]
-    momentum[axis], torque[axis] = 0.0, size
-    return physical(random_body(rng), momentum, torque)
 
 
 def exactly(*digits):

@@ -2,7 +2,6 @@
 last digit."""
 from __future__ import annotations
 
-import importlib
 import math
 from fractions import Fraction as F
 
@@ -20,10 +19,8 @@ from stabilab.orbit.one_orbit import Orbit
 from stabilab.orbit.period import precise_period
 from stabilab.orbit.reduction import reduce
 from tests.oracles import energy
-from tests.oracles.pairs import PAPER_BODY, WORDS, brink, physical
-from tests.orbit.extremes.test_extremes import assert_extremes
-from tests.orbit.fate.test_fate import FAMILIES
-from tests.shared import PARABOLIC
+from tests.oracles.pairs import PAPER_BODY, WORDS, assert_extremes, physical
+from tests.shared import FAMILIES, PARABOLIC
 
 # M_i = -lambda_j lambda_k/(D_j - D_k): the conic of equilibria is two lines
 LINES = {f"two lines, axis {axis + 1}": physical(PAPER_BODY, momentum, torque) for axis, momentum, torque in (
@@ -67,19 +64,6 @@ def test_the_extremes_and_period_of_balls_are_those_of_the_potential_to_the_last
             assert precise_period(Orbit(r, state),
                                   label) == pytest.approx(float(energy.period(problem, state, digits=40)),
                                                           rel=1e-14)
-
-
-@pytest.mark.parametrize("name", ["minor scaled +", "major physical", "middle scaled -, |c| above the cusp"])
-def test_near_a_separatrix_some_hundred_bits_decide_and_algebra_is_not_asked(name, monkeypatch):
-    scene, problem = FAMILIES[name]
-    exact_tie = importlib.import_module("stabilab.orbit.fate.one_state")
-    monkeypatch.setattr(exact_tie, "exact_tie",
-                        lambda orbit: pytest.fail("algebra was asked about a state off the separatrix"))
-    for off in (1e-14, -1e-15, 0.0):
-        state = brink(problem, {"mi": (-1.25, -1.25), "ma": (19.5, 14.0)}[name[:2]] if "+" not in name
-                      else (3.0, 1.0), off)
-        tie = decide(Orbit(reduce(scene), state))
-        assert tie.sign == (1 if energy.margin(problem, state) > 0 else -1) and tie.bits < 512
 
 
 @pytest.mark.parametrize("name", ["minor scaled -", "major physical", "middle scaled +",

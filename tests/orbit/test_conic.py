@@ -7,26 +7,7 @@ import pytest
 import stabilab.errors
 from stabilab.orbit.reduction import reduce
 from tests.oracles import energy, sphere
-from tests.oracles.pairs import WORDS, exactly, physical
-from tests.orbit.extremes.test_extremes import assert_extremes
-
-# Moments that are equal to 1e-15, torque about the other: the conic of equilibria is a line but for its far
-# end, and its fold at 0.018
-# was told from a double of 1e13, whose rounding put it at 0.022. States between had no barrier in the table,
-# and spun up.
-ALMOST_A_LINE = physical((31.487138417043845, 31.488743806858277, 31.487138417043873),
-                         (-0.0030301415612889317, 0.0, 0.047942404050166504),
-                         (0.0, 6.0953162715989465e-06, 0.0))
-
-
-@pytest.mark.slow
-def test_the_fold_of_a_conic_that_is_almost_a_line_is_where_exact_arithmetic_has_it():
-    scene, problem = ALMOST_A_LINE
-    state = (-1.887612743896219, -1.6198272930050313e-09, 29.8634883216673)
-    assert energy.label(problem, state, digits=200) == "bounded"
-    many = stabilab.fate(scene, np.array([state] * 5000))  # by table
-    np.testing.assert_array_equal(many.labels, WORDS["bounded"])
-    np.testing.assert_allclose(many.margins, float(energy.margin(problem, state, digits=200)), rtol=1e-12)
+from tests.oracles.pairs import assert_extremes, exactly, physical
 
 # Free bodies with two moments equal to 1e-11 and better: the equilibria were looked for from where two far
 # lines cross, or a piece of

@@ -17,10 +17,8 @@ from stabilab.orbit.landscape import landscape
 from stabilab.orbit.one_orbit import Orbit
 from stabilab.orbit.reduction import reduce
 from tests.oracles import energy
-from tests.oracles.pairs import WORDS, assert_margin, axis_of, brink, exactly, physical, scaled
-from tests.orbit.extremes.test_extremes import assert_extremes
-from tests.orbit.fate.test_fate import ELLIPTIC, FAMILIES, sample
-from tests.shared import PARABOLIC
+from tests.oracles.pairs import WORDS, assert_extremes, assert_margin, axis_of, brink, physical, scaled
+from tests.shared import ELLIPTIC, FAMILIES, PARABOLIC, sample
 
 fate = importlib.import_module("stabilab.orbit.fate.arrays")
 COLUMNS = ("labels", "margins", "axis", "sense", "reasons")
@@ -65,48 +63,6 @@ def test_long_arrays_are_answered_in_chunks_and_any_chunk_gives_the_same_bytes(n
     same(stabilab.fate(scene, states), whole)
 
 
-def edge_states(name):
-    """States of every kind: far, near the fold, the planes, the centre, at rest."""
-    scene, problem = FAMILIES[name]
-    rng, axis, land = np.random.default_rng(12), axis_of(problem), landscape(scene)
-    states = rng.normal(size=(220, 3)) * 10.0 ** rng.uniform(-3, 4, (220, 1))
-    saddles = [p.at for c in stabilab.equilibria(scene).curves for p in c.samples
-               if max(map(abs, p.at)) < 1e4]
-    near = [np.array(at) * (1 + 10.0 ** rng.uniform(-13, -1)) + np.eye(3)[axis] * rng.normal()
-            for at in saddles]
-    r = land.reduction
-    for edge in land.conic.fold_invariants:  # invariants at and beside a fold
-        for off in (0.0, 1e-13, -1e-13, 1e-11, -1e-11, 1e-9, -1e-9, 1e-3, -1e-3):
-            size, turn = np.sqrt(abs(edge * (1 + off))), rng.uniform(-3, 3)
-            if r.e < 0:
-                x, z = size * np.sin(turn), size * np.cos(turn)
-            else:
-                x, z = (np.sinh(turn), np.cosh(turn)) if edge > 0 else (np.cosh(turn), np.sinh(turn))
-                x, z = size * x * rng.choice([-1, 1]), size * z * rng.choice([-1, 1])
-            near.append(land.components((x, z) if r.e < 0 else (x + z, x - z), np.array(rng.normal())))
-    for off in (1e-14, 1e-11, 1e-9, 1e-8, 1e-3):  # next to the centre and the planes
-        for x, z in ((off, 0.5 * off), (1 + off, 1.0), (-1.0, 1 + off)):
-            near.append(land.components((x, z) if r.e < 0 else (x + z, x - z), np.array(rng.normal())))
-    return np.concatenate([states, np.array(near)])
-
-
-@pytest.mark.one_in(3)
-@pytest.mark.parametrize("name", FAMILIES)
-def test_arrays_agree_with_balls_at_every_edge(name):
-    """At folds, planes, centres and barriers too: the potential in balls, one state after the other."""
-    (scene, problem), states = FAMILIES[name], edge_states(name)
-    found = stabilab.fate(scene, states)
-    for n, state in enumerate(states.tolist()):
-        one = fate_of(scene, Orbit(reduce(scene), state))
-        assert (found.labels[n], found.reasons[n], found.axis[n], found.sense[n]) == (
-            one.label, one.reason, one.axis, one.sense)
-        kinetic = 0.5 * float(problem.weight[axis_of(problem)]) * state[axis_of(problem)] ** 2
-        if np.isfinite(one.margin):
-            assert abs(found.margins[n] - one.margin) <= 1e-12 * (abs(one.margin + kinetic) + kinetic)
-        else:
-            assert found.margins[n] == one.margin
-
-
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("a, b, sign", [(0.25, 0.5, 1), (0.25, 0.5, -1), (0.0, 3.0, 1), (0.0, -3.0, 1),
                                         (0.5, 0.5, 1), (0.0, -3.0, -1), (0.0, 3.0, -1)])
@@ -139,51 +95,6 @@ def test_pure_spin_about_the_middle_axis_grows_with_the_torque_and_rests_without
     # wheels balance the middle spin
     free = stabilab.fate(physical((6, 5, 3), (0.5, 0, 1))[0], np.array([-0.5, 0.75, 0.5]))
     assert (free.labels, free.axis, free.sense, free.reasons) == (Fate.EQUILIBRIUM, 0, 0, Reason.AT_REST)
-
-
-# Rates of 1e15 and more against moments that differ by 1e-15: the way along the conic to where a barrier was
-# sought ended at a well.
-NO_BARRIER = {
-    "about the middle of three moments, two of which differ by 5e-15": (
-        physical((23.592552633638025, 23.59255263363803, 4.698113000567854),
-                 (0.0, -9.80483935426795, 0.3689159632990716),
-                 (-0.0029802932360996986, 0.0, 0.0)),
-                 exactly("0x1.4c918121a473dp-20", "0x1.39c13e7623aabp+51", "0x1.952a9fb9540f6p-1")),
-    "the same with 1e-15 and a rate of 6e17": (
-        physical((2.913092316670205, 5.93354584031141, 5.933545840311411),
-                 (21.143511773351896, 0.0, -544.3313170330276),
-                 (0.0, 6467.951306373737, 0.0)),
-                 exactly("-0x1.cef5878802d75p+10", "0x1.860e269a85762p+6", "0x1.102a6898b6b5bp+59")),
-}
-
-
-@pytest.mark.parametrize("name", NO_BARRIER)
-def test_an_equilibrium_that_turns_out_a_well_is_no_barrier(name):
-    (scene, problem), state = NO_BARRIER[name]
-    assert energy.margin(problem, state, digits=200) is None
-    assert stabilab.fate(scene, np.array(state)).margins == np.inf
-    assert stabilab.motion(scene, state, brief=True).margin_energy is None
-
-
-TILTED = {
-    "a hundredth of a radian from the barrier on a circle of 2e4": (
-        physical((2.057349576751503, 1.827253363649677, 2.3096300639157525),
-                 (-35703.674731311636, 27137851.32346151, 0.0),
-                 (0.0, 0.0, 149957990428.5789)),
-                 exactly("-0x1.ff8e033c9a2d3p+16", "0x1.ad381ca287486p+25", "-0x1.be411efda017bp+1")),
-    "about the least of three moments": (
-        physical((17.4092234435648, 0.1815498253832324, 17.475510069004883),
-                 (63099.27699450941, 0.0, 829.2341808719742),
-                 (0.0, 46591698.82196914, 0.0)),
-                 exactly("-0x1.c9e4b088ad399p+11", "-0x1.06c8168573298p-35", "0x1.57ccf0194eb5ep+9")),
-}
-
-
-@pytest.mark.parametrize("name", TILTED)
-def test_rounding_of_the_force_at_a_barrier_costs_the_margin_nothing(name):
-    (scene, problem), state = TILTED[name]
-    exact = float(energy.margin(problem, state, digits=200))
-    assert abs(float(stabilab.fate(scene, np.array(state)).margins) - exact) <= 1e-13 * exact
 
 
 families = pytest.mark.parametrize("name", FAMILIES)
@@ -258,6 +169,48 @@ def test_states_within_rounding_of_a_saddle_are_labelled_by_the_side_they_are_on
     for state, label in zip(states, found.labels):
         word = energy.label(problem, tuple(state), digits=100)
         assert label == WORDS[word]
+
+
+def edge_states(name):
+    """States of every kind: far, near the fold, the planes, the centre, at rest."""
+    scene, problem = FAMILIES[name]
+    rng, axis, land = np.random.default_rng(12), axis_of(problem), landscape(scene)
+    states = rng.normal(size=(220, 3)) * 10.0 ** rng.uniform(-3, 4, (220, 1))
+    saddles = [p.at for c in stabilab.equilibria(scene).curves for p in c.samples
+               if max(map(abs, p.at)) < 1e4]
+    near = [np.array(at) * (1 + 10.0 ** rng.uniform(-13, -1)) + np.eye(3)[axis] * rng.normal()
+            for at in saddles]
+    r = land.reduction
+    for edge in land.conic.fold_invariants:  # invariants at and beside a fold
+        for off in (0.0, 1e-13, -1e-13, 1e-11, -1e-11, 1e-9, -1e-9, 1e-3, -1e-3):
+            size, turn = np.sqrt(abs(edge * (1 + off))), rng.uniform(-3, 3)
+            if r.e < 0:
+                x, z = size * np.sin(turn), size * np.cos(turn)
+            else:
+                x, z = (np.sinh(turn), np.cosh(turn)) if edge > 0 else (np.cosh(turn), np.sinh(turn))
+                x, z = size * x * rng.choice([-1, 1]), size * z * rng.choice([-1, 1])
+            near.append(land.components((x, z) if r.e < 0 else (x + z, x - z), np.array(rng.normal())))
+    for off in (1e-14, 1e-11, 1e-9, 1e-8, 1e-3):  # next to the centre and the planes
+        for x, z in ((off, 0.5 * off), (1 + off, 1.0), (-1.0, 1 + off)):
+            near.append(land.components((x, z) if r.e < 0 else (x + z, x - z), np.array(rng.normal())))
+    return np.concatenate([states, np.array(near)])
+
+
+@pytest.mark.one_in(3)
+@pytest.mark.parametrize("name", FAMILIES)
+def test_arrays_agree_with_balls_at_every_edge(name):
+    """At folds, planes, centres and barriers too: the potential in balls, one state after the other."""
+    (scene, problem), states = FAMILIES[name], edge_states(name)
+    found = stabilab.fate(scene, states)
+    for n, state in enumerate(states.tolist()):
+        one = fate_of(scene, Orbit(reduce(scene), state))
+        assert (found.labels[n], found.reasons[n], found.axis[n], found.sense[n]) == (
+            one.label, one.reason, one.axis, one.sense)
+        kinetic = 0.5 * float(problem.weight[axis_of(problem)]) * state[axis_of(problem)] ** 2
+        if np.isfinite(one.margin):
+            assert abs(found.margins[n] - one.margin) <= 1e-12 * (abs(one.margin + kinetic) + kinetic)
+        else:
+            assert found.margins[n] == one.margin
 
 
 def near_the_separatrix(problem, rng, distances, spread=2.0):

@@ -11,9 +11,6 @@ import pytest
 import stabilab
 from stabilab import Body, Fate, Gyrostat, Scene
 from stabilab.answers.motion import motion
-from tests.oracles import energy
-from tests.oracles.pairs import scaled
-from tests.orbit.extremes.test_extremes import assert_extremes
 
 # l = 2, A = 5, (u, v) = (3, 4): omega3^2 = 4 l (u + A) = 64. The motion falls to u = -5; on the way through u
 # = 5 omega3^2 = 80.
@@ -40,14 +37,3 @@ def test_beside_it_the_pendulum_swings_or_turns(push):
     # omega3^2 = 64 push^2 - 64 at the top: below it there is a swing back, above it the rate keeps its sign
     assert (least > 0) == (push > 1) and most == pytest.approx((16 + 64 * push**2) ** 0.5, rel=1e-12)
     assert least == pytest.approx((64 * push**2 - 64) ** 0.5 if push > 1 else -most, rel=1e-9)
-
-
-@pytest.mark.parametrize("y, rate",
-                         [(0.5, -0.5), (1.0, 0.0), (2.5, 0.25), (2.75, -1.0), (-1.0, 0.5), (1.5, -3.0)])
-def test_on_the_decaying_plane_a_well_captures_or_lets_go(y, rate):
-    """x1 + b = -x3 (mu2 = 1) with c = 3 > 2: part of the plane is captured (theory: on |c| > 2)."""
-    scene, model = scaled(0.0, 3.0, (0, 1, 0))
-    state = (y - 3.0, rate, -y)
-    found, label = motion(scene, state), energy.label(model, state, digits=40)
-    assert found.fate.word.startswith(label)
-    assert_extremes(np.array(found.extremes), energy.extremes(model, state, digits=40), 1e-11)

@@ -6,12 +6,8 @@ import numpy as np
 import pytest
 
 import stabilab
-from benchmarks.random_scenes import drawn
-from stabilab import Fate
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
-from stabilab.orbit.one_orbit import Orbit
-from stabilab.orbit.period import precise_period
-from stabilab.orbit.reduction import reduce
+from stabilab.orbit.period import power_of_error
 from tests.oracles import energy
 from tests.oracles.pairs import physical
 from tests.shared import PARABOLIC
@@ -54,36 +50,9 @@ def test_a_well_that_rounding_leaves_no_depth_is_settled_in_balls():
     assert periods == pytest.approx(ones, rel=PERIOD_SHOWN)
 
 
-@pytest.mark.parametrize("inertia, momentum, torque, state", [
-    ((1.8630519156591676, 1.696851499662686, 1.3168816818404938),
-     (-18.420251076478365, 3.3235404450054e-08, 0.0), (0.0, 0.0, 3.828110809581424e-07),
-     (1.1978771698013784, 1.4316424324405161, 78.79880355241279)),
-    ((1.9448459693920048, 3.362679349489744e-05, 1.9448459693920048),
-     (0.10440655412040076, -1481.25684162023, 0.0), (0.0, 0.0, -0.001375579918299128),
-     (-0.12218204125060778, 0.7680234656860417, 93.78097982492297))])
-def test_one_state_has_its_period_to_eleven_digits_where_rounding_comes_in_by_several_ways(inertia, momentum,
-                                                                                           torque, state):
-    scene, model = physical(inertia, momentum, torque)
-    true = float(energy.period(model, state))
-    assert stabilab.motion(scene, state).period == pytest.approx(true, rel=1e-11)
-    assert stabilab.period(scene, [state])[0] == pytest.approx(true, rel=1e-11)
-
-
-# Random scenes of the benchmarks and states at which one trapezoidal sum is off by next to nothing although
-# the next, of twice as many nodes, is off by 1e-10
-# and more: the sign of the error goes round with the number of nodes
-CHANCES = [(71, (-4.369887196205277, -3.7053518586755274, -6.066612005004346)),
-           (54, (15.840901695272883, -20.884161715455843, -3.563450267521607)),
-           (36, (-8.231244802341465, 6.754198759544569, 14.297228083012742)),
-           (89, (7.369438363696288, -1.4192633006748567, 6.510306947190627)),
-           (26, (-1.8110733364538487, 1.8204595003467698, 1.4749630109219507)),
-           (31, (-0.10294682392994503, 1.8798661423752032, 6.084326362940442)),
-           (19, (0.5718216380893093, -1.8594223696396366, 1.171774701482545))]
-
-
-@pytest.mark.parametrize("number, state", CHANCES)
-def test_a_sum_that_is_right_by_chance_does_not_end_the_doubling_of_its_nodes(number, state):
-    """Ball arithmetic cuts the integral at every equilibrium and takes the double-exponential rule."""
-    scene = drawn(number + 1)[number].scene
-    exact = precise_period(Orbit(reduce(scene), state), Fate.BOUNDED)
-    assert stabilab.period(scene, [state])[0] == pytest.approx(exact, rel=1e-12)
+def test_the_error_by_rate_is_the_power_that_squares_with_every_doubling():
+    """A geometric rule: changes of 1e-1, 1e-2, 1e-4 leave 1e-8; by chance the last is nothing, and the change
+    before tells."""
+    assert power_of_error(-1.0, -2.0, -4.0) == pytest.approx(-8.0)
+    assert power_of_error(-1.0, -2.0, -30.0) == pytest.approx(-8.0)
+    assert power_of_error(-1.0, -15.0, -4.0) > 0

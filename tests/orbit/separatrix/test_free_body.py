@@ -17,7 +17,7 @@ from stabilab import Body, ConstantTorque, Fate, ScaledGyrostat, Scene
 from stabilab.answers.motion import motion
 from tests.oracles import energy
 from tests.oracles.model import scaled
-from tests.orbit.extremes.test_extremes import assert_extremes
+from tests.oracles.pairs import assert_extremes
 
 MOMENTS = (4.0, 3.0, 1.5)  # 4 w1^2 = 2.25 w3^2
 ORDERS = list(permutations(range(3)))
