@@ -117,8 +117,8 @@ def agrees(pair, states, digits=120, tolerance=1e-11, extremes=True, period=True
             assert_extremes(box, exact, tolerance)
             assert_extremes(np.array(alone.extremes), exact, tolerance)
         if time is not None and word == "bounded":
-            assert time == pytest.approx(float(energy.period(problem, state, digits=min(digits, 120))),
-                                         rel=tolerance), [v.hex() for v in state]
+            exact = float(energy.period(problem, state, digits=digits))
+            assert time == pytest.approx(exact, rel=tolerance), [v.hex() for v in state]
     return words
 
 
