@@ -31,6 +31,13 @@ def scaled(a, b, mu):
     return ScaledGyrostat(a, b, mu), model.scaled(a, b, mu)
 
 
+def model_of(scene):
+    """The oracle's model of a scene, from its exact numbers."""
+    if scene.variables == "scaled":
+        return model.scaled(*scene.exact_ab, scene.exact_mu)
+    return model.physical(scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque"))
+
+
 def paper(lambda1, mu):
     """The paper's body in its scaled variables: a = lambda1/500, b = lambda1/250 (u = 1)."""
     return scaled(lambda1 / 500, lambda1 / 250, mu)

@@ -5,6 +5,8 @@ Taylor coefficients follow from (n+1) x_i[n+1] = kappa_i sum_l x_j[l] x_k[n-l] +
 """
 from __future__ import annotations
 
+from fractions import Fraction
+
 import mpmath as mp
 
 from tests.oracles.model import CYCLE, Model
@@ -39,12 +41,11 @@ def _step_length(series, order, digits):
 
 def integrate(model: Model, state, times, digits: int = 40, order: int | None = None):
     """States (list of lists of mpf) at the given times, in order and of one sign, from `state` at time 0;
-    local error 10^-digits."""
+    numbers of any kind, or exact in strings; local error 10^-digits."""
     order = order or int(1.2 * digits) + 4
     with mp.workdps(digits + 10):
         def number(v):
-            return (mp.mpf(v.numerator) / v.denominator if hasattr(v, "numerator")
-                    and not isinstance(v, float) else mp.mpf(v))
+            return v if isinstance(v, mp.mpf) else mp.mpf(Fraction(v).numerator) / Fraction(v).denominator
 
         table = [[number(v) for v in row] for row in (model.kappa, model.rho, model.sigma, model.m)]
         x, now, found = [number(v) for v in state], mp.mpf(0), []

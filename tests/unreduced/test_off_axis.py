@@ -19,9 +19,6 @@ from stabilab import (
 )
 from stabilab.errors import InputError
 from stabilab.integrate.events import roots_of_rates
-from stabilab.orbit.one_orbit import Orbit
-from stabilab.orbit.period import period_of, precise_period
-from stabilab.orbit.reduction import reduce
 from stabilab.unreduced import off_axis
 from stabilab.unreduced.evidence import evidence
 from stabilab.unreduced.free_gyrostat import extremes_over_period
@@ -233,14 +230,6 @@ def test_the_period_of_an_undecided_motion_is_no_number_and_the_command_says_why
                                           f"{list(state)}\nspan = [0, 1]\n")
     code, out, _ = stabilab("period", tmp_path / "island.toml")
     assert code == 0 and "the period is not known: the fate is undecided" in out
-
-
-@pytest.mark.parametrize("label, expected", [(Fate.SPIN_UP, np.inf), (Fate.SEPARATRIX, np.inf),
-                                             (Fate.EQUILIBRIUM, 0.0), (Fate.UNDECIDED, np.nan)])
-def test_a_label_alone_tells_the_period_of_what_is_not_bounded(label, expected):
-    orbit = Orbit(reduce(Scene(Body((12, 9, 5)), ConstantTorque((0, 0, 1)))), (1.0, 0.5, 0.2))
-    for told in (period_of(orbit, label), precise_period(orbit, int(label))):
-        np.testing.assert_equal(told, expected)
 
 
 NEAR_ROD = Scene(Body((1, "0.9999999965", "2.3e-8")), Gyrostat(("-0.093", "-0.037", "-0.0044")),

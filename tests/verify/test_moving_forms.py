@@ -20,7 +20,7 @@ from stabilab.verify.normal_form import equator, moving_form
 from stabilab.verify.numbers import ball, working
 from stabilab.verify.rates import Rates
 from stabilab.verify.spin_up import FORMS
-from tests.unreduced.enclosure.taylor import run
+from tests.oracles.taylor import integrate
 from tests.unreduced.spin_up.scenes import random_scene, sphere
 from tests.verify.test_forged_certificates import forge_all
 from tests.verify.trapped import says_what_happens
@@ -97,7 +97,7 @@ def test_corrected_energy_and_amplitude_change_at_the_rates_that_are_written_dow
         with working(200):
             made = MovingInequality(form, orders)
             start = [F(float(v.mid())) for v in moving_at(form, F(40))]
-            states = [start, *run((rates.kappa, rates.rho, rates.sigma, rates.m), start, [h, 2 * h])]
+            states = [start, *integrate(rates, start, [h, 2 * h])]
             states = [[ball(v if isinstance(v, F) else F(*mpmath.libmp.to_rational(v._mpf_))) for v in state]
                       for state in states]
 
@@ -167,8 +167,7 @@ def a_certificate(seed, about, orders=(2, 4)):
             break
     made = json.loads(json.dumps(certificate(scene, [F(str(v)) for v in state.tolist()])))
     t = F(1, 64)
-    (place,) = run((lambda r: (r.kappa, r.rho, r.sigma, r.m))(rates_of(scene)),
-                   [F(str(v)) for v in state.tolist()], [t])
+    (place,) = integrate(rates_of(scene), [F(str(v)) for v in state.tolist()], [t])
     box = [[str(F(*mpmath.libmp.to_rational(v._mpf_)) + s * F(1, 10**12)) for s in (-1, 1)] for v in place]
     said = {"about": about, "axis": axis, "sense": sense, "orders": list(orders), "t": "0", "cone": str(cone),
             "least": str(least), "gain": str(gain),

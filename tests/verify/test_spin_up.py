@@ -20,7 +20,7 @@ from stabilab.verify.normal_form import form_about
 from stabilab.verify.numbers import Malformed, above, ball, below, working
 from stabilab.verify.rates import Rates
 from stabilab.verify.spin_up import Lost, Way, spin_up_of
-from tests.unreduced.enclosure.taylor import run
+from tests.oracles.taylor import integrate
 from tests.unreduced.spin_up.scenes import EXAMPLE, random_scene, sphere
 from tests.verify.inequality_in_digits import holds
 from tests.verify.kept_way import keeping
@@ -44,10 +44,6 @@ def drawn(rng):
     return scene, rates_of(scene)
 
 
-def rows(rates):
-    return rates.kappa, rates.rho, rates.sigma, rates.m
-
-
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("n", range(6))
 def test_the_way_holds_the_motion(n):
@@ -56,7 +52,7 @@ def test_the_way_holds_the_motion(n):
     start, end = [F(v) for v in sphere(rng, rng.choice((.1, 1, 4)))], F(3, 2)
     way = Way(rates, start, 96, 500)
     for t in (end / 3, end):
-        state, true = way.to(t), run(rows(rates), start, [t])[0]  # a run in 50 digits
+        state, true = way.to(t), integrate(rates, start, [t])[0]  # a run in 50 digits
         with mpmath.workdps(50):
             for v, x in zip(state, true):
                 low, high = (mpmath.mpf(e.numerator) / e.denominator for e in (below(v), above(v)))

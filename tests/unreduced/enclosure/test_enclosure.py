@@ -14,21 +14,17 @@ from stabilab.errors import InputError
 from stabilab.numbers.numba_door import installed
 from stabilab.unreduced.enclosure import kernel
 from stabilab.unreduced.enclosure.run import Course
+from tests.oracles.pairs import model_of
+from tests.oracles.taylor import integrate
 
 from ..spin_up.scenes import EXAMPLE, random_scene, sphere
-from .taylor import run, shares
 
 
-def rows(scene):
-    """kappa, rho, sigma, m written out anew from Euler's equations, or from those of the scaled gyrostat."""
-    if scene.variables == "scaled":
-        a, b = scene.exact_ab
-        return (1, -1, 1), (0, 0, b), (0, -a, 0), scene.exact_mu
-    (D1, D2, D3), (l1, l2,
-                   l3), M = scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")
-    kappa = (D2 - D3) / D1, (D3 - D1) / D2, (D1 - D2) / D3
-    return kappa, (l2 / D1, l3 / D2, l1 / D3), (-l3 / D1, -l1 / D2,
-                                                -l2 / D3), [M[0] / D1, M[1] / D2, M[2] / D3]
+def shares(middle, rest, radius, true):
+    """|true - (middle + rest)|/radius of three rates: at most 1 where the enclosure holds."""
+    with mpmath.workdps(50):
+        return [float(abs(mpmath.mpf(float(m)) + mpmath.mpf(float(r)) - x) / mpmath.mpf(float(e)))
+                for m, r, e, x in zip(middle, rest, radius, true)]
 
 
 def drawn(rng, n):
@@ -64,7 +60,7 @@ def holds(scene, start, end, rng):
     found = course.now
     assert found.status == "enclosed" and found.t == end
     times = sorted(rng.uniform(0, end) for _ in range(2))
-    *between, last = run(rows(scene), start, [*times, end])
+    *between, last = integrate(model_of(scene), start, [*times, end])
     worst = shares(found.middle, found.rest, found.radius, last)
     for t, true in zip(times, between):
         band = next(b for b in bands if b.times[0] <= t <= b.times[-1])
@@ -119,11 +115,12 @@ def test_a_fraction_and_a_decimal_in_a_string_are_taken_exactly():
     assert one.middle.tolist() == two.middle.tolist() and one.rest.tolist() == two.rest.tolist()
     # a run in 50 digits
     assert max(shares(one.middle, one.rest, one.radius,
-                      run(rows(EXAMPLE), ("0.1", "1/3", "2"), [end])[0])) <= 1
+                      integrate(model_of(EXAMPLE), ("0.1", "1/3", "2"), [end])[0])) <= 1
     double = enclose(EXAMPLE, (.1, 1 / 3, 2.), end)  # another motion, 1e-17 beside it
-    assert max(shares(one.middle, one.rest, one.radius, run(rows(EXAMPLE), (.1, 1 / 3, 2), [end])[0])) > 1e3
+    beside = integrate(model_of(EXAMPLE), (.1, 1 / 3, 2), [end])[0]
+    assert max(shares(one.middle, one.rest, one.radius, beside)) > 1e3
     assert max(shares(double.middle, double.rest, double.radius,
-                      run(rows(EXAMPLE), (.1, 1 / 3, 2), [end])[0])) <= 1
+                      beside)) <= 1
 
 
 def test_energy_and_squares_of_a_band_are_those_of_the_motion():
@@ -135,7 +132,7 @@ def test_energy_and_squares_of_a_band_are_those_of_the_motion():
         for i in range(len(radii)):
             begin, end = map(Fraction, band.times[i:i + 2].tolist())
             x = Fraction(3, 8)
-            state = run(rows(EXAMPLE), (.1, 1, 2), [begin + x * (end - begin)])[0]
+            state = integrate(model_of(EXAMPLE), (.1, 1, 2), [begin + x * (end - begin)])[0]
             with mpmath.workdps(50):
                 true = sum(mpmath.mpf(Fraction(w).numerator) / Fraction(w).denominator * v * v for w,
                            v in zip(weights, state))

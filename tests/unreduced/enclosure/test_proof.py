@@ -11,11 +11,11 @@ from stabilab.numbers.numba_door import installed
 from stabilab.unreduced.enclosure.run import _up, proved
 from stabilab.unreduced.spin_up.certificate import Certifier
 from stabilab.unreduced.spin_up.follow import LEVELS, spin_up, spin_up_many
+from tests.oracles.pairs import model_of
+from tests.oracles.taylor import integrate
 
 from ..spin_up import scenes
 from ..spin_up.scenes import EXAMPLE, random_scene, rates_of, sphere
-from .taylor import run
-from .test_enclosure import rows
 
 
 @pytest.mark.one_in(2)
@@ -26,7 +26,7 @@ def test_random_motions_are_proved_to_spin_up_and_do(n):
     found = spin_up(scene, state, t_max=200, budget=4000, proof=True)
     assert found.level == "proved" and "is proved" in found.cause and "enclosed, within" in found.cause
     # a run in 50 digits
-    true = np.array([float(v) for v in run(rows(scene), state, [found.t])[0]]) if found.t else np.array(state)
+    true = np.array(integrate(model_of(scene), state, [found.t])[0], float) if found.t else np.array(state)
     assert np.abs(true - found.state).max() < 1e-13 * max(1, np.abs(true).max())
     times = np.linspace(0, 20, 201)
     spin = found.sense * scenes.run(rates_of(scene), true, times)[:, found.axis - 1]  # DOP853

@@ -5,8 +5,7 @@ import numpy as np
 import pytest
 
 from stabilab.answers.motion import motion
-from stabilab.unreduced.enclosure.bands import ranges, ranges_until
-from stabilab.unreduced.enclosure.run import Band, Course
+from stabilab.unreduced.enclosure.bands import ranges_until
 
 from ..spin_up.scenes import EXAMPLE, random_scene, rates_of, run, sphere
 
@@ -22,26 +21,8 @@ def test_ranges_hold_the_motion_closely(n):
     assert (greatest - least + 1e-3 >= 0.99 * (found[:, 1] - found[:, 0])).all()
 
 
-def test_a_polynomial_lies_between_its_bounds():
-    generator = np.random.default_rng(5)
-    rows = generator.normal(size=(2, 3, 37)) * 0.7 ** np.arange(37)
-    found = ranges(Band(np.array([0., 1, 2]), rows, np.zeros((2, 3))))
-    # NumPy's
-    values = np.array([[np.polynomial.polynomial.polyval(np.linspace(0, 1, 4001), c) for c in row]
-                       for row in rows])
-    least, greatest = values.min(axis=(0, 2)), values.max(axis=(0, 2))
-    assert (found[:, 0] <= least).all() and (greatest <= found[:, 1]).all()
-    assert (found[:, 1] - greatest < 0.02 * (greatest - least)).all()
-
-
 def test_ranges_that_are_not_reached_are_none():
     assert ranges_until(EXAMPLE, (.1, 1, 2), 50.0, steps=5) is None
-
-
-def test_a_band_of_a_chunk_goes_on_where_the_last_one_ended():
-    course = Course(EXAMPLE, (.1, 1, 2), 3.0)
-    one, two = course.advance(3.0, 4, band=True), course.advance(3.0, band=True)
-    assert one.times[-1] == two.times[0] and len(one.radii) == 4
 
 
 def test_a_motion_is_proved_when_asked_and_its_bounds_are_what_it_cannot_leave():

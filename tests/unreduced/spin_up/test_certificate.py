@@ -2,17 +2,14 @@
 """
 import random
 
-import mpmath
 import numpy as np
 import pytest
 
-from stabilab.unreduced.spin_up import moving_kernel
 from stabilab.unreduced.spin_up.centres import FixedCentre, moving_centre
 from stabilab.unreduced.spin_up.certificate import Certifier
 from stabilab.unreduced.spin_up.form import forms_of
 
 from .scenes import EXAMPLE, random_scene, rates_of, run, sphere
-from .test_elimination import in_digits
 
 STATE = np.array([6.0, 1.0, -1.0])
 
@@ -70,39 +67,3 @@ def test_a_ball_is_certified_only_if_every_state_in_it_is():
         if ball:
             assert all(test.constants(state)[1] >= ball[1] * 0.999 for state in inside)
     assert test.constants(STATE, 1e-3) and not test.constants(STATE, 10.0)
-
-
-def test_values_at_the_start_lie_within_their_blur():
-    """Energy and amplitude of a state in doubles against the same in 60 digits."""
-    scene, orders = random_scene(random.Random(8), 1), (12, 14)
-    rough = forms_of(scene)[0]
-    test = Certifier(FixedCentre(rough), orders)
-    state = np.zeros(3)
-    state[rough.axis], state[rough.order[1]] = rough.sense * 9.7, 0.7
-    (x, zeta), dx, form = rough.place(state.tolist()), 2.0**-46, test.numbers[0]
-    rows, powers = np.ones((4, 2 * moving_kernel.MIDDLE + 1)), np.zeros(test.degrees, complex)
-    with mpmath.workdps(60):
-        *quantities, place = in_digits(rough, scene, orders)
-        X, z = place(state.tolist())
-        for quantity, (exact, _) in zip(test.numbers[1:3], quantities):
-            middle, blur = moving_kernel.blurred(quantity, zeta, abs(zeta) + dx, x, x - dx, dx, form, rows,
-                                                 powers, np.zeros(test.columns))
-            true = sum(c * z**j * z.conjugate()**k / X**n for (j, k, n), c in exact.items())
-            assert abs(mpmath.re(true) - middle) <= blur < 1e-6
-
-
-def test_spin_against_the_torque_is_never_certified():
-    rng = random.Random(9)
-    for _ in range(20):
-        scene = random_scene(rng)
-        for form in forms_of(scene):
-            state = np.zeros(3)
-            state[form.axis] = -form.sense * 30
-            test = Certifier(FixedCentre(form), (4, 6))
-            assert not test.constants(state)  # it slows down first: T' = M.w < 0
-
-
-def test_higher_orders_hold_wherever_lower_ones_do_and_are_sharper():
-    form = forms_of(EXAMPLE)[0]
-    low, high = (Certifier(FixedCentre(form), orders).constants(STATE) for orders in ((0, 2), (12, 14)))
-    assert high[0] < low[0] and high[1] > low[1] and high[2] > low[2]

@@ -10,10 +10,10 @@ from benchmarks.spin_up import random_scene as benchmark_scene
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.unreduced.spin_up import drift
 from stabilab.unreduced.spin_up.certificate import natural
-from stabilab.unreduced.spin_up.drift import BETWEEN, NODES, Returns, Runs, Twins, matrices, window
+from stabilab.unreduced.spin_up.drift import Returns, Runs, window
 from stabilab.unreduced.spin_up.follow import spin_up
 
-from .scenes import EXAMPLE, euler, numba, rates_of
+from .scenes import EXAMPLE, numba, rates_of
 
 FAST = Scene(Body((1.4, 1, 0.6)), Gyrostat((0.2, 0.1, -0.3)), ConstantTorque((0.5, 0.6, 0.62)))
 START = (12.0, 20.0, 90.0)
@@ -24,33 +24,6 @@ def dop(scene, start, end):
     rate = rates_of(scene)
     return solve_ivp(lambda _, y: np.array(rate(y.tolist())), (0, end), start, "DOP853", rtol=1e-13,
                      atol=1e-12).y[:, -1]
-
-
-@pytest.mark.parametrize("count", [16.0, 100.0, 4097.0])
-def test_sums_of_polynomials_are_those_by_hand(count):
-    """x(n) = sum of d(i), i < n, for d = 1, i, i^2, i^3: n, n(n-1)/2, n(n-1)(2n-1)/6, (n(n-1)/2)^2."""
-    sums, powers, coefficients, between = matrices()
-    n = count * (1 - np.cos(np.pi * np.arange(NODES + 1) / NODES)) / 2
-    matrix = (count ** powers.astype(float)[:, None, None] * sums).sum(axis=0)
-    pair = n * (n - 1) / 2
-    for d, expected in ((np.ones_like(n), n), (n, pair), (n**2, pair * (2 * n - 1) / 3), (n**3, pair**2)):
-        assert np.allclose(matrix @ d, expected, rtol=0, atol=1e-13 * count * np.abs(d).max())
-    assert between @ n**3 == pytest.approx((BETWEEN * count)**3,
-                                           rel=1e-13) and np.abs(coefficients @ n**3)[
-                                               4:].max() < 1e-13 * count**3
-
-
-def test_slopes_are_those_of_the_rates_forth_and_back():
-    """Against differences of Euler's equations: those are quadratic, so central differences are exact."""
-    runs, rng = Runs(EXAMPLE, np.zeros((5, 3))), np.random.default_rng(1)
-    states, directions, weights = rng.normal(size=(3, 5, 3))
-    rate = rates_of(EXAMPLE)
-    expected = np.array([(np.array(rate(w + v)) - np.array(rate(w - v))) / 2 for w,
-                         v in zip(states, directions)])
-    assert np.allclose(runs.rates(states),
-                       [rate(w) for w in states]) and np.allclose(runs.slopes(states, directions), expected)
-    assert np.allclose((runs.slopes_back(states, weights) * directions).sum(axis=1),
-                       (expected * weights).sum(axis=1))
 
 
 def test_a_window_ends_where_a_run_by_another_formula_does():
@@ -76,36 +49,6 @@ def test_a_window_that_meets_no_smooth_drift_is_refused():
     returns = Returns(Runs(own, start))
     found = window(returns, start, np.array([600.0]), np.array([3.0]), np.array([10.0]))
     assert not found.good[0]
-
-
-def test_growth_is_that_of_the_tangent_flow_across_the_motion():
-    """Against the variational equation by DOP853, from the first direction, what lies along the motion taken
-    off."""
-    rate, runs = rates_of(FAST), Runs(FAST, np.array([START]))
-
-    def both(_, y):
-        w, v = y[:3], y[3:]
-        slope = [(a - b) / 2 for a, b in zip(rate(w + v), rate(w - v))]
-        return np.array([*rate(w), *slope])
-    first = (runs.twins.ahead[0] - (along := np.array(rate(START))) * (runs.twins.ahead[0] @ along)
-             / (along @ along))
-    runs.advance(np.array([0]), 100, 1e300)
-    end = solve_ivp(both, (0, runs.times[0]), [*START, *first], "DOP853", rtol=1e-12, atol=1e-12).y[:, -1]
-    along = np.array(rate(end[:3]))
-    across = end[3:] - along * (end[3:] @ along) / (along @ along)
-    assert runs.twins.growth[0] == pytest.approx(np.abs(across).max(), rel=0.02)
-    assert runs.twins.blur[0] > 0 and np.isfinite(runs.twins.blur[0])
-
-
-def test_a_mere_delay_is_no_growth():
-    """A twin ahead on the same motion: nothing lies across it."""
-    rates = lambda states: np.array([euler((1.4, 1, 0.6), (0.2, 0.1, -0.3), (0.5, 0.6, 0.62), w)
-                                     for w in states])
-    twins, state = Twins(1, rates), np.array([START])
-    early = dop(FAST, START, 1e-6)[None]
-    lost = twins.compare(np.array([0]), state, state, early, np.array([0.0]), np.array([1e-5]),
-                         np.array([1e-15]))
-    assert not lost[0] and twins.growth[0] < 1e-4
 
 
 @pytest.mark.slow

@@ -1,10 +1,12 @@
 """Motions followed to their certificate: one and many, and none against a run of another kind."""
 import math
 import random
+from functools import partial
 
 import numpy as np
 import pytest
 
+import stabilab
 from benchmarks.spin_up import random_scene as benchmark_scene
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.errors import InputError
@@ -173,3 +175,20 @@ def test_a_motion_that_a_law_keeps_bounded_is_no_open_question_of_spin_up():
                                   Fate.SPIN_UP] and [many.row(n).cause
                                                      for n in range(2)] == [answer.cause for answer in one]
     assert many.row(1).trap is not None
+
+
+QUESTIONS = {"fate": stabilab.fate, "extremes": stabilab.extremes, "period": stabilab.period,
+             "time to": partial(stabilab.time_to, rate=1.0),
+             "spin-up": lambda scene, states: stabilab.spin_up(scene, states[0]), "motion": lambda scene,
+             states: stabilab.motion(scene, states[0])}
+
+
+@pytest.mark.one_in(2)
+@pytest.mark.parametrize("question", QUESTIONS)
+@pytest.mark.parametrize("moments", [(10, 10, 6), (10.1, 9.9, 6)])
+@pytest.mark.parametrize("wheel", [1e160, 1e300])
+def test_wheels_whose_squares_are_no_doubles_are_refused_by_every_question(question, moments, wheel):
+    scene = Scene(Body(moments), Gyrostat((wheel, .1, .2)), ConstantTorque((.001, .01, .02)))
+    with pytest.raises(InputError,
+                       match="momenta this large are beyond the range of doubles: choose other units"):
+        QUESTIONS[question](scene, np.array([[.05, .01, .01], [.1, 0, 0]]))

@@ -50,25 +50,3 @@ def test_steps_beside_a_saddle_stay_short_though_the_state_hardly_leaves_it(smal
     assert runs.times[0] == 4.0 and np.allclose(runs.states[0, [0, 2]], small * growing(4.0), rtol=1e-3,
                                                 atol=0)
     assert runs.twins.growth[0] == pytest.approx(np.abs(growing(4.0)).max(), rel=0.05)
-
-
-@numba
-def test_compiled_steps_are_the_plain_ones():
-    """To the last bit: what a process has compiled is in no answer."""
-    starts = states(6, 11)
-    plain, compiled = Runs(EXAMPLE, starts), Runs(EXAMPLE, starts, fast=True)
-    for one in (plain, compiled):
-        one.advance(np.arange(11), 12, 1e300, 0.05)
-    assert np.array_equal(plain.states, compiled.states) and np.array_equal(plain.times, compiled.times)
-    assert np.array_equal(plain.twins.growth, compiled.twins.growth)
-
-
-def test_powers_of_two_are_exact_and_others_near():
-    """Against the functions of the library."""
-    for power in (-900, -3, 0, 1, 77, 1000):
-        assert steps.logarithm(2.0**power) == power and steps.two_to(float(power)) == 2.0**power
-    for x in (1.1, 3.7, 1e-290, 1e150):
-        assert -0.09 <= steps.logarithm(x) - np.log2(x) <= 0
-    for y in (-900.3, -3.5, 0.25, 9.75, 101.5):
-        assert steps.two_to(y) == pytest.approx(2.0**y, rel=0.004)
-    assert steps.logarithm(np.inf) == steps.logarithm(np.nan) == 1024
