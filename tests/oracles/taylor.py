@@ -12,7 +12,7 @@ import mpmath as mp
 from tests.oracles.model import CYCLE, Model
 
 
-def _coefficients(table, x, order):
+def coefficients(table, x, order):
     kappa, rho, sigma, m = table
     series = [[v] for v in x]
     for n in range(order):
@@ -27,7 +27,7 @@ def _coefficients(table, x, order):
     return series
 
 
-def _step_length(series, order, digits):
+def step_length(series, order, digits):
     """The last two coefficients bound the tail: step so that it is 10^-digits of the state's size, and a
     fifth less for the tail's other terms."""
     size = max(1e-300 + abs(row[0]) for row in series)
@@ -52,8 +52,8 @@ def integrate(model: Model, state, times, digits: int = 40, order: int | None = 
         for target in times:
             target = number(target)
             while now != target:
-                series = _coefficients(table, x, order)
-                step = min(_step_length(series, order, digits), abs(target - now))
+                series = coefficients(table, x, order)
+                step = min(step_length(series, order, digits), abs(target - now))
                 step = step if target > now else -step
                 x = [mp.polyval(row[::-1], step) for row in series]
                 now = target if abs(target - now) <= abs(step) else now + step

@@ -17,13 +17,12 @@ from stabilab.unreduced.spin_up.form import forms_of
 from stabilab.verify import verify
 from stabilab.verify.inequality import Inequality
 from stabilab.verify.normal_form import form_about
-from stabilab.verify.numbers import Malformed, above, ball, below, working
+from stabilab.verify.numbers import above, ball, below, working
 from stabilab.verify.rates import Rates
-from stabilab.verify.spin_up import Lost, Way, spin_up_of
+from stabilab.verify.spin_up import Lost, Way
 from tests.oracles.taylor import integrate
 from tests.unreduced.spin_up.scenes import EXAMPLE, random_scene, sphere
 from tests.verify.inequality_in_digits import holds
-from tests.verify.kept_way import keeping
 from tests.verify.trapped import says_what_happens
 from tests.verify.true_values import DIGITS, number, state_at
 
@@ -57,18 +56,6 @@ def test_the_way_holds_the_motion(n):
             for v, x in zip(state, true):
                 low, high = (mpmath.mpf(e.numerator) / e.denominator for e in (below(v), above(v)))
                 assert low <= x <= high and high - low < 1e-20
-
-
-def test_a_way_with_kept_steps_is_the_way_whatever_was_asked_before():
-    """To the bit, with times between those that were asked first, and with fewer steps allowed."""
-    rates, kept = rates_of(EXAMPLE), keeping()
-    sets = lambda made, times, allowed: [[(str(v.mid()), str(v.rad())) for v in way.to(F(t))]
-                                         for way in [made(rates, STATE, 96, allowed)] for t in times]
-    for times in (("1", "5/2"), ("1", "5/2"), ("1/3", "1", "5/2"), ("1", "3/2")):
-        assert sets(kept, times, 400) == sets(Way, times, 400)
-    for made in (kept, Way):
-        with pytest.raises(Lost, match="not followed"):
-            sets(made, ("1", "5/2"), 3)
 
 
 def test_a_way_without_enough_bits_gets_lost_or_wide():
@@ -161,13 +148,6 @@ def test_a_way_too_long_to_follow_is_not_checked(monkeypatch):
     monkeypatch.undo()
     far = verify(changed(made, t="1e9", way=[]))
     assert far.status == "partly" and all("at this pace" in f.reason for f in far.findings)
-
-
-@pytest.mark.parametrize("bad", [[], "x", {}, {"t": "1"}])
-def test_what_is_no_spin_up_is_malformed(bad):
-    with pytest.raises(Malformed):
-        spin_up_of(bad)
-
 
 
 @pytest.mark.one_in(2)

@@ -81,19 +81,6 @@ def test_a_motion_of_small_numbers_is_proved_where_signs_vanish_at_the_ends_of_a
     assert found.status == "proved", [f for f in found.findings if f.status != "proved"]
 
 
-
-@pytest.mark.one_in(2)
-@pytest.mark.parametrize("change", [
-    {"fate": "spin-up", "axis": 3, "sense": 1}, {"fate": "equilibrium"}, {"period": ["2", "30"]},
-    {"extremes": [[["-9", "9"], ["-9", "9"]]] * 2 + [[["-9", "9"], None]]},
-    {"extremes": [[["-9", "9"], ["-9", "9"]]] * 2 + [[["-9", "9"], ["8", "9"]]]}])
-def test_a_wrong_claim_on_the_motion_is_refuted(change):
-    assert verify(BOUNDED).status == "proved"
-    wrong = copy.deepcopy(BOUNDED)
-    wrong["motion"].update(change)
-    assert verify(wrong).status == "refuted"
-
-
 # theory: minor axis, equilibria x3 = 0, x2 (x1 + b) = -1; with a = b = 0 the hyperbola x1 = -1/t, x2 = t, m =
 # 1/t^2 - t^2
 HYPERBOLA = {"schema": "stabilab.certificate/1",
@@ -113,23 +100,6 @@ def test_the_equilibrium_hyperbola_is_proved():
     assert found.status == "proved" and any("complete" in f.claim for f in found.findings)
 
 
-@pytest.mark.parametrize("spoil", [
-    lambda e: e.update(kind="none", curves=[]),
-    lambda e: e["curves"][0]["segments"][1].update(verdict="unstable"),
-    lambda e: e["curves"][0]["segments"][0].update(linear="stable"), lambda e: e["curves"][0]["folds"].pop(),
-    lambda e: e["curves"][0].update(numerators=[["1"], ["0", "0", "1"], []]),
-    lambda e: e["curves"][0]["folds"][0].update(t=["-2", "-1.5"]),
-    lambda e: e["curves"][0]["folds"][1].update(verdict="stable"),
-    lambda e: e["curves"].append(e["curves"][0]),
-    # t -> t^2 runs over one branch only, twice
-    lambda e: e["curves"][0].update(numerators=[["-1"], ["0", "0", "0", "0", "1"], []],
-                                    denominator=["0", "0", "1"])])
-def test_a_wrong_claim_on_the_curve_is_refuted(spoil):
-    wrong = copy.deepcopy(HYPERBOLA)
-    spoil(wrong["equilibria"])
-    assert verify(wrong).status == "refuted"
-
-
 # (x1 + a)(x1 + b) = mu2 mu3/mu1, x2 = -mu3/(x1 + b), x3 = mu2/(x1 + a) (theory.md, section 1); a = b = 0, mu
 # = (1, 1, 1): x = +-(1, -1, 1)
 POINTS = {"schema": "stabilab.certificate/1",
@@ -143,16 +113,6 @@ POINTS = {"schema": "stabilab.certificate/1",
 
 def test_two_isolated_equilibria_are_proved_in_their_boxes():
     assert verify(POINTS).status == "proved"
-
-
-@pytest.mark.parametrize("spoil", [
-    lambda e: e["points"].pop(), lambda e: e["points"][0].update(verdict="stable"),
-    lambda e: e["points"][1].update(linear="stable"),
-    lambda e: e["points"].append(copy.deepcopy(e["points"][0])), lambda e: e.update(kind="none")])
-def test_a_wrong_claim_on_the_points_is_refuted(spoil):
-    wrong = copy.deepcopy(POINTS)
-    spoil(wrong["equilibria"])
-    assert verify(wrong).status == "refuted"
 
 
 @pytest.mark.parametrize("spoil, word", [
@@ -171,10 +131,8 @@ def test_the_checker_shares_only_flint():
     for path in FOLDER.rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.ImportFrom):
-                assert node.level or node.module.partition(".")[0] in {"flint",
-                                                                       *sys.stdlib_module_names}, (path,
-                                                                                                   node.module)
-                # its own modules
-                assert node.level <= len(path.relative_to(FOLDER).parts), (path, node.module)
+                from_package = node.module.partition(".")[0] if not node.level else "flint"
+                assert from_package in {"flint", *sys.stdlib_module_names}, (path, node.module)
+                assert node.level <= len(path.relative_to(FOLDER).parts), path  # its own modules
             elif isinstance(node, ast.Import):
                 assert all(alias.name in {"flint", *sys.stdlib_module_names} for alias in node.names), path

@@ -7,20 +7,22 @@ from functools import lru_cache
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from tests.oracles import model
+
 LATER = 40  # natural units of time after the trap
 
 
-def rates_of(scene, number=lambda text: float(F(text))):
-    """(kappa, rho, sigma, m), three numbers each, floats or of the kind that `number` makes, from the numbers
-    of a certificate's scene."""
+def model_of(scene):
+    """The oracle's model of a certificate's scene."""
     if scene["variables"] == "scaled":
-        a, b, mu = number(scene["a"]), number(scene["b"]), [number(v) for v in scene["mu"]]
-        return [1, -1, 1], [0, 0, b], [0, -a, 0], mu
-    D, l, M = ([number(v) for v in scene[key]] for key in ("inertia", "momentum", "torque"))
-    turn = [((i + 1) % 3, (i + 2) % 3) for i in range(3)]
-    return ([(D[j] - D[k]) / D[i] for i, (j, k) in enumerate(turn)],
-            [l[j] / D[i] for i, (j, k) in enumerate(turn)],
-            [-l[k] / D[i] for i, (j, k) in enumerate(turn)], [M[i] / D[i] for i in range(3)])
+        return model.scaled(scene["a"], scene["b"], scene["mu"])
+    return model.physical(scene["inertia"], scene["momentum"], scene["torque"])
+
+
+def rates_of(scene, number=float):
+    """(kappa, rho, sigma, m), three numbers each, of the kind that `number` makes."""
+    made = model_of(scene)
+    return [[number(v) for v in row] for row in (made.kappa, made.rho, made.sigma, made.m)]
 
 
 def rates_at(kappa, rho, sigma, m):

@@ -1,9 +1,8 @@
 """The value that a bracket of a certificate should hold, from the equations alone, in 50 digits: nothing of
 the package, nothing of `verify`.
 
-A motion is a Taylor series in mpmath, by the recursion of the coefficients of x_i' = kappa_i x_j x_k + rho_i
-x_k + sigma_i x_j + m_i, step by step. Its extremes are zeros of a rate, its period is the return to the
-start. An isolated equilibrium is a zero of the rates by Newton's method. A fold is a zero of m in the
+A motion is a Taylor series in mpmath (`oracles.taylor`), step by step. Its extremes are zeros of a rate, its
+period is the return to the start. An isolated equilibrium is a zero of the rates by Newton's method. A fold is a zero of m in the
 characteristic polynomial z^3 + m z + n of the Jacobian matrix, along the curve that the certificate names.
 """
 from __future__ import annotations
@@ -12,7 +11,8 @@ from fractions import Fraction as F
 
 import mpmath as mp
 
-from tests.verify.trapped import rates_of
+from tests.oracles import taylor
+from tests.verify.trapped import model_of, rates_of
 
 # the latter beside a plane that is left as exp(angle): what is lost there grows by exp(DECAYED) = 1e48
 DIGITS, MORE = 55, 115
@@ -121,19 +121,9 @@ def second_coefficient(rates, x):
 def series(rates, x):
     """The first coefficients of the Taylor series of three components, and a step within which the rest is
     below a unit of the last digit but two."""
-    out = [[v] for v in x]
     order = mp.mp.dps + 5
-    for n in range(order):
-        new = []
-        for i, (k, r, s, m) in enumerate(zip(*rates)):
-            one, two = out[(i + 1) % 3], out[(i + 2) % 3]
-            new.append((k * mp.fdot(zip(one, reversed(two))) + r * two[n] + s * one[n] + (m if n == 0 else 0))
-                       / (n + 1))
-        for row, v in zip(out, new):
-            row.append(v)
-    size = max(map(abs, x)) + mp.mpf(10)**-300
-    grown = max(max((abs(row[n]) / size)**(mp.mpf(1) / n) for row in out) for n in (order - 1, order))
-    return out, mp.mpf(10)**(-mp.mpf(mp.mp.dps - 2) / order) / grown if grown else mp.mpf(1)
+    rows = taylor.coefficients(rates, x, order)
+    return rows, min(taylor.step_length(rows, order, mp.mp.dps - 2), mp.mpf(1))
 
 
 def at(row, s):
@@ -142,12 +132,7 @@ def at(row, s):
 
 def state_at(claims, end):
     """The state at a time."""
-    rates, x, t = rates_of(claims["scene"], number), [number(v) for v in claims["motion"]["state"]], mp.mpf(0)
-    while t < end:
-        rows, step = series(rates, x)
-        step = min(step, end - t)
-        x, t = [at(row, step) for row in rows], t + step
-    return x
+    return taylor.integrate(model_of(claims["scene"]), claims["motion"]["state"], [end], digits=mp.mp.dps)[0]
 
 
 class Run:
