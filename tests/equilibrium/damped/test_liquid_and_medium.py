@@ -5,7 +5,6 @@ NumPy's eigenvalues for the spectra, long runs of the Taylor integrator for the 
 """
 import itertools
 from fractions import Fraction
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,12 +20,13 @@ from stabilab.orbit.result import Fate
 from stabilab.physics.coefficients import content, rates
 from stabilab.physics.effects.body_force import BodyForce
 from stabilab.physics.effects.charge import Charge
+from stabilab.physics.effects.gravity import Gravity
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
+from stabilab.physics.effects.newtonian_field import NewtonianField
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.equations import derive
 from stabilab.physics.to_numpy import to_numpy
 
-ROOT = Path(__file__).parents[3]
 BODY = Body((9, 8, 5))
 LIQUID = LiquidCavity(1250, 1000, "0.1")  # kappa = 1/8
 
@@ -274,13 +274,16 @@ def test_boxes_say_so_where_a_double_zero_cannot_be_told_apart():
     assert not found.complete
 
 
-def test_exact_rates_are_those_of_the_derived_equations():
-    where = scene(Gyrostat((1, 2, 3)), Charge("0.3", 2, 1, "0.4"), ConstantTorque((1, 0, 2)),
-                  Resistance("0.1"), LIQUID)
-    omega = (0.3, -0.7, 1.1)
-    first, _ = rates(content(where), omega, None)
-    assert np.allclose([float(v) for v in first], to_numpy(derive(where))(np.array(omega)), rtol=1e-13)
-    assert all(isinstance(v, Fraction) for v in first)
+@pytest.mark.parametrize("field", [(), (Gravity(20, ("0.7", "0.3", "0.1")), NewtonianField("0.5"))],
+                         ids=["alone", "in a field"])
+def test_exact_rates_are_those_of_the_derived_equations(field):
+    others = (Charge("0.3", 10, 1, "attitude"), *field) if field else (Charge("0.3", 2, 1, "0.4"), LIQUID)
+    where = scene(Gyrostat((1, 2, 3)), ConstantTorque((1, 0, 2)), Resistance("0.1"), *others)
+    omega, gamma = (0.3, -0.7, 1.1), (0.6, 0.0, 0.8) if field else ()
+    exact = [v for block in rates(content(where), omega, gamma or None) for v in block or ()]
+    assert np.allclose([float(v) for v in exact], to_numpy(derive(where))(np.array(omega + gamma)),
+                       rtol=1e-13, atol=1e-16)
+    assert field or all(isinstance(v, Fraction) for v in exact)
 
 
 def test_printed_liquid_torque_takes_energy_and_its_equilibria_are_not_claimed():
