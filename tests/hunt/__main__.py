@@ -16,7 +16,7 @@ from time import monotonic
 import numpy as np
 
 from stabilab.errors import InputError
-from tests.hunt import facets, parabolas, unreduced
+from tests.hunt import parabolas, unreduced
 from tests.hunt.disagreements import DISAGREEMENTS, WRONG
 from tests.hunt.problems import KNOBS, problem_of
 from tests.hunt.returns import returns
@@ -26,8 +26,7 @@ KEPT = 8  # of each disagreement, the worst
 SEARCHES = {name: (function, problem_of) for name,
             function in {**DISAGREEMENTS, "returns": returns, "threads": threads}.items()} | {
     "unreduced": (unreduced.unreduced, unreduced.problem_of),
-    "parabolas": (parabolas.parabolas, parabolas.problem_of),
-    "facets": (facets.facets, facets.problem_of)}
+    "parabolas": (parabolas.parabolas, parabolas.problem_of)}
 CEILING = 30.0  # of the logarithm: what an optimiser sees of a wrong label
 
 

@@ -67,14 +67,9 @@ def certified(scene, problem, state):
 
 def _against(values, brackets, name):
     """Doubles against brackets of exact numbers, relative to the largest of them."""
-    middles = [None if b is None else (float(energy.Fraction(b[0])) + float(energy.Fraction(b[1]))) / 2
-               for b in brackets]
-    size = max((abs(m) for m in middles if m is not None), default=0.0)
-    if any(np.isfinite(v) != (m is not None) for v, m in zip(values, middles)):
-        return WRONG, f"{name}: {list(values)}, proved {middles}"
-    off = max((abs(float(v) - m) for v, m in zip(values, middles) if m is not None), default=0.0)
-    return (off / size / ELEVEN_DIGITS if size
-            else 0.0), f"{name}: {list(map(float, values))}, proved {middles}"
+    middles = [(v if math.isinf(v) else math.nan) if b is None
+               else (float(Fraction(b[0])) + float(Fraction(b[1]))) / 2 for v, b in zip(values, brackets)]
+    return between(values, middles, f"{name}, proved", ELEVEN_DIGITS)
 
 
 def oracle(scene, problem, state):
@@ -120,17 +115,17 @@ def one_state(scene, problem, state):
     if (one.margin_energy is None) != (not math.isfinite(margin)):
         return WRONG, f"margin {one.margin_energy}, arrays {margin}"
     box = stabilab.extremes(scene, np.array([state]))[0]
-    return worst(*(_between(box[i], one.extremes[i], "xyz"[i]) for i in range(3)))
+    return worst(*(between(box[i], one.extremes[i], "xyz"[i]) for i in range(3)))
 
 
-def _between(values, others, name, promise=ELEVEN_DIGITS):
+def between(values, others, name, promise=2 * ELEVEN_DIGITS):
     pairs = [(float(a), float(b)) for a, b in zip(values, others)]
     if any(math.isfinite(a) != math.isfinite(b) or (not math.isfinite(a) and a != b) for a, b in pairs):
         return WRONG, f"{name}: {pairs}"
     finite = [(a, b) for a, b in pairs if math.isfinite(a)]
     size = max((max(abs(a), abs(b)) for a, b in finite), default=0.0)
     off = max((abs(a - b) for a, b in finite), default=0.0)
-    return (off / size / (2 * promise) if size else 0.0), f"{name}: {pairs}"
+    return (off / size / promise if size else 0.0), f"{name}: {pairs}"
 
 
 def methods(scene, problem, state):
@@ -309,9 +304,9 @@ def _twin(scene, problem, state, name, other, image, order, signs, rate, unit):
                                                                                 np.array([image]))[0] / rate
     for i in range(3):
         values = [v * signs[i] for v in box[order[i]]]
-        found.append(_between(sorted(values), image_box[i], f"component {i + 1}"))
+        found.append(between(sorted(values), image_box[i], f"component {i + 1}"))
     times = stabilab.period(scene, np.array([state])), stabilab.period(other, np.array([image])) * rate
-    found.append(_between(*times, "period"))
+    found.append(between(*times, "period"))
     size, words = worst(*found)
     return size, f"{name}: {words}"
 

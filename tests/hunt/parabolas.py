@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 import stabilab
-from tests.hunt.disagreements import ELEVEN_DIGITS, NO_QUESTION, WRONG, _digits, oracle, worst
+from tests.hunt.disagreements import ELEVEN_DIGITS, WRONG, _digits, between, oracle, worst
 from tests.hunt.problems import state_of, wide
 from tests.hunt.returns import lateness
 from tests.oracles import energy
@@ -51,25 +51,12 @@ def parabolas(scene, problem, state):
         (period,), boxes = stabilab.period(scene, np.array([state]),
                                            fast=fast), stabilab.extremes(scene, np.array([state]),
                                                                          fast=fast)[0]
-        told = _off([period], [time], f"period, fast={fast}")
+        told = between([period], [time], f"period, fast={fast}", ELEVEN_DIGITS)
         # next to a flat place the quadrature may miss a narrow peak: the motion itself tells who is right
         if 1 < told[0] < math.inf:
             told = min(told, (float(abs(lateness(problem, state, float(period)))) / period / ELEVEN_DIGITS,
                               told[1]))
         found.append(told)
-        found += [_off(boxes[i], box[i], f"component {i + 1}, fast={fast}") for i in range(3) if box]
+        found += [between(boxes[i], box[i], f"component {i + 1}, fast={fast}", ELEVEN_DIGITS)
+                  for i in range(3) if box]
     return worst(*found)
-
-
-def _off(values, exact, name):
-    exact = [float(v) for v in exact]
-    words = f"{name}: {list(map(float, values))}, expected {exact}"
-    if any(math.isfinite(a) != math.isfinite(b) or (not math.isfinite(b) and a != b) for a,
-           b in zip(values, exact)):
-        return WRONG, words
-    finite = [(float(a), b) for a, b in zip(values, exact) if math.isfinite(b)]
-    size = max((abs(b) for _, b in finite), default=0.0)
-    off = max((abs(a - b) for a, b in finite), default=0.0)
-    if not size:
-        return NO_QUESTION if not off else (WRONG, words)
-    return off / size / ELEVEN_DIGITS, words

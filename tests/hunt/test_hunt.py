@@ -52,10 +52,7 @@ def test_a_hunt_that_is_ended_says_what_it_found(tmp_path, monkeypatch, capsys):
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("name",
-                         # whose distances take seconds
-                         [pytest.param(name, marks=[pytest.mark.slow] * (name == "facets"))
-                          for name in SEARCHES])
+@pytest.mark.parametrize("name", SEARCHES)
 def test_two_ways_to_an_answer_keep_their_promise_on_random_problems(name):
     (function, make), rng, asked = SEARCHES[name], np.random.default_rng(5), 0
     while asked < 4:
