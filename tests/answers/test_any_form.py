@@ -140,8 +140,7 @@ def test_text_with_a_unit_is_the_number_in_si_units():
     scene = stabilab.load(TORQUE).scene
     turn = stabilab.fate(scene, ["90 deg/s", 0, "60 rpm"])
     assert turn.states.tolist() == [np.pi / 2, 0.0, 2 * np.pi]
-    assert same(stabilab.simulate(scene, ["0.1 rad/s", 0.2, 0], ["0 s", "1 min"]).t,
-                np.array([0.0, 60.0]))
+    assert same(stabilab.simulate(scene, ["0.1 rad/s", 0.2, 0], ["0 s", "1 min"]).t, np.array([0.0, 60.0]))
     run = stabilab.trajectory(scene, {"omega": ["180 deg/s", 0, 0]}, ["0 s", "500 ms"])
     assert run.t[1] == 0.5 and run.states[0, 0] == np.pi
     assert stabilab.time_to(scene, [0, 0, 0], rate="1", t_max="1 h").low == stabilab.time_to(

@@ -155,11 +155,6 @@ def test_what_is_told_of_an_object_without_numbers_is_the_same_in_every_run(give
         stabilab.ensemble(scene, [STATE], given)
 
 
-def test_bytes_are_no_three_numbers():
-    with pytest.raises(stabilab.InputError, match="inertia: expected three numbers, got bytes"):
-        stabilab.Body(b"abc")
-
-
 @pytest.mark.parametrize("ask", [lambda case: case.scene.quadratic(), stabilab.attitude])
 def test_effects_that_an_answer_does_not_cover_have_their_article(ask):
     with pytest.raises(InputError, match="scene also has a rate damper"):

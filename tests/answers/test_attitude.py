@@ -1,6 +1,4 @@
 """`simulate --attitude`: the quaternion beside the rates, against SciPy's rotations and DOP853."""
-import csv
-import io
 import json
 
 import numpy as np
@@ -57,13 +55,6 @@ def test_the_quaternion_of_a_spacecraft_is_scalar_last_from_body_to_space(stabil
     assert q[0].tolist() == [0, 0, 0, 1]
 
 
-def test_a_free_body_keeps_its_momentum_in_space(stabilab, case):
-    state = json.loads(_asked(stabilab, case(BODY + REST), "--json")[1])["state"]
-    momenta = Rotation.from_quat(state["quaternion"]).apply(D * np.array(state["omega"]))
-    assert np.ptp(momenta,
-                  axis=0).max() < 1e-13 and momenta == pytest.approx(np.array(state["momentum"]), abs=1e-13)
-
-
 def test_it_begins_with_the_attitude_of_the_case(stabilab, case):
     """psi, phi, theta of the 3-1-2 sequence: R = Rz(theta) Rx(psi) Ry(phi)."""
     path = case(BODY + MORE + REST + "attitude = [0.3, -0.4, 1.1]\n")
@@ -98,19 +89,6 @@ def test_digits_are_those_of_the_quaternion_too(stabilab, case, digits):
     assert code == 0 and found["digits"]["reached"] >= digits
     assert Rotation.from_quat(found["state"]["quaternion"]).as_matrix() == pytest.approx(_turned()[1],
                                                                                          abs=1e-8)
-
-
-def test_csv_and_netcdf_carry_it_and_say_what_it_is(stabilab, case, tmp_path):
-    xarray, path = pytest.importorskip("xarray"), case(BODY + MORE + REST)
-    wanted = json.loads(_asked(stabilab, path, "--json")[1])["state"]["quaternion"]
-    assert _asked(stabilab, path, "--out",
-                  tmp_path / "a.csv")[0] == _asked(stabilab, path, "--out", tmp_path / "a.nc")[0] == 0
-    rows = list(csv.DictReader(io.StringIO((tmp_path / "a.csv").read_text())))
-    assert [[float(row[name]) for name in ("qx", "qy", "qz", "qw")] for row in rows] == wanted
-    with xarray.open_dataset(tmp_path / "a.nc") as data:
-        assert data["quaternion"].values.tolist() == wanted and "scalar last" in data["quaternion"].attrs[
-            "long_name"]
-    assert "# qx, qy, qz, qw: attitude as a unit quaternion, scalar last" in _asked(stabilab, path)[1]
 
 
 def test_nothing_is_carried_that_nobody_asked_for(stabilab, case):

@@ -175,19 +175,3 @@ def test_a_megno_next_to_zero_has_no_minus():
     assert "MEGNO is 0.000 (0.000 at half" in found.because
     case = SimpleNamespace(name="rest", scene=SimpleNamespace(time_unit="s"))
     assert words.text(case, found).count(" 0.0000") == 2
-
-
-@pytest.mark.slow
-def test_a_map_of_one_kind_of_motion_is_a_sentence(monkeypatch):
-    """A body on which no torque acts moves with one degree of freedom: every motion is regular."""
-    from stabilab.show import style
-    from stabilab.show.maps import chaos as pictures
-    drawn = []
-    monkeypatch.setattr(style, "save", lambda figure, target: drawn.append(
-        [(len(figure.axes), figure.axes[0].get_title())]) or target)
-    monkeypatch.setattr(pictures, "GRID", 5)
-    case = stabilab.load("cases/torque-free-body.toml")
-    pictures.write(case, stabilab.chaos(case), "x.png")
-    ((number, title),), = drawn
-    assert number == 1 and "of 25 motions from this plane, each followed for" in title
-    assert title.endswith("all are regular")

@@ -40,15 +40,6 @@ def test_an_infinite_extreme_has_every_digit(digits):
                                                          or told.decimals[2][1] == "inf")
 
 
-@pytest.mark.slow
-def test_many_states_are_redone_one_by_one_where_the_formulas_cannot_hold_the_digits():
-    rows = np.linspace((2.5, 4.0, 0.1), (2.6, 4.1, 0.2), 17)
-    told = ask_all("period", MINOR, rows, 20, stabilab.period(MINOR, rows))
-    assert told.decimals.shape == (17,) and all(len(text) > 20 for text in told.decimals)
-    np.testing.assert_allclose([float(text) for text in told.decimals], stabilab.period(MINOR, rows),
-                               rtol=1e-11)
-
-
 def test_what_has_no_number_is_told_for_states_and_rows_alike():
     one = ask("period", SCALED_MINOR, (0.5, 0.5, 0.0), 20)  # A^2 < 2: it spins up
     assert one.values is None and "does not repeat" in one.because

@@ -99,13 +99,6 @@ def test_a_closed_motion_without_a_reduction_is_checked_by_its_return_in_many_di
     assert ask("period", scene, start, 10).method == "run" and told.method == "many digits"
 
 
-def test_what_has_no_number_needs_no_digits():
-    for question, name in (("period", "wheel-and-thruster"), ("fate", "off-axis-two"),
-                           ("period", "major-axis-100")):
-        told = ask(question, case(name).scene, case(name).start, 12, case(name).span)
-        assert told.values is None and told.digits is None and told.enough
-
-
 def test_arrays_are_checked_on_a_sample_and_redone_where_it_falls_short():
     one = case("minor-axis-100")
     states = np.asarray(one.state) + np.random.default_rng(3).normal(size=(40, 3)) * 0.05

@@ -17,16 +17,6 @@ CUBESAT, OFF_AXIS, MAJOR = (CASES / f"{name}.toml"
                             for name in ("cubesat-3u", "off-axis-two", "thruster-stuck-major-axis"))
 
 
-def test_the_first_line_answers_in_seconds_and_degrees(stabilab):
-    code, out, err = stabilab("when", CUBESAT)
-    assert code == 0 and not err
-    assert out.splitlines()[0].startswith(
-        "cubesat-3u: reaches |ω| = 60 deg/s in 16.95 s (proved 16.9477 to 16.9478)")
-    for option in (["--si"], ["--units", "si"]):
-        code, out, _ = stabilab("when", CUBESAT, *option)
-        assert code == 0 and "|ω| = 1.0472 rad/s in 16.95 s (proved 16.9477 to 16.9478)" in out
-
-
 @pytest.mark.parametrize("arguments", [(CUBESAT,), (OFF_AXIS, "--rate", "1000 deg/s"),
                                        (CASES / "top-fast.toml", "--tilt", "z = 10 deg")])
 def test_the_text_has_as_many_digits_as_are_read_and_its_bracket_holds_that_of_json(stabilab, arguments):

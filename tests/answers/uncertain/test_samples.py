@@ -40,12 +40,10 @@ def test_a_point_beside_products_is_the_body_of_its_tensor(write, yz):
     for point in rng.uniform(-1, 1, (6, len(box.places))):
         values = {name: np.array([float(v) for v in row]) for name, row in box.values(point).items()}
         a, b, c, d, e = point
-        assert values["inertia"] == pytest.approx([20 + 0.2 * a, 15,
-                                                   10 + 0.2 * b]) and values["products"] == pytest.approx(
-                                                       [-0.5, 0, -yz])
-        assert values["momentum"] == pytest.approx([0.5 + 0.1 * c, 0.25,
-                                                    0]) and values["torque"] == pytest.approx(
-                                                        [0, 0, 0.5 + 0.05 * d])
+        assert values["inertia"] == pytest.approx([20 + 0.2 * a, 15, 10 + 0.2 * b])
+        assert values["products"] == pytest.approx([-0.5, 0, -yz])
+        assert values["momentum"] == pytest.approx([0.5 + 0.1 * c, 0.25, 0])
+        assert values["torque"] == pytest.approx([0, 0, 0.5 + 0.05 * d])
         xy, xz, far = values["products"]
         tensor = np.diag(values["inertia"]) + [[0, xy, xz], [xy, 0, far], [xz, far, 0]]
         w = values["state"]

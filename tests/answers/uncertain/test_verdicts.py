@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 from stabilab.answers.uncertain.box import box_of
 from stabilab.answers.uncertain.equilibria import signature_at
-from stabilab.answers.uncertain.fate import look_at, uncertain
+from stabilab.answers.uncertain.fate import uncertain
 from stabilab.case.read import load
 from stabilab.errors import CaseError
 from stabilab.numbers.affine import Affine, root
@@ -91,7 +91,7 @@ def walls_ahead(box, points, axis, turns=1500):
 
 
 @pytest.mark.one_in(3)
-@pytest.mark.parametrize("seed", [0, 1, 2, *(pytest.param(n, marks=pytest.mark.slow) for n in (3, 4, 5))])
+@pytest.mark.parametrize("seed", [0, 1, 2, *(pytest.param(n, marks=pytest.mark.slow) for n in range(3, 13))])
 @pytest.mark.parametrize("axis", (0, 2))
 def test_no_sampled_point_contradicts_what_holds_or_what_is_proved(tmp_path, seed, axis):
     case = random_case(tmp_path, 100 * axis + seed, 0.01, axis)
@@ -104,17 +104,6 @@ def test_no_sampled_point_contradicts_what_holds_or_what_is_proved(tmp_path, see
     doubt = 1e-4 * (np.abs(excess).max() + 1)
     assert ((excess > -doubt) if over.verdict == "bounded" else (excess < doubt)).all()
     assert (np.abs(excess) > doubt).mean() > 0.9
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(20))
-def test_ten_thousand_points_do_not_contradict_what_holds(tmp_path, seed):
-    axis = 2 * (seed % 2)
-    case = random_case(tmp_path, 1000 + seed, 0.01, axis)
-    box, over = box_of(case), uncertain(case, ("fate",)).fate
-    excess = walls_ahead(box, 0.9999 * over.proved * sampled(box, 10_000, seed), axis)
-    doubt = 1e-4 * (np.abs(excess).max() + 1)
-    assert ((excess > -doubt) if over.verdict == "bounded" else (excess < doubt)).all()
 
 
 @pytest.mark.one_in(2)
@@ -186,42 +175,6 @@ def test_units_do_not_matter(tmp_path, scale):
     assert (other.answer, other.verdict) == (one.answer, one.verdict)
     assert other.changes_at == pytest.approx(one.changes_at,
                                              rel=1e-4) and other.proved == pytest.approx(one.proved, rel=1e-3)
-
-
-def test_plain_interval_arithmetic_cannot_decide_what_the_mean_value_form_does(tmp_path):
-    from flint import arb
-    share = 0.01
-    case = case_of(tmp_path, listed((20.0, 15.0, 10.0), share), listed((3.0, 2.0, 0.0), share),
-                   listed((0.0, 0.0, 0.1), share),
-                   listed((0.2, 0.15, 1.6), share))
-    assert uncertain(case, ("fate",)).fate.answer == "holds"
-    ball = lambda v: arb(v, abs(v) * share)
-    D, lam, w = [ball(v) for v in (20.0, 15.0, 10.0)], [ball(3.0),
-                                                        ball(2.0)], [ball(v) for v in (0.2, 0.15, 1.6)]
-    p, q = (D[1] - D[2]) / D[0], (D[2] - D[0]) / D[1]
-    n, sj, sk = (-p * q).sqrt(), lam[0] / (D[0] - D[2]), lam[1] / (D[1] - D[2])
-
-    def excess(turn):
-        u, v, alpha = w[0] + sj, w[1] + sk, arb(turn) / n
-        wj = u * arb(turn).cos() + p / n * v * arb(turn).sin() - sj
-        wk = v * arb(turn).cos() + q / n * u * arb(turn).sin() - sk
-        return (D[0] * (wj**2 - w[0]**2) + D[1] * (wk**2 - w[1]**2) - D[2] * w[2]**2) / 2 - ball(0.1) * alpha
-    assert not any(excess(turn) > 0 for turn in np.linspace(0.01, 6.28, 400))
-
-
-def test_affine_numbers_hold_every_value_over_their_box():
-    rng = np.random.default_rng(3)
-    for _ in range(20):
-        c, h = rng.uniform(0.5, 2, 3), rng.uniform(0, 0.1, 3)
-        x, y, z = (Affine(np.array([c[i]]), h[i] * np.eye(3)[None, i], np.zeros(1)) for i in range(3))
-
-        def formula(x, y, z, sin, root):
-            return (x * y - sin(y * z) + root(x)) / (z + y * y) - 0.3 * x
-        over = formula(x, y, z, lambda v: v.sin_cos()[0], root)
-        values = formula(*(c[:, None] + h[:, None] * rng.uniform(-1, 1, (3, 4000))), np.sin, np.sqrt)
-        assert over.low[0] <= values.min() and values.max() <= over.high[0]
-        first = np.abs(over.g).sum()
-        assert over.e[0] <= 60 * h.max() ** 2 and first > 0  # what is not of first order is of second
 
 
 def test_affine_numbers_shrink_to_rounding_without_width_and_are_open_where_undefined():
@@ -381,34 +334,6 @@ def test_uncertainties_are_read_exactly_in_both_spellings(tmp_path):
 
 def test_a_half_width_of_zero_is_no_uncertainty(tmp_path):
     assert case_of(tmp_path, inertia='"20 +- 0", 15, 10').uncertain == ()
-
-
-def test_numbers_without_uncertainty_change_no_answer(stabilab):
-    for command in ("classify", "fate"):
-        _, out, _ = stabilab(command, str(CASES / "minor-axis-300.toml"), "--json")
-        assert "uncertain" not in json.loads(out)[0]
-        assert uncertain(load(CASES / "minor-axis-300.toml")) is None
-
-
-def test_extremes_say_that_they_are_of_the_middles(stabilab):
-    _, plain, _ = stabilab("extremes", str(CASES / "uncertain-minor-axis.toml"))
-    _, certain, _ = stabilab("extremes", str(CASES / "minor-axis-300.toml"))
-    middles = "  caveat: of the middles of the uncertain numbers; stabilab fate says what their box does"
-    assert [line for line in plain.splitlines()[1:]
-            if line != middles] == certain.splitlines()[1:] and middles in plain.splitlines()
-
-
-def test_a_body_in_scaled_variables_is_the_box_of_its_physical_numbers(tmp_path):
-    case = load(CASES / "uncertain-minor-axis.toml")
-    box = box_of(case)
-    assert case.variables == "scaled" and [name for name, _ in box.places].count("inertia") == 3
-    scene, state = box.at(np.zeros(len(box.places)))
-    assert scene == case.scene and state == case.state
-    assert look_at(box, np.zeros(len(box.places)))[0] == "bounded"
-    numbers = box.numbers(np.zeros((1, 7)), np.zeros((1, 7)))
-    form, exact = box.rates(numbers), case.scene.quadratic()
-    assert form.rho[2].low[0] <= float(exact.rho[2]) <= form.rho[2].high[0]
-    assert form.sigma[1].low[0] <= float(exact.sigma[1]) <= form.sigma[1].high[0]
 
 
 def test_an_ordinary_box_needs_few_parts():
