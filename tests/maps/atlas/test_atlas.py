@@ -2,8 +2,6 @@
 same bytes whoever computes it."""
 from __future__ import annotations
 
-import itertools
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -194,29 +192,6 @@ def test_directions_of_a_full_tensor_are_told_in_the_frame_of_the_file():
     assert [point.level for point in found.named] == 6 * [-1] + [-2]
     assert found.named_records["fate"][thruster] == stabilab.motion(found.asked.case.scene,
                                                                     found.asked.case.state).fate
-
-
-def test_a_run_that_was_stopped_goes_on_with_the_same_bytes(tmp_path, monkeypatch):
-    case = case_of(wheel=(0.0, 0.2, 0.0), start=(0.3, -0.2, 0.5))
-    monkeypatch.setattr("stabilab.maps.plan.POINTED_COST", 0.1)  # ten points a chunk
-    whole, answered, counted = made(case, refine=1), machinery.answered, itertools.count()
-
-    def stopping(plan, number):
-        if next(counted) == 6:
-            raise KeyboardInterrupt
-        return answered(plan, number)
-    monkeypatch.setattr(machinery, "answered", stopping)
-    plan, out = asked(case, level=1, refine=1), tmp_path / "sky.nc"
-    with pytest.raises(KeyboardInterrupt):
-        with drawn(plan, out, workers=1):
-            pass
-    assert list(tmp_path.glob("sky.nc*.parts"))
-    with drawn(plan, out, workers=1) as found:
-        pass
-    # six chunks were done: the first round of 32 cells, six axes and the torque of the case, and two of the
-    # next
-    assert found.resumed == 39 + 20 and (found.records
-                                         == whole.records).all() and not list(tmp_path.iterdir())
 
 
 @pytest.mark.slow

@@ -44,12 +44,6 @@ def test_directions_and_places_are_inverse():
     assert cells.directions(places) == pytest.approx(directions, abs=1e-13)
 
 
-def test_corners_of_the_octahedron_are_the_axes_and_its_edges_lie_in_their_planes():
-    assert (cells.directions(np.array([[1, 0, 0], [0, -1, 0],
-                                       [0, 0, 1]])) == [[1, 0, 0], [0, -1, 0], [0, 0, 1]]).all()
-    assert (cells.directions(np.array([[0.3, 0.7, 0], [-0.2, 0, 0.8]]))[[0, 1], [2, 1]] == 0).all()
-
-
 def test_reflections_and_exchanges_of_axes_map_middles_onto_middles():
     middles = cells.middles(2, np.arange(cells.count(2)))
     assert (middles != 0).all()  # none lies in a principal plane

@@ -30,8 +30,7 @@ def dense(D, lam, M, omega, i, low, high):
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("seed",
-                         [0, 1, *later(range(2, 12))])
+@pytest.mark.parametrize("seed", [0, 1, *later(range(2, 12))])
 def test_connections_are_those_that_a_grid_of_heights_brackets(tmp_path, seed):
     rng = np.random.default_rng(seed)
     i = int(rng.choice([0, 2]))  # of the greatest or the least moment: circles
