@@ -16,7 +16,7 @@ from ..errors import InputError
 from .extremes.one_state import extremes_of
 from .fate.one_state import fate_of, is_free
 from .one_orbit import Orbit
-from .period import period_of
+from .period import precise_period
 from .reduction import reduce
 from .result import Motion, finite
 
@@ -137,4 +137,4 @@ def far_numbers(scene, state):
     orbit, k = Orbit(reduce(scene), state), far_exponent(scene, state) or 0
     near = own(orbit, k)
     label = fate_of(scene, orbit, near).label
-    return extremes_of(near, label, k), powered(period_of(near, label), -k)
+    return extremes_of(near, label, k), powered(precise_period(near, label), -k)

@@ -9,7 +9,7 @@ from .extremes.one_state import extremes_of
 from .far_states import far_exponent, far_fate, in_scene_unit, own
 from .fate.one_state import fate_of
 from .one_orbit import Orbit
-from .period import period_of
+from .period import precise_period
 from .reduction import reduce
 from .result import Fate, Motion, finite, judged, repeats
 from .separatrix.distance import distance_of
@@ -44,7 +44,7 @@ def _rest(orbit, state, decided) -> dict:
 
 
 def _period(orbit, decided) -> float | None:
-    return repeats(period_of(orbit, decided.label))
+    return repeats(precise_period(orbit, decided.label))
 
 
 def apart_fields(orbit: Orbit, state, decided) -> dict:

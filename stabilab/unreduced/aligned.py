@@ -22,7 +22,7 @@ from ..orbit.fate.result import FateResult, in_chunks, write_row
 from ..orbit.landscape import landscape
 from ..orbit.one_orbit import Orbit
 from ..orbit.one_state import apart_fields
-from ..orbit.period import period_of
+from ..orbit.period import precise_period
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate, Motion, finite, judged, pairs, repeats
 from ..physics.coefficients import three_floats
@@ -167,7 +167,7 @@ def turned_period(orbit, label) -> float:
     undecided."""
     if orbit.reduction is None:  # its momentum grows by law
         return 0.0 if label == Fate.EQUILIBRIUM else math.inf
-    return period_of(orbit, label)
+    return precise_period(orbit, label)
 
 
 def turned_periods(scene, states, labels):

@@ -14,7 +14,7 @@ from ...physics.coefficients import effective
 from ...physics.states import checked_states
 from ..far_states import own
 from ..one_orbit import Orbit
-from ..period import period_of
+from ..period import precise_period
 from ..reduction import reduce
 from ..result import Fate
 from .periodic import (
@@ -65,7 +65,7 @@ def reduced_motion(scene, state, nodes: int | None = None, backwards: bool = Fal
         _refuse_another_period(motion, orbit)
     # its swing is below the doubles, its period is not
     if isinstance(motion, Resting) and orbit.settled(lambda one: one.force_here) != 0:
-        motion.period = period_of(orbit, Fate.BOUNDED)
+        motion.period = precise_period(orbit, Fate.BOUNDED)
     motion = motion if k is None else InOwnUnit(motion, k)
     scale = (1 / (reduction.constants["flip"] * reduction.constants["n"]) if reduction.geometry.centred
              else 1.0)
@@ -76,7 +76,7 @@ def reduced_motion(scene, state, nodes: int | None = None, backwards: bool = Fal
 def _refuse_another_period(motion, orbit):
     """InputError where the panels of a libration do not add up to its period, which is known by other means.
     """
-    expected = period_of(orbit, Fate.BOUNDED)
+    expected = precise_period(orbit, Fate.BOUNDED)
     if not abs(motion.period - expected) <= PERIODS_AGREE * expected:
         raise InputError(TOO_FINE)
 
