@@ -36,15 +36,14 @@ from ..simulate import STIFF_METHOD, Simulation, errors_of, in_quaternions, simu
 from .checked import CAUTION, DEFAULT, MOST, NEAR, checked_digits, digits_of
 
 # --- The reduced form as one of the ways to follow a motion: `reduced_motion` at a given resolution
-SAMPLES = (8, 16, 32, 64, 128, 256, 512)  # of the phase over a turn, for motions that repeat
-POINTS = (2, 4, 6, 8, 12, 16)  # of Gauss's rule on each panel of a spin-up
+POINTS = (2, 4, 6, 8, 12, 16)  # of Gauss's rule on each panel
 
 
 def ladder(scene: AnyScene, state: Any) -> tuple[int, ...]:
     """Resolutions worth trying for this motion."""
     if reduced_motion(scene, state).period == 0:
         raise InputError("the state is an equilibrium: there is nothing to follow")
-    return SAMPLES if math.isfinite(reduced_motion(scene, state).period) else POINTS
+    return POINTS
 
 
 MANY, REDUCED_FORM = "many digits", "reduced form"

@@ -17,21 +17,7 @@ from ..one_orbit import Orbit
 from ..period import precise_period
 from ..reduction import reduce
 from ..result import Fate
-from .periodic import (
-    DIP,
-    ROTATION_SAMPLES,
-    SAMPLES,
-    TOO_FINE,
-    Around,
-    Between,
-    ByPanels,
-    BySeries,
-    InOwnUnit,
-    Resting,
-    Rotation,
-    by_samples,
-    exponent,
-)
+from .periodic import TOO_FINE, ByPanels, InOwnUnit, Resting, exponent
 from .profile import Relief, relief
 from .spin_up import POINTS, Panels, Passing, SpinUp, Turn, Turning, turning_offset
 
@@ -42,7 +28,7 @@ DIGITS = 1e-11  # rounding of the potential about an equilibrium beyond which do
 def reduced_motion(scene, state, nodes: int | None = None, backwards: bool = False):
     """The motion from `state` (three numbers), a `repeating_motion.Motion`.
 
-    nodes: samples a turn of the phase (repeating) or points a panel (spin-up); None: as many as it takes.
+    nodes: points a panel; None: as many as it takes.
     backwards: times before 0 are wanted too. Raises InputError where the scene has no reduction, on a
     separatrix, for spin-up other than round a circle, and where doubles do not hold the answer.
     """
@@ -126,16 +112,12 @@ def _libration(ground: Relief, nodes):
     _refuse_ties([s for s in (left, *inner, right) if s])
     start, a = _turn(left, inner[0], -1)
     end, b = _turn(right, inner[-1], 1)
-    hills = [s for s in inner if s.kind > 0]
-    if all(s.kinetic > DIP * inner[0].kinetic for s in hills):
-        if (motion := by_samples(BySeries, Between(start, a, end, b), ground.w, nodes, SAMPLES)) is not None:
-            return motion
     chain = [Turning(start, a, 1, inner[0].at - start.at),
              *(Passing(hill, hill.kinetic, inner[n - 1].at - hill.at, inner[n + 1].at - hill.at)
                for n, hill in enumerate(inner) if hill.kind > 0),
              Turning(end, b, -1, inner[-1].at - end.at)]
     number = sum(s.at < 0 for s in inner if s.kind < 0)  # the chain changes hands at the wells
-    return _by_panels(chain, number, -chain[number].spot.at, ground.w, 0.0)
+    return _by_panels(chain, nodes, number, -chain[number].spot.at, ground.w, 0.0)
 
 
 def _turn(hill, well, sense):
@@ -151,21 +133,15 @@ def _turn(hill, well, sense):
 
 
 def _rotation(ground: Relief, nodes):
-    spots = [s for s in ground.spots if s.kind]
-    hills = [s for s in spots if s.kind > 0]
     sense = 1.0 if ground.w > 0 else -1.0
-    if all(s.kinetic > DIP * max(s.kinetic for s in spots) for s in hills):
-        path = Around(min(hills, key=lambda s: s.kinetic, default=ground.here), sense)
-        if (motion := by_samples(Rotation, path, ground.w, nodes, ROTATION_SAMPLES)) is not None:
-            return motion
     turn = Turn(ground)
     number, y = turn.where()
-    return _by_panels([turn.passing(n) for n in range(len(turn.hills))], number % len(turn.hills), y,
+    return _by_panels([turn.passing(n) for n in range(len(turn.hills))], nodes, number % len(turn.hills), y,
                       ground.w, sense)
 
 
-def _by_panels(chain, number, y, w, sense):
-    panels = Panels(chain)
+def _by_panels(chain, nodes, number, y, w, sense):
+    panels = Panels(chain, nodes or POINTS)
     start = panels.time_at(number, chain[number].x_of(y, w))
     motion = ByPanels(panels, start if sense or w >= 0 else -start, sense)
     motion.evaluations = panels.evaluations

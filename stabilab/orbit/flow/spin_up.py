@@ -33,12 +33,13 @@ import numpy as np
 
 from ...errors import InputError
 from ...numbers.roots import held_newton
-from .periodic import Motion
+from .periodic import TOO_FINE, Motion
 from .profile import EPS, TURN
 
 POINTS = 16
 FIXED = TURN / 8  # longest panel
-SETTLED = 4e-15  # last coefficients against the first: some ten times what rounding leaves of them
+SETTLED = 4e-15  # last coefficients against the first: some ten times what rounding leaves of them mostly
+ROUNDED = 1e-12  # the most that rounding may leave of them
 DEEPEST = 80  # halvings of a passage; 1e-12 from a separatrix takes 20
 CROWD = 200  # panels of one size that are still cut: then it is rounding that keeps them from settling
 NEWTON = 12
@@ -211,6 +212,8 @@ class Panels:
         self.owner = [n for n, part in enumerate(found) for _ in part[0]]
         columns = found[0] if len(found) == 1 else [np.concatenate(column) for column in zip(*found)]
         self.low, self.half, self.values, self.rates = columns
+        if not len(self.low):
+            raise InputError(TOO_FINE)
         self.integrals = self.values @ rule(points)[3]
         ends = np.cumsum(self.half * self.integrals.sum(axis=1))
         self.total = float(ends[-1])
@@ -221,7 +224,7 @@ class Panels:
         order."""
         nodes, _, forward, _ = rule(self.points)
         edges = _edges(passage.cuts)
-        low, high, done = edges[:-1], edges[1:], []
+        low, high, done, before = edges[:-1], edges[1:], [], np.inf
         for depth in range(DEEPEST + 1):
             half, middle = 0.5 * (high - low), 0.5 * (low + high)
             x = middle[:, None] + half[:, None] * nodes
@@ -229,17 +232,18 @@ class Panels:
                 values = passage.rate(x.ravel()).reshape(x.shape)
             self.evaluations += x.size
             if not np.isfinite(values).all():
-                raise InputError("the reduced form of this motion takes more digits than doubles have")
+                raise InputError(TOO_FINE)
             rate = values @ forward
-            good = (np.abs(rate[:, -2:]).max(axis=1) <= SETTLED * np.abs(rate[:, 0]) if adaptive
-                    else np.ones(len(low), bool))
+            last = np.abs(rate[:, -2:]).max(axis=1) / np.abs(rate[:, 0]) if adaptive else np.zeros(len(low))
+            # what no half has less of than the whole is rounding
+            good = (last <= SETTLED) | (last > 0.5 * before) & (last <= ROUNDED)
             if good.all():
                 done.append((low, half, values, rate))
                 break
             if depth == DEEPEST or len(low) > CROWD:
                 raise InputError("the reduced form of this motion takes more panels than it is set up for")
             done.append((low[good], half[good], values[good], rate[good]))
-            low, middle, high = low[~good], middle[~good], high[~good]
+            low, middle, high, before = low[~good], middle[~good], high[~good], np.tile(last[~good], 2)
             low, high = np.concatenate([low, middle]), np.concatenate([middle, high])
         if len(done) == 1:
             return done[0]
