@@ -1,21 +1,16 @@
-"""Rows and columns of a surface within an accuracy.
+"""Rows and columns of a branch, graded so that its flat facets stray from the surface about equally
+everywhere: in a given shape, or as few as keep them within an allowed distance.
 
-Rows and columns of a branch, graded so that its flat facets stray from the surface about equally everywhere.
+A facet's edge with steps (du, ds) of the parameters strays from a surface r(u, s) with unit normal n by |L
+du^2 + 2 M du ds + N ds^2|/8, where L = r_uu.n, M = r_us.n, N = r_ss.n: an edge of length l by c l^2/8 where
+the normal curvature c along it hardly changes. Differences on a small trial grid give them, and where the
+surface bends within one cell it strays by up to four times as much; how far the bend is gathered there is
+told by the curvatures next to it (`_gathered`). Columns stand uniformly in the sum of the steps that cells
+ask for, rows too, each for the worst of the others. The finished grid is measured in the same way.
 
-A facet's edge with steps (du, ds) of the parameters strays from a surface r(u, s) with unit normal n by
-|L du^2 + 2 M du ds + N ds^2|/8, where L = r_uu.n, M = r_us.n, N = r_ss.n. Differences on a small trial grid
-give them: columns stand uniformly in the integral of sqrt|L|, rows in that of sqrt|N|, each for the worst of
-the others; as for a picture, columns follow the outline too. The finished grid is measured in the same way.
-Grids within an allowed distance are those of `within`, which begin with the same trial rows.
-
-Grids of branches whose flat facets stay within an allowed distance of the surface, each with rows and columns
-of its own.
-
-An edge of length l strays from a surface of normal curvature c along it by c l^2/8 where that hardly changes.
-Where the surface bends within one cell it strays by up to four times as much; how far the bend is gathered
-there is told by the curvatures next to it (`_gathered`). A grid that is too coarse is graded anew by what it
-shows, until one is fine enough: where bends are narrow a coarse grid tells little of their width, so none has
-more than `GROW` times the cells of the one before.
+Within an accuracy, a grid that is too coarse is graded anew by what it shows, until one is fine enough: where
+bends are narrow a coarse grid tells little of their width, so none has more than `GROW` times the cells of
+the one before.
 """
 from __future__ import annotations
 
@@ -30,7 +25,7 @@ from .saddles import OPEN, PLANE
 from .seams import Part, parted
 
 TRIAL = 17              # rows and columns of the trial grid
-FLOOR = 0.3             # of the mean density: no gap where a branch happens to be straight
+FLOOR = 0.1             # of the mean density: no gap where a branch happens to be straight
 STRAIGHT = 1e-6         # of a branch's size: less sag between neighbours of the trial grid does not matter
 TAIL = 10.0 ** -np.arange(3, 6.1, 0.5)  # 1 - s of the last trial rows towards a plane Q = 0
 NEAR = 1e-6             # a first row this near to the fold where the loop there is no point
@@ -55,11 +50,11 @@ def grid(land, strips, shape) -> Grid:
     parts, rows = _whole_parts(land, strips)
     columns = np.broadcast_to(np.linspace(0, 1, TRIAL), rows.shape)
     made, edge = measured_loops(land, parts, rows, columns)
-    grading = _grading(made, _second_forms(land, made), _outline(land, made, np.full(len(parts), -1)),
-                       edge[1], rows, columns)
-    rows, columns = (even_steps(length, at, number) for (length, at), number in zip(grading, shape))
-    made, edge = measured_loops(land, parts, rows, columns)
-    strays = np.maximum(_stray(*_second_forms(land, made), np.array([1, -1])[:, None, None, None]), edge[1])  # type: ignore[call-arg]
+    forms = _Forms(land, made, parts, edge)
+    placed = [forms.placed(k, rows[k], columns[k], shape) for k in range(len(parts))]
+    made, edge = measured_loops(land, parts, *map(np.array, zip(*placed)))
+    forms = _Forms(land, made, parts, edge)
+    strays = np.array([forms.strays(1), forms.strays(-1)])
     best = int(np.argmin(strays.max(axis=1)))
     return Grid(made, (1, -1)[best], strays[best], parts)
 
@@ -77,15 +72,6 @@ def trial_parts(land, strips):
     if len(cut := parted(land, strips, rows[:, 0])) > len(parts):
         parts, rows = cut, np.array([_trial_rows_of(land, part) for part in cut])
     return parts, rows
-
-
-def _grading(made, forms, bends, edge, rows, columns):
-    """(lengths of rows and their parameters, those of columns), from the second forms of a grid at parameters
-    rows (k, n) and columns (k, m), and from the bends of the outline."""
-    across, _, down = forms
-    straight = STRAIGHT * np.abs(made.points).max() * (TRIAL / max(rows.shape[1], columns.shape[1])) ** 2
-    long_columns = _density(np.concatenate([across, bends[:, None]], axis=1), 1, ((0, 0), (1, 0)), straight)
-    return (_density(down, 2, ((0, 0), (1, 1)), straight, 8 * edge), rows), (long_columns, columns)
 
 
 def measured_loops(land, parts, s, u):
@@ -112,24 +98,6 @@ def _sag(loops, first, between, last):
     return np.where(loops.found[:, (first, between, last)].all(axis=1), sag.max(axis=1), 0.0)
 
 
-def _second_forms(land, loops):
-    """(L, M, N), each (k, n - 2, m - 1), per step of the grid, at inner rows and all columns but the first:
-    beyond the far end the loop comes back as its mirror image. 0 beside rows without a loop."""
-    r = past_far_end(land, loops.points)
-    dot = lambda a, b: np.einsum("cknm,cknm->knm", a, b)
-    here, round_ = r[:, :, 1:-1, 1:-1], r[..., 2:] - r[..., :-2]
-    a, b = r[:, :, 2:, 1:-1] - r[:, :, :-2, 1:-1], round_[:, :, 1:-1]
-    normal = np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
-    size = np.sqrt(dot(normal, normal))
-    whole = loops.found[:, 2:] & loops.found[:, 1:-1] & loops.found[:, :-2]
-    normal *= whole[:, :, None] / np.maximum(size, np.finfo(float).tiny)
-    if loops.shared.any():  # the far end is a saddle, a corner of the loop and no bend
-        normal[:, loops.shared[:, 1:-1], -1] = 0
-    return (dot(r[:, :, 1:-1, 2:] - 2 * here + r[:, :, 1:-1, :-2], normal),
-            0.25 * dot(round_[:, :, 2:] - round_[:, :, :-2], normal),
-            dot(r[:, :, 2:, 1:-1] - 2 * here + r[:, :, :-2, 1:-1], normal))
-
-
 def past_far_end(land, points):
     """(3, ..., m + 1) components of points (..., m, 3) with one column beyond the far end."""
     r = np.empty((3, *points.shape[:-2], points.shape[-2] + 1))
@@ -137,45 +105,6 @@ def past_far_end(land, points):
     r[..., -1] = r[..., -3]
     r[axis, ..., -1] = 2 * r[axis, ..., -2] - r[axis, ..., -3]
     return r
-
-
-def _outline(land, loops, edge):
-    """(k, m - 1) how the rows edge (k,) bend."""
-    strips = np.arange(len(edge))
-    r = np.moveaxis(past_far_end(land, loops.points[strips, edge]), 0, -1)
-    bend, way = r[:, 2:] - 2 * r[:, 1:-1] + r[:, :-2], r[:, 2:] - r[:, :-2]
-    across = (np.linalg.norm(np.cross(bend, way),
-                             axis=-1) / np.maximum(np.linalg.norm(way, axis=-1), np.finfo(float).tiny))
-    return np.where(loops.found[strips, edge][:, None], across, 0.0)
-
-
-def _stray(across, twist, down, cut):
-    """Return the largest distance (..., k) from the surface of the mid-points of edges and of the centres of
-    a quad's facets."""
-    diagonal = across + down + 2 * cut * twist
-    edges = np.maximum(np.abs(diagonal), np.maximum(np.abs(across), np.abs(down)))
-    return np.maximum(edges / 8, np.abs(across + down + diagonal) / 18).max(axis=(-1, -2))
-
-
-def _density(form, other, edges, straight, last=0.0):
-    """(k, j) the integral from the first on of densities of rows or columns, from the form at inner ones and
-    the worst over the other axis; at the edges as beside them, at the last one at least as the form `last`
-    (k,) asks."""
-    inner = np.sqrt(np.abs(form).max(axis=other))
-    density = np.pad(inner, edges, mode="edge")
-    density[:, -1] = np.maximum(density[:, -1], np.sqrt(last))
-    density = density + (FLOOR * density.mean(axis=1, keepdims=True) + np.sqrt(straight))
-    length = np.zeros(density.shape)
-    np.cumsum(0.5 * (density[:, 1:] + density[:, :-1]), axis=1, out=length[:, 1:])
-    return length
-
-
-def even_steps(length, at, number):
-    """Return parameters (k, number) between those of `at` (k, j), spaced so that `length` (k, j) grows by
-    equal steps from each to the next."""
-    out = np.array([np.interp(np.linspace(0, way[-1], number), way, x) for way, x in zip(length, at)])
-    out[:, -1] = at[:, -1]
-    return out
 
 
 def shrinks(land, branch, side) -> bool:
@@ -229,7 +158,6 @@ def _stretched(land, branch, dense=DENSE):
     return np.log1p(way / start), s
 
 
-CELL_FLOOR = 0.1        # of the mean density: no gap where a branch happens to be straight
 MIXTURES = np.array([0.7, 1.0, 1.5, 2.0])  # columns against rows, relative to where both alone stray equally
 # rows and columns grow by that much more than asked, by its square at the next attempt, and so on
 SAFETY = 1.05
@@ -389,12 +317,21 @@ class _Forms:
         return np.maximum(edges, _facets(self.quad_u, self.quad_s, self.twist, self.more_u + self.more_s,
                                          cut).max(axis=(1, 2)))
 
+    def placed(self, k, s, u, shape):
+        """(rows, columns) of a shape for the part k, from its grid at rows s and columns u."""
+        _, _, r, c = self._wanted(k, s, u)
+        return _placed(r, s, shape[0]), _placed(c, u, shape[1])
+
+    def _wanted(self, k, s, u):
+        """(how far edges from row to row stray, from column to column, steps that rows ask for, columns)."""
+        straight = np.sqrt(8 * STRAIGHT * self.size) * TRIAL / max(len(s), len(u))
+        along, across = self.edge_s[k].max(axis=1), np.maximum(self.edge_u[k].max(axis=0), self.outline[k])
+        return along, across, _steps_wanted(along, straight), _steps_wanted(across, straight)
+
     def graded(self, k, s, u, accuracy, attempt):
         """(rows, columns) that `accuracy` needs of the part k, as far as its grid at rows s and columns u
         tells: of the mixtures and cuts the one with the fewest cells."""
-        straight = np.sqrt(8 * STRAIGHT * self.size) * TRIAL / max(len(s), len(u))
-        across, along = np.maximum(self.edge_u[k].max(axis=0), self.outline[k]), self.edge_s[k].max(axis=1)
-        c, r = _steps_wanted(across, straight), _steps_wanted(along, straight)
+        along, across, r, c = self._wanted(k, s, u)
         r[0] *= max(self.first[k] / accuracy, 1.0) ** BENT  # measured, and mostly beside a fold
         if attempt:  # an earlier grading was to keep rows to the accuracy, but knew less of their bends
             r *= np.maximum(along / accuracy, 1.0) ** BENT
@@ -409,7 +346,8 @@ class _Forms:
                 shapes.append((size * r.sum() + 1, size * p.sum() + 1))
         rows, columns = min(shapes, key=lambda shape: shape[0] * shape[1])
         less = min(np.sqrt(GROW * len(s) * len(u) / (rows * columns)), 1.0)
-        return _placed(r, s, rows * less), _placed(c, u, columns * less)
+        rows, columns = (int(min(max(np.ceil(number * less), 3), MOST)) for number in (rows, columns))
+        return _placed(r, s, rows), _placed(c, u, columns)
 
 
 def _normals(made, down, across):
@@ -432,9 +370,9 @@ def _dot(a, b):
 
 
 def _placed(density, at, number):
-    """Parameters, so many as asked, between those of `at`, spaced evenly by the density of its cells."""
+    """So many parameters between those of `at`, spaced evenly by the density of its cells."""
     length = np.append(0.0, np.cumsum(density))
-    return even_steps(length[None], at[None], int(min(max(np.ceil(number), 3), MOST)))[0]
+    return np.interp(np.linspace(0, length[-1], number), length, at)
 
 
 def _before(first, second):
@@ -456,4 +394,4 @@ def _steps_wanted(strays, straight):
     out = np.sqrt(8 * strays)
     wide = np.concatenate([out[:1], out, out[-1:]])
     out = np.maximum(out, 0.5 * (wide[2:] + wide[:-2]))
-    return out + (CELL_FLOOR * out.mean() + straight)
+    return out + (FLOOR * out.mean() + straight)
