@@ -71,17 +71,17 @@ class CapturedFate:
     the scene's unit.
     """
 
-    fate: Fate
-    axis: int
-    sense: int
-    because: str
-    release_time: float | None
-    release_estimate: float | None
     J0: float
     J_rate: float
-    certificate: str
-    t_certificate: float | None
-    steps: int
+    because: str
+    fate: Fate = Fate.UNDECIDED
+    axis: int = 0
+    sense: int = 0
+    release_time: float | None = None
+    release_estimate: float | None = None
+    certificate: str = "none"
+    t_certificate: float | None = None
+    steps: int = 0
 
 
 def captured_fate(scene, state, t_max: float | None = None, exact=None) -> CapturedFate:
@@ -106,11 +106,12 @@ def captured_fate(scene, state, t_max: float | None = None, exact=None) -> Captu
                          "this scene is for the reduction or for the torque off the axes")
     axis, _, rate = law
     if _is_pure_spin(scene.quadratic(), axis, exact or state):
-        return CapturedFate(J0=start, J_rate=rate, **_pure_spin(scene.quadratic(), axis))
+        words = f"pure spin about axis {axis + 1}, which the torque speeds up for ever"
+        return CapturedFate(start, rate, **_by_law("axis", axis, scene.quadratic(), words))
     change = standard_form(scene)
     answer = (_by_certificate(change, change.to_standard(state), t_max) if change
               else _without_form(scene, state, axis, t_max))
-    return CapturedFate(J0=start, J_rate=rate, **answer)
+    return CapturedFate(start, rate, **answer)
 
 
 def _is_pure_spin(form, i, x) -> bool:
@@ -120,12 +121,10 @@ def _is_pure_spin(form, i, x) -> bool:
     return not (x[j] or x[k] or form.rho[j] or form.sigma[k])
 
 
-def _pure_spin(form, i):
-    """Fields of CapturedFate of a pure spin about the torque's axis."""
+def _by_law(certificate, i, form, because):
+    """Fields of CapturedFate of a spin about the torque's axis i that is known exactly for all time."""
     return dict(fate=Fate.SPIN_UP, axis=i + 1, sense=1 if form.m[i] > 0 else -1, release_time=0.0,
-                release_estimate=None, certificate="axis",
-                t_certificate=0.0, steps=0,
-                because=f"pure spin about axis {i + 1}, which the torque speeds up for ever")
+                certificate=certificate, t_certificate=0.0, because=because)
 
 
 def _by_certificate(change, y, t_max):
@@ -136,65 +135,49 @@ def _by_certificate(change, y, t_max):
     t_max = PATIENCE * unit if t_max is None else t_max
     name, t, end, last, steps = search_certificate(c, y, t_max / unit)
     if c < 0 and steps and name != "none" and (reach := nearest_other(c, y, t_max / unit, name, steps)):
-        return dict(fate=Fate.UNDECIDED, axis=0, sense=0, release_time=None, release_estimate=None,
-                    certificate="none", t_certificate=None,
-                    steps=steps,
-                    because=f"unbounded, but between spin-up about axis {i + 1} and capture about axis "
-                            f"{q + 1}: a change of the "
-                                         f"state by {reach:.0e} of its size, as rounding of the run may "
-                                         f"make, turns the one into the other")
+        return dict(steps=steps, because=(
+            f"unbounded, but between spin-up about axis {i + 1} and capture about axis {q + 1}: a change of "
+            f"the state by {reach:.0e} of its size, as rounding of the run may make, turns the one into the "
+            "other"))
     estimate = None if name == "spin-up" and not last else vanishing
     when = None if t is None else t * unit
     known = dict(release_estimate=estimate, certificate=name, t_certificate=when, steps=steps)
     if name == "well":
         sense = (1 if change.rates[2] > 0 else -1) * (1 if end[2] > 0 else -1)
-        return known | dict(fate=Fate.SPIN_UP, axis=q + 1, sense=sense, release_time=None, because=(
+        return known | dict(fate=Fate.SPIN_UP, axis=q + 1, sense=sense, because=(
             f"captured about axis {q + 1} for ever: the barrier ahead grows faster than the energy, and the "
-            f"spin about axis "
-            f"{q + 1} grows like the square root of time"))
+            f"spin about axis {q + 1} grows like the square root of time"))
     if name == "spin-up":
         return spin | known | dict(release_time=last * unit, because=(
             f"spin-up about axis {i + 1}: the turn about it can reverse no more (proved from t = "
             f"{when:.6g} on)"))
     if c > 0:
-        return spin | known | dict(certificate="bound", t_certificate=0.0, release_time=None, because=(
+        return spin | known | dict(certificate="bound", t_certificate=0.0, because=(
             f"spin-up about axis {i + 1}: its rate is bounded below by a growing line; still captured when "
-            f"the search ended, "
-            f"release expected at about t = {estimate:.6g}"))
-    return known | dict(fate=Fate.UNDECIDED, axis=0, sense=0, release_time=None, because=(
+            f"the search ended, release expected at about t = {estimate:.6g}"))
+    return known | dict(because=(
         f"unbounded, but neither spin-up about axis {i + 1} nor capture about axis {q + 1} was certain after "
-        f"{steps} steps "
-        f"(the search ends at t = {t_max:g})"))
+        f"{steps} steps (the search ends at t = {t_max:g})"))
 
 
 def _without_form(scene, state, axis, t_max):
     """Fields of CapturedFate where the standard form does not exist: exact spin of a symmetric body, else
     evidence."""
     form = scene.quadratic()
-    sense = 1 if form.m[axis] > 0 else -1
     if not (form.kappa[axis] or form.rho[axis] or form.sigma[axis]):
-        return dict(fate=Fate.SPIN_UP, axis=axis + 1, sense=sense, release_time=0.0, release_estimate=None,
-                    certificate="law",
-                    t_certificate=0.0, steps=0,
-                    because=f"the moments across axis {axis + 1} are equal: its spin grows exactly "
-                                                        "in proportion to time")
+        return _by_law("law", axis, form, f"the moments across axis {axis + 1} are equal: its spin grows "
+                                          "exactly in proportion to time")
     if not any(form.kappa):
-        return dict(fate=Fate.SPIN_UP, axis=0, sense=0, release_time=0.0, release_estimate=None,
-                    certificate="law", t_certificate=0.0,
-                    steps=0, because="three equal moments: the spin along lambda, which is on no axis, grows "
-                                     "exactly in "
-                                     "proportion to time, the rest of the motion is bounded")
+        return dict(fate=Fate.SPIN_UP, release_time=0.0, certificate="law", t_certificate=0.0, because=(
+            "three equal moments: the spin along lambda, which is on no axis, grows exactly in proportion to "
+            "time, the rest of the motion is bounded"))
     t_max = PATIENCE / math.sqrt(abs(form.m[axis])) if t_max is None else t_max
     seen = seen_growth(scene, state, t_max)
-    clear = seen.axis > 0
     words = (f"spin-up about axis {seen.axis} by the evidence of a run to t = {seen.span:.6g} ({seen.words})"
-             if clear else
-             f"no axis of spin-up was clear in a run to t = {seen.span:.6g}")
-    return dict(fate=Fate.SPIN_UP if clear else Fate.UNDECIDED, axis=seen.axis, sense=seen.sense,
-                release_time=None,
-                release_estimate=None, certificate="evidence" if clear else "none", t_certificate=None,
-                steps=seen.steps,
-                because=f"unbounded, because |H|^2/2 - D{axis + 1} T grows in proportion to time; {words}")
+             if seen.axis else f"no axis of spin-up was clear in a run to t = {seen.span:.6g}")
+    known = dict(fate=Fate.SPIN_UP, certificate="evidence") if seen.axis else {}
+    return known | dict(axis=seen.axis, sense=seen.sense, steps=seen.steps, because=(
+        f"unbounded, because |H|^2/2 - D{axis + 1} T grows in proportion to time; {words}"))
 
 
 def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
