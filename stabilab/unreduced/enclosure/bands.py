@@ -42,7 +42,6 @@ class Crossing:
     was not seen, and surely it is not reached before low.
 
     because: what ended the search. steps: validated ones.
-   
     """
 
     low: float
@@ -51,21 +50,17 @@ class Crossing:
     steps: int
 
 
-def first_crossing(scene, state, limit: float, weights=None, component: int | None = None,
-                   t_max: float | None = None,
+def first_crossing(scene, state, limit: float, weights=(1.0, 1.0, 1.0), t_max: float | None = None,
                    steps: int | None = None) -> Crossing:
-    """The first time at which the root of the sum of weights_i omega_i^2 (None: of ones, so |omega|), or
-    |omega_component| (0, 1, 2), reaches `limit`.
+    """The first time at which the root of the sum of weights_i omega_i^2 (of ones: |omega|) reaches `limit`.
 
     scene, state: as of `run.Course`. t_max: how far to look (None: as far as so many steps reach; these None:
     as many as take some seconds). Raises InputError for a limit that is not above 0.
     """
     if not (isinstance(limit, (int, float)) and 0 < limit < math.inf):
         raise InputError(f"limit: expected a number above 0, got {limit!r:.80}")
-    chosen = ([float(i == component) for i in range(3)] if component is not None else [1.0] * 3
-              if weights is None else list(weights))
     end = t_max if t_max is not None else FAR / natural(scene)[1]
-    course, search = Course(scene, state, end), _Search(float(limit) ** 2, chosen)
+    course, search = Course(scene, state, end), _Search(float(limit) ** 2, weights)
     steps = allowed() if steps is None else steps
     while course.status == kernel.GOING and course.steps < steps:
         band = course.advance(end, steps - course.steps, band=True)

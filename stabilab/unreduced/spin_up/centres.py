@@ -249,7 +249,7 @@ class FixedCentre:
     """The normal form about its fixed centre: p = X, q = 1, and all powers are whole."""
 
     name, sharp, parts = "fixed centre", True, 1
-    a2, a3, offsets, turn_size = 0.0, 1.0, (1.0, 0.0), 1.0
+    a2, a3, offsets, turn_size, least_fall = 0.0, 1.0, (1.0, 0.0), 1.0, 0.0
 
     def __init__(self, form: NormalForm):
         self.form = f = form

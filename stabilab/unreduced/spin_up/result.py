@@ -62,38 +62,28 @@ class Trap:
         """(earliest, latest) time at which the spin about its axis, in its sense, first reaches `rate`; t
         counts from the start.
 
-        A rate that the spin may have had before `t` gives (0, ...). From D1 y' = M1 -+ c/y where the form has
-        it, else (in the equator) from the two lines.
+        A rate that the spin may have had before `t` gives (0, ...).
         """
         x = rate / self.unit + self._shift
-        early, late = (self._sharp if self.field.sharp else self._straight if self.field.least_fall is None
-                       else self._falling)(x)
-        early = max(0.0, self.t - self.blur + max(0.0, early) / self.unit) if x > self.z_up else 0.0
-        late = self.t + self.blur + max(0.0, late) / self.unit
+        D1, (early, late) = self.field.D1, self._passing(x)
+        early = max(0.0, self.t - self.blur + max(0.0, D1 * early) / self.unit) if x > self.z_up else 0.0
+        late = self.t + self.blur + max(0.0, D1 * late) / self.unit
         return early * (1 - WIDER), late * (1 + WIDER)
 
-    def _straight(self, x):
-        D1 = self.field.D1
-        return (x - self.z_up) * D1 / self.eta_up, (x - self.z) * D1 / self.eta
-
-    def _falling(self, x):
-        """From D1 y' = M1 -+ c/(y + S): about the moving centre what is beside M1 falls at least like 1/(x +
-        S), S the field's `least_fall`."""
-        D1, M1, S = self.field.D1, self.field.M1, self.field.least_fall
-        less, more = ((1 + 1e-8) * c * (self.z + S) for c in (M1 - self.eta, self.eta_up - M1))
-        early, late = x - self.z_up, x - self.z
+    def _passing(self, x):
+        """(earliest, latest) time to x over D1: D1 y' is within M1 + less/(y + S), M1 + more/(y + S), as what
+        is beside M1 falls at least like 1/(y + S), S the field's `least_fall`."""
+        M1, S, early, late = self.field.M1, self.field.least_fall, x - self.z_up, x - self.z
+        if S is None:  # in the equator: the two lines
+            return early / self.eta_up, late / self.eta
+        if self.field.sharp:  # the drive's own m* counts on both sides, with its sign
+            left = self.k * self.z * (1 + 1e-9)
+            less, more = self.field.form.drag - left, self.field.form.drag + left
+        else:
+            less, more = ((1 + 1e-8) * c * (self.z + S) for c in (self.eta - M1, self.eta_up - M1))
         early -= _delay(more, M1, self.z_up + S, early) if early > 0 else 0.0
-        late -= _delay(-less, M1, self.z + S, late) if late > 0 else 0.0
-        return D1 / M1 * early, D1 / M1 * late
-
-    def _sharp(self, x):
-        """From D1 y' = M1 + (m* -+ c)/y: the drive's own m* counts on both sides, with its sign."""
-        f = self.field.form
-        c = self.k * self.z * (1 + 1e-9)  # the rest of Y' over Om falls at least like 1/x
-        early, late = x - self.z_up, x - self.z
-        early -= _delay(f.drag + c, f.M1, self.z_up, early) if early > 0 else 0.0
-        late -= _delay(f.drag - c, f.M1, self.z, late) if late > 0 else 0.0
-        return f.D1 / f.M1 * early, f.D1 / f.M1 * late
+        late -= _delay(less, M1, self.z + S, late) if late > 0 else 0.0
+        return early / M1, late / M1
 
     @property
     def _shift(self):

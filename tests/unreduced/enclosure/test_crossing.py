@@ -32,7 +32,7 @@ def test_the_first_time_is_between_its_bounds(n):
     true = by_events(scene, state, 50, lambda w: float(w @ w) - limit**2)
     assert found.low - 1e-9 <= true <= found.high + 1e-9 and found.high - found.low <= 1e-10 * found.high
     i, D = n % 3, np.array([float(d) for d in scene.body.exact])
-    found = first_crossing(scene, state, limit, component=i, t_max=20.0)
+    found = first_crossing(scene, state, limit, np.eye(3)[i], t_max=20.0)
     true = by_events(scene, state, 20, lambda w: w[i] ** 2 - limit**2)
     assert (found.low == 20 and true == math.inf) or (found.low - 1e-8 <= true <= found.high + 1e-8
                                                       and found.high - found.low < 1e-9)
