@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from ..integrate.reference import Recursion, one_run
 from ..numbers.balls import working
 from ..numbers.vectors import CYCLE
 
@@ -33,44 +34,21 @@ def smallness(form, state) -> Fraction:
     return max(map(abs, form.rate(x))) / terms if terms else Fraction(0)
 
 
-class FromStart:
-    """The Taylor recursion of y = x - x(0); as of `precision_series.Recursion`."""
-
-    size = 3
+class FromStart(Recursion):
+    """The Taylor recursion of y = x - x(0)."""
 
     def __init__(self, form, state):
-        x = [Fraction(v) for v in state]
-        self.kappa, self.constant = form.kappa, form.rate(x)
-        self.rho = [r + c * x[j] for r, c, (j, _) in zip(form.rho, form.kappa, CYCLE)]
-        self.sigma = [s + c * x[k] for s, c, (_, k) in zip(form.sigma, form.kappa, CYCLE)]
-
-    def in_balls(self, numbers):
-        """The coefficients as balls of the working precision."""
-        return [[numbers.ball(v).mid() for v in row]
-                for row in (self.kappa, self.rho, self.sigma, self.constant)]
-
-    def series(self, coefficients, y, order):
-        """Taylor coefficients 0..order of y, one list a component."""
-        kappa, rho, sigma, constant = coefficients
-        rows = [[v] for v in y]
-        for n in range(order):
-            new = []
-            for i, (j, k) in enumerate(CYCLE):
-                product = sum(a * b for a, b in zip(rows[j], reversed(rows[k])))
-                total = kappa[i] * product + rho[i] * rows[k][n] + sigma[i] * rows[j][n]
-                new.append(((total + constant[i] if n == 0 else total) / (n + 1)).mid())
-            for row, value in zip(rows, new):
-                row.append(value)
-        return rows
-
-    def cost(self, order):
-        return order * (order + 1) // 2 * 3 + 9 * order
+        x, constant = [Fraction(v) for v in state], form.rate([Fraction(v) for v in state])
+        self.size, self.products, self.rates = 3, list(CYCLE), []
+        for i, (j, k) in enumerate(CYCLE):
+            rate = ((3 + i, form.kappa[i]), (k, form.rho[i] + form.kappa[i] * x[j]),
+                    (j, form.sigma[i] + form.kappa[i] * x[k]), (-1, constant[i]))
+            self.rates.append([(row, c) for row, c in rate if c])
 
 
 def small_loop(form, state, digits: int = DIGITS):
     """(period, [(least, greatest)] * 3) of a closed motion as balls; None where it did not return within the
     work allowed."""
-    from ..integrate.reference import one_run
     share = smallness(form, state)
     # a saddle so near magnifies by as much on the way out, and on the way back
     lost = len(str(share.denominator // share.numerator))

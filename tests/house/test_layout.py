@@ -71,7 +71,6 @@ DOORS = {
     ("stabilab.show.text.law", "stabilab.answers.simulate"): "loads numpy",
     ("stabilab.show.text.law", "stabilab.integrate.limits_along"): "loaded for approximate laws alone",
     ("stabilab.unreduced.bounds", "stabilab.unreduced.evidence"): "loads numpy",
-    ("stabilab.unreduced.near_rest", "stabilab.integrate.reference"): "loads numpy",
 }
 
 
