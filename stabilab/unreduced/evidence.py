@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import InputError
 from ..integrate.events import RateRoots, roots_of_rates
 from ..integrate.trajectory import integrated
-from ..orbit.result import Fate, pairs
+from ..orbit.result import pairs
 from ..physics.coefficients import limits_of
 from ..physics.scene import Scene
 from ..physics.states import equations_and_start, three_numbers
@@ -33,28 +33,6 @@ SHARE, FASTER = 0.9, 10.0
 
 
 @dataclass(frozen=True)
-class Evidence:
-    """What a run over a span shows; it proves nothing beyond it.
-
-    span: its length, s (tau when scaled); extremes: (3, 2) over it, ends included, as roots of the rates;
-    size: |omega| (or |x|) at the start, at the end, and its largest value at those roots; energy: kinetic
-    energy at start and end; trend: "rises", "falls", "oscillates"; drift: relative departure from the balance
-    laws.
-    """
-
-    fate: Fate
-    reason: str
-    span: float
-    extremes: np.ndarray
-    extremes_over: str
-    size: tuple[float, float, float]
-    energy: tuple[float, float]
-    trend: str
-    drift: dict[str, float]
-    steps: int
-
-
-@dataclass(frozen=True)
 class Growth:
     """Axis (1, 2, 3; 0 where unclear) and sense of the growing spin at the end of a run of length `span`."""
 
@@ -65,21 +43,27 @@ class Growth:
     steps: int
 
 
-def evidence(scene, state, span) -> Evidence:
-    """The evidence of one run of length `span` from `state` (three numbers)."""
+def seen_over(scene, state, span) -> dict:
+    """The fields of a Motion from `state` (three numbers) that a run over the span fills; it proves nothing
+    beyond it.
+
+    Extremes, ends included, as roots of the rates; |omega| (or |x|) at the start, at the end, and its largest
+    value at those roots; kinetic energy at start and end, and whether it "rises", "falls" or "oscillates";
+    the largest relative departure from the balance laws.
+    """
     state = three_numbers(state)
-    roots = _searched(scene, state, float(span))
+    roots = _searched(scene, state, reach_of(span))
     run = integrated(scene, state, np.linspace(0, roots.t_reached, 65)[1:] if roots.t_reached else [0.0])
     points = np.vstack([state, run.states])
-    energy = _energy(scene, points)
+    energy = np.asarray(to_numpy(equations_of(scene)).invariants(points)["energy"])
     sizes = np.linalg.norm(np.vstack([points, roots.states]), axis=1)
-    unit = scene.time_unit
-    over = f"{unit} in [0, {roots.t_reached:g}]"
-    return Evidence(Fate.UNDECIDED, _why_undecided(scene) + (f"; {roots.reason}" if roots.reason else ""),
-                    roots.t_reached,
-                    roots.extremes(), over,
-                    (float(sizes[0]), float(sizes[len(points) - 1]), float(sizes.max())),
-                    (float(energy[0]), float(energy[-1])), _trend(energy), run.invariant_drift, roots.steps)
+    return {"extremes": pairs(roots.extremes()),
+            "extremes_over": f"{scene.time_unit} in [0, {roots.t_reached:g}]",
+            "evidence": {"span": roots.t_reached, "size_start": float(sizes[0]),
+                         "size_end": float(sizes[len(points) - 1]), "size_largest": float(sizes.max()),
+                         "energy_start": float(energy[0]), "energy_end": float(energy[-1]),
+                         "energy_trend": _trend(energy), "steps": roots.steps,
+                         "invariant_drift": max(run.invariant_drift.values(), default=0.0)}}
 
 
 def extremes_over(scene, state, length: float) -> np.ndarray:
@@ -93,19 +77,6 @@ def _searched(scene, state, length: float) -> RateRoots:
     if not math.isfinite(length) or length == 0:
         raise InputError(f"span: expected a finite length other than 0, got {length!r}")
     return roots_of_rates(scene, state, length)
-
-
-def _why_undecided(scene):
-    torque = [f"axis {i + 1}" for i, m in enumerate(scene.quadratic().m) if m]
-    if len(torque) > 1:
-        return (f"the torque is off the principal axes (components on {' and '.join(torque)}): no invariant "
-                f"is known that decides "
-                "boundedness; a run over a span cannot")
-    return "boundedness was not decided; the run shows this span alone"
-
-
-def _energy(scene, points):
-    return np.asarray(to_numpy(equations_of(scene)).invariants(points)["energy"])
 
 
 def _trend(energy):
@@ -155,17 +126,6 @@ def span_needed(scene) -> InputError:
     return InputError("this scene has no reduction, so its extremes are searched over a time span: give "
                       "span=T "
                       f"({scene.time_unit}), or a span in the case's [motion]")
-
-
-def seen_over(scene, state, span) -> dict:
-    """The fields of a Motion that a run over the span fills."""
-    seen = evidence(scene, state, reach_of(span))
-    return {"extremes": pairs(seen.extremes), "extremes_over": seen.extremes_over,
-            "evidence": {"span": seen.span, "size_start": seen.size[0], "size_end": seen.size[1],
-                         "size_largest": seen.size[2], "energy_start": seen.energy[0],
-                         "energy_end": seen.energy[1],
-                         "energy_trend": seen.trend, "steps": seen.steps,
-                         "invariant_drift": max(seen.drift.values(), default=0.0)}}
 
 
 def size_words(evidence, unit: str) -> str:
