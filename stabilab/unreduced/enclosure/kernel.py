@@ -72,28 +72,17 @@ def series(numbers, low_numbers, unit, a, low):
     for i in range(3):
         high[i, 0], rest[i, 0] = halves(a[i, 0])
     for n in range(ORDER):
-        s0, s1, s2, c0, c1, c2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-        for m in range(n + 1):
-            k = n - m
-            p = a[1, m] * a[2, k]
-            e = ((high[1, m] * high[2, k] - p) + high[1, m] * rest[2, k]
-                 + rest[1, m] * high[2, k]) + rest[1, m] * rest[2, k]
-            s0, f = exact_sum(s0, p)
-            c0 += f + (e + (a[1, m] * low[2, k] + low[1, m] * a[2, k]))
-            p = a[2, m] * a[0, k]
-            e = ((high[2, m] * high[0, k] - p) + high[2, m] * rest[0, k]
-                 + rest[2, m] * high[0, k]) + rest[2, m] * rest[0, k]
-            s1, f = exact_sum(s1, p)
-            c1 += f + (e + (a[2, m] * low[0, k] + low[2, m] * a[0, k]))
-            p = a[0, m] * a[1, k]
-            e = ((high[0, m] * high[1, k] - p) + high[0, m] * rest[1, k]
-                 + rest[0, m] * high[1, k]) + rest[0, m] * rest[1, k]
-            s2, f = exact_sum(s2, p)
-            c2 += f + (e + (a[0, m] * low[1, k] + low[0, m] * a[1, k]))
-        sums, corrections = (s0, s1, s2), (c0, c1, c2)
         for i in range(3):
             j, k = (i + 1) % 3, (i + 2) % 3
-            v = times(exact_sum(sums[i], corrections[i]), (numbers[0, i], low_numbers[0, i]))
+            total, rest_of_total = 0.0, 0.0
+            for m in range(n + 1):
+                x, y = a[j, m], a[k, n - m]
+                x1, x2, y1, y2 = high[j, m], rest[j, m], high[k, n - m], rest[k, n - m]
+                p = x * y
+                e = ((x1 * y1 - p) + x1 * y2 + x2 * y1) + x2 * y2
+                total, f = exact_sum(total, p)
+                rest_of_total += f + (e + (x * low[k, n - m] + low[j, m] * y))
+            v = times(exact_sum(total, rest_of_total), (numbers[0, i], low_numbers[0, i]))
             v = add(v, times((a[k, n], low[k, n]), (numbers[1, i], low_numbers[1, i])))
             v = add(v, times((a[j, n], low[j, n]), (numbers[2, i], low_numbers[2, i])))
             if n == 0:
@@ -256,10 +245,25 @@ def judged(numbers, energy, a, V, B, rad, h, x, error, spread, moved, E, P):
     return True
 
 
+def radii_in(Y, slip, M, rest, rad):
+    """Radii rad of the set {M r + rest}, |r| <= rad, |rest_i| <= rest, in directions B whose inverse is Y but
+    for the slip: y = Y x + (1 - Y B) y."""
+    new, widest = np.empty(3), 0.0
+    for i in range(3):
+        total = 0.0
+        for c in range(3):
+            x, y, z = Y[i, 0] * M[0, c], Y[i, 1] * M[1, c], Y[i, 2] * M[2, c]
+            total += (abs(x + y + z) + 2.0**-48 * (abs(x) + abs(y) + abs(z))) * rad[c]
+        new[i] = total + abs(Y[i, 0]) * rest[0] + abs(Y[i, 1]) * rest[1] + abs(Y[i, 2]) * rest[2]
+        widest = max(widest, new[i])
+    for i in range(3):
+        rad[i] = (new[i] + 3.0 * slip / (1.0 - 3.0 * slip) * widest) * WIDER
+
+
 def taken_along(M, rest, rad, B):
     """The set {M r + rest}, |r| <= rad, |rest_i| <= rest, with M's own columns, of length 1, as directions B:
     nothing is wrapped but `rest`. False, and B and rad as they were, where these are too nearly parallel."""
-    N, Y, new = np.empty((3, 3)), np.empty((3, 3)), np.empty(3)
+    N, Y = np.empty((3, 3)), np.empty((3, 3))
     for c in range(3):
         length = length_of(M[0, c], M[1, c], M[2, c]) + TINY
         for i in range(3):
@@ -284,16 +288,8 @@ def taken_along(M, rest, rad, B):
     slip += 2.0**-48 * parallel
     if not parallel < PARALLEL or not slip < 1e-6:
         return False
-    widest = 0.0
+    radii_in(Y, slip, M, rest, rad)
     for i in range(3):
-        total = 0.0
-        for c in range(3):
-            x, y, z = Y[i, 0] * M[0, c], Y[i, 1] * M[1, c], Y[i, 2] * M[2, c]
-            total += (abs(x + y + z) + 2.0**-48 * (abs(x) + abs(y) + abs(z))) * rad[c]
-        new[i] = total + abs(Y[i, 0]) * rest[0] + abs(Y[i, 1]) * rest[1] + abs(Y[i, 2]) * rest[2]
-        widest = max(widest, new[i])
-    for i in range(3):  # Y is the inverse of B but for the slip: y = Y x + (1 - Y B) y
-        rad[i] = (new[i] + 3.0 * slip / (1.0 - 3.0 * slip) * widest) * WIDER
         for c in range(3):
             B[i, c] = N[i, c]
     return True
@@ -308,7 +304,7 @@ def turned(M, rest, rad, B):
     first = 0 if edges[0] >= edges[1] and edges[0] >= edges[2] else (1 if edges[1] >= edges[2] else 2)
     one, two = (first + 1) % 3, (first + 2) % 3
     second = one if edges[one] >= edges[two] else two
-    q, r, s = np.empty(3), np.empty(3), np.empty(3)
+    q, r, s, Y = np.empty(3), np.empty(3), np.empty(3), np.empty((3, 3))
     length = length_of(M[0, first], M[1, first], M[2, first]) + TINY
     for i in range(3):
         q[i] = M[i, first] / length
@@ -337,16 +333,10 @@ def turned(M, rest, rad, B):
             for c in range(3):
                 B[i, c] = 1.0 if i == c else 0.0
         return
-    widest = 0.0
     for i in range(3):
-        total = 0.0
         for c in range(3):
-            x, y, z = B[0, i] * M[0, c], B[1, i] * M[1, c], B[2, i] * M[2, c]
-            total += (abs(x + y + z) + 2.0**-48 * (abs(x) + abs(y) + abs(z))) * rad[c]
-        q[i] = total + abs(B[0, i]) * rest[0] + abs(B[1, i]) * rest[1] + abs(B[2, i]) * rest[2]
-        widest = max(widest, q[i])
-    for i in range(3):  # the inverse of B is its transpose but for the slip: y = B^T x + (1 - B^T B) y
-        rad[i] = (q[i] + 3.0 * slip / (1.0 - 3.0 * slip) * widest) * WIDER
+            Y[i, c] = B[c, i]
+    radii_in(Y, slip, M, rest, rad)
 
 
 def at_end(a, low, x, centre, low_centre):
