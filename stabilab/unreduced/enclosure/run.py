@@ -72,21 +72,6 @@ class Band:
             radius += w * (r * (2 * size[:, i] + r) + 2.0**-44 * size[:, i] ** 2)
         return out, radius * (1 + 2.0**-30)
 
-    def at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
-        """((3,) middle, (3,) radius) of the rates at a time in the band."""
-        i = min(max(int(np.searchsorted(self.times, t, "right")) - 1, 0), len(self.radii) - 1)
-        if not self.times[0] <= t <= self.times[-1]:
-            raise InputError(f"t: expected a time from {self.times[0]!r} to {self.times[-1]!r}, got {t!r}")
-        begin, end = self.times[i], self.times[i + 1]
-        x = (t - begin) / (end - begin)
-        rows = self.polynomials[i]
-        value = np.zeros(3)
-        for column in rows.T[::-1]:
-            value = value * x + column
-        # x is off by less than four roundings, of t - begin (t is any double) and of the quotient
-        size = np.abs(rows) @ np.arange(1, rows.shape[1] + 1)
-        return value, (self.radii[i] + 2.0**-46 * size) * (1 + 2.0**-30)
-
 
 @dataclass(frozen=True)
 class Enclosed:

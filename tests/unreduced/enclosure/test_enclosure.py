@@ -64,8 +64,12 @@ def holds(scene, start, end, rng):
     worst = shares(found.middle, found.rest, found.radius, last)
     for t, true in zip(times, between):
         band = next(b for b in bands if b.times[0] <= t <= b.times[-1])
-        middle, radius = band.at(t)
-        worst += shares(middle, np.zeros(3), radius, true)
+        i = max(int(np.searchsorted(band.times, t)) - 1, 0)
+        begin, end_ = map(Fraction, band.times[i:i + 2].tolist())
+        x = (Fraction(t) - begin) / (end_ - begin)
+        middle = [sum(Fraction(c) * x**n for n, c in enumerate(row)) for row in band.polynomials[i].tolist()]
+        rest = [float(v - Fraction(float(v))) for v in middle]
+        worst += shares(np.array(middle, float), np.array(rest), band.radii[i], true)
     return max(worst), found
 
 
