@@ -317,7 +317,7 @@ def test_a_motion_all_but_at_rest_in_a_single_well_is_drawn_between_its_walls():
     stabilab.plot.phase(load("charged-body-small-torque"), ax=ax)
     low, high = ax.get_ylim()
     assert math.isfinite(low) and math.isfinite(high) and high - low > 1e3 * abs(
-        np.ptp(lines(ax)[0].get_ydata()))
+        np.ptp(next(line for line in ax.get_lines() if line.get_color() == ORANGE).get_ydata()))
 
 
 @pytest.mark.parametrize("size", [1, 1e-2, 1e-4])
@@ -403,8 +403,8 @@ def test_the_enlarged_plane_holds_the_start_and_other_energies_up_to_its_edges_a
     inset, starts = ax.figure.axes[1], lambda where: [line for line in where.get_lines()
                                                       if line.get_marker() == "s"]
     assert not starts(ax) and len(starts(inset)) == 1
-    (levels,) = inset.collections
-    drawn = np.concatenate([path.vertices for path in levels.get_paths()])
+    drawn = np.concatenate([line.get_xydata() for line in inset.get_lines()
+                            if line.get_color() == style.MEANING["level"]["color"]])
     low, high = inset.get_ylim()
     assert drawn[:, 1].max() > high - 0.02 * (high - low) and drawn[:, 1].min() < low + 0.02 * (high - low)
     ax.figure.draw_without_rendering()

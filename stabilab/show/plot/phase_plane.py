@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping, Sized
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,6 +26,7 @@ from .. import style
 from ..units import number, with_unit
 from . import canvas
 from . import subject as which
+from .in_space import levels as level_lines
 from .subject import Measures, Subject, measures, subject
 
 if TYPE_CHECKING:
@@ -56,10 +58,9 @@ def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str | Non
         target.set_xlabel(with_unit(rf"turn $\alpha_{i + 1}$ about {one.axes.short(i + 1)} from the start",
                                     scale.angle[0]))
         target.set_ylabel(with_unit(scale.names[i], scale.rate[0]))
-        present = {"separatrix": bool(plane.saddles), "saddle (unstable)": bool(plane.saddles),
-                   "centre (stable)": bool(plane.centres)}
-        rows = [row for row in ROWS if legend and present.get(row[0], True)]
-        return canvas.explained(target, rows, ax is None, one.heading, canvas.answer(one, scale))
+        rows = rows_of({"centre": plane.centres, "saddle": plane.saddles})
+        return canvas.explained(target, rows if legend else [], ax is None,
+                                one.heading, canvas.answer(one, scale))
 
 
 # of the walls: a motion below it would be a line, and the grid may miss the bottom of its well
@@ -101,41 +102,53 @@ ROWS: list[tuple[str, dict]] = [
     ("saddle (unstable)", style.MARKER["saddle"])]
 
 
-def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None, levels=16, motion=True,
-         separatrices=True, start=True,
-         top=None):
+def rows_of(rests: Mapping[str, Sized]) -> list[tuple[str, dict]]:
+    """The rows of a legend, of those equilibria by their kinds that there are."""
+    needed = {"centre (stable)": "centre", "saddle (unstable)": "saddle", "separatrix": "saddle"}
+    return [row for row in ROWS if row[0] not in needed or len(rests.get(needed[row[0]], ()))]
+
+
+def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None, levels=16,
+         separatrices=True, start=True, top=None):
     """Draw level curves, separatrices, equilibria and the motion on `ax`; x axis: offset + scale*y.
     separatrices: False where the caller draws them himself, each in a look of its own. start: mark where the
     motion begins. top: the largest W, None for what is worth drawing."""
     low, high = span or window(plane)
-    y = np.linspace(low, high, 700)
-    heights, top = plane.height(y), highest(plane, low, high) if top is None else top
-    W = np.linspace(-top, top, 500)
-    energy = W[:, None] ** 2 / 2 + heights[None, :]
-    limits = np.linspace(energy.min(), np.quantile(energy, 0.93), levels + 1)[1:]
-    ax.contour(offset + scale * y, rate_scale * plane.rate(W), energy, levels=limits,
-               colors=style.MEANING["level"]["color"],
-               linewidths=0.5, linestyles="solid")
-    for saddle in plane.repeated(plane.saddles, low, high) if separatrices else ():
-        ys, Ws = plane.separatrix(saddle, low, high)
-        for sign in (1.0, -1.0):
-            ax.plot(offset + scale * ys, rate_scale * plane.rate(sign * Ws), **style.MEANING["separatrix"])
-    if motion:
-        ys, Ws = motion_curve(plane, low, high)
-        for sign in ways(plane, Ws):
-            ax.plot(offset + scale * ys, rate_scale * plane.rate(sign * Ws), **style.MEANING["this motion"])
-        if start:
-            ax.plot([offset], [rate_scale * plane.rate(plane.W0)], zorder=5, **style.MARKER["start"])
-    for kind, places in (("centre", plane.centres), ("saddle", plane.saddles)):
-        shown = np.array(plane.repeated(places, low, high))
-        # an empty line that is not clipped lies at the corner of the picture for a layout, which keeps room
-        # for it
-        if len(shown):
-            ax.plot(offset + scale * shown, rate_scale * plane.rate(np.zeros(shown.shape)), zorder=5,
-                    clip_on=False, **style.MARKER[kind])
+    top = highest(plane, low, high) if top is None else top
+    for y, W, look in curves_of(plane, low, high, top, levels):
+        if separatrices or look is not style.MEANING["separatrix"]:
+            ax.plot(offset + scale * y, rate_scale * plane.rate(W), **look)
+    if start:
+        ax.plot([offset], [rate_scale * plane.rate(plane.W0)], zorder=5, **style.MARKER["start"])
+    for kind, places in equilibria_of(plane, low, high):
+        ax.plot(offset + scale * places, rate_scale * plane.rate(0 * places), zorder=5, clip_on=False,
+                **style.MARKER[kind])
     ax.set_xlim(*sorted((offset + scale * low, offset + scale * high)))
     ends = rate_scale * plane.rate(np.array([-top, top]))
     ax.set_ylim(min(ends), max(ends))
+
+
+def curves_of(plane: PhasePlane, low: float, high: float, top: float,
+              levels: int = 16) -> Iterator[tuple[np.ndarray, np.ndarray, dict[str, Any]]]:
+    """(y (n,), W (n,), look) of so many other energies, of the separatrices and of this motion, between two
+    places and, the level curves, up to a W."""
+    y, W = np.linspace(low, high, 700), np.linspace(-top, top, 500)
+    energy = W[:, None] ** 2 / 2 + plane.height(y)[None, :]
+    values = np.linspace(energy.min(), np.quantile(energy, 0.93), levels + 1)[1:]
+    for line in level_lines(y, W, energy, values):
+        yield *line.T, style.MEANING["level"]
+    for saddle in plane.repeated(plane.saddles, low, high):
+        ys, Ws = plane.separatrix(saddle, low, high)
+        yield from ((ys, sign * Ws, style.MEANING["separatrix"]) for sign in (1.0, -1.0))
+    ys, Ws = motion_curve(plane, low, high)
+    yield from ((ys, sign * Ws, style.MEANING["this motion"]) for sign in ways(plane, Ws))
+
+
+def equilibria_of(plane: PhasePlane, low: float, high: float) -> list[tuple[str, np.ndarray]]:
+    """(kind, places (n,)) of the centres and saddles between two places, as far as there are any."""
+    found = (("centre", plane.repeated(plane.centres, low, high)),
+             ("saddle", plane.repeated(plane.saddles, low, high)))
+    return [(kind, np.array(places)) for kind, places in found if len(places)]
 
 
 def highest(plane: PhasePlane, low: float, high: float) -> float:

@@ -27,7 +27,7 @@ from .in_space import (
     sight,
 )
 from .path import path
-from .phase_plane import SMALL, highest, ways
+from .phase_plane import SMALL, curves_of, equilibria_of, highest, rows_of
 from .subject import Subject, measures, subject
 
 if TYPE_CHECKING:
@@ -37,8 +37,6 @@ if TYPE_CHECKING:
 # --- The cylinder on which a motion under a torque on a principal axis stays: its phase plane, wrapped
 # round the curve of the other two rates
 GRID = (97, 161)  # of the surface: rates, places
-FINE = (241, 361)
-LEVELS = 16
 AROUND = 2.2  # a small motion is shown in so many times its own size
 ASIDE = 0.6  # of the way over this motion and all equilibria: how far a hyperbola or parabola is shown beyond
 
@@ -60,23 +58,16 @@ def cylinder(one: Subject, units: str | None) -> SurfaceLines:
     words = f"the rates across {one.axes.short(axis + 1)} stay on a {plane.land.base}"
     found = SurfaceLines(grid_triangles(surface), box, view,
                          tuple(with_unit(name, scale.rate[0]) for name in scale.names), words)
-    _wrap(found, plane, at, axis, low, high, top)
-    for sign in ways(plane, Ws):
-        inside = (np.abs(Ws) <= top) & (ys >= low - 1e-9) & (ys <= high + 1e-9) | np.isfinite(plane.land.turn)
-        points = np.where(inside[:, None], at(ys, sign * Ws), np.nan)
-        found.add(points, style.MEANING["this motion"], _outward(plane, ys, axis))
-    for kind, places in (("centre", plane.centres), ("saddle", plane.saddles)):
-        for place in plane.repeated(places, low, high):
+    for y, W, look in curves_of(plane, low, high, top):
+        shown = (np.abs(W) <= top) & (y >= low - 1e-9) & (y <= high + 1e-9) | np.isfinite(plane.land.turn)
+        found.add(np.where(shown[:, None], at(y, W), np.nan), look, _outward(plane, y, axis))
+    rests = equilibria_of(plane, low, high)
+    for kind, places in rests:
+        for place in places:
             front = float(_outward(plane, [place], axis)[0] @ sight(view)) >= 0
             found.marks.append((at([place], [0.0]), style.MARKER[kind] | ({} if front else {"alpha": 0.35})))
     found.marks.append((at([0.0], [plane.W0]), style.MARKER["start"]))
-    found.rows = [("this motion", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
-                  *([("separatrix", style.MEANING["separatrix"])] if plane.repeated(plane.saddles, low, high)
-                    else []),
-                  ("other energies", style.MEANING["level"]),
-                  *((name, style.MARKER[kind]) for name, kind,
-                    places in (("centre (stable)", "centre", plane.centres),
-                    ("saddle (unstable)", "saddle", plane.saddles)) if plane.repeated(places, low, high))]
+    found.rows = rows_of(dict(rests))
     return found
 
 
@@ -94,20 +85,6 @@ def _range(plane: PhasePlane, ys, Ws):
     marks = np.clip([ys[0], ys[-1], *plane.saddles, *plane.centres], low, high)
     near = ASIDE * max(float(np.ptp(marks)), 0.1)
     return max(low, marks.min() - near), min(high, marks.max() + near), top
-
-
-def _wrap(found, plane, at, axis, low, high, top):
-    """The lines of other energies and the separatrices."""
-    y, W = np.linspace(low, high, FINE[1]), np.linspace(-top, top, FINE[0])
-    energy = W[:, None] ** 2 / 2 + plane.height(y)[None, :]
-    values = np.linspace(energy.min(), np.quantile(energy, 0.93), LEVELS + 1)[1:]
-    for line in levels(y, W, energy, values):
-        found.add(at(*line.T), style.MEANING["level"], _outward(plane, line[:, 0], axis))
-    for saddle in plane.repeated(plane.saddles, low, high):
-        ys, Ws = plane.separatrix(saddle, low, high)
-        for sign in (1, -1):
-            points = np.where((Ws <= top)[:, None], at(ys, sign * Ws), np.nan)
-            found.add(points, style.MEANING["separatrix"], _outward(plane, ys, axis))
 
 
 def _outward(plane, ys, axis):
