@@ -24,6 +24,7 @@ from ..data import as_json, csv_lines, endless
 from ..units import SHORT, Units, with_unit
 from .shades import FATES, light, limits_of, spinning, unit
 from .sweep import COUNTS, checked, column_in, finished, origin, per_cent, write
+from .sweep import DOES as OF_POINTS
 
 if TYPE_CHECKING:
     import xarray
@@ -32,8 +33,7 @@ if TYPE_CHECKING:
 # --- How directions, axes and fates of an atlas are named, and the colour of each fate
 # of undecided cells: where one may exist, where one is seen
 ISLAND_COLOURS = {1: light(style.GREY, 0.75), 2: light(style.BLACK, 0.8)}
-DOES = {Fate.BOUNDED: "stay bounded", Fate.SEPARATRIX: "lie on the separatrix",
-        Fate.EQUILIBRIUM: "keep a steady rotation", Fate.UNDECIDED: "are undecided"}
+DOES = OF_POINTS | {Fate.EQUILIBRIUM: ("keep a steady rotation", "keeps a steady rotation")}
 
 
 def other_axis(atlas: Atlas) -> str:
@@ -132,7 +132,7 @@ def answer(atlas: Atlas, units: Units, rows: np.ndarray | None = None) -> str:
     for n, ((fate, axis), share) in enumerate(shares):
         about = axes_of(atlas.asked.case).whole(axis) if axis else other_axis(atlas)
         verb = (f"about {about}" if n and shares[n - 1][0][0] == fate == Fate.SPIN_UP
-                else f"spin up about {about}" if fate == Fate.SPIN_UP else DOES[Fate(fate)])
+                else f"spin up about {about}" if fate == Fate.SPIN_UP else DOES[Fate(fate)][0])
         parts.append(f"{per_cent(share)} of {what} {verb}" if not n else f"{per_cent(share)} {verb}")
     if len(shares) == 1:
         parts = [parts[0].replace("100 % of", "all", 1)]
@@ -262,11 +262,7 @@ def does(atlas: Atlas, n: int) -> str:
     """What the motion does under the n-th direction with a name."""
     record = atlas.named_records[n]
     fate, axis = Fate(int(record["fate"])), int(record["spin_axis"])
-    if fate != Fate.SPIN_UP:
-        return {Fate.BOUNDED: "stays bounded", Fate.SEPARATRIX: "lies on the separatrix",
-                Fate.EQUILIBRIUM: "keeps a steady rotation",
-                Fate.UNDECIDED: "is undecided"}[fate]
-    return f"spins up about {_signed(atlas, axis)}"
+    return f"spins up about {_signed(atlas, axis)}" if fate == Fate.SPIN_UP else DOES[fate][1]
 
 
 def _signed(atlas: Atlas, axis: int) -> str:

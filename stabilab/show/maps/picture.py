@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...errors import InputError, printable
-from ...maps.columns import ENDLESS, NONE, OPEN, columns_of
+from ...maps.columns import columns_of
 from ...maps.plan import Plan, from_json
 from ...maps.run import changes, known_exactly
 from ...orbit.result import Fate
@@ -22,6 +22,7 @@ from ..terminal.letters import written
 from ..units import Units, units_of, with_unit
 from . import basins as basin_data
 from . import shades
+from .sweep import CELLS
 
 if TYPE_CHECKING:
     import xarray
@@ -120,7 +121,6 @@ COUNTS = ("equilibria", "stable", "unstable", "open")
 # what an infinite value means
 ENDS = {"period": "never repeats", "least": "unbounded", "greatest": "unbounded", "when_low": "never",
         "when_high": "never"}
-WITHOUT = {ENDLESS: "curves", OPEN: "open", NONE: "no case"}
 
 
 def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict[str, int]], size: Any,
@@ -165,7 +165,7 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
         if kind in COUNTS:
             numbers = [n for n in range(int(limits[0]), int(limits[1]) + 1) if n >= 0
                        or (np.asarray(data[kind]) == n).any()]
-            bar.set_ticks(numbers, labels=[WITHOUT.get(n, str(n)) for n in numbers])
+            bar.set_ticks(numbers, labels=[CELLS.get(n, str(n)) for n in numbers])
             bar.ax.tick_params(length=0)
     style.legend(figure, rows)
     return figure

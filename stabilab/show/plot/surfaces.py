@@ -172,10 +172,8 @@ def _saddles(height, energies):
 def _others(height, saddles):
     """Energies of the polhodes: as many shares of the sphere, none beside a separatrix."""
     area = np.cos(np.linspace(-np.pi / 2, np.pi / 2, height.shape[0]))[:, None] * np.ones(height.shape)
-    order = np.argsort(height.ravel())
-    shares = np.cumsum(area.ravel()[order])
-    values = height.ravel()[order][np.searchsorted(shares,
-                                                   shares[-1] * (np.arange(POLHODES) + 0.5) / POLHODES)]
+    values = np.quantile(height, (np.arange(POLHODES) + 0.5) / POLHODES, method="inverted_cdf",
+                         weights=np.maximum(area, 0.0))
     apart = 0.02 * float(np.ptp(height))
     return [value for value in values if all(abs(value - s) > apart for s in saddles)]
 
