@@ -22,9 +22,7 @@ if TYPE_CHECKING:
 
 
 # --- The rates of a motion at times close enough to be drawn as a line
-EVEN = 2001  # times at least
-INSIDE = 16  # times inside a step: a Taylor step to the last digit turns the body by up to three radians
-MOST = 60_000
+FINE, FEWER = 20_001, 2001  # times of a line; those where each costs many digits
 SEEN = 1e-3  # of the largest rate: what an eye tells apart
 # last places by which a start is moved: it leaves every plane through two of its components
 APART = (1, 2, 3)
@@ -35,8 +33,7 @@ BINS, SOLID = 700, 500  # a curve with more turning points than this is drawn as
 def path(one: Subject, start: float, end: float) -> tuple[np.ndarray, np.ndarray]:
     """(times (n,), rates (n, 3)) of the motion from `start` to `end`; fewer where the run stops. InputError
     where it does not begin."""
-    even = np.linspace(start, end, EVEN)
-    t, states = along(one, _beside(even, _steps(one, even)), even)
+    t, states = along(one, np.linspace(start, end, FINE), np.linspace(start, end, FEWER))
     if len(t) < 2:
         raise InputError("plot: the motion cannot be followed: the run stopped at its start")
     return t, states
@@ -78,25 +75,6 @@ def _in_digits(one, times):
     return (found.run.t,
             found.run.state["x" if one.scene.variables == "scaled"
                             else "omega"]) if found.run.status == "reached" and found.digits > 1 else None
-
-
-def _steps(one, even):
-    """The ends of the steps of a run; none of a longer state, which may need a method whose steps are
-    another's."""
-    steps: list[float] = []
-    if one.scene.plain:
-        trajectory(one.scene, one.start, even[[0, -1]] if even[0] else even[-1:], steps=steps, laws=False)
-    return np.sort([t for t in steps if even[0] < t < even[-1]])
-
-
-def _beside(even, steps):
-    """The even times, and so many inside every step."""
-    if not len(steps):
-        return np.linspace(even[0], even[-1], 8 * EVEN)
-    ends = np.unique(np.concatenate([even[[0, -1]], steps]))
-    inside = max(1, min(INSIDE, MOST // len(ends)))
-    fine = (ends[:-1, None] + np.diff(ends)[:, None] * np.arange(inside) / inside).ravel()
-    return np.unique(np.concatenate([even, fine]))
 
 
 def turning(values: np.ndarray) -> int:
