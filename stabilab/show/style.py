@@ -64,7 +64,6 @@ SERIES = (BLUE, ORANGE, GREEN, PURPLE, VERMILION)               # one curve each
 
 PACKAGES = ("matplotlib", "PIL")  # of every picture
 DPI = 110
-LETTER, KEY = 0.07, 0.7  # inches that a letter of a legend, and its key with the gap, take
 # the blanks within a measured value: lambda3 = 0.1 N m s
 MEASURED = re.compile(r"(?<= =) | (?==)|(?<=\d) (?=[^\W\d])|(?<=\bN) (?=m\b)|(?<=\bm) (?=s\b)")
 TITLE = 0.008  # inches that a letter of a title takes, a point of its size
@@ -181,8 +180,17 @@ def legend(figure, rows, columns: int | None = None):
     None for as many as fit."""
     handles, names = explained(rows)
     if names:
-        most = fitting(names, figure.get_figwidth()) if columns is None else min(columns, len(names))
-        figure.legend(handles, names, loc="outside lower center", ncols=most)
+        below(figure, handles, names, columns)
+
+
+def below(figure, handles, names, columns: int | None = None):
+    """A legend below a figure, of as few rows of about the same length as fit."""
+    for rows in range(1, len(names) + 1):
+        across = min(-(-len(names) // rows), columns or len(names))
+        made = figure.legend(handles, names, loc="outside lower center", ncols=across)
+        if columns or rows == len(names) or made.get_window_extent().width <= 0.97 * figure.bbox.width:
+            return
+        made.remove()
 
 
 def letters(size: tuple[float, float] | None) -> dict[str, float]:
@@ -197,19 +205,6 @@ def share() -> float:
     """The size of letters now, as a share of that of the house; 1 where a caller has larger ones."""
     import matplotlib
     return min(1.0, float(matplotlib.rcParams["font.size"]) / float(RC["font.size"]))
-
-
-def fitting(names: list[str], width: float) -> int:
-    """The columns of a legend below a figure of so many inches, filled one after the other: as few rows as
-    fit, of about the same length."""
-    room = (width - 0.3) / share()
-    widths = [KEY + LETTER * len(re.sub(r"[$_\\]|\\\w+", "", name)) for name in names]
-    for count in range(len(names), 1, -1):
-        rows, longer = divmod(len(names), count)  # the first columns take one more
-        ends = [n * rows + min(n, longer) for n in range(count + 1)]
-        if sum(max(widths[low:high]) for low, high in zip(ends, ends[1:])) <= room:
-            return -(-len(names) // -(-len(names) // count))
-    return 1
 
 
 def clauses(text: str, width: float) -> str:

@@ -58,8 +58,7 @@ def explained(ax: Any, rows: list[tuple[str, dict[str, Any]]], own: bool, *lines
 def legend(ax: Any, rows: list[tuple[str, dict[str, Any]]], own: bool) -> None:
     """What the looks mean, rows of (name, look): below a figure of its own, inside axes that were given."""
     if rows and own:
-        columns = style.fitting([name for name, _ in rows], ax.figure.get_figwidth())
-        style.legend(ax.figure, rows, columns)
+        style.legend(ax.figure, rows)
     elif rows:
         ax.legend(*style.explained(rows), loc="best", fontsize="small")
 

@@ -90,8 +90,7 @@ def narrowed(figure: Any) -> Any:
     for legend in list(figure.legends):
         names = [text.get_text() for text in legend.get_texts()]
         legend.remove()
-        figure.legend(legend.legend_handles, names, loc="outside lower center",
-                      ncols=style.fitting(names, TELEPHONE[0]))
+        style.below(figure, legend.legend_handles, names)
     return figure
 
 

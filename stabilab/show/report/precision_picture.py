@@ -51,8 +51,7 @@ def picture(plt, found, size=None, most=None):
     for ax in axes.flat[len(questions):]:
         ax.set_visible(False)
     looks = meanings(found, questions, most is None and (size is None or size[0] >= usual[0]))
-    style.legend(figure, looks, columns=(3 if columns == 2 else 1) if size is None
-                 else style.fitting([name for name, _ in looks], size[0]))
+    style.legend(figure, looks, (3 if columns == 2 else 1) if size is None else None)
     figure.suptitle(f"{found.case.name}: what accuracy costs", fontsize=11 * style.share(), parse_math=False)
     if size is not None and style.share() < 1:
         return figure  # without the note, which a small figure has no room for

@@ -137,7 +137,7 @@ def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = 
                             and len(run.t) else ""),
              looks[name] | ({"linewidth": 2.4} if LOOKS[name] != looks[name] else {}))  # of a ground: seen
             for name, run in runs.items()]
-    style.legend(figure, rows, columns=style.fitting([words for words, _ in rows], figure.get_figwidth()))
+    style.legend(figure, rows)
     return figure
 
 
