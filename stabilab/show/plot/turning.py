@@ -184,7 +184,7 @@ def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, fra
 
     The box is the even one with the body's moments of inertia; its faces and axes have the colours of the
     principal axes, and the line is the path of the tip of the axis about which the body turns most at the
-    start. Arrows: angular momentum, constant torque, momentum of the wheels; the bar: how much of the limit
+    start. Arrows: angular momentum, constant torque, momentum of the wheels; in words, how much of the limit
     of the case the rates have reached. The start has the attitude of the case, else one that holds its
     vertical upright, else body and space are aligned. Where the span would need more pictures than `frames`
     at 15 degrees each, its first part is shown. Raises InputError for scaled variables.
@@ -246,7 +246,6 @@ def _stage(ax, found: Turn, one, scale):
     canvas.title(ax, one.heading)
     ax.text2D(0.5, -0.02, "\n".join(filter(None, (found.words, found.part(scale.system)))),
               transform=ax.transAxes, ha="center", va="top", fontsize="small")
-    gauge = _gauge(ax) if found.share is not None else None
     pointers: list[Any] = []
     ways = [ax.plot([], [], [], color=style.GREY, linewidth=0.9, zorder=order)[0]
             for order in (BEHIND, BEFORE)]
@@ -281,30 +280,14 @@ def _stage(ax, found: Turn, one, scale):
                                  zorder=BEFORE + 1) for _, colour, rows in found.arrows]
         pointers.extend(ax.text(*(1.12 * rows[frame]), letter, color=colour, weight="bold", path_effects=halo,
                                 zorder=BEFORE + 1) for letter, colour, rows in found.arrows)
-        if gauge is not None:
-            gauge(float(found.share[frame]))
-        now.set_text(f"{found.t[frame] * per:.4g} {unit}, |ω| = {rates[frame]:.4g} {scale.rate[0]}")
+        share = None if found.share is None else found.share[frame]
+        now.set_text(f"{found.t[frame] * per:.4g} {unit}, |ω| = {rates[frame]:.4g} {scale.rate[0]}"
+                     + ("" if share is None else f", {share:.0%} of the limit".replace("%", " %")))
+        now.set_color(style.BLACK if share is None or share < 1 else style.VERMILION)
         return [box, *axes, *names, *ways, now]
 
     draw(0)
     return draw
-
-
-def _gauge(ax):
-    """A bar for the limit; gauge(share) fills it."""
-    from matplotlib.lines import Line2D
-    low, high, height = 0.3, 0.7, 0.94
-    look = {"transform": ax.transAxes, "solid_capstyle": "butt", "linewidth": 7}
-    bar = Line2D([low, low], [height] * 2, color=style.BLUE, **look)
-    ax.add_artist(Line2D([low, high], [height] * 2, color="#DDDDDD", **look))
-    ax.add_artist(bar)
-    told = ax.text2D(high + 0.02, height, "", transform=ax.transAxes, va="center", fontsize="small")
-
-    def fill(share):
-        bar.set_xdata([low, low + (high - low) * min(share, 1.0)])
-        bar.set_color(style.BLUE if share < 1 else style.VERMILION)
-        told.set_text(f"{100 * share:.0f} % of the limit")
-    return fill
 
 
 def _eye(ax) -> np.ndarray:
