@@ -253,7 +253,6 @@ def classes(atlas: Atlas, kind: str) -> tuple[np.ndarray, list[str], list[Any], 
 def _explained(figure: Any, axes: list[Any], atlas: Atlas, kind: str, times: Any, units: Units) -> None:
     """The legend of a column of maps, or its scale."""
     from matplotlib.cm import ScalarMappable
-    from matplotlib.patches import Patch
     from matplotlib.ticker import LogLocator, NullFormatter
     if kind == "when":
         scale, name, _ = times
@@ -265,15 +264,15 @@ def _explained(figure: Any, axes: list[Any], atlas: Atlas, kind: str, times: Any
         bar.ax.xaxis.set_major_formatter(lambda value, _: f"{value:.4g}")
         bar.ax.xaxis.set_minor_formatter(NullFormatter())
         known, low = _known(atlas), atlas.records["when_low"]
-        rows = [(NEVER, "never", np.isinf(low)), (UNKNOWN, "time not known", ~known & ~np.isinf(low))]
-        handles = [(Patch(facecolor=colour, edgecolor=style.GREY), words) for colour, words,
-                   cells in rows if cells.any()]
+        told = [(NEVER, "never", np.isinf(low)), (UNKNOWN, "time not known", ~known & ~np.isinf(low))]
+        rows = [(words, colour) for colour, words, cells in told if cells.any()]
     else:
-        _, _, of, told = classes(atlas, kind)
-        handles = [(Patch(facecolor=colour, edgecolor=style.GREY), words) for colour, words in zip(of, told)]
-    if handles:
-        axes[-1].legend(*zip(*handles), loc="upper center", bbox_to_anchor=(0.5, 0.0),
-                        ncols=min(2, len(handles)), borderaxespad=0.2)
+        _, _, of, words = classes(atlas, kind)
+        rows = list(zip(words, of))
+    if rows:
+        looks = {words: {"facecolor": colour, "edgecolor": style.GREY} for words, colour in rows}
+        axes[-1].legend(*style.explained(looks), loc="upper center", bbox_to_anchor=(0.5, 0.0),
+                        ncols=min(2, len(rows)), borderaxespad=0.2)
 
 
 # --- An atlas as one page that needs no network: the map or a globe, and what the pointer is on in words

@@ -175,15 +175,11 @@ def json(found: Basins) -> str:
 def command(found: Basins) -> str:
     """A command that asks the same."""
     import shlex
-    rows = [f"--vary={axis.key.name}={axis.values[0]!r}:{axis.values[-1]!r}:{cells + 1}{_spacing(found, n)} "
-            f"{axis.unit}".strip()
-            for n, (axis, cells) in enumerate(zip(found.plan.axes, found.mesh.cells))]
+    rows = [f"--vary={axis.key.name}={axis.values[0]!r}:{axis.values[-1]!r}:{cells + 1}"
+            f"{':log' if text.count(':') == 3 else ''} {axis.unit}".strip()
+            for axis, cells, (_, text) in zip(found.plan.axes, found.mesh.cells, found.plan.vary)]
     rows += [f"--depth={found.asked}", *([f"--follow={found.plan.follow}"] if found.plan.follow else [])]
     return shlex.join(["stabilab", "basin", os.path.basename(found.plan.path), *rows])
-
-
-def _spacing(found: Basins, n: int) -> str:
-    return ":log" if found.plan.vary[n][1].count(":") == 3 else ""
 
 
 def undecided(found: Basins) -> bool:

@@ -157,7 +157,9 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
             for name, n in place.items()))
     for ax in axes.flat[len(panels):]:
         ax.set_visible(False)
-    figure.suptitle(_title(data) + _of_all(data, panels), fontsize=10.5, wrap=True)
+    whole = math.prod(data.sizes[name] for name in panels[0])
+    part = f" ({len(panels)} of {whole} maps)" if len(panels) < whole else ""
+    figure.suptitle(_title(data) + part, fontsize=10.5, wrap=True)
     if kind not in shades.FLAGS:
         of_axes = (f", {'least' if kind == 'least' else 'greatest'} of the three axes"
                    if "axis" in data[kind].dims else "")
@@ -174,12 +176,6 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
 def _unit(data, name) -> str:
     unit = data[name].attrs.get("units", "1")
     return "" if unit == "1" else unit
-
-
-def _of_all(data, panels) -> str:
-    """What share of the maps is shown, where not all are."""
-    number = math.prod(data.sizes[name] for name in panels[0])
-    return f" ({len(panels)} of {number} maps)" if len(panels) < number else ""
 
 
 def _index(data, plan, place) -> tuple[int, ...]:

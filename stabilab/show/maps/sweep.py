@@ -307,8 +307,9 @@ def write(made: xarray.Dataset, path: Path) -> Path:
 def dataset(found: Swept) -> xarray.Dataset:
     """The records with their dimensions, units and words."""
     plan, dims = found.plan, dimensions(found.plan)
-    values = {column.name: _variable(found, column, dims) for column in columns_of(plan.answers)
-              if column is not VALID or found.broken}
+    values = {column.name: column_in((*dims, *["axis"] * len(column.shape)), column, found.records,
+                                     unit(plan, column))
+              for column in columns_of(plan.answers) if column is not VALID or found.broken}
     coordinates = {name: ((name,), np.array(axis.values),
                           {"long_name": axis.key.name, "units": axis.shown_unit})
                    for name, axis in zip(dims, plan.axes)}
@@ -329,11 +330,6 @@ def finished(values: dict[str, Any], coordinates: dict[str, Any],
     for variable in made.variables.values():
         variable.encoding["_FillValue"] = None
     return made
-
-
-def _variable(found: Swept, column: Any, dims: list[str]) -> tuple[Any, ...]:
-    across = ["axis"] if column.shape else []
-    return column_in((*dims, *across), column, found.records, unit(found.plan, column))
 
 
 def column_in(dims: Any, column: Column, records: np.ndarray, of: str) -> tuple[Any, np.ndarray, dict]:

@@ -236,15 +236,11 @@ def _all_repeat(one: Subject) -> bool:
     return reduce(one.twin) is not None or which.free(one)
 
 
-def _may_have_an_island(one: Subject) -> bool:
-    """Whether no integral of motion is known, and the motion is not known to leave: where there is one,
-    periodic motions are never isolated."""
-    return one.motion.fate == Fate.UNDECIDED and not _all_repeat(one)
-
-
 def plane_of(one: Subject, until: float) -> tuple[Periodic | None, Section]:
     """The periodic motion in the middle, where there is one, and the plane that the motion passes."""
-    orbit = in_the_middle(one.twin, one.state) if _may_have_an_island(one) else None
+    # where an integral of motion is known periodic motions are never isolated
+    island = one.motion.fate == Fate.UNDECIDED and not _all_repeat(one)
+    orbit = in_the_middle(one.twin, one.state) if island else None
     if orbit is not None and len(returns(one.twin, one.state, orbit.section, LEAST)[0]) == LEAST:
         return orbit, orbit.section
     plane = crossed(one.twin, one.state, until)
