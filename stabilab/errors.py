@@ -59,12 +59,10 @@ class CaseError(InputError):
 
 
 class RenderingUnavailable(StabilabError):
-    """Pictures cannot be drawn on this machine; meshes and data were still written, as `summaries` (or
-    `summary`, of one) tells."""
+    """Pictures cannot be drawn on this machine; meshes and data were still written, as `summaries` tells."""
 
     exit_code = NO_RENDERING
     summaries: list[dict]
-    summary: dict
 
 
 class ToleranceNotMet(StabilabError):

@@ -263,19 +263,31 @@ def test_a_picture_is_what_its_ending_says_and_the_same_bytes_again(name, tmp_pa
     assert first.read_bytes() == second.read_bytes()
 
 
-def test_the_surface_of_a_case_read_from_a_text_is_written_without_a_file_to_name(tmp_path):
+@pytest.fixture
+def undrawn(monkeypatch):
+    """A function that writes meshes without a picture."""
+    monkeypatch.setattr(surface, "probe", lambda: render_probe.Renderer(False, "none here"))
+
+    def write(case, out):
+        with pytest.raises(errors.RenderingUnavailable) as unavailable:
+            surface.write_all([case], out)
+        return unavailable.value.summaries[0]
+    return write
+
+
+def test_the_surface_of_a_case_read_from_a_text_is_written_without_a_file_to_name(tmp_path, undrawn):
     case = read_text("own.toml", (CASES / "wheel-and-thruster.toml").read_text(encoding="utf-8"))
-    assert surface.write(case, tmp_path, shape=(8, 9), picture=False)["triangles"] > 0
+    assert undrawn(case, tmp_path)["triangles"] > 0
     assert json.loads((tmp_path / "manifest.json").read_text())["inputs"] == []
 
 
-def test_the_summary_counts_what_the_mesh_holds(tmp_path):
+def test_the_summary_counts_what_the_mesh_holds(tmp_path, undrawn):
     import pyvista
-    summary = surface.write(paper.scene("minor", 300), tmp_path, shape=(20, 41), picture=False)
-    data = pyvista.read(tmp_path / "surface.vtp")
+    summary = undrawn(load(CASES / "minor-axis-300.toml"), tmp_path)
+    data = pyvista.read(tmp_path / "minor-axis-300.vtp")
     assert (data.n_points, data.n_cells) == (summary["vertices"], summary["triangles"])
     assert summary["largest_residual"] == data.point_data["residual"].max() < 1e-12
-    assert json.loads((tmp_path / "surface.json").read_text())["sheets"] == summary["sheets"]
+    assert json.loads((tmp_path / "minor-axis-300.json").read_text())["sheets"] == summary["sheets"]
 
 
 def test_a_surface_picture_names_the_axes_of_its_case(tmp_path):

@@ -22,12 +22,11 @@ GLASS = 0.75  # of a surface: what is behind it is seen
 LINE, THIN, GRID, BALL = 0.014, 0.005, 0.002, 0.034  # radii, of half of the box
 
 
-def draw(case: Any, path: Path, found: Any = None) -> Path:
-    """The still picture (PNG) of a case or scene; needs a renderer that the probe approved. found: its space,
-    where that is known."""
+def draw(case: Any, path: Path) -> Path:
+    """The still picture (PNG) of a case; needs a renderer that the probe approved."""
     one = subject(case)
     scale = measures(one)
-    found = found or of(one)
+    found = of(one)
     stage = plotter(found)
     try:
         pixels = stage.screenshot(return_img=True)

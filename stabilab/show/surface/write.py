@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import json
-from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
@@ -22,21 +21,8 @@ from .render_probe import probe
 SCHEMA = "stabilab.surface/1"
 
 
-def write(case, out, reach=None, shape=None, picture=True, arguments=None) -> dict:
-    """Write the separatrix of a case (or scene) into the folder `out` and return its summary.
-
-    The files of `write_all` for one case; raises RenderingUnavailable with the summary as its attribute
-    `summary`.
-    """
-    try:
-        return write_all([case], out, reach, shape, picture, arguments)[0]
-    except RenderingUnavailable as unavailable:
-        unavailable.summary = unavailable.summaries[0]
-        raise
-
-
-def write_all(cases, out, reach=None, shape=None, picture=True, arguments=None) -> list[dict]:
-    """Write the separatrices of cases (or scenes) into the folder `out` and return a summary of each.
+def write_all(cases, out, arguments=None) -> list[dict]:
+    """Write the separatrices of cases into the folder `out` and return a summary of each.
 
     NAME.vtp (double precision, point arrays "sheet" and "residual"), NAME.glb and NAME.stl (single
     precision, as those formats are), NAME.json (the summary), NAME.png and manifest.json (arguments: of the
@@ -46,13 +32,12 @@ def write_all(cases, out, reach=None, shape=None, picture=True, arguments=None) 
     attribute `summaries`), after the meshes are written, where this machine cannot draw.
     """
     out = endings.folder(out)
-    named = [(case, _scene(case)[1]) for case in cases]
-    rows = [(case, *_found(case, reach, shape)) for case, _ in each(named, lambda one: printable(one[1]))]
+    rows = [(case, *_found(case)) for case in each(cases, lambda one: printable(one.name))]
     summaries = [summarise(case, found, meshes) | {"files": []} for case, found, meshes in rows]
     if not any(meshes for *_, meshes in rows):
         return summaries
-    renderer = probe() if picture else None
-    inputs = dict.fromkeys(case.path for case in cases if hasattr(case, "path") and Path(case.path).is_file())
+    renderer = probe()
+    inputs = dict.fromkeys(case.path for case in cases if Path(case.path).is_file())
     residual = max(summary["largest_residual"] for summary in summaries)
     with manifest.written(out, arguments, inputs,
                           {"distance of a vertex from its surface": residual}) as folder:
@@ -60,7 +45,7 @@ def write_all(cases, out, reach=None, shape=None, picture=True, arguments=None) 
                                                    lambda row: f"drawing {printable(row[1]['case'])}"):
             if meshes:
                 _write(case, meshes, folder, renderer, summary)
-    if picture and not renderer.available:
+    if not renderer.available:
         written = ", ".join(name for summary in summaries for name in summary["files"])
         unavailable = RenderingUnavailable(f"the meshes are in {out} ({written}), but no picture could be "
                                            f"drawn: {renderer.words}. "
@@ -70,34 +55,26 @@ def write_all(cases, out, reach=None, shape=None, picture=True, arguments=None) 
     return summaries
 
 
-def _found(case, reach, shape):
-    """(separatrix, its meshes) of a case or scene."""
-    with blamed_on(case) if hasattr(case, "scene") else nullcontext():
-        found = separatrix(_scene(case)[0], reach=reach, **({"shape": shape} if shape else {}))
+def _found(case):
+    """(separatrix, its meshes) of a case."""
+    with blamed_on(case):
+        found = separatrix(case.scene)
     return found, [triangulate(branch) for branch in found.branches]
 
 
 def _write(case, meshes, folder, renderer, summary):
-    """The files of one case; renderer: None where no picture is asked for. The summary is completed and
-    written with them."""
-    name = _scene(case)[1]
-    files = write_meshes(meshes, folder, name)
-    if renderer:
-        summary["rendering"] = renderer.words if renderer.available else f"unavailable: {renderer.words}"
-    if renderer and renderer.available:
-        files.append(drawing.draw(case, folder / f"{name}.png"))
-    summary["files"] = sorted([f"{name}.json", *(f.name for f in files)])
-    with style.whole_file(folder / f"{name}.json") as waiting:
+    """The files of one case; the summary is completed and written with them."""
+    files = write_meshes(meshes, folder, case.name)
+    summary["rendering"] = renderer.words if renderer.available else f"unavailable: {renderer.words}"
+    if renderer.available:
+        files.append(drawing.draw(case, folder / f"{case.name}.png"))
+    summary["files"] = sorted([f"{case.name}.json", *(f.name for f in files)])
+    with style.whole_file(folder / f"{case.name}.json") as waiting:
         waiting.write_text(json.dumps(plain(summary), indent=1, allow_nan=False) + "\n", encoding="utf-8")
-
-
-def _scene(case):
-    return (case.scene, case.name) if hasattr(case, "scene") else (case, "surface")
 
 
 def summarise(case, found, meshes) -> dict:
     """Counts and the largest residual, branch by branch and in all; plain JSON values."""
-    scene, name = _scene(case)
     rows = []
     for branch, mesh in zip(found.branches, meshes):
         invariant = np.asarray(branch.invariant, float)
@@ -108,8 +85,8 @@ def summarise(case, found, meshes) -> dict:
                      "invariant": [float(invariant.min()), float(invariant.max())],
                      "bounds": [[float(v) for v in pair]
                                 for pair in zip(mesh.points.min(0), mesh.points.max(0))]})
-    return {"schema": SCHEMA, "case": getattr(case, "name", name), "variables": scene.variables,
-            "components": list(scene.components), "sheets": rows,
+    return {"schema": SCHEMA, "case": case.name, "variables": case.scene.variables,
+            "components": list(case.scene.components), "sheets": rows,
             "vertices": sum(r["vertices"] for r in rows),
             "triangles": sum(r["triangles"] for r in rows),
             "largest_residual": max((r["largest_residual"] for r in rows), default=0.0),
