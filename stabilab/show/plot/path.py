@@ -1,7 +1,6 @@
 """The motion that a picture follows, and what pictures cost."""
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -39,21 +38,19 @@ def path(one: Subject, start: float, end: float) -> tuple[np.ndarray, np.ndarray
     return t, states
 
 
-def along(one: Subject, times: np.ndarray, fewer: np.ndarray | None = None,
-          drawn: Callable[[np.ndarray], int] = len) -> tuple[np.ndarray, np.ndarray]:
+def along(one: Subject, times: np.ndarray,
+          fewer: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
     """(times (n,), rates (n, 3)) of the motion at the times, or as many as a run reaches. fewer: times enough
-    for a line where doubles are not and each time costs many digits; drawn: of rates, how many of the first
-    are drawn, where a picture ends before the motion does."""
+    for a line where doubles are not and each time costs many digits."""
     scene, start = (one.twin, one.state) if one.twin.plain else (one.scene, one.start)
-    if scene.plain:
-        t, states = _run(scene, start, times)
-        if not _sure(scene, start, t[:drawn(states)], states[:drawn(states)]):
-            t, states = (_in_digits(replace(one, scene=scene, blocks={}), times if fewer is None else fewer)
-                         or (t, states))
-    else:
+    if not scene.plain:
         found = simulate(one.scene, one.state, times, one.blocks)
-        t, states = np.asarray(found.t), np.asarray(found.state["omega"])
-    return t[:drawn(states)], states[:drawn(states)]
+        return np.asarray(found.t), np.asarray(found.state["omega"])
+    t, states = _run(scene, start, times)
+    if _sure(scene, start, t, states):
+        return t, states
+    exact = _in_digits(replace(one, scene=scene, blocks={}), times if fewer is None else fewer)
+    return exact or (t, states)
 
 
 def _run(scene, start, times):
