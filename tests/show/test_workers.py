@@ -27,7 +27,7 @@ def test_a_task_that_fails_in_a_helper_fails_here(tmp_path):
 
 def test_what_a_helper_left_half_done_is_done_here(tmp_path, monkeypatch):
     """A helper that was killed has taken a task and made nothing of it."""
-    monkeypatch.setattr(workers, "_taken", lambda place, n: n != 1)
+    monkeypatch.setattr(workers, "_taken", lambda tasks, place: [0, 2])
     monkeypatch.setattr(workers, "helpers", lambda *where, **streams: _nobody())
     assert "<mi>1</mi>" in workers.done(_tasks(3), tmp_path, lambda words: None, 2)[1]
 

@@ -40,8 +40,7 @@ RAISED = re.compile(r"\^(?:\(([^()]*)\)|([-−]?\w+))")
 
 
 def book(text: str):
-    """Words with names and powers as a book sets them: I_omega becomes I with the index ω below it, e^(i r0
-    t) has its exponent raised."""
+    """Words as a book sets them: I_omega with the index ω below, the exponent of e^(i r0 t) raised."""
     from markupsafe import Markup, escape
     below = INDEXED.sub(
         lambda found: f"{ALPHABET.get(found[1], found[1])}<sub>{ALPHABET.get(found[2], found[2])}</sub>",

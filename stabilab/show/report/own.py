@@ -3,6 +3,7 @@ that lists them."""
 from __future__ import annotations
 
 import re
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,6 +11,7 @@ from ...errors import StabilabError
 from ...orbit.separatrix.branches import separatrix
 from ..surface import write as surface
 from ..text import law
+from ..text.sweep import groups
 from . import html
 from .one_case import page, sweep
 from .workers import Task, done
@@ -20,8 +22,7 @@ FOLDER = "cases"  # inside that of the report: pages of many cases, pictures and
 
 @dataclass(frozen=True)
 class Wanted:
-    """What a report holds besides the cases: the papers, what accuracy costs, certificates; deep: what takes
-    seconds a case."""
+    """What a report holds besides the cases. deep: also what takes seconds a case."""
 
     papers: bool = False
     precision: bool = False
@@ -32,21 +33,18 @@ class Wanted:
 def entries(cases) -> list[tuple[str, list]]:
     """(stem of its files, its cases) of every case and every file with [sweep]; stems differ even where names
     do not."""
-    grouped: dict = {}
-    for number, case in enumerate(cases):
-        grouped.setdefault(case.path if case.variant else number, []).append(case)
-    taken: dict[str, int] = {}
+    taken: Counter = Counter()
     rows = []
-    for group in grouped.values():
-        name = group[0].name.removesuffix(group[0].variant) if group[0].variant else group[0].name
-        taken[name] = taken.get(name, 0) + 1
-        rows.append((name if taken[name] == 1 else f"{name}_{taken[name]}", group))
+    for places in groups(cases):
+        first = cases[places[0]]
+        name = first.name.removesuffix(first.variant)
+        taken[name] += 1
+        rows.append((name if taken[name] == 1 else f"{name}_{taken[name]}", [cases[n] for n in places]))
     return rows
 
 
 def section(stem, cases, folder, wanted) -> dict:
-    """Everything that a page says of one entry, its pictures and meshes written; done by whichever process is
-    free."""
+    """Everything that a page says of one entry, its pictures and meshes written: a task of `workers`."""
     if cases[0].variant:
         found = sweep.sections(cases, folder, stem)
         return {"sweep": found, "surface": None, "beyond": law.of_cases(cases),

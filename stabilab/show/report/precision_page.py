@@ -43,8 +43,7 @@ def page(cases, folder, tell=None, passed=(), **around) -> Path:
 
 
 def kind(case) -> tuple:
-    """What cases have in common that are measured alike: cases of one kind obey the same equations with other
-    numbers, the torque along the same axes."""
+    """What cases have in common that are measured alike: equations but for numbers, axes of the torque."""
     equations = derive(case.scene, case.blocks)
     acting = tuple(m != 0 for m in case.scene.quadratic().m) if case.scene.plain else ()
     return equations.blocks, tuple(map(str, equations.rhs)), acting

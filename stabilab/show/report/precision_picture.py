@@ -73,8 +73,7 @@ FRONT = {"color": "#CDD5DA", "linewidth": 7, "marker": "o", "markersize": 11, "m
 
 
 def meanings(found, questions=None, prices=True) -> list[tuple[str, dict]]:
-    """Rows (name, look) of the legend: the methods that were measured, of some questions or of all, with the
-    price of a digit or alone, and the front."""
+    """Rows (name, look) of the legend: methods, with the price of a digit or alone, and the front."""
     asked = [p.method for p in found.points if questions is None or p.question in questions]
     asked += ["reference"] * ("span" in (questions or found.questions))
     rows = []

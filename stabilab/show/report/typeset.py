@@ -13,8 +13,7 @@ LONG = 40  # operations: a law of more is told in words alone
 
 
 def equations_of_motion(equations: Equations) -> list:
-    """An equation a component of the state, its rate with a dot: what multiplies it on the left, the sum on
-    the right."""
+    """An equation a component of the state: its factor and its rate with a dot, and the sum."""
     rows = []
     for number, (moment, part) in enumerate(zip(equations.inertia, equations.state)):
         factor = "" if moment == 1 else inner(moment)
@@ -43,8 +42,7 @@ def symbol(name: str):
 
 
 def law(balance) -> str:
-    """The quantity that a law speaks of, and its rate where that is not zero; empty where the formula is too
-    long to be read."""
+    """The quantity of a law, and its rate where that is not zero; empty where too long to be read."""
     from sympy import Integer, count_ops
     quantity, rate = rounded(balance.quantity), rounded(Integer(0) + balance.rate)
     if count_ops(quantity) + count_ops(rate) > LONG:
@@ -112,8 +110,7 @@ def numbered(mathml: str) -> str:
 
 
 def _product(name) -> str:
-    """What a name stands for as a product of letters, those with an index or a power included; empty where it
-    stands for itself."""
+    """What a name stands for as a product of letters with indices and powers; empty where for itself."""
     made = (re.split("([_^])", word) for word in PRODUCTS.get(name, "").split())
     kind = {"_": "msub", "^": "msup"}
     letters = "".join(f"<{kind[part[1]]}><mi>{part[0]}</mi><mi>{part[2]}</mi></{kind[part[1]]}>"

@@ -7,8 +7,8 @@ that its error comes to light as any other.
 """
 from __future__ import annotations
 
-import os
 import pickle
+import shutil
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -41,24 +41,19 @@ def done(tasks, folder: Path, tell, workers: int | None = None) -> list:
         return [_told(task, tell) for task in tasks]
     place = folder / PLACE
     place.mkdir()
-    order = sorted(range(len(tasks)), key=lambda n: -tasks[n].weight)
     (place / "tasks").write_bytes(pickle.dumps(tasks))
-    found: dict = {}
     # they do tasks until none is left
     with helpers(__name__, place, number - 1, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as others:
-        for n in order:
-            if _taken(place, n):
-                found[n] = _told(tasks[n], tell)
+        found = {n: _told(tasks[n], tell) for n in _taken(tasks, place)}
         for helper in others:
             tell("what is under way")
             helper.wait()
             helper.stdin.close()
-    for n in order:
-        if n not in found:
-            found[n] = _left(place, n, tasks[n], tell)
-    for file in place.iterdir():
-        file.unlink()
-    place.rmdir()
+    for n, task in enumerate(tasks):
+        if n not in found:  # a helper did it, or failed
+            made = place / f"made-{n}"
+            found[n] = pickle.loads(made.read_bytes()) if made.exists() else _told(task, tell)
+    shutil.rmtree(place)
     return [found[n] for n in range(len(tasks))]
 
 
@@ -73,30 +68,21 @@ def run(task):
     return getattr(import_module(f"stabilab.{module}"), function)(*task.arguments)
 
 
-def _taken(place, n) -> bool:
-    """Take a task, if nobody has."""
-    try:
-        os.close(os.open(place / f"taken-{n}", os.O_CREAT | os.O_EXCL | os.O_WRONLY))
-        return True
-    except FileExistsError:
-        return False
-
-
-def _left(place, n, task, tell):
-    """What a helper left of a task, or, where it failed, the task once more."""
-    try:
-        return pickle.loads((place / f"made-{n}").read_bytes())
-    except (OSError, EOFError, pickle.UnpicklingError):
-        return _told(task, tell)
+def _taken(tasks, place):
+    """The numbers of tasks that nobody has taken when their turn comes, the dearest first."""
+    for n in sorted(range(len(tasks)), key=lambda n: -tasks[n].weight):
+        try:
+            (place / f"taken-{n}").touch(exist_ok=False)
+        except FileExistsError:
+            continue
+        yield n
 
 
 def main(place: Path) -> None:
     """What a helper does: the same list in the same order, whatever is not taken yet."""
     end_with_parent()
     tasks = pickle.loads((place / "tasks").read_bytes())
-    for n in sorted(range(len(tasks)), key=lambda n: -tasks[n].weight):
-        if not _taken(place, n):
-            continue
+    for n in _taken(tasks, place):
         try:
             made = pickle.dumps(run(tasks[n]))
         except StabilabError:

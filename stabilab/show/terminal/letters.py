@@ -47,8 +47,7 @@ def written(text: str) -> str:
 
 
 def lettered(text: str) -> str:
-    """Words of the analysis for a reader at a terminal: letters as `written`, six digits, and the minus of
-    the numbers in the lines about them."""
+    """Words of the analysis at a terminal: letters as `written`, numbers with six digits."""
     return _in_letters(LONG.sub(lambda found: f"{float(found[0]):.6g}", text))
 
 
@@ -93,11 +92,6 @@ def greek(text: str) -> str:
 def plain(text: str) -> str:
     """The text in ASCII as far as its letters have names: ω1 becomes omega1."""
     return "".join(PLAIN.get(letter, letter) for letter in text)
-
-
-def for_people(text: str, encoding: str | None) -> str:
-    """The text in letters that the encoding can write; None: of a stream of letters, which writes all."""
-    return encodable(greek(text), encoding)
 
 
 def encodable(text: str, encoding: str | None) -> str:

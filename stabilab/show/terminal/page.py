@@ -7,7 +7,7 @@ import re
 import sys
 from collections.abc import Sequence
 
-from .letters import encodable, for_people
+from .letters import encodable, greek
 
 USUAL = 80   # columns of a terminal that does not say how wide it is
 GAP = 2      # columns between those of a table
@@ -25,7 +25,7 @@ STABLE = {r"\bunstable\b": "red", r"(?<!un)\b(?:asymptotically )?stable\b": "gre
 def tell(text: str) -> None:
     """Write text for people to stdout."""
     out = sys.stdout
-    text = for_people(text, getattr(out, "encoding", None)).rstrip("\n") + "\n"
+    text = encodable(greek(text), getattr(out, "encoding", None)).rstrip("\n") + "\n"
     columns = width()
     if columns is not None:
         text = wrapped(text, columns)
@@ -89,8 +89,7 @@ def table(rows: Sequence[Sequence[str]], keys: int = 1, width: int | None = None
 
 
 def width(stream=None) -> int | None:
-    """Columns of the terminal that the stream (None: stdout) is; None where it is a pipe or a file, whose
-    lines are never broken."""
+    """Columns of the terminal that the stream (None: stdout) is; None of a pipe or file."""
     stream = stream or sys.stdout
     if not stream.isatty():
         return None

@@ -9,8 +9,7 @@ from ...terminal.letters import printed
 
 
 def space(one, at_rest, units) -> dict:
-    """What the script draws of a subject (`plot.subject`), and the rows of the legend; `reason`: what is to
-    be said of the separatrix. at_rest: its equilibria."""
+    """What the script draws of a subject, the legend, and words on the separatrix. at_rest: equilibria."""
     found = space_of(one, map(printed, one.scene.components), units.rates, at_rest, reaching=True)
     drawn = data(found, lambda places: b64encode(places).decode("ascii"))
     reason = "; ".join(filter(None, (found.words, found.part)))

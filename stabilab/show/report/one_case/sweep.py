@@ -79,8 +79,7 @@ def _equations(case):
 
 
 def _picture(moved, keys, cases, units, path):
-    """The size of the rates against time, all combinations in one panel: colour, dashes and width tell the
-    values of the first three keys."""
+    """The rates' size over time of all combinations: colour, dashes, width by the first three keys."""
     followed = [replace(subject(case), known=found) for case, found in moved]
     until = max(max(one.seen) for one in followed)
     (unit, one), (clock, per) = units.rates, units.times(until)
