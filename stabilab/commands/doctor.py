@@ -18,8 +18,7 @@ def doctor():
 
 
 def text() -> str:
-    """Whether something is missing, then versions of the program's packages, the renderer's state with its
-    cure, the processor."""
+    """Whether something is missing, versions of packages, the renderer's state or cure, the processor."""
     found = probe()
     rows = [_answer(found), f"stabilab      {_version('stabilab')}",
             f"python        {platform.python_version()} ({platform.platform()})"]

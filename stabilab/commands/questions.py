@@ -72,8 +72,7 @@ def _tell(question, answered, systems, digits, boxes, why):
 
 
 def _told(question, case, motion, digits):
-    """The answer with its digits; where none were asked for and a formula bounds its own error, that is the
-    check."""
+    """The answer with its digits; unasked, the bound of a formula on its own error is the check."""
     found = by_bound(question, motion) if digits is None else None
     if found is None:
         from ..answers.digits.ask import ask

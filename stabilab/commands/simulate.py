@@ -109,8 +109,7 @@ def _theory(case, run) -> list:
 
 
 def _judge(runs, digits):
-    """Exit with 5 where a run stopped, the digits asked for were not reached, or no digit was where nobody
-    asked for any."""
+    """Exit with 5 where a run stopped or digits were not reached, unasked where none was."""
     all_reached((case, run.reason) for case, run, _ in runs if run.status != "reached")
     short = [(case, reached) for case, _,
              reached in runs if reached and not reached.enough and (digits is not None or reached.digits < 1)]

@@ -9,8 +9,7 @@ MARK = "\0 endless "  # before such a number in the text until its quotes are ta
 
 
 class Endless(float):
-    """The end of an interval that may have none: infinite, it is told as such, where null would stand for
-    what is not known."""
+    """The end of an interval, told as infinite where it is, where null would stand for not known."""
 
 
 def endless(values: list) -> list:
@@ -19,8 +18,7 @@ def endless(values: list) -> list:
 
 
 def as_json(value) -> str:
-    """JSON with every digit of a double; what does not exist (and infinity, unless it is an end that is told
-    as `Endless`) is null."""
+    """JSON with every digit of a double; null: does not exist, and infinity but of `Endless`."""
     import json
     text = json.dumps(plain(value), allow_nan=False, ensure_ascii=False, indent=1)
     for told in ENDLESS.values():

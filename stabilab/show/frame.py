@@ -72,8 +72,7 @@ def components(case, names=None) -> str:
 
 
 def note(case) -> list[str]:
-    """A line that says which axes 1, 2, 3 are, where they are not those of the file, and one where a case has
-    thrusters that do nothing."""
+    """Which axes 1, 2, 3 are, where not those of the file; and whether thrusters do nothing. A line each."""
     told = components(case)
     return [*([f"  {told}"] if told else []), *silent(case)]
 

@@ -35,8 +35,7 @@ def tilted(caveats: Iterable[Caveat], units: Units) -> str:
 
 
 def shared(answers: Sequence[Iterable[Caveat]], units: Units) -> str:
-    """" only while ...", or of how many answers it is said, for several answers in one line; what a tilt does
-    to each is left to each."""
+    """" only while ...", or of how many it is said, for several answers in one line, without tilts."""
     told = Counter(re.split("[:;]", condition(caveats, units))[0] for caveats in answers)
     return "".join(f"{words}" if count == len(answers) else f" ({count} of them{words})"
                    for words, count in told.items() if words)

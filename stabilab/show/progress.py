@@ -42,8 +42,7 @@ def each(items: Iterable[Any], name: Callable[[Any], str]) -> Iterator[Any]:
 
 @contextmanager
 def counted() -> Iterator[Callable[[int, int, str], None]]:
-    """Context giving tell(done, count, words): which of how many it is, and about how long the rest takes;
-    silent where no terminal is."""
+    """Context giving tell(done, count, words), silent where no terminal is."""
     begin = time.monotonic()
     with Progress() as progress:
         def tell(done: int, count: int, words: str) -> None:

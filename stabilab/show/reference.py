@@ -26,8 +26,7 @@ BITS = 1100  # more than any run has
 
 
 def as_dict(case, times, digits: int, arguments=()) -> tuple[dict, Tabulated]:
-    """(the whole reference as JSON has it, the run). times: rationals, from 0 on; arguments: of the command
-    line."""
+    """(the reference as JSON has it, the run). times: rationals from 0 on; arguments: of the command line."""
     run = tabulated(case.scene, case.start, case.exact_state, times, digits)
     known = motion(case.scene, case.start, case.span, exact=case.exact_state)
     told = {question: ask(question, case.scene, case.start, digits, case.span, known, case.exact_state)

@@ -161,8 +161,7 @@ PARAMETERS = (("lambda", "N m s"), ("D", "kg m^2"), ("M", "N m"), ("mass", "kg")
 
 
 def parameter_unit(name: str) -> str:
-    """The SI unit of a parameter of the equations of motion by its name (lambda1, D3, mass); nothing for
-    those that have names of their own."""
+    """The SI unit of a parameter of the equations by its name (lambda1, D3, mass); "" of unknown names."""
     return next((unit for stem, unit in PARAMETERS if name == stem or name.removeprefix(stem).isdigit()), "")
 
 
@@ -176,8 +175,7 @@ def number(value: float, digits: int = SHORT) -> str:
 
 
 def but_for_rounding(pairs, tolerance: float | None):
-    """Least and greatest of each component, with 0 for what is no more than the tolerance of the largest of
-    them, to which they are known."""
+    """Least and greatest of each component, 0 for what is within the tolerance of the largest of them."""
     if pairs is None:
         return None
     known = (tolerance or 0.0) * max((abs(v) for pair in pairs for v in pair if v is not None
@@ -186,8 +184,7 @@ def but_for_rounding(pairs, tolerance: float | None):
 
 
 def bracket(low: float, high: float) -> tuple[str, str]:
-    """Both ends with as many decimals as tell them apart, six digits at most; the lower rounded down and the
-    upper up."""
+    """Both ends with the decimals that tell them apart, six digits at most, rounded down and up."""
     most = max(0, 5 - math.floor(math.log10(high)))
     decimals = most if not high > low else min(most, max(0, 1 - math.floor(math.log10(high - low))))
     step = Decimal(1).scaleb(-decimals)

@@ -23,8 +23,7 @@ from .output import say
 
 # --- The cases, times and units that a command line names
 def load_cases(paths: Iterable[Path], motion: bool = False) -> list[Case]:
-    """All cases, of a file with [sweep] every combination; the faults of all files at once. motion: each must
-    state one."""
+    """All cases and combinations of [sweep]; the faults of all files at once. motion: each must state one."""
     cases, faults = [], []
     for path in paths:
         try:
@@ -59,8 +58,7 @@ def units_asked(cases: Iterable[Case], asked: str | None) -> list[Units]:
 
 
 def tell_radians(units: Units, **options: str | None) -> None:
-    """A message on every angle or rate that came without a unit, where answers are told in degrees: whoever
-    types 1 may mean a degree."""
+    """A message on every angle or rate without a unit, where answers are in degrees: 1 may mean a degree."""
     if units.name in (SI.name, SCALED.name):
         return
     for option, text in options.items():
@@ -129,8 +127,7 @@ def _time(text: str, case: Case, option: str) -> Fraction:
 
 # --- The motion of a case, with what a tilt of its torque and uncertain numbers do to it
 def motion_of(case, brief=False, follow=None, proof=False):
-    """The motion of a case. follow: how long one that only a run decides is followed, as typed; proof: its
-    way is enclosed."""
+    """The motion of a case. follow: how long a run follows it, as typed; proof: its way is enclosed."""
     long = time_asked(follow, case)
     with blamed_on(case), Progress() as progress:
         words = lambda t, steps, left: progress(
@@ -141,8 +138,7 @@ def motion_of(case, brief=False, follow=None, proof=False):
 
 
 def tilted(case, motion, angle: str | None):
-    """The motion with what a tilt of its torque does, where that is asked for or the case states what it
-    takes: a second of work otherwise saved."""
+    """The motion with what a tilt of its torque does, where asked for or given: a second of work."""
     stated = (case.limits is not None
               or any(thruster.stuck and thruster.misalignment for thruster in case.thrusters))
     if angle is None and not stated:

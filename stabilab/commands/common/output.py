@@ -28,8 +28,7 @@ def either(json: bool, data, words):
 
 
 def write_answer(shown, found, json: bool, csv: bool, *more):
-    """What was found as JSON or CSV, or in words: by the functions of these names in `shown`, which take
-    `more` (all but csv) besides."""
+    """What was found by json, csv or text of `shown`; `more`: for all but csv."""
     if json or csv:
         write(shown.json(found, *more) if json else shown.csv(found))
     else:
@@ -47,8 +46,7 @@ def write_each(out, writers):
 
 
 def written(out, writers) -> list:
-    """Let write(path) of every (case, write) make its file where `out` is a name: the files, to be named
-    after the answer."""
+    """Let write(path) of every (case, write) make its file where `out` is a name: the files."""
     return [writer(labelled(out, case)) for case, writer in writers] if out else []
 
 
@@ -72,8 +70,7 @@ def leave_undecided(strict: bool, open_: bool):
 
 
 def hold_laws(strict: bool, validities, cases=()):
-    """Exit with 3 where strict and an approximate law does not hold, or no rigid body has the tensor of a
-    case."""
+    """Exit with 3 where strict and a law does not hold, or no rigid body has the tensor of a case."""
     leave_undecided(strict, strict and (law.beyond(*validities) or unphysical(cases)))
 
 

@@ -59,8 +59,7 @@ def groups(case: Case, units: Units) -> list[dict[str, Any]]:
 
 
 def vector(case: Case, name: str) -> tuple[float, ...]:
-    """The torque, the wheel momentum or the start, principal axes, SI or scaled; a and b stand for the wheel
-    of a scaled case."""
+    """The torque, wheel momentum or start along the principal axes, SI or scaled (the wheel: a and b)."""
     scene = case.scene
     if name == "start":
         return tuple(case.state or (0.0, 0.0, 0.0))
@@ -185,8 +184,7 @@ def changed(case: Case, asked: dict[str, Any], units: Units) -> tuple[Case, str]
 
 
 def _left_out(case: Case, fires: bool) -> str:
-    """What of a file whose tensor is not diagonal cannot be stated along the principal axes; fires: whether
-    its thrusters still give the torque."""
+    """What cannot be stated along principal axes; fires: whether thrusters still give the torque."""
     if case.frame is None or case.frame.as_given:
         return ""
     found = [words for words,

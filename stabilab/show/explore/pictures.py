@@ -39,8 +39,7 @@ class Bag:
         self._length = 0
 
     def add(self, kind: str, values: Iterable[float] | bytes) -> dict[str, Any]:
-        """Keep a row; what the header says of it. values: numbers, or bytes that are numbers of this kind,
-        little-endian."""
+        """Keep a row; what the header says of it. values: numbers, or bytes of them, little-endian."""
         raw = values if isinstance(values, bytes) else packed(TYPES[kind], values)
         row = {"type": kind, "from": self._length, "count": len(raw) // array(TYPES[kind]).itemsize}
         padded = raw + b"\0" * (-len(raw) % 4)
@@ -136,8 +135,7 @@ def _start(r: Reduction, state: tuple[float, ...]) -> tuple[tuple[float, float],
 
 
 def _rests(pot, place, y):
-    """Where the force vanishes: between places of opposite signs, halved; nothing where it vanishes
-    everywhere."""
+    """Where the force vanishes, between places of opposite signs; nothing where it does everywhere."""
     force = lambda v: pot.force(pot.move(place, v))
     values = [force(v) for v in y]
     for n in range(len(y) - 1 if any(values) else 0):
@@ -172,8 +170,7 @@ DIGITS = 9  # of a start that was clicked
 
 
 def drawn_planes(bag: Bag, scene: AnyScene, state: tuple[float, ...], units: Units) -> dict[str, Any] | None:
-    """What the page needs of the phase plane: it draws each level curve W^2/2 + V = E itself. None where the
-    motion has none."""
+    """The phase plane, whose level curves W^2/2 + V = E the page draws itself; None where there is none."""
     plane = plane_of(scene, state)
     if plane is None:
         return None
@@ -193,8 +190,7 @@ def drawn_planes(bag: Bag, scene: AnyScene, state: tuple[float, ...], units: Uni
 
 
 def clicked(scene: AnyScene, state: tuple[float, ...], at: Any, units: Units) -> list[str]:
-    """The start, in the unit of the sliders, of the motion through a point {turn, rate} of the phase plane of
-    a state, in the units of the page."""
+    """The start, in the sliders' unit, of the motion through a point {turn, rate} of the phase plane."""
     plane = plane_of(scene, state)
     try:
         turn, rate = float(at["turn"]), float(at["rate"])
@@ -209,8 +205,7 @@ def clicked(scene: AnyScene, state: tuple[float, ...], at: Any, units: Units) ->
 
 def over_time(bag: Bag, case: Case, motion: Motion | None, times: list[float], path: list[tuple[float, ...]],
               units: Units) -> dict[str, Any]:
-    """Rates and their size over time with the least and greatest of each component over all time, where these
-    are known, and with the limits of the case."""
+    """Rates and their size over time, with known extremes over all time and the limits of the case."""
     name, one = units.times(times[-1])
     label, rate = units.rates
     symbol = "x" if units.scaled else "ω"
@@ -231,8 +226,7 @@ def over_time(bag: Bag, case: Case, motion: Motion | None, times: list[float], p
 
 
 def _limits(case: Case) -> list[Any]:
-    """The limits of a case that lines of this picture show: of |omega|, or of the components along principal
-    axes."""
+    """The limits of a case as lines: of |omega|, or of the components along principal axes."""
     if case.limits is None:
         return []
     if case.limits.rate is not None:

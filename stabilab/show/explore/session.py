@@ -89,8 +89,7 @@ def _range(low: float, high: float, units: Units) -> str:
 
 
 def equilibrium_rows(found: Equilibria, units: Units) -> dict[str, Any]:
-    """{reason, rows of (where, verdict)}: of a curve a state on each of its pieces, as `classify` tells them.
-    """
+    """{reason, rows of (where, verdict)}: of a curve a state on each of its pieces, as `classify` has it."""
     told = [[units.vector(point.at[:3], units.rates), point.verdict] for point in found.points]
     for curve in found.curves:
         for verdict, samples in groupby(curve.samples, lambda sample: sample.verdict):
@@ -274,8 +273,7 @@ def _named(units: Units) -> list[str]:
 
 
 def _law(found: Motion | None, units: Units) -> str:
-    """What an approximate law of the scene says of itself along the motion: that it holds, that it does not,
-    or that it was not judged."""
+    """What an approximate law of the scene says of itself along the motion."""
     return ("" if found is None or found.validity is None
             else _capital(lettered(units.words(found.validity.words))))
 
@@ -314,8 +312,7 @@ def _without_tilt(scene: AnyScene) -> tuple[AnyScene, bool]:
 
 
 def checked(asked: dict[str, Any]) -> bytes:
-    """The findings on asked["text"], as a framed message: status, about and a row a claim; "error" where it
-    is no certificate."""
+    """The findings on the certificate asked["text"], as a framed message: status, about, a row a claim."""
     text = asked.get("text")
     try:
         claims = parsed(text.encode() if isinstance(text, str) else b"")

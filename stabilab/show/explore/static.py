@@ -81,8 +81,7 @@ def archive() -> bytes:
 
 
 def _wheels(folder: Path) -> list[str]:
-    """The wheels in a folder of Pyodide's that the page loads, python-flint first; raises InputError with
-    what is missing."""
+    """The wheels in a folder of Pyodide's, python-flint first; InputError with what is missing."""
     missing = [name for name in NEEDED if not (folder / name).is_file()]
     if missing:
         raise InputError(f"--pyodide: {folder} has no {', '.join(missing)}: {CURE}")

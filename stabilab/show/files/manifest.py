@@ -139,8 +139,7 @@ def _described(path) -> dict:
 
 
 def _kept(out, replaced) -> list[dict]:
-    """The earlier commands that still have files of their own here, each with those; none where the manifest
-    is of no use."""
+    """The earlier commands with files of their own here, each with those; none of a bad manifest."""
     try:
         runs = read(out / NAME)
     except InputError:

@@ -128,8 +128,7 @@ def _of_closed(case, found, one, units: Units):
 
 
 def _seen(case, along):
-    """A vector in the frame of the file, 0 where only the rounding of its components along the principal axes
-    is left of a component."""
+    """A vector in the frame of the file, 0 where a component is only the rounding of the others."""
     values = in_file(case, along)
     least = 4 * math.ulp(max(map(abs, values)))
     return [float(v) if abs(v) > least else 0.0 for v in values]

@@ -250,8 +250,7 @@ TERM = re.compile(rf"({NUMBER})(/t| t\b)?")
 
 
 class Told(NamedTuple):
-    """A curve in words. one: how many of the unit make one in the variables of the curve; `unit` is empty
-    where these are scaled."""
+    """A curve in words. one: how many of `unit` make one in its variables; no unit where these are scaled."""
 
     name: str
     equation: str

@@ -44,8 +44,7 @@ def verdict(case: Case, motion: Motion, units: Units | None = None) -> str:
 
 
 def outcome(motion: Motion, units: Units) -> list[str]:
-    """What becomes of the motion, when its limit is reached, what a tilt does; each empty where there is
-    nothing to say."""
+    """What becomes of the motion, when its limit is reached, what a tilt does; each may be empty."""
     return [fate_words(motion, units), limiting.reached(motion.caveats, units),
             limiting.tilted(motion.caveats, units)]
 
@@ -133,8 +132,7 @@ def greatest(motion: Motion, units: Units) -> str:
 
 
 def _sizes(motion, units):
-    """({number of a component: the most that it reaches}, over which time in words; nothing where that is
-    all time)."""
+    """({number of a component: the most that it reaches}, over which time in words, "" where that is all)."""
     pairs, over = motion.extremes, ""
     if motion.extremes_over != "all time":
         pairs, over = ((motion.bounds, "") if motion.bounds is not None
@@ -158,8 +156,7 @@ def margin(motion: Motion, units: Units) -> str:
 
 
 def rate_and_height(motion: Motion, units: Units) -> tuple[str, str]:
-    """The distance to the separatrix and the energy to the barrier, each empty where it is not known or says
-    nothing."""
+    """The distance to the separatrix and the energy to the barrier, each empty where not known."""
     rate, energy = rate_margin(motion, units, SHORT), motion.margin_energy
     if motion.fate.word in ("separatrix", "equilibrium", "undecided"):
         return "", ""
@@ -168,8 +165,7 @@ def rate_and_height(motion: Motion, units: Units) -> tuple[str, str]:
 
 
 def rate_margin(motion: Motion, units: Units, digits: int) -> str:
-    """The distance from the separatrix: a number where it is one to 1e-6, else its bounds; empty where
-    unknown."""
+    """The distance from the separatrix, or its bounds where it is not one to 1e-6; empty where unknown."""
     if motion.velocity_because and motion.velocity_bounds:
         name, one = units.rates
         low, high = motion.velocity_bounds

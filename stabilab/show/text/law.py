@@ -33,8 +33,7 @@ def first(validity, text: str, units: Units = SI, caveats=()) -> str:
 
 
 def warned(validity, answer: str) -> str:
-    """The answer, and before it that its law does not hold where it does not: of a line that has no room for
-    more."""
+    """The answer, behind a warning where its law does not hold: of a line that has room for no more."""
     return f"{validity.status.upper()}; by that law: {answer}" if beyond(validity) else answer
 
 
@@ -110,16 +109,13 @@ def _open(case, validity) -> bool:
 def beside(case) -> list[str]:
     """A line beside answers at many points, where a law is not judged; none where all are exact."""
     found = of_case(case)
-    return ([] if found is None
-            else [
-                f"  laws are not judged at every point; of the case as it stands: "
-                f"{_told(found, units_of(case))}"])
+    return [] if found is None else [f"  laws are not judged at every point; of the case as it stands: "
+                                     f"{_told(found, units_of(case))}"]
 
 
 def of_cases(cases) -> str:
     """A line for every law among cases that one of them leaves; empty where there is none."""
-    judged = [(case, of_case(case)) for case in cases]
-    beyond = [(case, found) for case, found in judged if found is not None and not found.held]
+    beyond = [(case, found) for case in cases if (found := of_case(case)) is not None and not found.held]
     return "\n".join(_of_alike(group, cases) for group in _alike(beyond))
 
 
@@ -138,8 +134,7 @@ def _told(found, units) -> str:
 
 
 def _alike(judged) -> list:
-    """The (case, validity) in groups: each alone, or all combinations of one file that stand the same way to
-    the same limit."""
+    """The (case, validity) in groups: alone, or all combinations of a file that stand alike to one limit."""
     told: dict = {}
     for n, (case, found) in enumerate(judged):
         told.setdefault((case.path, found.status, found.effect, found.number) if case.variant else n,
@@ -157,8 +152,7 @@ def together(lines) -> list[str]:
 
 
 def _of_alike(group, cases, units: Units = SI) -> str:
-    """A line on a case, or on the combinations of one file that stand the same way to the same limit: the
-    most exceeded of them."""
+    """A line on a case, or on the most exceeded of a group of combinations."""
     case, _ = group[0]
     found = worst(*(one for _, one in group))
     words = _told(found, replace(units, axes=axes_of(case)))

@@ -146,8 +146,7 @@ def constants(motion, units: Units) -> list[tuple[str, str]]:
 
 
 def reason(words: str, units: Units) -> str:
-    """What the analysis says of a motion: names as letters, rates and times in the units of the lines about
-    it."""
+    """Words of the analysis: names as letters, rates and times in these units."""
     return lettered(units.words(words))
 
 

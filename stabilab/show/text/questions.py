@@ -90,8 +90,7 @@ def period(case, motion, told, units: Units, all_digits: bool, say: bool, proofs
 
 # --- As JSON and CSV
 def _object(question, case, motion, told, found) -> dict:
-    """What the objects of all questions have, and what was found; digits: reached is null where there is no
-    number to judge."""
+    """What all objects have, and what was found; digits.reached: null where there is no number to judge."""
     shown = None if told.digits is None else min(told.digits, 99.0)
     return ({"schema": f"stabilab.{question}/1", "case": case.name, "variables": case.variables,
              "at": motion.at, "fate": motion.fate.word} | found
@@ -122,8 +121,7 @@ def fate_dict(case, motion, told) -> dict:
 
 
 def period_dict(case, motion, told) -> dict:
-    """One object of `stabilab period --json`; null where the motion does not repeat, or is undecided (see
-    fate, digits.because)."""
+    """One object of `stabilab period --json`; period: null where there is none or it is not known."""
     return _object("period", case, motion, told,
                    {"period": told.values, "time": case.scene.time_unit})
 

@@ -169,8 +169,7 @@ def lines(equations: Equations) -> tuple[str, ...]:
 
 
 def right_side(equations: Equations, i: int) -> Symbolic:
-    """What the rate of component i equals, times its moment of inertia where it has one: a sum ordered by the
-    powers of the state."""
+    """The rate of component i, times its moment of inertia: a sum ordered by the powers of the state."""
     from sympy import Poly, PolynomialError, prod
     total = sum(part[i] for part in equations.torques.values()) if i < 3 else equations.rhs[i]
     try:

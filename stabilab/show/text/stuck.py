@@ -17,8 +17,7 @@ from .when import tilt_dict
 
 CSV = ("case", "thrusters", "torque_x", "torque_y", "torque_z", "torque_1", "torque_2", "torque_3", "fate",
        "level", "axis", "axis_name", "sense", "limit", "time_low", "time_high", "largest_rate",
-       "margin_rate",
-       "margin_wheel", "margin_torque", "caveats")
+       "margin_rate", "margin_wheel", "margin_torque", "caveats")
 WORDS = {"rate": "rate", "wheel": "wheel momentum", "torque": "torque"}
 FATES = {"bounded": "STAYS BOUNDED", "spin-up": "SPINS UP", "equilibrium": STEADY,
          "separatrix": "ON THE SEPARATRIX", "undecided": "UNDECIDED"}
@@ -51,15 +50,15 @@ def _row(row, case) -> dict:
 
 def csv(answers) -> str:
     """A line a row of (case, answer), SI units; empty where a number does not exist."""
-    return csv_lines([CSV, *(_cells(case, found, row) for case, found in answers for row in found.rows)])
-
-
-def _cells(case, found, row) -> list:
-    limit = "/".join(map(repr, row.limit)) if isinstance(row.limit, tuple) else row.limit
-    return [printable(found.case), printable("+".join(row.thrusters)), *row.torque, *row.torque_principal,
-            row.fate, row.level, row.axis, axes_of(case).key(row.axis)["axis_name"], row.sense, limit,
-            *(row.time_to_limit or (None, None)),
-            row.largest_rate, *_margin_sizes(row).values(), limiting.cell(case, row.caveats)]
+    lines: list = [CSV]
+    for case, row in ((case, row) for case, found in answers for row in found.rows):
+        limit = "/".join(map(repr, row.limit)) if isinstance(row.limit, tuple) else row.limit
+        lines.append((printable(case.name), printable("+".join(row.thrusters)), *row.torque,
+                      *row.torque_principal, row.fate, row.level, row.axis,
+                      axes_of(case).key(row.axis)["axis_name"], row.sense, limit,
+                      *(row.time_to_limit or (None, None)), row.largest_rate,
+                      *_margin_sizes(row).values(), limiting.cell(case, row.caveats)))
+    return csv_lines(lines)
 
 
 def _margin_sizes(row) -> dict:
@@ -77,12 +76,16 @@ def text(case, found, units: Units) -> str:
     lines = [f"{printable(case.name)}: {head[0]}", *head[1:FIRST]]
     for row in found.rows:
         lines += ["", *_details(row, units)]
-    return "\n".join([*lines, "", *_axes(found.principal, units.axes)])
+    names = [units.axes.name(n) for n in (1, 2, 3)]
+    lines += ["", "principal axes, unit vectors in the frame of the file:"]
+    wide = max(map(len, names))
+    lines += [f"  {name:<{wide}}  moment {number(moment, DIGITS)} kg m^2  {vector(axis)}"
+              for name, moment, axis in zip(names, found.principal.moments, found.principal.axes)]
+    return "\n".join(lines)
 
 
 def swept(answers, units: Units):
-    """(the answer in a line, columns, rows) of a sweep: what becomes of each, about which axis, and when the
-    limit is reached."""
+    """(the answer in a line, columns, rows) of a sweep: the fate, its axis, when the limit is reached."""
     rows = [found.rows[0] for _, found in answers]
     counts = counted([(row.fate, row.caveats) for row in rows], FATES, units, "; ")
     ends = [row.time_to_limit[1] for row in rows if row.time_to_limit]
@@ -115,9 +118,14 @@ def answer_line(row, units) -> str:
 
 
 def _answer(row, units):
-    when = _when(row, units)
+    when, known = _when(row, units), f" ({row.level})" if row.time_to_limit is None else ""
     if row.fate == "spin-up":
-        return f"SPINS UP {_about(row, units.axes)}{', ' + when if when else ''}{_known(row)}"
+        about = "without bound"
+        if row.axis:
+            about = f"about {units.axes.whole(row.axis)}, {direction(row.sense)}"
+        elif row.direction:
+            about = f"about the direction {vector(row.direction)} of the file's frame"
+        return f"SPINS UP {about}{', ' + when if when else ''}{known}"
     if row.fate == "undecided":
         if when:
             return f"UNDECIDED, but {when}"
@@ -129,24 +137,11 @@ def _answer(row, units):
         words = f"{words if row.largest_rate else REST}: every rate stays as it is"
     while_ = limiting.condition(row.caveats, units)
     if when:
-        return f"{words}{while_}, but {when}{_known(row)}"
+        return f"{words}{while_}, but {when}{known}"
     largest = "" if row.largest_rate is None else f", |ω| at most {units.rate(row.largest_rate, SHORT)}"
     below = ", never at its limit" if row.never and row.limit is not None else ""
-    if row.tilt is None:
-        return f"{words}{while_}{largest}{below}{_known(row)}"
-    return f"{words}{largest}{below}{_known(row)},{while_}"
-
-
-def _known(row):
-    return f" ({row.level})" if row.time_to_limit is None else ""
-
-
-def _about(row, axes) -> str:
-    if row.axis:
-        return f"about {axes.whole(row.axis)}, {direction(row.sense)}"
-    if row.direction:
-        return f"about the direction {vector(row.direction)} of the file's frame"
-    return "without bound"
+    return (f"{words}{while_}{largest}{below}{known}" if row.tilt is None
+            else f"{words}{largest}{below}{known},{while_}")
 
 
 def _when(row, units) -> str:
@@ -304,10 +299,3 @@ def means(row, units) -> list[str]:
     wheels = [_wheel(w, units) + (f" ({w.because})" if w.keeps_bounded or w.best is not None else "")
               for w in row.wheels]
     return wheels + [_helper(h, units) for h in row.helpers]
-
-
-def _axes(principal, axes) -> list[str]:
-    names = [axes.name(n) for n in (1, 2, 3)]
-    return ["principal axes, unit vectors in the frame of the file:"] + [
-        f"  {name:<{max(map(len, names))}}  moment {number(moment, DIGITS)} kg m^2  {vector(axis)}"
-        for name, moment, axis in zip(names, principal.moments, principal.axes)]

@@ -32,8 +32,7 @@ def groups(cases: Sequence) -> list[list[int]]:
 
 def text(cases: Sequence, answer: str, columns: Sequence[tuple[str, str]],
          rows: Sequence[Sequence[str]]) -> str:
-    """The answer in a line, then the table. columns: (head, unit) of what follows the swept keys; rows: its
-    cells, one for each case."""
+    """The answer in a line, then the table. columns: (head, unit) after the swept keys; rows: one a case."""
     keys = swept_columns(cases)
     heads = [name for name, *_ in keys] + [head for head, _ in columns]
     units = [unit for _, unit, _ in keys] + [unit for _, unit in columns]
@@ -104,8 +103,7 @@ def _largest(motion):
 
 
 def of_motions(motions: Sequence, units: Units) -> tuple[list[tuple[str, str]], list[list[str]]]:
-    """Columns and rows of fate, axis, largest rate, margins and period; a column that says nothing is left
-    out."""
+    """Columns and rows of fate, axis, largest rate, margins and period, without those that say nothing."""
     name, one = units.rates
     longest = max((m.period for m in motions if m.period is not None), default=0.0)
     time, per_time = units.times(longest)

@@ -36,7 +36,10 @@ def _over(over) -> dict | None:
     return values_of(over, "answer verdict because") | {
         "except": over.but or None, "proved_up_to": over.proved,
         **values_of(over, "changes_at parts"), "samples": samples,
-        "witnesses": [{"verdict": w.verdict, **_numbers(w)} for w in over.witnesses]}
+        # a state is rounded to doubles as it is read
+        "witnesses": [{"verdict": w.verdict} | {
+            name: [repr(float(v)).removesuffix(".0") if name == "state" else number(v) for v in values]
+            for name, values in w.values.items()} for w in over.witnesses]}
 
 
 def key(uncertain) -> str:
@@ -57,14 +60,6 @@ def rounded(value: Fraction) -> str:
     return exact if len(exact) <= LONG else told(float(value), DIGITS)
 
 
-def _numbers(witness) -> dict[str, list[str]]:
-    """All numbers of a witness as a case file can state them; a state is rounded to doubles as it is read."""
-    shown = {name: [number(v) for v in values] for name, values in witness.values.items()}
-    if "state" in shown:
-        shown["state"] = [repr(float(v)).removesuffix(".0") for v in witness.values["state"]]
-    return shown
-
-
 def in_si(found, units: Units) -> str:
     """Lines that follow what a command says of a case, with rates and angles as a file can state them."""
     return text(found, replace(SI, axes=units.axes))
@@ -74,32 +69,27 @@ def text(found, units: Units) -> str:
     """The same in the units of the case; nothing where no number is uncertain."""
     if found is None:
         return ""
-    lines = ["uncertain: " + ", ".join(f"{key(u)} = {_measured(u, units)}" for u in found.numbers)]
+    numbers = []
+    for u in found.numbers:  # the middle and half the width, with the unit
+        unit, one = units.of(unit_of_key(u.path))
+        in_unit = rounded if one == 1.0 else lambda v, one=one: told(float(v) * one, DIGITS)
+        numbers.append(f"{key(u)} = {in_unit(u.middle)} ± {in_unit(u.half)} {unit}".rstrip())
+    lines = [f"uncertain: {', '.join(numbers)}"]
     for name in SUBJECTS:
         over = getattr(found, name)
         lines += [] if over is None else _lines(name, over, units)
     return "\n" + "\n".join(lines)
 
 
-def _measured(uncertain, units):
-    """The middle and half the width of a number with its unit."""
-    name, one = units.of(unit_of_key(uncertain.path))
-    middle, half = (rounded(v) if one == 1.0 else told(float(v) * one, DIGITS)
-                    for v in (uncertain.middle, uncertain.half))
-    return f"{middle} ± {half} {name}".rstrip()
-
-
 def first(found, told: str, units: Units) -> str:
-    """The text with what the box does to its answer at the end of the first line: whoever reads no further
-    knows whether it holds."""
+    """The text with what the box does to its answer at the end of the first line."""
     words = what_changes(found, units)
     answer, *rest = told.split("\n")
     return "\n".join([f"{answer}; {words}", *rest]) if words else told
 
 
 def what_changes(found, units: Units) -> str:
-    """Whether the answer holds for all that the uncertain numbers may be, as a clause; nothing where all are
-    certain."""
+    """Whether the answer holds for all uncertain numbers, as a clause; nothing where all are certain."""
     over = found and (found.fate or found.equilibria)
     if not over:
         return ""

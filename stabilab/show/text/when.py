@@ -29,8 +29,7 @@ def as_dict(case, limit, found) -> dict:
 
 
 def csv(answers) -> str:
-    """A line a case, SI units: inf where the limit is never reached, an empty upper end where it is not
-    known."""
+    """A line a case, SI units; inf: never reached, an empty upper end: not known."""
     rows = [(case.name, "/".join(limit.names), "/".join(map(repr, limit.limits)),
              *(None if math.isnan(v) else float(v) for v in (found.low, found.high)),
              str(found.level), limiting.cell(case, found.caveats)) for case, limit, found in answers]

@@ -74,8 +74,7 @@ def text(case, found, units: Units) -> str:
 
 
 def _notes(found, units) -> list[str]:
-    """What the models say of themselves, once where several say the same, then what the theory says beyond
-    that."""
+    """What the models say of themselves, each once, then what the theory says beyond that."""
     by_words: dict[str, list[str]] = {}
     for name, run in found.runs.items():
         if run.reason and run.reason != "all times reached":
@@ -188,8 +187,7 @@ def _curves(ax, runs, looks):
 
 
 def _tell_cut(ax, models):
-    """Above a panel how far the curves go that leave it, each in its colour: a third of the width for each,
-    which is not much."""
+    """How far the curves go that leave a panel, above it, each in its colour: a third of the width each."""
     low, high = ax.get_ylim()
     brief = ax.figure.get_figwidth() < BRIEF * style.share()
     for (name, values), (x, side) in zip(models, ((0.0, "left"), (1.0, "right"), (0.5, "center"))):

@@ -17,8 +17,7 @@ from ...terminal.letters import written
 from .words import NAMES, by_digits, caption, duration, flat, methods, setting, title, words
 
 COLUMNS = ("case", "question", "method", "setting", "value", "error", "digits", "steps", "evaluations",
-           "seconds", "slowest",
-           "repeats", "compile_seconds", "lanes", "parts", "on_front")
+           "seconds", "slowest", "repeats", "compile_seconds", "lanes", "parts", "on_front")
 
 
 def text(found, all_settings: bool = False) -> str:
@@ -36,7 +35,13 @@ def text(found, all_settings: bool = False) -> str:
                   f"  {'method':<13}{'setting':<13}{'error':>8}{'digits':>8}{'steps':>8}{'rates':>8}"
                   f"{'time':>10}{'compile':>9}"]
         lines += [_line(p, id(p) in front) for p in found.of(question)]
-    lines += [f"  left out: {line}" for line in _left_out(found)]
+    left_out: dict = {}  # reason -> the methods that it holds for, each from its coarsest setting on
+    for name, value, why in found.left_out:
+        left_out.setdefault(why, {}).setdefault(name, []).append(value)
+    for why, settings in left_out.items():
+        coarsest = [f"{name}, {values[0]:g}{' and finer' if len(values) > 1 else ''}"
+                    for name, values in settings.items()]
+        lines.append(f"  left out: {'; '.join(coarsest)}: {why}")
     return "\n".join([*lines, "", *told, "", caption()])
 
 
@@ -50,16 +55,6 @@ def _by_digits(found):
         lines.append(f"{row['digits']:>6}  {NAMES.get(row['method'], row['method']):<40}"
                      f"{duration(row['seconds']):>10}{row['relative']:>16.3g}  {other}".rstrip())
     return [*lines, *filter(None, [flat(found)])]
-
-
-def _left_out(found):
-    """A line per reason: the methods that it holds for, each from its coarsest setting on."""
-    first: dict = {}
-    for name, value, why in found.left_out:
-        first.setdefault(why, {}).setdefault(name, []).append(value)
-    words = {why: [f"{name}, {values[0]:g}{' and finer' if len(values) > 1 else ''}"
-                   for name, values in methods.items()] for why, methods in first.items()}
-    return [f"{'; '.join(methods)}: {why}" for why, methods in words.items()]
 
 
 def _line(p, best) -> str:
@@ -107,8 +102,7 @@ def csv(*measured) -> str:
 
 
 def write(found, path, size=None, most=None) -> Path:
-    """The picture (.png, .svg, .pdf) or the points (.csv), whole or not at all. size, most: as of
-    `picture`."""
+    """The picture (.png, .svg, .pdf) or the points (.csv). size, most: as of `picture`."""
     path = checked(path)
     if endings.ending(path) == ".csv":
         return write_text(path, csv(found) + "\n")
