@@ -44,13 +44,9 @@ def bifurcation(case, vary, curve, out, certify, csv, json):
     write_answer(diagram_shown, found, json, csv)
     say_written(files)
     if made:
-        _certified(made, certify)
-
-
-def _certified(made, path):
-    say("\n".join([f"written: {certification.write(made, path)}",
-                   f"certified: {len(made['events'])} values, {len(made['pieces'])} counts between them",
-                   *(f"not certified: {why}" for why in made["uncertified"])]))
+        say("\n".join([f"written: {certification.write(made, certify)}",
+                       f"certified: {len(made['events'])} values, {len(made['pieces'])} counts between them",
+                       *(f"not certified: {why}" for why in made["uncertified"])]))
 
 
 def basin(case, vary, depth, out, workers, scheduler, follow, csv, json, strict):

@@ -55,8 +55,9 @@ def surface(case, out, json, strict):
 def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
     """Draw a case, or the map of a sweep's file."""
     if case.suffix.lower() == ".nc":
-        write(str(_of_file(case, out or Path(f"{printable(case.stem)}.png"), kind, to_file.inches(size), dpi,
-                           units)))
+        redraw = map_files.redrawn if map_files.is_atlas(case) else picture.write
+        target = out or Path(f"{printable(case.stem)}.png")
+        write(str(redraw(case, target, kind, to_file.inches(size), dpi, units)))
         return
     loaded, drawn = load_cases([case], motion=kind != "equilibria"), []
     units_asked(loaded, units)  # says what is wrong with them
@@ -74,13 +75,6 @@ def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
             tell(lettered(held.words))
         write("\n".join(map(str, paths)))
     hold_laws(strict, laws, loaded)
-
-
-def _of_file(case, target, kind, size, dpi, units):
-    """The picture of what a sweep or an atlas wrote."""
-    if map_files.is_atlas(case):
-        return map_files.redrawn(case, target, kind, size, dpi, units)
-    return picture.write(case, target, kind, size, dpi, units)
 
 
 def chaos(cases, until, out, csv, json, strict):

@@ -10,7 +10,7 @@ from ..answers.digits.checked import DEFAULT, by_bound, short
 from ..case.read import blamed_on
 from ..show.data import as_json
 from ..show.text import attitude as attitudes
-from ..show.text import law, questions, uncertain
+from ..show.text import law, questions, sweep, uncertain
 from ..show.units import DEG
 from .common.cases import (
     answers_of,
@@ -19,7 +19,6 @@ from .common.cases import (
     one_by_one,
     over_boxes,
     sampled,
-    swept_extremes,
     swept_motions,
     tell_all,
     tell_radians,
@@ -64,8 +63,9 @@ def _tell(question, answered, systems, digits, boxes, why):
 
     def swept(rows, units):
         motions = [motion for _, motion, _ in rows]
-        return (swept_extremes(rows[0][0], motions, units) if question == "extremes"
-                else swept_motions(motions, units))
+        if question != "extremes":
+            return swept_motions(motions, units)
+        return sweep.fates(motions, units), *sweep.of_extremes(motions, rows[0][0].scene.components, units)
 
     tell_all(answered, systems, text, None if why or digits is not None else swept,
              [motion.validity for _, motion, _ in answered], boxes, "\n")

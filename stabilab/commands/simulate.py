@@ -21,7 +21,7 @@ from ..theories.follow import follow
 from ..theories.theory import lines, theory
 from ..theories.top.euler_angles import with_euler_angles
 from .common.cases import exact_times_asked, load_cases, one_by_one, say_repeated, times_asked, units_asked
-from .common.output import all_reached, hold_laws, say, say_laws, tell, write, write_each, write_json
+from .common.output import all_reached, hold_laws, say, tell, write, write_each, write_json
 
 
 def simulate(case, at, model, order, method, rtol, digits, angles, attitude, matrix, out, json, strict,
@@ -62,7 +62,8 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, mat
         tell("\n\n".join(_as_text(*followed, digits, system, page.width())
                          for followed, system in zip(runs, systems)))
     else:
-        say_laws([(case, run.validity) for case, run, _ in runs])
+        for line in law.lines_of([(one, run.validity) for one, run, _ in runs]):
+            say(line)
         for one, _, reached in runs:
             if reached and not reached.enough:
                 say(f"{one.place}: checked to {reached.digits:.1f} digits: {reached.because}")

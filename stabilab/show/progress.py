@@ -46,11 +46,8 @@ def counted() -> Iterator[Callable[[int, int, str], None]]:
     begin = time.monotonic()
     with Progress() as progress:
         def tell(done: int, count: int, words: str) -> None:
-            if progress.wanted:
-                progress(f"{done + 1} of {count}{_left(time.monotonic() - begin, done, count)}: {words}")
+            if progress.wanted:  # if the others take as long as those that are done
+                rest = (time.monotonic() - begin) / done * (count - done) if done else 0.0
+                left = f", about {rest:.0f} s left" if done else ""
+                progress(f"{done + 1} of {count}{left}: {words}")
         yield tell
-
-
-def _left(gone: float, done: int, count: int) -> str:
-    """The time that remains, if the others take as long as those that are done."""
-    return f", about {gone / done * (count - done):.0f} s left" if done else ""

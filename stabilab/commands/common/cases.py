@@ -174,29 +174,19 @@ def tell_all(answered, systems, text, swept=None, laws=None, boxes=None, between
     nothing = [None] * len(answered)
     laws, boxes, cases = laws or nothing, boxes or nothing, [case for case, *_ in answered]
     below = list(map(uncertain.in_si, boxes, systems))
-
-    def words(n):
-        return uncertain.first(boxes[n], text(*answered[n], systems[n]), systems[n])
-
-    if swept is None or not any(case.variant for case in cases):
-        page.tell(between.join(
-            law.first(laws[n], words(n), systems[n], _caveats(cases[n], below[n])) + below[n]
-            for n in range(len(cases))))
-        return
-    parts = []
-    for of in sweep.groups(cases):
-        first = of[0]
-        table = (sweep.text([cases[n] for n in of], *swept([answered[n] for n in of], systems[first]))
-                 if cases[first].variant else words(first))
-        caveats = dict.fromkeys(one for n in of for one in _caveats(cases[n], below[n]))
-        parts.append(law.first(law.worst(*(laws[n] for n in of)), table, systems[first], caveats)
+    tabled, parts = swept is not None and any(case.variant for case in cases), []
+    for of in sweep.groups(cases) if tabled else [[n] for n in range(len(cases))]:
+        first, units = of[0], systems[of[0]]
+        if tabled and cases[first].variant:
+            words = sweep.text([cases[n] for n in of], *swept([answered[n] for n in of], units))
+        else:
+            words = uncertain.first(boxes[first], text(*answered[first], units), units)
+        # without that on uncertain numbers where the words on their box follow
+        caveats = dict.fromkeys(one for n in of for one in cases[n].caveats
+                                if not below[n] or one.kind != "uncertain")
+        parts.append(law.first(law.worst(*(laws[n] for n in of)), words, units, caveats)
                      + "".join(dict.fromkeys(below[n] for n in of)))
-    page.tell("\n\n".join(parts))
-
-
-def _caveats(case, below):
-    """Those of a case; without that on uncertain numbers where the words on their box follow."""
-    return [one for one in case.caveats if not below or one.kind != "uncertain"]
+    page.tell(("\n\n" if tabled else between).join(parts))
 
 
 def swept_motions(motions, units):
@@ -204,8 +194,3 @@ def swept_motions(motions, units):
     if None in motions:
         return f"{motions.count(None)} of them state no motion", [], [[] for _ in motions]
     return sweep.fates(motions, units), *sweep.of_motions(motions, units)
-
-
-def swept_extremes(case, motions, units):
-    """The table of the extremes of a sweep. case: one of its combinations."""
-    return sweep.fates(motions, units), *sweep.of_extremes(motions, case.scene.components, units)

@@ -56,13 +56,6 @@ def say_written(files):
         say(f"written: {file}")
 
 
-def say_laws(judged):
-    """How far approximate laws hold, beside a table that has no place for it. judged: (case, validity or
-    None), each; the combinations of a [sweep] that stand the same way to the same limit share a line."""
-    for line in law.lines_of(judged):
-        say(line)
-
-
 def leave_undecided(strict: bool, open_: bool):
     """Exit with 3 where strict and something is open."""
     if strict and open_:

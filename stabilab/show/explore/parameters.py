@@ -7,7 +7,6 @@ tensor is not diagonal, the new text stands along these.
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -27,35 +26,26 @@ LARGER, SLENDER = 1.5, 100.0  # the largest moment of a slider: times that of th
 STILL = 0.05  # rad/s: a body that no number moves turns so fast on the sliders
 
 
-@dataclass(frozen=True)
-class Control:
-    """One slider. name: as in a request; value, low, high: in its unit; words: for people, empty where it is
-    named by its principal axis (1 to 3)."""
-
-    name: str
-    words: str
-    unit: str
-    value: float
-    low: float
-    high: float
-    axis: int = 0
+def slider(name: str, words: str, unit: str, value: float, low: float, high: float, axis: int = 0
+           ) -> dict[str, Any]:
+    """One slider. name: as in a request; value, low, high: in its unit, the value with six digits at most, as
+    a person reads it; words: for people, empty where it is named by its principal axis (1 to 3)."""
+    return {"name": name, "words": words, "unit": unit, "value": float(f"{value:.6g}"), "low": low,
+            "high": high, "axis": axis}
 
 
 def groups(case: Case, units: Units) -> list[dict[str, Any]]:
     """The groups of sliders as a page takes them: {title, axis of the torque where it is its, controls}."""
     axis, size, tilt, azimuth = direction(vector(case, "torque"))
-    torque = [Control("size", "size", units.of("N m")[0], size,
+    torque = [slider("size", "size", units.of("N m")[0], size,
                       *_around(abs(size) or _usual_torque(case))),
-              Control("tilt", "tilt off it", "deg", tilt, 0.0, nice(max(TILTED, ROOM * tilt))),
-              Control("azimuth", "towards", "deg", azimuth, -180.0, 180.0)]
+              slider("tilt", "tilt off it", "deg", tilt, 0.0, nice(max(TILTED, ROOM * tilt))),
+              slider("azimuth", "towards", "deg", azimuth, -180.0, 180.0)]
     found = [("Torque along", axis, torque),
              ("Wheel and moments" if units.scaled else "Wheel momentum about axis", None, _wheel(case)),
              ("Rates at the start", None, _start(case, units)),
              ("Moments of inertia about axis", None, _moments(case))]
-    # with six digits at most, as a person reads a slider; the case keeps all of its own
-    return [{"title": title, "axis": along,
-             "controls": [asdict(one) | {"value": float(f"{one.value:.6g}")} for one in rows]}
-            for title, along, rows in found if rows]
+    return [{"title": title, "axis": along, "controls": rows} for title, along, rows in found if rows]
 
 
 def vector(case: Case, name: str) -> tuple[float, ...]:
@@ -97,34 +87,33 @@ def _turned(degrees: float) -> tuple[float, float]:
     return math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
 
 
-def _moments(case: Case) -> list[Control]:
+def _moments(case: Case) -> list[dict[str, Any]]:
     """A moment may come to exceed the sum of the others: the page says then that no rigid body has it."""
     if not isinstance(case.scene, Scene):
         return []
     moments = case.scene.body.inertia
     high = nice(LARGER * max(moments))
     low = min(high / SLENDER, min(moments) / 2)
-    return [Control(f"inertia{n}", "", "kg m²", value, low, high, n + 1) for n, value in enumerate(moments)]
+    return [slider(f"inertia{n}", "", "kg m²", value, low, high, n + 1) for n, value in enumerate(moments)]
 
 
-def _wheel(case: Case) -> list[Control]:
+def _wheel(case: Case) -> list[dict[str, Any]]:
     values = vector(case, "wheel")
     if not isinstance(case.scene, Scene):
         high = nice(ROOM * max(1.0, *map(abs, values)))
-        return [Control(f"wheel{n}", name, "", value, -high, high) for n,
-                (name, value) in enumerate(zip("ab", values))]
+        return [slider(f"wheel{n}", "ab"[n], "", value, -high, high) for n, value in enumerate(values)]
     size = max(max(map(abs, values)),
                max(case.scene.body.inertia) * (math.hypot(*vector(case, "start")) or STILL) / ROOM)
-    return [Control(f"wheel{n}", "", "N m s", value, *_around(size), n + 1) for n, value in enumerate(values)]
+    return [slider(f"wheel{n}", "", "N m s", value, *_around(size), n + 1) for n, value in enumerate(values)]
 
 
-def _start(case: Case, units: Units) -> list[Control]:
+def _start(case: Case, units: Units) -> list[dict[str, Any]]:
     values = vector(case, "start")
     name, one = units.rates
     size = max(map(abs, values)) * one or (1.0 if units.scaled else STILL * one)
     words = [component.replace("omega", "ω") for component in case.scene.components]
-    return [Control(f"start{n}", words[n], name, value * one, *_around(size)) for n,
-            value in enumerate(values)]
+    return [slider(f"start{n}", words[n], name, value * one, *_around(size))
+            for n, value in enumerate(values)]
 
 
 def _usual_torque(case: Case) -> float:

@@ -28,6 +28,7 @@ from ...packages import explained, present
 from ...physics.coefficients import content, gyrostat_scene
 from ...physics.effects import effect_class
 from ...physics.scene import AnyScene, QuadraticForm, ScaledGyrostat, Scene
+from ...representation import values_of
 from ...validation import reach_of
 from ...verify import verify
 from ...verify.form import about, parsed
@@ -298,15 +299,14 @@ def _length(case: Case, found: Motion | None, form: QuadraticForm | None, moving
 
 def _without_tilt(scene: AnyScene) -> tuple[AnyScene, bool]:
     """The scene with the largest component of its torque alone, and whether that is another one."""
-    torque = scene.mu if scene.variables == "scaled" else scene.vector("constant_torque")
+    torque = scene.exact_mu if scene.variables == "scaled" else scene.vector("constant_torque")
     acting = [n for n in range(3) if torque[n]]
     if len(acting) < 2:
         return scene, False
     main = max(acting, key=lambda n: abs(torque[n]))
     kept = tuple(v if n == main else 0 for n, v in enumerate(torque))
     if scene.variables == "scaled":
-        return ScaledGyrostat(*scene.exact_ab,
-                              tuple(v if n == main else 0 for n, v in enumerate(scene.exact_mu))), True
+        return ScaledGyrostat(*scene.exact_ab, kept), True
     others = [effect for effect in scene.effects if effect.name != "constant_torque"]
     return Scene(scene.body, *others, effect_class("constant_torque")(kept)), True
 
@@ -321,5 +321,4 @@ def checked(asked: dict[str, Any]) -> bytes:
         return Bag().framed({"error": f"This is no certificate of stabilab classify --certify: {error}"})
     silent = f"; nothing is claimed of: {', '.join(found.silent)}" if found.silent else ""
     return Bag().framed({"status": found.status, "about": about_line(about(claims)) + silent,
-                         "findings": [{"claim": one.claim, "status": one.status, "reason": one.reason}
-                                      for one in found.findings]})
+                         "findings": [values_of(one, "claim status reason") for one in found.findings]})

@@ -38,7 +38,12 @@ def written(out, arguments=None, inputs=(), tolerances=None):
     `out` is of no use.
     """
     out = endings.folder(out)
-    run = _run(out, arguments, [_described(path) for path in inputs])
+    try:
+        read_now = [{"path": os.fspath(path), "sha256": sha256(path), "bytes": os.stat(path).st_size}
+                    for path in inputs]
+    except OSError as error:
+        raise InputError(f"{error.filename}: cannot be read: {error.strerror or error}") from None
+    run = _run(out, arguments, read_now)
     with files.new_folder(out) as folder:
         yield folder
         run["tolerances"] = dict(tolerances or {})
@@ -129,13 +134,6 @@ def _run(out, arguments, inputs) -> dict:
             "arguments": words,
             "started_in": Path(here).as_posix(),
             "inputs": inputs, **environment(), "seeds": SEEDS}
-
-
-def _described(path) -> dict:
-    try:
-        return {"path": os.fspath(path), "sha256": sha256(path), "bytes": os.stat(path).st_size}
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
 
 
 def _kept(out, replaced) -> list[dict]:

@@ -33,19 +33,15 @@ def rerun(path, out=None) -> list[str]:
                 f"{path}: expected a command that fills a folder ({known}), got {run['command']!r}")
     starts = [_start(run, folder) for run in runs]
     lines: list[str] = []
-    words: list[tuple[bool, str]] = []
     with _target(out) as target:
         for run, start in zip(runs, starts):
             _repeat(run["arguments"], start, target)
             lines += [run["command"], *_changed_surroundings(run)]
         made = {row["path"]: row["sha256"] for run in manifest.read(target) for row in run["outputs"]}
-        for row in (row for run in runs for row in run["outputs"]):
-            word = _compared(row, made)
-            words.append((word in ("identical", TIMED), f"  {row['path']}: {word}"))
-        paths = {row["path"] for run in runs for row in run["outputs"]}
-        lines += ([line for _, line in sorted(words, key=lambda one: one[0])]
-                  + [f"  {new}: new" for new in made if new not in paths])
-    differ, count = sum(not same for same, _ in words), len(words)
+    words = {row["path"]: _compared(row, made) for run in runs for row in run["outputs"]}
+    lines += [f"  {file}: {word}" for file, word in sorted(words.items(), key=lambda one: one[1] in SAME)]
+    lines += [f"  {file}: new" for file in made if file not in words]
+    differ, count = sum(word not in SAME for word in words.values()), len(words)
     if differ:
         raise ToleranceNotMet(
             "\n".join([f"{differ} of {count} files {'differs' if differ == 1 else 'differ'}", *lines]))
@@ -53,6 +49,7 @@ def rerun(path, out=None) -> list[str]:
 
 
 TIMED = "not compared: it shows measured times"
+SAME = ("identical", TIMED)
 
 
 def _compared(row, made) -> str:

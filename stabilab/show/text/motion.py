@@ -172,11 +172,11 @@ def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
         return [row("off that axis", TILTED)] if asked else []
     stated = "" if found.stated else ", twice the largest of this motion (no limit is stated)"
     limit = f"|omega| = {units.rate(found.limit)}{stated}"
-    lines = [f"  tilted by {_angle(found.angle)}: {found.of}, to {limit}"]
+    lines = [f"  tilted by {DEG.angle(found.angle)}: {found.of}, to {limit}"]
     if found.ends:
         lines.append(f"    shortest time found   {units.clock(found.low, found.high)} ({found.level})")
         if proofs:
-            lines.append(f"    at azimuth            {_angle(found.azimuth)}, torque "
+            lines.append(f"    at azimuth            {DEG.angle(found.azimuth)}, torque "
                          f"{units.vector(found.torque, units.of('N m'))}")
     else:
         many, far = len(found.times), units.time(found.followed)
@@ -186,10 +186,6 @@ def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
     return [*lines,
             f"    not before            {units.time(found.not_before)}, whatever the azimuth and for any "
             f"smaller tilt (proved)"]
-
-
-def _angle(value: float) -> str:
-    return DEG.angle(value)
 
 
 def followed(m) -> dict:

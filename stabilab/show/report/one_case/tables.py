@@ -132,19 +132,13 @@ def _of_motion(scene, motion, units):
     if motion.margin_velocity is None or motion.velocity_witness is None:
         return []
     change = [b - a for a, b in zip(motion.at[:3], motion.velocity_witness)]
-    size = math.hypot(*change)
-    because = "; ".join(filter(None, [units.words(motion.velocity_because), _beyond(scene)]))
+    size, because = math.hypot(*change), [units.words(motion.velocity_because)]
     along = [v / size for v in change] if size else None
-    return [_change("rate", units.rate(motion.margin_velocity), along, because)]
-
-
-def _beyond(scene) -> str:
-    """What is to be said of a margin where the other side of every separatrix is bounded as well."""
     reduced = reduce(effective(scene))
-    if reduced is None or not reduced.geometry.centred or reduced.sense and not potential(reduced).walled:
-        return ""
-    return ("this does not change the fate: beyond the separatrix motions are bounded too, "
-            "about other centres or round the axis")
+    if reduced is not None and reduced.geometry.centred and (not reduced.sense or potential(reduced).walled):
+        because.append("this does not change the fate: beyond the separatrix motions are bounded too, "
+                       "about other centres or round the axis")
+    return [_change("rate", units.rate(motion.margin_velocity), along, "; ".join(filter(None, because)))]
 
 
 def _tilt(case, answer, units):
