@@ -14,7 +14,7 @@ from ..show.text.cost import comparison
 from ..show.text.cost import precision as shown
 from ..theories.comparison import compare as set_side_by_side
 from ..theories.follow import models_of
-from .common.cases import load_cases, motion_of, one_by_one, time_asked, units_asked
+from .common.cases import answers_of, load_cases, motion_of, one_by_one, time_asked, units_asked
 from .common.output import all_reached, hold_laws, tell, write, write_each, write_json
 
 
@@ -24,7 +24,13 @@ def compare(case, order, out, json, strict, units):
     systems = units_asked(loaded, units)
     if out:
         endings.file(out, (".csv",))
-    compared = [(one, _compared(one, order)) for one in one_by_one(loaded)]
+    for one in loaded:
+        if one.span is None:
+            raise InputError(f"{one.place}: motion: no span; compare needs span = [0, T] in [motion]")
+        if models_of(one.scene) == ("exact",):
+            raise InputError(
+                f"{one.place}: no analytic model applies to this scene; there is nothing to compare")
+    compared = answers_of(loaded, lambda one: set_side_by_side(one, order=order))
     if out:
         write_each(out, [(one, partial(comparison.write, one, found)) for one, found in compared])
     if json:
@@ -34,17 +40,6 @@ def compare(case, order, out, json, strict, units):
         tell("\n\n".join(law.first(found.validity, comparison.text(one, found, system), system, one.caveats)
                          for (one, found), system in zip(compared, systems)))
     hold_laws(strict, (found.validity for _, found in compared), loaded)
-
-
-def _compared(case, order):
-    """The models of a case beside its exact motion."""
-    if case.span is None:
-        raise InputError(f"{case.place}: motion: no span; compare needs span = [0, T] in [motion]")
-    if models_of(case.scene) == ("exact",):
-        raise InputError(
-            f"{case.place}: no analytic model applies to this scene; there is nothing to compare")
-    with blamed_on(case):
-        return set_side_by_side(case, order=order)
 
 
 def precision(case, json, csv, out, until, quick, all_settings, strict):

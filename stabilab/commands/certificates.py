@@ -54,8 +54,6 @@ def verify(certificate, case, json, strict):
 
 def _of_another(cases, told, path):
     """What differs where a certificate is of none of the cases; empty where it is of one or none is named."""
-    if not cases:
-        return ""
     apart = [(case, differences(told, subject(case.scene, case.exact_state))) for case in cases]
     return "" if not all(differing for _, differing in apart) else "\n".join(
         f"{printable(str(path))}: of another case than {case.place}: {words}"

@@ -14,10 +14,8 @@ from .common.cases import (
     motion_of,
     one_by_one,
     over_boxes,
-    sampled,
     swept_motions,
     tell_all,
-    tell_radians,
     tilted,
     units_asked,
 )
@@ -27,16 +25,14 @@ from .common.output import hold_laws, leave_undecided, write
 def classify(cases, json, strict, certify, out, follow, tilt, units, why):
     """Answer every case; with certify write the certificate of the one that is given."""
     loaded = load_cases(cases)
-    systems = units_asked(loaded, units)
-    tell_radians(systems[0], tilt=tilt)
+    systems = units_asked(loaded, units, tilt=tilt)
     if certify:
         from . import certificates as proof
         proof.checked(out, cases)
     rests = answers_of(loaded, lambda case: equilibria(case.scene))
     motions = [tilted(case, motion_of(case, follow=follow, proof=certify), tilt) if case.state else None
                for case in one_by_one(loaded)]
-    boxes = over_boxes(loaded, "equilibria", "fate")
-    motions = list(map(sampled, motions, boxes))
+    boxes, motions = over_boxes(loaded, motions, "equilibria", "fate")
     answered = [(case, found, motion, of_motion(case.scene, case.exact_state or case.state, motion)
                  if motion is not None and in_closed_form(case.scene) else None)
                 for (case, found), motion in zip(rests, motions)]

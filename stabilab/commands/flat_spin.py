@@ -6,15 +6,14 @@ from dataclasses import replace
 from ..answers.dissipation.ask import flat_spin as ask
 from ..numbers.units import ANGLE, in_si
 from ..show.text import flat_spin as shown
-from .common.cases import answers_of, load_cases, tell_all, tell_radians, units_asked
+from .common.cases import answers_of, load_cases, tell_all, units_asked
 from .common.output import hold_laws, leave_undecided, write_json
 
 
 def flat_spin(case, within, units, json, strict):
     """Answer a case, every combination where it has a [sweep]."""
     loaded = load_cases([case], motion=True)
-    systems = units_asked(loaded, units)
-    tell_radians(systems[0], within=within)
+    systems = units_asked(loaded, units, within=within)
     angle = in_si(within.strip(), ANGLE, "--within")
     answered = answers_of(loaded, lambda one: ask(one, angle))
     if json:

@@ -18,10 +18,8 @@ from .common.cases import (
     motion_of,
     one_by_one,
     over_boxes,
-    sampled,
     swept_motions,
     tell_all,
-    tell_radians,
     tilted,
     units_asked,
 )
@@ -32,13 +30,14 @@ def answer(question, cases, json, digits, strict, units, why, csv=False, follow=
            certify=False):
     """Answer a question for every case and say how many digits of it are known."""
     loaded = load_cases(cases, motion=True)
-    systems = units_asked(loaded, units)
-    tell_radians(systems[0], tilt=tilt)
-    answered = [(case, found, _told(question, case, found, digits)) for case in one_by_one(loaded)
-                for plain in [motion_of(case, brief=question == "extremes", follow=follow, proof=certify)]
-                for found in [tilted(case, plain, tilt) if question == "fate" else plain]]
-    boxes = over_boxes([case for case, *_ in answered], *(["fate"] if question == "fate" else []))
-    answered = [(case, sampled(found, box), told) for (case, found, told), box in zip(answered, boxes)]
+    systems = units_asked(loaded, units, tilt=tilt)
+    motions, digits_of = [], []
+    for case in one_by_one(loaded):
+        found = motion_of(case, brief=question == "extremes", follow=follow, proof=certify)
+        motions.append(tilted(case, found, tilt) if question == "fate" else found)
+        digits_of.append(_told(question, case, motions[-1], digits))
+    boxes, motions = over_boxes(loaded, motions, *(["fate"] if question == "fate" else []))
+    answered = list(zip(loaded, motions, digits_of))
     if json:
         write(as_json([
             getattr(questions, f"{question}_dict")(case, found, told) | law.key(found.validity)

@@ -12,7 +12,7 @@ from ..show.files import endings
 from ..show.progress import told
 from ..show.text import burn as burns
 from ..show.text import stuck as shown
-from .common.cases import answers_of, load_cases, tell_all, tell_radians, units_asked
+from .common.cases import answers_of, load_cases, tell_all, units_asked
 from .common.output import either, hold_laws, leave_undecided, say_written, write, write_json, written
 
 
@@ -46,8 +46,7 @@ def burn(case, stop, below, units, json, strict):
     """Answer one case."""
     burning = load_burning(case)
     craft = burning.craft
-    system = units_asked([craft], units)[0]
-    tell_radians(system, below=below)
+    system = units_asked([craft], units, below=below)[0]
     asked = {name: in_si(text.strip(), dimension, f"--{name}")
              for name, text, dimension in (("stop", stop, TIME), ("below", below, RATE)) if text is not None}
     with blamed_on(craft):

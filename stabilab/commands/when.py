@@ -11,7 +11,7 @@ from ..case.read import blamed_on, fires_on_schedule, load_burning
 from ..show.data import as_json
 from ..show.text import law
 from ..show.text import when as shown
-from .common.cases import load_cases, one_by_one, tell_all, tell_radians, units_asked
+from .common.cases import load_cases, one_by_one, tell_all, units_asked
 from .common.output import hold_laws, leave_undecided, write
 
 
@@ -22,8 +22,7 @@ def when(cases, units, json, csv, strict, **limits):
     loaded = [*(one.craft for one in burns.values()),
               *load_cases([path for path in paths if path not in burns], motion=True)]
     loaded.sort(key=lambda case: paths.index(case.path))
-    systems = units_asked(loaded, units)
-    tell_radians(systems[0], **{name: limits.get(name) for name in ("rate", "component", "tilt")})
+    systems = units_asked(loaded, units, **{name: limits[name] for name in ("rate", "component", "tilt")})
     for case in one_by_one(loaded):
         limit = stated_limit(case, **limits)
         with blamed_on(case):

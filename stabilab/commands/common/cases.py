@@ -52,15 +52,12 @@ def answers_of(cases: Sequence[Case], ask: Callable[[Case], Any]) -> list[tuple[
     return found
 
 
-def units_asked(cases: Iterable[Case], asked: str | None) -> list[Units]:
-    """The units in which each case is told."""
-    return [units_of(case, asked) for case in cases]
-
-
-def tell_radians(units: Units, **options: str | None) -> None:
-    """A message on every angle or rate without a unit, where answers are in degrees: 1 may mean a degree."""
-    if units.name in (SI.name, SCALED.name):
-        return
+def units_asked(cases: Sequence[Case], asked: str | None, **options: str | None) -> list[Units]:
+    """The units in which each case is told. options: angles and rates as typed, of which a message says that
+    they came without a unit, where answers are in degrees: 1 may mean a degree."""
+    systems = [units_of(case, asked) for case in cases]
+    if not options or systems[0].name in (SI.name, SCALED.name):
+        return systems
     for option, text in options.items():
         found = split((text or "").rpartition("=")[2].strip())
         if found is None or found[1]:
@@ -70,6 +67,7 @@ def tell_radians(units: Units, **options: str | None) -> None:
             taken = number(float(quantity(found[0], NONE)[0]) * DEG.rates[1], DIGITS)
             say(f'--{option}: {found[0]} alone is in {unit}: {taken} {degrees}; for degrees write '
                 f'"{found[0]} {degrees}"')
+    return systems
 
 
 def time_asked(text: str | None, case: Case, option: str = "follow") -> float | None:
@@ -148,18 +146,16 @@ def tilted(case, motion, angle: str | None):
         return with_tilt(case, motion, None if angle is None else stated_tilt(angle))
 
 
-def sampled(motion, box):
-    """The motion with what uncertain numbers do to it by samples, not by proof, as a caveat."""
-    return (motion if motion is None or box is None
-            else replace(motion, caveats=(*motion.caveats, *box.caveats)))
-
-
-def over_boxes(cases, *questions):
-    """What uncertain numbers do to the verdicts of each case; None where it has none."""
+def over_boxes(cases, motions, *questions):
+    """(what uncertain numbers do to the verdicts of each case, None where it has none; the motions, with what
+    samples show of that and no proof as a caveat)."""
     if not questions or not any(case.uncertain for case in cases):
-        return [None] * len(cases)
+        return [None] * len(cases), motions
     from ...answers.uncertain.fate import uncertain as over_box
-    return [over_box(case, questions) for case in cases]
+    boxes = [over_box(case, questions) for case in cases]
+    return boxes, [motion if motion is None or box is None
+                   else replace(motion, caveats=(*motion.caveats, *box.caveats))
+                   for motion, box in zip(motions, boxes)]
 
 
 # --- The answers of several cases as text: one after the other, or the combinations of a [sweep] as one

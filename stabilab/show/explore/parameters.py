@@ -156,7 +156,7 @@ def changed(case: Case, asked: dict[str, Any], units: Units) -> tuple[Case, str]
     if inertia is not None:
         _set_inertia(base, case, inertia)
     if torque is not None:
-        _set_torque(base, _given_torque(torque), scaled)
+        _set_torque(base, torque, scaled)
     if wheel is not None:
         _set_wheel(base, case, wheel, scaled)
     if start is not None or case.state is None:
@@ -219,8 +219,12 @@ def _set_inertia(base: dict[str, Any], case: Case, values: list[Any]) -> None:
                     **_kept(old, "mass", "centre_of_mass")}
 
 
-def _set_torque(base: dict[str, Any], vector: tuple[float, ...], scaled: bool) -> None:
-    numbers = [Written(f"{v + 0.0:.12g}") for v in vector]
+def _set_torque(base: dict[str, Any], asked: Any, scaled: bool) -> None:
+    axis = asked.get("axis") if isinstance(asked, dict) else None
+    if type(axis) is not int or axis not in (1, 2, 3):  # neither true nor 1.0
+        raise InputError(f"torque: expected an axis of 1, 2 or 3, got {shown(axis)}")
+    torque = torque_of(axis, *(float(number(asked.get(name), name)) for name in ("size", "tilt", "azimuth")))
+    numbers = [Written(f"{v + 0.0:.12g}") for v in torque]
     if scaled:
         base["scaled"]["mu"] = numbers
         return
@@ -273,10 +277,3 @@ def number(value: Any, name: str) -> str:
             f"{name}: expected 0 or a number of {SMALLEST:g} to {LARGEST:g}, which can still be drawn, got "
             f"{value}")
     return f"{found:.12g}"
-
-
-def _given_torque(asked: Any) -> tuple[float, ...]:
-    axis = asked.get("axis") if isinstance(asked, dict) else None
-    if type(axis) is not int or axis not in (1, 2, 3):  # neither true nor 1.0
-        raise InputError(f"torque: expected an axis of 1, 2 or 3, got {shown(axis)}")
-    return torque_of(axis, *(float(number(asked.get(name), name)) for name in ("size", "tilt", "azimuth")))

@@ -88,12 +88,6 @@ class Plane:
             return W - float(self.reduction.s)
         return float(self.reduction.component_i(W))
 
-    def canonical(self, rate: float) -> float:
-        """W of omega_i."""
-        w = rate + float(self.reduction.s)
-        return (w * self.reduction.constants["flip"] * self.reduction.constants["n"]
-                if self.reduction.geometry.centred else w)
-
     def state(self, turn: float, rate: float) -> tuple[float, ...]:
         """The three rates of a point of the plane."""
         r, out = self.reduction, [0.0] * 3

@@ -155,7 +155,9 @@ class Session:
         began = time.process_time()
         moving, clicked = bool(asked.get("moving")), None
         case, note = changed(self.case, asked, self.units)
-        units = self._units(case)
+        units = self.units
+        if isinstance(case.scene, Scene):  # names of the axes by moments whose order the sliders may change
+            units = replace(units, axes=with_moments(units.axes, case.scene.body.exact))
         if asked.get("click"):
             clicked = planes.clicked(self._twin(case), case.state, asked["click"], self.units)
             case, note = changed(self.case, asked | {"start": clicked, "click": None}, self.units)
@@ -176,11 +178,13 @@ class Session:
         picture = self._space(bag, case, twin, found, at_rest, times, path, asked.get("box"), moving)
         about_axes = frame.components(self.case, units.axes)  # of the file, where they are others
         turns = not self.units.scaled and present("numpy") and (case.scene.plain or not moving)
+        notes = [note, self._swept, cut, *limiting.beside(case.caveats, units)]
+        if found is not None and found.validity is not None:  # of an approximate law: whether it holds
+            notes.insert(3, lettered(units.words(found.validity.words)))
         made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word,
                 "look": "conditional" if found is None else look(found),
                 "moving": moving, "start": clicked,
-                "note": " ".join(filter(None, (note, self._swept, cut, _law(found, units),
-                                                   *map(_capital, limiting.beside(case.caveats, units))))),
+                "note": " ".join(map(_capital, filter(None, notes))),
                 "toml": case.text, "axes": _named(units), "space": picture,
                 "rows": [*([["axes", lettered(about_axes)]] if about_axes else []),
                          *([] if found is None else rows(case, found, units))],
@@ -189,12 +193,6 @@ class Session:
                 "film": other.film(case, times[-1], bag, units) if turns else None}
         made["equilibria"] = equilibrium_rows(at_rest, units) if at_rest else other.NOT_YET
         return made | {"analysis": 1e3 * (settled - began), "work": 1e3 * (time.process_time() - began)}
-
-    def _units(self, case: Case) -> Units:
-        """With the names of the axes by the moments of a case, whose order the sliders may change."""
-        if not isinstance(case.scene, Scene):
-            return self.units
-        return replace(self.units, axes=with_moments(self.units.axes, case.scene.body.exact))
 
     def _motion(self, case: Case, moving: bool, stopped) -> tuple[Motion | None, str]:
         """(what is known of the motion, the verdict in a line); None where a run would keep a moving hand
@@ -271,12 +269,6 @@ class Session:
 
 def _named(units: Units) -> list[str]:
     return [units.axes.short(n) for n in (1, 2, 3)]
-
-
-def _law(found: Motion | None, units: Units) -> str:
-    """What an approximate law of the scene says of itself along the motion."""
-    return ("" if found is None or found.validity is None
-            else _capital(lettered(units.words(found.validity.words))))
 
 
 def _capital(words: str) -> str:

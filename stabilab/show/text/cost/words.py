@@ -80,16 +80,16 @@ def _moment(found):
     return f"τ = {last}" if found.case.variables == "scaled" else f"t = {last} s"
 
 
-def by_digits(found, question: str = "span") -> list[dict]:
-    """A row for each number of digits that some method has: the cheapest method, how many times the price of
-    the first row that is, and the second best. Of the states the reference too stands for its digits, by its
+def by_digits(found) -> list[dict]:
+    """A row for each number of digits of the states that some method has: the cheapest method, how many times
+    the price of the first row that is, and the second best. The reference too stands for its digits, by its
     own runs, where fewer than two methods have them."""
     rows: list[dict] = []
     for digits in WANTED:
         offers = [{"method": p.method, "setting": p.setting, "value": p.value, "seconds": p.seconds}
-                  for p in found.cheapest(digits, question)[:2]]
+                  for p in found.cheapest(digits, "span")[:2]]
         exact = found.reference.digits[0]
-        if question == "span" and len(found.reference.t) and digits <= exact and len(offers) < 2:
+        if len(found.reference.t) and digits <= exact and len(offers) < 2:
             offers.append({"method": "reference", "setting": "digits", "value": exact,
                            "seconds": found.reference_seconds})
         if offers:
