@@ -132,12 +132,15 @@ def chaos(scene: AnyScene, states: ArrayLike, until: float | None = None,
     history, stiff = np.full((len(rows), len(times)), np.nan), np.zeros(len(rows), bool)
     if found is not None:
         history[~leaving], stiff[~leaving] = found.megno, found.stiff
-    labels = np.where(leaving, Order.SPIN_UP,
-                      np.where(fates == Fate.EQUILIBRIUM, Order.REGULAR, _labels(history)))
+    before, last = history[:, -2:].T
+    flat = (last < FLAT) & (before < FLAT)
+    steep = (last > STEEP) & (last > DOUBLES * before)
+    labels = np.select([leaving, (fates == Fate.EQUILIBRIUM) | flat, steep],
+                       [Order.SPIN_UP, Order.REGULAR, Order.CHAOTIC], Order.UNDECIDED)
     # MEGNO is half the rate times the time, where neighbours part exponentially
-    last, before = 2 * history[:, -1] / times[-1], 2 * history[:, -2] / times[-2]
-    rate, error = (np.select([labels == Order.CHAOTIC, labels == Order.REGULAR], [found, 0.0], np.nan)
-                   for found in (last, np.abs(last - before)))
+    now, change = 2 * last / times[-1], np.abs(2 * last / times[-1] - 2 * before / times[-2])
+    rate, error = (np.select([labels == Order.CHAOTIC, labels == Order.REGULAR], [known, 0.0], np.nan)
+                   for known in (now, change))
     shaped = lambda values: values.reshape(array.shape[:-1] + values.shape[1:])[()]
     return Chaos(shaped(labels), shaped(history[:, -1]), times, shaped(history), shaped(rate), shaped(error),
                  turn, scene, shaped(stiff))
@@ -165,8 +168,3 @@ def _fates(scene: AnyScene, rows: np.ndarray, end: float) -> np.ndarray:
                             brief=True).fate for row in rows], int)
 
 
-def _labels(history: np.ndarray) -> np.ndarray:
-    last, before = history[:, -1], history[:, -2]
-    flat = (last < FLAT) & (before < FLAT)
-    steep = (last > STEEP) & (last > DOUBLES * before)
-    return np.where(flat, Order.REGULAR, np.where(steep, Order.CHAOTIC, Order.UNDECIDED))

@@ -16,7 +16,7 @@ from ..physics.scene import BLOCKS, AnyScene, slices
 from ..physics.states import equations_and_start, moved_row
 from ..representation import Shown
 from .passage.run import MOVED, WIDER
-from .simulate import trajectory
+from .simulate import denser, trajectory
 
 SAMPLES = 16     # of a step of the run: between them a function is looked at for a change of its sign
 MOST = 400_000   # samples of a run
@@ -106,9 +106,7 @@ def _zeros(scene: AnyScene, start: Any, until: float, events: Sequence[Any]
     ends: list[float] = []
     trajectory(scene, start, [0.0, until], steps=ends, laws=False)
     knots = np.unique([0.0, until, *(t for t in ends if 0 < t < until)])
-    inside = max(1, min(SAMPLES, MOST // len(knots)))
-    share = np.arange(inside) / inside
-    grid = np.unique([*(knots[:-1, None] + np.diff(knots)[:, None] * share).ravel(), until])
+    grid = np.unique([*denser(knots, SAMPLES, MOST), until])
     run = trajectory(scene, start, grid, laws=False)
     times, states = [], []
     for event in events:

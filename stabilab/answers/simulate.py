@@ -67,21 +67,18 @@ def trajectory(scene: AnyScene, state: Any, times: ArrayLike, method: str = "tay
     `status` is "stopped", `reason` says why, and t, states hold the times that were reached. Raises
     InputError for states and times that are no such numbers and for an unknown method.
     """
-    method = _method(method)
+    given, method = method, KNOWN.get(method.lower() if isinstance(method, str) else "", "")
+    if not method:
+        close = difflib.get_close_matches(str(given).lower(), KNOWN, 1)
+        hint = f'; did you mean "{KNOWN[close[0]]}"?' if close else ""
+        known = ", ".join(KNOWN.values())
+        raise InputError(f"method: there is no {given!r:.80}; choose one of {known}{hint}")
     if steps is not None and not isinstance(steps, list):
         raise InputError(f"steps: expected a list that takes the ends of the steps, got {steps!r:.80}")
     if method == REDUCED:
         times, rtol = checked_times(times), checked_rtol(rtol)
         return _by_quadrature(scene, *equations_and_start(scene, state), times, rtol)
     return integrated(scene, state, times, method, rtol, steps, laws)
-
-
-def _method(name: str) -> str:
-    if isinstance(name, str) and name.lower() in KNOWN:
-        return KNOWN[name.lower()]
-    close = difflib.get_close_matches(str(name).lower(), KNOWN, 1)
-    hint = f'; did you mean "{KNOWN[close[0]]}"?' if close else ""
-    raise InputError(f"method: there is no {name!r:.80}; choose one of {', '.join(KNOWN.values())}{hint}")
 
 
 def _by_quadrature(scene: AnyScene, equations: Equations, state: np.ndarray, times: np.ndarray,
@@ -171,7 +168,11 @@ def simulate(scene: Any, omega: Any = None, times: ArrayLike | None = None,
         raise InputError("times: expected times for a scene; a case without a span needs them too")
     times = checked_times(times)
     if attitude is not None:
-        turning = simulate(scene, omega, times, _carried(scene, blocks or {}, attitude), method, rtol)
+        if attitude not in ATTITUDES:
+            raise InputError(f'attitude: expected "quaternion" or "matrix", got {attitude!r:.60}')
+        if scene.variables == "scaled":
+            raise InputError("attitude: scaled variables have no attitude: give a body and rates in rad/s")
+        turning = simulate(scene, omega, times, quaternion_blocks(blocks or {}), method, rtol)
         return turning if attitude == "quaternion" else in_matrices(turning)
     if scene.variables == "scaled":
         run = trajectory(scene, omega, times, "taylor" if method is None else method, rtol)
@@ -213,16 +214,6 @@ def quaternion_blocks(blocks: Mapping[str, Sequence[float]]) -> dict[str, Sequen
         return dict(blocks)
     turned = given or (attitude_of(vertical) if vertical else (0.0, 0.0, 0.0))
     return {**blocks, "attitude": tuple(scalar_last(quaternion(*turned)).tolist())}
-
-
-def _carried(scene: AnyScene, blocks: Mapping[str, Sequence[float]],
-             attitude: str) -> dict[str, Sequence[float]]:
-    """The blocks with an attitude as a quaternion."""
-    if attitude not in ATTITUDES:
-        raise InputError(f'attitude: expected "quaternion" or "matrix", got {attitude!r:.60}')
-    if scene.variables == "scaled":
-        raise InputError("attitude: scaled variables have no attitude: give a body and rates in rad/s")
-    return quaternion_blocks(blocks)
 
 
 def in_matrices(run: Simulation) -> Simulation:
@@ -310,7 +301,11 @@ def _grid(scene: Scene, start: Any, times: np.ndarray, method: str, rtol: float 
     base = np.unique(np.concatenate([[0.0], times]))
     steps: list[float] = []
     trajectory(scene, start, base, method, rtol, steps)
-    ends = np.unique(np.concatenate([base, steps]))
-    inside = max(1, min(INSIDE, POINTS // len(ends)))
-    share = np.arange(inside) / inside
-    return np.unique(np.concatenate([base, (ends[:-1, None] + np.diff(ends)[:, None] * share).ravel()]))
+    return np.unique(np.concatenate([base, denser(np.unique(np.concatenate([base, steps])), INSIDE, POINTS)]))
+
+
+def denser(ends: np.ndarray, inside: int, most: int) -> np.ndarray:
+    """Times from the first end on up to the last, itself left out, with so many in each step; `most` in all.
+    """
+    inside = max(1, min(inside, most // len(ends)))
+    return (ends[:-1, None] + np.diff(ends)[:, None] * (np.arange(inside) / inside)).ravel()

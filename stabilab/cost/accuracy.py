@@ -232,8 +232,8 @@ def _measured(task, method: Method, exact, effort, spans, points, left_out):
         for question, times in zip(("span", "end"), spans):
             answer, fast, slow, repeats = _timed(partial(run, times), effort)
             known = "" if times is None or set(answer.parts) == set(task.slices) else ", ".join(answer.parts)
-            errors = ({"period": _period_error(answer, exact), "extremes": _extremes_error(answer, exact)}
-                      if times is None else {question: _state_error(task, answer, exact, len(times))})
+            errors = (_answer_errors(answer, exact) if times is None
+                      else {question: _state_error(task, answer, exact, len(times))})
             if errors.get("span") == math.inf or errors.get("end") == math.inf:
                 left_out.append((method.name, value, "no answer over the whole span"))
                 break
@@ -259,16 +259,14 @@ def _state_error(task, answer, exact, count) -> float:
     return worst
 
 
-def _period_error(answer, exact) -> float:
+def _answer_errors(answer, exact) -> dict[str, float]:
+    """Of the period and of the extremes, never below the reference's own; inf where an answer is missing."""
     high, low, own = exact.period
-    error = abs((answer.parts["period"][0] - high) - low) / high
-    return max(float(error), own) if np.isfinite(error) else math.inf
-
-
-def _extremes_error(answer, exact) -> float:
+    period = abs((answer.parts["period"][0] - high) - low) / high
     high, low = exact.extremes[..., 0], exact.extremes[..., 1]
-    error = np.abs((answer.parts["extremes"] - high) - low).max() / (np.abs(high).max() or 1.0)
-    return max(float(error), exact.extremes_error) if np.isfinite(error) else math.inf
+    extremes = np.abs((answer.parts["extremes"] - high) - low).max() / (np.abs(high).max() or 1.0)
+    return {name: max(float(error), least) if np.isfinite(error) else math.inf
+            for name, error, least in (("period", period, own), ("extremes", extremes, exact.extremes_error))}
 
 
 def _sensitivity(task, exact) -> float | None:

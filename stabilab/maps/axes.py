@@ -33,7 +33,9 @@ class Key(NamedTuple):
 
 def keys_of(data: dict[str, Any]) -> dict[str, Key]:
     """Every number of a case's data by its name."""
-    return {name: Key(name, _both_sides(path)) for table in SWEPT if table in data
+    def mirrored(path: tuple[Any, ...]) -> tuple[Any, ...]:
+        return (*path[:2], path[3], path[2]) if path[:2] == ("body", "inertia") and len(path) == 4 else path
+    return {name: Key(name, tuple(sorted({path, mirrored(path)}))) for table in SWEPT if table in data
             for name, path in _numbers(data[table], table, (table,))}
 
 
@@ -91,13 +93,6 @@ def _numbers(value: Any, name: str, path: tuple[Any, ...]) -> Iterator[tuple[str
     elif (isinstance(value, (int, Written)) and not isinstance(value, bool)
           or isinstance(value, str) and (states_uncertainty(value) or split(value) is not None)):
         yield name, path
-
-
-def _both_sides(path: tuple[Any, ...]) -> tuple[tuple[Any, ...], ...]:
-    if path[:2] == ("body", "inertia") and len(path) == 4 and path[2] != path[3]:
-        mirrored = (*path[:2], path[3], path[2])
-        return (min(path, mirrored), max(path, mirrored))
-    return (path,)
 
 
 def _near(asked: str, known: dict[str, Key]) -> str:

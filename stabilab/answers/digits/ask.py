@@ -22,7 +22,7 @@ from ...numbers.balls import DOUBLE_BITS, Digits, working
 from ...numbers.vectors import Exact3, Number
 from ...orbit.extremes.one_state import extreme_balls
 from ...orbit.fate.one_state import free_margin, is_free, precise_margin
-from ...orbit.landscape import Landscape, landscape
+from ...orbit.landscape import landscape
 from ...orbit.one_orbit import Orbit
 from ...orbit.period import period_ball
 from ...orbit.reduction import reduce
@@ -63,7 +63,10 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
     if question == "fate" and is_free(twin):
         return _margin_without_reduction(twin, known, digits, exact or known.at[:3])
     if land is not None:
-        return _by_formula(question, twin, land, known, digits, exact or known.at[:3])
+        orbit = Orbit(land.reduction, exact or known.at[:3])
+        balls = _balls(question, orbit, known.fate, max(digits, MOST) + 1)
+        return (_tie(question, digits) if balls is None  # on the separatrix
+                else _judged(question, _number(question, known), balls, digits))
     if known.fate == Fate.EQUILIBRIUM:
         return Told(question, _number(question, known), digits, math.inf, "exact",
                     "the state is an equilibrium")
@@ -107,15 +110,6 @@ def _number(question: str, known: Motion) -> Any:
 
 
 # -- motions with a reduction
-
-
-def _by_formula(question: str, scene: AnyScene, land: Landscape, known: Motion, digits: int,
-                state: Any) -> Told:
-    values, label = _number(question, known), known.fate
-    balls = _balls(question, Orbit(land.reduction, state), label, max(digits, MOST) + 1)
-    if balls is None:  # on the separatrix
-        return _tie(question, digits)
-    return _judged(question, values, balls, digits)
 
 
 def _tie(question: str, digits: int) -> Told:

@@ -212,11 +212,8 @@ def _at_rest(spinner: Spinner, found: FlatSpin) -> FlatSpin:
 
 def _timed(spinner: Spinner, found: FlatSpin, angle: float) -> FlatSpin:
     """The times of a motion that goes on, by two runs."""
-    D1, D2, D3 = spinner.moments
-    levels = {"leaves": spinner.minor_level(angle) if D2 > D3 else math.inf,
-              "crosses": spinner.inverses[1] if D1 > D2 else math.inf, "settles": spinner.major_level(angle)}
-    ratio = float(spinner.ratio)
-    ahead = {name: level for name, level in levels.items() if ratio >= level}
+    D1, D2, _ = spinner.moments
+    ahead = {name: level for name, level in spinner.levels(angle).items() if float(spinner.ratio) >= level}
     runs = [Run(spinner, spinner.start, None),
             Run(spinner, moved_row(spinner.start, MOVED), SECOND_RTOL)]
     seen: list[dict[str, float]] = [{}, {}]

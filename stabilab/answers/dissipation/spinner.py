@@ -147,16 +147,14 @@ class Spinner:
         blocks = {name: state[part] for name, part in slices(self.scene.blocks).items()}
         return int(np.sign(body_momentum(self.scene, blocks)[self.order[0]]))
 
-    def major_level(self, angle: float) -> float:
-        """2 T/|H|^2 at which the polhode goes from the major axis (two greatest moments equal: from their
-        plane) by an angle."""
-        one, two, three = self.inverses
-        return one + math.sin(angle) ** 2 * float(1 / self.moments[1 if two > one else 2]
-                                                  - 1 / self.moments[0])
-
-    def minor_level(self, angle: float) -> float:
-        """The same of the minor axis."""
-        return self.inverses[2] - math.sin(angle) ** 2 * float(1 / self.moments[2] - 1 / self.moments[1])
+    def levels(self, angle: float) -> dict[str, float]:
+        """2 T/|H|^2 at which the polhode goes from the minor axis by an angle, at the separatrix, and from
+        the major axis (two greatest moments equal: from their plane) by the angle; inf: there is none."""
+        D1, D2, D3 = self.moments
+        (one, two, three), share = self.inverses, math.sin(angle) ** 2
+        return {"leaves": three - share * float(1 / D3 - 1 / D2) if D2 > D3 else math.inf,
+                "crosses": two if D1 > D2 else math.inf,
+                "settles": one + share * float(1 / (D2 if two > one else D3) - 1 / D1)}
 
 
 class Run:

@@ -195,7 +195,10 @@ def _by_law(scenario: Scenario, scene: Scene) -> Outcome:
     largest = _largest(scenario, scene, when, repeats)
     if largest is None and not spins and math.isfinite(bound := _bound(motion)):
         largest = bound
-    return Outcome(motion.fate, _level(scene, motion), motion.axis, motion.sense,
+    certificate = motion.evidence.get("certificate") if kind_of(scene) == "growth" else "law"
+    level = ("run" if motion.fate == Fate.UNDECIDED or certificate in ("evidence", "none") else
+             "exact" if certificate in EXACT else "certified")
+    return Outcome(motion.fate, level, motion.axis, motion.sense,
                    _direction(scene, motion) if spins else None, f"{motion.because}{_unsure(when)}", motion,
                    when, largest)
 
@@ -224,13 +227,6 @@ def _largest(scenario: Scenario, scene: Scene, when: Found, otherwise: float | N
         return None
     largest, reached = largest_rate(scene, scenario.start, until, BUDGET)
     return largest if reached >= until * (1 - 1e-12) else None
-
-
-def _level(scene: Scene, motion: Motion) -> str:
-    if motion.fate == Fate.UNDECIDED:
-        return "run"
-    certificate = motion.evidence.get("certificate") if kind_of(scene) == "growth" else "law"
-    return "exact" if certificate in EXACT else "run" if certificate in ("evidence", "none") else "certified"
 
 
 def _direction(scene: Scene, motion: Motion) -> Float3 | None:

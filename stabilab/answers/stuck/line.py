@@ -189,11 +189,8 @@ class Line:
     def others(self) -> list[float]:
         """The s at which the start may be an equilibrium: no energy, or the torque is balanced, F(0, s) = 0.
         """
-        (G, mu, *_), (x0, z0, c0, d0), (x1, z1, c1, d1) = self.fixed, self.at, self.change
-        level = mu + G * x0 * z0 + c0 * z0 + d0 * x0
-        slope = G * (x0 * z1 + x1 * z0) + c0 * z1 + c1 * z0 + d0 * x1 + d1 * x0
-        bend = Fraction(0) if self.wheel else G * x1 * z1
-        if not bend:
+        bend, slope, level = force(self.fixed, self.at, self.change, 0, 1, False)
+        if self.wheel or not bend:
             return [*self.rest, *([float(-level / slope)] if slope else [])]
         return [*self.rest, *real_roots([float(v) for v in (bend, slope, level)])]
 

@@ -11,10 +11,9 @@ import numpy as np
 
 from ...numbers.exact import sqrt_fraction
 from ...numbers.roots import golden_section
-from ...numbers.vectors import Exact3, Number, dot
+from ...numbers.vectors import Exact3, Number, cross, dot
 from ...orbit.reduction import Reduction
 from ...physics.scene import Scene, rests
-from ..caveats import STEADY
 from .fate import PATIENCE, Scenario, first_time, time_under
 from .line import EVERY, INF, Family, Intervals, Line, candidates, family_of, own_momentum, pieces
 
@@ -44,7 +43,11 @@ def intervals(scene: Scene, state: Sequence[Fraction], axis: Exact3) -> Answer:
     if not dot(torque, axis):
         step[i] = Fraction(0)  # a turn by rounded numbers leaves a trace
     if step[i]:
-        return _one_momentum(family, start, step, -start[i] / step[i])
+        s = -start[i] / step[i]
+        left = [Fraction(0) if n == i else v for n, v in enumerate(family.along(start, step, s))]
+        return (((float(s),) * 2,) if family.steady(left) else ()), (
+            "with any momentum left along the torque |H|^2/2 - D T grows for ever; at one momentum none is "
+            "left")
     if start[i]:
         return (), ("momentum of the others lies along the torque: |H|^2/2 - D T then grows for ever, "
                     "whatever this wheel does")
@@ -72,24 +75,12 @@ def _off_axis(scene: Scene, state: Sequence[Fraction], axis: Exact3) -> Answer:
     words = "the torque is off the principal axes, and no bounded motion is known there but equilibria"
     rate = form.rate(list(state))
     D = scene.body.exact
-    # -(omega x a)
-    pull = [state[2] * axis[1] - state[1] * axis[2], state[0] * axis[2] - state[2] * axis[0],
-            state[1] * axis[0] - state[0] * axis[1]]
-    which = next((n for n in range(3) if pull[n]), None)
-    if which is None:
+    pull = cross(axis, state)
+    if not any(pull):
         return (EVERY if rests(form, state) else ()), words
-    s = -rate[which] * D[which] / pull[which]
-    resting = all(rate[n] * D[n] + s * pull[n] == 0 for n in range(3))
+    s = next(-r * d / p for r, d, p in zip(rate, D, pull) if p)
+    resting = all(r * d + s * p == 0 for r, d, p in zip(rate, D, pull))
     return (((float(s),) * 2,) if resting else ()), words
-
-
-def _one_momentum(family: Family, start: Sequence[Fraction], step: Sequence[Fraction], s: Fraction) -> Answer:
-    """A wheel that is not across the torque: at one momentum alone it leaves none along it."""
-    wheel = list(family.along(start, step, s))
-    wheel[family.axis] = Fraction(0)
-    words = (
-        "with any momentum left along the torque |H|^2/2 - D T grows for ever; at one momentum none is left")
-    return (((float(s),) * 2,) if family.fate(wheel) in STEADY else ()), words
 
 
 def across(family: Family, start: Sequence[Fraction], step: Sequence[Fraction]) -> Answer:

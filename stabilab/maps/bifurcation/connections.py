@@ -78,7 +78,10 @@ def _of_piece(family: Family, eliminated: Eliminated, axis: int, piece: Piece,
     found, before = [], None
     for part in parts(family, LEAF, eliminated, piece):
         low, high = Fraction(part.low) + off, Fraction(part.high) - off
-        if low >= high or not _on_a_circle(family, axis, between(low, high)):
+        with working(BITS):
+            kappa = ball_form(family, [rational(between(low, high))])[0].kappa if low < high else (0,) * 3
+            circle = kappa[(axis + 1) % 3] * kappa[(axis + 2) % 3] < 0
+        if not circle:
             before = None
             continue
         if eliminated.main.lean:
@@ -120,13 +123,6 @@ def _states_at(family: Family, eliminated: Eliminated, piece: Piece, value: Frac
         if len(states) == piece.count:
             return states
     raise Unclear
-
-
-def _on_a_circle(family: Family, axis: int, value: Fraction) -> bool:
-    with working(BITS):
-        form, _ = ball_form(family, [rational(value)])
-        j, k = (axis + 1) % 3, (axis + 2) % 3
-        return bool(form.kappa[j] * form.kappa[k] < 0)
 
 
 class _Rise:
