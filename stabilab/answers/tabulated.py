@@ -16,7 +16,7 @@ from typing import Any
 from ..errors import InputError
 from ..integrate.reference import GUARD, Recursion, one_run
 from ..numbers.balls import narrowed, working
-from ..numbers.vectors import CYCLE
+from ..numbers.vectors import dot
 from ..physics.coefficients import effective
 from ..physics.ending import hold_on
 from ..physics.scene import AnyScene, QuadraticForm
@@ -79,16 +79,14 @@ def events_of(scene: AnyScene, pieces: Sequence[Any], until: Fraction) -> tuple[
     for number, piece in enumerate(pieces):
         curve = _Curve(piece, form)
         for i in range(3):
-            for kind, order in (("zero", 0), ("extreme", 1)):
+            for order, kind in enumerate(("zero", "extreme")):
                 roots, clear = _roots(curve, i, order, number == 0)
                 if not clear:
-                    open_at.append(
-                        f"{names[i]}, {'zero' if order == 0 else 'extreme'}, about {float(piece.start):.4g}")
+                    open_at.append(f"{names[i]}, {kind}, about {float(piece.start):.4g}")
                 found += [_event(curve, i, kind, s) for s in roots]
     found = [one for one in found if one.t <= _ball(until)]
-    words = (
-        "zeros and extremes of each rate after the start, by roots along the enclosed motion: none is passed "
-        f"over (below 1e-{NOTHING} counts as zero)")
+    words = ("zeros and extremes of each rate after the start, by roots along the enclosed motion: none is "
+             f"passed over (below 1e-{NOTHING} counts as zero)")
     if open_at:
         places = "; ".join(open_at[:3]) + " and so on" * (len(open_at) > 3)
         words += f", but where the digits leave open whether there is one ({places})"
@@ -110,26 +108,20 @@ def _ball(value: Any) -> Any:
 
 
 class _Curve:
-    """Rates over a piece and their derivatives in time, from the equations x_i' = kappa x_j x_k + rho x_k +
-    sigma x_j + m."""
+    """Rates over a piece and their derivatives in time, by the equations in balls."""
 
     def __init__(self, piece: Any, form: QuadraticForm) -> None:
         self.piece, self.size = piece, _ball(Fraction(piece.unit))
-        self.kappa, self.rho, self.sigma, self.m = ([_ball(Fraction(v)) for v in row]
-                                                    for row in (form.kappa, form.rho, form.sigma, form.m))
+        balls = lambda row: tuple(_ball(Fraction(v)) for v in row)
+        self.form = QuadraticForm(balls(form.kappa), balls(form.rho), balls(form.sigma), balls(form.m))
 
     def derivative(self, i: int, order: int, s: Any) -> Any:
         """The `order`-th derivative (0 to 2) of component i at s, a ball."""
         x = self.piece.at(s)
         if order == 0:
             return x[i]
-        rate = [self.kappa[n] * x[j] * x[k] + self.rho[n] * x[k] + self.sigma[n] * x[j] + self.m[n]
-                for n, (j, k) in enumerate(CYCLE)]
-        if order == 1:
-            return rate[i]
-        j, k = CYCLE[i]
-        return (self.kappa[i] * (rate[j] * x[k] + x[j] * rate[k]) + self.rho[i] * rate[k]
-                + self.sigma[i] * rate[j])
+        rate = self.form.rate(x)
+        return rate[i] if order == 1 else dot(self.form.jacobian(x)[i], rate)
 
 
 def _roots(curve: _Curve, i: int, order: int, first: bool) -> tuple[list[Any], bool]:

@@ -283,11 +283,18 @@ def spans_of(data: dict[str, Any], vary: Sequence[tuple[str, Any]]) -> tuple[Spa
             f"expected one or two numbers that vary, got {len(vary)}: a diagram has no more; stabilab sweep "
             "takes up to four")
     spans = tuple(span_of(key_of(data, name), asked) for name, asked in vary)
-    if len(spans) == 2 and set(spans[0].key.paths) & set(spans[1].key.paths):
-        raise InputError(
-            f"vary {printable(spans[1].key.name)}: this number varies already, as "
-            f"{printable(spans[0].key.name)}: give it once")
+    each_once(span.key for span in spans)
     return spans
+
+
+def each_once(keys: Iterable[Key]) -> None:
+    """InputError where a number varies twice."""
+    taken: dict[Any, str] = {}
+    for key in keys:
+        if again := next((path for path in key.paths if path in taken), None):
+            raise InputError(f"vary {printable(key.name)}: this number varies already, as "
+                             f"{printable(taken[again])}: give it once")
+        taken |= dict.fromkeys(key.paths, key.name)
 
 
 def span_of(key: Key, asked: Any) -> Span:

@@ -32,7 +32,7 @@ from ..numbers.units import NONE, TIME, in_si
 from ..physics.coefficients import effective
 from ..version import __version__
 from .atlas.pointed import Pointed, pointed_from
-from .axes import MOST, Axis, Key, axis_of, key_of, keys_of, si_unit
+from .axes import MOST, Axis, Key, axis_of, each_once, key_of, keys_of, si_unit
 from .columns import asked_answers
 
 
@@ -330,26 +330,17 @@ def _judge(plan: Plan) -> None:
         raise InputError(
             'nothing varies: give --vary KEY=START:STOP:COUNT, such as --vary '
             '"motion.angular_velocity[1]=0:30:31 deg/s", or --samples N')
-    taken: dict[Any, str] = {}
-    for axis in plan.axes:
-        for path in axis.key.paths:
-            if path in taken:
-                raise InputError(
-                    f"vary {printable(axis.key.name)}: this number varies already, as "
-                    f"{printable(taken[path])}: give it once")
-            taken[path] = axis.key.name
+    each_once(axis.key for axis in plan.axes)
     if len(plan.shape) > AXES:
         raise InputError(f"expected at most {AXES} axes, got {len(plan.shape)}")
     if plan.points > MOST:
         raise InputError(
             f"{' x '.join(map(str, plan.shape))} are {plan.points:,} points; at most {MOST:,} are run")
     if plan.limit and "when" not in plan.answers:
-        raise InputError(
-            f"{plan.limit[0][0]}: belongs to the answer when, which is not asked for: add it, as in --answer "
-            f"fate,when")
+        raise InputError(f"{plan.limit[0][0]}: belongs to the answer when, which is not asked for: add it, "
+                         "as in --answer fate,when")
     moving = [name for name in plan.answers if name not in ("equilibria", "verdict")]
     if moving and case.state is None:
-        raise InputError(
-            f"{case.place}: motion: expected x or angular_velocity in [motion]; {', '.join(moving)} need "
-            f"a state")
+        raise InputError(f"{case.place}: motion: expected x or angular_velocity in [motion]; "
+                         f"{', '.join(moving)} need a state")
     plan.limit_of(case), plan.longest  # say what is wrong with them

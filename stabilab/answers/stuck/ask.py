@@ -76,10 +76,14 @@ def _later(time: tuple[float, float] | None, seen: Outcome) -> bool:
     return time is None or (seen.when.time is not None and time[0] > seen.when.time[1])
 
 
-def _timed(scenario: Scenario, helper: Helper, left: Exact3, seen: Outcome) -> Helper:
-    """With the time of its limit: a bounded motion may come to it all the same."""
-    time = None if scenario.limit is None else time_under(scenario, left, scenario.wheel)
-    return replace(helper, time_to_limit=time, effect=helper.effect if _later(time, seen) else "none")
+def _timed(scenario: Scenario, helper: Helper, left: Exact3, seen: Outcome,
+           run: tuple[float, float] | None = None) -> Helper:
+    """With the time of its limit: a bounded motion may come to it all the same. run: bracket by a plain run,
+    which counts where none is enclosed."""
+    if scenario.limit is None:
+        return helper
+    time = time_under(scenario, left, scenario.wheel)
+    return replace(helper, time_to_limit=time, effect=helper.effect if _later(time or run, seen) else "none")
 
 
 def _stops(scenario: Scenario, torque: Sequence[Fraction], names: tuple[str, ...],
@@ -190,14 +194,12 @@ def _in_the_box(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]]) 
 
 def _slower(scenario: Scenario, torque: Sequence[Fraction], seen: Outcome, run: float, chosen: Any,
             duty: Duty) -> Helper:
-    """run: the time of the limit by a plain run, which counts where none is enclosed."""
-    left, effect, time = _left(torque, [arm for _, arm in chosen], duty), "slower", None
-    if scenario.limit is not None:
-        time = time_under(scenario, left, scenario.wheel)
-        effect = "slower" if _later(time or (run, run), seen) else "none"
+    """run: the time of the limit by a plain run."""
+    left = _left(torque, [arm for _, arm in chosen], duty)
     fate = outcome_of(replace(scenario, limit=None), left).fate.word
-    return Helper(tuple(name for name, _ in chosen), tuple(map(float, duty)), effect,
-                  math.sqrt(float(dot(left, left))), fate, time)
+    helper = Helper(tuple(name for name, _ in chosen), tuple(map(float, duty)), "slower",
+                    math.sqrt(float(dot(left, left))), fate, None)
+    return _timed(scenario, helper, left, seen, (run, run))
 
 
 # --- The question: a thruster is stuck open, what becomes of the spacecraft, how soon, and what helps?
