@@ -196,16 +196,15 @@ def _wheels(case: Case, text: str | None) -> tuple[tuple[Exact3, ...], tuple[flo
 def _own_direction(own: Exact3) -> Exact3:
     if not any(own):
         raise InputError('the case has no wheel that turns: say along which axis, as in --wheel "z=-2:2:5" '
-                         '(x, y, z of the file, or 1, 2, 3, the '
-                         "principal axes)")
+                         "(x, y, z of the file, or 1, 2, 3, the principal axes)")
     return unit_vector(own)
 
 
 def _along(case: Case, axis: str) -> Exact3:
     if len(axis) != 1 or axis not in FILE_AXES + PRINCIPAL:
-        raise InputError(f'expected a range such as "0:2:5 N m s", or an axis with one, as in "z=0:2:5" (x, '
-                         f'y, z of the file, or 1, 2, 3, the principal '
-                         f'axes), got the axis "{printable(axis)[:40]}"')
+        raise InputError('expected a range such as "0:2:5 N m s", or an axis with one, as in "z=0:2:5" (x, '
+                         'y, z of the file, or 1, 2, 3, the principal axes), got the axis '
+                         f'"{printable(axis)[:40]}"')
     if axis in PRINCIPAL:
         return tuple(Fraction(n == int(axis) - 1) for n in range(3))
     return along_axes(case, tuple(Fraction(n == FILE_AXES.index(axis)) for n in range(3)))
@@ -283,26 +282,23 @@ def drawn(asked: Asked, out: Path | None = None, workers: int | None = None,
           scheduler: str | None = None) -> Iterator[Atlas]:
     """The finished atlas as a context; what it left beside `out` for a run that is killed is removed when its
     block ends well. workers, scheduler: as of `maps.run.run`."""
+    named, sweeps = asked.named, []
     with ExitStack() as rounds:
-        named, done, resumed = asked.named, 0, 0
-
         def told(points: tuple[Point, ...]) -> np.ndarray:
-            nonlocal done, resumed
-            place = None if out is None else out.with_name(f"{out.name}.{number}") if number else out
-            found = rounds.enter_context(run(asked.plan(points), place, workers, scheduler, asked.command))
-            done, resumed = done + len(points), resumed + found.resumed
-            return found.records
+            place = None if out is None else out.with_name(f"{out.name}.{len(sweeps)}") if sweeps else out
+            sweeps.append(rounds.enter_context(run(asked.plan(points), place, workers, scheduler,
+                                                   asked.command)))
+            return sweeps[-1].records
 
-        number = 0
         records = told(named + asked.first)
         named_records, records = records[:len(named)], records[len(named):]
         leaves = Leaves(*(np.array(column, np.int64) for column in zip(*asked.first)))
         while len(rows := leaves.to_cut(kinds_of(records), asked.level + asked.refine)):
-            number += 1
             parts = leaves.children(rows)
             found = told(tuple(Point(*one) for one in zip(*(column.tolist() for column in parts))))
             leaves, records = _replaced(leaves, records, rows, parts, found)
-        yield Atlas(asked, leaves, records, named, named_records, done, resumed)
+        yield Atlas(asked, leaves, records, named, named_records, sum(len(one.records) for one in sweeps),
+                    sum(one.resumed for one in sweeps))
 
 
 def _replaced(leaves: Leaves, records: np.ndarray, rows: np.ndarray, parts: Leaves,

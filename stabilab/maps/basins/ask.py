@@ -27,9 +27,8 @@ from ...case.read import Case
 from ...errors import InputError, printable
 from ...numbers.units import split
 from ...orbit.result import Fate
-from ..columns import record
 from ..plan import Plan, packed, planned
-from ..run import changes, known_exactly, run
+from ..run import Swept, changes, known_exactly, run
 
 FEWEST = 3     # depths of a fit
 COARSEST = 8   # cells that a boundary shall fill at the coarsest depth that counts
@@ -359,20 +358,18 @@ def basins(case: Case | str | os.PathLike[str], vary: Any, depth: int = DEPTH, o
     """
     coarse = _planned(case, vary, depth, follow)
     fine = _fine(coarse, depth)
-    found: dict[str, Any] = {"rows": np.empty(0, record(fine.answers)), "keys": np.empty(0, np.int64),
-                             "resumed": 0}
+    asked: list[np.ndarray] = []
+    sweeps: list[Swept] = []
     with ExitStack() as rounds:
         def ask(keys: np.ndarray) -> np.ndarray:
-            number = found["rounds"] = found.get("rounds", -1) + 1
-            beside = None if out is None else out.with_name(f"{out.name}.{number}") if number else out
-            swept = rounds.enter_context(run(replace(fine, listed=packed(keys)), beside, workers, scheduler,
-                                             _command(coarse, depth)))
-            order = np.argsort(every := np.concatenate([found["keys"], keys]), kind="stable")
-            found["keys"], found["rows"] = every[order], np.concatenate([found["rows"], swept.records])[order]
-            found["resumed"] += swept.resumed
-            return label_of(swept.records)
+            beside = None if out is None else out.with_name(f"{out.name}.{len(asked)}") if asked else out
+            asked.append(keys)
+            sweeps.append(rounds.enter_context(run(replace(fine, listed=packed(keys)), beside, workers,
+                                                   scheduler, _command(coarse, depth))))
+            return label_of(sweeps[-1].records)
         mesh = refined((coarse.shape[0] - 1, coarse.shape[1] - 1), depth, ask)
-        yield Basins(_fine(coarse, mesh.depth), mesh, found["rows"], depth, found["resumed"])
+        rows = np.concatenate([one.records for one in sweeps])[np.argsort(np.concatenate(asked))]
+        yield Basins(_fine(coarse, mesh.depth), mesh, rows, depth, sum(one.resumed for one in sweeps))
 
 
 def _planned(case, vary, depth, follow) -> Plan:
@@ -380,9 +377,8 @@ def _planned(case, vary, depth, follow) -> Plan:
         raise InputError(f"depth: expected a whole number from 0 to {DEEPEST}, got {depth!r:.40}")
     rows = list(vary.items() if hasattr(vary, "items") else vary)
     if len(rows) != 2:
-        raise InputError(f'a plane takes two rates of the initial state, such as "angular_velocity[1]=-60:60 '
-                         f'deg/s" and "angular_velocity[3]=-60:60 deg/s"; '
-                         f"got {len(rows)}")
+        raise InputError('a plane takes two rates of the initial state, such as "angular_velocity[1]=-60:60 '
+                         f'deg/s" and "angular_velocity[3]=-60:60 deg/s"; got {len(rows)}')
     plan = planned(case, [(name, _range(name, text)) for name, text in rows], answer=ANSWERS, follow=follow)
     if plan.inner != (0, 1):
         other = next(axis.key.name for n, axis in enumerate(plan.axes) if n not in plan.inner)
@@ -406,8 +402,7 @@ def _range(name: str, text: Any) -> str:
     """START:STOP:COUNT of what is given, with CELLS + 1 points where no count is."""
     if not isinstance(text, str) or ":" not in text:
         raise InputError(f'vary {printable(str(name))[:80]}: expected a range such as "-60:60 deg/s" or '
-                         f'"-60:60:17 deg/s", got {text!r:.60}: cells '
-                         "between its points are halved")
+                         f'"-60:60:17 deg/s", got {text!r:.60}: cells between its points are halved')
     start, _, rest = text.partition(":")
     if ":" in rest:
         return text

@@ -8,7 +8,6 @@ in line for one lean at the most, so the greatest number of roots is the number 
 """
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -124,7 +123,10 @@ class Eliminated:
         each number."""
         key = (str(number.polynomial), number.index)
         if key not in self._known:
-            made = [(view, number.powers(f)) for view in self._needed(number) if not _lost(view, number)
+            # the main view alone where it has no two points in line, else as many as tell
+            apart = self.apart is not None and number.reduced(univariate(self.apart, 2)) != 0
+            views = (self.main,) if apart and not _lost(self.main, number) else self.views[:SPARE + 1]
+            made = [(view, number.powers(f)) for view in views if not _lost(view, number)
                     if (f := number.trimmed(over_field(view.R)))]
             self._known[key] = (max(made, key=lambda one: sum(len(factor) - 1 for factor, _ in one[1]))
                                 if made else self._of_lines(number))
@@ -152,11 +154,6 @@ class Eliminated:
     @cached_property
     def _known(self) -> dict[tuple[str, int], tuple[Leant, Powers] | None]:
         return {}
-
-    def _needed(self, number: Algebraic) -> Sequence[Leant]:
-        """The main view alone where it has no two points in line, else as many as tell."""
-        apart = self.apart is not None and number.reduced(univariate(self.apart, 2)) != 0
-        return (self.main,) if apart and not _lost(self.main, number) else self.views[:SPARE + 1]
 
     @cached_property
     def apart(self) -> fmpq_mpoly | None:

@@ -15,8 +15,9 @@ from fractions import Fraction
 from functools import reduce
 from typing import Any
 
-from flint import fmpq, fmpq_mpoly
+from flint import fmpq_mpoly
 
+from ...numbers.balls import rational
 from ...numbers.vectors import CYCLE, cross, dot
 from .family import CURVES, Family
 
@@ -65,12 +66,10 @@ class Conics:
 
     def leant(self, lean: Fraction) -> tuple[fmpq_mpoly, fmpq_mpoly]:
         """Both in X = x - lean y and y: points one above another move apart."""
-        if not lean:
-            return self.f, self.g
         ring = self.f.context()
         x, y, p, q = ring.gens()
-        moved = x + y * fmpq(lean.numerator, lean.denominator)
-        return self.f.compose(moved, y, p, q, ctx=ring), self.g.compose(moved, y, p, q, ctx=ring)
+        moved = (x + y * rational(lean), y, p, q)
+        return self.f.compose(*moved, ctx=ring), self.g.compose(*moved, ctx=ring)
 
 
 def fixed_axis(family: Family) -> int | None:
