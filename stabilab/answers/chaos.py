@@ -78,22 +78,17 @@ class Chaos(Shown):
         if label == Order.UNDECIDED and self.stiff:
             return ("stopped, because the motion is too stiff: something in it changes so fast beside its "
                     "turn that it would be followed in too short steps")
+        megno, before = _shown(float(self.megno)), f"{_shown(self.history[-2])} at half that time"
+        seen = f"after {after} MEGNO is {megno}"
         if label == Order.UNDECIDED:
             return ("its numbers exceed the range of doubles" if not np.isfinite(self.megno) else
-                    f"after {after} MEGNO is {_shown(float(self.megno))}, neither near 2 nor growing with "
-                    f"time: follow it for longer")
-        before = f"{_shown(self.history[-2])} at half that time"
-        if label == Order.REGULAR and not self.megno < FLAT:
-            return (f"it is an equilibrium (every rate stays as it is), whatever becomes of its neighbours, "
-                    f"which MEGNO measures: "
-                    f"{_shown(float(self.megno))} after {after}")
-        if label == Order.REGULAR:
-            return (
-                f"after {after} MEGNO is {_shown(float(self.megno))} ({before}); it tends to 2 on tori, to "
-                f"less where neighbours stay or come together")
-        return (
-            f"after {after} MEGNO is {_shown(float(self.megno))} ({before}): it grows with time, neighbours "
-            f"part exponentially")
+                    f"{seen}, neither near 2 nor growing with time: follow it for longer")
+        if label == Order.CHAOTIC:
+            return f"{seen} ({before}): it grows with time, neighbours part exponentially"
+        if self.megno < FLAT:
+            return f"{seen} ({before}); it tends to 2 on tori, to less where neighbours stay or come together"
+        return ("it is an equilibrium (every rate stays as it is), whatever becomes of its neighbours, which "
+                f"MEGNO measures: {megno} after {after}")
 
 
 def _shown(megno: float) -> str:

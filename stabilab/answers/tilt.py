@@ -270,13 +270,13 @@ def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None,
     time = lambda torque: run_once(tilted(scene, torque), state, limit, steps=STEPS)
     signed = lambda sign, azimuth: sign * time(cone.at(azimuth))[0]
     (own, *times), ends = map(list, zip(*map(time, torques)))
+    if not np.isfinite([own, *times]).any():
+        return Spread(cone.angle, cone.words, len(torques), limit.least_rate(), followed=min(ends))
     most = []
-    for sign in (1, -1) if np.isfinite([own, *times]).any() else ():
+    for sign in (1, -1):
         best, azimuth = min(nearest_round(partial(signed, sign),
                                           [(sign * t, at) for t, at in zip(times, EDGE)]))
         most.append(cone.torque if sign * own <= best else cone.at(azimuth))
-    if not most:
-        return Spread(cone.angle, cone.words, len(torques), limit.least_rate(), followed=min(ends))
     exactly = [time_to(tilted(scene, torque), state, **ask, exact=exact, work=WORK) for torque in most]
     first, last = [(float(one.low), float(one.high)) for one in exactly]
     all_of_them = bool(np.isfinite([own, *times]).all())

@@ -48,7 +48,7 @@ def ladder(scene: AnyScene, state: Any) -> tuple[int, ...]:
 
 MANY, REDUCED_FORM = "many digits", "reduced form"
 # the finest Taylor series, which costs little more than a coarse one; Radau where the scene is stiff
-OWN = ("as simulate chooses", 0.0)
+OWN: tuple[Any, Any] = (None, None)  # method and tolerance as `simulate` chooses
 STIFF_FINE = (STIFF_METHOD, 1e-12)
 SAFETY = 1.0  # digits that a stiff run at its own tolerance must have to spare
 FAR = 1e4  # radians or so from which the reduced form, whose cost does not grow, is cheaper than a run
@@ -211,10 +211,8 @@ def _distance(one: Any, two: Any) -> float:
     return worst if math.isfinite(worst) else math.inf
 
 
-def _integrated(case: Any, times: np.ndarray, method: str, rtol: float | None) -> Simulation:
-    own = (method, rtol) == OWN
-    return simulate(case.scene, case.state, times, case.blocks, None if own else method,
-                    None if own else rtol)
+def _integrated(case: Any, times: np.ndarray, method: str | None, rtol: float | None) -> Simulation:
+    return simulate(case.scene, case.state, times, case.blocks, method, rtol)
 
 
 def _reduced(case: Any, times: np.ndarray, method: str, nodes: float) -> Simulation:

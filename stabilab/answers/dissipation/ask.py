@@ -37,7 +37,7 @@ from ...case.source import parsed
 from ...caveat import Caveat
 from ...errors import InputError
 from ...numbers.units import ANGLE, in_si
-from ...numbers.vectors import Float3, dot
+from ...numbers.vectors import Float3, cross, dot
 from ...physics.scene import Scene, slices
 from ...physics.states import moved_row
 from ...representation import Compared, Shown
@@ -177,7 +177,7 @@ def _answered(spinner: Spinner, angle: float) -> FlatSpin:
         UNDECIDED, "", "undecided", axis + 1, spinner.order[2] + 1, size, size / float(D1), None,
         float(spinner.energy), float(dot(spinner.momentum, spinner.momentum) / (2 * D1)), angle,
         growth=growth, decay=decay)
-    if spinner.permanent:
+    if not any(spinner.sigma) and not any(cross(spinner.momentum, spinner.omega)):  # nothing changes
         return _at_rest(spinner, found)
     if spinner.ratio * D2 < 1 and D1 > D2:
         found = _ended(found, spinner.momentum[axis], "exact",

@@ -13,7 +13,7 @@ import numpy as np
 from ...errors import InputError
 from ...integrate.trajectory import root_between
 from ...numbers.exact import sqrt_fraction
-from ...numbers.vectors import cross, dot
+from ...numbers.vectors import dot
 from ...physics.effects.base import effect_words
 from ...physics.scene import Scene, slices
 from ...physics.states import body_momentum, equations_and_start, start_of
@@ -100,11 +100,6 @@ class Spinner:
     def ratio(self) -> Fraction:
         """2 T/|H|^2 at the start, exact: between 1/D1 and 1/D3 but for what turns inside."""
         return 2 * self.energy / dot(self.momentum, self.momentum)
-
-    @cached_property
-    def permanent(self) -> bool:
-        """Whether nothing changes."""
-        return not any(self.sigma) and not any(cross(self.momentum, self.omega))
 
     @cached_property
     def size(self) -> float:

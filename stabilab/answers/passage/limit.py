@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -62,19 +62,10 @@ class Limit:
                 c * sum(abs(a) * Fraction(size) for a, size in zip(vector, own)) ** 2 for c, vector in terms)
         return all(below(terms, most) for terms, most in self.parts)
 
-    def raised(self, share: Fraction) -> Limit:
-        """The same limit, greater by a share of itself."""
-        return replace(self, parts=tuple((terms, most * (1 + share)) for terms, most in self.parts))
-
     def least_rate(self) -> float:
         """The largest |omega| below which it is surely not reached."""
         return min(float(sqrt_fraction(Fraction(most) / max(c for c, _ in terms)))
                    for terms, most in self.parts)
-
-    def beyond_rate(self, rate: float) -> bool:
-        """Whether |omega| <= rate keeps the quantity below the limit."""
-        return (self.kind != "tilt" and math.isfinite(rate)
-                and all(max(c for c, _ in terms) * Fraction(rate) ** 2 < most for terms, most in self.parts))
 
 
 def along_axes(terms: Iterable[Any]) -> list[float] | None:

@@ -135,7 +135,7 @@ def never_bounded(scene: AnyScene, state: Any, limit: Limit) -> Found | None:
     bound = found.invariants.get("rate_bound", math.inf)
     if found.fate == Fate.EQUILIBRIUM:
         why = "the state is an equilibrium"
-    elif found.fate == Fate.BOUNDED and limit.beyond_rate(bound * (1 + SLACK)):
+    elif found.fate == Fate.BOUNDED and bound * (1 + SLACK) < limit.least_rate():
         why = f"|omega| <= {bound:.6g} rad/s always"
     else:
         return None

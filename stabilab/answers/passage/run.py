@@ -25,7 +25,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from itertools import combinations_with_replacement
@@ -231,7 +231,8 @@ def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, s
                      "start moved in its last place does not: more than a run in doubles can tell", one.steps)
     blur = WIDER * abs(one.first - two.first) + ROUNDING * one.first
     if blur > VAGUE * one.first:
-        higher = _search(scene, start, limit.raised(HIGHER))[0]
+        raised = tuple((terms, most * (1 + HIGHER)) for terms, most in limit.parts)
+        higher = _search(scene, start, replace(limit, parts=raised))[0]
         end = min(end, one.first + 2 * blur)
         if zeros_passed(higher, state, rates, end, 2 * steps, first=True).first is None:
             return Found(max(0.0, one.first - blur) / unit, math.nan, "undecided",

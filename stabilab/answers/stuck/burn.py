@@ -123,20 +123,19 @@ def _closed(chain: Chain, links: Sequence[Link]) -> Closed:
     stop = chain.until
     fired = [t.burn and sum((b - a for a, b in t.burn.windows(stop)), Fraction(0))
              for t in chain.case.thrusters]
+    largest = found.largest
+    if chain.free:
+        largest = largest_after(chain.base, rates)
+    elif chain.quiet and largest is not None:
+        largest = largest_of_run(chain.base, rates)
     used = [None if t.burn is None or t.burn.mass_flow is None else float(t.burn.mass_flow * time)
             for t, time in zip(chain.case.thrusters, fired)]
     return Closed(float(chain.closed), rates, error,
                   tuple(d * w + l for d, w, l in zip(body.inertia, rates, wheel)),
                   sum(d * w * w for d, w in zip(body.inertia, rates)) / 2,
-                  _largest(chain, rates, found), before, found,
+                  largest, before, found,
                   of_motion(chain.base, rates, found) if chain.quiet else None,
                   tuple(None if v is None else float(v) for v in fired), tuple(used))
-
-
-def _largest(chain: Chain, rates: Float3, found: Motion) -> float | None:
-    if chain.free:
-        return largest_after(chain.base, rates)
-    return largest_of_run(chain.base, rates) if chain.quiet and found.largest is not None else found.largest
 
 
 def _granted(craft: Any, closed: Closed) -> Iterator[Caveat]:

@@ -76,20 +76,14 @@ def first_along(links: Sequence[Link], limit: Limit, every: bool = False) -> Fou
             continue
         found = _first(one, limit)
         if found is not None:
-            low, high = _outward(one.begin, found.low, found.high)
+            low = float(one.begin + Fraction(found.low))
+            high = float(one.begin + Fraction(found.high)) if found.time else math.nan
+            if one.begin:  # times of the chain, rounded outward
+                low, high = math.nextafter(low, -math.inf), math.nextafter(high, math.inf)
             return replace(found, low=low, high=high)
     burns = [one for one in links if one.firing or every]
     level = "proved" if len(burns) <= 1 and all(one.exact for one in burns) else "run"
     return Found(math.inf, math.inf, level, limit.words)
-
-
-def _outward(begin: Fraction, low: float, high: float) -> tuple[float, float]:
-    """Two times of a link as times of the chain, rounded outward."""
-    first = float(begin + Fraction(low))
-    last = float(begin + Fraction(high)) if math.isfinite(high) else math.nan
-    if not begin:
-        return first, last
-    return math.nextafter(first, -math.inf), math.nextafter(last, math.inf)
 
 
 def _first(link: Link, limit: Limit) -> Found | None:

@@ -193,8 +193,9 @@ def _by_law(scenario: Scenario, scene: Scene) -> Outcome:
     when = _when(scenario, scene, None)
     repeats = None if spins or motion.period is None else TURN * motion.period
     largest = _largest(scenario, scene, when, repeats)
-    if largest is None and not spins and math.isfinite(bound := _bound(motion)):
-        largest = bound
+    if largest is None and not spins and motion.extremes is not None and motion.extremes_over == "all time":
+        bound = math.hypot(*(max(map(abs, pair)) for pair in motion.extremes))
+        largest = bound if math.isfinite(bound) else None
     certificate = motion.evidence.get("certificate") if kind_of(scene) == "growth" else "law"
     level = ("run" if motion.fate == Fate.UNDECIDED or certificate in ("evidence", "none") else
              "exact" if certificate in EXACT else "certified")
@@ -238,10 +239,3 @@ def _direction(scene: Scene, motion: Motion) -> Float3 | None:
         return None
     size = math.hypot(*map(float, torque))
     return tuple(float(m) / size for m in torque)
-
-
-def _bound(motion: Motion) -> float:
-    """An upper bound of |omega| for ever, from those of its components."""
-    if motion.extremes is None or motion.extremes_over != "all time":
-        return math.inf
-    return math.hypot(*(max(map(abs, pair)) for pair in motion.extremes))
