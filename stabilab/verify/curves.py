@@ -211,7 +211,7 @@ class Curve:
         self.claim = f"{'straight line' if self.straight else f'curve of degree {self.degree}'} ({where})"
         self.segments = [_piece(s, f"{where}.segments[{i}]")
                          for i, s in enumerate(entries(table, "segments", where))]
-        self.folds = [(bracket(field(f, "t", w), f"{w}.t"), *_words(f, w))
+        self.folds = [(bracket(field(f, "t", w), f"{w}.t"), *words(f, w))
                       for i, f in enumerate(entries(table, "folds", where)) for w in [f"{where}.folds[{i}]"]]
 
     @property
@@ -229,10 +229,11 @@ def _piece(table, where):
     if len(ends) != 2:
         raise Malformed(f"{where}.t: expected two ends")
     ends = [None if e is None else bracket(e, f"{where}.t[{i}]") for i, e in enumerate(ends)]
-    return ends, *_words(table, where)
+    return ends, *words(table, where)
 
 
-def _words(table, where):
+def words(table, where):
+    """The claimed linear word and verdict."""
     return word(table, "linear", where, LINEAR), word(table, "verdict", where, VERDICT)
 
 

@@ -20,8 +20,9 @@ from .curves import (
     identically_zero,
     judged,
     leaves_double_root,
+    words,
 )
-from .numbers import LINEAR, VERDICT, Malformed, bracket, brief, entries, exact_sign, field, q, word
+from .numbers import brackets, brief, entries, exact_sign, field, q, word
 from .rates import characteristic, excluded
 from .roots import TOO_LARGE, Root, TooLarge, Work, real_roots
 
@@ -316,12 +317,8 @@ class _Point:
     """A claimed isolated equilibrium: a box, and what is said of it."""
 
     def __init__(self, table, where):
-        boxes = field(table, "box", where, list)
-        if len(boxes) != 3:
-            raise Malformed(f"{where}.box: expected three brackets")
-        self.box = [bracket(b, f"{where}.box[{i}]") for i, b in enumerate(boxes)]
-        self.linear, self.verdict = word(table, "linear", where,
-                                         LINEAR), word(table, "verdict", where, VERDICT)
+        self.box = brackets(field(table, "box", where), f"{where}.box")
+        self.linear, self.verdict = words(table, where)
         self.claim = f"equilibrium near ({', '.join(brief((a + b) / 2) for a, b in self.box)})"
         self.exact = all(a == b for a, b in self.box)
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial, reduce
+from functools import lru_cache, partial, reduce
 
 from flint import arb, ctx
 
@@ -18,8 +18,10 @@ from .numbers import (
     field,
     narrowed,
     numbers,
+    optional,
     shown,
     sign,
+    whole,
     word,
     working,
 )
@@ -268,23 +270,12 @@ class Claims:
 
 def motion_of(table) -> Claims:
     """The claims on a motion. Raises `Malformed` before anything is worked out."""
-    extremes, period, spin_up, closed = (table.get(key) if isinstance(table, dict) else None
-                                         for key in ("extremes", "period", "spin_up", "closed"))
+    read = {"axis": partial(whole, where="motion.axis", known=range(4)),
+            "sense": partial(whole, where="motion.sense", known=range(-1, 2)), "extremes": _pairs,
+            "period": partial(bracket, where="motion.period"), "spin_up": spin_up_of, "closed": closed_of}
     return Claims(numbers(field(table, "state", "motion"), "motion.state", 3),
                   word(table, "fate", "motion", FATES),
-                  _whole(table, "axis", range(4)), _whole(table, "sense", range(-1, 2)),
-                  None if extremes is None else _pairs(extremes),
-                  None if period is None else bracket(period, "motion.period"),
-                  None if spin_up is None else spin_up_of(spin_up),
-                  None if closed is None else closed_of(closed))
-
-
-def _whole(table, key, known):
-    """A whole number of a few, or None where it is not claimed; truth values are none."""
-    value = table.get(key)
-    if value is not None and (type(value) is not int or value not in known):
-        raise Malformed(f"motion.{key}: expected {known[0]} to {known[-1]}, got {shown(value)}")
-    return value
+                  **{key: optional(table, key, of) for key, of in read.items()})
 
 
 def _pairs(claimed):
@@ -312,8 +303,7 @@ def check_motion(rates, claims, note):
         _check_trapped(rates, claims, note)
         return
     orbit = _orbit(rates, claims.state)
-    proof = orbit and _Proof(orbit)
-    found = proof and at_rising_precision(proof.facts)
+    found = orbit and at_rising_precision(partial(_facts, orbit))
     if found is None:
         why = (f"not decided with {MOST_BITS} bits" if orbit
                else "the scene has no reduction to one degree of freedom")
@@ -323,7 +313,7 @@ def check_motion(rates, claims, note):
     axis = orbit.axis + 1 if found.fate == "spin-up" else 0
     _check_words(claims, found.fate, axis, exact_sign(orbit.tilt) if axis else 0, found.reason, note)
     if claims.fate in (found.fate, "undecided"):
-        _check_numbers(claims, proof, found, note)
+        _check_numbers(claims, orbit, found, note)
 
 
 def _check_rest(claims, note):
@@ -422,7 +412,7 @@ def at_rising_precision(question, least=None, most=None):
     return None
 
 
-def _check_numbers(claims, proof, found, note):
+def _check_numbers(claims, orbit, found, note):
     """The brackets of extremes and period."""
     for claim, said, true in _named(claims.extremes, [[(i, k) for k in (0, 1)] for i in range(3)]):
         i, k = true
@@ -431,25 +421,25 @@ def _check_numbers(claims, proof, found, note):
             note(claim, "proved" if unbounded and said is None else "refuted",
                  "unbounded" if unbounded else "bounded")
         else:
-            status = at_rising_precision(lambda i=i, k=k,
-                                         said=said: _within(proof.facts().extremes[i][k], *said), found.bits,
+            status = at_rising_precision(lambda i=i, k=k, said=said:
+                                         _within(_facts(orbit).extremes[i][k], *said), found.bits,
                                          CLOSER * found.bits)
             note(claim, status or "not checked",
                  "roots on the potential" if status else "the bracket ends too close to the true value")
     if claims.period is not None and found.fate != "bounded":
         note("period", "refuted", "a motion that spins up does not repeat")
     elif claims.period is not None:
-        status = _period_status(proof, claims.period, found.bits)
+        status = _period_status(orbit, claims.period, found.bits)
         note("period", status or "not checked",
              "verified quadrature between the turning points, or round the circle" if status
              else "the verified quadrature did not close, or not on one side of the bracket's ends")
 
 
-def _period_status(proof, said, bits):
+def _period_status(orbit, said, bits):
     """Whether the bracket holds the period, by quadratures to more and more digits; None where they leave it
     open."""
     for goal in GOALS:
-        true = at_rising_precision(partial(proof.period, goal), max(bits, 4 * goal))
+        true = at_rising_precision(partial(_period, orbit, goal), max(bits, 4 * goal))
         try:
             return true and _within(true, *said)
         except Open:
@@ -457,24 +447,22 @@ def _period_status(proof, said, bits):
     return None
 
 
-class _Proof:
-    """What is proved of one orbit, kept by the number of bits it was worked out with."""
+def _facts(orbit) -> Facts:
+    """What is proved of an orbit at the working precision. Raises Open where it does not do."""
+    return _facts_of(orbit, ctx.prec)
 
-    def __init__(self, orbit):
-        self.orbit, self._known = orbit, {}
 
-    def facts(self) -> Facts:
-        """At the working precision. Raises Open where it does not do."""
-        if ctx.prec not in self._known:
-            self._known[ctx.prec] = Facts(self.orbit)
-        return self._known[ctx.prec]
+@lru_cache(maxsize=16)
+def _facts_of(orbit, bits):
+    return Facts(orbit)
 
-    def period(self, goal):
-        """The period to about so many bits, as a ball."""
-        facts = self.facts()
-        if self.orbit.forceless():
-            return self.orbit.turn / abs(ball(self.orbit.y0))
-        return round_once(self.orbit, goal) if facts.round else period_of(self.orbit, facts.ends, goal)
+
+def _period(orbit, goal):
+    """The period to about so many bits, as a ball."""
+    facts = _facts(orbit)
+    if orbit.forceless():
+        return orbit.turn / abs(ball(orbit.y0))
+    return round_once(orbit, goal) if facts.round else period_of(orbit, facts.ends, goal)
 
 
 def _within(true, low, high) -> str:

@@ -65,6 +65,27 @@ def bracket(values, where: str) -> tuple[Fraction, Fraction]:
     return low, high
 
 
+def brackets(values, where: str) -> list[tuple[Fraction, Fraction]]:
+    """Three of them."""
+    if not isinstance(values, list) or len(values) != 3:
+        raise Malformed(f"{where}: expected three brackets, got {shown(values)}")
+    return [bracket(ends, f"{where}[{i}]") for i, ends in enumerate(values)]
+
+
+def whole(value, where: str, known) -> int:
+    """One of the whole numbers that are known (a range, or a tuple); truth values are none."""
+    if type(value) is not int or value not in known:
+        words = f"{known[0]} to {known[-1]}" if isinstance(known, range) else ", ".join(map(str, known))
+        raise Malformed(f"{where}: expected a whole number, {words}; got {shown(value)}")
+    return value
+
+
+def optional(table: dict, key: str, read):
+    """What is read of table[key]; None where it is missing or null."""
+    value = table.get(key)
+    return None if value is None else read(value)
+
+
 def field(table, key: str, where: str, kind=None):
     """table[key], of a given type."""
     if not isinstance(table, dict) or key not in table:

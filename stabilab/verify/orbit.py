@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache
+from functools import lru_cache, partial
 from types import SimpleNamespace
 
 from flint import acb, arb, ctx, fmpq_poly, fmpz_poly
@@ -25,6 +25,7 @@ from .numbers import (
     hull,
     number,
     numbers,
+    optional,
     q,
     shown,
     sign,
@@ -63,11 +64,10 @@ def closed_of(table) -> ClosedClaims:
     where = "motion.closed"
     if not isinstance(table, dict):
         raise Malformed(f"{where}: expected an object, got {shown(table)}")
-    law, direction = word(table, "law", where, LAWS), table.get("direction")
-    sizes = [None if table.get(key) is None else number(table[key], f"{where}.{key}")
-             for key in ("gain", "most")]
-    return ClosedClaims(law, None if direction is None else numbers(direction, f"{where}.direction", 3),
-                        *sizes)
+    law = word(table, "law", where, LAWS)
+    sizes = [optional(table, key, partial(number, where=f"{where}.{key}")) for key in ("gain", "most")]
+    direction = optional(table, "direction", partial(numbers, where=f"{where}.direction", count=3))
+    return ClosedClaims(law, direction, *sizes)
 
 
 def check_closed(rates, state, claims: ClosedClaims, note):

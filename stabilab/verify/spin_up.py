@@ -32,12 +32,13 @@ from .numbers import (
     above,
     ball,
     below,
-    bracket,
+    brackets,
     brief,
     entries,
     field,
     number,
     shown,
+    whole,
     word,
     working,
 )
@@ -278,10 +279,9 @@ def spin_up_of(table) -> SpinUpClaims:
     where = "motion.spin_up"
     if not isinstance(table, dict):
         raise Malformed(f"{where}: expected an object, got {shown(table)}")
-    t, cone, least, gain = (number(field(table, key, where), f"{where}.{key}")
-                            for key in ("t", "cone", "least", "gain"))
-    if t < 0:
-        raise Malformed(f"{where}.t: expected a time that is not before the start, got {shown(table['t'])}")
+    t = _time(table, where)
+    cone, least, gain = (number(field(table, key, where), f"{where}.{key}")
+                         for key in ("cone", "least", "gain"))
     orders = field(table, "orders", where, list)
     if len(orders) != 2 or not all(type(n) is int and 0 <= n <= MOST_ORDER for n in orders):
         raise Malformed(f"{where}.orders: expected two whole numbers up to {MOST_ORDER}, got {shown(orders)}")
@@ -289,26 +289,21 @@ def spin_up_of(table) -> SpinUpClaims:
     if any(a >= b for (a, _), (b, _) in zip(way, way[1:])):
         raise Malformed(f"{where}.way: expected rising times")
     about = word(table, "about", where, tuple(FORMS)) if "about" in table else "fixed centre"
-    axes, senses = ((0,), (1,)) if about == "equator" else ((1, 2, 3), (-1, 1))
-    return SpinUpClaims(about, _one_of(table, "axis", axes), _one_of(table, "sense", senses), tuple(orders),
-                        t, cone, least, gain, way)
+    known = {"axis": (0,), "sense": (1,)} if about == "equator" else {"axis": (1, 2, 3), "sense": (-1, 1)}
+    axis, sense = (whole(field(table, key, where), f"{where}.{key}", of) for key, of in known.items())
+    return SpinUpClaims(about, axis, sense, tuple(orders), t, cone, least, gain,
+                        way)
 
 
-def _one_of(table, key, known):
-    value = field(table, key, "motion.spin_up")
-    if type(value) is not int or value not in known:
-        raise Malformed(
-            f"motion.spin_up.{key}: expected one of {', '.join(map(str, known))}, got {shown(value)}")
-    return value
+def _time(table, where):
+    t = number(field(table, "t", where), f"{where}.t")
+    if t < 0:
+        raise Malformed(f"{where}.t: expected a time that is not before the start, got {shown(table['t'])}")
+    return t
 
 
 def _point(entry, where):
-    t, box = number(field(entry, "t", where), f"{where}.t"), field(entry, "box", where, list)
-    if t < 0:
-        raise Malformed(f"{where}.t: expected a time that is not before the start, got {shown(entry['t'])}")
-    if len(box) != 3:
-        raise Malformed(f"{where}.box: expected three brackets, got {shown(box)}")
-    return t, [bracket(ends, f"{where}.box[{i}]") for i, ends in enumerate(box)]
+    return _time(entry, where), brackets(field(entry, "box", where), f"{where}.box")
 
 
 def check_spin_up(rates, state, claims: SpinUpClaims, note) -> tuple[str, str]:

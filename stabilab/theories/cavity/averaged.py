@@ -231,18 +231,14 @@ class _Model:
         W = cmath.exp(complex(max(y[0], LEAST), y[1])) if self.logarithmic else complex(y[0], y[1])
         r, psi = y[2], y[3]
         nu = self.slope * r - self.offset
-        if self.order == 1:
-            turn, spin = self.means(abs(W) ** 2, r, 0.0, 0.0, 0.0, *self.parameters)
-            kept_W = kept_r = 0.0
-        else:
-            removal = self.removal(nu)
-            turn, spin = self.means(abs(W) ** 2, r, *removal, *self.parameters)
-            kept_W = kept_r = 0.0
-            if removal[2]:
-                unit = complex(math.cos(psi), math.sin(psi))
-                Z = W * unit
-                kept_W, kept_r = self.kept(Z, Z.conjugate(), r, *removal, *self.parameters)
-                kept_W = kept_W * unit.conjugate()
+        removal = self.removal(nu) if self.order == 2 else (0.0, 0.0, 0.0)
+        turn, spin = self.means(abs(W) ** 2, r, *removal, *self.parameters)
+        kept_W = kept_r = 0.0
+        if removal[2]:
+            unit = complex(math.cos(psi), math.sin(psi))
+            Z = W * unit
+            kept_W, kept_r = self.kept(Z, Z.conjugate(), r, *removal, *self.parameters)
+            kept_W = kept_W * unit.conjugate()
         turn = complex(turn)
         dW = turn.real + kept_W / W if self.logarithmic else W * turn.real + kept_W
         return [dW.real, dW.imag, complex(spin + kept_r).real, nu + turn.imag]

@@ -8,7 +8,7 @@ from typing import Any
 
 from flint import fmpq_poly
 
-from ..numbers import MOST, Malformed, bracket, brief, entries, field, number, numbers, q, shown, word
+from ..numbers import MOST, Malformed, bracket, brief, entries, field, number, numbers, q, shown, whole, word
 
 SCHEMA = "stabilab.diagram-certificate/1"
 COUNTED = ("isolated", "motion", "borders")
@@ -68,7 +68,7 @@ def claims_of(table) -> Claims:
     variables = word(scene, "variables", "scene", tuple(PLACES))
     read = {name: _polynomials(field(scene, name, "scene"), f"scene.{name}", count)
             for name, count in PLACES[variables]}
-    counted, axis = word(table, "counted", "", COUNTED), _whole(table, "axis", "", 3)
+    counted, axis = word(table, "counted", "", COUNTED), whole(field(table, "axis", ""), "axis", range(4))
     if (counted == "isolated") != (axis == 0):
         raise Malformed("axis: expected 0 where all equilibria are counted, else that of the torque")
     start = _polynomials(table["start"], "start", 3) if table.get("start") is not None else None
@@ -93,15 +93,9 @@ def _polynomials(value, where: str, count: int) -> list[Any]:
     return [fmpq_poly([q(c) for c in row]) for row in rows]
 
 
-def _whole(table, key: str, where: str, most: int = MOST) -> int:
-    value = field(table, key, where)
-    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= most:
-        raise Malformed(f"{where}.{key}: expected a whole number of 0 to {most}, got {shown(value)}")
-    return value
-
-
 def _count(table, key: str, where: str) -> int | None:
-    return None if field(table, key, where) is None else _whole(table, key, where)
+    value = field(table, key, where)
+    return None if value is None else whole(value, f"{where}.{key}", range(MOST + 1))
 
 
 def _event(table, where: str) -> Event:
