@@ -289,7 +289,7 @@ def test_operators_carried_out_in_numbers_and_in_symbols_have_one_value(text, va
     for in_numbers in (False, True):
         value_of = Evaluator(mpmath.fp, {"x": mpmath.fp.mpf(1.4), "t": mpmath.fp.mpf(0.9)}, bound, None,
                              in_numbers)
-        assert abs(value_of(parse(text, symbols)) - value) < 1e-12, in_numbers
+        assert abs(value_of(parse(text, symbols)) - value) < 1e-10, in_numbers  # of a difference in doubles
 
 
 # counted by hand: steps of 1, 3, 2, 2

@@ -16,78 +16,6 @@ from ...errors import InputError
 from ...physics.to_numpy import lambdified
 from .claims import FOLDER, parse, vocabulary
 
-
-# --- Numbers that carry a derivative along: value + slope e, e^2 = 0, over any mpmath context
-class Dual:
-    """A value and its derivative by one real variable."""
-
-    __slots__ = ("value", "slope")
-
-    def __init__(self, value, slope):
-        self.value, self.slope = value, slope
-
-    def __add__(self, other):
-        v, s = parts(other)
-        return Dual(self.value + v, self.slope + s)
-
-    def __mul__(self, other):
-        v, s = parts(other)
-        return Dual(self.value * v, self.slope * v + self.value * s)
-
-    def __pow__(self, n: int):
-        return Dual(self.value**n, n * self.value ** (n - 1) * self.slope if n else 0 * self.slope)
-
-    __radd__, __rmul__ = __add__, __mul__
-
-
-def parts(x):
-    """(value, derivative) of a dual number or a constant."""
-    return (x.value, x.slope) if isinstance(x, Dual) else (x, 0)
-
-
-class DualNumbers:
-    """The functions of an mpmath context, for dual numbers of its kind."""
-
-    def __init__(self, numbers):
-        self.plain = numbers
-
-    def __getattr__(self, name):
-        numbers = self.plain
-        if name in ("pi", "mpf", "mpc"):
-            return getattr(numbers, name)
-        function = getattr(numbers, name, getattr(cmath, name, None))
-        if name == "atan2":
-            return lambda y, x: self._atan2(y, x)
-        return lambda x: Dual(function(x.value),
-                              SLOPES[name](numbers, x.value, function(x.value),
-                                           x.slope)) if isinstance(x, Dual) else function(x)
-
-    def _atan2(self, y, x):
-        (a, da), (b, db) = parts(y), parts(x)
-        return Dual(self.plain.atan2(a, b), (b * da - a * db) / (a * a + b * b))
-
-    def power(self, base, exponent):
-        (a, da), (b, db) = parts(base), parts(exponent)
-        value = self.plain.power(a, b)
-        return Dual(value, value * (db * self.plain.ln(a) + b * da / a)) if da or db else value
-
-
-# name -> derivative, from (numbers, x, f(x), slope of x)
-SLOPES = {
-    "sin": lambda m, x, f, s: m.cos(x) * s, "cos": lambda m, x, f, s: -m.sin(x) * s, "tan": lambda m, x, f,
-    s: (1 + f * f) * s,
-    "cot": lambda m, x, f, s: -(1 + f * f) * s, "sec": lambda m, x, f, s: f * m.tan(x) * s,
-    "sinh": lambda m, x, f, s: m.cosh(x) * s, "cosh": lambda m, x, f, s: m.sinh(x) * s, "tanh": lambda m, x,
-    f, s: (1 - f * f) * s,
-    "exp": lambda m, x, f, s: f * s, "ln": lambda m, x, f, s: s / x, "sqrt": lambda m, x, f, s: s / (2 * f),
-    "asin": lambda m, x, f, s: s / m.sqrt(1 - x * x), "acos": lambda m, x, f, s: -s / m.sqrt(1 - x * x),
-    "atan": lambda m, x, f, s: s / (1 + x * x),
-    "asinh": lambda m, x, f, s: s / m.sqrt(1 + x * x), "atanh": lambda m, x, f, s: s / (1 - x * x),
-    "conj": lambda m, x, f, s: m.conj(s), "re": lambda m, x, f, s: m.re(s), "im": lambda m, x, f, s: m.im(s),
-    "fabs": lambda m, x, f, s: m.re(m.conj(x) * s) / f, "sign": lambda m, x, f, s: 0 * s,
-}
-
-
 # --- Values of formulas at random points, to any number of digits: what decides where symbols do not
 FUNCTION_NAMES = {"Abs": "fabs", "conjugate": "conj", "log": "ln"}
 MEAN_POINTS = 48  # equally spaced angles: exact for harmonics below 48
@@ -113,12 +41,14 @@ class Evaluator:
     -> value; bound: symbol name -> SymPy expression it stands for (definitions, `where`); system: whose
     `rate` the operator asks for, or None. in_numbers: `at`, `mean` and `integral` put numbers in place of
     their symbol, where else SymPy puts in all that stands for another symbol first: quick for many formulas
-    that share most of their parts, but a division by zero is not cancelled.
+    that share most of their parts, but a division by zero is not cancelled. beside_point: the values are
+    those of a difference quotient, and derivatives in them are taken by symbols.
     """
 
-    def __init__(self, numbers, point: dict, bound: dict, system, in_numbers: bool = False):
+    def __init__(self, numbers, point: dict, bound: dict, system, in_numbers: bool = False,
+                 beside_point: bool = False):
         self.numbers, self.point, self.bound = numbers, point, bound
-        self.system, self.in_numbers = system, in_numbers
+        self.system, self.in_numbers, self.beside_point = system, in_numbers, beside_point
         self.known: dict = {}   # expression -> value
         self._beside: dict = {}  # what differs -> evaluator that has the same but for that
 
@@ -142,7 +72,7 @@ class Evaluator:
             value = self._value(expression)
         except (ZeroDivisionError, ValueError, OverflowError):
             raise Undefined(str(expression)) from None
-        if parts(value)[0] != parts(value)[0]:
+        if value != value:
             raise Undefined(str(expression))
         self.known[expression] = value
         return value
@@ -222,41 +152,53 @@ def _rate_of(evaluator, f):
 
 
 def _rate(evaluator, f, n=1):
-    """By a derivative carried along where that is enough, else by symbols."""
+    """By a difference quotient where that is enough, else by symbols."""
     import sympy as sp
-    if n != 1 or f.has(sp.Function("rate")) or isinstance(evaluator.numbers, DualNumbers):
+    if n != 1 or f.has(sp.Function("rate")) or evaluator.beside_point:
         return evaluator(_rate_of(evaluator, sp.Function("rate")(f, n)))
     if evaluator.system is None:
         raise InputError("rate(...) needs a system: name one in the row")
-    return parts(evaluator.beside("rate", lambda: _along(evaluator))(f))[1]
+    return evaluator.beside("rate", lambda: _along(evaluator))(f)
 
 
 def _along(evaluator):
-    """Values that carry their rate along the motion."""
+    """Derivatives along the motion."""
     state = {x.name: x for x in evaluator.system.state}
-    values = {name: evaluator(x) for name, x in state.items()}
-    slopes = dict(zip(state, map(evaluator, evaluator.system.rates)))
-    return _with_slopes(evaluator, {name: e for name, e in evaluator.bound.items() if name not in state},
-                        values, slopes)
+    bound = {name: e for name, e in evaluator.bound.items() if name not in state}
+    return _Quotient(evaluator, bound, {name: evaluator(x) for name, x in state.items()},
+                     dict(zip(state, map(evaluator, evaluator.system.rates))))
 
 
 def _diff(evaluator, f, s, n=1):
-    if n != 1 or isinstance(evaluator.numbers, DualNumbers) or operated(f):
+    if n != 1 or evaluator.beside_point or operated(f):
         return evaluator(evaluator.plain(f).diff(s, int(n)))
-    one = evaluator.numbers.mpf(1)
-    return parts(evaluator.beside(("diff", s.name),
-                                  lambda: _with_slopes(evaluator, evaluator.bound, {s.name: evaluator(s)},
-                                                       {s.name: one}))(f))[1]
+    return evaluator.beside(("diff", s.name), lambda: _Quotient(
+        evaluator, evaluator.bound, {s.name: evaluator(s)}, {s.name: 1}))(f)
 
 
-def _with_slopes(evaluator, bound, values, slopes):
-    """Values that carry their derivative where the symbols of `slopes` change at those rates."""
-    point = evaluator.point | {name: Dual(value, slopes[name]) for name, value in values.items()}
-    return Evaluator(DualNumbers(evaluator.numbers), point, bound, evaluator.system)
+class _Quotient:
+    """Derivatives where the symbols of `slopes` change at those rates, by the values a step ahead and one
+    behind: with half as many digits more, so that all digits of the evaluator are right; of doubles ten."""
+
+    def __init__(self, evaluator, bound, values, slopes):
+        import mpmath
+        self.numbers = own = evaluator.numbers
+        numbers = own if own is mpmath.fp else precise(own.dps + own.dps // 2 + 12)
+        self.step = 6e-6 if own is mpmath.fp else numbers.mpf(10) ** -(own.dps // 2 + 4)
+        here, slopes = ({name: numbers.convert(value) for name, value in table.items()}
+                        for table in (evaluator.point | values, slopes))
+        self.sides = [Evaluator(numbers, here | {name: here[name] + step * slope
+                                                 for name, slope in slopes.items()},
+                                bound, evaluator.system, beside_point=True)
+                      for step in (self.step, -self.step)]
+
+    def __call__(self, f):
+        ahead, behind = (side(f) for side in self.sides)
+        return +self.numbers.convert((ahead - behind) / (2 * self.step))
 
 
 def _at(evaluator, f, s, value):
-    if evaluator.in_numbers and not isinstance(evaluator.numbers, DualNumbers):
+    if evaluator.in_numbers and not evaluator.beside_point:
         try:
             return evaluator.moved(s.name, evaluator(value))(f)
         except Undefined:
@@ -268,7 +210,7 @@ def _at(evaluator, f, s, value):
 
 def _moved(evaluator, f, s):
     """f as a function of one symbol, the others as they are."""
-    if evaluator.in_numbers and not isinstance(evaluator.numbers, DualNumbers):
+    if evaluator.in_numbers and not evaluator.beside_point:
         return lambda value: evaluator.moved(s.name, value)(f)
     f = evaluator.plain(f)
 
