@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .error_free import add, exact_product, exact_sum, times
+from .error_free import add, exact_sum, times
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -57,18 +57,6 @@ class Twofold:
         return -self + other
 
     __radd__, __rmul__ = __add__, __mul__
-
-    def sqrt(self) -> Twofold:
-        """Square root of a number that is not negative."""
-        root = np.sqrt(self.high)
-        safe = np.where(root == 0, 1.0, root)
-        rest = self - Twofold(*exact_product(root, root))
-        return Twofold(*exact_sum(root, rest.high / (2 * safe)))
-
-    def where(self, condition: np.ndarray, other: ArrayLike | Twofold) -> Twofold:
-        """This number where the condition holds, the other elsewhere."""
-        other = twofold(other)
-        return Twofold(np.where(condition, self.high, other.high), np.where(condition, self.low, other.low))
 
     def value(self) -> np.ndarray:
         """The nearest double."""

@@ -63,12 +63,12 @@ def _pair(z):
 
 def _axisymmetric(case, order, end):
     body = body_of(case)
-    m, until, tilt = modes(body), float(horizon(body)), float(largest_tilt(body))
-    root = float(m.root.value())
+    m, until, tilt = modes(body), horizon(body), largest_tilt(body)
+    root = float(m.root)
     rows = ([_row("resonance", words) for words in resonances(body)]
             or [_row("resonance", "none: no frequency of the data vanishes or meets another")])
     rows.append(_row("instability", f"{LINEAR} p and q grow by e in {1 / abs(root):.6g} s",
-                     growth_rate=abs(root)) if bool(m.unstable) and root else
+                     growth_rate=abs(root)) if m.unstable else
                 _row("frequencies",
                      f"{LINEAR} p and q turn at {root:.10g} rad/s, the tilt also at "
                      f"{float(body.spin):.10g} rad/s", omega=root,

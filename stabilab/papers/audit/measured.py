@@ -373,7 +373,7 @@ def _where_separatrices_end():
 def _waves(name):
     """Amplitudes of p and wavelengths by (11) of a family, from rest: p1 + i q1 = (i A/W)(1 - e^(i W t))."""
     bodies = [body_of(case) for case in FAMILIES["charged"][name].members]
-    rates = [abs(float(one_frequency(body).root.value())) for body in bodies]
+    rates = [abs(float(one_frequency(body).root)) for body in bodies]
     return ([body.torque[0] / body.inertia[0] / rate for body, rate in zip(bodies, rates)],
             [2 * math.pi / rate for rate in rates])
 

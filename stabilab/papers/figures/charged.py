@@ -118,7 +118,7 @@ def _rates(family, more=""):
 
 
 def _rates_by_torque(family):
-    period = 2 * np.pi / abs(float(one_frequency(_bodies(family)[0]).root.value()))
+    period = 2 * np.pi / abs(float(one_frequency(_bodies(family)[0]).root))
     return _rates(family,
                   "The text says that amplitude and wavelength fall with M1; by its own formulas the "
                   f"amplitude is proportional to M1 and the period, {period:.3g} s, does not change.")
@@ -149,7 +149,7 @@ def _misprinted(family, part, unit):
     """How far the misprinted integrals are off, and where they divide by little."""
     off = [np.abs(a - b).max()
            for a, b in zip(_state(family, "printed", part), _state(family, "corrected", part))]
-    down = [float(b.spin) - abs(float(one_frequency(b).root.value())) for b in _bodies(family)]
+    down = [float(b.spin) - abs(float(one_frequency(b).root)) for b in _bodies(family)]
     return (f"The misprinted integrals are off by up to {listed(off)} {unit} from those that (44) and (49) "
             "define, the more the smaller r0 − W is "
             f"({listed(dict.fromkeys(f'{d:.2g}' for d in down), '{}')} 1/s), whose powers divide them"

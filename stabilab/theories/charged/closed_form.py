@@ -30,12 +30,12 @@ its integrals for velocity and displacement are misprinted. `model.printed` foll
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from fractions import Fraction
 
 import numpy as np
 
 from ...errors import InputError
 from ...numbers.divided_differences import divided_differences
-from ...numbers.double_double import twofold
 from .modes import SMALL_ANGLE, ChargedBody, Modes, horizon, modes
 
 LOPSIDED = 4.0  # a/b beyond which the even split loses less: w - a cancels against 1 by sqrt(a/b)
@@ -46,26 +46,21 @@ class Terms:
 
     def __init__(self, body: ChargedBody, t, m: Modes):
         self.body, self.t = body, t
-        self.shape = np.broadcast_shapes(t.shape, *body.shapes)
-        D1, D2 = body.inertia[..., 0], body.inertia[..., 1]
-        self.p0, self.q0 = body.rates[..., 0], body.rates[..., 1]
-        self.m1, self.m2 = body.torque[..., 0] / D1, body.torque[..., 1] / D2
-        self.a, self.b = m.a.value(), m.b.value()
+        self.p0, self.q0 = body.rates.tolist()
+        self.m1, self.m2 = (body.torque / body.inertia[:2]).tolist()
+        self.a, self.b = float(m.a), float(m.b)
         self.nodes, self.low = _nodes(m, body.spin)
-        a, b = np.abs(self.a), np.abs(self.b)
-        even = m.unstable | (a > LOPSIDED * b) | (b > LOPSIDED * a)
-        self.share = np.where(even, 0.5, 1.0)
-        self.above, self.below = (-m.a).where(even,
-                                              m.root - m.a).value(), m.b.where(even, m.b - m.root).value()
-        self.Gamma0 = body.attitude[..., 0] + 1j * body.attitude[..., 1]
-        self.turn = np.exp(1j * body.attitude[..., 2])
+        a, b = abs(m.a), abs(m.b)
+        even = m.unstable or a > LOPSIDED * b or b > LOPSIDED * a
+        self.share = 0.5 if even else 1.0
+        self.above, self.below = map(float, (-m.a, m.b) if even else (m.root - m.a, m.b - m.root))
 
     def _tables(self, names, counts):
         return divided_differences([self.nodes[n] for n in names], counts, self.t,
                                    [self.low[n] for n in names])
 
     def vector(self, *components):
-        return np.stack([np.broadcast_to(c, self.shape) for c in components], axis=-1)
+        return np.stack([np.broadcast_to(c, self.t.shape) for c in components], axis=-1)
 
     def angular_velocity(self):
         """p, q of the real form: cos(wt), sin(wt)/w and (1 - cos(wt))/w^2 are even in w and real in the
@@ -93,7 +88,7 @@ class Terms:
         counts = {n: ((n, 1, 0, 0), (n, 1, 1, 0), (n, 1, 0, 1), (n + 1, 1, 1, 0), (n + 1, 1, 0, 1),
                       (n, 1, 1, 1), (n + 1, 1, 1, 1))
                   for n in folds}
-        return self._sums("0b+-", counts, self.Gamma0)
+        return self._sums("0b+-", counts, self.body.tilt)
 
     def Z(self, *folds, start=None):
         """The n-fold integrals of e^(i r0 t) Gamma, for the n in folds; start: another tilt in place of
@@ -101,12 +96,12 @@ class Terms:
         counts = {n: ((n + 1, 0, 0, 0), (n + 1, 0, 1, 0), (n + 1, 0, 0, 1), (n + 1, 1, 1, 0),
                       (n + 1, 1, 0, 1), (n + 1, 0, 1, 1),
                       (n + 1, 1, 1, 1)) for n in folds}
-        return self._sums("0fhl", counts, self.Gamma0 if start is None else start)
+        return self._sums("0fhl", counts, self.body.tilt if start is None else start)
 
     def angles(self):
         """psi, phi, theta."""
         Gamma = self.J(0)[0]
-        return self.vector(Gamma.real, Gamma.imag, self.body.attitude[..., 2] + self.body.spin * self.t)
+        return self.vector(Gamma.real, Gamma.imag, self.body.attitude[2] + self.body.spin * self.t)
 
     def momentum(self):
         """From the balance (e^(i theta) (L - i Gamma X))' = e^(i theta) M, in which the charge is the -k of X
@@ -115,49 +110,34 @@ class Terms:
         G = e^(i theta0) [L0 - i Gamma0 H3 + M D[0,ir0] - i k (Z_0 - Gamma0)],   L = D1 p + i D2 q,   H3 = D3
         r0 + lambda3.
         """
-        wheel = self._tables("0f", [(1, 1)])[1, 1]
+        body, wheel = self.body, self._tables("0f", [(1, 1)])[1, 1]
         away = self.Z(0, start=0.0)[0]  # what the tilt adds to Gamma0 in inertial axes
-        G = self.turn * (self.still_momentum() + self.M * wheel - 1j * self.body.charge_moment * away)
-        return self.vector(G.real, G.imag, self.axial_momentum())
-
-    @property
-    def M(self):
-        return self.body.torque[..., 0] + 1j * self.body.torque[..., 1]
-
-    def axial_momentum(self):
-        """H3, which stays."""
-        return (twofold(self.body.inertia[..., 2]) * self.body.spin + self.body.gyrostat).value()
-
-    def still_momentum(self):
-        """L0 - i Gamma0 H3: G at the start, in axes turned by theta0."""
-        L0 = self.body.inertia[..., 0] * self.p0 + 1j * self.body.inertia[..., 1] * self.q0
-        return L0 - 1j * self.Gamma0 * self.axial_momentum()
+        still = body.across - 1j * body.tilt * body.along  # G at the start, in axes turned by theta0
+        G = body.turn * (still + body.pull * wheel - 1j * body.charge_moment * away)
+        return self.vector(G.real, G.imag, body.along)
 
     def translation(self):
         """Velocity and position from m v' = R f, R the rotation to first order in the tilt."""
         body, t = self.body, self.t
-        f, f3 = body.force[..., 0] + 1j * body.force[..., 1], body.force[..., 2]
+        f, f3 = complex(*body.force[:2]), body.force[2]
         wheel, J, Z = self._tables("0f", [(1, 1), (2, 1)]), self.J(1, 2), self.Z(1, 2)
         moved = []
-        for n, free in ((1, body.velocity), (2, body.position)):
-            across = self.turn * (f * wheel[n, 1] - 1j * f3 * Z[n])
-            along = f3 * t**n / n - (np.conj(f) * J[n]).imag
-            push = self.vector(across.real, across.imag, along) / body.mass[..., None]
-            moved.append(free + push if n == 1 else free + body.velocity * t[..., None] + push)
-        return tuple(np.broadcast_to(x, (*self.shape, 3)) for x in moved)
+        for n in (1, 2):
+            across = body.turn * (f * wheel[n, 1] - 1j * f3 * Z[n])
+            along = f3 * t**n / n - (f.conjugate() * J[n]).imag
+            moved.append(self.vector(across.real, across.imag, along) / body.mass)
+        return body.velocity + moved[0], body.position + body.velocity * t[..., None] + moved[1]
 
 
 def _nodes(m, spin):
     """Nodes by letter and what rounding took from them: 0, + and - for +-iw, f and b for +-ir0, h and l for i
     nu+-."""
-    r0 = twofold(spin)
-    high, low = ((r0 + m.root).where(~m.unstable, r0), (r0 - m.root).where(~m.unstable, r0))
-    w, s = m.root.where(~m.unstable, 0.0), m.root.where(m.unstable, 0.0)
-    both = {"0": (0.0, 0.0), "+": (-s, w), "-": (s, -w), "f": (0.0, r0), "b": (0.0, -r0), "h": (-s, high),
-            "l": (s, low)}
-    parts = {name: (twofold(re), twofold(im)) for name, (re, im) in both.items()}
-    return ({n: re.high + 1j * im.high for n, (re, im) in parts.items()},
-            {n: re.low + 1j * im.low for n, (re, im) in parts.items()})
+    r0, (w, s) = Fraction(spin), (0, m.root) if m.unstable else (m.root, 0)
+    both = {"0": (0, 0), "+": (-s, w), "-": (s, -w), "f": (0, r0), "b": (0, -r0), "h": (-s, r0 + w),
+            "l": (s, r0 - w)}
+    rest = lambda v: float(v - Fraction(float(v)))
+    return ({name: complex(float(re), float(im)) for name, (re, im) in both.items()},
+            {name: complex(rest(re), rest(im)) for name, (re, im) in both.items()})
 
 
 WITHIN, BEYOND = "small angles", "beyond small angles"
@@ -165,8 +145,8 @@ WITHIN, BEYOND = "small angles", "beyond small angles"
 
 @dataclass(frozen=True, eq=False)
 class AxisymmetricMotion:
-    """The motion by one of the models at the asked-for times; arrays (..., 3) over the batch of the body and
-    of t, None where not asked for.
+    """The motion by one of the models at the asked-for times; arrays (..., 3) over t, None
+    where not asked for.
 
     omega: p, q, r, rad/s, body axes. angles: psi, phi, theta of the 3-1-2 sequence, rad, theta unwrapped.
     momentum: angular momentum (body and rotor, without the charge), kg m^2/s, inertial, first order in the
@@ -190,7 +170,7 @@ class AxisymmetricMotion:
 
 
 def solution(body: ChargedBody, t) -> AxisymmetricMotion:
-    """The motion at times t (s, any shape, broadcast against the batch of the body).
+    """The motion at times t (s, any shape).
 
     Raises InputError where the unstable motion exceeds the largest double.
     """
@@ -217,23 +197,19 @@ def _motion(terms, momentum) -> AxisymmetricMotion:
     return AxisymmetricMotion(terms.t, terms.angular_velocity(), angles, momentum, *places, status, reason)
 
 
-def one_frequency(body: ChargedBody):
-    """The modes with the paper's b: a zeta2/zeta1 (twofold)."""
-    m = modes(body)
-    D1, D2, D3 = (twofold(body.inertia[..., i]) for i in range(3))
+def one_frequency(body: ChargedBody) -> Modes:
+    """The modes with the paper's b: a zeta2/zeta1."""
+    m, (D1, D2, D3) = modes(body), map(Fraction, body.inertia)
     zeta1, zeta2 = (D3 - D2) / D1, (D3 - D1) / D2
-    if np.any(zeta1.high * zeta2.high <= 0):
+    if zeta1 * zeta2 <= 0:
         raise InputError(
             f"the paper's formulas need D3 above both D1 and D2, or below both; got {body.inertia}")
-    b = m.a * zeta2 / zeta1
-    squared = m.a * b
-    root = squared.sqrt() * np.where(m.a.high < 0, -1.0, 1.0)
-    return replace(m, b=b, squared=squared, root=root, unstable=squared.high < 0)
+    return replace(m, b=m.a * zeta2 / zeta1)
 
 
 def momentum(body, omega, angles):
     """(33): G = e^(i theta) [D1 p + i D2 q - i Gamma (D3 r0 + lambda3)]."""
-    D1, D2, D3 = np.moveaxis(body.inertia, -1, 0)
+    D1, D2, D3 = body.inertia
     H3 = D3 * body.spin + body.gyrostat
     G = np.exp(1j * angles[..., 2]) * (D1 * omega[..., 0] + 1j * D2 * omega[..., 1]
                                        - 1j * (angles[..., 0] + 1j * angles[..., 1]) * H3)
@@ -255,13 +231,13 @@ def times(t):
 
 def verdict(tilt, t, until):
     """Status and reason of a motion with this tilt at the times t."""
-    promise = (f"a tilt of {SMALL_ANGLE:g} rad is not reached before t = {np.min(until):.6g} s (estimate "
+    promise = (f"a tilt of {SMALL_ANGLE:g} rad is not reached before t = {until:.6g} s (estimate "
                "from the torque and the start)")
-    if np.all(np.isinf(until)):
+    if until == np.inf:
         promise = f"the tilt stays below {SMALL_ANGLE:g} rad for all time"
     if np.all(tilt <= SMALL_ANGLE):
         return WITHIN, promise
-    first = np.min(np.abs(np.broadcast_to(t, tilt.shape)[tilt > SMALL_ANGLE]))
+    first = np.min(np.abs(t[tilt > SMALL_ANGLE]))
     return BEYOND, (f"the model's tilt reaches {np.max(tilt):.4g} rad and exceeds {SMALL_ANGLE:g} rad at t = "
                     f"{first:.6g} s or before: the small-angle equations no longer describe the body; "
                     f"{promise}")

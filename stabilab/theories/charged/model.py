@@ -84,9 +84,9 @@ def printed(body: ChargedBody, t, parts=PARTS) -> AxisymmetricMotion:
 def circle(body: ChargedBody, t) -> np.ndarray:
     """G1, G2 of (35), (..., 2), kg m^2/s: i M (1 - e^(i r0 t))/r0. Raises InputError for r0 = 0, where (35)
     divides by it."""
-    if np.any(body.spin == 0):
+    if body.spin == 0:
         raise InputError("r0 = 0: the printed (35) divides by it")
-    M1, M2 = np.moveaxis(body.torque, -1, 0)
+    M1, M2 = body.torque
     G = formulas()("G_35", {"M1": M1, "M2": M2, "r0": body.spin, "t": times(t)})
     return np.stack([G.real, G.imag], axis=-1)
 
@@ -94,22 +94,20 @@ def circle(body: ChargedBody, t) -> np.ndarray:
 def numbers(body: ChargedBody, t) -> dict:
     """The paper's symbols at the times t, by name: (4), (6), (10) and what the start gives. Errors as of
     `printed`."""
-    D1, D2, D3 = np.moveaxis(body.inertia, -1, 0)
+    D1, D2, D3 = body.inertia
     zeta1, zeta2, r0 = (D3 - D2) / D1, (D3 - D1) / D2, body.spin
-    if np.any((zeta1 <= 0) | (zeta2 <= 0)):
+    if zeta1 <= 0 or zeta2 <= 0:
         raise InputError("the printed formulas take roots of zeta1 and zeta2: D3 must exceed D1 and D2; got "
-                         f"{np.asarray(body.inertia).tolist()}")
+                         f"{body.inertia.tolist()}")
     root1, root2, Lam = np.sqrt(zeta1), np.sqrt(zeta2), body.gyrostat - body.charge_moment
-    if np.any(root1 * root2 * (r0 + Lam / (zeta1 * D1)) == 0):
+    if root1 * root2 * (r0 + Lam / (zeta1 * D1)) == 0:
         raise InputError("W = 0: the printed formulas divide by their frequency (8), which is zero here")
-    pairs = {"P10": (body.rates[..., 0] * root2, body.rates[..., 1] * root1),
-             "A": (body.torque[..., 0] * root2 / D1, body.torque[..., 1] * root1 / D2),
-             "G0": (body.attitude[..., 0], body.attitude[..., 1]),
-             "f": (body.force[..., 0], body.force[..., 1]),
-             "w0": (body.velocity[..., 0], body.velocity[..., 1])}
+    roots = np.array([root2, root1])
     return {"t": t, "D1": D1, "zeta1": zeta1, "zeta2": zeta2, "r0": r0, "Lam": Lam,
-            "th0": body.attitude[..., 2], "f3": body.force[..., 2],
-            "m": body.mass, **{name: x + 1j * y for name, (x, y) in pairs.items()}}
+            "th0": body.attitude[2], "f3": body.force[2],
+            "m": body.mass, "P10": complex(*(body.rates * roots)),
+            "A": complex(*(body.torque * roots / body.inertia[:2])), "G0": body.tilt,
+            "f": complex(*body.force[:2]), "w0": complex(*body.velocity[:2])}
 
 
 def formulas():
@@ -127,11 +125,11 @@ def _angles(body, values):
     """(20), (23), (26)."""
     r0, root = values["r0"], np.sqrt(values["zeta1"] * values["zeta2"])
     W = root * (r0 + values["Lam"] / (values["zeta1"] * values["D1"]))
-    if np.any(r0 * (W + r0) * (r0 - W) == 0):
+    if r0 * (W + r0) * (r0 - W) == 0:
         raise InputError(
             "r0 = 0 or r0 = +-W: the printed formulas for angles, velocity and position divide by zero here")
     Gamma = formulas()("Gamma_20", values, IG=_both(values, "I1G_24", "I2G_25"))
-    return _three(Gamma.real, Gamma.imag, body.attitude[..., 2] + r0 * values["t"])
+    return _three(Gamma.real, Gamma.imag, body.attitude[2] + r0 * values["t"])
 
 
 def _translation(body, values) -> dict:
@@ -143,7 +141,7 @@ def _translation(body, values) -> dict:
     along = formula("w3_47", values, IGam=formula("IG0_48", values) + _both(values, "I4w_50", "I5w_51"))
     eta = formula("eta_58", values, Ieta=_both(values, "I1e_60", "I2e_61"))
     eta3 = formula("eta3_63", values, IIGam=formula("IIG0_64", values) + _both(values, "I4e_65", "I5e_66"))
-    v3 = body.velocity[..., 2]
+    v3 = body.velocity[2]
     return {"velocity": _three(w.real, w.imag, v3 + along.real),
             "position": body.position + _three(eta.real, eta.imag, v3 * t + eta3.real)}
 

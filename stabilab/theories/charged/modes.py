@@ -16,65 +16,85 @@ Gamma = steady + coning e^(-i r0 t) + B e^(iwt) + C e^(-iwt), and everything bel
 """
 from __future__ import annotations
 
+from cmath import exp
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import Any, TypeAlias
+from fractions import Fraction
+from functools import cached_property, lru_cache
+from math import atan2, hypot, inf, sqrt
+from typing import Any
 
 import numpy as np
 
 from ...errors import InputError, told
-from ...numbers.double_double import Twofold, twofold
+from ...numbers.exact import sqrt_fraction
 
-Batch: TypeAlias = Any  # a number or an array of them, with leading batch axes
 FIELDS = {"inertia": 3, "spin": 0, "gyrostat": 0, "charge_moment": 0, "torque": 2, "rates": 2, "attitude": 3,
           "force": 3, "mass": 0, "velocity": 3, "position": 3}
 
 
 @dataclass(frozen=True, eq=False)
 class ChargedBody:
-    """The body and the start of its motion; every field may carry leading batch axes, which broadcast
-    together.
+    """The body and the start of its motion.
 
-    inertia: D1, D2, D3, kg m^2, (..., 3). spin: r0 = r(0), rad/s. gyrostat: lambda3, kg m^2/s. charge_moment:
-    k = e H l^2 cos(sigma), kg m^2/s (C T m^2). torque: M1, M2, N m, body axes (a torque about the spin axis
-    would change r0: this theory has none). rates: p, q at t = 0, rad/s. attitude: psi, phi, theta at t = 0
-    (3-1-2 sequence), rad. force: f1, f2, f3, N, body axes. mass: kg, None where no translation is asked for.
-    velocity, position: inertial, m/s, m. Raises InputError for numbers that are not finite, and moments or
-    masses that are not positive.
+    inertia: D1, D2, D3, kg m^2. spin: r0 = r(0), rad/s. gyrostat: lambda3, kg m^2/s. charge_moment: k = e H
+    l^2 cos(sigma), kg m^2/s (C T m^2). torque: M1, M2, N m, body axes (a torque about the spin axis would
+    change r0: this theory has none). rates: p, q at t = 0, rad/s. attitude: psi, phi, theta at t = 0 (3-1-2
+    sequence), rad. force: f1, f2, f3, N, body axes. mass: kg, None where no translation is asked for.
+    velocity, position: inertial, m/s, m; vectors are kept as arrays. Raises InputError for numbers that are
+    not finite, and moments or masses that are not positive.
     """
 
-    inertia: Batch
-    spin: Batch
-    gyrostat: Batch = 0.0
-    charge_moment: Batch = 0.0
-    torque: Batch = (0.0, 0.0)
-    rates: Batch = (0.0, 0.0)
-    attitude: Batch = (0.0, 0.0, 0.0)
-    force: Batch = (0.0, 0.0, 0.0)
-    mass: Batch | None = None
-    velocity: Batch = (0.0, 0.0, 0.0)
-    position: Batch = (0.0, 0.0, 0.0)
+    inertia: Any
+    spin: float
+    gyrostat: float = 0.0
+    charge_moment: float = 0.0
+    torque: Any = (0.0, 0.0)
+    rates: Any = (0.0, 0.0)
+    attitude: Any = (0.0, 0.0, 0.0)
+    force: Any = (0.0, 0.0, 0.0)
+    mass: float | None = None
+    velocity: Any = (0.0, 0.0, 0.0)
+    position: Any = (0.0, 0.0, 0.0)
 
     def __post_init__(self):
         for name, components in FIELDS.items():
             value = getattr(self, name)
             if value is not None or name != "mass":
                 object.__setattr__(self, name, _checked(name, value, components))
-        try:
-            np.broadcast_shapes(*self.shapes)
-        except ValueError:
-            raise InputError(f"batch axes do not broadcast together: {self.shapes}") from None
         if np.any(self.inertia <= 0):
             raise InputError(f"inertia: expected three positive moments, got {self.inertia}")
-        if self.mass is not None and np.any(self.mass <= 0):
+        if self.mass is not None and self.mass <= 0:
             raise InputError(f"mass: expected a positive number, got {self.mass}")
 
     @property
-    def shapes(self) -> list:
-        """The batch shape of every field."""
-        present = [(getattr(self, name), bool(size))
-                   for name, size in FIELDS.items() if getattr(self, name) is not None]
-        return [value.shape[:-1] if vector else value.shape for value, vector in present]
+    def pull(self) -> complex:
+        """M1 + i M2."""
+        return complex(*self.torque)
+
+    @property
+    def swing(self) -> complex:
+        """p + i q at the start."""
+        return complex(*self.rates)
+
+    @property
+    def tilt(self) -> complex:
+        """Gamma = psi + i phi at the start."""
+        return complex(*self.attitude[:2])
+
+    @property
+    def across(self) -> complex:
+        """D1 p + i D2 q at the start."""
+        return complex(*(self.inertia[:2] * self.rates))
+
+    @property
+    def turn(self) -> complex:
+        """e^(i theta) at the start."""
+        return exp(1j * self.attitude[2])
+
+    @property
+    def along(self) -> float:
+        """H3 = D3 r0 + lambda3, rounded once."""
+        return float(Fraction(self.inertia[2]) * Fraction(self.spin) + Fraction(self.gyrostat))
 
 
 def _checked(name, value, components):
@@ -82,107 +102,98 @@ def _checked(name, value, components):
         value = np.array(value, float)  # a copy: what is made of a body is kept with it
     except (TypeError, ValueError):
         raise InputError(f"{name}: expected numbers, got {told(value)}") from None
-    if components and value.shape[-1:] != (components,):
-        raise InputError(
-            f"{name}: expected {components} components along the last axis, got the shape {value.shape}")
+    if value.shape != ((components,) if components else ()):
+        wanted = f"{components} components" if components else "one number"
+        raise InputError(f"{name}: expected {wanted}, got the shape {value.shape}")
     if not np.all(np.isfinite(value)):
         raise InputError(f"{name}: expected finite numbers, got {value}")
-    return value
+    return value if components else float(value)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Modes:
-    """What the body's data make of the linear model; twofold where a difference may be small.
+    """What the body's data make of the linear model, exactly.
 
-    a, b: 1/s. X, Y: kg m^2/s. squared: ab, 1/s^2. root: sgn(a + b) sqrt|ab|, the frequency w where ab >= 0
-    and the growth rate s (w = i s) where ab < 0, the unstable band.
+    a, b: 1/s. X, Y: kg m^2/s. root: sgn(a + b) sqrt|ab|, good to 240 bits: the frequency w where ab >= 0 and
+    the growth rate s (w = i s) where ab < 0, the unstable band.
     """
 
-    a: Twofold
-    b: Twofold
-    X: Twofold
-    Y: Twofold
-    squared: Twofold
-    root: Twofold
-    unstable: np.ndarray
+    a: Fraction
+    b: Fraction
+    X: Fraction
+    Y: Fraction
 
     @property
-    def frequency(self):
-        """w as a complex array: real, or imaginary in the unstable band."""
-        return self.root.value() * np.where(self.unstable, 1j, 1.0)
+    def unstable(self) -> bool:
+        return self.a * self.b < 0
+
+    @cached_property
+    def root(self) -> Fraction:
+        return sqrt_fraction(abs(self.a * self.b)) * (-1 if self.a + self.b < 0 else 1)
 
 
 @lru_cache(maxsize=64)
 def modes(body: ChargedBody) -> Modes:
-    """The two rates and the frequency, with relative error far below the last place of the data."""
-    D1, D2, D3 = (twofold(body.inertia[..., i]) for i in range(3))
-    r0 = twofold(body.spin)
-    Lam = twofold(body.gyrostat) - body.charge_moment
-    a, b = ((D3 - D2) * r0 + Lam) / D1, ((D3 - D1) * r0 + Lam) / D2
-    squared = a * b
-    sign = np.where((a + b).high < 0, -1.0, 1.0)
-    root = (squared * np.sign(squared.high)).sqrt() * sign
-    return Modes(a, b, D3 * r0 + Lam, (D3 - D1 - D2) * r0 + Lam, squared, root, squared.high < 0)
+    """The two rates and the frequency."""
+    D1, D2, D3 = map(Fraction, body.inertia)
+    r0, Lam = Fraction(body.spin), Fraction(body.gyrostat) - Fraction(body.charge_moment)
+    return Modes(((D3 - D2) * r0 + Lam) / D1, ((D3 - D1) * r0 + Lam) / D2, D3 * r0 + Lam,
+                 (D3 - D1 - D2) * r0 + Lam)
 
 
 NEAR = 1e-6  # of a resonance
 
 
-@lru_cache(maxsize=64)
 def resonances(body: ChargedBody) -> tuple[str, ...]:
-    """The resonances and the unstable band that the data (any member of the batch) meet, in words, to `NEAR`
-    of the largest rate among r0, a, b. Nothing is singular at a resonance: the closed forms pass through
-    it."""
-    m = modes(body)
-    a, b, r0 = m.a.value(), m.b.value(), body.spin
-    small = NEAR * np.maximum(np.maximum(np.abs(a), np.abs(b)), np.abs(r0))
-    sides = np.sqrt(body.inertia[..., 0] * body.inertia[..., 1])
+    """The resonances and the unstable band that the data meet, in words, to `NEAR` of the largest rate among
+    r0, a, b. Nothing is singular at a resonance: the closed forms pass through it."""
+    m, r0 = modes(body), body.spin
+    small = NEAR * max(map(abs, (m.a, m.b, Fraction(r0))))
+    sides = sqrt(body.inertia[0] * body.inertia[1])
     found = {
-        "r0 = 0: no spin; a transverse torque tilts the body without bound": np.abs(r0) <= small,
+        "r0 = 0: no spin; a transverse torque tilts the body without bound": abs(r0) <= small,
         "omega = 0: a or b vanishes; p or q grows steadily under a torque, or the motion drifts":
-            np.abs(m.root.value()) <= small,
+            abs(m.root) <= small,
         "r0 = -omega, D3 r0 + Lambda = 0: no axial momentum is left to hold the axis; the tilt grows "
         "steadily":
-            np.abs(m.X.value()) <= small * sides,
+            abs(m.X) <= small * sides,
         "r0 = omega, D3 r0 + Lambda = (D1 + D2) r0: frequencies meet, a = b, nothing grows":
-            np.abs(m.Y.value()) <= small * sides,
+            abs(m.Y) <= small * sides,
         "unstable band: a b < 0, the spin axis lies between the two others; p and q grow exponentially":
-            m.unstable & (np.abs(m.root.value()) > 0),
+            m.unstable,
     }
-    return tuple(words for words, here in found.items() if np.any(here))
+    return tuple(words for words, here in found.items() if here)
 
 
 SMALL_ANGLE = 0.1  # rad: cos differs from 1 by 0.5 %, and so the linear rates from the true ones
 
 
-@lru_cache(maxsize=64)
-def horizon(body: ChargedBody):
-    """Time in s until which the tilt |Gamma| stays below SMALL_ANGLE, over the batch; inf where it does
-    for ever.
+def horizon(body: ChargedBody) -> float:
+    """Time in s until which the tilt |Gamma| stays below SMALL_ANGLE; inf where it does for ever.
 
     Root of |Gamma0| + |Pi0| t + |mu| t^2/2 = SMALL_ANGLE: for D1 = D2 a lower bound of the true time
     (rotation does not lengthen vectors), for D1 near D2 its leading order; from rest sqrt(2
     SMALL_ANGLE/|mu|).
     """
-    room = SMALL_ANGLE - np.hypot(body.attitude[..., 0], body.attitude[..., 1])
-    rate = np.hypot(body.rates[..., 0], body.rates[..., 1])
-    push = np.hypot(body.torque[..., 0] / body.inertia[..., 0], body.torque[..., 1] / body.inertia[..., 1])
-    below = rate + np.sqrt(rate**2 + 2 * push * np.maximum(room, 0.0))
-    until = np.where(room <= 0, 0.0, 2 * np.maximum(room, 0.0) / np.where(below == 0, 1.0, below))
-    return np.where((largest_tilt(body) <= SMALL_ANGLE) | ((below == 0) & (room > 0)), np.inf, until)
+    room = SMALL_ANGLE - abs(body.tilt)
+    if largest_tilt(body) <= SMALL_ANGLE:
+        return inf
+    if room <= 0:
+        return 0.0
+    below = abs(body.swing) + sqrt(abs(body.swing)**2 + 2 * hypot(*(body.torque / body.inertia[:2])) * room)
+    return 2 * room / below if below else inf
 
 
-def largest_tilt(body: ChargedBody):
-    """The tilt in rad that the motion never exceeds, over the batch: |steady| + |coning| + |B| + |C|, inf
-    where it grows.
+def largest_tilt(body: ChargedBody) -> float:
+    """The tilt in rad that the motion never exceeds: |steady| + |coning| + |B| + |C|, inf where it grows.
 
     For D1 = D2 and r0/w irrational the motion comes as near to it as one likes. From rest and for D1 = D2 it
     is 2 |M/D| / (product of the two smallest among |r0|, |w|, |r0 + w|).
     """
+    if body.swing == 0 == body.pull:  # the coning alone is left
+        return abs(body.tilt)
     parts = tilt_parts(body)
-    at_start = np.abs(body.attitude[..., 0] + 1j * body.attitude[..., 1])
-    bound = sum(np.abs(x) for x in (parts.steady, parts.coning, parts.B, parts.C))
-    return np.where(parts.undriven, at_start, np.where(parts.regular, bound, np.inf))
+    return inf if parts is None else sum(map(abs, (parts.steady, parts.coning, parts.B, parts.C)))
 
 
 def spin_words(body: ChargedBody, omega, t) -> str:
@@ -197,71 +208,62 @@ def spin_words(body: ChargedBody, omega, t) -> str:
             "over these times, by the model's p and q")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class TiltParts:
     """The complex amplitudes of the tilt (rad) and of p + iq = rate + plus e^(iwt) + minus e^(-iwt) (rad/s),
-    over the batch.
+    and w."""
 
-    regular: where they exist (elsewhere they are 0); undriven: where p, q and M are zero and only the coning
-    is left.
-    """
-
-    steady: np.ndarray
-    coning: np.ndarray
-    B: np.ndarray
-    C: np.ndarray
-    rate: np.ndarray
-    plus: np.ndarray
-    minus: np.ndarray
-    frequency: np.ndarray
-    regular: np.ndarray
-    undriven: np.ndarray
+    steady: complex
+    coning: complex
+    B: complex
+    C: complex
+    rate: complex
+    plus: complex
+    minus: complex
+    frequency: float
 
 
-def tilt_parts(body: ChargedBody) -> TiltParts:
-    """The four rotating parts of the tilt, from the poles of the linear model; finite through r0 = w."""
-    m, r0 = modes(body), body.spin
-    D1, D2 = body.inertia[..., 0], body.inertia[..., 1]
-    a, b, X, Y, root = (z.value() for z in (m.a, m.b, m.X, m.Y, m.root))
-    M = body.torque[..., 0] + 1j * body.torque[..., 1]
-    Pi0 = body.rates[..., 0] + 1j * body.rates[..., 1]
-    regular = ~m.unstable & (root != 0) & (X != 0) & ((r0 != 0) | (M == 0))
-    one = lambda z: np.where(regular & (z != 0), z, 1.0)
-    rate = np.where(regular, 1j * body.torque[..., 0] / one(D1 * a) - body.torque[..., 1] / one(D2 * b), 0)
-    w, away = one(root), Pi0 - rate
+def tilt_parts(body: ChargedBody) -> TiltParts | None:
+    """The four rotating parts of the tilt, from the poles of the linear model; finite through r0 = w. None
+    where the tilt is no sum of them."""
+    m, r0, M = modes(body), body.spin, body.pull
+    if m.unstable or not m.root or not m.X or (not r0 and M):
+        return None
+    (D1, D2, _), (a, b, X, Y, w) = body.inertia.tolist(), map(float, (m.a, m.b, m.X, m.Y, m.root))
+    rate = 1j * M.real / (D1 * a) - M.imag / (D2 * b)
+    away = body.swing - rate
     alpha, beta = (a + b) / 2, (D1 - D2) * Y / (2 * D1 * D2)
-    lopsided = (beta * away / one(alpha + w) + np.conj(away)) / (2 * w)
+    lopsided = (beta * away / (alpha + w) + away.conjugate()) / (2 * w)
     plus, minus = away + beta * lopsided, -beta * lopsided
-    high, low = r0 + w, r0 - w
-    # the one of the two that may be small: XY = -D1 D2 (r0 + w)(r0 - w)
-    meet = np.where(r0 * w > 0, low, high)
-    meet = np.where(r0 * w == 0, meet, -X * Y / (D1 * D2 * one(np.where(r0 * w > 0, high, low))))
-    B = plus / (1j * one(np.where(r0 * w > 0, high, meet)))
-    C = np.where(r0 * w > 0, (D1 - D2) * high * lopsided / (2j * X * 1.0 + (X == 0)), minus / (1j * one(low)))
-    L0 = D1 * body.rates[..., 0] + 1j * D2 * body.rates[..., 1]
-    steady = np.where(r0 == 0, 0, rate / (1j * one(r0)))
-    coning = body.attitude[..., 0] + 1j * body.attitude[..., 1] + 1j * (L0 + 1j * M / one(r0)) / one(X)
-    values = (np.where(regular, z, 0) for z in (steady, coning, B, C, rate, plus, minus, root))
-    return TiltParts(*values, regular, (Pi0 == 0) & (M == 0) & np.ones_like(regular))  # type: ignore[call-arg]
+    high, low = r0 + w, r0 - w  # XY = -D1 D2 high low: the one that may be small is got from the other
+    if r0 * w > 0:
+        C = (D1 - D2) * high * lopsided / (2j * X)
+    else:
+        high, C = -X * Y / (D1 * D2 * low) if r0 else high, minus / (1j * low)
+    coning = body.tilt + 1j * (body.across + 1j * M / (r0 or 1.0)) / X
+    return TiltParts(rate / (1j * r0) if r0 else 0j, coning, plus / (1j * high), C, rate, plus, minus, w)
 
 
 # --- Where the body points on average, and how its spin angle runs away from r0 t: for frequencies 0, r0, w
 # that differ, read off the four rotating parts of the tilt
-@dataclass(frozen=True, eq=False)
+MEAN = ("mean exists", "r0, D3 r0 + Lambda and omega differ from zero, and a b > 0")
+NO_MEAN = ("no mean", "r0 = 0, omega = 0, r0 = -omega or a b <= 0 for some data: the tilt grows or stands")
+
+
+@dataclass(frozen=True)
 class Pointing:
-    """Mean directions, over the batch of the body; status "mean exists" or "no mean" (reason: which
-    resonance).
+    """Mean directions; status "mean exists" or "no mean" (reason: which resonance).
 
     momentum: mean inertial angular momentum across the axis, G1 + i G2, kg m^2/s; momentum_error: the angle
     in rad between it (with G3) and the inertial axis 3. momentum_radius: radius of the circle that a torque
     makes it describe, kg m^2/s. velocity_ratio: (v1 + i v2)/v3 as t grows, 0 where nothing pushes along the
-    axis. Elements without a mean hold inf.
+    axis. All are inf without a mean.
     """
 
-    momentum: np.ndarray
-    momentum_error: np.ndarray
-    momentum_radius: np.ndarray
-    velocity_ratio: np.ndarray
+    momentum: complex
+    momentum_error: float
+    momentum_radius: float
+    velocity_ratio: complex
     status: str
     reason: str
 
@@ -274,34 +276,26 @@ def pointing(body: ChargedBody) -> Pointing:
     across the axis the ratio is i M/(r0 (D3 r0 + Lambda)), the paper's (53)-(54) with D3 r0 in place of D3 r0
     + Lambda.
     """
-    parts, r0 = tilt_parts(body), body.spin
-    exists = parts.regular & (r0 != 0)
-    turn, k = np.exp(1j * body.attitude[..., 2]), body.charge_moment
-    M = body.torque[..., 0] + 1j * body.torque[..., 1]
-    L0 = body.inertia[..., 0] * body.rates[..., 0] + 1j * body.inertia[..., 1] * body.rates[..., 1]
-    Gamma0 = body.attitude[..., 0] + 1j * body.attitude[..., 1]
-    H3 = body.inertia[..., 2] * r0 + body.gyrostat
-    swing = 1j * M / np.where(r0 == 0, 1.0, r0)
-    mean = turn * (L0 - 1j * Gamma0 * (H3 - k) + swing - 1j * k * parts.coning)
-    f1, f2, f3 = np.moveaxis(body.force, -1, 0)
-    across, along = -1j * f3 * turn * parts.coning, f3 - f1 * parts.steady.imag + f2 * parts.steady.real
-    ratio = np.where(along == 0, 0, across / np.where(along == 0, 1.0, along))
-    values = (mean, np.arctan2(np.abs(mean), H3), np.abs(swing), ratio)
-    # four
-    return Pointing(*(np.where(exists, v, np.inf) for v in values), *_mean(exists))  # type: ignore[arg-type]
+    parts, r0, k = tilt_parts(body), body.spin, body.charge_moment
+    if parts is None or not r0:
+        return Pointing(inf, inf, inf, inf, *NO_MEAN)
+    swing = 1j * body.pull / r0
+    mean = body.turn * (body.across - 1j * body.tilt * (body.along - k) + swing - 1j * k * parts.coning)
+    f1, f2, f3 = body.force.tolist()
+    across, along = -1j * f3 * body.turn * parts.coning, f3 - f1 * parts.steady.imag + f2 * parts.steady.real
+    return Pointing(mean, atan2(abs(mean), body.along), abs(swing), across / along if along else 0j, *MEAN)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class SpinDrift:
-    """How theta leaves theta0 + r0 t in the second order of the tilt, averaged over the oscillations, over
-    the batch.
+    """How theta leaves theta0 + r0 t in the second order of the tilt, averaged over the oscillations.
 
     rate: rad/s; acceleration: rad/s^2 of the mean spin rate, not zero when M1 M2 (D1 - D2) is not (then rate
-    is its value at t = 0). Elements without a mean hold inf. status "mean exists" or "no mean".
+    is its value at t = 0). Both are inf without a mean. status "mean exists" or "no mean".
     """
 
-    rate: np.ndarray
-    acceleration: np.ndarray
+    rate: float
+    acceleration: float
     status: str
     reason: str
 
@@ -314,21 +308,15 @@ def spin_drift(body: ChargedBody) -> SpinDrift:
     minus B, <conj(Pi) Gamma> = conj(rate) steady + conj(plus) B + conj(minus) C.
     """
     z, r0 = tilt_parts(body), body.spin
-    D1, D2, D3 = np.moveaxis(body.inertia, -1, 0)
-    exists = z.regular & (r0 != 0) & (np.abs(r0) != np.abs(z.frequency))
-    w = np.where(exists, z.frequency, 1.0)
+    if z is None or not r0 or abs(r0) == abs(z.frequency):
+        return SpinDrift(inf, inf, *NO_MEAN)
+    D1, D2, D3 = body.inertia.tolist()
     tilting = r0 * (z.steady**2 + 2 * z.B * z.C).real / 2
-    with_rate = (z.rate * z.steady + z.plus * z.C + z.minus * z.B
-                 + np.conj(z.rate) * z.steady + np.conj(z.plus) * z.B + np.conj(z.minus) * z.C).imag / 2
+    with_rate = (z.rate * z.steady + z.plus * z.C + z.minus * z.B + z.rate.conjugate() * z.steady
+                 + z.plus.conjugate() * z.B + z.minus.conjugate() * z.C).imag / 2
     asymmetry = (D1 - D2) / D3
     # the integral of pq = Im(Pi^2)/2 from 0 swings about a mean of its own
-    spun = asymmetry * (2 * z.rate * (z.plus - z.minus) + (z.plus**2 - z.minus**2) / 2).real / (2 * w)
-    acceleration = asymmetry * (z.rate**2 + 2 * z.plus * z.minus).imag / 2
-    drift, acceleration = (np.where(exists, v, np.inf) for v in (tilting - with_rate + spun, acceleration))
-    return SpinDrift(drift, acceleration, *_mean(exists))
-
-
-def _mean(exists):
-    if np.all(exists):
-        return "mean exists", "r0, D3 r0 + Lambda and omega differ from zero, and a b > 0"
-    return "no mean", "r0 = 0, omega = 0, r0 = -omega or a b <= 0 for some data: the tilt grows or stands"
+    spun = (asymmetry * (2 * z.rate * (z.plus - z.minus) + (z.plus**2 - z.minus**2) / 2).real
+            / (2 * z.frequency))
+    return SpinDrift(tilting - with_rate + spun, asymmetry * (z.rate**2 + 2 * z.plus * z.minus).imag / 2,
+                     *MEAN)

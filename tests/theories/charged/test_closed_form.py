@@ -42,7 +42,7 @@ def near_resonance(name, distance, t):
     v = START | dict(D1=D1, D2=D2, D3=D3, k=K, r0=R0, lambda3=RESONANT[name] * (1 + distance), t=t)
     m = modes(body_of(v))
     # exp(300) is still a double
-    return v | dict(t=min(t, 300 / abs(float(m.root.value())))) if m.unstable else v
+    return v | dict(t=min(t, 300 / abs(float(m.root)))) if m.unstable else v
 
 
 def body_of(v):
@@ -97,44 +97,26 @@ def test_extreme_shapes_keep_every_digit(changes):
 
 
 def random_bodies(count, seed=7):
+    u = lambda *size: rng.uniform(-1, 1, size or None)
     rng = np.random.default_rng(seed)
-    u = lambda *size: rng.uniform(-1, 1, (count, *size))
-    return ChargedBody(8 + u(3), u(), u(), u(), u(2), u(2), 0.1 * u(3), u(3), 10 + u(), u(3), u(3))
-
-
-def test_a_batch_of_bodies_and_times_agrees_with_single_answers():
-    many, t = random_bodies(5), np.array([1e-9, 0.4, 30.0])
-    fields = {name: getattr(many, name) for name in ChargedBody.__dataclass_fields__}
-    column = ChargedBody(**{n: x[:, None, :] if x.ndim == 2 else x[:, None] for n, x in fields.items()})
-    batch = solution(column, t)
-    assert batch.omega.shape == (5, 3, 3) and batch.tilt.shape == (5, 3) and horizon(column).shape == (5, 1)
-    for i in range(5):
-        for j, time in enumerate(t):
-            one = solution(ChargedBody(**{n: x[i] for n, x in fields.items()}), time)
-            for part in ("omega", "angles", "momentum", "velocity", "position"):
-                np.testing.assert_allclose(getattr(batch, part)[i, j], getattr(one, part), rtol=1e-13,
-                                           atol=1e-15)
+    return [ChargedBody(8 + u(3), u(), u(), u(), u(2), u(2), 0.1 * u(3), u(3), 10 + u(), u(3), u(3))
+            for _ in range(count)]
 
 
 def test_the_motion_satisfies_its_differential_equations():
-    body, h = random_bodies(40), 1e-4
-    early, now, late = (solution(body, 3.0 + x) for x in (-h, 0.0, h))
-    rate = {n: (getattr(late, n) - getattr(early, n)) / (2 * h)
-            for n in ("omega", "angles", "velocity", "position")}
-    (p, q, r), (psi, phi, theta) = np.moveaxis(now.omega, -1, 0), np.moveaxis(now.angles, -1, 0)
-    (A, B, C), Lam, (f1, f2, f3) = np.moveaxis(body.inertia, -1,
-                                               0), body.gyrostat - body.charge_moment, np.moveaxis(body.force,
-                                                                                                   -1, 0)
-    push = np.exp(1j * theta) * (f1 + 1j * f2 - 1j * (psi + 1j * phi) * f3)
-    wanted = {"omega": ((body.torque[:, 0] - ((C - B) * r + Lam) * q) / A,
-                        (body.torque[:, 1] + ((C - A) * r + Lam) * p) / B, 0 * p),
-              "angles": (p + r * phi, q - r * psi, r),
-              "velocity": (push.real / body.mass, push.imag / body.mass,
-                           (f3 - phi * f1 + psi * f2) / body.mass),
-              "position": np.moveaxis(now.velocity, -1, 0)}
-    for name, parts in wanted.items():
-        # h^2 times a third derivative near 10
-        np.testing.assert_allclose(rate[name], np.stack(parts, axis=-1), atol=3e-7)
+    h = 1e-4
+    for body in random_bodies(40):
+        early, now, late = (solution(body, 3.0 + x) for x in (-h, 0.0, h))
+        (p, q, r), (psi, phi, theta), (A, B, C) = now.omega, now.angles, body.inertia
+        Lam, (M1, M2), (f1, f2, f3) = body.gyrostat - body.charge_moment, body.torque, body.force
+        push = np.exp(1j * theta) * (f1 + 1j * f2 - 1j * (psi + 1j * phi) * f3)
+        wanted = {"omega": ((M1 - ((C - B) * r + Lam) * q) / A, (M2 + ((C - A) * r + Lam) * p) / B, 0),
+                  "angles": (p + r * phi, q - r * psi, r),
+                  "velocity": np.array((push.real, push.imag, f3 - phi * f1 + psi * f2)) / body.mass,
+                  "position": now.velocity}
+        for name, rate in wanted.items():
+            # h^2 times a third derivative near 10
+            np.testing.assert_allclose((getattr(late, name) - getattr(early, name)) / (2 * h), rate, atol=3e-7)
 
 
 def test_equal_transverse_moments_make_the_papers_model_exact():
@@ -247,7 +229,7 @@ def test_before_the_horizon_a_symmetric_body_keeps_its_tilt_small():
         body = ChargedBody((D, D, rng.uniform(0.1, 2 * D)), *rng.uniform(-3, 3, 3), rng.uniform(-1, 1, 2),
                            rng.uniform(-0.1, 0.1, 2),
                            rng.uniform(-0.05, 0.05, 3))
-        until = float(min(horizon(body), 1e4))
+        until = min(horizon(body), 1e4)
         assert np.max(solution(body, until * np.linspace(0, 1, 200)).tilt) <= 0.1 * (1 + 1e-12)
 
 
@@ -263,13 +245,15 @@ def test_the_largest_tilt_from_rest_divides_by_the_two_smallest_of_three_rates(D
 
 
 def test_four_rotating_parts_make_the_tilt():
-    body, t = random_bodies(60), 17.0
-    z = tilt_parts(body)
-    Gamma = (z.steady + z.coning * np.exp(-1j * body.spin * t) + z.B * np.exp(1j * z.frequency * t)
-             + z.C * np.exp(-1j * z.frequency * t))
-    angles = solution(body, t).angles
-    error = np.abs(Gamma - (angles[:, 0] + 1j * angles[:, 1]))[z.regular]
-    assert error.size > 40 and np.all(error < 1e-9)
+    t, told = 17.0, 0
+    for body in random_bodies(60):
+        if (z := tilt_parts(body)) is None:
+            continue
+        Gamma = (z.steady + z.coning * np.exp(-1j * body.spin * t) + z.B * np.exp(1j * z.frequency * t)
+                 + z.C * np.exp(-1j * z.frequency * t))
+        assert abs(Gamma - complex(*solution(body, t).angles[:2])) < 1e-9
+        told += 1
+    assert told > 40
 
 
 def test_mean_velocity_points_where_the_corrected_53_and_54_say():
@@ -325,7 +309,7 @@ def test_the_spin_angle_drifts_as_the_nonlinear_equations_do(torque, rates):
 def test_two_torques_on_unequal_moments_accelerate_the_spin():
     # mean of p q is that of the equilibrium, -(M1/D1)(M2/D2)/(ab): D3 r' = (D1 - D2) p q
     body = ChargedBody((8.7, 6.1, 11.1), 0.9, 1.3, 0.29, (0.01, 0.007), (0.003, 0.001))
-    a, b = modes(body).a.value(), modes(body).b.value()
+    a, b = modes(body).a, modes(body).b
     wanted = (8.7 - 6.1) / 11.1 * -(0.01 / 8.7) * (0.007 / 6.1) / (a * b)
     assert spin_drift(body).acceleration == pytest.approx(wanted, rel=1e-12)
 
@@ -356,7 +340,7 @@ def test_without_a_mass_there_is_no_translation():
 @pytest.mark.parametrize("changes, said", [
     (dict(inertia=(8.7, 8.6)), "3 components"), (dict(inertia=(1.0, 1.0, -1.0)), "positive"),
     (dict(mass=0.0), "mass"), (dict(spin=math.nan), "finite"), (dict(torque="x"), "torque"),
-    (dict(spin=[1.0, 2.0], gyrostat=[1.0, 2.0, 3.0]), "broadcast")])
+    (dict(spin=[1.0, 2.0]), "one number")])
 def test_impossible_bodies_are_refused_in_one_sentence(changes, said):
     with pytest.raises(InputError, match=said):
         ChargedBody(**(dict(inertia=(8.7, 8.6, 11.1), spin=0.3) | changes))
