@@ -11,7 +11,7 @@ anyway, by the recursion and by the caller.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from itertools import product
+from itertools import combinations, product
 from math import factorial
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -28,26 +28,22 @@ LARGEST_EXPONENT = 700.0  # exp(709.78) is the largest double; the rest is room 
 MOST_TERMS = 100  # reached by no cluster narrower than 30
 
 
-def divided_differences(nodes: Sequence[ArrayLike], counts: Iterable[Counts], t: ArrayLike,
-                        low: Sequence[ArrayLike] | None = None) -> dict[Counts, np.ndarray]:
-    """D over several multisets of the same nodes, sharing their parts.
+def divided_differences(nodes: Sequence[complex], counts: Iterable[Counts], t: ArrayLike,
+                        low: Sequence[complex]) -> dict[Counts, np.ndarray]:
+    """D over several multisets of the same nodes, sharing their parts, at times t (an array of any shape).
 
-    nodes: sequence of complex scalars or arrays, broadcast against the real t (1/s and s). counts: one tuple
-    per answer: how often it takes each node. low: what the nodes lost to rounding (same shapes), where a
-    difference of two nodes is known better than the nodes themselves. Answers {counts: complex array of the
-    broadcast shape}. For imaginary nodes the error is of the size that half a unit in the last place of nodes
-    and t causes (measured: tests). Raises InputError where exp overflows.
+    nodes: 1/s. counts: one tuple per answer: how often it takes each node. low: what the nodes lost to
+    rounding, so that a difference of two is known better than the nodes themselves. Answers {counts: complex
+    array of the shape of t}. For imaginary nodes the error is of the size that half a unit in the last place
+    of nodes and t causes (measured: tests). Raises InputError where exp overflows.
     """
-    low = [0.0] * len(nodes) if low is None else low
-    shape = np.broadcast_shapes(np.shape(t), *(np.shape(x) for x in (*nodes, *low)))
-    t = np.broadcast_to(np.asarray(t, float), shape).ravel()
-    nodes, low = ([np.broadcast_to(np.asarray(x, complex), shape).ravel() for x in xs] for xs in (nodes, low))
-    if t.size and max(np.max(x.real * t) for x in nodes) > LARGEST_EXPONENT:
-        worst = max(np.max(x.real * t) for x in nodes)
-        raise InputError(f"the motion grows like exp({worst:.6g}), beyond the largest double (exp(709)): ask "
-                         "for shorter times")
-    table = _Table(nodes, low, t)
-    return {c: (table.scaled(tuple(c)) * t ** (sum(c) - 1)).reshape(shape) for c in map(tuple, counts)}
+    times = np.asarray(t, float)
+    largest = max((float(np.max(complex(x).real * times)) for x in nodes), default=0.0) if times.size else 0.0
+    if largest > LARGEST_EXPONENT:
+        raise InputError(f"the motion grows like exp({largest:.6g}), beyond the largest double (exp(709)): "
+                         "ask for shorter times")
+    table = _Table(list(map(complex, nodes)), low, times.ravel())
+    return {c: (table.scaled(c) * table.t ** (sum(c) - 1)).reshape(times.shape) for c in map(tuple, counts)}
 
 
 def cluster_width(n: int) -> float:
@@ -63,11 +59,10 @@ class _Table:
     """exp[x0 t, ...] of the sub-multisets asked for, each computed once; all arrays are flat and of one
     length."""
 
-    def __init__(self, nodes: Sequence[np.ndarray], low: Sequence[np.ndarray], t: np.ndarray) -> None:
-        self.exponential = [_accurate_exp(x, rest, t) for x, rest in zip(nodes, low)]
-        self.gap = {(i, j): ((nodes[j] - nodes[i]) + (low[j] - low[i])) * t
-                    for i, j in product(range(len(nodes)), repeat=2) if i != j}
-        self.size = t.size
+    def __init__(self, nodes: Sequence[complex], low: Sequence[complex], t: np.ndarray) -> None:
+        self.t, self.exponential = t, [_accurate_exp(x, rest, t) for x, rest in zip(nodes, low)]
+        self.gap = {(i, j): (nodes[j] - nodes[i]) + (low[j] - low[i])
+                    for i, j in product(range(len(nodes)), repeat=2)}
         self.known: dict[Counts, np.ndarray] = {}
 
     def scaled(self, counts: Counts) -> np.ndarray:
@@ -79,35 +74,24 @@ class _Table:
         present = [i for i, c in enumerate(counts) if c]
         if len(present) == 1:
             return self.exponential[present[0]] / factorial(sum(counts) - 1)
-        pairs = [(i, j) for i in present for j in present if i < j]
-        widths = np.abs([self.gap[pair] for pair in pairs])
-        near = widths.max(axis=0) <= cluster_width(sum(counts) - 1)
-        value = np.empty(self.size, complex)
+        farthest = max(combinations(present, 2), key=lambda pair: abs(self.gap[pair]))
+        near = np.abs(self.gap[farthest] * self.t) <= cluster_width(sum(counts) - 1)
+        value = np.empty(self.t.size, complex)
         if near.any():
-            value[near] = self._series(counts, present, np.flatnonzero(near))
+            value[near] = self._series(counts, present, near)
         if not near.all():
-            farthest = widths.argmax(axis=0)
-            for number in np.unique(farthest[~near]):
-                there = ~near & (farthest == number)
-                i, j = pairs[int(number)]
-                value[there] = self._recursion(counts, i, j, there)
+            value[~near] = self._recursion(counts, *farthest, ~near)
         return value
 
     def _recursion(self, counts: Counts, i: int, j: int, there: np.ndarray) -> np.ndarray:
         without = lambda k: self.scaled(tuple(c - (n == k) for n, c in enumerate(counts)))[there]
-        return (without(i) - without(j)) / self.gap[i, j][there]
+        return (without(i) - without(j)) / (self.gap[i, j] * self.t[there])
 
     def _series(self, counts: Counts, present: list[int], there: np.ndarray) -> np.ndarray:
         """Taylor's series about the node that has the others nearest, at the elements `there`."""
-        far = {r: sum(counts[i] * np.abs(self.gap[r, i][there]) for i in present if i != r) for r in present}
-        centre = np.argmin([far[r] for r in present], axis=0)
-        value = np.empty(there.size, complex)
-        for number in np.unique(centre):
-            chosen, r = centre == number, present[number]
-            here = there[chosen]
-            gaps = [self.gap[r, i][here] for i in present if i != r for _ in range(counts[i])]
-            value[chosen] = self.exponential[r][here] * _homogeneous_series(gaps, sum(counts) - 1)
-        return value
+        centre = min(present, key=lambda r: sum(counts[i] * abs(self.gap[r, i]) for i in present))
+        gaps = [self.gap[centre, i] * self.t[there] for i in present if i != centre for _ in range(counts[i])]
+        return self.exponential[centre][there] * _homogeneous_series(gaps, sum(counts) - 1)
 
 
 def _homogeneous_series(gaps: list[np.ndarray], n: int) -> np.ndarray:
@@ -134,7 +118,7 @@ def _homogeneous_series(gaps: list[np.ndarray], n: int) -> np.ndarray:
     return total
 
 
-def _accurate_exp(x: np.ndarray, rest: np.ndarray, t: np.ndarray) -> np.ndarray:
+def _accurate_exp(x: complex, rest: complex, t: np.ndarray) -> np.ndarray:
     """exp((x + rest) t), the rounding of the product made good."""
     (re, re_low), (im, im_low) = exact_product(x.real, t), exact_product(x.imag, t)
     return np.exp(re + 1j * im) * np.exp(re_low + 1j * im_low + rest * t)
