@@ -1,9 +1,13 @@
-"""Tests of `theories/charged/model.py`: what once went wrong there, and its edges."""
+"""The charged body's models: which scenes have them, and which numbers have no meaning in the typed one."""
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 import stabilab
+from stabilab.errors import InputError
+from stabilab.theories.charged.model import printed
+from stabilab.theories.charged.modes import ChargedBody
 from stabilab.theories.comparison import side_by_side
 from stabilab.theories.follow import models_of
 
@@ -35,3 +39,13 @@ def test_a_pushed_body_without_a_charge_has_the_linear_models_path(tmp_path):
     for name in {"exact", "linear"} & set(runs):  # a spin about axis 3 pushed along it: z = F t^2/(2 m)
         np.testing.assert_allclose(runs[name].state["position"][:, 2], 0.3 * times**2, rtol=1e-10, atol=1e-12)
     assert "linear" in runs
+
+
+@pytest.mark.parametrize("change, words",
+                         [({"mass": None}, "mass"), ({"inertia": (11.1, 8.7, 9.0)}, "exceed")])
+def test_typed_formulas_are_refused_where_they_have_no_meaning(change, words):
+    data = {"inertia": (8.7, 8.9, 11.1), "spin": 1.5, "gyrostat": 1.3, "charge_moment": 0.29,
+            "torque": (0.4, -0.2), "rates": (0.1, 0.2),
+            "attitude": (0.02, 0.01, 0.3), "force": (1.0, 2.0, 3.0), "mass": 10.0} | change
+    with pytest.raises(InputError, match=words):
+        printed(ChargedBody(**data), np.linspace(0, 1, 5))

@@ -36,11 +36,6 @@ def on_periodic(scene, start=START):
             "gamma": motion.gamma[0] / np.linalg.norm(motion.gamma[0])}, motion.period
 
 
-def errors(motion, run):
-    return (np.abs(motion.omega - run.block("omega")).max() / R0,
-            np.abs(motion.gamma - run.block("gamma")).max())
-
-
 # The expansion itself
 
 def test_first_two_orders_are_those_of_a_derivation_by_hand():
@@ -151,38 +146,11 @@ FEW = {((0.8, 0, 0.6), 30.0), ((0.28, -0.96, 0), 1e-10), ((0, 0, 1), 30.0)}
 def test_high_order_is_the_exact_motion_at_every_tilt(gamma, lx):
     scene, start = top(0.5, lx), {"omega": START["omega"], "gamma": gamma}
     motion = lindstedt(scene, start, [0.0], 12)
-    times = np.array([0.3, 1.0, 20.0]) * motion.period
+    times = np.array([0.3, 1.0, 20.0, 280.0]) * motion.period
     run = trajectory(scene, {"omega": motion.omega[0], "gamma": motion.gamma[0]}, times)
     omega, gamma = motion.at(times)
     assert motion.status == "asymptotic" and np.abs(gamma - run.block("gamma")).max() < 1e-10
     assert np.abs(omega - run.block("omega")).max() < 1e-10 * R0 and omega[0, 2] != R0
-
-
-@needs_heyoka
-def test_order_six_keeps_eight_digits_over_280_revolutions_where_the_first_order_keeps_none():
-    scene = top(0.25)
-    start, period = on_periodic(scene)
-    times = [280 * period]
-    run = trajectory(scene, start, times)
-    first, sixth = (errors(lindstedt(scene, start, times, n), run) for n in (1, 6))
-    assert max(sixth) < 1e-8 * 1.5 and first[1] > 0.3  # size 0.024; gamma turns through the whole circle
-
-
-@needs_heyoka
-def test_first_order_is_right_to_first_order_over_one_revolution():
-    drops = []
-    for h in (0.4, 0.2):
-        scene = top(h)
-        start, period = on_periodic(scene)
-        times = np.linspace(0.1, 1, 9) * period
-        drops.append(max(errors(lindstedt(scene, start, times, 1), trajectory(scene, start, times))))
-    assert math.log2(drops[0] / drops[1]) == pytest.approx(2, abs=0.2)
-
-
-def test_motion_repeats_after_its_period_for_six_thousand_revolutions():
-    motion = lindstedt(top(), START, [0.0], 6)
-    omega, gamma = motion.at([0.0, 6000 * motion.period])
-    assert omega[1] == pytest.approx(omega[0], abs=1e-9) and gamma[1] == pytest.approx(gamma[0], abs=1e-10)
 
 
 def test_start_sets_spin_and_vertical_and_the_rest_is_said():
@@ -247,7 +215,9 @@ def test_near_a_resonance_the_expansion_is_still_exact_for_a_small_enough_parame
     motion = lindstedt(scene, START, [0.0], 8)
     times = np.array([0.3, 5.0]) * motion.period
     run = trajectory(scene, {"omega": motion.omega[0], "gamma": motion.gamma[0]}, times)
-    assert motion.status == "near resonance" and max(errors(lindstedt(scene, START, times, 8), run)) < 2e-10
+    omega, gamma = motion.at(times)
+    assert motion.status == "near resonance" and np.abs(gamma - run.block("gamma")).max() < 2e-10
+    assert np.abs(omega - run.block("omega")).max() < 2e-10 * R0
 
 
 @pytest.mark.parametrize("lz, lx, order", [
@@ -284,15 +254,6 @@ def test_middle_axis_is_called_unstable_and_neighbours_do_leave_at_the_said_rate
                       [6 / rate, 10 / rate]) for s in (1, -1)]
     apart = np.linalg.norm(run[0].block("omega") - run[1].block("omega"), axis=1)
     assert math.log(apart[1] / apart[0]) == pytest.approx(4, rel=0.02)
-
-
-def test_a_slow_top_is_called_diverging():
-    case = stabilab.load(CASES / "top-lx30-lz30.toml")
-    motion = lindstedt(case.scene, {"omega": case.state, **case.blocks}, [0.0], 4)
-    assert motion.status == "diverging" and motion.size > 1 and "lies on" not in motion.reason
-    # the paper's assumption eps delta of order eps, broken: eps delta1 = 4.5, M g L/(C r0^2) = 8.2
-    assert motion.epsilon * 50 == pytest.approx(4.53, abs=0.01)
-    assert motion.size**2 == pytest.approx(8.22, abs=0.01)
 
 
 # Angles
@@ -367,10 +328,13 @@ def test_samples_too_far_apart_for_the_precession_are_called_coarse():
 @pytest.mark.parametrize("name", ["top-lx30-lz30", "top-lx90-lz30", "top-lx30-lz90"])
 @pytest.mark.parametrize("order", range(7))
 def test_no_order_calls_the_data_of_table_1_a_periodic_motion(name, order):
-    """By hand: M g L/(C r0^2) = 8.2 stands where a small number should."""
+    """By hand: M g L/(C r0^2) = 8.2 stands where a small number should, and eps delta1 = 4.5 of the paper, of
+    order eps, at l_x = 30."""
     case = stabilab.load(CASES / f"{name}.toml")
     found = lindstedt(case.scene, {"omega": case.state, "gamma": case.blocks["gamma"]}, [0.0], order)
     assert found.status == "diverging" and "lies on" not in found.reason and "not fast enough" in found.reason
+    assert found.size**2 == pytest.approx(8.22, abs=0.01)
+    assert found.epsilon * 50 == pytest.approx(4.53, abs=0.01)
 
 
 @pytest.mark.parametrize("order", range(9))
@@ -381,6 +345,7 @@ def test_a_valid_top_is_told_as_one_at_every_order_with_what_the_order_leaves_ou
     state = {"omega": case.state, "gamma": case.blocks["gamma"]}
     found, best = (lindstedt(case.scene, state, [0.0], n) for n in (order, 12))
     assert found.status == "asymptotic" and found.residual < 0.1 * max(found.terms[-2:])
+    assert case.state[2] >= 150 and (order < 8 or "lies on the periodic motion" in found.reason)
     left = np.hypot(*(best.omega[0, :2] - found.omega[0, :2]))
     assert 0.5 * left < found.left_out < 2 * left
 
@@ -459,17 +424,6 @@ def test_cases_of_the_table_have_its_data():
         assert (A, B, C) == pytest.approx((15 * (1 + 50 * epsilon), 15 * (1 + 45 * epsilon), 11), rel=1e-6)
         assert case.scene.vector("gyrostat") == (lx, 0, lz) and case.state[2] == 5
         assert printed(case.scene, state, [0.0]).omega[0] == pytest.approx(case.state, abs=1e-6)
-
-
-@needs_heyoka
-def test_the_fast_case_is_the_periodic_motion_throughout_its_span():
-    case = stabilab.load(CASES / "top-fast.toml")
-    state = {"omega": case.state, **case.blocks}
-    times = np.linspace(0.1, case.span[1], 20)
-    motion, run = lindstedt(case.scene, state, times, 12), trajectory(case.scene, state, times)
-    assert case.state[2] >= 150 and motion.status == "asymptotic"
-    assert "lies on the periodic motion" in motion.reason
-    assert max(errors(motion, run)) < 1e-10
 
 
 @pytest.mark.parametrize("scene, state, order, words", [
