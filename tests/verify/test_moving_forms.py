@@ -204,25 +204,14 @@ def test_what_a_machine_forges_of_a_second_fate_and_its_way_is_never_proved(path
     assert made > least and not wrong, wrong[:3]
 
 
-def test_constants_out_of_reach_and_another_form_are_not_proved():
-    for about in ("moving centre", "equator"):
-        claims = a_certificate(9, about)
-        said = claims["motion"]["spin_up"]
-        for key, factor in (("gain", F(2)), ("cone", F(1, 3)), ("least", F(3))):
-            spin_up = said | {key: str(F(said[key]) * factor)}
-            assert verify(claims | {"motion": claims["motion"] | {"spin_up": spin_up}}).status == "refuted"
-
-
 @pytest.mark.parametrize("count", [6, pytest.param(40, marks=pytest.mark.slow),
                                    pytest.param(150, marks=[pytest.mark.slow, pytest.mark.long])])
-def test_certificates_of_bodies_of_revolution_and_of_great_wheels_are_checked(count):
+def test_certificates_of_random_motions_are_checked(count):
     """Each is proved or says why there is none; SciPy agrees with what is proved."""
     rng, seen = random.Random(6), []
     for n in range(count):
-        scene, state = of_revolution(rng) if n % 2 else random_scene(rng,
-                                                                     3), [F(v) for v in sphere(rng,
-                                                                                               rng.choice((.3,
-                                                                                                           3)))]
+        scene = of_revolution(rng) if n % 2 else random_scene(rng, rng.choice((0, .1, 3)))
+        state = [F(v) for v in sphere(rng, rng.choice((.3, 3)))]
         made = json.loads(json.dumps(certificate(scene, state)))
         if not made["motion"]:
             assert made["uncertified"]
@@ -230,5 +219,7 @@ def test_certificates_of_bodies_of_revolution_and_of_great_wheels_are_checked(co
         if F(made["motion"]["spin_up"]["t"]) > 30:
             continue  # its check takes long
         seen.append(made["motion"]["spin_up"]["about"])
-        assert verify(made | {"equilibria": None}).status == "proved" and says_what_happens(made)
+        found = verify(made | {"equilibria": None})
+        assert found.status == "proved" and any("trap at t" in one.claim for one in found.findings)
+        assert says_what_happens(made)
     assert {"equator", "fixed centre"} <= set(seen)

@@ -115,6 +115,9 @@ def test_a_spin_up_is_run_on_to_where_its_least_rate_is_certain():
     short, long = (captured_extremes(scene, state, answer, span) for span in (0.02, 60.0))
     assert short.over.startswith("axis 1 for all time") and short.span > 0.02
     assert short.box[0].tolist() == pytest.approx(long.box[0].tolist(), rel=1e-12)
+    run = stabilab.trajectory(scene, state, np.linspace(0.001, 60, 60_000)).states[:, 0]
+    assert long.box[0, 1] == np.inf and long.box[0, 0] <= run.min()
+    assert long.box[0, 0] == pytest.approx(run.min(), abs=1e-5)  # samples 1e-3 apart: x1'' h^2/8 off
     told = stabilab.motion(scene, state, span=(0, 0.02))
     assert told.evidence["span"] == short.span and f"[0, {short.span:g}]" in told.extremes_over
 

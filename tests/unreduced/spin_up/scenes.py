@@ -42,9 +42,9 @@ def sphere(rng, size=1.0):
     return tuple(size * x / math.hypot(*v) for x in v)
 
 
-def run(rate, start, times):
+def run(rate, start, times, rtol=1e-11):
     """States (n, 3) of a motion by SciPy's DOP853."""
     import numpy as np
     from scipy.integrate import solve_ivp
     return solve_ivp(lambda _, y: np.array(rate(y.tolist())), (times[0], times[-1]), start, "DOP853", times,
-                     rtol=1e-11, atol=1e-12).y.T
+                     rtol=rtol, atol=1e-12).y.T

@@ -4,7 +4,6 @@ import random
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from benchmarks.spin_up import random_scene as benchmark_scene
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
@@ -13,17 +12,10 @@ from stabilab.unreduced.spin_up.certificate import natural
 from stabilab.unreduced.spin_up.drift import Returns, Runs, window
 from stabilab.unreduced.spin_up.follow import spin_up
 
-from .scenes import EXAMPLE, numba, rates_of
+from .scenes import EXAMPLE, numba, rates_of, run
 
 FAST = Scene(Body((1.4, 1, 0.6)), Gyrostat((0.2, 0.1, -0.3)), ConstantTorque((0.5, 0.6, 0.62)))
 START = (12.0, 20.0, 90.0)
-
-
-def dop(scene, start, end):
-    """The state of a motion at a time, by SciPy's DOP853."""
-    rate = rates_of(scene)
-    return solve_ivp(lambda _, y: np.array(rate(y.tolist())), (0, end), start, "DOP853", rtol=1e-13,
-                     atol=1e-12).y[:, -1]
 
 
 def test_a_window_ends_where_a_run_by_another_formula_does():
@@ -34,7 +26,7 @@ def test_a_window_ends_where_a_run_by_another_formula_does():
     periods, steps = returns.first(start)
     found = window(returns, start, np.array([40.0]), periods, steps.astype(float))
     assert found.good[0]
-    end = dop(FAST, START, found.times[0] / unit)
+    end = run(rates_of(FAST), START, np.array([0, found.times[0] / unit]), rtol=1e-13)[-1]
     assert np.allclose(end, found.states[0] * unit, rtol=0, atol=1e-7)
     D = np.array([1.4, 1, 0.6])
     energy = lambda w: float((D * w**2).sum())  # knows nothing of the phase, whose error is that of both runs

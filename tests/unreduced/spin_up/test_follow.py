@@ -136,6 +136,7 @@ def test_nothing_is_followed_beyond_the_limits():
     assert spin_up(scene, (.1, .2, .1), budget=20).steps <= 20
 
 
+@pytest.mark.slow
 def test_a_small_component_without_a_wheel_is_certified_about_the_moving_centre_in_time():
     """The torque's share along the major axis is 0.002: the fixed centre alone takes 6,700 natural units, so
     slowly does the spin grow."""
