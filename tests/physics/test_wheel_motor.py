@@ -222,7 +222,6 @@ def test_beside_what_no_proof_covers_nothing_is_claimed(beside, end):
     assert found.fate.word == "undecided" and found.level == "undecided"
 
 
-TENSOR = [[12, "0.3", 0], ["0.3", 9, "-0.2"], [0, "-0.2", 5]]
 FILE = """[body]
 inertia = [[12, 0.3, 0], [0.3, 9, -0.2], [0, -0.2, 5]]
 [effects.wheel_motor]

@@ -85,24 +85,6 @@ def test_cost_does_not_grow_with_time():
         assert near.counters == far.counters and 0 < far.counters["evaluations"] < 4000
 
 
-def test_many_times_and_one_time_agree():
-    times = np.linspace(-50.0, 400.0, 301)
-    near = (2.75, 1.125, turning_speed(2.75, 1.125) * (1 - 1e-6))
-    for scene, state in ((MINOR, HELD), (MINOR, near), (MINOR, SPINNING), (MIDDLE, (1.0, 2.0, 0.5))):
-        motion = reduced_motion(scene, state, backwards=True)
-        rows = motion.states(times)
-        one_by_one = np.array([motion.at(float(t)) for t in times])
-        assert np.abs(rows - one_by_one).max() <= 1e-12 * np.abs(rows).max()
-
-
-def test_a_period_later_the_state_is_back():
-    for scene, state in ((MINOR, HELD), (MIDDLE, (1.0, 2.0, 0.5)),
-                         (Scene(Body((3, 2, "1.5"))), (1.0, 0.2, 2.5))):
-        motion = reduced_motion(scene, state)
-        assert np.abs(motion.at(motion.period) - np.array(state)).max() < 1e-14
-        assert np.abs(np.array(motion.at(0.0)) - state).max() < 4e-15
-
-
 # -- spin-up
 
 
@@ -200,32 +182,6 @@ def test_spin_up_told_from_its_state_declines_times_before_it():
 
 
 # -- every geometry, against the stepping method
-
-
-def random_scenes(count, seed=20261122):
-    """Bodies with a torque along an axis and gyrostatic moments across it, and without a torque."""
-    rng = np.random.default_rng(seed)
-    for n in range(count):
-        moments = np.sort(rng.uniform(1, 1.9, 3))[rng.permutation(3)]
-        axis = int(rng.integers(3))
-        momentum, torque = rng.uniform(-1, 1, 3), np.zeros(3)
-        momentum[axis] = 0.0
-        torque[axis] = rng.choice([-1, 1]) * rng.uniform(0.05, 1) * (n % 4 > 0)
-        effects = (Gyrostat(tuple(momentum)), *((ConstantTorque(tuple(torque)),) if torque.any() else ()))
-        yield Scene(Body(tuple(moments)), *effects), tuple(rng.uniform(-2, 2, 3))
-
-
-@pytest.mark.slow
-def test_random_bodies_agree_with_the_stepping_method():
-    """Librations, rotations, spin-up; circles and hyperbolas. Where a motion is not of these kinds, it is
-    declined."""
-    times, kinds = np.array([-7.0, -0.4, 0.7, 5.0, 20.0]), set()
-    for scene, state in random_scenes(40):
-        run, steps = trajectory(scene, state, times, "reduced"), trajectory(scene, state, times, rtol=1e-13)
-        assert np.abs(run.states - steps.states).max() < 1e-9 * np.abs(steps.states).max()
-        assert max(run.invariant_drift.values()) < 1e-14
-        kinds.add(type(reduced_motion(scene, state)))
-    assert {ByPanels, SpinUp} <= kinds
 
 
 @pytest.mark.one_in(2)
