@@ -13,6 +13,7 @@ from fractions import Fraction
 from functools import lru_cache, wraps
 
 import mpmath as mp
+from flint import arb, ctx
 
 from tests.oracles.model import CYCLE, Model
 
@@ -493,28 +494,12 @@ def _levels(motion, which, lo, hi):
     return ends + limit + [a for a in inside if lo <= a <= hi]
 
 
-def _gauss(n):
-    """Gauss-Legendre nodes and weights on [-1, 1] at the working precision."""
-    key = (n, mp.mp.dps)
-    if key not in _GAUSS:
-        nodes = []
-        for m in range(n):
-            x = mp.cos(mp.pi * (4 * m + 3) / (4 * n + 2))
-            for _ in range(200):
-                before, p, slope = mp.mpf(1), x, None
-                for d in range(2, n + 1):
-                    before, p = p, ((2 * d - 1) * x * p - (d - 1) * before) / d
-                slope = n * (x * p - before) / (x * x - 1)
-                step = p / slope
-                x -= step
-                if abs(step) < mp.mpf(10) ** (5 - mp.mp.dps):
-                    break
-            nodes.append((x, 2 / ((1 - x * x) * slope ** 2)))
-        _GAUSS[key] = nodes
-    return _GAUSS[key]
-
-
-_GAUSS: dict = {}
+@lru_cache
+def _gauss(n, digits):
+    """Gauss-Legendre nodes and weights on [-1, 1], of python-flint."""
+    with ctx.workdps(digits + 10):
+        pairs = [arb.legendre_p_root(n, k, weight=True) for k in range(n)]
+        return [tuple(mp.mpf(v.str(digits + 5, radius=False)) for v in pair) for pair in pairs]
 
 
 @_at(60)
@@ -568,5 +553,6 @@ def _by_panels(motion, rate, lo, hi, nodes, digits):
     for a, b in zip(cuts, cuts[1:]):
         if b - a < mp.mpf(10) ** (20 - digits):
             continue
-        total += (b - a) / 2 * mp.fsum(w * rate((a + b) / 2 + x * (b - a) / 2) for x, w in _gauss(nodes))
+        rule = _gauss(nodes, mp.mp.dps)
+        total += (b - a) / 2 * mp.fsum(w * rate((a + b) / 2 + x * (b - a) / 2) for x, w in rule)
     return 2 * total

@@ -1,9 +1,8 @@
 """States at relative distances 1e-3 to 1e-15 from separatrices, each on a side that is known by construction:
 no wrong label.
 
-The barrier's height over a place is a number of 50 digits (closed forms of the saddles, see
-`oracles.saddles`); the speed that just reaches it is its root, and a double lies above or below it for
-certain.
+The barrier's height over a place is a number of 50 digits (`oracles.energy`); the speed that just reaches it
+is its root, and a double lies above or below it for certain.
 """
 from __future__ import annotations
 
@@ -16,51 +15,42 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
-from tests.oracles import saddles
-from tests.oracles.pairs import physical, scaled
+from tests.oracles.pairs import PAPER_BODY, axis_of, barrier_ahead, physical, scaled
 
+DIGITS = 50
 SPEEDS = 104  # a place: 13 decades, two sides, both senses, twice
 # of each scene: a million states in all, 20,000, or 1,200 (one state in six takes many digits)
 MANY_PLACES, SOME_PLACES, FEW_PLACES = 802, 17, 1
 
-# name -> (scene, axis of the torque, height over a place, typical size of a place, whether its far side spins
-# up)
-SCENES = {f"minor axis, a = {a}, b = {b}": (scaled(a, b, (0, 0, 1))[0], 2, lambda y, z, a=a,
-                                            b=b: saddles.minor(a, b, y, z), 3.0, True)
+# name -> ((scene, problem), typical size of a place, whether its far side spins up)
+SCENES = {f"minor axis, a = {a}, b = {b}": (scaled(a, b, (0, 0, 1)), 3.0, True)
           for a, b in ((0.2, 0.4), (0.0, 0.0), (1.5, 0.25), (-2.0, 3.0))}
-SCENES |= {f"middle axis, a = {a}, b = {b}": (scaled(a, b, (0, 1, 0))[0], 1, lambda y, z, a=a,
-                                              b=b: saddles.middle(a, b, y, z), 4.0, False)
+SCENES |= {f"middle axis, a = {a}, b = {b}": (scaled(a, b, (0, 1, 0)), 4.0, False)
            for a, b in ((0.25, 3.0), (0.0, -4.0), (1.0, 3.125), (-2.0, 6.0))}
-BODY = (2000.0, 1500.0, 1000.0)
-SCENES |= {f"major axis, moment {m}, torque {t}": (
-    physical(BODY, m, (t, 0, 0))[0], 0, lambda y, z, m=m, t=t: saddles.major(BODY, m, t, y, z), 1.0, True)
-    for m, t in (((0, 0, 0), 100.0), ((0, 70, 0), 100.0), ((0, 50, -90), 20.0), ((0, -300, 200), 150.0))}
+SCENES |= {f"major axis, moment {m}, torque {t}": (physical(PAPER_BODY, m, (t, 0, 0)), 1.0, True)
+           for m, t in (((0, 0, 0), 100.0), ((0, 70, 0), 100.0), ((0, 50, -90), 20.0),
+                          ((0, -300, 200), 150.0))}
 
 
 def states_and_sides(name, places, seed):
     """(states (n, 3), +1 where the speed is beyond the separatrix's and -1 below it), of so many random
     places."""
-    _, axis, height, size, _ = SCENES[name]
-    rng, states, sides = np.random.default_rng(seed), [], []
+    (_, problem), size, _ = SCENES[name]
+    rng, states, sides, axis = np.random.default_rng(seed), [], [], axis_of(problem)
     decades = np.repeat(np.arange(3, 16), 8)
     while len(states) < places:
-        pair = (rng.normal(size=2) * size * 2 ** rng.uniform(-1, 2)).tolist()
-        try:
-            top = height(*pair)
-        except saddles.Unclear:
-            continue
-        if top is None or not top > 1e-6:  # no barrier, or the place is beyond it
-            continue
-        with mp.workdps(saddles.DIGITS):
+        place = np.roll([0.0, *rng.normal(size=2) * size * 2 ** rng.uniform(-1, 2)], axis).tolist()
+        with mp.workdps(DIGITS):
+            top = barrier_ahead(problem, tuple(place), DIGITS)
+            if top is None or not top > 1e-6:  # no barrier, or the place is beyond it
+                continue
             speed = mp.sqrt(2 * top)
             high = float(speed)
             low = float(speed - high)
         off = 10.0 ** -(decades + rng.uniform(-0.5, 0.5, len(decades))) * np.tile([1, -1], len(decades) // 2)
         v = high * (1 + off)
-        block = np.empty((len(v), 3))
-        block[:, axis], block[:,
-                              (axis + 1) % 3], block[:,
-                                                     (axis + 2) % 3] = v * rng.choice([-1, 1], len(v)), *pair
+        block = np.tile(place, (len(v), 1))
+        block[:, axis] = v * rng.choice([-1, 1], len(v))
         states.append(block)
         # exact: nearby doubles subtract without rounding, and low is half a unit at most
         sides.append(np.sign((v - high) - low))
@@ -69,7 +59,7 @@ def states_and_sides(name, places, seed):
 
 def judged(name, places, seed):
     """How many states of a scene there were; asserts every label, and the margins' sides."""
-    scene, *_, escapes = SCENES[name]
+    (scene, _), _, escapes = SCENES[name]
     states, sides = states_and_sides(name, places, seed)
     result = stabilab.fate(scene, states)
     # on the middle axis both sides of the double well are bounded
