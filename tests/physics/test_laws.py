@@ -209,9 +209,3 @@ def test_a_body_force_moves_the_body_by_newtons_law_and_does_not_turn_it():
     q, f = sp.symbols("q0:4", real=True), [equations.symbols[n] for n in ("f1", "f2", "f3")]
     size = sum(a**2 for a in equations.rhs[7:10]) * equations.symbols["mass"] ** 2
     assert sp.expand(size - sum(a**2 for a in q) ** 2 * sum(a**2 for a in f)) == 0
-
-
-def test_a_scene_of_torque_and_gyrostat_has_three_states_and_no_trace_of_other_effects():
-    equations = derive(Scene(BODY, example("gyrostat"), example("constant_torque")))
-    assert [str(s) for s in equations.state] == ["omega1", "omega2", "omega3"]
-    assert set(equations.symbols) == {f"{n}{i}" for n in ("D", "lambda", "M") for i in (1, 2, 3)}

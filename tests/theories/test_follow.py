@@ -260,6 +260,9 @@ def test_a_charge_of_constant_angle_is_judged_as_the_gyrostat_that_turns_alike()
     np.testing.assert_array_equal(stabilab.extremes(charged, states), stabilab.extremes(twin, states))
     np.testing.assert_array_equal(stabilab.period(charged, states), stabilab.period(twin, states))
     assert len(stabilab.separatrix(charged).branches) == len(stabilab.separatrix(twin).branches)
+    told, same = (stabilab.motion(scene, states[0]) for scene in (charged, twin))
+    assert told.fate == same.fate and told.extremes == same.extremes and "-k e3" in told.because
+    assert stabilab.equilibria(charged).kind == stabilab.equilibria(twin).kind
 
 
 @pytest.mark.parametrize("command", [["classify"], ["fate"], ["when", "--tilt", "z = 20 deg"],

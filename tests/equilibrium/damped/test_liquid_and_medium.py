@@ -47,16 +47,6 @@ def measured(system, x):
     return np.linalg.eigvals(J)
 
 
-def test_liquid_takes_energy_by_its_law():
-    # Work of the liquid as theory has it, symbolically in D, kappa and omega.
-    equations = derive(scene(LIQUID))
-    w, D, kappa = equations.state, equations.inertia, equations.symbols["kappa"]
-    taken = sum((D[i] - D[j])**2 * (D[i] + D[j] - D[3 - i - j]) * w[i]**2 * w[j]**2 for i,
-                j in ((0, 1), (0, 2), (1, 2)))
-    work = sum(d * x * rate for d, x, rate in zip(D, w, equations.rhs))
-    assert sp.expand(sp.together(work + kappa * taken / (D[0] * D[1] * D[2]))) == 0
-
-
 @pytest.mark.parametrize("moments", [(9, 8, 5), (5, 9, 8), (8, 5, 9)])
 def test_liquid_leaves_rotation_about_the_largest_moment_alone_stable(moments):
     found = equilibria(scene(LIQUID, body=Body(moments)))
@@ -299,14 +289,6 @@ def test_torque_against_liquid_alone_is_left_undecided_with_the_reason():
     told = motion(scene(ConstantTorque((1, 0, 0)), LIQUID), (1, 0, 0), (0, 1))
     assert told.fate == Fate.UNDECIDED and "no bound is proved" in told.because
     assert told.extremes is not None and told.extremes_over == "s in [0, 1]"
-
-
-def test_constant_charge_is_judged_as_the_gyrostat_with_the_same_rates():
-    charged = scene(Charge(1, 2, 1, 0), ConstantTorque((0, 0, 3)))
-    twin = scene(Gyrostat((0, 0, -2)), ConstantTorque((0, 0, 3)))
-    assert equilibria(charged).kind == equilibria(twin).kind == "none"
-    told, same = motion(charged, (1, 2, 3)), motion(twin, (1, 2, 3))
-    assert told.fate == same.fate and told.extremes == same.extremes and "-k e3" in told.because
 
 
 def test_force_at_the_centre_of_mass_leaves_the_verdicts_as_they_are():
