@@ -3,13 +3,12 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.unreduced.off_axis import motion
 from stabilab.unreduced.periodic import Section, in_the_middle, passage, periodic
 from stabilab.unreduced.spin_up.form import centres
-from tests.unreduced.spin_up.scenes import rates_of
+from tests.unreduced.spin_up.scenes import rates_of, run
 
 MIDDLE = Scene(Body((1.4, 1, .6)), Gyrostat((0, 0, .193)), ConstantTorque((.01, -.6, .6)))
 ISLANDS = {"A": (((1.2412, .3937, 1.3650), (.0987, .8450, .5255), (-.5224, .8309, .1914)),
@@ -23,9 +22,7 @@ def scene_of(D, M, l):
 
 
 def after(scene, start, t):
-    """The state by DOP853 at 1e-12."""
-    return solve_ivp(lambda _, y: rates_of(scene)(y.tolist()), (0, t), start, "DOP853", rtol=1e-12,
-                     atol=1e-13).y[:, -1]
+    return run(rates_of(scene), start, np.array([0, t]), rtol=1e-12)[-1]
 
 
 def is_periodic(scene, orbit):

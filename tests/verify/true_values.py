@@ -2,8 +2,9 @@
 the package, nothing of `verify`.
 
 A motion is a Taylor series in mpmath (`oracles.taylor`), step by step. Its extremes are zeros of a rate, its
-period is the return to the start. An isolated equilibrium is a zero of the rates by Newton's method. A fold is a zero of m in the
-characteristic polynomial z^3 + m z + n of the Jacobian matrix, along the curve that the certificate names.
+period is the return to the start. An isolated equilibrium is a zero of the rates by Newton's method. A fold is a
+zero of m in the characteristic polynomial z^3 + m z + n of the Jacobian matrix, along the curve that the
+certificate names.
 """
 from __future__ import annotations
 
