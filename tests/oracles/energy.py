@@ -283,11 +283,11 @@ class Reduced:
             roots = [(mp.log(t) / self.k0, simple) for t, simple in real_roots(quartic) if t > 0]
         out = []
         for alpha, simple in sorted(roots):
-            kind = "fold" if not simple else ("saddle" if self._slope(alpha) > 0 else "centre")
+            kind = "fold" if not simple else ("saddle" if self.slope(alpha) > 0 else "centre")
             out.append((alpha, kind))
         return out
 
-    def _slope(self, alpha):
+    def slope(self, alpha):
         """dF/dalpha."""
         if self.kind == "parabolic":
             return _value([n * c for n, c in enumerate(self.pF)][1:], alpha)

@@ -17,9 +17,12 @@ lies from it to first order.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 
 import mpmath as mp
 import numpy as np
+
+from tests.oracles import energy, model
 
 DIGITS = 50
 
@@ -36,12 +39,12 @@ class Gyrostat:
     def axis(self) -> int:
         return next(i for i in range(3) if self.torque[i])
 
-    def numbers(self, kind=float):
-        """(D_i, D_j, D_k, lambda_j, lambda_k, M) in the kind of number asked for."""
+    def numbers(self):
+        """(D_i, D_j, D_k, lambda_j, lambda_k, M)."""
         i = self.axis
         j, k = (i + 1) % 3, (i + 2) % 3
-        D, wheel = [kind(v) for v in self.inertia], [kind(v) for v in self.wheel]
-        return D[i], D[j], D[k], wheel[j], wheel[k], kind(self.torque[i])
+        D, wheel = self.inertia, self.wheel
+        return D[i], D[j], D[k], wheel[j], wheel[k], self.torque[i]
 
     def split(self, states):
         """(w_i, w_j, w_k) of states (..., 3)."""
@@ -61,11 +64,11 @@ class Gyrostat:
         Di, Dj, Dk, *_ = self.numbers()
         return (Dk - Di) * (Di - Dj) < 0
 
-    def coefficients(self, sqrt=np.emath.sqrt, kind=float):
+    def coefficients(self):
         """(kappa, p, centre of w_j, centre of w_k)."""
-        Di, Dj, Dk, lj, lk, _ = self.numbers(kind)
+        Di, Dj, Dk, lj, lk, _ = self.numbers()
         p, q = (Dk - Di) / Dj, (Di - Dj) / Dk
-        return sqrt(p * q), p, lj / (Di - Dj), lk / (Di - Dk)
+        return np.emath.sqrt(p * q), p, lj / (Di - Dj), lk / (Di - Dk)
 
     def invariant(self, states):
         """q U^2 - p V^2 of states: constant along every motion, U and V measured from the centre."""
@@ -298,73 +301,36 @@ def in_digits(body: Gyrostat, state, digits=DIGITS):
     """The first-order distance of one state from the stable manifolds of the saddles of its curve, as mpf:
     the least of those that no higher barrier hides and that lie towards the torque on closed curves, or half
     a turn beyond at most; inf without a saddle."""
+    problem, exact = model.physical(body.inertia, body.wheel, body.torque), [Fraction(v) for v in state]
     with mp.workdps(digits):
-        curve, best = _Curve(body, state), mp.inf
-        for start in curve.visible():
-            step, grad = mp.mpf(10) ** (-digits // 3) * max(map(abs, state)), mp.mpf(0)
+        here, best = energy.motion_of(problem, tuple(exact), digits, None), mp.inf
+        for start in _visible(here):
+            step, slope = Fraction(1, 10 ** (digits // 3)) * max(map(abs, exact)), mp.mpf(0)
             for n in range(3):
-                ends = [_Curve(body, [mp.mpf(v) + sign * step * (m == n) for m,
-                                      v in enumerate(state)]).gap(start) for sign in (1, -1)]
-                grad += ((ends[0] - ends[1]) / (2 * step)) ** 2
-            if grad:
-                best = min(best, abs(curve.gap(start)) / mp.sqrt(grad))
+                ends = [_gap(energy.Reduced(problem, [v + sign * step * (m == n) for m, v in enumerate(exact)],
+                                            digits), start) for sign in (1, -1)]
+                slope += ((ends[0] - ends[1]) / (2 * energy.num(step))) ** 2
+            if slope:
+                best = min(best, abs(_gap(here, start)) / mp.sqrt(slope))
         return best
 
 
-class _Curve:
-    """The curve of one state, in the precision of the day."""
+def _visible(motion):
+    """alpha of the saddles that no higher barrier hides; on closed curves of those within one turn and a half."""
+    closed = motion.kind == "elliptic"
+    found = sorted(t + n * motion.turn if n else t for t, kind in motion.stationary() if kind == "saddle"
+                   for n in ((-1, 0, 1) if closed else (0,)))
+    heights = [(t, -motion.W(t)) for t in found]
+    return [t for t, height in heights
+            if not any(0 < other * mp.sign(t) < abs(t) and above > height for other, above in heights)
+            and (not closed or t * mp.sign(motion.tilt) * motion.k0 > -mp.pi)]
 
-    def __init__(self, body, state):
-        self.body, i = body, body.axis
-        self.w, self.u, self.v = (mp.mpf(state[n]) for n in (i, (i + 1) % 3, (i + 2) % 3))
-        self.numbers = body.numbers(mp.mpf)
-        self.kappa, self.p, self.cu, self.cv = body.coefficients(mp.sqrt, mp.mpf)
-        x = (self.v - self.cv) * self.p / self.kappa
-        self.up, self.down = (self.u - self.cu + x) / 2, (self.u - self.cu - x) / 2
 
-    def pair(self, alpha):
-        a, b = self.up * mp.exp(self.kappa * alpha), self.down * mp.exp(-self.kappa * alpha)
-        return self.cu + mp.re(a + b), self.cv + mp.re((a - b) * self.kappa / self.p)
-
-    def force_and_slope(self, alpha):
-        Di, Dj, Dk, lj, lk, M = self.numbers
-        u, v = self.pair(alpha)
-        return ((Dj - Dk) * u * v + lj * v - lk * u + M,
-                ((Dj - Dk) * v - lk) * ((Dk - Di) * v + lk) / Dj
-                + ((Dj - Dk) * u + lj) * ((Di - Dj) * u - lj) / Dk)
-
-    def rise(self, alpha):
-        _, Dj, Dk, _, _, M = self.numbers
-        u, v = self.pair(alpha)
-        return (Dj * (u - self.u) * (u + self.u) + Dk * (v - self.v) * (v + self.v)) / 2 - M * alpha
-
-    def saddles(self):
-        """alpha of the saddles, on closed curves those within one turn and a half."""
-        _, Dj, Dk, lj, lk, M = self.numbers
-        gap, r, a, b = Dj - Dk, self.kappa / self.p, self.up, self.down
-        of_u, of_v = gap * self.cv - lk, gap * self.cu + lj
-        rest = gap * self.cu * self.cv + lj * self.cv - lk * self.cu + M
-        quartic = [gap * r * a * a, of_u * a + of_v * r * a, rest, of_u * b - of_v * r * b, -gap * r * b * b]
-        alpha = [mp.log(y) / self.kappa for y in mp.polyroots(quartic, maxsteps=500, extraprec=400)]
-        alpha = [mp.re(t) for t in alpha if abs(mp.im(t)) < mp.mpf(10) ** (-mp.mp.dps // 3) / abs(self.kappa)]
-        alpha = [t for t in alpha if self.force_and_slope(t)[1] > 0]
-        turn = 2 * mp.pi / abs(self.kappa)
-        return sorted(t + n * turn for t in alpha for n in (-1, 0, 1)) if self.body.closed else sorted(alpha)
-
-    def visible(self):
-        """alpha of the saddles that no higher barrier hides."""
-        heights = [(t, self.rise(t)) for t in self.saddles()]
-        torque = mp.sign(self.numbers[-1])
-        return [t for t,
-                height in heights if not any(0 < other * mp.sign(t) < abs(t) and above > height for other,
-                                             above in heights)
-                and (not self.body.closed or t * torque * abs(self.kappa) > -mp.pi)]
-
-    def gap(self, alpha):
-        """Energy of the saddle near alpha over the state's."""
-        for _ in range(200):
-            force, slope = self.force_and_slope(alpha)
-            alpha -= force / slope
-            if abs(force / slope) < mp.mpf(10) ** (6 - mp.mp.dps) * (1 + abs(alpha)):
-                break
-        return self.rise(alpha) - self.numbers[0] * self.w**2 / 2
+def _gap(motion, alpha):
+    """Energy of the saddle near alpha over the state's, per unit inertia."""
+    for _ in range(200):
+        step = motion.F(alpha) / motion.slope(alpha)
+        alpha -= step
+        if abs(step) < mp.mpf(10) ** (6 - mp.mp.dps) * (1 + abs(alpha)):
+            break
+    return -motion.W(alpha) - motion.w0**2 / 2
