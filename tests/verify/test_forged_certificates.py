@@ -7,7 +7,6 @@ import math
 import random
 import subprocess
 import sys
-from fractions import Fraction
 from fractions import Fraction as F
 from functools import cache, lru_cache
 from pathlib import Path
@@ -20,10 +19,8 @@ from stabilab.errors import InputError
 from stabilab.show import certification
 from stabilab.verify import verify, verify_file
 from stabilab.verify.numbers import Malformed
-from stabilab.verify.spin_up import spin_up_of
 from tests.equilibrium.test_random_scenes import disagreements
 from tests.oracles import elimination as by_hand
-from tests.shared import written
 from tests.verify import forge
 from tests.verify.trapped import says_what_happens
 from tests.verify.true_values import TrueValues
@@ -295,28 +292,6 @@ def test_a_narrowed_bracket_is_true_where_it_holds_the_value_and_false_where_it_
         assert status_of(forge.forged(claims, path, narrowed)) == ("refuted" if below else "proved")
 
 
-@pytest.mark.parametrize("path", [("motion", "spin_up", "orders"), ("motion", "spin_up", "orders", 1)],
-                         ids=["both", "one"])
-def test_orders_are_refused_unless_they_are_two_whole_numbers_in_range(path):
-    # other orders than the written ones are no junk: (0, 5) proves what (0, 2) does, wherever its inequality
-    # holds as well
-    orders = {"axis": 1, "sense": 1, "orders": [0, 2], "t": "1", "cone": "1", "least": "1", "gain": "1",
-              "way": []}
-    seen, rng = {"open": [], "junk": []}, random.Random(5)
-    for known, to in forge.changes({"motion": {"spin_up": orders}}, path, rng, 400):
-        if to is forge.GONE or to is None:
-            assert known == "junk"
-            continue
-        seen[known].append(to)
-        claimed = forge.forged({"motion": {"spin_up": orders}}, path, to)["motion"]["spin_up"]
-        if known == "open":
-            assert spin_up_of(claimed).orders == tuple(claimed["orders"])
-        else:
-            with pytest.raises(Malformed):
-                spin_up_of(claimed)
-    assert min(map(len, seen.values())) > 50
-
-
 def test_other_orders_are_proved_only_where_the_run_shows_what_they_claim():
     claims = proved(*MOTIONS["torque in no axis"]) | {"equilibria": None, "uncertified": []}
     status = {orders: status_of(forge.forged(claims, ("motion", "spin_up", "orders"), list(orders)))
@@ -416,30 +391,3 @@ for line in open(sys.argv[1], encoding="utf-8"):
     child = subprocess.run([sys.executable, "-O", "-c", program, str(tmp_path / "forged")],
                            capture_output=True, text=True, check=True)
     assert child.stdout.split() == expected and {"refuted", "refused"} <= set(expected)
-
-
-# two equilibria (cases/off-axis-two.toml)
-OBLIQUE = Scene(Body((3, 2, "1.5")), ConstantTorque(("0.1", "0.2", "0.1")))
-
-
-@pytest.mark.parametrize("scene", [Scene(Body((3, 2, 1)), Gyrostat((1, 2, 3))),
-                                   ScaledGyrostat(0.2, 0.4, (0, 0, 0))], ids=["physical", "scaled"])
-@pytest.mark.parametrize("kind", ["none", "all", "points"])
-def test_curves_without_a_torque_are_not_proved_under_another_name(scene, kind):
-    claimed = written(scene)
-    claimed["equilibria"]["kind"] = kind
-    assert verify(claimed).status == "refuted"
-    claimed["equilibria"]["kind"] = "some"
-    with pytest.raises(Malformed, match="kind"):
-        verify(claimed)
-
-
-def test_a_box_beside_the_equilibrium_is_not_proved():
-    claimed = written(OBLIQUE)
-    assert verify(claimed).status == "proved"
-    # from just beside the zero (known to 2^-160) to 2^-110 away
-    for point in claimed["equilibria"]["points"]:
-        middles = [(Fraction(low) + Fraction(high)) / 2 for low, high in point["box"]]
-        point["box"] = [[str(m + Fraction(1, 10**12 * 2**110)), str(m + Fraction(1, 2**110))]
-                        for m in middles]
-    assert verify(claimed).status != "proved"

@@ -215,11 +215,6 @@ def test_bad_requests_are_refused(state, times, order):
 
 # --- observed orders
 
-def test_the_oracle_is_the_package_s_exact_motion():
-    scene, t = body(0.05), np.linspace(0, 200, 9)
-    run = trajectory(scene, (1.0, 0.3, 1.0), t)
-    assert by_hand(scene, (1.0, 0.3, 1.0), t, rtol=1e-13) == pytest.approx(run.states, abs=1e-10)
-
 
 def test_orders_over_one_unit_of_slow_time():
     assert slopes(1, one) == pytest.approx([1, 1, 1], abs=0.2)
