@@ -164,9 +164,10 @@ def test_a_state_a_hair_off_the_spin_up_plane_turns_back(tiny, y):
     """x1 + b = y + tiny exactly, x3 = -y: C = 2 y tiny. In doubles x1 + b rounds to y, and the state looks as
     if on the plane; cosh and sinh of an angle near ln(1/tiny)/2 overflow or cancel. Proof of "bounded": U
     grows on both sides."""
-    words = agrees(scaled(0.25, tiny, (0, 1, 0)), [(y, s, -y) for s in (0.5, -1.0, 0.0)],
+    speeds = (0.5, -1.0, 0.0) if tiny > 1e-50 else (-1.0,)  # one in hundreds of digits takes a second
+    words = agrees(scaled(0.25, tiny, (0, 1, 0)), [(y, s, -y) for s in speeds],
                    digits=120 + int(-1.2 * math.log10(tiny)), period=tiny >= 1e-30)
-    assert words == ["bounded"] * 3
+    assert words == ["bounded"] * len(speeds)
 
 
 @pytest.mark.one_in(2)

@@ -2,6 +2,8 @@
 and no part missing."""
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 import pytest
 
@@ -22,13 +24,21 @@ EPS = 2.0**-52
 
 def surface(number):
     """(oracle's gyrostat, sheets, accuracy, generator); skips scenes without a separatrix."""
+    made = _surface(number)
+    if made is None:
+        pytest.skip("no saddle")
+    return *made, np.random.default_rng(number)
+
+
+@lru_cache(4)
+def _surface(number):
     one = drawn(number + 1)[number]
     rough = separatrix(one.scene, shape=(24, 33)).branches
     if not rough:
-        pytest.skip("no saddle")
+        return None
     accuracy = SHARE * max(np.abs(sheet.points - sheet.points.mean(axis=(0, 1))).max() for sheet in rough)
     body = homoclinic.Gyrostat(one.moments, one.wheel, one.torque)
-    return body, separatrix(one.scene, accuracy=accuracy).branches, accuracy, np.random.default_rng(number)
+    return body, separatrix(one.scene, accuracy=accuracy).branches, accuracy
 
 
 def beside_a_plane(body, sheet):
