@@ -15,6 +15,8 @@ from stabilab.answers.digits.ask import ask
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
 from stabilab.orbit.fate.one_state import REASONS, Reason
 from stabilab.orbit.landscape import landscape
+from tests.hunt.disagreements import between, tables
+from tests.oracles.pairs import model_of
 
 MARGIN, DIGITS = 1e-12, 1e-11  # promised of a margin (of its terms), and of extremes and periods
 TIDY = ((2, 2, 3), (2, 2, 2), (2, 3, 4), (3, 4, 5), (2, 2, 1), (1, 1, 2), (1, 2, 3), (2, 1.5, 1), (4, 4, 3))
@@ -141,15 +143,7 @@ def margins_part(scene, state, one, other, promise=2 * MARGIN) -> bool:
 
 
 def pairs_part(one, other, promise=2 * DIGITS) -> bool:
-    for a, b in zip(np.array(one, float), np.array(other, float)):
-        finite = np.isfinite(a)
-        if (finite != np.isfinite(b)).any() or (a[~finite] != b[~finite]).any():
-            return True
-        if finite.any() and not np.abs(a[finite]
-                                       - b[finite]).max() <= promise * max(np.abs(a[finite]).max(),
-                                                                           np.abs(b[finite]).max()):
-            return True
-    return False
+    return any(between(a, b, "", promise)[0] > 1 for a, b in zip(one, other))
 
 
 def times_part(one, other, promise=2 * DIGITS) -> bool:

@@ -17,6 +17,7 @@ from stabilab.orbit.fate.one_state import decide, fate_of
 from stabilab.orbit.one_orbit import Orbit
 from stabilab.orbit.period import precise_period
 from stabilab.orbit.reduction import reduce
+from tests.hunt.disagreements import between
 from tests.shared import later
 
 # promised of extremes and periods, relative to themselves, and of margins, relative to kinetic energy and
@@ -68,7 +69,8 @@ def disagreements(number, count):
                                                fast=fast), extremes_and_periods(scene, states, by_numba=fast)
         for n, (told, margin, box, period) in enumerate(singles):
             sizes = [_margins(many.margins[n], margin, 0.5 * one.moments[axis] * states[n, axis] ** 2),
-                     *map(_pair, boxes[n], box), _pair(periods[n], period)]
+                     *(between(*pair, "", DIGITS)[0] for pair in zip(boxes[n], box)),
+                     between([periods[n]], [period], "", DIGITS)[0]]
             if (told.label, told.axis, told.sense) != (many.labels[n], many.axis[n], many.sense[n]):
                 sizes.append(math.inf)
             largest = max(largest, *sizes)
@@ -85,15 +87,6 @@ def _margins(one, other, kinetic):
     if math.isfinite(one) and math.isfinite(other):
         return abs(one - other) / (MARGIN * (kinetic + abs(other + kinetic)))
     return 0.0 if math.isinf(one) == math.isinf(other) else math.inf
-
-
-def _pair(one, other):
-    one, other = np.atleast_1d(one), np.atleast_1d(other)
-    finite = np.isfinite(other)
-    if (np.isfinite(one) != finite).any() or (one[~finite] != other[~finite]).any():
-        return math.inf
-    size = np.abs(other[finite]).max(initial=0.0)
-    return float(np.abs(one[finite] - other[finite]).max(initial=0.0) / (DIGITS * size)) if size else 0.0
 
 
 @numbers
