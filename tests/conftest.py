@@ -12,6 +12,7 @@ from stabilab import cli
 from stabilab.__main__ import OBJECTS_BETWEEN_COLLECTIONS
 
 os.environ["STABILAB_QUIET"] = "1"  # whether a command takes longer than a second hangs on the machine
+os.environ["MPLBACKEND"] = "Agg"  # no window
 settings.register_profile("same", derandomize=True, deadline=None)
 settings.load_profile("same")
 
@@ -45,6 +46,16 @@ def no_picture_is_left_open():
     yield
     if plt := sys.modules.get("matplotlib.pyplot"):
         plt.close("all")
+
+
+@pytest.fixture
+def case_file(tmp_path):
+    """Write a case file: case_file(text, name of the case) is its path."""
+    def write(text, name="case"):
+        path = tmp_path / f"{name}.toml"
+        path.write_text(text, encoding="utf-8")
+        return path
+    return write
 
 
 @pytest.fixture

@@ -4,7 +4,6 @@ import dataclasses
 import pickle
 import tomllib
 from fractions import Fraction
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,8 +12,8 @@ import stabilab
 from stabilab.answers.chaos import row_of
 from stabilab.case.read import load_all
 from stabilab.representation import same
+from tests.shared import CASES
 
-CASES = Path(__file__).parents[2] / "cases"
 FILE = CASES / "minor-axis-100.toml"
 CASE = stabilab.load(FILE)
 TORQUE = CASES / "thruster-stuck-major-axis.toml"

@@ -37,11 +37,9 @@ def test_what_is_no_scene_and_no_case_is_bad_input_that_says_what_is_expected(na
         getattr(stabilab, name)(given, *(OF_A_SCENE | OF_A_CASE)[name])
 
 
-def test_a_comparison_of_a_case_without_a_span_says_what_to_give(tmp_path):
-    path = tmp_path / "own.toml"
-    path.write_text(
-        "[body]\ninertia = [8.7, 8.6, 11.1]\nmass = 10\n[motion]\nangular_velocity = [0.01, 0, "
-        "0.28]\nattitude = [0, 0, 0]\n")
+def test_a_comparison_of_a_case_without_a_span_says_what_to_give(case_file):
+    path = case_file("[body]\ninertia = [8.7, 8.6, 11.1]\nmass = 10\n[motion]\nangular_velocity = [0.01, 0, "
+                     "0.28]\nattitude = [0, 0, 0]\n", "own")
     with pytest.raises(stabilab.InputError, match="span"):
         stabilab.compare(stabilab.load(path))
 

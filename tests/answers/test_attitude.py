@@ -31,20 +31,12 @@ def _turned(first=None, wheel=WHEEL, torque=TORQUE):
     return run.y[:3].T, run.y[3:].T.reshape(-1, 3, 3)
 
 
-@pytest.fixture
-def case(tmp_path):
-    def write(text):
-        (tmp_path / "own.toml").write_text(text)
-        return tmp_path / "own.toml"
-    return write
-
-
 def _asked(stabilab, path, *more):
     return stabilab("simulate", path, "--at", ",".join(map(str, TIMES)), "--attitude", *more)
 
 
-def test_the_quaternion_of_a_spacecraft_is_scalar_last_from_body_to_space(stabilab, case):
-    code, out, _ = _asked(stabilab, case(BODY + MORE + REST), "--json")
+def test_the_quaternion_of_a_spacecraft_is_scalar_last_from_body_to_space(stabilab, case_file):
+    code, out, _ = _asked(stabilab, case_file(BODY + MORE + REST), "--json")
     found = json.loads(out)
     rates, matrices = _turned()
     assert code == 0 and "scalar last" in found["quaternion"]
@@ -55,17 +47,17 @@ def test_the_quaternion_of_a_spacecraft_is_scalar_last_from_body_to_space(stabil
     assert q[0].tolist() == [0, 0, 0, 1]
 
 
-def test_it_begins_with_the_attitude_of_the_case(stabilab, case):
+def test_it_begins_with_the_attitude_of_the_case(stabilab, case_file):
     """psi, phi, theta of the 3-1-2 sequence: R = Rz(theta) Rx(psi) Ry(phi)."""
-    path = case(BODY + MORE + REST + "attitude = [0.3, -0.4, 1.1]\n")
+    path = case_file(BODY + MORE + REST + "attitude = [0.3, -0.4, 1.1]\n")
     first = Rotation.from_euler("ZXY", [1.1, 0.3, -0.4])
     q = json.loads(_asked(stabilab, path, "--json")[1])["state"]["quaternion"]
     assert Rotation.from_quat(q).as_matrix() == pytest.approx(_turned(first.as_matrix())[1], abs=1e-9)
 
 
-def test_it_begins_with_the_vertical_of_the_case(stabilab, case):
+def test_it_begins_with_the_vertical_of_the_case(stabilab, case_file):
     """Inertial axis 3 is the vertical: its body components are the third row of R."""
-    path = case(BODY + "[effects.gravity]\nweight = 0.1\ncentre_of_mass = [0, 0, 1]\n" + REST
+    path = case_file(BODY + "[effects.gravity]\nweight = 0.1\ncentre_of_mass = [0, 0, 1]\n" + REST
                 + "vertical = [0, 3, 4]\n")
     state = json.loads(_asked(stabilab, path, "--json")[1])["state"]
     assert Rotation.from_quat(state["quaternion"]).as_matrix()[:,
@@ -83,24 +75,24 @@ def test_quarter_turns_about_axis_1_pass_where_angles_are_singular():
 
 
 @pytest.mark.parametrize("digits", [9, 15])
-def test_digits_are_those_of_the_quaternion_too(stabilab, case, digits):
-    code, out, _ = _asked(stabilab, case(BODY + MORE + REST), "--json", "--digits", digits)
+def test_digits_are_those_of_the_quaternion_too(stabilab, case_file, digits):
+    code, out, _ = _asked(stabilab, case_file(BODY + MORE + REST), "--json", "--digits", digits)
     found = json.loads(out)
     assert code == 0 and found["digits"]["reached"] >= digits
     assert Rotation.from_quat(found["state"]["quaternion"]).as_matrix() == pytest.approx(_turned()[1],
                                                                                          abs=1e-8)
 
 
-def test_nothing_is_carried_that_nobody_asked_for(stabilab, case):
-    out = stabilab("simulate", case(BODY + MORE + REST), "--at", "0,1", "--json")[1]
+def test_nothing_is_carried_that_nobody_asked_for(stabilab, case_file):
+    out = stabilab("simulate", case_file(BODY + MORE + REST), "--at", "0,1", "--json")[1]
     assert set(json.loads(out)["state"]) == {"omega"} and "quaternion" not in json.loads(out)
 
 
-def test_what_has_no_attitude_says_so(stabilab, case):
-    path = case("[scaled]\na = 1\nb = 2\nmu = [0, 0, 1]\n[motion]\nx = [0, 0, 1]\ntau = [0, 20]\n")
+def test_what_has_no_attitude_says_so(stabilab, case_file):
+    path = case_file("[scaled]\na = 1\nb = 2\nmu = [0, 0, 1]\n[motion]\nx = [0, 0, 1]\ntau = [0, 20]\n")
     code, out, err = _asked(stabilab, path)
     assert code == 2 and not out and "scaled variables have no attitude" in err
-    assert stabilab("simulate", case(BODY + REST), "--attitude", "--model", "linear")[0] == 2
+    assert stabilab("simulate", case_file(BODY + REST), "--attitude", "--model", "linear")[0] == 2
     with pytest.raises(InputError, match="not zero"):
         simulate(Scene(Body((3, 2, 1.5)), Gyrostat((0, 0, 1)), ConstantTorque((0, 0, 1))), (1, 0, 0), [0, 1],
                  {"attitude": (0, 0, 0, 0)})

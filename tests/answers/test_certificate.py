@@ -76,11 +76,9 @@ def test_a_state_at_an_exact_equilibrium_is_one_and_its_neighbour_is_not():
     assert near is None or near["fate"] != "equilibrium"
 
 
-def test_the_decimals_of_a_case_are_certified_as_they_were_written(tmp_path):
+def test_the_decimals_of_a_case_are_certified_as_they_were_written(case_file):
     # x2 (x1 + b) = -1 at (-10.1, 0.1, 0) exactly (theory.md, section 1): no double is 0.1
-    path = tmp_path / "tenth.toml"
-    path.write_text('[scaled]\na = 0.1\nb = 0.1\nmu = [0, 0, 1]\n[motion]\nx = [-10.1, 0.1, 0]\n',
-                    encoding="utf-8")
+    path = case_file('[scaled]\na = 0.1\nb = 0.1\nmu = [0, 0, 1]\n[motion]\nx = [-10.1, 0.1, 0]\n', "tenth")
     case = load(path)
     assert case.exact_state[1] == Fraction(1, 10) != case.state[1]
     assert certificate(case.scene, case.exact_state)["motion"]["fate"] == "equilibrium"

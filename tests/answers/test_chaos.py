@@ -110,9 +110,8 @@ span = [0, 9]
 """
 
 
-def test_a_sweep_is_one_table_and_the_law_is_told_first(stabilab, tmp_path):
-    path = tmp_path / "three.toml"
-    path.write_text(SWEPT)
+def test_a_sweep_is_one_table_and_the_law_is_told_first(stabilab, case_file):
+    path = case_file(SWEPT, "three")
     code, out, _ = stabilab("chaos", path, "--until", "60")
     lines = out.splitlines()
     assert code == 0 and len(lines) == 7 and lines[1].startswith("law: charge: ")

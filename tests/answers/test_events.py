@@ -1,13 +1,12 @@
 """Zeros of components and of functions along a motion."""
-from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
 import stabilab
+from tests.shared import CASES
 
-CASES = Path(__file__).parents[2] / "cases"
 PHONE = stabilab.load(CASES / "phone.toml")
 
 

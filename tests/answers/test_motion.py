@@ -89,9 +89,8 @@ def test_on_a_loop_of_a_parabola_the_rate_about_the_torque_keeps_the_sense_of_ea
     np.testing.assert_allclose(found.extremes[2], ends, rtol=1e-10)
 
 
-def test_a_tie_of_written_decimals_is_the_separatrix(tmp_path):
-    path = tmp_path / "tie.toml"
-    path.write_text(TIE)
+def test_a_tie_of_written_decimals_is_the_separatrix(tmp_path, case_file):
+    path = case_file(TIE, "tie")
     case = load(path)
     assert case.state != case.exact_state  # the doubles lie beside it
     assert motion(case.scene, case.state).fate == Fate.BOUNDED

@@ -153,9 +153,8 @@ THRUSTER = craft_file([12.0, 9.0, 5.0], ([0.6, 0.0, 0.25], [0, 1, 0], "0.04 N"),
                       [0.10, 0.05, 0.02], [0.1, 0.0, 0.25], misalignment="2 deg")
 
 
-def test_the_cone_of_a_thruster_is_that_of_its_force(tmp_path):
-    path = tmp_path / "thruster.toml"
-    path.write_text(THRUSTER)
+def test_the_cone_of_a_thruster_is_that_of_its_force(case_file):
+    path = case_file(THRUSTER, "thruster")
     case = package.load(path)
     cone, arm, force = cone_of(case.scene, case), np.array([0.5, 0, 0]), np.array([0, 0.04, 0])
     side, (low, high) = cone.reach()
@@ -191,9 +190,8 @@ def test_the_headline_says_the_longer_of_what_is_proved_and_what_was_followed(st
 
 
 @pytest.mark.slow
-def test_a_stated_limit_or_misalignment_brings_the_tilt_by_itself(stabilab, tmp_path):
-    path = tmp_path / "limit.toml"
-    path.write_text(CASE + '[limits]\nrate = "2 rad/s"\n')
+def test_a_stated_limit_or_misalignment_brings_the_tilt_by_itself(stabilab, case_file):
+    path = case_file(CASE + '[limits]\nrate = "2 rad/s"\n', "limit")
     code, out, _ = stabilab("fate", path)
     assert code == 0
     assert "BOUNDED only while the torque is exactly along z (minor axis): tilted by 1 deg it reaches 114.6 deg/s after 1" in out.splitlines()[0]
@@ -206,9 +204,8 @@ def test_a_stated_limit_or_misalignment_brings_the_tilt_by_itself(stabilab, tmp_
         0] and "tilted by 2 deg: the force of A" in out and "no limit is stated" in out
 
 
-def test_a_tilt_may_be_asked_for(stabilab, tmp_path):
-    path = tmp_path / "plain.toml"
-    path.write_text(CASE)
+def test_a_tilt_may_be_asked_for(stabilab, case_file):
+    path = case_file(CASE, "plain")
     assert "tilted by 0.5 deg it reaches" in stabilab("classify", path, "--tilt", "0.5 deg")[1]
     code, _, err = stabilab("classify", path, "--tilt", "95 deg")
     assert code == 2 and "--tilt: expected an angle below 90 deg" in err
@@ -224,10 +221,9 @@ def test_a_steady_rotation_is_not_told_to_be_at_rest():
 
 
 @pytest.mark.parametrize("torque", [[0.0, 0.0, 0.02], [0.001, 0.0, 0.02]])
-def test_rates_whose_squares_are_no_doubles_are_answered_in_words(stabilab, tmp_path, torque):
-    path = tmp_path / "fast.toml"
-    path.write_text(CASE.replace("[0.0, 0.0, 0.02]",
-                                 str(torque)).replace("[0.10, 0.05, 0.02]", "[1e160, 2e159, 1e158]"))
+def test_rates_whose_squares_are_no_doubles_are_answered_in_words(stabilab, case_file, torque):
+    path = case_file(CASE.replace("[0.0, 0.0, 0.02]",
+                                  str(torque)).replace("[0.10, 0.05, 0.02]", "[1e160, 2e159, 1e158]"), "fast")
     code, out, err = stabilab("fate", path, "--tilt", "1 deg")
     assert code == 0 and "not looked at with rates whose squares are no doubles" in out
     assert "Warning" not in err

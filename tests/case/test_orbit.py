@@ -51,8 +51,7 @@ def test_questions_without_an_orbit_refuse_it_and_name_the_command(question):
 
 
 @pytest.mark.parametrize("command", ("classify", "fate", "simulate", "attitude", "stuck", "show", "explore"))
-def test_commands_without_an_orbit_refuse_it(stabilab, tmp_path, command):
-    path = tmp_path / "orbit.toml"
-    path.write_text(ORBIT.format("rate = 1"))
+def test_commands_without_an_orbit_refuse_it(stabilab, case_file, command):
+    path = case_file(ORBIT.format("rate = 1"), "orbit")
     code, out, said = stabilab(command, path)
     assert code == 2 and not out and "2: circular_orbit: " in said and "stabilab orbit" in said

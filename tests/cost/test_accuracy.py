@@ -4,7 +4,6 @@ import csv
 import json
 import math
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 
 import mpmath as mp
@@ -25,13 +24,9 @@ from stabilab.show.report import precision_page
 from stabilab.show.text.cost import precision as shown
 from tests.oracles.model import physical
 from tests.oracles.taylor import integrate_checked
+from tests.shared import CASES, case
 
-CASES = Path(__file__).parents[2] / "cases"
 FREE = load(CASES / "torque-free-body.toml")
-
-
-def case(name):
-    return load(CASES / f"{name}.toml")
 
 
 def sums(found):
@@ -229,18 +224,6 @@ def test_the_table_by_digits_has_the_cheapest_and_the_second_best_of_the_points(
     assert "second best" in shown.text(measured, True) and "  method " in shown.text(measured, True)
 
 
-def test_picture_shows_a_panel_a_question_and_a_line_a_method(measured):
-    with shown.style.drawing() as plt:
-        figure = shown.picture(plt, measured)
-        visible = [ax for ax in figure.axes if ax.get_visible()]
-        assert len(visible) == len(measured.questions)
-        drawn = [line for line in visible[0].lines if len(line.get_xdata())
-                 and line.get_marker() not in ("None", None, "")]
-        assert len(drawn) == len({p.method for p in measured.of("span")}) + 2  # the front lies under them, the reference beside
-        assert len(drawn[0].get_xdata()) == len(measured.front("span")) > 1
-        assert "cores" in figure.legends[0].get_title().get_text()
-
-
 def test_page_has_words_of_every_case_and_a_picture_of_every_kind(tmp_path, monkeypatch, measured):
     one = replace(measured, points=tuple(measured.of("span")))  # a small picture
     efforts, told = [], []
@@ -273,7 +256,7 @@ def test_command_answers_in_strict_json(stabilab, monkeypatch, tmp_path, measure
     assert {"processor", "cores", "system"} <= answer["machine"].keys() and answer["versions"]["stabilab"]
 
 
-def test_command_takes_another_end_of_the_span(stabilab, monkeypatch, tmp_path, measured):
+def test_command_takes_another_end_of_the_span(stabilab, monkeypatch, measured):
     given = []
     monkeypatch.setattr("stabilab.commands.accuracy.measure", lambda case, effort,
                         until=None: given.append((effort, until)) or measured)
@@ -281,20 +264,14 @@ def test_command_takes_another_end_of_the_span(stabilab, monkeypatch, tmp_path, 
     assert code == 0 and given == [("full", 1500.0)] and out.startswith("case,question,method")
 
 
-def test_a_case_without_a_span_is_measured_over_three_periods(stabilab, monkeypatch, tmp_path, measured):
+def test_a_case_without_a_span_is_measured_over_three_periods(stabilab, monkeypatch, tmp_path, case_file, measured):
     """A body of revolution: in the body its rates go round at (C - A) omega3/A."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     given = []
     monkeypatch.setattr("stabilab.commands.accuracy.measure", lambda case, effort, until: given.append(until)
                         or measured)
-    path = tmp_path / "own.toml"
-    path.write_text("body.inertia = [2, 2, 3]\nmotion.angular_velocity = [0.1, 0, 0.5]\n")
+    path = case_file("body.inertia = [2, 2, 3]\nmotion.angular_velocity = [0.1, 0, 0.5]\n", "own")
     assert stabilab("precision", path)[0] == 0 and given == [pytest.approx(3 * 2 * np.pi / 0.25)]
-
-
-def test_times_reach_from_zero_to_the_end_of_the_span():
-    task = problem(replace(FREE, span=(0.0, 3.0)), 4)
-    assert task.times.tolist() == [0.75, 1.5, 2.25, 3.0]
 
 
 # -- digits asked for
@@ -312,7 +289,7 @@ def judged():
 
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("digits", [3, 6, 9, 12, 15])
-def test_digits_asked_for_are_reached(judged, digits, tmp_path, monkeypatch):
+def test_digits_asked_for_are_reached(judged, digits):
     # against the reference in many digits, which the check itself does not use below 15
     for name, (one, times, exact) in judged.items():
         reached = best_reached(one, times, digits)
@@ -321,7 +298,7 @@ def test_digits_asked_for_are_reached(judged, digits, tmp_path, monkeypatch):
         assert error <= 10.0**-reached.digits * 1.01 + 2.0**-53, name  # what it says of itself holds
 
 
-def test_digits_that_nothing_reaches_end_with_5_after_the_states_that_come_nearest(stabilab, tmp_path,
+def test_digits_that_nothing_reaches_end_with_5_after_the_states_that_come_nearest(stabilab,
                                                                                    monkeypatch):
     # off an unstable plane by rounding: not one digit is sure, so it is no answer whether or not digits were
     # asked for
@@ -336,7 +313,7 @@ def test_digits_that_nothing_reaches_end_with_5_after_the_states_that_come_neare
         assert len(told["state"]["x"]) == 2
 
 
-def test_an_attitude_is_followed_in_many_digits_too(tmp_path, monkeypatch):
+def test_an_attitude_is_followed_in_many_digits_too():
     # against the closed form of a ball that spins about axis 3 without torque: theta = 2 t, many turns of it
     ball = replace(case("charged-body"), scene=Scene(Body((2, 2, 2), mass=1)), state=(0.0, 0.0, 2.0),
                    blocks={"attitude": (0.0, 0.0, 0.0), "velocity": (1.0, 0.0, 0.0),
@@ -348,7 +325,7 @@ def test_an_attitude_is_followed_in_many_digits_too(tmp_path, monkeypatch):
                   - times).max() < 1e-14 and list(found.run.state)[:3] == ["omega", "angles", "momentum"]
 
 
-def test_models_are_judged_on_the_attitude(monkeypatch):
+def test_models_are_judged_on_the_attitude():
     # a model whose angles are the exact ones, given with the other sign of the quaternion, has no error in
     # the attitude
     one = case("charged-body-small-torque")
@@ -362,7 +339,7 @@ def test_models_are_judged_on_the_attitude(monkeypatch):
     assert "attitude" in linear.prepare(task, 1)(task.times).parts
 
 
-def test_simulate_tells_the_digits_and_how_they_were_checked(stabilab, tmp_path, monkeypatch):
+def test_simulate_tells_the_digits_and_how_they_were_checked(stabilab):
     path = CASES / "minor-axis-100.toml"
     code, out, _ = stabilab("simulate", path, "--at", "0,5", "--digits", "9", "--json")
     told = json.loads(out)["digits"]
@@ -384,7 +361,7 @@ def test_digits_that_make_no_sense_are_refused(stabilab, options):
 
 
 @pytest.mark.slow
-def test_a_start_on_an_unstable_plane_is_beyond_doubles_but_not_beyond_many_digits(tmp_path, monkeypatch):
+def test_a_start_on_an_unstable_plane_is_beyond_doubles_but_not_beyond_many_digits(monkeypatch):
     # On the plane x1 + b = -x3 (a law of the equations, see `show`) the distance from pure spin obeys u' =
     # -x2 u: it dies out.
     # Off it by rounding, the distance grows as fast.

@@ -1,8 +1,6 @@
 """Tests of `cost/event_methods.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -11,8 +9,7 @@ from stabilab.cost.event_methods import fate_methods, known_period
 from stabilab.cost.methods import problem
 from stabilab.errors import InputError
 from stabilab.theories.comparison import side_by_side
-
-CASES = Path(__file__).parents[2] / "cases"
+from tests.shared import CASES
 
 
 def test_what_has_no_reduction_has_no_period_and_no_energies_to_measure():

@@ -248,11 +248,6 @@ def test_one_state_reads_no_more_than_its_answer_needs():
         assert int(run.stderr.split("LOADED ")[1]) <= most, name
 
 
-def test_one_state_that_doubles_cannot_settle_loads_the_library_for_many_digits_alone():
-    loaded = loaded_by("classify", "cases/middle-axis-double-well.toml")
-    assert "flint" in loaded and not loaded & (HEAVY - {"flint"} | {"numpy"})
-
-
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("arguments, needed", [
     # sympy brings mpmath, and both look for gmpy2 and flint
@@ -262,18 +257,3 @@ def test_one_state_that_doubles_cannot_settle_loads_the_library_for_many_digits_
 def test_a_command_loads_no_heavy_package_that_it_does_not_use(arguments, needed):
     allowed = needed | ({"flint"} if "sympy" in needed else set())
     assert not loaded_by(*arguments) & HEAVY - allowed
-
-
-def test_loading_a_case_needs_no_numpy():
-    code = "import sys, stabilab; stabilab.load(sys.argv[1]); sys.exit('numpy' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", code, "cases/minor-axis-100.toml"], cwd=ROOT).returncode == 0
-
-
-def test_an_effect_that_no_case_names_is_not_imported():
-    code = ("import sys, stabilab; stabilab.load(sys.argv[1]);"
-            "print(sorted(m for m in sys.modules if m.startswith('stabilab.physics.effects.')))")
-    run = subprocess.run([sys.executable, "-c", code, "cases/off-axis-two.toml"], cwd=ROOT,
-                         capture_output=True, text=True)
-    assert "stabilab.physics.effects.constant_torque" in run.stdout
-    # scaling needs the torque's class alone; the gyrostat is not named by this case
-    assert "stabilab.physics.effects.gyrostat" not in run.stdout

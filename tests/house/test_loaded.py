@@ -115,11 +115,6 @@ def test_one_state_is_answered_and_certified_with_python_flint_alone():
 
 
 @pytest.mark.slow
-def test_commands_load_only_the_effects_that_the_scene_names(tmp_path):
-    check(tmp_path, COMMANDS, FEW)
-
-
-@pytest.mark.slow
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("command", (*COMMANDS, *OTHERS, *(pytest.param(c, marks=pytest.mark.long)
                                                            for c in DRAWING)))

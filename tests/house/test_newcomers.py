@@ -68,10 +68,9 @@ def said(command, folder):
 
 
 @pytest.mark.slow
-def test_an_engineer_goes_from_a_data_sheet_to_a_decision(tmp_path):
+def test_an_engineer_goes_from_a_data_sheet_to_a_decision(tmp_path, case_file):
     """Each step uses what the one before has printed; the last two try the decision from both sides."""
-    sheet = tmp_path / "sheet.toml"
-    sheet.write_text(SHEET % "0.8")
+    sheet = case_file(SHEET % "0.8", "sheet")
 
     understood, code = run("stabilab show sheet.toml", tmp_path)
     assert code == 0 and "thruster T1 (stuck)" in understood and "0.02" in understood

@@ -224,13 +224,6 @@ def test_the_precision_of_the_guide_is_what_it_shows(guide):
     assert follow(*guide, lambda command: command.startswith("stabilab precision"))
 
 
-@pytest.mark.slow
-def test_readme_report_is_written(readme):
-    text, folder = readme
-    assert follow(text, folder, lambda command: command.startswith("stabilab report"))
-    assert "<html" in (folder / "my-report/index.html").read_text()[:500]
-
-
 @pytest.mark.parametrize("wanted", ["stuck bias", pytest.param("stuck", marks=pytest.mark.slow)])
 def test_the_page_of_stuck_thrusters_prints_what_it_shows(tmp_path, wanted):
     text, folder = prepared((ROOT / "docs/stuck.md").read_text(), tmp_path)

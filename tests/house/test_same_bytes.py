@@ -249,10 +249,6 @@ def test_only_commands_that_fill_a_folder_are_repeated(tmp_path, monkeypatch, st
     assert code == BAD_INPUT and words in err
 
 
-def test_the_folder_is_always_the_one_of_the_rerun():
-    assert rerun._redirected(["tables", "--out", "a", "--out=b", "x"]) == ["tables", "x"]
-
-
 def test_files_that_show_times_are_marked_and_not_compared(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with manifest.written("made", ["report"]) as folder:

@@ -133,13 +133,6 @@ def test_a_case_of_the_gallery_has_picture_answer_file_and_commands_and_is_kept_
     assert drawn == [changed]
 
 
-@pytest.mark.slow
-def test_the_gallery_says_before_an_answer_that_it_leaves_its_law(tmp_path):
-    """25 t of liquid in a body of 9 kg m^2: "BOUNDED for ever" alone stood above a picture that says it."""
-    assert gallery.made(ROOT / "cases/liquid-base.toml",
-                        tmp_path)["answer"].startswith("BEYOND THE LAW; by that law: BOUNDED for ever")
-
-
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=[path.stem for path in NOTEBOOKS])
 def test_a_notebook_is_whole_and_its_page_has_every_cell_picture_and_link(path):
     notebook = notebooks.read(path)
@@ -179,12 +172,6 @@ def conf(monkeypatch):
     return runpy.run_path(str(ROOT / "docs/conf.py"))
 
 
-def a_table(*words):
-    from docutils import nodes
-    row = nodes.row("", *(nodes.entry("", nodes.paragraph("", said)) for said in words))
-    return row, nodes.table("", nodes.tgroup("", *(nodes.colspec() for _ in words), nodes.tbody("", row)))
-
-
 def test_words_have_the_signs_of_a_book_and_commands_stay_as_they_are_typed(conf):
     from docutils import nodes
     from docutils.utils import new_document
@@ -199,34 +186,6 @@ def test_words_have_the_signs_of_a_book_and_commands_stay_as_they_are_typed(conf
     assert page[
         1].astext() == "alpha″ = U′, the papers’ 1 − x1′, 0.25 µs with us, x2 + A1/2 in N m−1, 2 of test_x − one − by the bodies’"
     assert [one.astext() for one in page[1].findall(nodes.superscript)] == ["2", "1/2", "−1"]
-
-
-def test_a_table_of_many_columns_has_low_rows_and_a_long_last_cell_stands_below_its_row(conf):
-    from docutils import nodes
-    from docutils.utils import new_document
-    page = new_document("page")
-    row, table = a_table("1e-5", "a" * 40, "b" * 200, "c", "d")
-    long, other = a_table("1", "2", "3", "4", "e" * 200)
-    page += [table, other]
-    conf["set_as_a_book"](None, page)
-    assert row[0].astext() == "1e−5" and "many" in table["classes"]
-    assert [cell["classes"] for cell in row] == [["whole"], ["words"], ["paragraph"], ["whole"], ["whole"]]
-    above, below = other.findall(nodes.row)
-    assert [cell.astext() for cell in above] == ["1", "2", "3", "4", ""]
-    assert below.astext() == "e" * 200 and below[0]["morecols"] == 4 and below[0]["classes"] == ["note"]
-
-
-def test_a_cell_of_a_table_of_many_columns_names_its_column_for_telephones(conf):
-    from docutils import nodes
-    from docutils.utils import new_document
-    page = new_document("page")
-    row, table = a_table("1", "2", "3", "4", "5")
-    head, _ = a_table("hard case", "asked for", "naive error", "our error", "condition")
-    table[0].insert(5, nodes.thead("", head))
-    page += table
-    conf["set_as_a_book"](None, page)
-    assert row.astext().split("\n\n")[:2] == ["hard case: 1", "asked for: 2"]
-    assert head.astext().startswith("hard case\n") and row[0][0][0]["classes"] == ["column"]
 
 
 @pytest.mark.parametrize(("written", "told"), [

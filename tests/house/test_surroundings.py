@@ -10,7 +10,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 import tomllib
 from pathlib import Path
 
@@ -319,36 +318,6 @@ def test_ci_runs_the_lowest_versions():
 
 # -- installed, away from the repository
 
-# A report with one figure, no chapters and no audit: what is left reads the papers' cases as all of it does.
-LIGHT_REPORT = ("from stabilab.papers import table\nfrom stabilab.papers.figures import catalogue as "
-                "figures\n"
-                "from stabilab.papers.report import chapters, report\n"
-                "figures.FIGURES = (figures.figure(9),)\n"
-                "figures.NUMBERS = (9,)\nchapters.CHAPTERS = report.COSTS = ()\nreport.audited_papers = "
-                "lambda: (report.MAIN,)\nreal = table.case_files\n"
-                "report.table.case_files = lambda stems=('minor-axis-100',): "
-                "real(stems)\nprint(report.write(out='report', workers=1))\n")
-
-
-def installed(folder, made):
-    """Run commands of the package in `made` from an empty folder; assert that they read nothing of the
-    repository."""
-    def run(*words):
-        around = environment(folder) | {"PYTHONPATH": str(made)}
-        done = subprocess.run([sys.executable, *map(str, words)], capture_output=True, text=True, cwd=folder,
-                              env=around)
-        assert done.returncode == 0, done.stderr
-        return done.stdout
-    assert Path(run("-c", "import stabilab; print(stabilab.__file__)").strip()).is_relative_to(made)
-    run("-m", "stabilab", "tables", "--out", "tables")
-    run("-m", "stabilab", "figures", "9", "--out", "figures")
-    run("-m", "stabilab", "figures", "--paper", "charged", "2", "--out", "figures")
-    for name in ("tables", "figures"):
-        (*_, last) = manifest.read(folder / name)
-        assert all(Path(row["path"]).is_relative_to(made) for row in last["inputs"]) and last["inputs"]
-    assert (folder / "tables/table-4.csv").read_bytes() and len(list((folder / "figures").glob("*.png"))) == 2
-    return run
-
 
 def test_the_package_brings_the_cases_of_its_tables_and_figures(tmp_path):
     """What setuptools puts into a wheel, without making one."""
@@ -361,29 +330,6 @@ def test_the_package_brings_the_cases_of_its_tables_and_figures(tmp_path):
     assert files(made) == files(ROOT / "cases")
 
 
-@pytest.mark.slow
-def test_an_installed_wheel_makes_tables_figures_and_reports_anywhere(tmp_path):
-    pip, away = [sys.executable, "-m", "pip", "-q", "--disable-pip-version-check"], tmp_path / "away"
-    if subprocess.run([*pip, "--version"], capture_output=True).returncode:
-        pytest.skip("this environment has no pip")
-    copy = tmp_path / "source"  # setuptools leaves its own folders beside what it builds
-    unpacked = lambda folder, names: [n for n in names if n.startswith(".") or Path(folder) == ROOT
-                                      and n in ("build", "report", "figures")]
-    shutil.copytree(ROOT, copy, symlinks=True, ignore=unpacked)
-    subprocess.run([*pip, "wheel", "--no-deps", "-w", tmp_path / "wheel", copy], check=True)
-    (wheel,) = (tmp_path / "wheel").iterdir()
-    subprocess.run([*pip, "install", "--no-deps", "--target", tmp_path / "made", wheel], check=True)
-    shutil.rmtree(copy)
-    away.mkdir()
-    run = installed(away, tmp_path / "made")
-    assert run("-c",
-               LIGHT_REPORT).strip() == "report/index.html" and "minor-axis-100" in (
-                   away / "report/cases.html").read_text(encoding="utf-8")
-    (away / "own.toml").write_bytes(MINOR.read_bytes())
-    run("-m", "stabilab", "report", "own.toml", "--out", "mine")
-    assert "BOUNDED" in (away / "mine/index.html").read_text(encoding="utf-8")
-
-
 ONE_STATE = ("import stabilab, sys\ncase = stabilab.load(sys.argv[1])\nprint(stabilab.motion(case.scene, "
              "case.state).fate.word)\n"
              "print(stabilab.equilibria(case.scene).kind)")
@@ -393,7 +339,7 @@ ONE_STATE = ("import stabilab, sys\ncase = stabilab.load(sys.argv[1])\nprint(sta
 def test_wheel_and_sdist_install_from_files_alone_in_a_bare_environment_and_answer(tmp_path):
     """Packages are fetched first; then pip may ask nobody. With python-flint alone one state is answered, and
     with the base installation plots and meshes; what it lacks the extras bring, and a command that needs one
-    names it."""
+    names it. Tables, figures and reports are made of what the package brings."""
     copy, bin_, house = tmp_path / "source", tmp_path / "bare/bin", tmp_path / "house"
     unpacked = lambda folder, names: [n for n in names if n.startswith(".") or Path(folder) == ROOT
                                       and n in ("build", "report", "figures")]
@@ -417,6 +363,7 @@ def test_wheel_and_sdist_install_from_files_alone_in_a_bare_environment_and_answ
     alone = subprocess.run([bin_ / "python", "-c", ONE_STATE, MINOR], capture_output=True, text=True,
                            cwd=tmp_path)
     assert alone.stdout.split() == ["bounded", "curves"], alone.stderr
+    (tmp_path / "own.toml").write_bytes(MINOR.read_bytes())
     for built in (made[".whl"], made[".gz"]):
         install("--force-reinstall" if built == made[".gz"] else "--upgrade",
                 *(["--no-deps"] if built == made[".gz"] else []), built)
@@ -431,6 +378,11 @@ def test_wheel_and_sdist_install_from_files_alone_in_a_bare_environment_and_answ
         assert lacking.returncode == 2 and "stabilab[data]" in lacking.stderr and lacking.stderr.count(
             "\n") == 1
         assert run("simulate", MINOR, "--at", "0,1").returncode == 0
+        assert run("report", "own.toml", "--out", "mine").returncode == 0
+        for words in (("tables",), ("figures", "9")):
+            assert run(*words, "--out", words[0]).returncode == 0
+            (*_, last) = manifest.read(tmp_path / words[0])
+            assert last["inputs"] and not any(row["path"].startswith(str(ROOT)) for row in last["inputs"])
         listed = subprocess.run([bin_ / "python", "-m", "pip", "list"], check=True, capture_output=True,
                                 text=True).stdout.lower()
         assert not any(package in listed for package in ("xarray", "pandas", "trame")) and "numba" in listed
@@ -578,54 +530,3 @@ def test_a_name_may_be_as_long_as_the_system_allows_and_hold_what_patterns_mean(
         with files.whole_file(tmp_path / name) as waiting:
             waiting.write_text(name)
         assert (tmp_path / name).read_text() == name
-
-
-# -- the report
-
-
-def report(folder):
-    """A report on many cases, so that it takes its time on two cores too."""
-    cases = sorted(map(str, MINOR.parent.glob("*-axis-*.toml")))
-    return subprocess.Popen([sys.executable, "-m", "stabilab", "report", *cases, "--out", "report"],
-                            cwd=folder, env=environment(folder),
-                            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                            start_new_session=True,
-                            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
-
-
-def processes_in(folder):
-    """Ids of the processes that work on a report in the folder."""
-    found = []
-    for entry in Path("/proc").iterdir():
-        try:
-            if entry.name.isdigit() and str(folder) in os.readlink(entry / "cwd"):
-                found.append(int(entry.name))
-        except OSError:
-            pass
-    return found
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(not Path("/proc/self/cwd").exists(), reason="looks for processes in /proc")
-def test_a_report_that_is_interrupted_or_killed_damages_nothing_and_a_rerun_completes(tmp_path):
-    (tmp_path / "report").mkdir()
-    (tmp_path / "report" / "index.html").write_text("of yesterday")
-    for how, delay in ((signal.SIGINT, 2), (signal.SIGKILL, 2), (signal.SIGINT, 5), (signal.SIGKILL, 5)):
-        run = report(tmp_path)
-        time.sleep(delay)
-        run.send_signal(how)
-        _, words = run.communicate(timeout=60)
-        assert run.returncode == (INTERRUPTED if how == signal.SIGINT else -how) and words == ""
-        assert (tmp_path / "report" / "index.html").read_text() == "of yesterday"
-        visible = [p for p in written(tmp_path) if "/.new-" not in p]
-        assert visible == ["report/index.html"]
-        deadline = time.time() + 10
-        while processes_in(tmp_path) and time.time() < deadline:
-            time.sleep(0.1)
-        assert processes_in(tmp_path) == []  # the second process ended too
-    run = report(tmp_path)
-    assert run.wait(timeout=580) == 0
-    (made,) = manifest.read(tmp_path / "report")
-    rows = {row["path"]: row["sha256"] for row in made["outputs"]}
-    assert set(rows) == set(p.removeprefix("report/") for p in written(tmp_path)) - {manifest.NAME}
-    assert all(manifest.sha256(tmp_path / "report" / path) == value for path, value in rows.items())

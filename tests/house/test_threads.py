@@ -28,6 +28,7 @@ from stabilab.physics import to_numpy as compiled
 from stabilab.physics.effects.gravity import Gravity
 from stabilab.verify import numbers as precision
 from stabilab.verify import verify
+from tests.shared import case
 
 ROOT = Path(__file__).parents[2]
 SWITCH = 1e-6  # s after which Python lets another thread run: five thousand times as often as by itself
@@ -38,10 +39,6 @@ OTHERS = ("off-axis-one", "off-axis-fold", "liquid-base", "charged-body-attitude
 FREE = Scene(Body((5, 4, 2)), Gyrostat(("0.3", "0.2", "0.4")))  # no axis without a wheel: no reduction
 HEAVY = Scene(Body((5, 6, 7)), Gravity(20, (0, 0, "0.1")), Gyrostat((0, 0, 1)))
 STATE, STATES = (0.1, 1.5, 0.2), np.random.default_rng(4).normal(0, 2, (20, 3))
-
-
-def case(name):
-    return stabilab.load(ROOT / "cases" / f"{name}.toml")
 
 
 def plain(answer):
@@ -135,16 +132,11 @@ def wrong(count, each, alone):
 
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("count, each", [(2, len(QUESTIONS) // 2), (8, len(QUESTIONS) // 5),
-                                         pytest.param(2, len(QUESTIONS), marks=pytest.mark.slow)])
+                                         pytest.param(2, len(QUESTIONS), marks=pytest.mark.slow),
+                                         *(pytest.param(n, 3000 // n, marks=[pytest.mark.slow, pytest.mark.long])
+                                           for n in (2, 8))])
 def test_threads_have_the_answers_of_one_to_the_bit(count, each, alone, restless):
     assert wrong(count, each, alone) == []
-
-
-@pytest.mark.slow
-@pytest.mark.long
-@pytest.mark.parametrize("count", [2, 8])
-def test_three_thousand_questions_of_threads_have_the_answers_of_one(count, alone, restless):
-    assert wrong(count, 3000 // count, alone) == []
 
 
 @pytest.mark.one_in(2)

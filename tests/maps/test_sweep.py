@@ -30,21 +30,20 @@ def swept(name, vary, **options):
         return found
 
 
-def written(tmp_path, name, **replaced):
+def written(case_file, name, **replaced):
     """The same case as a file of its own, with other lines: the oracle never meets the code that puts numbers
     in."""
     lines = (CASES / f"{name}.toml").read_text(encoding="utf-8").splitlines()
-    path = tmp_path / "point.toml"
-    path.write_text("\n".join(next((f"{key} = {value}" for key, value in replaced.items()
-                                    if line.startswith(f"{key} =")), line) for line in lines))
+    path = case_file("\n".join(next((f"{key} = {value}" for key, value in replaced.items()
+                                     if line.startswith(f"{key} =")), line) for line in lines), "point")
     return stabilab.load(path)
 
 
-def test_points_have_the_answers_of_cases_written_by_hand(tmp_path):
+def test_points_have_the_answers_of_cases_written_by_hand(case_file):
     found = swept("minor-axis-100", {"momentum[1]": "-100, 250", "x[3]": "-3:3:5"},
                   answer="fate,margin,distance,extremes,period")
     for (i, wheel), (j, rate) in itertools.product(enumerate((-100, 250)), enumerate((-3, -1.5, 0, 1.5, 3))):
-        one = written(tmp_path, "minor-axis-100", momentum=[wheel, 0, 0], x=[2.5, 4.0, rate])
+        one = written(case_file, "minor-axis-100", momentum=[wheel, 0, 0], x=[2.5, 4.0, rate])
         expected, row = motion(one.scene, one.start, one.span), found.records[i, j]
         assert (row["fate"], row["spin_axis"]) == (expected.fate, expected.axis * expected.sense)
         assert row["margin"] == pytest.approx(-np.inf if expected.margin_energy is None
@@ -62,10 +61,10 @@ def test_the_order_of_the_axes_is_the_users():
     assert one.records.shape == (3, 4) and (one.records == other.records.T).all()
 
 
-def test_a_state_in_the_frame_of_a_full_tensor_is_turned(tmp_path):
+def test_a_state_in_the_frame_of_a_full_tensor_is_turned(case_file):
     found = swept("upper-stage", {"angular_velocity[2]": "-1:1:3 deg/s"}, answer="extremes")
     for n, rate in enumerate(("-1 deg/s", "0 deg/s", "1 deg/s")):
-        one = written(tmp_path, "upper-stage", angular_velocity=f'["1.5 deg/s", "{rate}", "-0.05 deg/s"]')
+        one = written(case_file, "upper-stage", angular_velocity=f'["1.5 deg/s", "{rate}", "-0.05 deg/s"]')
         start = np.array(one.state)
         assert (found.records["least"][n] <= start
                 + 1e-12).all() and (start <= found.records["greatest"][n] + 1e-12).all()
@@ -73,11 +72,11 @@ def test_a_state_in_the_frame_of_a_full_tensor_is_turned(tmp_path):
                                                           abs=1e-9)
 
 
-def test_equilibria_are_counted_with_their_verdicts(tmp_path):
+def test_equilibria_are_counted_with_their_verdicts(case_file):
     found = swept("off-axis-two", {"torque[3]": "-0.1, 0.1"}, answer="equilibria,verdict")
     # by hand, in the case's own comment: two of them iff M1 M2 M3 > 0
     for n, torque in enumerate((-0.1, 0.1)):
-        one = written(tmp_path, "off-axis-two", torque=[0.1, 0.2, torque])
+        one = written(case_file, "off-axis-two", torque=[0.1, 0.2, torque])
         assert found.records["equilibria"][n] == len(equilibria(one.scene).points) == (2 if torque > 0 else 0)
         assert found.records["unstable"][n] == (2 if torque > 0 else 0) and found.records["stable"][n] == 0
 
@@ -90,7 +89,7 @@ def test_a_limit_is_reached_when_the_case_alone_reaches_it():
     assert found.records["fate"][0] == Fate.SPIN_UP
 
 
-def test_scenes_without_arrays_are_answered_one_by_one(tmp_path):
+def test_scenes_without_arrays_are_answered_one_by_one():
     found = swept("liquid-base", {"angular_velocity[1]": "0, 0.5"}, answer="fate,extremes,verdict")
     for n, rate in enumerate(("0", "0.5")):
         text = (CASES / "liquid-base.toml").read_text(encoding="utf-8")

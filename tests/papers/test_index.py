@@ -22,12 +22,3 @@ def test_every_equation_figure_and_table_has_a_verdict_and_a_place(stabilab, pap
     assert items["data"] == 1
     assert all(row["verdict"] for row in rows)
     assert all(row["place"] for row in rows)
-
-
-@pytest.mark.slow
-def test_the_text_has_a_line_an_item_with_how_to_see_it(stabilab):
-    out = stabilab("papers", "constant-torque-gyrostat")[1]
-    assert "figure 7 " in out
-    assert "-> stabilab figures 7 --out figures" in out
-    assert "(30) " in out
-    assert "table 3 " in out

@@ -18,8 +18,8 @@ from stabilab.show import style
 from stabilab.show.files import manifest
 from stabilab.show.report import html, own
 from stabilab.show.surface import render_probe
+from tests.shared import CASES
 
-CASES = Path(__file__).parents[2] / "cases"
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 HOSTILE = '<script>alert("title")</script> & "more"'
 VOID = {"meta", "link", "img", "br", "hr", "input", "source"}
@@ -125,19 +125,6 @@ def everything(tmp_path_factory, hostile):
         patch.undo()
 
 
-def test_a_page_below_one_of_the_navigation_shows_to_which_it_belongs(everything, several):
-    (case,) = (everything.parent / "cases").glob("*.html")
-    assert '<a href="../cases.html" aria-current="true">Cases</a>' in case.read_text(encoding="utf-8")
-    assert "<b>Cases</b>" in (everything.parent / "cases.html").read_text(encoding="utf-8")
-    assert all('<a href="../index.html" aria-current="true">' in page.read_text(encoding="utf-8")
-               for page in (several[0].parent / "cases").glob("*.html"))
-    told = []
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(report, "COSTS", (("", "", lambda cases, folder, **around: told.append(around)),))
-        report.costs((), everything.parent)
-    assert told[0]["below"] == "cost.html"
-
-
 def test_a_list_of_cases_says_by_how_much_a_law_is_left_and_a_law_that_holds_is_not_told():
     law = (
         "BEYOND THE LAW: charge: change of cos σ, held constant, with the attitude, 1.86 along the run, "
@@ -221,13 +208,6 @@ def test_numbers_and_names_have_the_minus_of_a_book(pages):
     assert not plain
 
 
-def test_a_minus_in_a_command_stays_as_it_is_typed():
-    from markupsafe import Markup
-    told = html.signed(
-        Markup("x = -a, (-h, b - a, r0 - W, 2(b-a), 1e-5, 2.5e-08: <code>f -5 (-x) --tilt 1e-08</code>"))
-    assert told == "x = −a, (−h, b − a, r0 − W, 2(b−a), 1e−5, 2.5e−8: <code>f -5 (-x) --tilt 1e-08</code>"
-
-
 def test_a_page_is_small(pages):
     """A page opens in a second: half a megabyte at most, pictures come as they are scrolled to."""
     assert all(len(text) < 500_000 for text in pages.values())
@@ -238,14 +218,6 @@ def test_a_hostile_title_is_text(pages):
         assert "<script>alert" not in text, path
         assert Page(text).scripts == ("space-data" in text), path  # that which draws the space of the rates
     assert any("&lt;script&gt;alert(" in text for text in pages.values())
-
-
-def test_the_verdict_is_the_first_line_below_the_title(alone):
-    text = alone.read_text(encoding="utf-8")
-    below = text[text.index("</h1>") + 5:].strip()
-    assert below.startswith(
-        '<p class="verdict-line conditional">BOUNDED only while the torque is exactly along x3; largest rate |x| '
-        '= 6.345 (4.6')
 
 
 def test_a_page_has_four_tiles_one_picture_and_what_would_change_it_and_the_rest_is_folded(alone):
@@ -270,42 +242,6 @@ def test_the_certificate_of_a_page_is_proved_by_the_other_code(alone):
     from stabilab.verify import verify_file
     assert verify_file(alone.parent / "cases/hostile-certificate.json").status == "proved"
     assert "<b>proved</b>" in alone.read_text(encoding="utf-8")
-
-
-def test_the_pages_of_costs_that_were_made_are_linked_and_the_others_left_out(everything):
-    told = (everything.parent / "cost.html").read_text(encoding="utf-8")
-    assert '<a href="small.html">What it costs &lt;b&gt;</a><br>In time.' in told and "Nothing" not in told
-    assert (everything.parent / "small.html").read_text(encoding="utf-8").endswith("<title>1</title>")
-    assert [title for title, _,
-            _ in report.COSTS] == ["What accuracy costs", "How cost grows", "What each effect costs"]
-
-
-def test_the_start_page_leads_to_every_other_and_every_page_back(everything):
-    folder = everything.parent
-    start = Page(everything.read_text(encoding="utf-8")).links
-    for name in ("constant-torque", "cases", "audit", "validation", "cost"):
-        assert f"{name}.html" in start and "index.html" in Page(
-            (folder / f"{name}.html").read_text(encoding="utf-8")).links
-    assert "../cases.html" in Page((folder / "cases/hostile.html").read_text(encoding="utf-8")).links
-    assert "Table 4" in (folder / "constant-torque.html").read_text(encoding="utf-8")
-
-
-def test_the_start_page_leads_by_question_with_the_answers_of_the_pages(tmp_path):
-    """The hero and the questions are made from what the pages of the cases say."""
-    cases = [stabilab.load(CASES / f"{name}.toml") for name in ("minor-axis-100", "upper-stage", "cubesat-3u")]
-    page = lambda title, look, tiles: {"case": {
-        "title": title, "look": look, "headline": f"{title}!", "tiles": tiles,
-        "pictures": [{"kind": "time", "file": "t.png", "size": [1, 1]}]}}
-    told = [("outcome", "Spins up", "about z"), ("when", "16.95 s", "until the limit"), ("largest", "1", ""),
-            ("to another", "0.58", "the smallest change of the rates to the separatrix")]
-    found = {"case minor-axis-100": page("Minor, lambda1", "conditional", told),
-             "case upper-stage": page("Stage", "changes", told), "case cubesat-3u": page("Cube", "changes", told)}
-    hero = report._hero(cases, found)
-    assert (hero["title"], hero["file"]) == ("Cube", "cases/cubesat-3u.html")  # it has a wheel
-    first, edge, *_, papers = report._questions(cases, found, hero, "3 hold", [])
-    assert first["words"] == "outcome: Spins up about z; when: 16.95 s until the limit; largest: 1"
-    assert edge["words"] == "Minor, λ1: 0.58, the smallest change of the rates to the separatrix"
-    assert papers["words"] == "of their equations and claims 3 hold" and report._hero(cases[:1], found) is None
 
 
 def test_a_report_on_cases_alone_reads_none_of_the_papers(alone, several, hostile):
@@ -353,11 +289,6 @@ def test_cases_stand_in_groups_by_their_effects(name, title):
     assert report.group(stabilab.load(CASES / f"{name}.toml")) == title
 
 
-def test_constant_torque_comes_first():
-    assert [title for title, _ in report.GROUPS][:2] == ["Constant torque along a principal axis",
-                                                        "Constant torque in another direction"]
-
-
 def test_a_report_needs_no_renderer_and_brings_the_meshes(alone):
     """The fixtures are made where nothing can be drawn in 3-D: the page draws its space by itself, in the
     reader's browser."""
@@ -370,9 +301,8 @@ def test_nothing_is_left_beside_the_report(alone):
     assert {p.name for p in alone.parent.iterdir()} == {"cases", "index.html", "manifest.json"}
 
 
-def test_a_fault_in_a_case_writes_nothing(tmp_path):
-    bad = tmp_path / "bad.toml"
-    bad.write_text("[body]\ninertia = [1, 2, -3]\n")
+def test_a_fault_in_a_case_writes_nothing(tmp_path, case_file):
+    bad = case_file("[body]\ninertia = [1, 2, -3]\n", "bad")
     with pytest.raises(stabilab.errors.CaseError):
         report.write([bad], tmp_path / "report")
     assert {p.name for p in tmp_path.iterdir()} == {"bad.toml"}
@@ -460,11 +390,3 @@ def test_letters_of_printed_formulas_are_typeset_whole():
     ("liquid_cavity in a/x_y.toml", "liquid_cavity in a/x_y.toml")])
 def test_indices_and_powers_are_set_as_in_a_book(plain, page):
     assert str(html.book(plain)) == page
-
-
-def test_the_squares_of_two_frequencies_are_typeset_as_squares_where_a_paper_s_formulas_hold_them():
-    from stabilab.papers.audit import paper
-    top = paper("newtonian-field-top")
-    (row,) = [row for row in top.rows if row.equation == "10"]
-    shown = html_text("".join(map(str, audit_page.typeset(top, row.printed, audit_page.squares(row)))))
-    assert shown.count("<msup><mi>\u03a9</mi><mn>2</mn></msup>") == 4 == shown.count("<mi>\u03a9</mi>")

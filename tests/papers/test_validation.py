@@ -166,19 +166,6 @@ def test_the_page_shows_every_value(validated, tmp_path):
                found in validated.values() for one in found for number in (one.ours, one.theirs))
 
 
-def test_page_and_text_begin_with_a_source_that_has_values_and_a_minus_is_no_hyphen(validated, tmp_path,
-                                                                                    stabilab):
-    text, page = stabilab("validate")[1], shown.page(validated.values(),
-                                                     tmp_path / "page.html").read_text(encoding="utf-8")
-    first, last = (next(name for name, (_, found) in validated.items() if bool(found) is have)
-                   for have in (True, False))
-    assert page.index(f'id="{first}"') < page.index(f'id="{last}"') and text.index(
-        f"\n{first}: ") < text.index(f"\n{last}: ")
-    assert not re.search(r">-\d|\de-\d", re.sub(r"href=.*?>", "", page))
-    total = sum(len(found) for _, found in validated.values())
-    assert sum(map(int, re.findall(r"(\d+) (?:agree|differ)", text.splitlines()[0]))) == total
-
-
 def test_numbers_of_the_page_of_docs_are_those_of_the_findings(validated):
     """Every table row of docs/validation.md is what the program says of that tool, and below the table stands
     each cause."""

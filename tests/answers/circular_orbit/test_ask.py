@@ -44,16 +44,14 @@ def test_vectors_of_the_json_are_in_the_frame_of_the_file(stabilab, tmp_path):
     (BOOM.format([2530, 2530, 85], "", [0, 0, 1]), "FAMILIES OF EQUILIBRIA, 2 STABLE"),
     ("body.inertia = [2, 2, 2]\ncircular_orbit.rate = 1\n", "EVERY ATTITUDE IS AN EQUILIBRIUM"),
 ])
-def test_the_first_line_has_the_answer(stabilab, tmp_path, text, words):
-    path = tmp_path / "one.toml"
-    path.write_text(text)
+def test_the_first_line_has_the_answer(stabilab, case_file, text, words):
+    path = case_file(text, "one")
     code, out, _ = stabilab("orbit", path)
     assert code == 0 and words in out.splitlines()[0] and "nan" not in out.lower()
 
 
-def test_strict_leaves_with_3_where_something_is_undecided(stabilab, tmp_path):
-    path = tmp_path / "one.toml"
-    path.write_text(PLAIN.replace("1.3 N", "130 N"))
+def test_strict_leaves_with_3_where_something_is_undecided(stabilab, case_file):
+    path = case_file(PLAIN.replace("1.3 N", "130 N"), "one")
     assert stabilab("orbit", path, "--strict")[0] == 3
     path.write_text(PLAIN)
     assert stabilab("orbit", path, "--strict")[0] == 0

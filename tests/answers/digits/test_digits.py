@@ -3,13 +3,12 @@ more are wanted."""
 import json
 from dataclasses import replace
 from fractions import Fraction
-from pathlib import Path
 
 import mpmath as mp
 import numpy as np
 import pytest
 
-from stabilab import extremes, fate, load, period, trajectory
+from stabilab import extremes, fate, period, trajectory
 from stabilab.answers.digits import ask as precision_questions
 from stabilab.answers.digits import run as precision_digits
 from stabilab.answers.digits.ask import ask, ask_all
@@ -18,12 +17,7 @@ from stabilab.answers.digits.run import best_reached
 from stabilab.errors import InputError, ToleranceNotMet
 from tests.oracles import energy
 from tests.oracles.model import physical, scaled
-
-CASES = Path(__file__).parents[3] / "cases"
-
-
-def case(name):
-    return load(CASES / f"{name}.toml")
+from tests.shared import CASES, case
 
 
 def model(one):
@@ -63,7 +57,7 @@ def test_extremes_period_and_margin_have_the_digits_asked_for(name, digits):
                                            <= 15) and told.method == ("formulas" if digits <= 11 else "balls")
 
 
-def test_formulas_that_fall_short_leave_the_answer_to_balls(monkeypatch):
+def test_formulas_that_fall_short_leave_the_answer_to_balls():
     # what motion found is spoilt in the ninth digit: six digits are still told of it, ten come from elsewhere
     one = case("minor-axis-100")
     good = ask("period", one.scene, one.start, 10)

@@ -64,10 +64,9 @@ def test_a_component_counts_in_the_frame_of_the_file_or_along_principal_axes(sta
 
 
 @pytest.mark.slow
-def test_limits_of_three_components_are_those_of_the_file(tmp_path):
+def test_limits_of_three_components_are_those_of_the_file(case_file):
     text = CUBESAT.read_text().replace('rate = "60 deg/s"', 'rate = ["90 deg/s", "40 deg/s", "2 deg/s"]')
-    path = tmp_path / "three.toml"
-    path.write_text(text)
+    path = case_file(text, "three")
     case = package.load(path)
     whole = time_of_case(case, stated_limit(case).ask)
     each = [time_of_case(case, stated_limit(case, component=one).ask).low

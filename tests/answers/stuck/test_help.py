@@ -50,10 +50,9 @@ OFF = CASE.replace("inertia = [12.0, 9.0, 5.0]",
 
 
 @pytest.fixture
-def asked(tmp_path):
+def asked(case_file):
     def ask(text, spin="0.9"):
-        path = tmp_path / "own.toml"
-        path.write_text(text.replace("{spin}", spin))
+        path = case_file(text.replace("{spin}", spin), "own")
         return stabilab.stuck(stabilab.load(path))
     return ask
 
@@ -166,7 +165,7 @@ def test_no_torque_is_no_help_where_the_free_motion_comes_to_the_limit_sooner(as
     assert free < now < delayed
 
 
-def test_a_wheel_that_only_delays_delays_by_what_is_told(asked, tmp_path):
+def test_a_wheel_that_only_delays_delays_by_what_is_told(asked):
     row = asked(OFF).rows[0]
     (wheel,) = row.wheels
     assert wheel.keeps_bounded == () and wheel.best is not None and wheel.searched == (
@@ -211,12 +210,11 @@ def test_the_headline_of_a_bounded_motion_says_what_a_tilt_does(asked, stabilab,
     assert asked(CASE.replace('[limits]\nrate = "60 deg/s"\n', ""), "0.02").rows[0].tilt is None
 
 
-def test_a_terminal_is_told_what_is_being_asked_and_a_pipe_is_not(stabilab, tmp_path, monkeypatch):
+def test_a_terminal_is_told_what_is_being_asked_and_a_pipe_is_not(stabilab, case_file, monkeypatch):
     import sys
 
     from stabilab.show import progress
-    path = tmp_path / "own.toml"
-    path.write_text(CASE.replace("{spin}", "0.02").replace('[limits]\nrate = "60 deg/s"\n', ""))
+    path = case_file(CASE.replace("{spin}", "0.02").replace('[limits]\nrate = "60 deg/s"\n', ""), "own")
     assert stabilab("stuck", path)[2] == ""
     with progress.told() as tell:
         assert tell is None

@@ -16,10 +16,9 @@ FATES, LEVELS = ("spin-up", "bounded", "equilibrium", "separatrix",
 
 
 @pytest.fixture
-def asked(stabilab, tmp_path):
+def asked(stabilab, case_file):
     def ask(text):
-        path = tmp_path / "own.toml"
-        path.write_text(text)
+        path = case_file(text, "own")
         code, out, err = stabilab("stuck", path, "--json")
         assert code == 0, err
         return json.loads(out), Craft(text)

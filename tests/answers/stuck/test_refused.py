@@ -57,18 +57,16 @@ def test_json_and_csv_are_not_both(stabilab):
     assert code == 2 and not out and "choose one of --json and --csv" in err
 
 
-def test_a_sweep_is_answered_combination_by_combination(stabilab, tmp_path):
+def test_a_sweep_is_answered_combination_by_combination(stabilab, case_file):
     import json
-    path = tmp_path / "own.toml"
-    path.write_text(BODY + STUCK + MOTION + '[sweep]\n"thrusters.A.force" = ["20 mN", "40 mN"]\n')
+    path = case_file(BODY + STUCK + MOTION + '[sweep]\n"thrusters.A.force" = ["20 mN", "40 mN"]\n', "own")
     code, out, _ = stabilab("stuck", path, "--json")
     assert code == 0 and [(one["case"], one["rows"][0]["torque"][2])
                           for one in json.loads(out)] == [("own-1", 0.02), ("own-2", 0.04)]
 
 
-def test_a_case_without_a_thruster_is_answered_for_its_torque(tmp_path):
-    path = tmp_path / "own.toml"
-    path.write_text(BODY + "[effects.constant_torque]\ntorque = [0, 0, 0.02]\n" + MOTION)
+def test_a_case_without_a_thruster_is_answered_for_its_torque(case_file):
+    path = case_file(BODY + "[effects.constant_torque]\ntorque = [0, 0, 0.02]\n" + MOTION, "own")
     (row,) = stuck(load(path)).rows
     assert row.thrusters == () and row.torque == (0, 0,
                                                   0.02) and row.limit is None and row.time_to_limit is None

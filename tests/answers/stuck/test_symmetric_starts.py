@@ -34,9 +34,8 @@ THRESHOLD = 0.426671927192811570753
 ENOUGH = 0.3  # of the scenes: have a run that decides, and an end
 
 
-def asked(tmp_path, momentum, torque, start):
-    path = tmp_path / "own.toml"
-    path.write_text(CASE.format(momentum, torque, start))
+def asked(case_file, momentum, torque, start):
+    path = case_file(CASE.format(momentum, torque, start), "own")
     return stuck(load(path)).rows[0]
 
 
@@ -58,9 +57,9 @@ def kept(given):
 
 
 @pytest.mark.parametrize("torque, threshold", [("0.02", THRESHOLD), ("0.2", THRESHOLD * math.sqrt(10))])
-def test_every_greater_momentum_keeps_a_body_at_rest_bounded(tmp_path, torque, threshold):
+def test_every_greater_momentum_keeps_a_body_at_rest_bounded(case_file, torque, threshold):
     """The square of the threshold is as the torque, by dimension."""
-    row = asked(tmp_path, 0.8, [0, 0, float(torque)], [0, 0, 0])
+    row = asked(case_file, 0.8, [0, 0, float(torque)], [0, 0, 0])
     ((low, most), (some, high)) = row.wheels[0].keeps_bounded
     assert (low, high) == (-INF, INF) and -most == some == pytest.approx(threshold, rel=1e-14)
     assert (row.fate == "bounded") == (threshold < 0.8)
@@ -128,14 +127,14 @@ def test_the_one_momentum_that_puts_the_start_on_the_decaying_plane_is_left_out(
     assert [bounded(given, s) for s in (-3, 1 - 1e-12, 1, 1 + 1e-12)] == [True, True, False, True]
 
 
-def test_words_name_the_single_momentum_that_is_left_out(tmp_path):
-    row = asked(tmp_path, 0, [0, 0.02, 0], [0, 0, 0])
+def test_words_name_the_single_momentum_that_is_left_out(case_file):
+    row = asked(case_file, 0, [0, 0.02, 0], [0, 0, 0])
     assert row.fate == "spin-up" and merged(row.wheels[0].keeps_bounded) == [(-INF, INF, (0.0,))]
     assert merged([(-INF, 1.0), (2.0, INF)]) == [(-INF, 1.0, ()), (2.0, INF, ())]
 
 
-def test_a_motion_that_no_wall_holds_is_made_bounded_by_any_change(tmp_path):
-    margins = asked(tmp_path, 0, [0, 0.02, 0], [0, 0, 0]).margins
+def test_a_motion_that_no_wall_holds_is_made_bounded_by_any_change(case_file):
+    margins = asked(case_file, 0, [0, 0.02, 0], [0, 0, 0]).margins
     assert margins["rate"].size == margins["wheel"].size == 0
     assert margins["torque"].size == 0.02 == margins["torque"].until  # beyond none it spins up against it
 

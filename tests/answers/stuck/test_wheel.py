@@ -96,15 +96,14 @@ def test_off_the_axes_only_an_equilibrium_is_kept():
                      (Fraction(0), Fraction(0), Fraction(1)))[0] == ()
 
 
-def test_a_wheel_across_a_torque_between_two_equal_moments_is_across_it_along_irrational_axes_too(tmp_path):
+def test_a_wheel_across_a_torque_between_two_equal_moments_is_across_it_along_irrational_axes_too(case_file):
     """M . l = 0.4912 0.012666 - 0.3684 0.016888 = 0 in the frame of the file, by hand; DOP853 turns no faster
     in a second time as long as the first."""
     text = craft_file([[97.394176, -1.954368, 4.34304], [-1.954368, 98.534224, 3.25728],
                        [4.34304, 3.25728, 92.7616]],
                       ([-0.42, -0.37, 0.98], [-0.64, -0.48, -0.6], 0.02111), [([0.4912, 0.3684, 0.848], 1)],
                       [0.006743, 0.004293, 0.007586], [0.06, -0.01, 0.18])
-    path = tmp_path / "own.toml"
-    path.write_text(text)
+    path = case_file(text, "own")
     case = load(path)
     assert not case.frame.exact and sum(m * v for m,
                                         v in zip(case.scene.vector("constant_torque"),

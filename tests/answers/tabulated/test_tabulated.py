@@ -7,7 +7,6 @@ import importlib.util
 import json
 import re
 from fractions import Fraction
-from pathlib import Path
 
 import mpmath as mp
 import pytest
@@ -21,9 +20,9 @@ from stabilab.numbers.balls import working
 from stabilab.show.reference import decimal, within, written
 from tests.oracles import taylor
 from tests.oracles.pairs import physical
+from tests.shared import CASES
 
 HEYOKA = importlib.util.find_spec("heyoka") is not None
-CASES = Path(__file__).parents[3] / "cases"
 START = (Fraction(1, 2), Fraction(-1, 4), Fraction(1))
 TIMES = [Fraction(k, 3) for k in range(19)]
 

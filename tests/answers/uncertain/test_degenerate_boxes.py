@@ -178,19 +178,17 @@ def scaled_text(inertia, momentum, mu="mu = [0, 0, 1]"):
 @pytest.mark.parametrize("inertia, momentum, words", [
     ('1900, "1500 +- 300", "1000 +- 250"', "100, 0, 0", "falling order"),
     ("2000, 1500, 1000", '100, "0 +- 1", 0', "along axis 1")])
-def test_scaled_variables_need_moments_in_falling_order_and_a_wheel_on_axis_1(tmp_path, inertia, momentum,
+def test_scaled_variables_need_moments_in_falling_order_and_a_wheel_on_axis_1(case_file, inertia, momentum,
                                                                               words):
-    path = tmp_path / "case.toml"
-    path.write_text(scaled_text(inertia, momentum))
+    path = case_file(scaled_text(inertia, momentum))
     over = uncertain(load(path))
     assert over.fate.answer == over.equilibria.answer == "undecided" and words in over.fate.because
 
 
-def test_scaled_variables_of_uncertain_moments_hold_those_of_each_body(tmp_path):
+def test_scaled_variables_of_uncertain_moments_hold_those_of_each_body(case_file):
     """a = lambda_1/((D1 - D3) sqrt(k1)), b = lambda_1/((D1 - D2) sqrt(k1)), k1 = (D2 - D3)/D1 with the torque
     as mu (Amer et al. 2024, (4))."""
-    path = tmp_path / "case.toml"
-    path.write_text(scaled_text('"2000 +- 10", 1500, 1000', '"100 +- 5", 0, 0'))
+    path = case_file(scaled_text('"2000 +- 10", 1500, 1000', '"100 +- 5", 0, 0'))
     box = box_of(load(path))
     numbers = box.numbers(np.zeros((1, 2)), np.ones((1, 2)))
     form = box.rates(numbers)
@@ -204,10 +202,8 @@ def test_scaled_variables_of_uncertain_moments_hold_those_of_each_body(tmp_path)
         assert state == (2.5, 4.0, 0.1)
 
 
-def test_other_effects_are_not_followed_over_a_box(tmp_path):
-    path = tmp_path / "case.toml"
-    path.write_text(
-        '[body]\ninertia = ["8 +- 1 %", 5, 4]\n[effects.resistance]\ncoefficient = '
-        '0.5\n[motion]\nangular_velocity = [1, 1, 1]\n')
+def test_other_effects_are_not_followed_over_a_box(case_file):
+    path = case_file('[body]\ninertia = ["8 +- 1 %", 5, 4]\n[effects.resistance]\ncoefficient = '
+                     '0.5\n[motion]\nangular_velocity = [1, 1, 1]\n')
     over = uncertain(load(path))
     assert over.fate.answer == over.equilibria.answer == "undecided" and "other effects" in over.fate.because

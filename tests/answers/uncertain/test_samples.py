@@ -23,19 +23,11 @@ angular_velocity = [0.5, 0.2, "0.3 +- 0.1"]
 """
 
 
-@pytest.fixture
-def write(tmp_path):
-    def made(text):
-        (tmp_path / "case_u.toml").write_text(text)
-        return tmp_path / "case_u.toml"
-    return made
-
-
 @pytest.mark.parametrize("yz", [0, 0.7])
-def test_a_point_beside_products_is_the_body_of_its_tensor(write, yz):
+def test_a_point_beside_products_is_the_body_of_its_tensor(case_file, yz):
     """Rates and energy in the frame of the file by NumPy: I w' = (I w + h) x w + M; moments by its
     eigenvalues."""
-    box = box_of(load(write(OBLIQUE.format(yz=yz))))
+    box = box_of(load(case_file(OBLIQUE.format(yz=yz))))
     rng = np.random.default_rng(5)
     for point in rng.uniform(-1, 1, (6, len(box.places))):
         values = {name: np.array([float(v) for v in row]) for name, row in box.values(point).items()}
@@ -56,10 +48,10 @@ def test_a_point_beside_products_is_the_body_of_its_tensor(write, yz):
         assert np.array(scene.body.inertia) @ np.square(state) == pytest.approx(w @ tensor @ w, rel=1e-13)
 
 
-def test_beside_products_the_fate_is_by_samples_with_number_seed_and_quantiles(write, stabilab):
+def test_beside_products_the_fate_is_by_samples_with_number_seed_and_quantiles(case_file, stabilab):
     text = OBLIQUE.format(yz=0).replace("[\"0.5 +- 0.1\", 0.25, 0]",
                                         "[0, 0, 0]").replace("0.5 +- 10 %", "0.8 +- 10 %")
-    path = write(text)
+    path = case_file(text)
     found = uncertain(load(path), ("fate",))
     over, box = found.fate, box_of(load(path))
     points = np.random.default_rng(SEED).uniform(-1, 1, (SAMPLE, len(box.places)))
@@ -77,15 +69,15 @@ def test_beside_products_the_fate_is_by_samples_with_number_seed_and_quantiles(w
         one.kind for one in found.caveats] == ["samples"]
 
 
-def test_the_first_line_says_that_they_are_samples(write, stabilab):
+def test_the_first_line_says_that_they_are_samples(case_file, stabilab):
     text = OBLIQUE.format(yz=0.1).replace("0.5 +- 10 %", "0").replace('["0.5 +- 0.1", 0.25, 0]', "[0, 0, 0]")
-    code, out, _ = stabilab("fate", write(text))
+    code, out, _ = stabilab("fate", case_file(text))
     assert code == 0
     assert "the fate is the same at 64 sampled points within the uncertainties, without a proof" in out.splitlines()[0]
 
 
-def test_beside_products_two_fates_in_the_box_are_two_witnesses(write):
-    over = uncertain(load(write(OBLIQUE.format(yz=0).replace("0.3 +- 0.1",
+def test_beside_products_two_fates_in_the_box_are_two_witnesses(case_file):
+    over = uncertain(load(case_file(OBLIQUE.format(yz=0).replace("0.3 +- 0.1",
                                                              "0.3 +- 1.5").replace("[\"0.5 +- 0.1\", "
                                                                                    "0.25, 0]", "[0, 0, 0]")
                                 .replace("0.5 +- 10 %", "0.2 +- 10 %"))), ("fate",)).fate
@@ -93,10 +85,10 @@ def test_beside_products_two_fates_in_the_box_are_two_witnesses(write):
                                              for w in over.witnesses}) == 2 == len(over.samples.counts)
 
 
-def test_an_uncertain_flat_body_is_answered_by_proof(write):
+def test_an_uncertain_flat_body_is_answered_by_proof(case_file):
     """diag(1, 2, 3) is a plate; with any uncertainty the box has bodies on both sides of the triangle
     inequality."""
-    path = write('[body]\ninertia = ["3 +- 1 %", "2 +- 1 %", "1 +- 1 %"]\n[effects.constant_torque]\ntorque '
+    path = case_file('[body]\ninertia = ["3 +- 1 %", "2 +- 1 %", "1 +- 1 %"]\n[effects.constant_torque]\ntorque '
                  '= [0, 0, 0.001]\n'
                  "[motion]\nangular_velocity = [1, 0.1, 0]\n")
     case = load(path)

@@ -2,7 +2,6 @@
 import json
 import re
 from fractions import Fraction
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,8 +14,8 @@ from stabilab.case.read import load
 from stabilab.errors import CaseError
 from stabilab.numbers.affine import Affine, root
 from stabilab.show.text import uncertain as shown
+from tests.shared import CASES
 
-CASES = Path(__file__).parents[3] / "cases"
 BODY = """
 [body]
 inertia = [{inertia}]
@@ -150,11 +149,10 @@ def test_the_nearest_change_is_the_square_root_law_of_a_single_uncertain_rate(tm
     assert over.proved > 0.99 * over.changes_at
 
 
-def test_a_start_on_the_separatrix_depends_with_both_sides(tmp_path):
+def test_a_start_on_the_separatrix_depends_with_both_sides(case_file):
     # scaled minor axis, a = b = 0: equilibria X = -1/h, x2 = h, centre iff h^4 < 1 (theory: h^4 - c h - 1 <
     # 0)
-    path = tmp_path / "case.toml"
-    path.write_text('[scaled]\na = 0\nb = 0\nmu = [0, 0, "1 +- 1 %"]\n[motion]\nx = ["0.5 +- 1 %", -2, 0]\n')
+    path = case_file('[scaled]\na = 0\nb = 0\nmu = [0, 0, "1 +- 1 %"]\n[motion]\nx = ["0.5 +- 1 %", -2, 0]\n')
     over = uncertain(load(path), ("fate",)).fate  # h = -2: a saddle, at rest
     assert over.answer == "depends" and {w.verdict.split()[0]
                                          for w in over.witnesses} == {"bounded", "spin-up"}
@@ -269,14 +267,13 @@ def test_sampled_bodies_have_the_equilibria_that_hold(tmp_path, seed, axes):
         assert over.proved <= over.changes_at and over.witnesses[0].verdict != over.witnesses[1].verdict
 
 
-def test_two_equilibria_that_may_meet_depend_on_the_numbers(tmp_path):
+def test_two_equilibria_that_may_meet_depend_on_the_numbers(case_file):
     fold = load(CASES / "off-axis-fold.toml")  # exactly on the fold
     assert fold.scene.plain
     text = (CASES / "off-axis-fold.toml").read_text()
-    path = tmp_path / "case.toml"
-    path.write_text(re.sub(r"(momentum = \[)\s*([-\d.]+)", r'\1"\2 +- 1 %"', text, count=1)
-                    if "momentum" in text else
-                    re.sub(r"^a = ([-\d.]+)", r'a = "\1 +- 1 %"', text, count=1, flags=re.M))
+    path = case_file(re.sub(r"(momentum = \[)\s*([-\d.]+)", r'\1"\2 +- 1 %"', text, count=1)
+                     if "momentum" in text else
+                     re.sub(r"^a = ([-\d.]+)", r'a = "\1 +- 1 %"', text, count=1, flags=re.M))
     over = uncertain(load(path), ("equilibria",)).equilibria
     assert over.answer == "depends" and over.changes_at < 1e-3
 

@@ -152,9 +152,8 @@ def test_a_case_file_with_a_zero_effect_prints_the_same_json_as_without_it(name,
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
-def test_a_zero_effect_of_a_case_file_is_still_checked(name, tmp_path):
-    path = tmp_path / "case.toml"
-    path.write_text(CASE.format(effects=f"[effects.{name}]\n{FAULTY[name]}\n"), encoding="utf-8")
+def test_a_zero_effect_of_a_case_file_is_still_checked(name, case_file):
+    path = case_file(CASE.format(effects=f"[effects.{name}]\n{FAULTY[name]}\n"))
     with pytest.raises(CaseError, match=f"effects.{name}"):
         load(path)
 

@@ -4,7 +4,6 @@ from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
-import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, load
@@ -117,12 +116,3 @@ def test_page_has_words_and_a_picture_of_each_growth(tmp_path, monkeypatch):
     for about, title in shown.TITLES.items():
         assert title in html and (tmp_path / "growth" / f"{about}.png").stat().st_size > 5000
     assert (tmp_path / "growth.csv").read_text().count("\n") == len(ROWS) + 1 and "nan" not in html
-
-
-def test_pictures_draw_every_measurement():
-    with shown.style.drawing() as plt:
-        for about in shown.TITLES:
-            rows = [r for r in ROWS if r.about == about]
-            figure = shown.picture(plt, rows, about)
-            drawn = sum((np.asarray(line.get_xdata(), float).tolist() for line in figure.axes[0].lines), [])
-            assert sorted(drawn) == sorted(r.x for r in rows) and figure.axes[0].get_ylabel() == "time (s)"
