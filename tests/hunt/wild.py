@@ -15,8 +15,7 @@ from stabilab.answers.digits.ask import ask
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
 from stabilab.orbit.fate.one_state import REASONS, Reason
 from stabilab.orbit.landscape import landscape
-from tests.hunt.disagreements import between, tables
-from tests.oracles.pairs import model_of
+from tests.hunt.disagreements import between
 
 MARGIN, DIGITS = 1e-12, 1e-11  # promised of a margin (of its terms), and of extremes and periods
 TIDY = ((2, 2, 3), (2, 2, 2), (2, 3, 4), (3, 4, 5), (2, 2, 1), (1, 1, 2), (1, 2, 3), (2, 1.5, 1), (4, 4, 3))

@@ -13,7 +13,6 @@ from stabilab.answers.stuck.ask import stuck as ask
 from stabilab.numbers.principal import IDENTITY, PrincipalAxes
 from stabilab.show.axes import PLAIN, axes_of
 from stabilab.show.data import as_json
-from stabilab.show.frame import note
 from stabilab.show.text import stuck as shown
 from stabilab.show.units import units_of
 
@@ -51,7 +50,7 @@ def scenes():
     return found
 
 
-def file_of(tmp_path, J, along, speed=1.0):
+def file_of(case_file, J, along, speed=1.0):
     """A case, and the direction along which omega grows there by DOP853: of J omega' = M + J omega x omega,
     all in the frame of the file."""
     # ninths are exact, and the tensor's entries are ninths
@@ -60,8 +59,7 @@ def file_of(tmp_path, J, along, speed=1.0):
     start = speed * along + np.cross(along, [0.01, 0.02, 0.03])
     rows = [exact(row) for row in J]
     tensor = "[" + ", ".join(rows) + "]" if np.count_nonzero(J - np.diag(np.diag(J))) else exact(np.diag(J))
-    path = tmp_path / "own.toml"
-    path.write_text(TEXT.format(J=tensor, M=exact(M), start=list(map(float, start))))
+    path = case_file(TEXT.format(J=tensor, M=exact(M), start=list(map(float, start))), "own")
     back = np.linalg.inv(J)
     run = solve_ivp(lambda t, w: back @ (M + np.cross(J @ w, w)), (0, 150), start, "DOP853", rtol=1e-8,
                     atol=1e-10)
@@ -78,8 +76,8 @@ def agrees(told, axes, grows, word):
 @pytest.mark.parametrize("name, J, along",
                          [pytest.param(*one, id=one[0], marks=[pytest.mark.slow] * (n not in QUICK)) for n,
                           one in enumerate(scenes())])
-def test_every_command_names_the_axis_along_which_a_run_grows(stabilab, tmp_path, name, J, along):
-    path, grows = file_of(tmp_path, J, along)
+def test_every_command_names_the_axis_along_which_a_run_grows(stabilab, case_file, name, J, along):
+    path, grows = file_of(case_file, J, along)
     moments, word = sorted(np.linalg.eigvalsh(J), reverse=True), name.split()[-2]
     assert grows @ J @ grows == pytest.approx(moments[RANKS.index(word)], rel=1e-3)
     diagonal = not name.startswith("turn")
@@ -114,51 +112,6 @@ def test_every_command_names_the_axis_along_which_a_run_grows(stabilab, tmp_path
             cells["sense"]) == (str(row["axis"]), row["axis_name"], str(row["sense"]))
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("order", list(itertools.permutations(MOMENTS)))
-def test_a_bound_names_the_axis_of_its_torque_alike(stabilab, tmp_path, order):
-    """A small torque on the minor axis of a body that spins about its major one: nothing that it does by then
-    goes past the barrier."""
-    path = tmp_path / "own.toml"
-    minor, major = order.index(40), order.index(100)
-    torque, start = np.eye(3)[minor] / 100, np.eye(3)[major]
-    path.write_text(TEXT.format(J=list(order), M=torque.tolist(), start=start.tolist()))
-    for command in ("fate", "stuck"):
-        assert f"while the torque is exactly along {'xyz'[minor]} (minor axis)" in stabilab(command, path)[
-            1].splitlines()[0]
-
-
-@pytest.mark.slow
-def test_a_full_tensor_of_the_catalogue_is_named_with_its_direction(stabilab, tmp_path):
-    """[[100, 2, -1], [2, 90, 3], [-1, 3, 40]] under a torque off its axes: the direction that is told is
-    NumPy's eigenvector, and the run grows there."""
-    J = np.array([[100, 2, -1], [2, 90, 3], [-1, 3, 40.0]])
-    path = tmp_path / "geo.toml"
-    M, start = np.array([0.1, -0.597, 0.06]), np.array([0.0, 0, 0.0524])
-    path.write_text(TEXT.format(J=J.tolist(), M=M.tolist(), start=start.tolist()))
-    back = np.linalg.inv(J)
-    run = solve_ivp(lambda t, w: back @ (M + np.cross(J @ w, w)), (0, 2000), start, "DOP853", rtol=1e-8,
-                    atol=1e-10)
-    grows = run.y[:, -1] / np.linalg.norm(run.y[:, -1])
-    eigenvectors = np.linalg.eigh(J)[1].T[::-1]
-    fate, stuck = json.loads(stabilab("fate", path,
-                                      "--json")[1])[0], json.loads(stabilab("stuck", path, "--json")[1])
-    for told in (fate, stuck["rows"][0]):
-        along = np.array(told["axis_direction"])
-        assert abs(along @ eigenvectors[told["axis"] - 1]) == pytest.approx(1, abs=1e-12)
-        assert told["sense"] * along @ grows > 0.95
-    assert fate["axis"] == stuck["rows"][0]["axis"] and fate["axis_name"] == RANKS[fate["axis"] - 1]
-    assert "about axis" not in stabilab("fate",
-                                        path)[1] + stabilab("stuck", path)[1] + stabilab("show", path)[1]
-
-
-def test_caveats_in_json_and_csv_name_the_axis_of_the_paper(stabilab):
-    path = "cases/minor-axis-100.toml"
-    code, told, _ = stabilab("fate", path, "--json")
-    assert code == 0 and json.loads(told)[0]["caveats"][0]["words"].endswith("exactly along x3")
-    assert stabilab("extremes", path, "--csv")[1].splitlines()[-1].endswith("exactly along x3")
-
-
 class Plain:
     """What `axes_of` asks of a case."""
 
@@ -187,9 +140,3 @@ def test_sentences_have_names_for_numbers_and_scenes_without_a_file_keep_these()
     assert turned.signed(1, -1) == "-transverse 1" and turned.signed(3, 1) == "+symmetry"
     assert turned.signed(0, 0) == ""
     assert PLAIN.sentence(words) == words and PLAIN.whole(2) == "axis 2"
-
-
-def test_components_along_other_axes_than_the_file_s_come_with_these():
-    (line,) = note(load("cases/upper-stage.toml"))
-    assert "omega1 about the major axis, (" in line and line.endswith(" in the file's frame") and not note(
-        load("cases/off-axis-two.toml"))

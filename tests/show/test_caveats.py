@@ -121,9 +121,8 @@ def test_a_page_shows_what_limits_its_answer(files, tmp_path, name):
 
 
 def test_a_caveat_is_a_key_of_every_object_and_empty_where_nothing_limits_the_answer(stabilab, files,
-                                                                                     tmp_path):
-    free = tmp_path / "free.toml"
-    free.write_text(FORM.format(**PLAIN).replace("stuck = true", ""))
+                                                                                     case_file):
+    free = case_file(FORM.format(**PLAIN).replace("stuck = true", ""), "free")
     for command in (("classify",), ("fate",), ("extremes",), ("period",), ("when", *ATTITUDE)):
         found = json.loads(stabilab(command[0], free, *command[1:], "--json")[1])
         assert found[0]["caveats"] == [], command

@@ -41,11 +41,10 @@ def test_jacobian_and_characteristic_polynomial_are_those_of_the_equations(stabi
                                    rtol=0, atol=1e-9)
 
 
-def test_show_prints_the_scaled_constants_of_a_body_in_SI(stabilab, tmp_path):
+def test_show_prints_the_scaled_constants_of_a_body_in_SI(stabilab, case_file):
     """k1 to k3, u, a, b by (2) and (4), with the root of u that the paper leaves out of a and b."""
-    case = tmp_path / "my.toml"
-    case.write_text("[body]\ninertia = [2000, 1500, 1000]\n[effects.gyrostat]\nmomentum = [100, 0, 0]\n"
-                    "[effects.constant_torque]\ntorque = [0, 0, 500]\n")
+    case = case_file("[body]\ninertia = [2000, 1500, 1000]\n[effects.gyrostat]\nmomentum = [100, 0, 0]\n"
+                     "[effects.constant_torque]\ntorque = [0, 0, 500]\n", "my")
     text = stabilab("show", case)[1]
     k = np.array([500 / 2000, 1000 / 1500, 500 / 1000])
     u = np.sqrt(k[0] * k[1] * (500 / 1000) ** 2) / k.prod()

@@ -10,8 +10,7 @@ import pytest
 from stabilab import load
 from stabilab.show import style
 from stabilab.show.explore.session import Session
-from stabilab.show.plot import canvas, over_time
-from stabilab.show.plot import subject as which
+from stabilab.show.plot import over_time
 from stabilab.show.plot.subject import subject
 from stabilab.show.report.one_case import page
 from stabilab.show.terminal.letters import greek, printed
@@ -56,15 +55,6 @@ def test_every_view_has_the_same_headline(stabilab, bare, tmp_path, name):
     assert plain(shown["headline"]) == line and shown["look"] == look(found)
     title = over_time.time(case).get_title()
     assert plain(title.split("\n", 1)[1]).endswith(plain(style.literal(line)))
-
-
-@pytest.mark.one_in(8)
-@pytest.mark.parametrize("name", CASES)
-def test_the_titles_of_pictures_begin_as_the_headline(name):
-    case = load(ROOT / "cases" / f"{name}.toml")
-    one = subject(case)
-    answer = canvas.answer(one, which.measures(one))
-    assert len(answer) > 7 and headline(case, one.motion).startswith(answer)
 
 
 def plain(text: str) -> str:

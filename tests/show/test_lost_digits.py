@@ -25,9 +25,8 @@ def test_a_component_below_the_error_is_zero_within_it(stabilab):
     assert max(abs(p), abs(q)) < error[0]
 
 
-def test_what_a_start_gives_is_told_as_it_stands(stabilab, tmp_path):
-    path = tmp_path / "case.toml"
-    path.write_text("[body]\ninertia = [3, 2, 1]\n[motion]\nangular_velocity = [1e-20, 0, 1]\n")
+def test_what_a_start_gives_is_told_as_it_stands(stabilab, case_file):
+    path = case_file("[body]\ninertia = [3, 2, 1]\n[motion]\nangular_velocity = [1e-20, 0, 1]\n")
     first, last = stabilab("simulate", path, "--at", "0,1", "--units", "si")[1].splitlines()[2:4]
     assert first.split()[1:] == ["1e-20", "0", "1"] and last.count("0 within") == 2
 
@@ -66,13 +65,11 @@ def test_an_unchecked_run_is_not_told_apart_from_zero_below_its_tolerance(stabil
     assert run.error["omega"] == pytest.approx(np.full(3, 2e-6))
 
 
-def test_an_averaged_spin_below_its_tolerance_is_zero_within_it(stabilab, tmp_path):
+def test_an_averaged_spin_below_its_tolerance_is_zero_within_it(stabilab, case_file):
     """By hand: resistance alone, r = e^(-zeta t), is e^-2000 after 1e5 s at 0.02 1/s; the amplitude, followed
     by its logarithm, is known."""
-    path = tmp_path / "case.toml"
-    path.write_text(
-        '[body]\ninertia = [9.5, 9.5, 9]\n[effects.resistance]\ncoefficient = '
-        '"0.02"\n[motion]\nangular_velocity = [1, 0, 1]\nspan = [0, 20]\n')
+    path = case_file('[body]\ninertia = [9.5, 9.5, 9]\n[effects.resistance]\ncoefficient = '
+                     '"0.02"\n[motion]\nangular_velocity = [1, 0, 1]\nspan = [0, 20]\n')
     out = stabilab("simulate", path, "--at", "1000,20000", "--model", "averaged1", "--units", "si")[1]
     first, last = (line.split() for line in out.splitlines()[2:4])
     assert float(first[4]) == pytest.approx(math.exp(-20), rel=1e-5)

@@ -1,18 +1,14 @@
 """The picture of the reduced potential: what is drawn, against runs of Euler's equations."""
-import matplotlib
 import numpy as np
 import pytest
+from matplotlib import pyplot as plt
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
 import stabilab
 from stabilab.errors import InputError
 from stabilab.show import style
-
-matplotlib.use("Agg")
-from matplotlib import pyplot as plt  # after the back end is chosen
-
-CASES = __file__.rsplit("/tests/", 1)[0] + "/cases"
+from tests.shared import CASES
 
 
 def curve(ax, name):
@@ -49,22 +45,6 @@ def test_the_potential_is_what_the_kinetic_energy_about_the_axis_leaves_of_the_e
     assert np.abs(drawn(run.y[3]) - rest)[there].max() < 1e-6 * (abs(energy) + np.ptp(height))
 
 
-@pytest.mark.parametrize("name, above", [("minor-axis-100", True), ("wheel-and-thruster", False),
-                                         ("thruster-stuck-major-axis", True)])
-def test_the_arrow_has_the_length_of_the_margin_and_ends_at_a_saddle(name, above):
-    """The margin in energy is that of `fate`, which other tests hold against brute force."""
-    case = stabilab.load(f"{CASES}/{name}.toml")
-    ax = stabilab.plot.potential(case)
-    found = stabilab.motion(case.scene, case.state).margin_energy
-    arrow, words = ax.texts
-    (x, high), (_, low) = arrow.xy, arrow.xyann
-    assert high - low == pytest.approx(found, rel=1e-9) and (found > 0) == above
-    assert words.get_text().startswith("margin ") == above
-    saddles = next(line for line in ax.get_lines() if line.get_markeredgecolor() == style.VERMILION
-                   and line.get_marker() == "o").get_data()
-    assert min(np.hypot(saddles[0] - x, saddles[1] - high)) < 1e-6 * max(1, abs(high))
-
-
 def test_every_motion_under_a_torque_that_has_a_margin_has_its_arrow():
     """Of 10 random bodies: the barrier ahead may stand a turn away. Lengths are the margins of `fate`."""
     rng = np.random.default_rng(5)
@@ -83,7 +63,10 @@ def test_every_motion_under_a_torque_that_has_a_margin_has_its_arrow():
         if margin:
             arrow, (left, right) = ax.texts[0], ax.get_xlim()
             assert arrow.xy[1] - arrow.xyann[1] == pytest.approx(margin, rel=1e-9)
-            assert left < arrow.xy[0] < right
+            saddles = next(line.get_data() for line in ax.get_lines() if line.get_marker() == "o"
+                           and line.get_markeredgecolor() == style.VERMILION)
+            assert left < arrow.xy[0] < right and ax.texts[1].get_text().startswith("margin ") == (margin > 0)
+            assert np.hypot(saddles[0] - arrow.xy[0], saddles[1] - arrow.xy[1]).min() < 1e-6 * max(1, abs(arrow.xy[1]))
             seen += 1
         plt.close(ax.figure)
     assert seen > 3

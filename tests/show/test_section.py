@@ -2,9 +2,9 @@
 motions, and of what there is none."""
 import math
 
-import matplotlib
 import numpy as np
 import pytest
+from matplotlib import pyplot as plt
 
 import stabilab
 from stabilab import errors
@@ -13,11 +13,8 @@ from stabilab.show.plot import phase_plane as plane_section
 from stabilab.show.plot import subject, to_file
 from stabilab.show.plot import subject as which
 from stabilab.unreduced.periodic import crossed, neighbours_of, returns
+from tests.shared import case as load
 
-matplotlib.use("Agg")
-from matplotlib import pyplot as plt  # after the back end is chosen
-
-CASES = __file__.rsplit("/tests/", 1)[0] + "/cases"
 ORANGE, BLUE, SKY, VERMILION, PURPLE = style.ORANGE, style.BLUE, style.SKY, style.VERMILION, style.PURPLE
 D, M, WHEEL = np.array([1.2412, .3937,
                         1.3650]), np.array([.0987, .8450, .5255]), np.array([-.5224, .8309, .1914])
@@ -25,10 +22,6 @@ ISLAND = stabilab.Scene(stabilab.Body(D.tolist()), stabilab.Gyrostat(WHEEL.tolis
                         stabilab.ConstantTorque(M.tolist()))
 START = (-1.572, .657, .738)
 FAR = 10.0  # rad/s: this motion has 4.21 at most
-
-
-def load(name):
-    return stabilab.load(f"{CASES}/{name}.toml")
 
 
 def dots(ax, colour):
@@ -119,14 +112,6 @@ def test_axes_have_the_two_other_rates_in_the_units_asked_for():
     # passages of the third
     assert (si.get_xlabel(), si.get_ylabel()) == (r"$\omega_1$ (rad/s)", r"$\omega_2$ (rad/s)")
     assert dots(deg, ORANGE) == pytest.approx(np.degrees(dots(si, ORANGE))) and "(deg/s)" in deg.get_xlabel()
-    plt.close("all")
-
-
-@pytest.mark.slow
-def test_a_section_has_neighbours_unless_none_are_asked_for():
-    case = load("torque-free-body")
-    usual, alone = stabilab.plot.section(case, passages=5), stabilab.plot.section(case, passages=5, neighbours=0)
-    assert len(np.unique(dots(usual, SKY).round(4), axis=0)) == 6 and not len(dots(alone, SKY))
     plt.close("all")
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from stabilab.case.read import load
 from stabilab.show.report.one_case.page import sections
-from tests.shared import CASES, craft_file
+from tests.shared import craft_file
 
 SATELLITE = craft_file([12.0, 9.0, 5.0], ([0.5, 0, 0], [0, 1, 0], "40 mN"), [([1, 0, 0], "0.8 N m s")],
                        ["5.7 deg/s", "2.9 deg/s", "1.1 deg/s"])
@@ -14,9 +14,8 @@ SATELLITE = craft_file([12.0, 9.0, 5.0], ([0.5, 0, 0], [0, 1, 0], "40 mN"), [([1
 
 @pytest.mark.slow
 def test_an_interval_that_keeps_the_motion_bounded_is_told_in_six_digits_and_lies_inside_the_exact_one(
-    stabilab, tmp_path):
-    case = tmp_path / "satellite.toml"
-    case.write_text(SATELLITE)
+    stabilab, tmp_path, case_file):
+    case = case_file(SATELLITE, "satellite")
     text = stabilab("stuck", case)[1]
     told = json.loads(stabilab("stuck", case, "--json")[1])
     (wheel,) = (told[0] if isinstance(told, list) else told)["rows"][0]["wheel_intervals"]
@@ -31,21 +30,10 @@ def test_an_interval_that_keeps_the_motion_bounded_is_told_in_six_digits_and_lie
         r"margin, rate +\S+ deg/s along .* from 25\.58\d* deg/s along the same line", text)
 
 
-@pytest.mark.slow
-def test_margins_of_which_nothing_is_known_have_one_line_and_known_ones_one_each(stabilab):
-    off, on = (stabilab("stuck", CASES / f"{name}.toml", "--why")[1].splitlines()
-               for name in ("upper-stage", "thruster-stuck-major-axis"))
-    assert [line[:12] for line in off if line.startswith("  margin")
-            and ":" not in line[:12]] == ["  margins   "]
-    assert [line.split()[1] for line in on if line.startswith("  margin, ")] == ["rate", "wheel", "torque"]
-
-
-def test_an_equilibrium_of_a_turning_body_is_a_steady_rotation(stabilab, tmp_path):
+def test_an_equilibrium_of_a_turning_body_is_a_steady_rotation(stabilab, case_file):
     """D3 omega3' = M3 + (D1 - D2) omega1 omega2 = 0.03 + 3 (0.1)(-0.1) = 0 exactly, the other rates have
     omega3 = 0 as a factor: by hand."""
-    case = tmp_path / "steady.toml"
-    case.write_text(
-        "[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, "
-        "0.03]\n[motion]\nangular_velocity = [0.1, -0.1, 0]\n")
+    case = case_file("[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, "
+                     "0.03]\n[motion]\nangular_velocity = [0.1, -0.1, 0]\n", "steady")
     for command in ("stuck", "fate", "classify"):
         assert stabilab(command, case)[1].startswith("steady: STEADY ROTATION (relative equilibrium)")

@@ -271,16 +271,6 @@ def test_an_angle_without_a_unit_is_told_in_degrees_before_the_answer(stabilab, 
     assert code == 0 and err.strip() == told
 
 
-@pytest.mark.parametrize("command", ["classify", "fate"])
-def test_a_reason_tells_its_rates_in_the_unit_of_the_first_line(stabilab, command):
-    """|ω| ≤ sqrt(2 T_limit/D3) = 0.527551 rad/s: 0.527551 · 180/pi = 30.226 deg/s, by hand."""
-    case = ROOT / "cases/liquid-sensible.toml"
-    degrees, radians = (re.search("^why: .*$", stabilab(command, case, "--units", units)[1], re.MULTILINE)[0]
-                        for units in ("deg", "si"))
-    assert "|ω| ≤ 30.226 deg/s always" in degrees and "rad/s" not in degrees
-    assert "|ω| ≤ 0.527551 rad/s always" in radians and "deg" not in radians
-
-
 def test_times_within_sentences_have_the_unit_of_people():
     assert units.DEG.words("0.2 over s in [0, 100000], certified from t = 600.5 s on, t = 3 and t = D1 + 2, "
                            "t = 7 - x") == (
@@ -289,13 +279,6 @@ def test_times_within_sentences_have_the_unit_of_people():
     assert units.SI.words("over s in [0, 100000] at 2 rad/s") == "over 0 to 100000 s at 2 rad/s"
     assert units.SCALED.words(
         "over tau in [0, 63.9], proved from t = 63.9429 on") == "over 0 to 63.9 tau, proved from tau = 63.943 on"
-
-
-@pytest.mark.one_in(2)
-@pytest.mark.parametrize("name", ["liquid-base", "charged-body-attitude", "top-lx30-lz30"])
-def test_no_name_of_a_greek_letter_stands_in_an_answer(stabilab, name):
-    text = stabilab("classify", ROOT / f"cases/{name}.toml", "--why")[1]
-    assert not re.findall(rf"(?<![\w-])(?:{'|'.join(letters.ALPHABET)})(?![\w-])|sqrt|<=|\binf\b", text)
 
 
 def test_a_least_rate_that_is_zero_but_for_rounding_is_told_as_zero(stabilab):
@@ -322,27 +305,13 @@ def test_the_answer_comes_first_and_the_files_after_it(tmp_path):
         "wheel-and-thruster: 4 equilibria") and last == f"written: {file}" and file.exists()
 
 
-def test_a_case_without_motion_says_that_no_fate_is_told(stabilab, tmp_path):
-    path = tmp_path / "still.toml"
-    path.write_text("[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, 0.02]\n",
-                    encoding="utf-8")
-    assert stabilab("classify", path)[1].split("\n")[0].endswith("; no [motion], so no fate")
-
-
-def test_a_run_shows_no_digit_that_its_check_does_not_vouch_for(stabilab, tmp_path):
+def test_a_run_shows_no_digit_that_its_check_does_not_vouch_for(stabilab, case_file):
     """6 deg/s at the start is 6 and not 6.000000000000001, as the last place of a double has it after the
     turn from rad/s."""
-    path = tmp_path / "run.toml"
-    path.write_text("[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, 0.02]\n"
-                    '[motion]\nangular_velocity = ["6 deg/s", 0, "1 deg/s"]\n', encoding="utf-8")
+    path = case_file("[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, 0.02]\n"
+                     '[motion]\nangular_velocity = ["6 deg/s", 0, "1 deg/s"]\n', "run")
     out = stabilab("simulate", path, "--at", "0,30", "--digits", "12")[1]
     reached = int(float(re.search(r"^# ([\d.]+) digits", out, re.MULTILINE)[1]))
     assert re.search(r"^ +0 +6 +0 +1$", out, re.MULTILINE)
     last = re.search(r"^ +30 +(\S+)", out, re.MULTILINE)[1]
     assert 12 <= len(last.replace(".", "").lstrip("-0")) <= reached < 16
-
-
-def test_names_of_rates_and_torques_are_letters_in_limits_and_in_formulas_of_papers(stabilab):
-    assert "|ω3| = 30 deg/s" in stabilab("when", CASES / "cubesat-3u.toml", "--component", "3 = 30 deg/s")[1]
-    told = stabilab("audit", "constant-torque-gyrostat", "--equation", "9")[1]
-    assert "μ2 μ3/μ1" in told and "mu" not in told.replace("must", "")

@@ -1,5 +1,4 @@
 """The time to a limit against the tilt of a torque and the momentum of a wheel, and the body as a sketch."""
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,12 +8,7 @@ import stabilab
 from stabilab import errors
 from stabilab.answers.tilt import by_angle
 from stabilab.answers.when import limit_of
-
-CASES = Path(__file__).parents[2] / "cases"
-
-
-def load(name):
-    return stabilab.load(CASES / f"{name}.toml")
+from tests.shared import case as load
 
 
 def first_at(case, torque, limit):

@@ -3,11 +3,9 @@ import json
 import math
 import re
 from fractions import Fraction
-from pathlib import Path
 
 from stabilab.show.text import uncertain
-
-CASES = Path(__file__).parents[2] / "cases"
+from tests.shared import CASES
 
 
 def test_an_uncertain_rate_in_degrees_is_told_in_digits_and_not_as_a_long_ratio():

@@ -1,7 +1,6 @@
 """The units of people: one home, the definitions of degree, minute and hour, and the decimals that tell two
 bounds apart."""
 import math
-import re
 from fractions import Fraction
 
 import pytest
@@ -9,7 +8,6 @@ import pytest
 from stabilab import load
 from stabilab.errors import InputError
 from stabilab.show.units import DEG, SCALED, SI, bracket, number, units_of
-from tests.shared import CASES
 
 CASE = """[body]
 inertia = [12, 9, 5]
@@ -75,9 +73,8 @@ def test_a_bracket_holds_what_it_encloses(low, high):
         Fraction(high) - Fraction(low))
 
 
-def test_a_case_remembers_its_units_and_an_option_overrides_them(stabilab, tmp_path):
-    path = tmp_path / "own.toml"
-    path.write_text(CASE)
+def test_a_case_remembers_its_units_and_an_option_overrides_them(stabilab, case_file):
+    path = case_file(CASE, "own")
     assert units_of(load(path)).name == DEG.name and "5.72958, 2.86479, 1.14592) deg/s" in stabilab(
         "classify", path)[1]
     path.write_text(CASE + '[output]\nunits = "si"\n')
@@ -90,18 +87,16 @@ def test_a_case_remembers_its_units_and_an_option_overrides_them(stabilab, tmp_p
 @pytest.mark.parametrize("line, words",
                          [('units = "grad"', "expected deg, deg/day, rpm, rev/s, si"), ("units = 3", "expected a text in quotes"),
                                          ('unit = "si"', "did you mean units")])
-def test_units_of_a_case_that_are_none_are_a_fault_with_its_line(stabilab, tmp_path, line, words):
-    path = tmp_path / "own.toml"
-    path.write_text(CASE + f"[output]\n{line}\n")
+def test_units_of_a_case_that_are_none_are_a_fault_with_its_line(stabilab, case_file, line, words):
+    path = case_file(CASE + f"[output]\n{line}\n", "own")
     code, out, err = stabilab("classify", path)
     assert code == 2 and not out and f"{path}:8: output.unit" in err and words in err
 
 
 @pytest.mark.parametrize("units, one", [("deg/day", 86400 * 180 / math.pi), ("rpm", 60 / math.tau),
                                         ("rev/s", 1 / math.tau)])  # by the definition of each
-def test_rates_are_printed_in_any_unit_that_is_asked_for(stabilab, tmp_path, units, one):
-    path = tmp_path / "own.toml"
-    path.write_text(CASE)
+def test_rates_are_printed_in_any_unit_that_is_asked_for(stabilab, case_file, units, one):
+    path = case_file(CASE, "own")
     start = ", ".join(f"{rate * one:.6g}" for rate in (0.1, 0.05, 0.02))
     code, out, _ = stabilab("classify", path, "--units", units)
     assert code == 0 and f"({start}) {units}" in out and " deg/s" not in out and " rad/s" not in out
@@ -119,21 +114,3 @@ def test_a_scaled_case_has_no_units():
     with pytest.raises(InputError, match="--units"):
         units_of(load("cases/minor-axis-100.toml"), "grad")
     assert units_of(load("cases/minor-axis-100.toml"), "si").name == SCALED.name
-
-
-def test_an_equilibrium_and_a_size_in_the_reasons_are_in_the_units_of_the_rest(stabilab, tmp_path):
-    """The place where the motion ends is told twice on this page, once in the reason: both in the units asked
-    for."""
-    path = tmp_path / "resisted.toml"
-    path.write_text("[body]\ninertia = [9.5, 9.3, 9.0]\n[effects.resistance]\ncoefficient = "
-                    "0.02\n[effects.constant_torque]\ntorque = [0.01, 0, -0.06]\n"
-                    "[motion]\nangular_velocity = [0.1, 0, 1]\nspan = [0, 20]\n", encoding="utf-8")
-    for units, name, digits in (("deg", "deg/s", 5), ("si", "rad/s", 6)):
-        out = stabilab("classify", path, "--units", units)[1]
-        reason, place = (re.search(rf"{before}\((\S+), (\S+), (\S+)\) {name}", out)
-                         for before in ("tends to the equilibrium ", "stable   "))
-        assert [f"{float(v):.{digits - 1}g}"
-                for v in reason.groups()] == [f"{float(v):.{digits - 1}g}" for v in place.groups()]
-    out = stabilab("fate", CASES / "off-axis-one.toml", "--follow", "20 s")[1]
-    start = math.degrees(math.hypot(0.9, 0.5, 0.3))
-    assert f"the size of its rates went from {start:.5g} to" in out and "times the spin" in out

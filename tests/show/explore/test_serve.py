@@ -160,10 +160,6 @@ def test_a_body_that_does_not_come_is_waited_for_only_so_long(server, capfd, mon
     assert capfd.readouterr() == ("", "")
 
 
-def test_other_methods_are_not_known(server):
-    assert ask(server, "DELETE", "/{token}/")[0] == 501
-
-
 def test_a_certificate_is_checked_and_a_false_one_is_seen(server):
     case = load(CASE)
     made = certificate(case.scene, case.exact_state)

@@ -1,9 +1,6 @@
 """What a page is answered: the same as the questions answer, drawn in places that lie where they should."""
 import math
-import os
 import re
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -12,15 +9,11 @@ from stabilab import load, motion, separatrix
 from stabilab.case.read import read_text
 from stabilab.errors import InputError
 from stabilab.orbit.phase_plane import phase_plane
-from stabilab.show.explore.pictures import Bag, plane_of, unframed
+from stabilab.show.explore.pictures import plane_of, unframed
 from stabilab.show.explore.session import FOLLOWED, Session, Stopped
-from stabilab.show.style import MEANING
 from stabilab.show.terminal.letters import greek
 from stabilab.show.text.headline import headline
-
-
-def case_of(name):
-    return load(f"cases/{name}.toml")
+from tests.shared import case as case_of
 
 
 def ask(session, **asked):
@@ -31,26 +24,6 @@ def ask(session, **asked):
 def row(numbers, told):
     return np.frombuffer(numbers, {"int16": "<i2", "float32": "<f4"}[told["type"]], told["count"],
                          told["from"])
-
-
-def test_numbers_come_out_of_a_message_as_they_went_in():
-    bag = Bag()
-    rows = [bag.add("int16", [1, -2, 3]), bag.add("float32", [0.5, float("inf")]),
-            bag.add("int16", b"\x01\x00")]
-    header, numbers = unframed(bag.framed({"rows": rows, "ä": float("nan")}))
-    assert header["ä"] is None and [row(numbers, one).tolist()
-                                    for one in header["rows"]] == [[1, -2, 3], [0.5, float("inf")], [1]]
-
-
-@pytest.mark.one_in(2)
-@pytest.mark.parametrize("name", ["minor-axis-100", "thruster-stuck-major-axis", "torque-free-gyrostat",
-                                  "wheel-and-thruster", "symmetric-body",
-                                  "off-axis-two"])
-def test_the_verdict_of_a_resting_hand_is_that_of_the_questions(name):
-    case = case_of(name)
-    told, _ = ask(Session(case))
-    found = motion(case.scene, case.state, exact=case.exact_state)
-    assert told["headline"] == greek(headline(case, found)) and told["fate"] == found.fate.word
 
 
 def test_axes_are_those_of_the_file_that_was_opened_also_of_a_changed_case():
@@ -66,10 +39,9 @@ def test_axes_are_those_of_the_file_that_was_opened_also_of_a_changed_case():
             f"; ω3 about {minor} in the file's frame")
 
 
-def test_the_verdict_is_that_of_the_case_that_is_saved(tmp_path):
+def test_the_verdict_is_that_of_the_case_that_is_saved(case_file):
     told, _ = ask(Session(case_of("minor-axis-100")), start=[None, None, "30"])
-    saved = tmp_path / "saved.toml"
-    saved.write_text(told["toml"], encoding="utf-8")
+    saved = case_file(told["toml"], "saved")
     case = load(saved)
     assert case.state[2] == 30 and told["fate"] == "spin-up"
     assert told["headline"] == greek(headline(case, motion(case.scene, case.state, exact=case.exact_state)))
@@ -182,15 +154,6 @@ def test_numbers_of_any_size_are_drawn_or_refused_in_words(size, refused):
                                                          "")) == refused and ("headline" in header) != refused
 
 
-@pytest.mark.parametrize("name, because", [("liquid-sensible", "the liquid and the medium take energy away"),
-                                           ("top-fast", "the weight and the field act by the attitude")])
-def test_a_body_with_other_effects_is_shown_and_the_page_says_what_is_not_there(name, because):
-    told, _ = ask(Session(case_of(name)), moving=True)
-    assert told["fate"] == "bounded" and told["plane"] is None and told["space"]["branches"] == []
-    assert told["space"]["words"].startswith("No separatrix and no phase plane: ") and because in told[
-        "space"]["words"]
-
-
 def test_the_rates_of_a_body_in_a_medium_lose_their_momentum_as_they_should():
     text = """[body]
 inertia = [12, 9, 5]
@@ -210,12 +173,6 @@ units = "si"
     assert t[-1] == 30 and size == pytest.approx(size[0] * np.exp(-0.03 * t), rel=1e-5)
 
 
-def test_all_curves_of_a_field_are_drawn_without_their_vertical():
-    told, _ = ask(Session(case_of("charged-body-attitude")),
-                  torque={"axis": 1, "size": "0.1", "tilt": "0", "azimuth": "0"})
-    assert "error" not in told and told["space"]["curves"]
-
-
 @pytest.mark.parametrize("torque, rate", [("1e150", "0.1"), ("0.02", "1e200"), ("1e150", "1e90")])
 def test_a_case_file_with_numbers_that_no_double_can_follow_is_refused_in_words(torque, rate):
     text = (
@@ -223,42 +180,6 @@ def test_a_case_file_with_numbers_that_no_double_can_follow_is_refused_in_words(
         f"{torque}]\n[motion]\nangular_velocity = [{rate}, 0, 0.1]\n")
     told, _ = ask(Session(read_text("huge.toml", text)), moving=True)
     assert "too fast to be drawn" in told["error"] and "expected" in told["error"]
-
-
-def test_a_file_with_a_sweep_is_told_of_whose_numbers_the_page_is():
-    told, _ = ask(Session(case_of("charged-sweep")), moving=True)
-    assert "[sweep]" in told["note"]
-    assert "sweep" not in ask(Session(case_of("minor-axis-100")), moving=True)[0]["note"]
-
-
-@pytest.mark.parametrize("name", ["uncertain-separatrix", "uncertain-minor-axis"])
-def test_a_file_with_uncertain_numbers_is_told_that_the_page_is_about_their_middles(name):
-    assert "uncertain" in ask(Session(case_of(name)), moving=True)[0]["note"]
-    assert "uncertain" not in ask(Session(case_of("minor-axis-100")), moving=True)[0]["note"]
-
-
-def test_an_approximate_law_is_judged_along_the_motion_as_classify_does():
-    """Oracle: classify, which follows the same motion; a smaller torque keeps within the law."""
-    for name, held in (("charged-body", False), ("charged-body-small-torque", True)):
-        told = ask(Session(case_of(name)), moving=True)[0]
-        line = subprocess.run([sys.executable, "-m", "stabilab", "classify", f"cases/{name}.toml"],
-                              capture_output=True, text=True, check=True,
-                              env={**os.environ, "COLUMNS": "400",
-                                   "PYTHONIOENCODING": "utf-8"}).stdout.split("\nwhy:")[0]
-        assert told["note"].removeprefix("Within the law: ").removeprefix(
-            "BEYOND THE LAW: ") in line and "along the run" in told["note"]
-        assert told["headline"].startswith("BEYOND THE LAW; by that law: BOUNDED") != held and told[
-            "headline"].split("law: ")[-1] in line
-
-
-def test_no_equilibrium_of_undecided_stability_is_called_stable_by_its_colour():
-    """The table beside it and classify say undecided of each of this field's curves, whose linear verdict is
-    a centre."""
-    told = ask(Session(case_of("charged-body-attitude")))[0]
-    assert {verdict for _, verdict in told["equilibria"]["rows"]} == {"undecided"}
-    names = dict(told["space"]["legend"])
-    assert "stable equilibria" not in names and names["equilibria of undecided stability"] not in (
-        MEANING["stable"]["color"], MEANING["unstable"]["color"])
 
 
 def test_no_two_things_in_space_have_one_colour():
@@ -281,35 +202,6 @@ def test_a_tensor_that_is_not_diagonal_is_refused_beside_a_damper_of_three_with_
               "coefficient = [1, 2, 3]\n[motion]\nangular_velocity = [0.1, 0.2, 0.3]\n")
     with pytest.raises(InputError, match="principal axes .*or ask stabilab classify or report"):
         Session(read_text("turned.toml", turned))
-
-
-def test_all_but_the_surfaces_is_answered_without_numpy():
-    """In a fresh interpreter that refuses every package but python-flint."""
-    code = """
-import sys
-class Bare:
-    def find_spec(self, name, path=None, target=None):
-        if name.split(".")[0] in {"numpy", "scipy", "sympy", "mpmath", "matplotlib", "pyvista", "jinja2", "rich", "typer", "heyoka", "numba"}:
-            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
-sys.meta_path.insert(0, Bare())
-import stabilab
-from stabilab.show.explore.session import Session
-from stabilab.show.explore.serve import checked
-from stabilab.show.explore.pictures import unframed
-for name in ("thruster-stuck-major-axis", "cubesat-3u"):
-    print(unframed(Session(stabilab.load(f"cases/{name}.toml")).answer({}))[0]["headline"])
-along = unframed(Session(stabilab.load("cases/thruster-stuck-major-axis.toml")).answer({"wheel": ["1", None, None]}))[0]
-print(along["headline"], along["space"]["words"])
-"""
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-    assert run.returncode == 0, run.stderr
-    first, second, third = run.stdout.splitlines()
-    assert first.startswith(
-        "BOUNDED only while the torque is exactly along x (major axis); largest rate |ω| = 2.244 deg/s "
-        "(1.725 deg/s")
-    assert second.startswith("UNDECIDED: this motion has to be followed, which needs NumPy")
-    assert third.startswith(
-        "UNDECIDED: this motion has to be followed, which needs NumPy") and "No separatrix" in third
 
 
 def test_a_curve_of_equilibria_is_told_by_a_state_on_each_piece():
@@ -337,18 +229,6 @@ def test_a_motion_on_an_unstable_plane_is_drawn_on_it_to_its_end_once_the_hand_r
     assert np.abs(x1 + 1 + x3).max() < 0.02 and (1 < tau[-1] < 5 if moving else tau[-1] == 8 and x2[-1] > 12)
 
 
-@pytest.mark.one_in(2)
-@pytest.mark.parametrize("name, words",
-                         [("liquid-sensible", "Within the law: liquid cavity: Reynolds number"),
-                                         ("liquid-base", "BEYOND THE LAW: liquid cavity"),
-                          ("minor-axis-100", "")])
-def test_a_law_that_is_judged_says_so(name, words):
-    """The Reynolds number of the sensible liquid is 0.215 < 1; 25 t of liquid in a body of 9 kg m^2 are
-    beyond any law; a torque and a wheel have none."""
-    note = ask(Session(case_of(name)), moving=True)[0]["note"]
-    assert words in note and ("law" in note.lower()) == bool(words)
-
-
 def test_the_body_turns_as_its_film_does():
     """Without a torque R (D omega + wheel) rests in space: D = (3, 2, 1), a proof of its own."""
     case = case_of("torque-free-gyrostat")
@@ -362,12 +242,6 @@ def test_the_body_turns_as_its_film_does():
         arrow = row(numbers, film["arrows"][1][2]).reshape(-1, 3)
         assert np.allclose(arrow, rotations @ (1.25 * wheel / np.linalg.norm(wheel)), atol=1e-5)
     assert ask(Session(case_of("minor-axis-100")))[0]["film"] is None  # scaled: no body
-
-
-def test_the_limit_stands_first_among_what_is_known_of_the_motion():
-    """16.95 s: SciPy's DOP853 in test_to_limit."""
-    told, _ = ask(Session(case_of("cubesat-3u")))
-    assert told["rows"][0][0] == "axes" and told["rows"][1] == ["limit", "16.95 s: until the limit, 60 deg/s, is reached (proved)"]
 
 
 @pytest.mark.parametrize("name", ["cubesat-3u", "thruster-stuck-major-axis", "phone"])

@@ -23,9 +23,8 @@ def test_a_data_set_is_labelled_by_what_varies():
     assert found.fate.dims == ("momentum_1", "x_3") and found.least.dims == ("momentum_1", "x_3", "axis")
     assert found.momentum_1.attrs == {"long_name": "effects.gyrostat.momentum[1]", "units": "N m s"}
     alone = stabilab.fate(stabilab.load(MINOR).scene, [2.5, 4.0, -3.0])
-    assert found.fate.sel(momentum_1=100,
-                          x_3=-3.0) == alone.labels and float(
-                              found.margin.sel(momentum_1=100, x_3=-3)) == pytest.approx(float(alone.margins))
+    assert found.fate.sel(momentum_1=100, x_3=-3.0) == alone.labels
+    assert float(found.margin.sel(momentum_1=100, x_3=-3)) == pytest.approx(float(alone.margins))
     assert found.fate.attrs["flag_meanings"].split()[int(alone.labels)] == stabilab.Fate(
         int(alone.labels)).word
 
@@ -55,7 +54,7 @@ def test_samples_are_a_dimension_with_their_numbers_as_coordinates():
     assert ((found.inertia_1 - 2000) ** 2 <= 20**2).all()
 
 
-def test_points_that_are_no_case_are_marked_in_the_file(tmp_path):
+def test_points_that_are_no_case_are_marked_in_the_file():
     found = stabilab.sweep(MINOR, {"inertia[1]": "2000, -9000"}, answer="fate,equilibria,margin")
     assert found.fate.values.tolist()[1] == 5 and np.isnan(found.margin[1]) and found.equilibria[
         1] == -3 and "positive" in found.attrs["no_case"]

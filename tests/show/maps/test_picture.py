@@ -11,10 +11,9 @@ from stabilab.maps.parts import case_of
 from stabilab.maps.plan import planned
 from stabilab.maps.run import changes
 from stabilab.show import style
-from stabilab.show.maps import picture, shades
+from stabilab.show.maps import picture
 from stabilab.show.maps import picture as curves
 from stabilab.show.maps import picture as field
-from stabilab.show.maps import shades as labels
 from tests.shared import CASES
 
 xarray = pytest.importorskip("xarray")
@@ -127,31 +126,6 @@ def test_a_column_named_is_drawn_alone_along_one_axis(tmp_path):
         assert len(curves.curves(data, plan, "fate", "x_1", None, plt).axes) == 2
 
 
-def test_flags_are_drawn_in_words_and_rates_with_their_sign():
-    data = sweep(MINOR, {"mu[1]": "0, 0.4", "x[3]": "0, 4"}, answer="fate,level,extremes")
-    assert list(shades.flag_legend(data, "level")) == ["certified", "exact"]
-    assert (field.values_of(data,
-                            "least") == data.least.values.min(axis=-1)).all() and (
-                                field.values_of(data, "least") < 0).all()
-
-
-def test_no_title_of_small_maps_lies_on_its_neighbour(tmp_path):
-    data = sweep(MINOR, {"momentum[1]": "100, 200", "x[1]": "0, 1", "x[2]": "0:1:4", "x[3]": "0:1:4"},
-                 out=tmp_path / "four.nc")
-    plan = picture.opened(tmp_path / "four.nc")[1]
-    with style.drawing() as plt:
-        figure = picture.drawn(data, plan, "fate", None, plt)
-        figure.canvas.draw()
-        boxes = [ax.title.get_window_extent() for ax in figure.axes[:2]]
-        assert boxes[0].x1 < boxes[1].x0 and "6 of 16 maps" in figure.get_suptitle()
-
-
-@pytest.mark.parametrize("values, logarithmic",
-                         [((1, 10, 100), True), ((1, 2, 3), False), ((-1, 0, 1), False), ((1, 2), False)])
-def test_values_in_equal_ratios_are_drawn_so(values, logarithmic):
-    assert shades.is_log(np.array(values, float)) == logarithmic
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("case, vary, options", [
     ("uncertain-separatrix", {}, {"samples": 50}),
@@ -164,15 +138,6 @@ def test_values_in_equal_ratios_are_drawn_so(values, logarithmic):
 def test_every_kind_of_sweep_has_its_picture(tmp_path, case, vary, options):
     stabilab.sweep(CASES / f"{case}.toml", vary, out=tmp_path / "map.nc", **options)
     assert picture.write(tmp_path / "map.nc", tmp_path / "map.png").stat().st_size > 5000
-
-
-def test_keys_are_as_short_as_the_others_allow():
-    assert labels.said(["effects.constant_torque.torque[3]",
-                        "motion.angular_velocity[1]"]) == ["torque[3]", "ω[1]"]
-    assert list(map(labels.drawn,
-                    ("torque[3]", "ω[1]", "x[3]", "charge"))) == ["torque[3]", "$ω_1$", "$x_3$", "charge"]
-    assert labels.said(["wheels.a.speed", "wheels.b.speed",
-                        "scaled.mu[1]"]) == ["a.speed", "b.speed", "scaled.μ[1]"]
 
 
 def test_a_size_of_which_no_picture_can_be_made_is_refused_for_maps_too(tmp_path):
@@ -214,11 +179,6 @@ def test_rates_and_times_of_a_map_have_the_units_of_the_case_or_those_asked_for(
                              plt).axes[0].get_ylabel() == "extremes (deg/s)"
 
 
-def test_a_period_of_a_scaled_case_is_in_tau_on_a_map(swept):
-    data = sweep(MINOR, {"x[1]": "1:2:2"}, answer="period")
-    assert picture.in_units(data, picture.units_of(stabilab.load(MINOR))).period.attrs["units"] == "τ"
-
-
 def test_a_map_says_what_its_white_cells_mean_and_is_refused_where_all_are(tmp_path):
     data = sweep(MINOR, {"x[1]": "0:4:3", "x[3]": "0:100:3"}, answer="fate,period,extremes",
                  out=tmp_path / "two.nc")
@@ -231,29 +191,3 @@ def test_a_map_says_what_its_white_cells_mean_and_is_refused_where_all_are(tmp_p
     # axes 1 and 2 have one, of three the greatest is without end
     with pytest.raises(InputError, match="no point has a finite value of greatest"):
         picture.write(tmp_path / "up.nc", tmp_path / "x.png", "greatest")
-
-
-def test_lines_of_equal_margin_lie_at_round_numbers():
-    """Margins that grow evenly to 1.776, as those of the tug of docs/sweep.md: lines stood at 0.296, 0.592
-    and so on."""
-    import matplotlib.pyplot as plt
-    x, y = np.linspace(0, 1, 12), np.linspace(0, 1, 12)
-    margin = 1.776 * (x[:, None] + y) / 2
-    data = {"x": x, "y": y, "fate": np.full((12, 12), int(stabilab.Fate.BOUNDED)),
-            "margin": xarray.DataArray(margin, attrs={"units": "J"})}
-    figure, ax = plt.subplots()
-    assert list(field._levels(ax, data, ("x", "y"))) == ["equal margin (J)"]
-    levels = [float(text.get_text()) for text in ax.texts]
-    plt.close(figure)
-    assert set(levels) >= {0.5, 1.0, 1.5} and all(round(4 * level, 9) == round(4 * level) for level in levels)
-
-
-def test_a_legend_of_many_curves_stands_beside_its_panel(tmp_path):
-    """Oracle: Matplotlib's own boxes."""
-    data = sweep(MINOR, {"x[1]": "1:2:3"}, answer="fate,extremes", out=tmp_path / "line.nc")
-    with style.drawing() as plt:
-        figure = curves.curves(data, picture.opened(tmp_path / "line.nc")[1], "fate", "x_1", None, plt)
-        figure.canvas.draw()
-        (ax,) = figure.axes
-        box = ax.get_legend().get_window_extent()
-        assert box.x0 >= ax.get_window_extent().x1 and box.x1 <= figure.bbox.width

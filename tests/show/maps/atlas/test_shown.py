@@ -4,7 +4,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-import re
 
 import numpy as np
 import pytest
@@ -49,23 +48,6 @@ def test_the_first_line_has_shares_of_the_sphere_and_the_shortest_time(found):
     assert f"shortest time to 90 deg/s: {found.records['when_low'].min():.4g} s at direction (" in first
     assert any(line.startswith("  wheel 0.2 N m s: ")
                for line in rest) and any("thruster A <1>, direction (0, -1, 0)" in line for line in rest)
-
-
-def test_names_of_directions_that_are_one_stand_apart():
-    """The torque of the case lies on axis 2 here: its name stood over that of the axis."""
-    import matplotlib.pyplot as plt
-    with drawn(asked(case_of(torque=(0.0, 1.0, 0.0)), level=0, refine=0), workers=1) as atlas:
-        figure = atlas_picture.drawn(atlas, DEG, ("fate",), None, plt)
-    figure.canvas.draw()
-    boxes, names = [label.get_window_extent()
-                    for label in figure.axes[0].texts], [label.get_text() for label in figure.axes[0].texts]
-    legend = [entry.get_text() for entry in figure.axes[0].get_legend().get_texts()]
-    plt.close(figure)
-    assert not [name for name in names + legend
-                if "-" in name] and {"−x major", "+y intermediate", "−z minor"} < set(names)
-    assert any(name.startswith("torque of the case: ") for name in names)
-    assert len(boxes) == 7 and not [1 for n,
-                                    box in enumerate(boxes) for other in boxes[:n] if box.overlaps(other)]
 
 
 def test_json_and_csv_hold_every_cell(found):
@@ -128,18 +110,6 @@ def test_pictures_show_what_is_asked_and_refuse_others(found, tmp_path, monkeypa
 def test_the_page_needs_no_network_and_escapes_names(found, tmp_path):
     text = atlas_picture.write_page(found, tmp_path / "sky.html", DEG).read_text(encoding="utf-8")
     assert "http" not in text.replace("http://www.w3.org", "") and "A <1>" not in text.partition("</pre>")[0]
-
-
-def test_the_page_has_the_minus_of_a_book_and_round_times_in_its_legend(found, tmp_path):
-    text = atlas_picture.write_page(found, tmp_path / "sky.html", DEG).read_text(encoding="utf-8")
-    (lead,) = re.findall(r'<p class="lead">(.*?)</p>', text, re.S)
-    assert "−" in lead and not re.search(r"-[\d.]", lead)
-    (head, none), *marks = json.loads(re.search(r'id="atlas-data">(.*?)</script>', text,
-                                                re.S)[1])["kinds"]["when"]["legend"]
-    times = [float(words.removesuffix(" s")) for words, _ in marks]
-    assert (head, none) == ("90 deg/s in", None) and len(times) >= 2 and times == sorted(times)
-    low, high = found.records["when_low"].min(), found.records["when_low"].max()
-    assert all(low <= time <= high and float(f"{time:.2g}") == time for time in times)
 
 
 @pytest.mark.parametrize(("least", "most", "marks"), [
