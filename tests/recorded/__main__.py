@@ -8,11 +8,11 @@ import sys
 import tempfile
 from pathlib import Path
 
-from .answers import ONE_CASE, RELATIVE, SEVERAL, USUAL, differences, now, record, recorded
+from .answers import ALL, RELATIVE, USUAL, differences, now, record, recorded
 
 
 def main(arguments: list[str]) -> int:
-    write, names = "--write" in arguments, [a for a in arguments if a != "--write"] or [*ONE_CASE, *SEVERAL]
+    write, names = "--write" in arguments, [a for a in arguments if a != "--write"] or ALL
     differ = 0
     for name in names:
         with tempfile.TemporaryDirectory() as folder:

@@ -13,6 +13,7 @@ from pathlib import Path
 from stabilab import cli
 
 from .cases import ROOT, written
+from .views import VIEWS
 
 HERE = Path(__file__).parent
 ONE_CASE = {  # of every case
@@ -51,10 +52,41 @@ SEVERAL = {  # from the repository's root
              ["atlas", "cases/thruster-stuck-major-axis.toml", "--level", "1", "--csv"],
              ["basin", "cases/minor-axis-100.toml", "--vary", "x[1]=-4:4:17", "--vary", "x[3]=-3:3:17",
               "--json"]],
+    "words": [["compare", "cases/top-lx30-lz30.toml"], ["compare", "cases/charged-body.toml"],
+              ["compare", "cases/liquid-base.toml"],
+              ["stuck", "cases/upper-stage.toml", "--why"],
+              ["stuck", "cases/thruster-stuck-major-axis.toml", "--why"],
+              ["stuck", "cases/geostationary-22n.toml", "--all-thrusters"],
+              ["classify", "cases/liquid-sensible.toml", "--units", "si"],
+              ["classify", "cases/charged-body-attitude.toml", "--why"],
+              ["extremes", "cases/charged-body.toml"], ["extremes", "cases/charged-sweep.toml"],
+              ["when", "cases/cubesat-3u.toml"], ["when", "cases/geostationary-22n.toml"],
+              ["when", "cases/liquid-base.toml", "--rate", "2 rad/s"],
+              ["when", "cases/cubesat-3u.toml", "--component", "z = 30 deg/s", "--units", "si"],
+              ["simulate", "cases/minor-axis-100.toml", "--at", "0,1"],
+              ["simulate", "cases/cubesat-3u.toml", "--at", "0,1", "--attitude"],
+              ["reference", "cases/minor-axis-100.toml", "--at", "0,1", "--digits", "20"],
+              ["attitude", "cases/phone.toml"], ["attitude", "cases/toutatis.toml"],
+              ["attitude", "cases/toy-top.toml"], ["orbit", "cases/orbits/boom.toml"],
+              ["burn", "cases/burns/stage.toml"],
+              ["chaos", "cases/minor-axis-100.toml", "--until", "300"], ["chaos", "cases/off-axis-fold.toml"],
+              ["sweep", "cases/minor-axis-100.toml", "--vary", "x[1]=-4:4:5", "--answer",
+               "fate,margin,extremes,period"],
+              ["sweep", "cases/off-axis-two.toml", "--vary", "torque[3]=-0.1,0.1", "--answer",
+               "equilibria,verdict"],
+              ["sweep", "cases/charged-body.toml", "--vary", "charge=0.002,0.003"],
+              ["basin", "cases/minor-axis-100.toml", "--vary", "x[1]=-4:4:9", "--vary", "x[3]=-3:3:9",
+               "--depth", "2"],
+              ["atlas", "cases/thruster-stuck-major-axis.toml", "--level", "1"],
+              ["bifurcation", "cases/middle-axis-double-well.toml", "--vary", "b=0:4", "--vary", "x[1]=-3:3"],
+              ["bifurcation", "cases/off-axis-two.toml", "--vary", "torque[3]=-1:1"],
+              ["example"]],
 }
+ALL = (*ONE_CASE, *SEVERAL, *VIEWS)
 # Numbers agree to so much of the largest in their list: extremes are promised to 1e-12, periods to 1e-11 of
 # themselves; a run keeps its own tolerance
-RELATIVE = {"simulate": 1e-9, "compare": 1e-9}
+# (explorer and pictures: of single precision)
+RELATIVE = {"simulate": 1e-9, "compare": 1e-9, "explorer": 1e-6, "pictures": 1e-6}
 USUAL = 1e-11
 # a direction of an atlas that a run of thousands of steps decides, or not: there a processor's last digits count
 BY_A_RUN = re.compile(r"^,,.*,(?:certified,certified|undecided,off_axis),.*\n", re.MULTILINE)
@@ -85,6 +117,9 @@ def now(record: str, folder: Path) -> dict:
         lines = [[word.format(folder) for word in line] for line in SEVERAL[record]]
         return {" ".join(line): _without(run(*filled), folder)
                 for line, filled in zip(SEVERAL[record], lines)}
+    if record in VIEWS:
+        return {path.stem: _without(VIEWS[record](path), folder, path)
+                for path in sorted((ROOT / "cases").glob("*.toml"))}
     command, *options = ONE_CASE[record]
     return {path.stem: _without(run(command, str(path), *options), folder, path) for path in written(folder)}
 

@@ -2,7 +2,7 @@
 to their tolerance."""
 import pytest
 
-from .answers import ONE_CASE, RELATIVE, SEVERAL, USUAL, differences, now, recorded
+from .answers import ALL, RELATIVE, USUAL, differences, now, recorded
 
 # The words of these are made from the JSON of the same command: long
 LONG = {"audit",  # which tests/papers/test_audit.py holds against the equations
@@ -11,7 +11,7 @@ LONG = {"audit",  # which tests/papers/test_audit.py holds against the equations
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] if name in LONG else [])
-                                  for name in (*ONE_CASE, *SEVERAL)])
+                                  for name in ALL])
 def test_a_command_answers_as_it_is_recorded(name, tmp_path):
     assert differences(recorded(name), now(name, tmp_path), RELATIVE.get(name, USUAL)) == []
 
