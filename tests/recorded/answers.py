@@ -65,7 +65,6 @@ SEVERAL = {  # from the repository's root
               ["when", "cases/cubesat-3u.toml", "--component", "z = 30 deg/s", "--units", "si"],
               ["simulate", "cases/minor-axis-100.toml", "--at", "0,1"],
               ["simulate", "cases/cubesat-3u.toml", "--at", "0,1", "--attitude"],
-              ["reference", "cases/minor-axis-100.toml", "--at", "0,1", "--digits", "20"],
               ["attitude", "cases/phone.toml"], ["attitude", "cases/toutatis.toml"],
               ["attitude", "cases/toy-top.toml"], ["orbit", "cases/orbits/boom.toml"],
               ["burn", "cases/burns/stage.toml"],
