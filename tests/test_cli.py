@@ -373,14 +373,6 @@ def test_every_combination_of_a_sweep_has_its_row_in_json(stabilab, swept, comma
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("command", [["show"], ["classify", "--why"], ["fate", "--digits", "6"],
-                                     ["simulate", "--at", "0,1"], ["compare"]])
-def test_every_combination_of_a_sweep_that_is_told_in_full_is_named(stabilab, swept, command):
-    code, out, err = stabilab(command[0], "six.toml", *command[1:])
-    assert code == 0 and all(f"six{label}" in out for label in LABELS), err
-
-
-@pytest.mark.one_in(2)
 @pytest.mark.parametrize("command", ["classify", "extremes", "fate", "period"])
 def test_a_sweep_is_one_table_with_a_column_for_each_swept_key(stabilab, swept, command):
     """The answer, two lines of heads, and a row a combination that begins with what varies, as the file has

@@ -166,11 +166,3 @@ def test_rates_whose_squares_are_no_doubles_are_followed_in_their_own_time():
     """Of a free body every motion is regular, at any rate."""
     found = stabilab.chaos(stabilab.Scene(stabilab.Body((3, 2, 1))), (1e200, 2e200, 3e200))
     assert found.labels == Order.REGULAR and 1.9 < found.megno < 2.1
-
-
-def test_a_megno_next_to_zero_has_no_minus():
-    found = Chaos(np.array(Order.REGULAR), np.array(-1e-5), np.array([1.0, 2.0]), np.array([-2e-5, -1e-5]),
-                  np.array(0.0), np.array(0.0), 1.0, None)
-    assert "MEGNO is 0.000 (0.000 at half" in found.because
-    case = SimpleNamespace(name="rest", scene=SimpleNamespace(time_unit="s"))
-    assert words.text(case, found).count(" 0.0000") == 2

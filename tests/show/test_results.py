@@ -46,20 +46,6 @@ def test_a_result_says_in_one_short_line_what_it_answers(results, name):
     assert line.startswith(f"{name}(") and len(line) < 160 and "\n" not in line and "array(" not in line
 
 
-def test_equations_of_motion_say_in_one_short_line_what_they_hold():
-    line = repr(stabilab.derive(SCENE))
-    assert line.startswith("Equations(omega1, omega2, omega3; torques: ") and len(
-        line) < 300 and "\n" not in line
-
-
-def test_the_line_of_a_motion_has_its_fate_margin_and_period(results):
-    """The numbers of the README: 0.508861 J, 0.168910 rad/s, 32.8438 s."""
-    line = repr(results["Motion"])
-    assert all(words in line for words in ("bounded", "margin in energy 0.508862", "in rate 0.16891",
-                                           "period 32.8438"))
-    assert repr(results["FateResult"]) == "FateResult(2 states: 1 bounded, 1 spin-up)"
-
-
 def test_tables_of_a_stuck_thruster_of_models_and_of_a_spin_up_hold_their_numbers(results):
     table, rows = results["Stuck"].to_pandas(), results["Stuck"].rows
     assert list(table["fate"]) == [row.fate for row in rows]

@@ -132,16 +132,6 @@ def test_a_click_in_the_phase_plane_starts_there():
                                                               rel=1e-6)
 
 
-@pytest.mark.parametrize("asked", [
-    {"click": {"turn": "x"}}, {"click": 3}, {"start": ["x", None, None]}, {"start": 3}, {"box": 3},
-    {"torque": []}, {"wheel": {"a": 1}},
-    {"box": {"middle": [0, 0, "x"], "half": 1}}, {"box": {"middle": [0, 0, 0], "half": 0}},
-    {"click": {"turn": "inf", "rate": 1}}])
-def test_a_question_that_is_none_is_answered_in_words(asked):
-    told, _ = ask(Session(case_of("minor-axis-100")), **asked)
-    assert "expected" in told["error"] or "click" in told["error"]
-
-
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("size, refused", [("1e8", False), ("-1e8", False), ("1e-300", False),
                                            ("1.1e8", True), ("1e200", True)])
