@@ -17,6 +17,16 @@ from tests.oracles.pairs import PAPER_BODY, physical, scaled
 
 CASES = Path(__file__).parents[1] / "cases"
 
+# of README.md, alone and with its motion
+SATELLITE = """[body]
+inertia = [12, 9, 5]
+[effects.gyrostat]
+momentum = [0.8, 0, 0]
+[effects.constant_torque]
+torque = [0, 0, 0.02]
+"""
+MOVING = SATELLITE + "[motion]\nangular_velocity = [0.1, 0.05, 0.02]\n"
+
 
 def case(name):
     return stabilab.load(CASES / f"{name}.toml")

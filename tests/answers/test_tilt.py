@@ -13,20 +13,10 @@ from stabilab.answers.passage.run import stays_below
 from stabilab.answers.tilt import Cone, cone_of, spread, tilt
 from stabilab.errors import InputError
 from tests.oracles.first_crossing import REAL, first_crossing
-from tests.shared import CASES, craft_file
+from tests.shared import CASES, MOVING, craft_file
 
 BODY, WHEEL, STATE = package.Body((12, 9, 5)), package.Gyrostat(("0.8", 0, 0)), [0.1, 0.05, 0.02]
 ON_AXIS = package.Scene(BODY, WHEEL, package.ConstantTorque((0, 0, "0.02")))  # the satellite of README.md
-CASE = """
-[body]
-inertia = [12.0, 9.0, 5.0]
-[effects.gyrostat]
-momentum = [0.8, 0.0, 0.0]
-[effects.constant_torque]
-torque = [0.0, 0.0, 0.02]
-[motion]
-angular_velocity = [0.10, 0.05, 0.02]
-"""
 
 
 def true_time(scene, torque, state, rate, t_max):
@@ -173,14 +163,13 @@ def test_the_cone_of_a_thruster_is_that_of_its_force(case_file):
 
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("command", ["fate", "stuck"])
-def test_the_headline_says_the_longer_of_what_is_proved_and_what_was_followed(stabilab, tmp_path, command):
+def test_the_headline_says_the_longer_of_what_is_proved_and_what_was_followed(stabilab, case_file, command):
     """A bound of days was told as "not found within hours" in the first line."""
-    text = CASE.replace("12.0, 9.0, 5.0",
-                        "28.5, 28.45, 33.42").replace("[0.8, 0.0, 0.0]",
-                                                      "[0.0145, 0, -0.104]").replace("[0.0, 0.0, 0.02]",
-                                                                                     "[0, -0.0136, 0]")
-    path = tmp_path / "near.toml"
-    path.write_text(text.replace("[0.10, 0.05, 0.02]", "[0.789, -3.57, -2.77]") + "[limits]\nrate = 11.75\n")
+    text = MOVING + "[limits]\nrate = 11.75\n"
+    for old, new in (("12, 9, 5", "28.5, 28.45, 33.42"), ("[0.8, 0, 0]", "[0.0145, 0, -0.104]"),
+                     ("[0, 0, 0.02]", "[0, -0.0136, 0]"), ("[0.1, 0.05, 0.02]", "[0.789, -3.57, -2.77]")):
+        text = text.replace(old, new)
+    path = case_file(text, "near")
     answer = json.loads(stabilab(command, path, "--json")[1])
     found = answer["rows"][0]["tilt"] if command == "stuck" else answer[0]["tilt"]
     first = stabilab(command, path, "--units", "si")[1].split("\n")[0]
@@ -191,7 +180,7 @@ def test_the_headline_says_the_longer_of_what_is_proved_and_what_was_followed(st
 
 @pytest.mark.slow
 def test_a_stated_limit_or_misalignment_brings_the_tilt_by_itself(stabilab, case_file):
-    path = case_file(CASE + '[limits]\nrate = "2 rad/s"\n', "limit")
+    path = case_file(MOVING + '[limits]\nrate = "2 rad/s"\n', "limit")
     code, out, _ = stabilab("fate", path)
     assert code == 0
     assert "BOUNDED only while the torque is exactly along z (minor axis): tilted by 1 deg it reaches 114.6 deg/s after 1" in out.splitlines()[0]
@@ -205,7 +194,7 @@ def test_a_stated_limit_or_misalignment_brings_the_tilt_by_itself(stabilab, case
 
 
 def test_a_tilt_may_be_asked_for(stabilab, case_file):
-    path = case_file(CASE, "plain")
+    path = case_file(MOVING, "plain")
     assert "tilted by 0.5 deg it reaches" in stabilab("classify", path, "--tilt", "0.5 deg")[1]
     code, _, err = stabilab("classify", path, "--tilt", "95 deg")
     assert code == 2 and "--tilt: expected an angle below 90 deg" in err
@@ -222,8 +211,8 @@ def test_a_steady_rotation_is_not_told_to_be_at_rest():
 
 @pytest.mark.parametrize("torque", [[0.0, 0.0, 0.02], [0.001, 0.0, 0.02]])
 def test_rates_whose_squares_are_no_doubles_are_answered_in_words(stabilab, case_file, torque):
-    path = case_file(CASE.replace("[0.0, 0.0, 0.02]",
-                                  str(torque)).replace("[0.10, 0.05, 0.02]", "[1e160, 2e159, 1e158]"), "fast")
+    path = case_file(MOVING.replace("[0, 0, 0.02]",
+                                  str(torque)).replace("[0.1, 0.05, 0.02]", "[1e160, 2e159, 1e158]"), "fast")
     code, out, err = stabilab("fate", path, "--tilt", "1 deg")
     assert code == 0 and "not looked at with rates whose squares are no doubles" in out
     assert "Warning" not in err

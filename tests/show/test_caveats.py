@@ -14,34 +14,23 @@ from stabilab.answers.caveats import caveats_of
 from stabilab.case.read import load
 from stabilab.show.explore.session import Session
 from stabilab.show.report.one_case import page
+from tests.shared import craft_file
 from tests.show.explore.test_session import ask
 
-FORM = """[body]
-inertia = {inertia}
-[[thrusters]]
-name = "A1"
-position = {position}
-direction = [0, 1, 0]
-force = "0.5 N"
-{misaligned}
-stuck = true
-[[wheels]]
-name = "w"
-axis = [1, 0, 0]
-momentum = 3
-[motion]
-angular_velocity = ["6 deg/s", 0, 0.01]
-span = [0, 50]
-{limits}
-"""
-PLAIN = {"inertia": "[100, 90, 40]", "position": "[0.1, 0, 0]", "misaligned": "", "limits": ""}
-CASES = {  # name: (what the file says, words of the caveat)
-    "axis": ({"misaligned": 'misalignment = "2 deg"'}, "only while the torque is exactly along "),
-    "limit": ({"position": "[0.1, 0, 0.05]", "limits": '[limits]\nrate = "7 deg/s"'},
-              "reaches 7 deg/s after "),
-    "off axis": ({"position": "[0.1, 0, 0.05]", "misaligned": 'misalignment = "1 deg"'}, "tilt"),
-    "unphysical": ({"inertia": "[8, 4, 0.4]"}, "no rigid body has "),
-    "uncertain": ({"inertia": '["100 +- 1", 90, 40]'}, "uncertain"),
+
+def form(inertia=(100, 90, 40), position=(0.1, 0, 0), limits="", **more):
+    """A case file: a force of 0.5 N along y at the place, a wheel along x."""
+    text = craft_file(inertia, (position, [0, 1, 0], "0.5 N"), [([1, 0, 0], 3)], ["6 deg/s", 0, 0.01], **more)
+    return f"{text}span = [0, 50]\n{limits}"
+
+
+LIMIT = '[limits]\nrate = "7 deg/s"\n'
+CASES = {  # name: (the case file, words of the caveat)
+    "axis": (form(misalignment="2 deg"), "only while the torque is exactly along "),
+    "limit": (form(position=(0.1, 0, 0.05), limits=LIMIT), "reaches 7 deg/s after "),
+    "off axis": (form(position=(0.1, 0, 0.05), misalignment="1 deg"), "tilt"),
+    "unphysical": (form((8, 4, 0.4)), "no rigid body has "),
+    "uncertain": (form(("100 +- 1", 90, 40)), "uncertain"),
 }
 MOTION = ("axis", "limit", "off axis", "unphysical", "uncertain")
 FILE = ("unphysical", "uncertain")
@@ -61,10 +50,10 @@ VIEWS = [  # (command and options, the cases whose caveat it has to show)
     (("chaos", "--until", "50 s", "--csv"), FILE),
     (("reference", "--at", "1", "--digits", "9", "--json"), FILE),
     (("reference", "--at", "1", "--digits", "9"), FILE),
-    (("sweep", "--vary", "wheels.w.momentum=3,4", "--csv"), ("axis", "unphysical")),
-    (("sweep", "--vary", "wheels.w.momentum=3,4"), ("axis", "off axis", *FILE)),
-    (("sweep", "--vary", "wheels.w.momentum=3,4", "--json"), ("axis", "off axis", *FILE)),
-    (("sweep", "--vary", "wheels.w.momentum=3,4", "--answer", "when", *ATTITUDE, "--csv"),
+    (("sweep", "--vary", "wheels.W.momentum=3,4", "--csv"), ("axis", "unphysical")),
+    (("sweep", "--vary", "wheels.W.momentum=3,4"), ("axis", "off axis", *FILE)),
+    (("sweep", "--vary", "wheels.W.momentum=3,4", "--json"), ("axis", "off axis", *FILE)),
+    (("sweep", "--vary", "wheels.W.momentum=3,4", "--answer", "when", *ATTITUDE, "--csv"),
      ("axis", "unphysical")),
     (("basin", "--vary", "angular_velocity[1]=5:6:3 deg/s", "--vary", "angular_velocity[2]=0:1:3 deg/s",
       "--depth", "0"), ("axis", *FILE)),
@@ -72,9 +61,9 @@ VIEWS = [  # (command and options, the cases whose caveat it has to show)
       "--depth", "0", "--csv"), ("axis", *FILE)),
     (("basin", "--vary", "angular_velocity[1]=5:6:3 deg/s", "--vary", "angular_velocity[2]=0:1:3 deg/s",
       "--depth", "0", "--json"), ("axis", *FILE)),
-    (("bifurcation", "--vary", "wheels.w.momentum=3:4"), FILE),
-    (("bifurcation", "--vary", "wheels.w.momentum=3:4", "--json"), FILE),
-    (("bifurcation", "--vary", "wheels.w.momentum=3:4", "--csv"), FILE),
+    (("bifurcation", "--vary", "wheels.W.momentum=3:4"), FILE),
+    (("bifurcation", "--vary", "wheels.W.momentum=3:4", "--json"), FILE),
+    (("bifurcation", "--vary", "wheels.W.momentum=3:4", "--csv"), FILE),
     (("atlas", "--level", "0", "--refine", "0"), ("axis", "off axis", *FILE)),
     (("atlas", "--level", "0", "--refine", "0", "--json"), ("axis", *FILE)),
     (("atlas", "--level", "0", "--refine", "0", "--csv"), ("axis", "unphysical")),
@@ -84,8 +73,8 @@ VIEWS = [  # (command and options, the cases whose caveat it has to show)
 @pytest.fixture(scope="module")
 def files(tmp_path_factory):
     folder = tmp_path_factory.mktemp("caveats")
-    for name, (changed, _) in CASES.items():
-        (folder / f"{name.replace(' ', '-')}.toml").write_text(FORM.format(**PLAIN | changed))
+    for name, (text, _) in CASES.items():
+        (folder / f"{name.replace(' ', '-')}.toml").write_text(text)
     return {name: folder / f"{name.replace(' ', '-')}.toml" for name in CASES}
 
 
@@ -122,7 +111,7 @@ def test_a_page_shows_what_limits_its_answer(files, tmp_path, name):
 
 def test_a_caveat_is_a_key_of_every_object_and_empty_where_nothing_limits_the_answer(stabilab, files,
                                                                                      case_file):
-    free = case_file(FORM.format(**PLAIN).replace("stuck = true", ""), "free")
+    free = case_file(form().replace("stuck = true", ""), "free")
     for command in (("classify",), ("fate",), ("extremes",), ("period",), ("when", *ATTITUDE)):
         found = json.loads(stabilab(command[0], free, *command[1:], "--json")[1])
         assert found[0]["caveats"] == [], command
@@ -144,7 +133,7 @@ def test_a_limit_that_is_reached_follows_the_fate(stabilab, files):
 @pytest.mark.slow  # 73 runs of DOP853
 def test_the_range_over_a_cone_off_the_axes_is_that_of_brute_force(stabilab, files):
     """Oracle: as above, at 72 azimuths of the force and with it as stated."""
-    text = FORM.format(**PLAIN | CASES["off axis"][0]) + '[limits]\nrate = "7 deg/s"\n'
+    text = CASES["off axis"][0] + LIMIT
     files["off axis"].with_name("range.toml").write_text(text)
     found = json.loads(stabilab("fate", files["off axis"].with_name("range.toml"), "--json")[1])[0]["tilt"]
     arm, force, angle = np.array([0.1, 0, 0.05]), 0.5, math.radians(1)

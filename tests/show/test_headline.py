@@ -8,19 +8,10 @@ from scipy.integrate import solve_ivp
 
 from stabilab import Body, Gyrostat, Scene, load, motion
 from stabilab.show.text.headline import bracketed, headline
+from tests.shared import MOVING
 
-BODY, WHEEL, TORQUE, START = np.array([12.0, 9,
-                                       5]), np.array([0.8, 0, 0]), np.array([0, 0, 0.02]), [0.1, 0.05, 0.02]
-TEXT = """[body]
-inertia = [12, 9, 5]
-[effects.gyrostat]
-momentum = [0.8, 0, 0]
-[effects.constant_torque]
-torque = [0, 0, 0.02]
-[motion]
-angular_velocity = {start}
-span = [0, 300]
-"""
+BODY, WHEEL, TORQUE = map(np.array, ([12.0, 9, 5], [0.8, 0, 0], [0, 0, 0.02]))
+START = [0.1, 0.05, 0.02]
 
 
 def followed(start, end):
@@ -37,8 +28,7 @@ def told(case):
 @pytest.fixture
 def own(case_file):
     def written(start=(0.1, 0.05, 0.02)):
-        path = case_file(TEXT.format(start=list(start)), "my")
-        return load(path)
+        return load(case_file(f"{MOVING}span = [0, 300]\n".replace("[0.1, 0.05, 0.02]", str(list(start))), "my"))
     return written
 
 

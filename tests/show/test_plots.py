@@ -19,12 +19,10 @@ from stabilab.show import style
 from stabilab.show.plot import path, subject, to_file
 from stabilab.show.plot import subject as which
 from stabilab.show.text.cost import comparison
+from tests import shared
 from tests.shared import case as load
 
-SMALL = (
-    "[body]\ninertia = [12, 9, 5]\n[effects.gyrostat]\nmomentum = [0.8, 0, "
-    "0]\n[effects.constant_torque]\ntorque = [0, 0, 0.02]\n")
-MOVING = SMALL + "[motion]\nangular_velocity = [0.1, 0.05, 0.02]\nspan = [0, 100]\n"
+MOVING = f"{shared.MOVING}span = [0, 100]\n"
 
 
 def lines(ax):
@@ -446,7 +444,7 @@ def test_stable_and_unstable_equilibria_differ_in_form_and_colour():
 
 
 def test_equilibria_are_drawn_without_a_motion_and_refused_where_there_are_none():
-    assert stabilab.plot.equilibria(stabilab.load(SMALL)).get_lines()
+    assert stabilab.plot.equilibria(stabilab.load(shared.SATELLITE)).get_lines()
     with pytest.raises(errors.InputError, match="there is nothing to draw: an equilibrium needs"):
         stabilab.plot.equilibria(load("major-axis-100"))
 

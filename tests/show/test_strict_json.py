@@ -9,30 +9,15 @@ import pytest
 
 from stabilab import cli
 from stabilab.cli import options
+from tests.shared import craft_file
 
 BODY = (
     "[body]\ninertia = [12, 9, 5]\n[effects.gyrostat]\nmomentum = {wheel}\n[effects.constant_torque]\ntorque "
     "= {torque}\n")
 MOTION = "[motion]\nangular_velocity = {rates}\nspan = [0, 3]\n"
-CRAFT = """
-[body]
-inertia = [12.0, 9.0, 5.0]
-centre_of_mass = [0, 0, 0]
-[[thrusters]]
-name = "A"
-position = [1, 0, 0]
-direction = [0, 1, 0]
-force = "20 mN"
-stuck = true
-[[wheels]]
-name = "W1"
-axis = [1, 0, 0]
-momentum = "0.8 N m s"
-[limits]
-rate = "60 deg/s"
-[motion]
-angular_velocity = [0.1, 0.05, 0.9]
-"""  # intervals of the wheel's momentum without an end
+# intervals of the wheel's momentum without an end
+CRAFT = craft_file([12, 9, 5], ([1, 0, 0], [0, 1, 0], "20 mN"), [([1, 0, 0], "0.8 N m s")], [0.1, 0.05, 0.9])
+CRAFT += '[limits]\nrate = "60 deg/s"\n'
 CASES = {
     "bounded": BODY.format(wheel=[0.8, 0, 0], torque=[0, 0, 0.02]) + MOTION.format(rates=[0.1, 0.05, 0.02]),
     # rates without bound, no period

@@ -13,7 +13,7 @@ import pytest
 from stabilab import cli
 from stabilab.show.terminal import completion, letters, page
 from stabilab.show.terminal.groups import GROUPS
-from tests.shared import CASES
+from tests.shared import CASES, MOVING
 
 ROOT = Path(__file__).parents[2]
 MINOR, OFF_AXIS = ROOT / "cases/minor-axis-100.toml", ROOT / "cases/off-axis-two.toml"
@@ -250,13 +250,9 @@ def test_thrusters_that_do_nothing_are_told_beside_the_answer(stabilab, tmp_path
     (("when", "--component", "z = 10"),
      '--component: 10 alone is in rad/s: 572.958 deg/s; for degrees write "10 deg/s"'),
     (("fate", "--tilt", "1 deg"), ""), (("when", "--rate", "10", "--units", "si"), "")])
-def test_an_angle_without_a_unit_is_told_in_degrees_before_the_answer(stabilab, tmp_path, words, told):
+def test_an_angle_without_a_unit_is_told_in_degrees_before_the_answer(stabilab, case_file, words, told):
     """180/pi = 57.2958."""
-    (tmp_path / "my.toml").write_text('[body]\ninertia = [12, 9, 5]\n[effects.gyrostat]\nmomentum = [0.8, 0, '
-                                      '0]\n[effects.constant_torque]\n'
-                                      'torque = [0, 0, 0.02]\n[motion]\nangular_velocity = [0.1, 0.05, '
-                                      '0.02]\n')
-    code, _, err = stabilab(words[0], tmp_path / "my.toml", *words[1:])
+    code, _, err = stabilab(words[0], case_file(MOVING), *words[1:])
     assert code == 0 and err.strip() == told
 
 

@@ -13,6 +13,7 @@ from stabilab.show.explore.pictures import plane_of, unframed
 from stabilab.show.explore.session import FOLLOWED, Session, Stopped
 from stabilab.show.terminal.letters import greek
 from stabilab.show.text.headline import headline
+from tests.shared import MOVING
 from tests.shared import case as case_of
 
 
@@ -196,10 +197,7 @@ def test_a_tensor_that_is_not_diagonal_is_refused_beside_a_damper_of_three_with_
 
 def test_a_curve_of_equilibria_is_told_by_a_state_on_each_piece():
     """Torque on axis 3, wheel along axis 1: by Euler's third equation w2 (l1 + (D1 - D2) w1) = -M3 there."""
-    case = read_text("my.toml", '[body]\ninertia = [12, 9, 5]\n[effects.gyrostat]\nmomentum = [0.8, 0, 0]\n'
-                     '[effects.constant_torque]\ntorque = [0, 0, 0.02]\n[motion]\nangular_velocity = [0.1, '
-                     '0.05, 0.02]\n')
-    told = unframed(Session(case).answer({}))[0]["equilibria"]["rows"]
+    told = unframed(Session(load(MOVING)).answer({}))[0]["equilibria"]["rows"]
     assert [verdict for _, verdict in told] == ["unstable", "stable", "unstable"]
     for where, _ in told:
         w1, w2, w3 = (math.radians(float(v))

@@ -5,18 +5,11 @@ from stabilab.case.read import read_text
 from stabilab.maps.bifurcation.ask import bifurcation
 from stabilab.show import style
 from stabilab.show.maps import bifurcation_picture as picture
-
-TUG = """[body]
-inertia = [12, 9, 5]
-[effects.gyrostat]
-momentum = [0.8, 0, 0]
-[effects.constant_torque]
-torque = [0, 0, 0.02]
-"""
+from tests.shared import SATELLITE
 
 
 def drawn(vary):
-    found = bifurcation(read_text("tug.toml", TUG), vary)
+    found = bifurcation(read_text("tug.toml", SATELLITE), vary)
     with style.drawing() as plt:
         return picture.drawn(found, None, plt)
 

@@ -14,7 +14,7 @@ from stabilab.show import style
 from stabilab.show.maps import picture
 from stabilab.show.maps import picture as curves
 from stabilab.show.maps import picture as field
-from tests.shared import CASES
+from tests.shared import CASES, MOVING
 
 xarray = pytest.importorskip("xarray")
 MINOR = CASES / "minor-axis-100.toml"
@@ -145,22 +145,9 @@ def test_a_size_of_which_no_picture_can_be_made_is_refused_for_maps_too(tmp_path
         picture.write(tmp_path / "none.nc", tmp_path / "a.png", size=(100.0, 100.0))
 
 
-BODY = """title = "t"
-[body]
-inertia = [12.0, 9.0, 5.0]
-[effects.gyrostat]
-momentum = [0.8, 0.0, 0.0]
-[effects.constant_torque]
-torque = [0.0, 0.0, 0.02]
-[motion]
-angular_velocity = [0.10, 0.05, 0.02]
-span = [0.0, 300.0]
-"""
-
-
 def test_rates_and_times_of_a_map_have_the_units_of_the_case_or_those_asked_for(tmp_path):
     """Oracle: the file itself, in SI units; a turn is 2 pi, an hour 3600 s."""
-    (tmp_path / "my.toml").write_text(BODY)
+    (tmp_path / "my.toml").write_text(f"{MOVING}span = [0, 300]\n")
     data = sweep(tmp_path / "my.toml", {"angular_velocity[1]": "1:3:3 deg/s"},
                  answer="fate,extremes,period,when", rate="10 deg/s", out=tmp_path / "a.nc")
     plan = picture.opened(tmp_path / "a.nc")[1]

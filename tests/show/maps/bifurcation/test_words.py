@@ -11,7 +11,7 @@ from stabilab.errors import InputError
 from stabilab.show.maps import bifurcation as words
 from stabilab.show.maps import bifurcation_picture as picture
 from stabilab.show.maps.over_values import GAP, GLYPH, rows_apart
-from tests.shared import CASES
+from tests.shared import CASES, SATELLITE
 
 MINOR = CASES / "wheel-and-thruster.toml"
 
@@ -63,9 +63,7 @@ def test_pictures_are_the_same_bytes_each_time(line, plane, tmp_path, ending):
 
 
 def test_where_curves_of_equilibria_are_no_number_of_changes_is_told(case_file):
-    path = case_file("[body]\ninertia = [12.0, 9.0, 5.0]\n[effects.gyrostat]\nmomentum = [0.8, 0, "
-                     "0]\n[effects.constant_torque]\ntorque = [0, 0, 0.02]\n")
-    told = words.text(stabilab.bifurcation(path, {"torque[3]": "-1:1"})).splitlines()[0]
+    told = words.text(stabilab.bifurcation(case_file(SATELLITE), {"torque[3]": "-1:1"})).splitlines()[0]
     assert told == "case: 2 changes of stability for -1 ≤ torque[3] ≤ 1 N m, but curves of equilibria at 0 N m: on a principal axis at 0 N m"
 
 
