@@ -14,8 +14,7 @@ from . import rows_kernel
 from .places import twofold_constant
 
 # Functions without which loops call instead of adding
-INLINED = {"swing", "lag", "sinc_cos", "sinc_minus_cos", "sinhc_and_rest", "way_of_cosine", "converged",
-           "rounding_of"}
+INLINED = {"swing", "kinetic", "way_of_cosine", "converged", "rounding_of"}
 INLINED_ON_PARABOLAS = {"quartic", "cubic", "bend", "terms_of", "blur_of_force", "place_at"}
 # Loading the code from disk costs some 0.3 s of a processor, compiling it once per machine some ten for each
 # geometry;
