@@ -128,7 +128,8 @@ class Conic:
         found, thin = [], self._nearly_straight(Q)
         for piece in self.pieces:
             if wanted is None or piece.barrier == wanted:
-                rows = np.nonzero(self._meets(piece, Q) & ~thin)[0]
+                low, high = self.reach(piece)
+                rows = np.nonzero((Q > low) & (Q < high) & ~thin)[0]
                 found.append((rows, *self.at(piece.sign * self._solve(piece, Q[rows])), piece.barrier))
         lines = [(line, np.arange(len(Q))) for line in self.lines]
         if thin.any():
@@ -143,19 +144,12 @@ class Conic:
         import numpy as np
         return np.zeros(Q.shape, bool)
 
-    def _meets(self, piece, Q):
-        """(n,) True where a point of the piece has the invariant Q."""
-        import numpy as np
-        with np.errstate(all="ignore"):
-            ends = [self.invariant(piece.sign * piece.inner) if piece.inner else self._end(piece.inner),
-                    self.invariant(piece.sign * piece.outer) if np.isfinite(piece.outer) else np.inf]
-        low, high = ends if piece.rising else ends[::-1]
-        return (Q > low) & (Q < high)
-
-    def _end(self, inner):
-        """Limit of the invariant as |h| -> 0."""
-        import numpy as np
-        return -self.e * np.inf if self.K else self.invariant(inner)
+    def reach(self, piece):
+        """The invariants between which a piece meets an orbit."""
+        at = lambda size: float(self.invariant(piece.sign * size))
+        ends = (at(piece.inner) if piece.inner else -self.e * math.inf,
+                at(piece.outer) if math.isfinite(piece.outer) else math.inf)
+        return ends if piece.rising else ends[::-1]
 
     def _solve(self, piece, Q):
         """|h| with invariant Q on a piece: plain Newton, longer next to a fold; the safe search for the rest.

@@ -64,9 +64,6 @@ def far_rows(scene, states):
     within = len(states) and max(states.max(), -states.min()) < 2.0**ORDINARY
     if own is not None and abs(own) <= ORDINARY and within:
         return np.zeros(len(states), bool)
-    if own is not None and -ORDINARY <= own <= ORDINARY and np.abs(states).max(initial=0.0) < 2.0 ** (
-        ORDINARY - 1):
-        return np.zeros(len(states), bool)  # as below, with a third of the calls, which few states notice
     sizes = np.abs(states).max(axis=1, initial=0.0)
     moving = sizes > 0
     exponents = np.where(moving, np.frexp(sizes)[1], ORDINARY if own is None else own)

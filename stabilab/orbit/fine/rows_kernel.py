@@ -45,8 +45,8 @@ HALVINGS, SERIES = 6, 12  # of a way, before its sine is summed; terms of the su
 # its slope, the energy and the offset may be off by
 OFFSET, OVER, BARRIER, AT_X, AT_Z, BEND, MODE_A, MODE_B, PULL, TILT, ERROR, ASTRAY = range(12)
 # an end of a motion: offset, force there, error of the offset; error of the energy and E - V at the
-# equilibrium that it is told from, or of the force over 1; dF/dtheta and modes there
-END, FORCE, BLUR, HAZE, LEVEL, END_BEND, END_A, END_B = range(8)
+# equilibrium that it is told from, or of the force over 1
+END, FORCE, BLUR, HAZE, LEVEL = range(5)
 # a stop of a motion, an end or an equilibrium that it passes: offset, E - V, force, and four numbers of the
 # potential about it
 STOP, STOP_OVER, STOP_FORCE, SHAPE = range(4)
@@ -170,9 +170,12 @@ class Circle:
                                                          + abs(x) * down), 4 * (abs(z) * down + abs(x * s))
 
     @staticmethod
-    def shaped(conic, xi, eta, slope, a, b, stop):
-        """Fill what `kinetic` takes of a stop, given dF/dtheta and the modes there."""
-        stop[SHAPE], stop[SHAPE + 1], stop[SHAPE + 2] = slope, a, b
+    def shaped(conic, x, z, xi, eta, stop):
+        """Fill what `kinetic` takes of a stop: dF/dtheta and modes there."""
+        s, c = np.sin(stop[STOP]), np.cos(stop[STOP])
+        u, v = x * c + z * s, z * c - x * s
+        stop[SHAPE] = conic[2] * (v - u) * (v + u) - conic[0] * u + conic[1] * v
+        stop[SHAPE + 1], stop[SHAPE + 2] = conic[2] * u * v, 0.5 * conic[2] * (v - u) * (v + u)
 
     @staticmethod
     def kinetic(mu, stop, y):
@@ -263,7 +266,7 @@ class Hyperbola:
         return 0.5 * (grown + decayed), 0.5 * (grown - decayed), off, off
 
     @staticmethod
-    def shaped(conic, xi, eta, slope, a, b, stop):
+    def shaped(conic, x, z, xi, eta, stop):
         # factors of exp(y), exp(-y), exp(2 y), exp(-2 y) in V, of the state's coordinates, which keep digits
         xi, eta = xi * np.exp(stop[STOP]), eta * np.exp(-stop[STOP])
         stop[SHAPE], stop[SHAPE + 1] = -0.5 * (conic[0] + conic[1]) * xi, 0.5 * (conic[1] - conic[0]) * eta
@@ -384,16 +387,6 @@ def rise_and_force(mu, y, slope, a, b):
     return one + two + three + four, force, abs(one) + abs(two) + abs(three) + abs(four), s, h
 
 
-def end_of_modes(mu, slope, a, b, s, h, end):
-    """dF/dtheta and modes where sin y and sin(y/2) from an equilibrium are s and h: derivatives of what
-    `rise_and_force` says."""
-    h2 = h * h
-    q = 1 + 2 * E * h2
-    end[END_BEND] = slope * q + E * (0.5 * s * (6 * a - 2 * mu + 4 * b * s) + 4 * b * h2 * q) + 8 * a * h2 * s
-    end[END_A], end[END_B] = a * (q * q
-                                  + E * s * s) + 2 * b * s * q, b * (q * q + E * s * s) + 2 * E * a * s * q
-
-
 def rounding_of(y, terms, s, h, pull, tilt):
     """Size of the error of a rise: of its terms, which grow like an exponential of y, and of what the
     equilibrium's force and slope are off by."""
@@ -500,8 +493,7 @@ def sharpened_ends(fine, X, Z, turn, wide, ends, turns):
             over = value(add(add(kinetic, scaled(mu, end[END])), rise))
             across = add(times(G, u), c)
             end[FORCE] = value(add(add(times(v, across), mu), times(d, u)))
-            end[END_BEND] = slope_of(G, d, u, v, across)
-            step, steep = -over / end[FORCE], abs(end[END_BEND] / end[FORCE])
+            step, steep = -over / end[FORCE], abs(slope_of(G, d, u, v, across) / end[FORCE])
             if not abs(step) * steep <= NEAR:
                 turns[k] = ends[k]
                 break
@@ -512,13 +504,6 @@ def sharpened_ends(fine, X, Z, turn, wide, ends, turns):
             end[HAZE], end[LEVEL] = end[BLUR] * steep, 1.0
             if abs(step) <= EPS * abs(end[END]):
                 break
-
-
-def way_of_cosine(psi, near, far):
-    """First guess of a turning point between a barrier and a well, as a share of the way: there V is nearly a
-    cosine, and in its angle psi (0 to 1) the way is a cubic with the slopes near, far that the curvatures at
-    both ends give."""
-    return psi * (near * (1 - psi) * (1 - psi) + psi * (3 - 2 * psi) - far * psi * (1 - psi))
 
 
 def turned(mu, count, spots, side, end):
@@ -546,13 +531,6 @@ def turned(mu, count, spots, side, end):
             break
         reach = min(2 * reach, reach + 64)
     t = min(np.sqrt(2 * abs(level) / max(abs(slope), 1e-300)), 0.5 * reach)
-    if b >= 0 and has_well:
-        other = spots[well] if at_barrier else spots[b]
-        whole = spots[well, OVER] - spots[b, OVER]
-        psi = 2 / PI * np.arcsin(np.sqrt(min(abs(level) / whole, 1.0)))
-        guess = (reach * way_of_cosine(psi, PI * np.sqrt(0.5 * whole / abs(slope)) / reach,
-                                       PI * np.sqrt(0.5 * whole / abs(other[BEND])) / reach))
-        t = guess if 0 < guess < reach else 0.5 * reach
     low, high, found, before = 0.0, reach, level == 0, INFINITY
     if found:
         t = 0.0 * t
@@ -577,7 +555,6 @@ def turned(mu, count, spots, side, end):
     end[END], end[FORCE], end[HAZE] = spot[OFFSET] + y, force, haze + spot[ERROR]
     end[BLUR] = haze / abs(force) + EPS * abs(spot[OFFSET])
     end[LEVEL] = spot[OVER]
-    end_of_modes(mu, slope, mode_a, mode_b, s, h, end)
     return found and abs(end[END]) < INFINITY
 
 
@@ -663,7 +640,7 @@ def converged(now, last, middle, first):
         b2 * b2 * b2 * b <= CONVERGED * a2 * a2 * a2)
 
 
-def stops_of(conic, xi, eta, count, spots, ends, stops):
+def stops_of(conic, x, z, xi, eta, count, spots, ends, stops):
     """Fill the stops of a motion in their order; how many there are, 0 where E - V is not known well at one
     of them."""
     many, sure = 1, True
@@ -672,23 +649,23 @@ def stops_of(conic, xi, eta, count, spots, ends, stops):
         if ends[0, END] < spot[OFFSET] < ends[1, END]:
             stop = stops[many]
             stop[STOP], stop[STOP_OVER], stop[STOP_FORCE] = spot[OFFSET], spot[OVER], 0.0
-            shaped(conic, xi, eta, spot[BEND], spot[MODE_A], spot[MODE_B], stop)
+            shaped(conic, x, z, xi, eta, stop)
             sure = (sure and spot[ERROR] <= PIECE_DIGITS * spot[OVER]
                     and spot[TILT] <= PIECE_DIGITS * abs(spot[BEND]))
             many += 1
     for k in range(2):
         stop, end = stops[k * many], ends[k]
         stop[STOP], stop[STOP_OVER], stop[STOP_FORCE] = end[END], 0.0, end[FORCE]
-        shaped(conic, xi, eta, end[END_BEND], end[END_A], end[END_B], stop)
+        shaped(conic, x, z, xi, eta, stop)
         sure = sure and end[HAZE] <= PIECE_DIGITS * abs(end[LEVEL])
     return many + 1 if sure else 0
 
 
-def timed(conic, xi, eta, count, spots, ends, rules, stops):
+def timed(conic, x, z, xi, eta, count, spots, ends, rules, stops):
     """(period, whether it has its digits) of a motion between two ends: by the trapezoidal rule over the
     whole of it where E - V is told well enough from these, else piece by piece."""
     nodes, near, weights, levels = rules
-    mu, many = conic[3], stops_of(conic, xi, eta, count, spots, ends, stops)
+    mu, many = conic[3], stops_of(conic, x, z, xi, eta, count, spots, ends, stops)
     if many < 3:
         return np.nan, False
     left, right = stops[0], stops[many - 1]
@@ -783,7 +760,7 @@ def rows(states, open_rows, fine, form, axes, conic, pieces, lines, folds, rules
     j, k, i = axes
     most = max(len(pieces), len(lines))
     spots, box = np.empty((2 * most + 1, ASTRAY + 1)), np.empty((3, 2))
-    ends, turns = np.empty((2, END_B + 1)), np.empty((2, END_B + 1))
+    ends, turns = np.empty((2, LEVEL + 1)), np.empty((2, LEVEL + 1))
     stops = np.empty((2 * most + 3, SHAPE + 4))
     extra = abs(fine[8] * fine[12]) + abs(fine[10] * fine[14])
     for row in open_rows:
@@ -818,9 +795,10 @@ def rows(states, open_rows, fine, form, axes, conic, pieces, lines, folds, rules
                 boxes[row] = box
                 asked -= BOX
             if asked & PERIOD:
-                period, good = timed(conic, xi, eta, count, spots, turns if sharp else ends, rules, stops)
+                period, good = timed(conic, x, z, xi, eta, count, spots, turns if sharp else ends, rules,
+                                     stops)
                 if sharp and not good:
-                    period, good = timed(conic, xi, eta, count, spots, ends, rules, stops)
+                    period, good = timed(conic, x, z, xi, eta, count, spots, ends, rules, stops)
                 if good:
                     periods[row] = period
                     asked -= PERIOD

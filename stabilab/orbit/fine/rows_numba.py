@@ -14,7 +14,7 @@ from . import rows_kernel
 from .places import twofold_constant
 
 # Functions without which loops call instead of adding
-INLINED = {"swing", "kinetic", "way_of_cosine", "converged", "rounding_of"}
+INLINED = {"swing", "kinetic", "converged", "rounding_of"}
 INLINED_ON_PARABOLAS = {"quartic", "cubic", "bend", "terms_of", "blur_of_force", "place_at"}
 # Loading the code from disk costs some 0.3 s of a processor, compiling it once per machine some ten for each
 # geometry;
@@ -89,7 +89,7 @@ def kernel_input(land: Landscape):
             lines, straight = (conic.limit,), float(STRAIGHT * np.hypot(conic.c, conic.d) / conic.G) ** 2
     form = g["flip"] * g["rx"], g["rz"], g["flip"] / g["n"], shift, rest, straight
     numbers = tuple(map(float, (conic.c, conic.d, conic.G, conic.mu, conic.K, conic.shift, beside)))
-    pieces = np.array([(p.sign, p.inner, p.outer, p.rising, p.barrier, *_between(conic, p))
+    pieces = np.array([(p.sign, p.inner, p.outer, p.rising, p.barrier, *conic.reach(p))
                        for p in conic.pieces], float)
     points = np.array([(*line, side) for line in lines for side in (-1, 1)], float)
     folds = np.array(conic.fold_invariants + conic.tangents, float)
@@ -100,14 +100,6 @@ def kernel_input(land: Landscape):
 def _parts(numbers):
     """(n, 2) high and low parts of twofold numbers."""
     return np.array([(float(number.high), float(number.low)) for number in numbers])
-
-
-def _between(conic, piece):
-    """The invariants between which a piece meets an orbit."""
-    at = lambda size: float(conic.invariant(piece.sign * size))
-    ends = at(piece.inner) if piece.inner else -conic.e * np.inf, at(piece.outer) if np.isfinite(
-        piece.outer) else np.inf
-    return ends if piece.rising else ends[::-1]
 
 
 @lru_cache(maxsize=1)

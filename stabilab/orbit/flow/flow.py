@@ -12,12 +12,12 @@ import numpy as np
 from ...errors import InputError
 from ...physics.coefficients import effective
 from ...physics.states import checked_states
-from ..far_states import own
+from ..far_states import far_exponent, own
 from ..one_orbit import Orbit
 from ..period import precise_period
 from ..reduction import reduce
 from ..result import Fate
-from .periodic import TOO_FINE, ByPanels, InOwnUnit, Resting, exponent
+from .periodic import TOO_FINE, ByPanels, InOwnUnit, Resting
 from .profile import Relief, relief
 from .spin_up import POINTS, Panels, Passing, SpinUp, Turn, Turning, turning_offset
 
@@ -35,12 +35,13 @@ def reduced_motion(scene, state, nodes: int | None = None, backwards: bool = Fal
     if not (type(state) is tuple and len(state) == 3
             and all(type(v) is float and math.isfinite(v) for v in state)):
         state = checked_states(state).reshape(3).tolist()
-    reduction = reduce(effective(scene))
+    scene = effective(scene)
+    reduction = reduce(scene)
     if reduction is None:
         raise InputError("the scene has no reduction to one degree of freedom: its torque is off the "
                          "principal axes, or the gyrostatic moment has a component along it; take method "
                          "taylor")
-    k = exponent(scene, state)
+    k = far_exponent(scene, state)
     orbit = Orbit(reduction, tuple(state))
     orbit = orbit if k is None else own(orbit, k)
     with np.errstate(all="ignore"):

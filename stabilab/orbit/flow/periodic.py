@@ -3,13 +3,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import lru_cache
 
 import numpy as np
 
 from ...errors import InputError
-from ...physics.coefficients import effective
-from ..far_states import BEYOND, ORDINARY, powered, scene_exponent
+from ..far_states import BEYOND, powered
 from .profile import TURN
 
 TOO_FINE = "the reduced form of this motion takes more digits than doubles have; take method taylor"
@@ -70,21 +68,6 @@ class Resting(Motion):
 
 # --- A motion whose squares leave the range of doubles, followed in its own unit of rate: rates change by a
 # power of two, time by its inverse
-def exponent(scene, state) -> int | None:
-    """The exponent k of the own unit 2^k of the motion from three floats, as of `far_exponent`; None where
-    its size is ordinary."""
-    found = [math.frexp(v)[1] for v in state if v]
-    if (own := _of_scene(scene)) is not None:
-        found.append(own)
-    size = max(found, default=0)
-    return None if -ORDINARY <= size <= ORDINARY else size
-
-
-@lru_cache(maxsize=64)
-def _of_scene(scene):
-    return scene_exponent(effective(scene))
-
-
 class InOwnUnit(Motion):
     """A motion in the scene's unit, from the same one in the unit 2^k."""
 
