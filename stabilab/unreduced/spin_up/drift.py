@@ -41,9 +41,7 @@ from . import steps as kernel
 from .compiled import functions
 
 STEP_ERROR = 2.0**-52  # units of rounding by which a step may move a motion: a Taylor polynomial of 20 terms
-STILL = 2.0**-8  # rates per size (or per natural unit) below which no delay is told from a change
 FAR = 2.0**-6    # changes beyond this share of the size, or delays of so many radians, tell no growth
-LOST = 2.0**-30  # what lies across a motion is taken to be no less, relative to the change
 
 
 class Runs:
@@ -140,10 +138,10 @@ class Twins:
         natural rate."""
         unit = self._along(states)
         across = self.ahead[rows] - unit * (self.ahead[rows] * unit).sum(axis=1)[:, None]
-        none = np.abs(across).max(axis=1) < LOST
+        none = np.abs(across).max(axis=1) < kernel.LOST
         if none.any():
             other = np.cross(unit[none], np.roll(unit[none], 1, axis=1) + [0.0, 0.0, 0.1])
-            across[none] = LOST * other / np.sqrt((other**2).sum(axis=1))[:, None]
+            across[none] = kernel.LOST * other / np.sqrt((other**2).sum(axis=1))[:, None]
         far = apart * _size(states) / np.abs(across).max(axis=1)
         return states + far[:, None] * across, far
 
@@ -166,7 +164,7 @@ class Twins:
         yes = rows[told]
         self.blur[yes] += (error * self.most[rows]
                            * (np.abs(delays) / apart
-                              + np.where(first > STILL * _size(starts), 1 / first, 0.0)))[told]
+                              + np.where(first > kernel.STILL * _size(starts), 1 / first, 0.0)))[told]
         self.growth[yes] *= (size / apart)[told]
         self.most[yes] = np.fmax(self.most[yes], self.growth[yes])
         turned = told & (size > 0)
@@ -177,7 +175,7 @@ class Twins:
         """Unit vectors along the motions (m, 3); zero where they hardly move."""
         rates = self.rates(states)
         speed = np.sqrt((rates**2).sum(axis=1))
-        return np.where((speed > STILL * _size(states))[:, None], rates / speed[:, None], 0.0)
+        return np.where((speed > kernel.STILL * _size(states))[:, None], rates / speed[:, None], 0.0)
 
 
 def _size(states):

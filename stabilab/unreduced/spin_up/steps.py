@@ -23,7 +23,8 @@ LONGEST = 64.0        # of a step: even of a motion at rest
 BESIDE = -5.0
 # base 2: of a step times the slopes: beyond, the terms left out of e^x would be greater than the last
 STEEP = 3.0
-STILL, LOST = 2.0**-8, 2.0**-30  # of `drift`: the tests hold them equal
+STILL = 2.0**-8  # rates per size (or per natural unit) below which no delay is told from a change
+LOST = 2.0**-30  # what lies across a motion is taken to be no less, relative to the change
 
 
 def logarithm(x):

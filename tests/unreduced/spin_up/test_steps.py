@@ -3,7 +3,6 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
-from stabilab.unreduced.spin_up import drift as runs
 from stabilab.unreduced.spin_up import steps
 from stabilab.unreduced.spin_up.drift import Runs
 
@@ -13,11 +12,6 @@ from .scenes import EXAMPLE, numba, rates_of, run
 def states(seed, n):
     rng = np.random.default_rng(seed)
     return rng.normal(size=(n, 3)) * rng.choice([1, 3, 10, 50], size=(n, 1))
-
-
-def test_constants_stand_twice_and_agree():
-    """numba's cache on disk watches the kernel's file alone."""
-    assert (steps.STILL, steps.LOST) == (runs.STILL, runs.LOST)
 
 
 @pytest.mark.parametrize("fast", [False, pytest.param(True, marks=numba)])
