@@ -188,8 +188,8 @@ def _picked(row, columns, model) -> list:
 def _leaves(row, columns) -> bool:
     """Whether a printed curve leaves the limits that the columns share."""
     limits = _window(row, columns)
-    return any(np.nanmin(v) < low or np.nanmax(v) > high for _, *xy in _picked(row, columns, "printed")
-               for v, (low, high) in zip(xy, limits))
+    return any(comparison.beyond(v, *ends) for _, *xy in _picked(row, columns, "printed")
+               for v, ends in zip(xy, limits))
 
 
 def _printed_alone(ax, row, columns):
@@ -238,18 +238,11 @@ def _cuts(row, column, limits) -> list[tuple[str, str]]:
         if picked is None or not len(picked[0]):
             continue
         labels = ("", "") if row.over_time else (f"{_bare(row.xlabel)} ", f"{_bare(row.ylabel)} ")
-        spans = [_beyond(v, *ends) for v, ends in zip(picked, limits)]
-        told = [label + span for label, span in zip(labels, spans) if span]
+        spans = [comparison.beyond(v, *ends) for v, ends in zip(picked, limits)]
+        told = [f"{label}{'from ' if len(span) > 1 else 'to '}{' to '.join(span)}"
+                for label, span in zip(labels, spans) if span]
         found += [(name, f"cut: {', '.join(told)}")] * bool(told)
     return found
-
-
-def _beyond(values, low, high) -> str:
-    """How far values go beyond one end, or from where to where beyond both; empty where they stay between
-    them."""
-    ends = [comparison.short(end) for end, out in ((np.nanmin(values), np.nanmin(values) < low),
-                                        (np.nanmax(values), np.nanmax(values) > high)) if out]
-    return f"from {ends[0]} to {ends[1]}" if len(ends) == 2 else "".join(f"to {end}" for end in ends)
 
 
 def _tell_cuts(ax, cuts):

@@ -181,18 +181,14 @@ def _curves(ax, runs, looks):
     wide = half * REACH or 1e-9 * max(abs(middle), 1)
     if half and (high - low) > 6 * half:  # a model far off must not flatten the motion itself
         ax.set_ylim(middle - 2 * wide, middle + 2 * wide)
-        low, high = ax.get_ylim()
-        _tell_cut(ax, [(name, values) for name, (_, values) in runs.items()
-                       if len(values) and (values.min() < low or values.max() > high)])
+        _tell_cut(ax, [(name, ends) for name, (_, values) in runs.items()
+                       if (ends := beyond(values, *ax.get_ylim()))])
 
 
 def _tell_cut(ax, models):
     """How far the curves go that leave a panel, above it, each in its colour: a third of the width each."""
-    low, high = ax.get_ylim()
     brief = ax.figure.get_figwidth() < BRIEF * style.share()
-    for (name, values), (x, side) in zip(models, ((0.0, "left"), (1.0, "right"), (0.5, "center"))):
-        ends = [short(end) for end,
-                out in ((values.min(), values.min() < low), (values.max(), values.max() > high)) if out]
+    for (name, ends), (x, side) in zip(models, ((0.0, "left"), (1.0, "right"), (0.5, "center"))):
         told = f"to {ends[0]}" if len(ends) == 1 else " to ".join(ends)
         ax.text(x, 1.01, "cut" if brief else f"cut: {told}", color=DARK.get(name, LOOKS[name]["color"]),
                 ha=side, va="bottom",
@@ -202,3 +198,10 @@ def _tell_cut(ax, models):
 def short(value) -> str:
     """Three digits without a power of ten where that reads better."""
     return (f"{value:.0f}" if 1000 <= abs(value) < 1e5 else f"{value:.3g}").replace("-", "−")
+
+
+def beyond(values, low, high) -> list[str]:
+    """How far values go beyond the ends between which they are drawn: nothing, one end or both."""
+    ends = ((np.nanmin(values), np.nanmin(values) < low),
+            (np.nanmax(values), np.nanmax(values) > high)) if len(values) else ()
+    return [short(end) for end, out in ends if out]
