@@ -157,18 +157,16 @@ def _misprinted(family, part, unit):
 
 
 def _speed(family, more=""):
-    last, largest = _state(family, "printed",
-                           "velocity")[0][-1,
-                                          2], max(np.abs(v).max()
-                                                  for v in _state(family, "exact", "velocity"))
+    last = _state(family, "printed", "velocity")[0][-1, 2]
+    largest = max(np.abs(v).max() for v in _state(family, "exact", "velocity"))
     return (f"{_NAMED}Small angles keep the thrust of 3 N along z1: the print has v3 = 0.3 t, {last:.3g} m/s "
             f"at 50 s. In truth the thrust turns with the body; no component passes {largest:.2g} m/s. "
             f"{more}{_misprinted(family, 'velocity', 'm/s')}{_THIN}")
 
 
 def _way(family, more=""):
-    printed, true = _state(family, "printed",
-                           "position"), [x[-1, 2] for x in _state(family, "exact", "position")]
+    printed = _state(family, "printed", "position")
+    true = [x[-1, 2] for x in _state(family, "exact", "position")]
     start = [float(np.hypot(*x[0, :2])) for x in printed]
     return (f"The parabola eta3 = 0.15 t^2 ({printed[0][-1, 2]:.3g} m at 50 s) needs an axis that stays "
             f"upright; in truth eta3 is {listed(true, '{:.0f}')} m. "

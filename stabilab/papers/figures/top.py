@@ -90,8 +90,8 @@ def _fast(family, more=""):
 
 def _unit(family, more=""):
     printed = [runs["printed"].state for runs in _runs(family)]
-    length, r = max(np.linalg.norm(s["gamma"], axis=1).max()
-                    for s in printed), min(s["omega"][:, 2].min() for s in printed)
+    length = max(np.linalg.norm(s["gamma"], axis=1).max() for s in printed)
+    r = min(s["omega"][:, 2].min() for s in printed)
     return _fast(family,
                  f"The printed |gamma|, which is 1, reaches {length:.3g}; the printed r reaches {r:.3g} "
                  f"rad/s. {more}") + _variables()

@@ -75,16 +75,15 @@ def unit(plan: Plan, column: Column) -> str:
 def limits_of(case: Any, records: Any) -> list[Caveat]:
     """What limits the answers of a map: what the file says itself, on what its points rest, a limit that was
     not looked at."""
-    found, numbers = [*case.caveats,
-                      *unseen(case)], records[
-                          "caveats"].ravel().tolist() if "caveats" in records.dtype.names else []
+    found = [*case.caveats, *unseen(case)]
+    numbers = records["caveats"].ravel().tolist() if "caveats" in records.dtype.names else []
     told = Counter(number % len(HOLDS) for number in numbers)
     parts = [("tilt", HOLDS[n], count) for n, count in sorted(told.items()) if n]
     if all(one.kind != "unphysical" for one in found):
         parts += [("unphysical", UNPHYSICAL, sum(number >= len(HOLDS) for number in numbers))]
-    found += [Caveat(kind, words if count == len(numbers)
-                     else f"{words} ({count:,} of {len(numbers):,} points)") for kind, words,
-              count in parts if count]
+    for kind, words, count in parts:
+        part = f" ({count:,} of {len(numbers):,} points)" if count < len(numbers) else ""
+        found += [Caveat(kind, words + part)] if count else []
     if case.limits is not None and "when_low" not in records.dtype.names:
         found.append(Caveat("limit", f"the limit of the file, {stated(case.limits)}, is not looked at here"))
     return found

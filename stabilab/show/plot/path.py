@@ -69,9 +69,9 @@ def _sure(scene, start, t, states) -> bool:
 def _in_digits(one, times):
     """(times, rates) by the cheapest way that is sure of them; None where none is known."""
     found = best_reached(one, times, DIGITS)
-    return (found.run.t,
-            found.run.state["x" if one.scene.variables == "scaled"
-                            else "omega"]) if found.run.status == "reached" and found.digits > 1 else None
+    if found.run.status != "reached" or found.digits <= 1:
+        return None
+    return found.run.t, found.run.state["x" if one.scene.variables == "scaled" else "omega"]
 
 
 def turning(values: np.ndarray) -> int:

@@ -76,8 +76,8 @@ def _range(plane: PhasePlane, ys, Ws):
     motion its surroundings."""
     low, high = window(plane)
     closed = Ws[[0, -1]].max() < 1e-6 * Ws.max()
-    middle, half, top = (ys[0]
-                         + ys[-1]) / 2 if closed else 0.0, (ys[-1] - ys[0]) / 2, highest(plane, low, high)
+    middle = (ys[0] + ys[-1]) / 2 if closed else 0.0
+    half, top = (ys[-1] - ys[0]) / 2, highest(plane, low, high)
     if 0 < Ws.max() < SMALL * top and closed:
         return middle - AROUND * half, middle + AROUND * half, AROUND * float(Ws.max())
     if np.isfinite(plane.land.turn):
@@ -128,10 +128,10 @@ def momentum_sphere(one: Subject) -> SurfaceLines:
     way = omega * D + wheel
     size = float(np.linalg.norm(way[0]))
     energy = lambda H: (((H - wheel) ** 2) / (2 * D)).sum(axis=-1)
-    up, round_ = np.linspace(-np.pi / 2, np.pi / 2,
-                             SPHERE_GRID[0]), np.linspace(-np.pi, np.pi, SPHERE_GRID[1])
-    at = lambda round_, up: size * np.stack([np.cos(up) * np.cos(round_), np.cos(up) * np.sin(round_),
-                                             np.sin(up)], axis=-1)
+    up = np.linspace(-np.pi / 2, np.pi / 2, SPHERE_GRID[0])
+    round_ = np.linspace(-np.pi, np.pi, SPHERE_GRID[1])
+    at = lambda round_, up: size * np.stack(
+        [np.cos(up) * np.cos(round_), np.cos(up) * np.sin(round_), np.sin(up)], axis=-1)
     ball = at(*np.meshgrid(round_, up))
     height = energy(ball)
     rest, circles = _rest(one, D, wheel, size)
@@ -154,10 +154,8 @@ def momentum_sphere(one: Subject) -> SurfaceLines:
     found.rows = [("this motion", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
                   *([("separatrix", style.MEANING["separatrix"])] if saddles else []),
                   *([] if flat else [("other energies", style.MEANING["level"])]),
-                  *((f"{kind} equilibrium", POINTS[kind]) for kind in POINTS
-                    if any(kind == k for k, _ in rest)),
-                  *((f"{kind} equilibria", CURVES[kind]) for kind in CURVES
-                    if any(kind == k for k, _ in circles))]
+                  *((f"{kind} equilibrium", POINTS[kind]) for kind in POINTS if kind in dict(rest)),
+                  *((f"{kind} equilibria", CURVES[kind]) for kind in CURVES if kind in dict(circles))]
     return found
 
 
