@@ -24,7 +24,9 @@ def triangulate(branch) -> Mesh:
     """The mesh of a branch. Points of the grid that coincide (a row shrunk to the fold; columns 0 and -1 at
     the saddle) become one vertex, and triangles that lost a corner or their area are dropped."""
     points = np.asarray(branch.points, float) + 0.0  # -0.0 and 0.0 are one place
-    vertices, where = np.unique(points.reshape(-1, 3), axis=0, return_inverse=True)
+    _, first, place = np.unique(points.reshape(-1, 3), axis=0, return_index=True, return_inverse=True)
+    vertices = points.reshape(-1, 3)[np.sort(first)]  # in the order of the grid, whatever their last digits
+    where = np.argsort(np.argsort(first))[place]
     triangles = _triangles(where.reshape(points.shape[:2]), branch.cut)
     corner = vertices[triangles]
     area = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1)
