@@ -38,23 +38,21 @@ print("RENDERER", lines[0] if lines else "unknown")
 """
 
 
-def environment() -> dict[str, str]:
-    """What VTK needs in the environment: the EGL window where there is no display."""
-    env = dict(os.environ)
-    if not env.get("DISPLAY"):
-        env.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
-    return env
+def use() -> None:
+    """Have VTK draw into an EGL window where there is no display; call before pyvista is loaded."""
+    if not os.environ.get("DISPLAY"):
+        os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
 
 
 @lru_cache
 def probe() -> Renderer:
     """Draw one sphere in a child process; the verdict is kept for the life of this process."""
+    use()
     for module in NEEDED:
         if not present(module):
             return Renderer(False, f"{INSTALLED_AS.get(module, module)} is not installed", cure(module))
     try:
-        child = subprocess.run([sys.executable, "-c", _CHILD], env=environment(), capture_output=True,
-                               text=True,
+        child = subprocess.run([sys.executable, "-c", _CHILD], capture_output=True, text=True,
                                timeout=SECONDS, stdin=subprocess.DEVNULL)
     except (OSError, subprocess.TimeoutExpired) as error:
         return Renderer(False, f"the test picture did not come: {error.__class__.__name__}")
@@ -66,9 +64,3 @@ def probe() -> Renderer:
         return Renderer(False, f"VTK crashed for want of GL libraries (signal {abs(child.returncode)})")
     last = child.stderr.strip().splitlines()
     return Renderer(False, last[-1] if last else f"the test picture failed with exit code {child.returncode}")
-
-
-def use() -> None:
-    """Set the environment of this process for off-screen rendering; call after a probe that said yes, before
-    pyvista."""
-    os.environ.update({k: v for k, v in environment().items() if k == "VTK_DEFAULT_OPENGL_WINDOW"})
