@@ -178,13 +178,11 @@ def explained(rows) -> tuple[list, list[str]]:
 def legend(figure, rows, columns: int | None = None):
     """One legend below the picture, if there is anything to tell: rows of (name, look). columns: at most;
     None for as many as fit."""
-    handles, names = explained(rows)
-    if names:
-        below(figure, handles, names, columns)
+    below(figure, *explained(rows), columns)
 
 
 def below(figure, handles, names, columns: int | None = None):
-    """A legend below a figure, of as few rows of about the same length as fit."""
+    """A legend below a figure, if there are any names, of as few rows of about the same length as fit."""
     for rows in range(1, len(names) + 1):
         across = min(-(-len(names) // rows), columns or len(names))
         made = figure.legend(handles, names, loc="outside lower center", ncols=across)

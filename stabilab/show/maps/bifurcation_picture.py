@@ -36,18 +36,16 @@ def write(found: Diagram | Plane, out: str | Path, size: tuple[float, float] | N
 
 def drawn(found: Diagram | Plane, size: tuple[float, float] | None, plt: Any) -> Any:
     """The figure."""
-    figure, ax, columns = (_line(found, size, plt) if isinstance(found, Diagram)
-                           else _plane(found, size, plt))
-    handles, words = ax.get_legend_handles_labels()
+    figure = _line(found, size, plt) if isinstance(found, Diagram) else _plane(found, size, plt)
+    handles, words = figure.axes[0].get_legend_handles_labels()
     kept = dict(zip(words, handles))
-    if kept:
-        figure.legend(kept.values(), kept.keys(), loc="outside lower center", ncols=columns)
+    style.below(figure, list(kept.values()), list(kept))
     return figure
 
 
-def _line(found: Diagram, size: tuple[float, float] | None, plt: Any) -> tuple[Any, Any, int]:
+def _line(found: Diagram, size: tuple[float, float] | None, plt: Any) -> Any:
     """The figure over one number: a panel for each component that moves, branches stable or not, events
-    marked; the panel and the columns of the legend."""
+    marked."""
     rows = branches(found)
     moving = ([i for i in range(3) if any(abs(state[i]) > 0 for branch in rows for state in branch.states)]
               or [0])
@@ -66,7 +64,7 @@ def _line(found: Diagram, size: tuple[float, float] | None, plt: Any) -> tuple[A
     counted = "changes of stability" if found.kind == BORDERS else "equilibria"
     figure.suptitle(f"{style.literal(case.title or case.name)}\nin bold: the number of {counted}", x=0.02,
                     ha="left", fontsize=10.5, wrap=True)
-    return figure, axes[0, 0], 5
+    return figure
 
 
 def _panel(ax: Any, found: Diagram, rows: list[Branch], i: int, one: float) -> None:
@@ -106,7 +104,7 @@ OTHER = light(style.ORANGE, 0.35)
 SMALL = 0.004  # of the whole: regions below bear no number
 
 
-def _plane(found: Plane, size: tuple[float, float] | None, plt: Any) -> tuple[Any, Any, int]:
+def _plane(found: Plane, size: tuple[float, float] | None, plt: Any) -> Any:
     """The figure over two numbers: the curves at which equilibria change, the number in each region, cusps.
     """
     first, second = found.family.spans
@@ -142,7 +140,7 @@ def _plane(found: Plane, size: tuple[float, float] | None, plt: Any) -> tuple[An
     case = found.family.case
     shown = "changes of stability" if found.kind == "borders" else "number of equilibria"
     ax.set_title(f"{style.literal(case.title or case.name)}\n{shown}", loc="left", wrap=True)
-    return figure, ax, 4
+    return figure
 
 
 def _bands(found: Plane, strip: Any) -> list[dict[str, Any]]:
