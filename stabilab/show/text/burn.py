@@ -8,6 +8,7 @@ from .. import limiting
 from ..units import DIGITS, Units, bracket, number, vector
 from .attitude import in_file
 from .motion import reason, row
+from .when import reached
 
 SHOWN = 12  # switches in text; JSON has them all
 
@@ -37,14 +38,11 @@ def _closed(case, one) -> dict | None:
 
 def _latest(one) -> dict | None:
     """time: [low, high], null where no closing is too late or it is not known; not_before: any closing up to
-    then is early enough, null where all are; surely: as of `Latest`, its second null where
-    it is not known."""
+    then is early enough, null where all are; surely: as of `Latest`, its second null where not known."""
     if one is None:
         return None
-    known = math.isfinite(one.high)
-    return {"limit": one.limit,
-            "reached": "never" if math.isinf(one.low) else "yes" if known else "unknown",
-            "time": [one.low, one.high] if known else None, "not_before": one.low,
+    return {"limit": one.limit, "reached": reached(one.low, one.high),
+            "time": [one.low, one.high] if math.isfinite(one.high) else None, "not_before": one.low,
             **values_of(one, "level because again surely")}
 
 

@@ -22,7 +22,7 @@ def as_dict(case, limit, found) -> dict:
     it never is."""
     low, high = float(found.low), float(found.high)
     return {"schema": "stabilab.when/1", "case": case.name, "variables": case.variables, "kind": limit.kind,
-            "quantities": limit.names, "limits": limit.limits, "reached": _reached(low, high),
+            "quantities": limit.names, "limits": limit.limits, "reached": reached(low, high),
             "time": [low, high] if math.isfinite(high) else None, "not_before": low,
             "level": str(found.level), "because": str(found.words)
             } | limiting.key(case, found.caveats) | frame.key(case)
@@ -47,7 +47,7 @@ def text(case, limit, found, units: Units) -> str:
 
 def swept(answers, units: Units):
     """(the answer in a line, columns, rows) of a sweep: whether, when and how well known."""
-    kinds = [_reached(float(found.low), float(found.high)) for *_, found in answers]
+    kinds = [reached(float(found.low), float(found.high)) for *_, found in answers]
     counts = "; ".join(f"{words} {kinds.count(kind)}" for kind, words in WORDS.items() if kind in kinds)
     counts += limiting.shared([found.caveats for kind, (*_, found) in zip(kinds, answers) if kind == "never"],
                               units)
@@ -62,10 +62,11 @@ def swept(answers, units: Units):
 
 def unknown(found) -> bool:
     """Whether the limit may be reached at a time that is not known."""
-    return _reached(float(found.low), float(found.high)) == "unknown"
+    return reached(float(found.low), float(found.high)) == "unknown"
 
 
-def _reached(low, high):
+def reached(low, high):
+    """Whether a limit is reached, by the ends of the time: "yes", "never" or "unknown"."""
     return "yes" if math.isfinite(high) else "never" if math.isinf(low) else "unknown"
 
 
