@@ -7,7 +7,7 @@ from ..answers.certificate import subject
 from ..case.read import blamed_on
 from ..errors import InputError, ToleranceNotMet, printable
 from ..show import certification
-from ..show.files.endings import labelled
+from ..show.files import endings
 from ..verify import verify as check
 from ..verify.form import about, differences, line, read
 from ..verify.numbers import Malformed
@@ -17,7 +17,7 @@ from .common.output import either, leave_undecided, say
 
 def checked(out, paths):
     """Refuse a file that no certificate can be, and more cases than one, before any work."""
-    certification.checked(out)
+    endings.file(out, (".json",))
     if len(paths) != 1:
         raise InputError(f"--certify: expected one case, got {len(paths)}; certify them one by one")
 
@@ -26,7 +26,7 @@ def certified(case, out) -> bool:
     """Write the certificate of one case; whether all of it could be certified."""
     with blamed_on(case):
         made = proof_of(case.scene, case.exact_state)
-    say(f"written: {certification.write(made, labelled(out, case))}\n{certification.summary(made)}")
+    say(f"written: {certification.write(made, endings.labelled(out, case))}\n{certification.summary(made)}")
     return not made["uncertified"]
 
 

@@ -36,7 +36,7 @@ def bifurcation(case, vary, curve, out, certify, csv, json):
         endings.file(out, endings.PICTURES)
     spans = split_keys(vary or [], "KEY=FROM:TO")
     if certify:
-        certification.checked(certify)
+        endings.file(certify, (".json",))
         certifiable(spans)
     found = ask(case, spans, curve)
     made = diagram_certificate(found) if certify else None

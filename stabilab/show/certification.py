@@ -7,22 +7,16 @@ from pathlib import Path
 from ..errors import printable
 from ..files import write_text
 from ..representation import values_of
-from .files import endings
 from .terminal.letters import some
 
 SCHEMA = "stabilab.verification/1"
-
-
-def checked(path) -> Path:
-    """The path, if its ending is one that can be written."""
-    return endings.file(path, (".json",))
 
 
 def write(certificate: dict, path) -> Path:
     """The certificate as a JSON file, whole or not at all. Raises InputError where it cannot be written."""
     import json
     text = json.dumps(certificate, indent=1, ensure_ascii=False, allow_nan=False)
-    return write_text(checked(path), f"{text}\n")
+    return write_text(path, f"{text}\n")
 
 
 def summary(certificate: dict) -> str:

@@ -34,22 +34,9 @@ from ...verify import verify
 from ...verify.form import about, parsed
 from ...verify.form import line as about_line
 from ...verify.numbers import Malformed
-from .. import frame, limiting
+from .. import frame, limiting, space
 from ..axes import with_moments
 from ..report.one_case.tiles import tiles
-from ..space import (
-    PLACES,
-    beside_limit,
-    box_of,
-    branches_of,
-    curves_of,
-    data,
-    limit_of,
-    marks_of,
-    near_part,
-    nearest,
-    space,
-)
 from ..spans import natural, seen
 from ..terminal.letters import greek, lettered, written
 from ..text import law
@@ -104,7 +91,7 @@ def equilibrium_rows(found: Equilibria, units: Units) -> dict[str, Any]:
 
 PLAIN = (18, 17)  # rows of a branch, and columns of half of it, while the hand moves
 # of a piece of a curve of equilibria: to find what is in the box, and to draw it
-POINTS = {True: (16, 40), False: PLACES}
+POINTS = {True: (16, 40), False: space.PLACES}
 TURNS = {True: 240.0, False: 2400.0}  # rad of turn at most that are drawn
 FOLLOWED = "the torque is off the principal axes: keep still, and the motion is followed"
 WORKED_OUT = "keep still, and this motion is worked out"
@@ -235,28 +222,28 @@ class Session:
         return found
 
     def _space(self, bag, case, twin, found, at_rest, times, path, asked, moving):
-        near = near_part(times, path, found)
+        near = space.near_part(times, path, found)
         bare, ghost = (None, False) if twin is None else _without_tilt(twin)
-        marks = marks_of(case.state, found, at_rest)
-        limit = limit_of(case)
-        rests = [*beside_limit(limit, near), *([] if moving else nearest(at_rest, near))]
-        box = box_of(near, marks + rests, reaching=True, asked=asked, kept=moving or ghost)
+        marks = space.marks_of(case.state, found, at_rest)
+        limit = space.limit_of(case)
+        rests = [*space.beside_limit(limit, near), *([] if moving else space.nearest(at_rest, near))]
+        box = space.box_of(near, marks + rests, reaching=True, asked=asked, kept=moving or ghost)
         branches, words = (), other.why(case.scene)
         if bare is not None:  # as far as the box reaches
             reach = self._kept.get("reach", (None, REACH))[1]
-            branches, words, far = self._once("branches", (bare, box, moving), lambda: branches_of(
+            branches, words, far = self._once("branches", (bare, box, moving), lambda: space.branches_of(
                 bare, box, plain=PLAIN if moving else None, reach=reach))
             self._kept["reach"], words = (None, far), _capital(words)
         names = [component.replace("omega", "ω") for component in case.scene.components]
         curves = self._once("curves", (case.scene, box, moving, at_rest is None),
-                            lambda: curves_of(at_rest, box, *POINTS[moving]))
-        drawn = space(names, self.units.rates, box, branches, near, marks, curves, words,
+                            lambda: space.curves_of(at_rest, box, *POINTS[moving]))
+        drawn = space.space(names, self.units.rates, box, branches, near, marks, curves, words,
                       " without the tilt" * ghost, limit)
         if ghost:
             words = ("No separatrix is known for a torque off the axes"
                      + (": the surface drawn is that of the torque without its tilt" if drawn.branches
                         else ""))
-        return data(drawn, partial(bag.add, "int16")) | {
+        return space.data(drawn, partial(bag.add, "int16")) | {
             "words": words, "box": {"middle": box.middle, "half": box.half}}
 
     def _once(self, name: str, key: Any, make: Callable[[], Any]) -> Any:

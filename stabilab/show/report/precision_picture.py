@@ -8,7 +8,7 @@ from ...cost.accuracy import EPS, digit_price
 from ...errors import InputError
 from .. import style
 from ..terminal.letters import RAISED
-from ..text.cost.words import FORMULAS, NAMES, caption, methods, price, title
+from ..text.cost.words import FORMULAS, NAMES, caption, methods, title
 
 LOOKS = {  # method -> how its line is drawn; the same in every picture
     "taylor": {"color": style.BLUE, "marker": "o"},
@@ -80,7 +80,7 @@ def meanings(found, questions=None, prices=True) -> list[tuple[str, dict]]:
     for method in (one for one in LOOKS if one in asked):
         factors = (digit_price(found.of(q, method)) for q in found.questions) if prices else ()
         factor = next((f for f in factors if f is not None), None)
-        rows.append((NAMES.get(method, method) + ("" if factor is None else f": {price(factor)} a digit"),
+        rows.append((NAMES.get(method, method) + ("" if factor is None else f": ×{factor:.2f} a digit"),
                      LOOKS[method]))
     return [*rows, ("front: no single run beats it" if prices else "front", FRONT)]
 
@@ -116,7 +116,7 @@ def panel(ax, found, question):
     for one, two in zip(front, front[1:]):
         if two.digits - one.digits >= NOTED:
             factor = (two.seconds / one.seconds) ** (1 / (two.digits - one.digits))
-            ax.annotate(f"{price(factor)} a digit", (math.sqrt(_clipped(one.error) * _clipped(two.error)),
+            ax.annotate(f"×{factor:.2f} a digit", (math.sqrt(_clipped(one.error) * _clipped(two.error)),
                         math.sqrt(one.seconds * two.seconds)), xytext=(0, 9), textcoords="offset points",
                         ha="center", fontsize=7.5 * style.share())
 

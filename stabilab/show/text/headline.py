@@ -45,7 +45,7 @@ def verdict(case: Case, motion: Motion, units: Units | None = None) -> str:
 
 def outcome(motion: Motion, units: Units) -> list[str]:
     """What becomes of the motion, when its limit is reached, what a tilt does; each may be empty."""
-    return [fate_words(motion, units), limiting.reached(motion.caveats, units),
+    return ["".join(fate_parts(motion, units)), limiting.reached(motion.caveats, units),
             limiting.tilted(motion.caveats, units)]
 
 
@@ -61,13 +61,8 @@ def look(motion: Motion) -> str:
     return "conditional" if "tilt" in kinds else "bounded"
 
 
-def fate_words(motion: Motion, units: Units) -> str:
-    """The fate, its axis, how well it is known, and the condition that it rests on."""
-    return "".join(fate_parts(motion, units))
-
-
 def fate_parts(motion: Motion, units: Units) -> tuple[str, str, str]:
-    """The words of `fate_words` in parts: the fate; its axis and how well it is known; the condition."""
+    """(the fate; its axis and how well it is known; the condition that it rests on)."""
     fate = motion.fate.word
     words, where = WORDS[fate], limiting.condition(motion.caveats, units)
     if where:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...files import whole_file
+from ...files import whole_file, write_text
 from ...packages import demand
 from ...physics.scene import ATTITUDES, PARTS
 from ...representation import values_of
@@ -140,29 +140,19 @@ def lost_columns(run) -> list[tuple[str, float]]:
 # --- As files: NetCDF with units and provenance, or CSV
 def checked(path) -> Path:
     """The path, if it can be written by its ending; InputError otherwise."""
-    path = endings.file(path, tuple(WRITERS))
+    path = endings.file(path, (".nc", ".csv"))
     if endings.ending(path) == ".nc":
         demand("xarray", "scipy")
     return path
 
 
 def write(case, run, path) -> Path:
-    """Write a Trajectory of a case to `path` (.nc or .csv), under a temporary name first, then renamed."""
+    """Write a Trajectory of a case to `path` (.nc or .csv), whole or not at all."""
     path = checked(path)
-    with whole_file(path) as waiting:
-        WRITERS[endings.ending(path)](case, run, waiting)
-    return path
-
-
-def _csv(case, run, path):
-    names, rows = columns(run)
-    time = "tau" if case.variables == "scaled" else "t (s)"
-    path.write_text(csv_lines([(time, *map(with_unit, names, _units(run))),
-                               *((float(t), *row) for t, row in zip(run.t, rows))]), encoding="utf-8",
-                    newline="")
-
-
-def _netcdf(case, run, path):
+    if endings.ending(path) == ".csv":
+        names, rows = columns(run)
+        head = ("tau" if case.variables == "scaled" else "t (s)", *map(with_unit, names, _units(run)))
+        return write_text(path, csv_lines([head, *((float(t), *row) for t, row in zip(run.t, rows))]))
     import xarray
     time = "t" if case.variables == "physical" else "tau"
     data = xarray.Dataset(
@@ -172,7 +162,6 @@ def _netcdf(case, run, path):
          "model": run.model, "method": run.method, **({"rtol": run.rtol} if run.rtol else {}),
          "status": run.status,
          **{f"departure_from_{name}": value for name, value in run.invariant_drift.items()}})
-    data.to_netcdf(path, engine="scipy")  # NetCDF 3: every reader knows it, and no HDF5 library is needed
-
-
-WRITERS = {".nc": _netcdf, ".csv": _csv}
+    with whole_file(path) as waiting:  # NetCDF 3: every reader knows it, and no HDF5 library is needed
+        data.to_netcdf(waiting, engine="scipy")
+    return path

@@ -56,7 +56,7 @@ def _question_words(found, question):
     parts = [f"{digits} digits cost {duration(p.seconds)} ({p.method}{setting(p)})"
              for digits, p in most.values()]
     each = {m: digit_price(found.of(question, m)) for m in methods(found, question) if m != "taylor-batch"}
-    known = [f"{m} {price(factor)}" for m, factor in each.items() if factor is not None]
+    known = [f"{m} ×{factor:.2f}" for m, factor in each.items() if factor is not None]
     more = f" One more digit: {', '.join(known)}." if known else ""
     yield f"{head}: {', '.join(parts)}.{_against(points, prices)}{more}"
     missing = next((d for d in DOUBLES if d > prices[-1][0]), None)
@@ -120,11 +120,6 @@ def _against(points, prices) -> str:
             return (f" SciPy's best for {digits} digits among the settings tried, {other.method}, takes "
                     f"{so_many(other.seconds / p.seconds, 3)} times as long ({duration(other.seconds)}).")
     return ""
-
-
-def price(factor) -> str:
-    """A digit's price as a factor in time."""
-    return f"×{factor:.2f}"
 
 
 def _because(found, question, missing, best) -> str:
