@@ -165,9 +165,9 @@ class Session:
         picture = self._space(bag, case, twin, found, at_rest, times, path, asked.get("box"), moving)
         about_axes = frame.components(self.case, units.axes)  # of the file, where they are others
         turns = not self.units.scaled and present("numpy") and (case.scene.plain or not moving)
-        notes = [note, self._swept, cut, *limiting.beside(case.caveats, units)]
-        if found is not None and found.validity is not None:  # of an approximate law: whether it holds
-            notes.insert(3, lettered(units.words(found.validity.words)))
+        holds = None if found is None else found.validity  # of an approximate law
+        notes = [note, self._swept, cut, holds and lettered(units.words(holds.words)),
+                 *limiting.beside(case.caveats, units)]
         made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word,
                 "look": "conditional" if found is None else look(found),
                 "moving": moving, "start": clicked,

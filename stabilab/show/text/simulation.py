@@ -68,16 +68,12 @@ def _sizes(run, units):
     if part is None:
         return ""
     error = max((float(v) for v in np.ravel(run.error.get(part, 0.0))), default=0.0)
-    first, last = (_size(float(run.t[n]), math.hypot(*map(float, run.state[part][n])), error, units)
-                   for n in (0, -1))
+    unit, one = units.rates
+    sizes = [(float(run.t[n]), math.hypot(*map(float, run.state[part][n]))) for n in (0, -1)]
+    first, last = (f"{zero_within(error * one)} {unit}".rstrip() if lost(t, size, error)
+                   else units.rate(size, SHORT) for t, size in sizes)
     name = "|x|" if units.scaled else "|ω|"
     return f"; {name} = {last} there" if len(run.t) == 1 else f"; {name} = {first} first, {last} last"
-
-
-def _size(t, size, error, units):
-    unit, one = units.rates
-    return (f"{zero_within(error * one)} {unit}".rstrip() if lost(t, size, error)
-            else units.rate(size, SHORT))
 
 
 def _columns(head, cells, width, wide):
