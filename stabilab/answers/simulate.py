@@ -200,9 +200,8 @@ def with_quaternion(case: Any) -> Any:
     Raises InputError where the variables are scaled: a system without moments has no attitude.
     """
     if case.variables == "scaled":
-        raise InputError(
-            f"{case.place}: --attitude: scaled variables have no attitude: give the motion as "
-            f"angular_velocity, in rad/s")
+        raise InputError(f"{case.place}: --attitude: scaled variables have no attitude: give the motion as "
+                         "angular_velocity, in rad/s")
     return replace(case, blocks=quaternion_blocks(case.blocks))
 
 

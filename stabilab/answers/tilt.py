@@ -209,9 +209,8 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
     """
     scene, state = checked_scene(scene), three_floats(state)
     if scene.variables == "scaled" or not torque_axis(scene) or kind_of(scene) != "orbit":
-        raise InputError(
-            "tilt: expected a body under a torque along one of its principal axes, without wheel momentum "
-            "along it")
+        raise InputError("tilt: expected a body under a torque along one of its principal axes, without "
+                         "wheel momentum along it")
     if Fate(int(fate(scene, state).labels)) not in STEADY:
         raise InputError("tilt: the motion is not bounded as it is: ask time_to of it")
     if angle is None and not (case is not None and any(t.stuck and t.misalignment for t in case.thrusters)):

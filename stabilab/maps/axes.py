@@ -244,9 +244,8 @@ def _judge(values: list[float]) -> None:
     # add gives None
     again = next((value for value in values if value in seen or seen.add(value)), None)  # type: ignore[func-returns-value]
     if again is not None:
-        raise InputError(
-            f"the value {again!r} comes twice: give each once (a range of fewer points, where doubles cannot "
-            "tell them apart)")
+        raise InputError(f"the value {again!r} comes twice: give each once (a range of fewer points, where "
+                         "doubles cannot tell them apart)")
 
 
 # --- The range of a number that varies without steps: "0:1.5 N m", from one end to the other, both counted
@@ -279,9 +278,8 @@ def spans_of(data: dict[str, Any], vary: Sequence[tuple[str, Any]]) -> tuple[Spa
     if not vary:
         raise InputError('nothing varies: give --vary KEY=FROM:TO, such as --vary "torque[3]=0:0.5"')
     if len(vary) > 2:
-        raise InputError(
-            f"expected one or two numbers that vary, got {len(vary)}: a diagram has no more; stabilab sweep "
-            "takes up to four")
+        raise InputError(f"expected one or two numbers that vary, got {len(vary)}: a diagram has no more; "
+                         "stabilab sweep takes up to four")
     spans = tuple(span_of(key_of(data, name), asked) for name, asked in vary)
     each_once(span.key for span in spans)
     return spans
@@ -317,9 +315,8 @@ def _range_of(asked: Any) -> tuple[Fraction, Fraction, str]:
         return exact(asked[0]), exact(asked[1]), ""
     text, parts = asked, asked.split(":")
     if len(parts) in (3, 4):
-        raise InputError(
-            f'{EXPECTED_RANGE}, got "{printable(text)[:60]}": a diagram is exact and has no number of steps '
-            f'(stabilab sweep has)')
+        raise InputError(f'{EXPECTED_RANGE}, got "{printable(text)[:60]}": a diagram is exact and has no '
+                         'number of steps (stabilab sweep has)')
     if len(parts) != 2:
         raise InputError(f'{EXPECTED_RANGE}, got "{printable(text)[:60]}"')
     (low, high), unit = _with_one_unit(parts, "", text, EXPECTED_RANGE)

@@ -96,9 +96,8 @@ def asked_answers(asked) -> tuple[str, ...]:
         if name not in ANSWERS:
             from difflib import get_close_matches
             near = get_close_matches(str(name).lower()[:40], ANSWERS, n=1)
-            raise InputError(
-                f"answer {printable(str(name))[:40]!r}: "
-                f"{f'did you mean {near[0]}? ' if near else ''}expected {', '.join(ANSWERS)}")
+            raise InputError(f"answer {printable(str(name))[:40]!r}: "
+                             f"{f'did you mean {near[0]}? ' if near else ''}expected {', '.join(ANSWERS)}")
     return tuple(name for name in ANSWERS if name in names)
 
 

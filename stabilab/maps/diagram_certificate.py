@@ -28,18 +28,16 @@ MOST = 64  # events that a certificate may hold
 def certifiable(spans: Sequence[Any]) -> None:
     """Refuse ranges of which no certificate can be made, before any work."""
     if len(spans) > 1:
-        raise InputError(
-            "--certify: a certificate is of a diagram over one number; over two, certify lines of the plane "
-            "one by one")
+        raise InputError("--certify: a certificate is of a diagram over one number; over two, certify lines "
+                         "of the plane one by one")
 
 
 def diagram_certificate(found: Diagram) -> dict[str, Any]:
     """The object of `stabilab.diagram-certificate/1`. Raises InputError for a diagram of more events than it
     may hold."""
     if found.kind == CURVES:
-        raise InputError(
-            f"--certify: {found.what.partition(';')[0]}: stabilab classify --certify proves them at one "
-            "value")
+        raise InputError(f"--certify: {found.what.partition(';')[0]}: stabilab classify --certify proves "
+                         "them at one value")
     pieces, events = _changes(found)
     if len(events) > MOST:
         raise InputError(

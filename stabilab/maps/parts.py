@@ -295,9 +295,8 @@ def _claim(plan: Plan, folder: Path, command: str) -> None:
     """Write down whose folder this is; InputError where it is somebody else's."""
     claim = folder / PLAN
     if not claim.exists() and any(not entry.name.startswith(".") for entry in folder.iterdir()):
-        raise InputError(
-            f"{folder}: holds files that are no sweep's, and would be removed with its parts: move them, or "
-            "give another --out")
+        raise InputError(f"{folder}: holds files that are no sweep's, and would be removed with its parts: "
+                         "move them, or give another --out")
     if claim.exists() and any(folder.glob("part-*")):  # of one killed before its first part nothing is lost
         if plan.digest not in claim.read_text(encoding="utf-8"):
             raise InputError(_of_another(folder, claim, command))

@@ -319,17 +319,15 @@ def _plain(name: str, asked: Any) -> list[float]:
     try:
         return [float(value) for value in asked]
     except (TypeError, ValueError):
-        raise InputError(
-            f'vary {printable(name)}: expected a text such as "0:30:31 deg/s" or numbers in a row, got '
-            f'{asked!r:.60}') from None
+        raise InputError(f'vary {printable(name)}: expected a text such as "0:30:31 deg/s" or numbers in a '
+                         f'row, got {asked!r:.60}') from None
 
 
 def _judge(plan: Plan) -> None:
     case = plan.case
     if not plan.vary and plan.samples is None:
-        raise InputError(
-            'nothing varies: give --vary KEY=START:STOP:COUNT, such as --vary '
-            '"motion.angular_velocity[1]=0:30:31 deg/s", or --samples N')
+        raise InputError('nothing varies: give --vary KEY=START:STOP:COUNT, such as --vary '
+                         '"motion.angular_velocity[1]=0:30:31 deg/s", or --samples N')
     each_once(axis.key for axis in plan.axes)
     if len(plan.shape) > AXES:
         raise InputError(f"expected at most {AXES} axes, got {len(plan.shape)}")

@@ -110,17 +110,15 @@ def _checked(client: Any, address: str) -> int:
     try:
         client.wait_for_workers(1, timeout=PATIENCE)
     except TimeoutError:
-        raise InputError(
-            f"scheduler {printable(address)[:80]}: has no workers: start some with `dask worker "
-            f"{printable(address)[:60]}`") from None
+        raise InputError(f"scheduler {printable(address)[:80]}: has no workers: start some with `dask worker "
+                         f"{printable(address)[:60]}`") from None
     found = client.run(version, "stabilab", on_error="return")
     for worker, answer in found.items():
         if answer != __version__:
             has = (f"has stabilab {answer}" if isinstance(answer, str)
                    else f"lacks the package stabilab ({_first_line(answer)})")
-            raise InputError(
-                f"worker {worker}: {has}: install stabilab {__version__} there, as here, with the same "
-                f"libraries")
+            raise InputError(f"worker {worker}: {has}: install stabilab {__version__} there, as here, with "
+                             "the same libraries")
     return sum(client.nthreads().values())
 
 

@@ -92,9 +92,8 @@ def scenario_of(case: Any) -> Scenario:
     if not hasattr(case, "thrusters"):
         raise InputError(f"stuck: expected a case, as of stabilab.load(...), got {came(case)}")
     if case.variables == "scaled" or case.physical is None:
-        raise InputError(
-            "the motion is in scaled variables; for a stuck thruster give the body in kg m^2 and "
-            "angular_velocity in rad/s")
+        raise InputError("the motion is in scaled variables; for a stuck thruster give the body in kg m^2 "
+                         "and angular_velocity in rad/s")
     if case.state is None:
         raise InputError(
             "motion: expected angular_velocity in [motion]; what a stuck thruster does depends on it")

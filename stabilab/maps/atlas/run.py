@@ -156,9 +156,8 @@ def _judge(case: Case) -> None:
         raise InputError(f"{case.place}: is in scaled variables, whose torque has no direction in space: an "
                          "atlas needs a body in kg m^2 with angular_velocity in rad/s")
     if case.state is None:
-        raise InputError(
-            f"{case.place}: motion: expected angular_velocity in [motion]; an atlas shows what becomes of a "
-            "motion")
+        raise InputError(f"{case.place}: motion: expected angular_velocity in [motion]; an atlas shows what "
+                         "becomes of a motion")
     with blamed_on(case):
         case.scene.quadratic()  # says which effect is not covered
 
@@ -168,9 +167,8 @@ def _size(case: Case, torque: Any) -> Fraction:
     if torque is None:
         own = case.scene.vector("constant_torque")  # type: ignore[union-attr]
         if not any(own):
-            raise InputError(
-                f'{case.place}: no torque acts, so its size is not known: give --torque "1 N m", or mark a '
-                f'thruster of the case as stuck')
+            raise InputError(f'{case.place}: no torque acts, so its size is not known: give --torque "1 N '
+                             'm", or mark a thruster of the case as stuck')
         return sqrt_fraction(dot(own, own))
     size = in_si(torque, TORQUE, "torque")
     if size <= 0:
@@ -215,13 +213,11 @@ def _judge_cells(level: Any, refine: Any, wheels: int) -> None:
         if isinstance(value, bool) or not isinstance(value, int) or value < 0:
             raise InputError(f"{name}: expected a whole number that is not negative, got {value!r:.40}")
     if level + refine > DEEPEST:
-        raise InputError(
-            f"level {level} with {refine} refinements: at most {DEEPEST} in all, whose cells are a fiftieth "
-            "of a degree wide")
+        raise InputError(f"level {level} with {refine} refinements: at most {DEEPEST} in all, whose cells "
+                         "are a fiftieth of a degree wide")
     if count(level) * wheels > MOST:
-        raise InputError(
-            f"level {level} has {count(level):,} cells, with {wheels} wheel momenta "
-            f"{count(level) * wheels:,}; at most {MOST:,} are asked")
+        raise InputError(f"level {level} has {count(level):,} cells, with {wheels} wheel momenta "
+                         f"{count(level) * wheels:,}; at most {MOST:,} are asked")
 
 
 # --- Running an atlas: a round of the sweep's machinery over all cells, then one for the parts of those

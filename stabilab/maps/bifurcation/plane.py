@@ -212,16 +212,14 @@ def plane(family: Family, borders: bool = False) -> Plane:
     """All equilibria over the two ranges of a family."""
     kind, what, system, notes = chosen(family, borders)
     if system is None:
-        raise InputError(
-            f"{family.case.place}: {what}: vary one number, and the curves are described in words; over two "
-            "there is nothing to draw")
+        raise InputError(f"{family.case.place}: {what}: vary one number, and the curves are described in "
+                         "words; over two there is nothing to draw")
     eliminated = Eliminated(family, system)
     curves = eliminated.critical
     found = cuts(_projected(family, curves), family.spans[0].low, family.spans[0].high)
     if len(found) > MOST:
-        raise InputError(
-            f"the curves of these ranges turn and meet at {len(found)} values; at most {MOST} are followed: "
-            "narrow the ranges")
+        raise InputError(f"the curves of these ranges turn and meet at {len(found)} values; at most {MOST} "
+                         "are followed: narrow the ranges")
     strips = []
     for gap in gaps(found, family.spans[0].low, family.spans[0].high):
         if gap:
