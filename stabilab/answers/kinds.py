@@ -57,12 +57,12 @@ def kind_of(scene: AnyScene) -> str:
 
 def one(scene: AnyScene) -> Any:
     """The module that answers for one state of this scene."""
-    return _module(KINDS[kind_of(scene)].one)
+    return import_module(f"..{KINDS[kind_of(scene)].one}", __package__)
 
 
 def many(scene: AnyScene) -> Any:
     """The module that answers for many states of this scene."""
-    return _module(KINDS[kind_of(scene)].many)
+    return import_module(f"..{KINDS[kind_of(scene)].many}", __package__)
 
 
 def following(scene: AnyScene, follow: float | None = None, tell: Callable[..., Any] | None = None,
@@ -73,7 +73,3 @@ def following(scene: AnyScene, follow: float | None = None, tell: Callable[..., 
         raise InputError(f"follow: expected a time of at least 0, got {follow!r:.80}")
     return ({"follow": follow, "tell": tell} | ({"proof": True} if proof else {})
             if KINDS[kind_of(scene)].follows else {})
-
-
-def _module(place: str) -> Any:
-    return import_module(f"..{place}", __package__)

@@ -36,7 +36,7 @@ from ...unreduced.growth.certificate import law_extremes
 from ...unreduced.near_rest import beside_rest, small_loop
 from ...validation import reach_of
 from ..motion import motion
-from .checked import CAUTION, MOST, MOST_DECIMALS, NEAR, Told, checked_digits, digits_of, nothing
+from .checked import CAUTION, MOST, MOST_DECIMALS, NEAR, Told, checked_digits, digits_of, nothing, number_of
 
 FORMULA_DIGITS = 11  # the formulas hand over to balls where they hold less
 SAMPLE = 16  # states of an array that are checked one by one; where all agree the formulas serve for the rest
@@ -57,7 +57,7 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
     land = landscape(twin) if twin.plain else None
     if known is None:  # by a reduction none of the three questions needs the distance from the separatrix
         known = motion(scene, state, span, brief=land is not None, exact=exact)
-    if question != "extremes" and _number(question, known) is None:
+    if question != "extremes" and number_of(question, known) is None:
         return nothing(question, digits, no_period(known.fate) if question == "period"
                        else "there is no margin in energy to be judged")
     if question == "fate" and is_free(twin):
@@ -66,9 +66,9 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
         orbit = Orbit(land.reduction, exact or known.at[:3])
         balls = _balls(question, orbit, known.fate, max(digits, MOST) + 1)
         return (_tie(question, digits) if balls is None  # on the separatrix
-                else _judged(question, _number(question, known), balls, digits))
+                else _judged(question, number_of(question, known), balls, digits))
     if known.fate == Fate.EQUILIBRIUM:
-        return Told(question, _number(question, known), digits, math.inf, "exact",
+        return Told(question, number_of(question, known), digits, math.inf, "exact",
                     "the state is an equilibrium")
     if question == "fate":
         return _margin_without_reduction(twin, known, digits, exact or known.at[:3])
@@ -103,10 +103,6 @@ def ask_all(question: str, scene: AnyScene, states: Any, digits: int, values: An
                            dtype=object).reshape((*shape, *np.shape(worst.decimals))))
     return replace(worst, values=values.reshape((*shape, *values.shape[1:])), because=worst.because + sampled,
                    decimals=texts)
-
-
-def _number(question: str, known: Motion) -> Any:
-    return {"extremes": known.extremes, "period": known.period, "fate": known.margin_energy}[question]
 
 
 # -- motions with a reduction
@@ -205,7 +201,7 @@ def _margin_without_reduction(scene: AnyScene, known: Motion, digits: int, state
 
 def _by_return(question: str, scene: AnyScene, known: Any, digits: int, state: Any) -> Told:
     """A closed motion: its return in doubles against the return of a Taylor series in many digits."""
-    values = _number(question, known)
+    values = number_of(question, known)
     if beside_rest(scene.quadratic(), state):
         return _by_small_loop(question, scene.quadratic(), values, digits, state)
     exact: Any = reference(scene, state, [0.5 * known.period], orbit=True)

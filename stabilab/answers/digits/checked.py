@@ -59,12 +59,17 @@ def digits_of(error: float, most: float = MOST + 0.95) -> float:
     return max(0.0, min(-math.log10(error), most))
 
 
+def number_of(question: str, motion: Motion) -> Any:
+    """What a motion says to a question, None where it has no such number."""
+    return {"extremes": motion.extremes, "period": motion.period, "fate": motion.margin_energy}[question]
+
+
 def by_bound(question: str, motion: Motion) -> Told | None:
     """What the formulas of the reduced motion say of themselves: they bound their rounding as they go, and
     hand over to ball arithmetic where the bound is too large. None where no formula answered."""
     if motion.tolerance is None:
         return None
-    values = {"extremes": motion.extremes, "period": motion.period, "fate": motion.margin_energy}[question]
+    values = number_of(question, motion)
     if question == "fate":
         return None if values is not None else nothing(question, DEFAULT, motion.because)
     if values is None:
