@@ -180,17 +180,13 @@ def simulate(scene: Any, omega: Any = None, times: ArrayLike | None = None,
     blocks = {} if blocks is None else blocks
     start = start_of(scene, omega, blocks)
     method, rtol, why = _chosen(scene, start, times, method, rtol)
-    if len(start) == 1 and scene.blocks == ("omega",):
-        run = trajectory(scene, omega, times, method, rtol)
-        return _simulation(run, {"omega": run.states}, why)
-    if "attitude" not in start:
-        run = trajectory(scene, start, times, method, rtol)
-        return _simulation(run, {name: run.block(name) for name in run.blocks}, why)
     first = blocks.get("attitude", (0.0, 0.0, 0.0))
-    if as_quaternion(first):
-        run = trajectory(scene, start, times, method, rtol)
-        return _simulation(run, in_quaternions(scene, {name: run.block(name) for name in run.blocks}), why)
-    return _with_attitude(scene, start, first, times, method, rtol, why)
+    if "attitude" in start and not as_quaternion(first):
+        return _with_attitude(scene, start, first, times, method, rtol, why)
+    alone = len(start) == 1 and scene.blocks == ("omega",)
+    run = trajectory(scene, omega if alone else start, times, method, rtol)
+    parts = {name: run.block(name) for name in run.blocks}
+    return _simulation(run, in_quaternions(scene, parts) if "attitude" in parts else parts, why)
 
 
 def with_quaternion(case: Any) -> Any:
