@@ -34,7 +34,7 @@ test-slow: $(STAMP)
 # The tests that touch other packages, on the lowest versions that pyproject.toml admits, in an environment of their own
 FLOORS := .floors
 FLOOR_TESTS := $(addprefix tests/,$(addsuffix .py,case/test_read answers/test_certificate test_cli answers/digits/test_digits physics/test_equations \
-  orbit/fine/test_rows orbit/fate/test_table house/test_layout theories/test_follow orbit/separatrix/test_branches \
+  orbit/fine/test_rows orbit/fate/test_arrays house/test_layout theories/test_follow orbit/separatrix/test_branches \
   show/test_pictures answers/test_simulate equilibrium/test_stability house/test_surroundings integrate/test_trajectory verify/test_verify))
 floors:
 	rm -rf $(FLOORS)

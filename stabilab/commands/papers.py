@@ -48,7 +48,7 @@ def tables(out):
     """Write the tables of the constant-torque paper."""
     with manifest.written(out, sys.argv[1:], table.case_files(table.STEMS), table.TOLERANCES) as folder:
         with counted() as tell:
-            made = table.write_tables(folder, tell=tell)
+            made = table.write_tables(folder, tell)
     write("\n".join(str(out / path.relative_to(folder)) for path in made))
 
 

@@ -291,18 +291,14 @@ TOLERANCES = {"equilibria and verdicts": "exact",
 FORMATS = {"txt": text, "csv": comma_separated, "md": markdown, "tex": latex, "html": html_page}
 
 
-def write_tables(out, formats=tuple(FORMATS),
-                 tell: Callable[[int, int, str], None] | None = None) -> list[Path]:
+def write_tables(out, tell: Callable[[int, int, str], None] | None = None) -> list[Path]:
     """Write Tables 1-4 into the folder `out`, one file a format (see FORMATS). tell: as of `tables`. Returns
     the paths."""
-    for name in formats:
-        if name not in FORMATS:
-            raise InputError(f"format {name!r}: expected one of {', '.join(FORMATS)}")
     written = []
     for table in tables(tell):
-        for name in formats:
+        for name, made in FORMATS.items():
             path = Path(out) / f"{table.stem}.{name}"
             with style.whole_file(path) as waiting:
-                waiting.write_text(FORMATS[name](table), encoding="utf-8")
+                waiting.write_text(made(table), encoding="utf-8")
             written.append(path)
     return written

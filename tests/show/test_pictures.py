@@ -87,11 +87,6 @@ def test_the_case_files_of_the_tables_hold_the_papers_data(number):
                 assert case.state[0] + case.scene.b == pytest.approx(case.state[2], abs=1e-15)
 
 
-def test_a_format_that_does_not_exist_is_refused(tmp_path):
-    with pytest.raises(errors.InputError, match="expected one of"):
-        table.write_tables(tmp_path, formats=("pdf",))
-
-
 def test_a_file_is_written_whole_or_not_at_all(tmp_path):
     path = tmp_path / "x.txt"
     path.write_text("old")

@@ -85,16 +85,14 @@ CHAPTERS = (
 )
 
 
-def section(name: str, folder: Path, tell=lambda words: None) -> dict:
-    """The chapter on a paper: plain data, its figures drawn into `folder`/figures. tell(words) is called
-    before each step."""
+def section(name: str, folder: Path) -> dict:
+    """The chapter on a paper: plain data, its figures drawn into `folder`/figures."""
     chapter = next(chapter for chapter in CHAPTERS if chapter.paper == name)
     made = {"id": chapter.paper, "title": chapter.title, "paper": figures.PAPERS[chapter.paper],
             "about": written(chapter.about), "problem": "",
             "compared": [], "sensible": None, "parameters": "", "end": chapter.end,
-            "figures": [drawn(row, folder, tell) for row in figures.of_paper(chapter.paper)]}
+            "figures": [drawn(row, folder) for row in figures.of_paper(chapter.paper)]}
     try:
-        tell(f"chapter {chapter.paper}: comparisons")
         made["parameters"] = _parameters(sweep(chapter.compared[0][0])[chapter.compared[0][1]])
         made["compared"] = [row for name, variant in chapter.compared
                             for row in _errors(sweep(name)[variant], chapter.end)]
@@ -104,9 +102,9 @@ def section(name: str, folder: Path, tell=lambda words: None) -> dict:
     return made
 
 
-def drawn(row, folder: Path, tell=None) -> dict:
+def drawn(row, folder: Path) -> dict:
     """What a page says of a figure, whose pictures are drawn into `folder`/figures; rows: of the audit."""
-    path, *more = figures.write([row.number], folder / FOLDER, tell, row.paper or None)
+    path, *more = figures.write([row.number], folder / FOLDER, paper_name=row.paper or None)
     return picture(path, FOLDER, id=f"{row.paper or 'figure'}-{row.number}", number=row.number,
                    title=row.title, caption=row.caption, tolerance=row.tolerance, differences=words(row),
                    command=row.command, rows=(), more=[FOLDER + part.name for part in more])

@@ -28,7 +28,7 @@ FINEST = 2**16  # samples of one revolution, at the most
 
 @dataclass(frozen=True)
 class EulerAngles:
-    """psi, theta, phi (n,), rad, at t (n,), s; theta in [0, pi], psi and phi unwrapped, psi = psi0 at the
+    """psi, theta, phi (n,), rad, at t (n,), s; theta in [0, pi], psi and phi unwrapped, psi = 0 at the
     first time. error: estimated error of psi, rad. status: "regular",
     "singular" (theta reaches 0 or pi), "coarse" (the samples are too far apart for psi); reason: in words."""
 
@@ -41,7 +41,7 @@ class EulerAngles:
     reason: str
 
 
-def euler_angles(t, omega, gamma, psi0: float = 0.0) -> EulerAngles:
+def euler_angles(t, omega, gamma) -> EulerAngles:
     """Angles along samples of any motion.
 
     t: (n,) strictly increasing, s; omega: (n, 3) rad/s and gamma: (n, 3), body frame. psi is the integral of
@@ -57,8 +57,8 @@ def euler_angles(t, omega, gamma, psi0: float = 0.0) -> EulerAngles:
         raise InputError("t: expected strictly increasing times")
     gamma = _unit(gamma)
     phi, singular = _phi(t, omega, gamma)
-    psi = psi0 + _psi(t, omega, gamma, phi)
-    error = (float(np.abs(_psi(t[::2], omega[::2], gamma[::2], phi[::2]) - (psi[::2] - psi0)).max()) / 15
+    psi = _psi(t, omega, gamma, phi)
+    error = (float(np.abs(_psi(t[::2], omega[::2], gamma[::2], phi[::2]) - psi[::2]).max()) / 15
              if t.size > 4 else 0.0)
     return EulerAngles(t, psi, _theta(gamma), phi, error, *_verdict(t[singular], error))
 

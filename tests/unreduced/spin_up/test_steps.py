@@ -3,7 +3,6 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
-from stabilab.unreduced.spin_up import steps
 from stabilab.unreduced.spin_up.drift import Runs
 
 from .scenes import EXAMPLE, numba, rates_of, run
