@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 from ...errors import InputError
 from ...numbers.exact import precise
 from ...numbers.units import DENSITY, LENGTH, LENGTH_7, VISCOSITY, in_si
-from ...numbers.vectors import Given, Number, Triple, cross, dot
+from ...numbers.vectors import Given, Number, Triple, cross, cross_matrix, dot
 from .base import Effect, Limit
 
 
@@ -42,10 +42,9 @@ def pace(scene: Any, state: Mapping[str, Sequence[Number]], without: Effect) -> 
             for i in range(3):
                 slope[i][j] = slope[i][j] + slope_j[i] - first[i]
     H = [d * w + h for d, w, h in zip(D, omega, carried)]
-    for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):  # (H x omega)_i = H_j omega_k - H_k omega_j
-        slope[i][j] = slope[i][j] + D[j] * omega[k] - H[k]
-        slope[i][k] = slope[i][k] + H[j] - D[k] * omega[j]
-    squares = sum((slope[i][j] / D[i]) * (slope[i][j] / D[i]) for i in range(3) for j in range(3))
+    turn, spin = cross_matrix(H), cross_matrix(omega)  # of H x omega
+    squares = sum(((slope[i][j] + turn[i][j] - spin[i][j] * D[j]) / D[i]) ** 2
+                  for i in range(3) for j in range(3))
     return dot(omega, omega) ** 0.5 + squares ** 0.5 + (dot(still, still) ** 0.5 / min(D)) ** 0.5
 
 
