@@ -39,6 +39,18 @@ def _midpoint(rates, y, h, n):
     return [(a + b + small * f) / 2 for a, b, f in zip(before, now, rates(now))]
 
 
+def charged(D, k, momentum, torque):
+    """omega, then psi, phi, theta by their own kinematic equations (singular where cos psi = 0)."""
+    def rates(y):
+        w, (psi, phi, _) = y[:3], y[3:6]
+        spin = [d * v + l for d, v, l in zip(D, w, momentum)]
+        total = [a + k * b + m for a, b, m in zip(cross(spin, w), cross(w, [0, 0, 1]), torque)]
+        level = w[2] * mp.cos(phi) - w[0] * mp.sin(phi)
+        return [t / d for t, d in zip(total, D)] + [w[0] * mp.cos(phi) + w[2] * mp.sin(phi),
+                                                    w[1] - level * mp.tan(psi), level / mp.cos(psi)]
+    return rates
+
+
 def top(D, momentum, arm, field):
     """omega, gamma: (D w + l) x w + arm x gamma + field gamma x D gamma."""
     def rates(y):
