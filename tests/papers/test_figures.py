@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from matplotlib.colors import rgb_to_hsv, to_rgb
 
 from stabilab.papers.figures import catalogue, cavity, major_axis, middle_axis, minor_axis, paper
 from stabilab.papers.figures.catalogue import figure
@@ -31,6 +32,13 @@ def test_figures_of_captured_motions_are_drawn_beyond_the_release_they_claim():
         assert abs(last - float(claim)) < 0.06 and abs(release / 400
                                                        - last) < 0.01 and len(states) / 400 > last + 5
         assert np.array_equal(states[:seen], printed[lam][0])
+
+
+def test_no_equilibrium_stands_at_an_edge_of_the_phase_planes():
+    for lam in paper.LAMBDAS:
+        plane, start, span = minor_axis._plane(lam)
+        for place in plane.repeated(plane.centres + plane.saddles, span[0] - 1, span[1] + 1):
+            assert min(abs(start + 2 * place - edge) for edge in minor_axis.WINDOW) > 0.2
 
 
 def test_figure_4_has_the_equilibria_of_each_wheel_on_its_own_circle():
@@ -75,12 +83,64 @@ def test_a_panel_without_a_model_says_why(plt):
             for heading in headings] == [False, False, True] and "averaged, second order" in headings[2]
 
 
+@pytest.mark.slow
+def test_words_on_cut_curves_stand_side_by_side(plt):
+    drawn = figure(5, "top").draw(plt)
+    for part in drawn:
+        part.draw_without_rendering()
+    rows = [[text.get_window_extent() for text in ax.texts] for part in drawn for ax in part.axes]
+    # rows whose printed and corrected curves both leave the panel
+    assert sum(len(boxes) > 1 for boxes in rows) >= 5
+    assert not [1 for boxes in rows for n,
+                box in enumerate(boxes) for other in boxes[:n] if box.overlaps(other)]
+
+
 def test_every_line_looks_as_the_legend_says(plt):
     for drawn in (*figure(2, "top").draw(plt), *figure(2, "charged").draw(plt)):
         legend = {(h.get_color(), h.get_linestyle(), h.get_linewidth())
                   for h in drawn.legends[0].legend_handles}
         assert {(line.get_color(), line.get_linestyle(), line.get_linewidth()) for ax in drawn.axes
                 for line in ax.lines} <= legend
+
+
+def _hue(colour):
+    """Where a colour stands on the wheel, in degrees; None of black, white and grey."""
+    hue, saturation, _ = rgb_to_hsv(to_rgb(colour))
+    return 360 * hue if saturation > 0.2 else None
+
+
+def _named(drawn):
+    """[(name, colour)] of a legend."""
+    return [(text.get_text(), handle.get_color()) for text,
+            handle in zip(drawn.legends[0].get_texts(), drawn.legends[0].legend_handles)]
+
+
+def _model(name):
+    return ("corrected" if "corrected integrals" in name
+            else "printed" if name.startswith(("alone", "as printed")) else name)
+
+
+def test_no_colour_of_a_figure_means_two_things(plt):
+    """In the panels of printed curves alone the shades are those of the model that they show beside it; no
+    other line has their hue."""
+    for row in (figure(3, "cavity"), figure(18, "charged"), figure(6, "top")):
+        rows = {one for part in row.draw(plt) for one in _named(part)}
+        named = [(_model(name), _hue(colour)) for name, colour in rows]
+        assert sum(model == "printed" for model, _ in named) == 4
+        for model, hue in named:
+            assert [other for other, at in named if other != model and None not in (hue, at)
+                    and model in ("printed", "corrected")
+                    and abs((hue - at + 180) % 360 - 180) < 15] == []
+    colours = dict(_named(middle_axis.projections(plt)))
+    assert colours.pop("motion of Table 3") not in colours.values()
+
+
+@pytest.mark.parametrize("name, number", [("cavity", n) for n in (2, 3, 11, 13)])
+def test_a_caption_speaks_of_panels_of_printed_curves_only_where_these_may_stand(name, number, plt):
+    row = figure(number, name)
+    alone = any("alone" in ax.get_title() for part in row.draw(plt) for ax in part.axes)
+    assert alone <= ("the last panels have them alone" in row.caption)
+    assert (number not in (11, 13) or "panels" not in row.caption)
 
 
 @pytest.mark.parametrize("plain, letters", [
