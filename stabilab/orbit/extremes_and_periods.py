@@ -1,8 +1,5 @@
-"""Extremes and periods of many motions.
-
-Extremes and periods of many states in one pass: fates, then librations row by row, the rest by NumPy, and
-balls of what these leave open.
-"""
+"""Extremes and periods of many states in one pass: fates, then librations row by row, the rest by NumPy, and
+balls of what these leave open."""
 from __future__ import annotations
 
 import numpy as np

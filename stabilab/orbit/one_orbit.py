@@ -1,10 +1,8 @@
-"""The orbit of one state in ball arithmetic, on circles, hyperbolas and parabolas.
-
-The reduced potential of one state in ball arithmetic: where doubles cannot decide, or would lose digits.
+"""The orbit of one state and its reduced potential in balls, on circles, hyperbolas and parabolas: where
+doubles cannot decide, or would lose digits.
 
 Inputs (the state's doubles or fractions, the scene's rationals) are exact; every number is a ball that surely
-holds the true value (`balls`). The mechanics is the same for any number of digits; what it is on a circle, a
-hyperbola and a parabola, `ball_geometry` says.
+holds the true value (`balls`), and the mechanics is the same for any number of digits.
 """
 from __future__ import annotations
 

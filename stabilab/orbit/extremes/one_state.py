@@ -1,8 +1,4 @@
-"""Extremes of one motion, in balls.
-
-Extremes of one state in ball arithmetic: next to a separatrix, for minute orbits, for nearly equal
-moments, and wherever else doubles would lose digits. Every digit returned is certain.
-"""
+"""Extremes of one motion, in balls: every digit returned is certain."""
 from __future__ import annotations
 
 from fractions import Fraction

@@ -1,25 +1,20 @@
-"""Fates of many states, NumPy.
-
-The fate of many torque-free motions: the margin of `free_gyrostat` in doubles, and in many digits where these
-are not enough.
-
-With the saddle omega* of speed s on the motion's momentum sphere the first-order terms drop out of the
-difference of their kinetic energies, and what is left has neither the large terms of the gyrostatic moment
-nor, to first order, the error of s:
-
-    margin = sum D_i (D_i - s)/(2 s) (omega_i - omega*_i)^2,     omega*_i = lambda_i/(s - D_i).
-
-About a middle axis without a gyrostatic moment s = D_i, and that component drops out. Other saddles lie
-between the least and the greatest moment, on a branch on either side of the middle one, along which |H| runs
-one way; s is measured from the middle moment, so that its distance from the pole there keeps its digits.
-
-The fate of a state: bounded, spin-up, on the separatrix, at rest, or undecided; and its margin in energy.
+"""The fates of many states, NumPy: bounded, spin-up, on the separatrix or at rest, with margins in energy.
 
 Decided by energy, never by running. On a circle (elliptic reduction) a motion is bounded iff a barrier at
 least as high as its energy stands ahead, in the direction of the torque, within one turn: one turn later the
 tilted potential has fallen. On a hyperbola or parabola the potential grows on both sides, so all motions are
 bounded but those on one of the invariant planes Q = 0. Inputs are taken as exact; what doubles cannot decide
 is decided in many digits.
+
+A free body has the margin from the saddle omega* of speed s on its momentum sphere, where the first-order
+terms drop out of the difference of kinetic energies, and what is left has neither the large terms of the
+gyrostatic moment nor, to first order, the error of s:
+
+    margin = sum D_i (D_i - s)/(2 s) (omega_i - omega*_i)^2,     omega*_i = lambda_i/(s - D_i).
+
+About a middle axis without a gyrostatic moment s = D_i, and that component drops out. Other saddles lie
+between the least and the greatest moment, on a branch on either side of the middle one, along which |H| runs
+one way; s is measured from the middle moment, so that its distance from the pole there keeps its digits.
 """
 from __future__ import annotations
 

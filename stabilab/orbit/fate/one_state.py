@@ -1,36 +1,25 @@
-"""The fate of one state: margins in balls, ties decided exactly, free bodies, reasons.
+"""The fate of one state: margins in balls, ties decided exactly, reasons; no arrays.
 
-Is a state exactly on the separatrix? Algebra says so where precision never could.
+The orbit, its equilibria and its turning points (`one_orbit`) are asked with 64 bits first and in many digits
+where these leave a question open, so that every answer is certain to at least twelve digits.
 
-With a torque and a circle or hyperbola the answer is no, but for the equilibrium itself, by Lindemann's
-theorem (proof: docs/mathematics/separatrix.md). Without a torque, and on a parabola, everything is a rational
+Is a state exactly on the separatrix? With a torque and a circle or hyperbola it is not, but for the
+equilibrium itself, by Lindemann's theorem. Without a torque, and on a parabola, everything is a rational
 function of one root of a rational polynomial, and a greatest common divisor decides.
 
-Torque-free motion of a body, with a gyrostatic moment or without: the saddles on its momentum sphere, and the
-margin in energy.
-
-H = s omega at a permanent rotation. Where no component of lambda vanishes omega_i = lambda_i/(s - D_i), and
-on the sphere |H| = h the speeds s are the roots of the sextic
+A free body has the saddles on its momentum sphere. H = s omega at a permanent rotation; where no component of
+lambda vanishes omega_i = lambda_i/(s - D_i), and on the sphere |H| = h the speeds s are the roots of the
+sextic
 
     P(s) = (h(s)^2 - h^2) prod (s - D_i)^2,     h(s)^2 = sum s^2 lambda_i^2/(s - D_i)^2;
 
 components that vanish, and the shared factors of equal moments, drop out of both products. A root is a saddle
 iff s P'(s) prod (s - D_i) > 0, at a multiple root with the sign of P beyond it; one of even multiplicity is a
 fold. Where lambda_i = 0 there are the rotations s = D_i as well; they are saddles iff D_i lies strictly
-between the other moments. A state lies on a separatrix iff its energy is a saddle's, which a greatest common
-divisor decides exactly. Proofs: docs/mathematics/separatrix.md.
+between the other moments. The margin is the nearest saddle's energy minus the motion's, at the same momentum:
+positive where the motion has less energy than the saddle (without a wheel: turns about the major axis).
 
-The margin is the nearest saddle's energy minus the motion's, at the same momentum: no choice of axes enters.
-It is positive where the motion has less energy than the saddle (without a wheel: turns about the major axis),
-and negative where it has more.
-
-The fate of one state of a scene with a reduction, without arrays.
-
-The mechanics is that of `ball_orbit` (the orbit, its equilibria, its turning points); it is asked with 64
-bits first and in many digits where these leave a question open. So a single state needs no NumPy,
-every answer is certain to at least twelve digits, and near a separatrix there is no second formula to
-disagree with. Answers are those of `fate`, `extremes` and `period` for arrays: the same labels and reasons,
-numbers to rounding.
+Proofs: docs/mathematics/separatrix.md.
 """
 from __future__ import annotations
 

@@ -64,9 +64,6 @@ class Passing:
         """dt/dx."""
         return 1 / np.sqrt(2 * self.energy(x))
 
-    def offset(self, x):
-        return x
-
     def at(self, x):
         """(offset, W)."""
         return x, np.sqrt(2 * self.energy(x))
@@ -316,16 +313,10 @@ def _terms():
 def partial(a):
     """Z(a) for arrays with a >= SMOOTH: Z(a + 1) - Z(a) = a^(-1/2)."""
     x = 1 / a
-    x2, least = x * x, float(a.min())
-    total = 0.0
-    for coefficient in _terms()[_needed(least) - 1::-1]:
+    x2, total = x * x, 0.0
+    for coefficient in _terms()[::-1]:
         total = total * x2 + coefficient
     return np.sqrt(a) * (2 - 0.5 * x + total * x2)
-
-
-def _needed(least) -> int:
-    """Terms that count at a >= least."""
-    return TERMS if least < 100 else 4 if least < 1e4 else 2
 
 
 class SpinUp(Motion):
@@ -372,7 +363,7 @@ class SpinUp(Motion):
         self.a = (self.unit / late.values.ravel()) ** 2
         self.steep = max(math.ceil(SMOOTH - float(self.a.min())), 0)
         one_by_one = self.unit / np.sqrt(self.a + np.arange(self.steep)[:, None]) @ self.weights
-        self.table = np.concatenate([[0.0], np.cumsum(one_by_one)]).tolist()
+        self.table = np.concatenate([[0.0], np.cumsum(one_by_one)])
         self.passed = float(self.weights @ partial(self.a + self.steep))
         self.level = float(self.weights @ self.a) / TURN
 
@@ -388,24 +379,18 @@ class SpinUp(Motion):
         lengths = self.late.half * integral.sum(axis=1)
         xi = (y - self.late.low[n]) / self.late.half[n] - 1
         within = lengths[:n].sum() + self.late.half[n] * clenshaw(integral[n].tolist(), xi)
-        return self.run_up + self._turns_take(turns) + float(within)
+        return self.run_up + float(self._turns_take(np.array([turns]))[0] + within)
 
     # --- many turns on
-    def _turns_take(self, turns):
-        if turns <= self.steep:
-            return self.table[turns]
-        return self.table[-1] + self.unit * (float(self.weights @ partial(self.a + turns)) - self.passed)
-
     def _rates(self, turns):
         """dt/dx at the nodes (panels, points)."""
         return (self.unit / np.sqrt(self.a + turns)).reshape(-1, self.late.points)
 
-    def _turns(self, left) -> int:
-        """About how many turns are done in a time."""
-        if left < self.table[-1]:
-            return bisect_right(self.table, left) - 1
+    def _turns(self, left):
+        """About how many turns are done in times (n,)."""
         root = ((left - self.table[-1]) / self.unit + self.passed) / (2 * TURN)
-        return max(math.floor(root * root + 0.5 - self.level), self.steep)
+        return np.where(left < self.table[-1], np.searchsorted(self.table, left, side="right") - 1,
+                        np.maximum(np.floor(root * root + 0.5 - self.level), self.steep)).astype(float)
 
     def follow(self, times):
         passed = self.start + self.sense * times
@@ -444,32 +429,32 @@ class SpinUp(Motion):
     def _whole_turns(self, left):
         """(turns done at each time, dt/dx at the nodes of the turn after, times at its panels' ends, time
         within it)."""
-        turns = self._settled(left, np.array([self._turns(t) for t in left.tolist()], float))
+        turns = self._settled(left, self._turns(left))
         rates = self.unit / np.sqrt(self.a + turns[:, None])
         ends = np.cumsum((rates * self.weights).reshape(len(left), -1, self.late.points).sum(axis=2), axis=1)
-        return turns, rates, ends, np.clip(left - self._many_turns_take(turns), 0.0, ends[:, -1])
+        return turns, rates, ends, np.clip(left - self._turns_take(turns), 0.0, ends[:, -1])
 
     def _settled(self, left, turns):
         """The turns done at times (n,), from about so many: by steps that double, then by halves. Where a
         turn's work is small against the hills the guess may be far off."""
         low, high, step, rows = turns, turns + 1, 1.0, np.arange(len(left))
-        while len(rows := rows[(left[rows] < self._many_turns_take(low[rows])) & (low[rows] > 0)]):
+        while len(rows := rows[(left[rows] < self._turns_take(low[rows])) & (low[rows] > 0)]):
             high[rows], low[rows], step = low[rows], np.maximum(low[rows] - step, 0.0), 2 * step
         step, rows = 1.0, np.arange(len(left))
-        while len(rows := rows[left[rows] >= self._many_turns_take(high[rows])]):
+        while len(rows := rows[left[rows] >= self._turns_take(high[rows])]):
             low[rows], high[rows], step = high[rows], high[rows] + step, 2 * step
         middle = np.floor(0.5 * (low + high))
         # beyond 2^53 turns neighbours are not told apart
         while len(rows := np.nonzero((low < middle) & (middle < high))[0]):
-            past = left[rows] >= self._many_turns_take(middle[rows])
+            past = left[rows] >= self._turns_take(middle[rows])
             low[rows], high[rows] = np.where(past, middle[rows],
                                              low[rows]), np.where(past, high[rows], middle[rows])
             middle = np.floor(0.5 * (low + high))
         return low
 
-    def _many_turns_take(self, turns):
+    def _turns_take(self, turns):
         """Times of whole turns (n,)."""
-        done = np.array(self.table)[np.minimum(turns, self.steep).astype(int)]
+        done = self.table[np.minimum(turns, self.steep).astype(int)]
         many = turns > self.steep
         if many.any():
             a, weights = self._few
