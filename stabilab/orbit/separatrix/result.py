@@ -21,7 +21,7 @@ class Branch(Compared):
     fold outward, columns run once around the loop from the saddle (column 0) back to the saddle (column -1).
     residual: (n, m) distance from the surface in energy, relative to what the size of the point, rounded,
     moves in it. saddle: (n, 3) the saddle equilibria at the rows; centre: (n, 3) the enclosed centres. error:
-    estimate, from the grid's second differences, of the largest distance of flat facets from the surface, in
+    estimate, from the grid's curvatures, of the largest distance of flat facets from the surface, in
     the unit of the points; cut: +1 where facets of the first half of the columns are cut from (r, c) to (r +
     1, c + 1), -1 the other way; the second half mirrors it.
     """
