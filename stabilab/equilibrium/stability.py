@@ -117,12 +117,12 @@ def eigenvalues(m: Fraction, n: Fraction, shift: Fraction = Fraction(0)) -> tupl
         return (real(Fraction(0)), *((complex(float(shift), float(root)), complex(float(shift), -float(root)))
                                      if m > 0 else (real(root), real(-root))))
     r = max(real_roots(Poly((n, m, 0, 1)), BITS), key=abs)  # a simple one, of the sign of -n
-    # the other two solve z^2 + r z + (r^2 + m) = 0; the sign of its discriminant is that of -4 m^3 - 27 n^2
+    # the other two are -r/2 +- half their distance, whose square times (3 r^2 + m)^2 is the discriminant
     kind = -4 * m**3 - 27 * n * n
     if not kind:
         double = real(-3 * n / (2 * m))
         return real(3 * n / m), double, double
-    half, gap = -r / 2, sqrt_fraction(abs(3 * r * r / 4 + m))
+    half, gap = -r / 2, sqrt_fraction(abs(kind) / (4 * (3 * r * r + m)**2))
     if kind < 0:
         middle = real(half).real
         return real(r), complex(middle, float(gap)), complex(middle, -float(gap))

@@ -100,11 +100,12 @@ def test_cubic_roots_are_correct_to_the_last_digits(m0, me, n0, ne):
 @pytest.mark.parametrize("a, b", [(1, 1), (-3, -3), (1, -2), (5, 2), (7, -7),
                                   (F(1, 3), F(1, 3) + F(1, 10**15))])
 def test_three_real_roots_are_told_as_they_are(a, b):
-    """(z - a)(z - b)(z + a + b); beside a double root of 1, one part in 1e20, a pair 1 +- 1e-10/sqrt(3) i."""
+    """(z - a)(z - b)(z + a + b); beside a double root of 1, one part in 1/h^2, a pair 1 +- h/sqrt(3) i."""
     found = eigenvalues(F(a * b - (a + b)**2), F(a * b * (a + b)))
     assert sorted(z.real for z in found) == sorted(map(float, (a, b, -a - b))) and not any(z.imag for z in found)
-    beside = eigenvalues(F(-3), 2 + F(1, 10**20))
-    assert beside[1].imag == pytest.approx(1e-10 / math.sqrt(3), rel=1e-9)
+    for power in (20, 70, 300):
+        beside = eigenvalues(F(-3), 2 + F(1, 10**power))
+        assert beside[1].imag == pytest.approx(10.0 ** (-power // 2) / math.sqrt(3), rel=1e-9)
 
 
 @settings(max_examples=200, deadline=None)
