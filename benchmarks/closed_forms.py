@@ -4,8 +4,8 @@ from __future__ import annotations
 import numpy as np
 
 from stabilab.integrate.to_heyoka import TAYLOR_TOLERANCE
-from stabilab.theories.charged.closed_form import solution
-from stabilab.theories.charged.modes import ChargedBody
+from stabilab.theories.charged import solution
+from stabilab.theories.charged_modes import ChargedBody
 
 from .rows import Row, each
 from .timing import side_by_side

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from stabilab.integrate.reference import reference, relative_errors
-from stabilab.orbit.flow.flow import reduced_motion
+from stabilab.orbit.flow import reduced_motion
 
 from .contestants import scaled_minor_system
 from .rows import SCENE, A, B, Row, each

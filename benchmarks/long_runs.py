@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from stabilab.answers.extremes import period
+from stabilab.answers.fate import period
 from stabilab.answers.simulate import trajectory
 from stabilab.physics.scene import ScaledGyrostat
 from stabilab.show import style

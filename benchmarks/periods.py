@@ -4,7 +4,7 @@ from __future__ import annotations
 import numpy as np
 
 from stabilab import period
-from stabilab.orbit.extremes_and_periods import extremes_and_periods
+from stabilab.orbit.extremes_arrays import extremes_and_periods
 
 from .contestants import EventExtremes, TurningTimes
 from .orbit_extremes import SciPyEvents, bounded_states

@@ -16,7 +16,7 @@ from functools import partial
 import numpy as np
 
 from stabilab import Fate, extremes, fate, period, separatrix
-from stabilab.show.surface.mesh import triangulate
+from stabilab.show.surface import triangulate
 
 from .contestants import BatchFate, SceneEvents, TurningTimes
 from .random_scenes import Drawn, drawn

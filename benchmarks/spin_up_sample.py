@@ -16,7 +16,7 @@ import time
 from collections import Counter
 from pathlib import Path
 
-from stabilab.unreduced.enclosure.run import proved
+from stabilab.unreduced.enclosure import proved
 from stabilab.unreduced.spin_up.follow import spin_up
 
 from .rows import numba_available

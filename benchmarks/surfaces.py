@@ -4,7 +4,7 @@ from __future__ import annotations
 import numpy as np
 
 from stabilab import fate, separatrix
-from stabilab.show.surface.mesh import triangulate
+from stabilab.show.surface import triangulate
 
 from .rows import SCENE, A, Row
 from .timing import side_by_side

@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING, Any
 from .version import __version__ as __version__
 
 if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type checkers
-    from .answers.attitude.ask import attitude as attitude
+    from .answers.attitude import attitude as attitude
     from .answers.chaos import chaos as chaos
-    from .answers.circular_orbit.ask import circular_orbit as circular_orbit
-    from .answers.dissipation.ask import flat_spin as flat_spin
+    from .answers.circular_orbit import circular_orbit as circular_orbit
+    from .answers.dissipation import flat_spin as flat_spin
     from .answers.equilibria import equilibria as equilibria
-    from .answers.extremes import extremes as extremes
-    from .answers.extremes import period as period
+    from .answers.fate import extremes as extremes
     from .answers.fate import fate as fate
     from .answers.fate import fate_grid as fate_grid
+    from .answers.fate import period as period
     from .answers.motion import motion as motion
-    from .answers.passage.run import TimeTo as TimeTo
+    from .answers.passage import TimeTo as TimeTo
     from .answers.simulate import simulate as simulate
     from .answers.simulate import trajectory as trajectory
     from .answers.stuck.ask import stuck as stuck
@@ -35,7 +35,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .maps.bifurcation.ask import bifurcation as bifurcation
     from .orbit.result import Fate as Fate
     from .orbit.separatrix.branches import separatrix as separatrix
-    from .papers.report.report import report as report
+    from .papers.report import report as report
     from .physics.effects.body_force import BodyForce as BodyForce
     from .physics.effects.charge import Charge as Charge
     from .physics.effects.constant_torque import ConstantTorque as ConstantTorque
@@ -57,7 +57,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .show.maps.atlas import atlas as atlas
     from .show.maps.basins import basin as basin
     from .show.maps.sweep import sweep as sweep
-    from .theories.comparison import compare as compare
+    from .theories.theory import compare as compare
     from .theories.theory import theory as theory
     from .unreduced.spin_up.follow import spin_up as spin_up
 
@@ -65,20 +65,20 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
 _HOME = {
     "load": "case.read", "example": "case.source", "Case": "case.read",
     "load_burning": "case.read", "burn": "answers.stuck.burn",
-    "load_orbiting": "case.read", "circular_orbit": "answers.circular_orbit.ask",
-    "flat_spin": "answers.dissipation.ask",
+    "load_orbiting": "case.read", "circular_orbit": "answers.circular_orbit",
+    "flat_spin": "answers.dissipation",
     "Body": "physics.scene", "Scene": "physics.scene", "ScaledGyrostat": "physics.scene",
     "Gyrostat": "physics.effects.gyrostat", "ConstantTorque": "physics.effects.constant_torque",
     "Fate": "orbit.result",
     "equilibria": "answers.equilibria", "chaos": "answers.chaos",
     "fate": "answers.fate", "fate_grid": "answers.fate", "motion": "answers.motion",
-    "attitude": "answers.attitude.ask", "extremes": "answers.extremes", "period": "answers.extremes",
+    "attitude": "answers.attitude", "extremes": "answers.fate", "period": "answers.fate",
     "spin_up": "unreduced.spin_up.follow",
     "separatrix": "orbit.separatrix.branches", "stuck": "answers.stuck.ask",
-    "time_to": "answers.time_to", "TimeTo": "answers.passage.run",
-    "when": "answers.when", "report": "papers.report.report",
+    "time_to": "answers.time_to", "TimeTo": "answers.passage",
+    "when": "answers.when", "report": "papers.report",
     "trajectory": "answers.simulate", "ensemble": "integrate.ensemble",
-    "simulate": "answers.simulate", "compare": "theories.comparison", "theory": "theories.theory",
+    "simulate": "answers.simulate", "compare": "theories.theory", "theory": "theories.theory",
     "Charge": "physics.effects.charge", "Resistance": "physics.effects.resistance",
     "LiquidCavity": "physics.effects.liquid_cavity",
     "NewtonianField": "physics.effects.newtonian_field", "Gravity": "physics.effects.gravity",

@@ -17,7 +17,7 @@ import pytest
 from stabilab import load
 from stabilab.answers.motion import motion
 from stabilab.numbers.numba_door import installed
-from stabilab.orbit.extremes_and_periods import extremes_and_periods
+from stabilab.orbit.extremes_arrays import extremes_and_periods
 from stabilab.unreduced.spin_up.certificate import tests_of
 from stabilab.unreduced.spin_up.follow import spin_up_many
 from tests.shared import CASES

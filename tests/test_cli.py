@@ -18,7 +18,7 @@ import pytest
 from stabilab import cli
 from stabilab.commands import one_case
 from stabilab.errors import CaseError
-from stabilab.show.terminal.groups import GROUPS
+from stabilab.show.command_groups import GROUPS
 
 ROOT = Path(__file__).parents[1]
 CASES = sorted((ROOT / "cases").glob("*.toml"))
@@ -317,8 +317,8 @@ def test_show_tells_equations_of_a_sweep_once_and_again_where_a_term_is_gone(sta
 
 
 def test_surface_without_a_renderer_writes_the_meshes_and_ends_with_4(stabilab, tmp_path, monkeypatch):
-    from stabilab.show.surface import render_probe
-    monkeypatch.setattr("stabilab.show.surface.write.probe",
+    from stabilab.show import render_probe
+    monkeypatch.setattr("stabilab.show.surface.probe",
                         lambda: render_probe.Renderer(False, "no GL here"))
     code, _, err = stabilab("surface", MINOR, "--out", tmp_path)
     assert code == 4 and "no GL here" in err and render_probe.CURE in err
@@ -411,8 +411,8 @@ def test_files_of_a_sweep_bear_the_labels_of_its_combinations(stabilab, swept, c
 
 
 def test_surfaces_of_a_sweep_share_a_folder_and_a_manifest(stabilab, swept, monkeypatch):
-    from stabilab.show.surface import render_probe
-    monkeypatch.setattr("stabilab.show.surface.write.probe",
+    from stabilab.show import render_probe
+    monkeypatch.setattr("stabilab.show.surface.probe",
                         lambda: render_probe.Renderer(False, "no GL here"))
     code, out, err = stabilab("surface", "two.toml", "--out", "made", "--json")
     assert code == 4 and [row["case"]
@@ -424,7 +424,7 @@ def test_surfaces_of_a_sweep_share_a_folder_and_a_manifest(stabilab, swept, monk
 
 
 def test_a_report_has_every_combination_of_a_sweep(swept):
-    from stabilab.papers.report.report import of_all
+    from stabilab.papers.report import of_all
     assert [case.name for case in of_all(["six.toml", "two.toml"])] == [*(f"six{label}" for label in LABELS),
                                                                         "two-1", "two-2"]
 

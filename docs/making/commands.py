@@ -14,7 +14,7 @@ their units.
 
 def text() -> str:
     """A table a group of the help: question, example."""
-    from stabilab.show.terminal.groups import GROUPS
+    from stabilab.show.command_groups import GROUPS
     parts = [HEAD]
     for title, (file, questions) in GROUPS.items():
         examples = examples_of(file)

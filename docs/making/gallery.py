@@ -40,7 +40,7 @@ LEAD = (
 def write(docs: Path, cases: list[Path] | None = None) -> list[str]:
     """Write gallery.md, gallery/<group>.md and gallery/<case>.png; the names of all cases, in the order of
     the pages. cases: None for all."""
-    from stabilab.papers.report.report import OUTCOMES
+    from stabilab.papers.report import OUTCOMES
     entries = [entry(path, docs / FOLDER) for path in cases or sorted((ROOT / "cases").glob("*.toml"))]
     grouped = {title: sorted((one for one in entries if one["group"] == title), key=lambda one: one["scene"])
                for title in OUTCOMES.values()}
@@ -73,11 +73,11 @@ def made(path: Path, folder: Path) -> dict:
     """Title, source, outcome, number of its kind of scene, answer and kind of picture of a case, which is
     drawn. Of a sweep the first combination is drawn."""
     from stabilab.case.read import load_all
-    from stabilab.papers.report.report import GROUPS, OUTCOMES, group
+    from stabilab.papers.report import GROUPS, OUTCOMES, group
     from stabilab.show.plot import subject as which
     from stabilab.show.plot import write
     from stabilab.show.plot.subject import subject
-    from stabilab.show.terminal.letters import greek, written
+    from stabilab.show.terminal import greek, written
     from stabilab.show.text.headline import headline, look
     case, *others = load_all(path)
     one = subject(case)

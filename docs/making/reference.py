@@ -22,26 +22,27 @@ GROUPS = {
     "Errors": ("InputError",),
 }
 # What the questions answer, and the plots: name -> module
-ANSWERS = {"FateResult": "stabilab.orbit.fate.result", "Motion": "stabilab.orbit.result",
+ANSWERS = {"FateResult": "stabilab.orbit.fate_arrays", "Motion": "stabilab.orbit.result",
            "Equilibria": "stabilab.equilibrium.result",
            "EquilibriumPoint": "stabilab.equilibrium.result",
            "EquilibriumCurve": "stabilab.equilibrium.result",
-           "CurveSegment": "stabilab.equilibrium.result", "Separatrix": "stabilab.orbit.separatrix.result",
-           "Branch": "stabilab.orbit.separatrix.result",
+           "CurveSegment": "stabilab.equilibrium.result",
+            "Separatrix": "stabilab.orbit.separatrix.homoclinic",
+           "Branch": "stabilab.orbit.separatrix.homoclinic",
            "SpinUp": "stabilab.unreduced.spin_up.result", "Trajectory": "stabilab.integrate.trajectory",
            "Simulation": "stabilab.answers.simulate",
-           "Ensemble": "stabilab.integrate.ensemble", "Stuck": "stabilab.answers.stuck.result",
-           "Attitude": "stabilab.answers.attitude.result", "Crossings": "stabilab.answers.events",
+           "Ensemble": "stabilab.integrate.ensemble", "Stuck": "stabilab.answers.stuck.margins",
+           "Attitude": "stabilab.answers.attitude_result", "Crossings": "stabilab.answers.when",
            "Burned": "stabilab.answers.stuck.burn",
            "Closed": "stabilab.answers.stuck.burn",
-           "Latest": "stabilab.answers.stuck.closing",
-           "CircularOrbit": "stabilab.answers.circular_orbit.ask",
-           "OrbitEquilibria": "stabilab.equilibrium.circular_orbit.result",
-           "OrbitEquilibrium": "stabilab.equilibrium.circular_orbit.result",
-           "MomentumSpan": "stabilab.equilibrium.circular_orbit.momenta",
-           "FlatSpin": "stabilab.answers.dissipation.ask",
-           "Span": "stabilab.answers.dissipation.ask",
-           "Comparison": "stabilab.theories.comparison"}
+           "Latest": "stabilab.answers.stuck.burn",
+           "CircularOrbit": "stabilab.answers.circular_orbit",
+           "OrbitEquilibria": "stabilab.equilibrium.circular_orbit",
+           "OrbitEquilibrium": "stabilab.equilibrium.circular_orbit",
+           "MomentumSpan": "stabilab.equilibrium.circular_orbit",
+           "FlatSpin": "stabilab.answers.dissipation",
+           "Span": "stabilab.answers.dissipation",
+           "Comparison": "stabilab.theories.theory"}
 
 
 def text() -> str:

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
-from ..caveat import Caveat
+from ..errors import Caveat
 from ..orbit.result import Fate, Motion
 from ..physics.coefficients import effective
 from ..physics.scene import AnyScene, aligned, torque_axis

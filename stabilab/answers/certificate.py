@@ -1,4 +1,6 @@
-"""A certificate: what was found of a case, as exact numbers and brackets that separate code can check.
+"""The certificate of a case: claims that separate code can check.
+
+A certificate: what was found of a case, as exact numbers and brackets that separate code can check.
 
 Equilibria come from exact algebra (rationals and roots of polynomials), fate, extremes and period from ball
 arithmetic; nothing here is a rounded guess. What cannot be certified is left out and named in `uncertified`.
@@ -22,10 +24,9 @@ from ..equilibrium.gyrostat import (
 )
 from ..equilibrium.stability import curve_with_verdicts, cuts_of, isolated_point, pencil
 from ..numbers.balls import fraction
-from ..orbit.extremes.one_state import extreme_balls
-from ..orbit.fate.one_state import fate_of
+from ..orbit.extremes import extreme_balls, period_ball
+from ..orbit.fate import fate_of
 from ..orbit.one_orbit import Orbit
-from ..orbit.period import period_ball
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate
 from ..physics.scene import AnyScene

@@ -20,11 +20,10 @@ import numpy as np
 
 from ..orbit.result import Fate
 from ..physics.scene import AnyScene
-from ..unreduced.enclosure import kernel
-from ..unreduced.enclosure.run import Course, allowed
-from ..unreduced.spin_up.certificate import natural, tests_of
+from ..unreduced import enclosure_kernel
+from ..unreduced.enclosure import Course, allowed
+from ..unreduced.spin_up.certificate import closed, natural, tests_of
 from ..unreduced.spin_up.follow import spin_up
-from ..unreduced.spin_up.symmetric import closed
 
 # relative, of what is told of gain and size: another's rounding of the roots in them
 ROOM = Fraction(1, 10**9)
@@ -100,7 +99,7 @@ def _box(course: Course | None, t: float, state: Sequence[Any]) -> Any:
     course.advance(t, min(STEPS, allowed()) - course.steps)
     now = course.now
     return (now.middle, float(np.abs(now.rest).sum() + now.radius.sum())
-            * (1 + 2.0**-40)) if course.status == kernel.DONE else None
+            * (1 + 2.0**-40)) if course.status == enclosure_kernel.DONE else None
 
 
 def _holding(tests: Any, ways: list[tuple[str, Any, tuple[int, int]]], box: Any,

@@ -12,8 +12,7 @@ import numpy as np
 from ..errors import InputError
 from ..orbit.result import Fate
 from ..physics.coefficients import effective
-from ..physics.ending import hold_on
-from ..physics.scene import AnyScene, slices
+from ..physics.scene import AnyScene, hold_on, slices
 from ..physics.states import REST, checked_starts, float_array, start_of
 from ..physics.to_numpy import equations_of
 from ..representation import Shown

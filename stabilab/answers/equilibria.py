@@ -18,7 +18,7 @@ BY_KIND = {
     "dissipative": ("dissipative", "dissipative_equilibria"),
     "directed": ("field_states", "directed_equilibria"),
     "directed and dissipative": ("dissipative", "held_in_a_field"),
-    "eddy currents": ("eddy", "eddy_equilibria"),
+    "eddy currents": ("dissipative", "eddy_equilibria"),
     "wheel motor": ("wheel_motor", "equilibria_with_a_motor"),
 }
 

@@ -37,12 +37,12 @@ def _acting(scene: AnyScene) -> int:
 # otherwise.
 KINDS = {
     # liquid, medium, field: rows are refused, with the effect's name
-    "bounds": Kind(lambda scene: not scene.plain, "unreduced.bounds", "orbit.extremes_and_periods"),
-    "orbit": Kind(lambda scene: reduce(scene) is not None, "orbit.one_state", "orbit.extremes_and_periods"),
+    "bounds": Kind(lambda scene: not scene.plain, "unreduced.bounds", "orbit.extremes_arrays"),
+    "orbit": Kind(lambda scene: reduce(scene) is not None, "orbit.one_state", "orbit.extremes_arrays"),
     # a wheel with no zero component
     "free": Kind(lambda scene: _acting(scene) == 0, "unreduced.free_gyrostat", "unreduced.free_gyrostat"),
     # a wheel along the torque
-    "growth": Kind(lambda scene: _acting(scene) == 1, "unreduced.growth.law", "unreduced.growth.law"),
+    "growth": Kind(lambda scene: _acting(scene) == 1, "unreduced.growth", "unreduced.growth"),
     # in the plane of two equal moments
     "aligned": Kind(lambda scene: aligned(scene) is not None, "unreduced.aligned", "unreduced.aligned"),
     "off axis": Kind(lambda scene: True, "unreduced.off_axis", "unreduced.off_axis", follows=True),

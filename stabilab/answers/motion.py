@@ -8,8 +8,8 @@ from fractions import Fraction
 from typing import Any
 
 from ..integrate.quadratic_series import largest
-from ..orbit.energy_integral import energy_integral
-from ..orbit.far_states import in_range
+from ..orbit.one_state import in_range
+from ..orbit.reduction import energy_integral
 from ..orbit.result import Fate, Motion
 from ..physics.coefficients import content, effective, gyrostat_scene, limits_of, split
 from ..physics.scene import AnyScene

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..case.attitude import attitude_of
+from ..case.sections import attitude_of
 from ..errors import InputError
 from ..integrate.trajectory import SCIPY_METHODS, Trajectory, departures, integrated, watcher
-from ..orbit.flow.flow import axis_way, reduced_motion
+from ..orbit.flow import axis_way, reduced_motion
 from ..physics.equations import Equations, rotation
 from ..physics.scene import ATTITUDES, AnyScene, Scene
 from ..physics.states import (

@@ -18,11 +18,10 @@ from ..integrate.reference import GUARD, Recursion, one_run
 from ..numbers.balls import narrowed, working
 from ..numbers.vectors import dot
 from ..physics.coefficients import effective
-from ..physics.ending import hold_on
-from ..physics.scene import AnyScene, QuadraticForm
+from ..physics.scene import AnyScene, QuadraticForm, hold_on
 from ..physics.states import equations_and_start
-from .digits.checked import MOST_DECIMALS, checked_digits
-from .passage.enclosed import flow_of, own_unit
+from .digits_asked import MOST_DECIMALS, checked_digits
+from .limit import flow_of, own_unit
 
 # --- A motion in many digits and how well each of them is known
 PROVED, TWICE = "proved", "two precisions agree"

@@ -26,11 +26,10 @@ from ..physics.coefficients import three_floats
 from ..physics.scene import AnyScene, Scene, torque_axis
 from ..validation import checked_scene
 from .caveats import STEADY
-from .extremes import extremes
-from .fate import fate
+from .fate import extremes, fate
 from .kinds import kind_of
-from .passage.limit import Limit, asked
-from .passage.run import run_once, stays_below
+from .limit import Limit, asked
+from .passage import run_once, stays_below
 from .time_to import time_to
 
 DEGREE = math.pi / 180  # taken where nothing states an angle

@@ -12,7 +12,7 @@ from ..numbers.units import FORCE, INERTIA, half_digit, pi
 from ..numbers.vectors import Exact3, cross, dot
 from ..physics.effects import effect_class
 from ..physics.scene import INSIDE, ROUNDING, Body, along_principal_axes, slack_of
-from . import burns
+from . import sections
 from .table import Faults, Table, Written, described, plus_minus, states_uncertainty
 
 # --- [body] of a case file: moments, a full tensor, or moments beside products of inertia; mass and centre
@@ -146,7 +146,7 @@ def _half(value: object) -> Fraction:
 # --- What a spacecraft carries, as a case file states it: [[thrusters]], [[wheels]] and [limits]
 ZERO3 = (Fraction(0),) * 3
 THRUSTER = ("name", "position", "direction", "force", "misalignment", "force_tolerance", "stuck",
-            *burns.KEYS)
+            *sections.BURN_KEYS)
 WHEEL = ("name", "axis", "momentum", "inertia", "speed")
 SAME = Fraction(1, 10**6)  # relative: momentum and inertia x speed given to six digits agree
 
@@ -168,7 +168,7 @@ class Thruster:
     stuck: bool
     torque: Exact3
     arm: Exact3 = ZERO3
-    burn: burns.Burn | None = None
+    burn: sections.Burn | None = None
 
 
 @dataclass(frozen=True)
@@ -285,7 +285,7 @@ def _thruster(table: Table, otherwise: str, centre: Exact3) -> Thruster | None:
         table.fault(f"expected the half-angle of a cone below 90 deg, got "
                     f"{float(angle * 180 / pi()):.6g} deg; "
                     'a number alone is in rad, write "1 deg"', "misalignment")
-    burn = burns.burn_of(table)
+    burn = sections.burn_of(table)
     if not complete or None in (position, direction, force):
         return None
     raw, length = direction

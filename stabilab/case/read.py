@@ -10,8 +10,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..caveat import Caveat
-from ..errors import CaseError, InputError, printable
+from ..errors import CaseError, Caveat, InputError, printable
 from ..numbers.exact import floats, sqrt_fraction
 from ..numbers.principal import PrincipalAxes
 from ..numbers.vectors import Exact3, Float3, dot
@@ -20,7 +19,6 @@ from ..physics.effects import REGISTRY, effect_class
 from ..physics.effects.base import effect_words
 from ..physics.scene import INSIDE, Body, ScaledGyrostat, Scene
 from ..validation import came, checked_span
-from .attitude import judge_attitude, vertical_of
 from .body import (
     Limits,
     Thruster,
@@ -36,10 +34,18 @@ from .body import (
     turned_motion,
     wheels_of,
 )
-from .burns import KEYS, ONLY, Segment, segments
 from .lines import KeyLines, key_lines
-from .orbit import judge_orbit, rate_squared
 from .questions import BurningQuestions, Questions
+from .sections import (
+    BURN_KEYS,
+    BURN_ONLY,
+    Segment,
+    judge_attitude,
+    judge_orbit,
+    rate_squared,
+    segments,
+    vertical_of,
+)
 from .source import combinations, parsed, place, source_text, swept
 from .table import Faults, Table, Uncertain, described, did_you_mean, dotted, expected
 from .write import data_of_scene, plain, text_of
@@ -287,7 +293,7 @@ def _judge_burns(top: Table, burning: bool):
     found = _scheduled(top.data, top.faults)
     if not burning:
         for table, keys in found:
-            table.fault(ONLY.format(", ".join(keys)), keys[0])
+            table.fault(BURN_ONLY.format(", ".join(keys)), keys[0])
         return
     if not found and not top.faults.problems:
         top.fault('no thruster fires on a schedule: give one of [[thrusters]] start = 0 in place of stuck, '
@@ -302,7 +308,7 @@ def _scheduled(data: dict, faults: Faults) -> list[tuple[Table, list[str]]]:
     stated = data.get("thrusters")
     return [(Table(("thrusters", n), one, faults), keys)
             for n, one in enumerate(stated if isinstance(stated, list) else ())
-            if isinstance(one, dict) and (keys := [key for key in KEYS if key in one])]
+            if isinstance(one, dict) and (keys := [key for key in BURN_KEYS if key in one])]
 
 
 def load_all(path) -> list[Case]:

@@ -13,7 +13,7 @@ from typing import Annotated  # typer reads the annotations at run time
 import typer
 
 from ..errors import BAD_INPUT, BUG, INTERRUPTED, OK, StabilabError
-from ..show.terminal.groups import GROUPS, Grouped
+from ..show.command_groups import GROUPS, Grouped
 from ..streams import LOST, OutputLost, guarded
 from ..version import __version__
 
@@ -75,8 +75,8 @@ def asked_for(words) -> typer.Typer:
 
 def say(text: str):
     """A message for people to stderr, wrapped to a terminal."""
-    from ..show.terminal import page
-    page.say(text)
+    from ..show import terminal
+    terminal.say(text)
 
 
 def main(silence: float | None = None) -> None:

@@ -28,7 +28,7 @@ commands = typer.Typer()
 
 
 @commands.command()
-@opens("maps.sweep")
+@opens("pictures.sweep")
 def sweep(
         case: CaseFile,
         vary: Annotated[list[str] | None, option("KEY=VALUES",
@@ -58,7 +58,7 @@ def sweep(
 
 
 @commands.command()
-@opens("maps.atlas")
+@opens("pictures.atlas")
 def atlas(
         case: CaseFile,
         torque: Annotated[str | None, option(
@@ -90,7 +90,7 @@ def atlas(
 
 
 @commands.command()
-@opens("maps.basin")
+@opens("pictures.basin")
 def basin(
         case: CaseFile,
         vary: Annotated[list[str] | None, option("KEY=FROM:TO[:N]",
@@ -112,7 +112,7 @@ def basin(
 
 
 @commands.command()
-@opens("maps.bifurcation")
+@opens("pictures.bifurcation")
 def bifurcation(
         case: CaseFile,
         vary: Annotated[list[str] | None, option("KEY=FROM:TO",

@@ -47,7 +47,7 @@ def classify(
 
 
 @commands.command()
-@opens("questions.answer", question="fate")
+@opens("classify.answer", question="fate")
 def fate(
         cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False,
         follow: Follow = None, tilt: Tilt = None, certify: Prove = False, units: UnitsOption = None,
@@ -62,7 +62,7 @@ def fate(
 
 
 @commands.command()
-@opens("questions.answer", question="extremes")
+@opens("classify.answer", question="extremes")
 def extremes(
         cases: CaseFiles, json: Json = False, csv: Csv = False, digits: Digits = None, strict: Strict = False,
         follow: Follow = None, units: UnitsOption = None, why: Why = False):
@@ -73,7 +73,7 @@ def extremes(
 
 
 @commands.command()
-@opens("questions.answer", question="period")
+@opens("classify.answer", question="period")
 def period(
         cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False,
         units: UnitsOption = None, why: Why = False):
@@ -84,7 +84,7 @@ def period(
 
 
 @commands.command()
-@opens("questions.attitude")
+@opens("classify.attitude")
 def attitude(
         cases: CaseFiles, json: Json = False,
         digits: Annotated[int | None, option(
@@ -97,7 +97,7 @@ def attitude(
 
 
 @commands.command()
-@opens("when.when")
+@opens("stuck.when")
 def when(
         cases: CaseFiles,
         rate: Annotated[str | None, option(
@@ -157,7 +157,7 @@ def burn(
 
 
 @commands.command(name="flat-spin")
-@opens("flat_spin.flat_spin")
+@opens("stuck.flat_spin")
 def flat_spin(
         case: CaseFile,
         within: Annotated[str, option(
@@ -174,7 +174,7 @@ def flat_spin(
 
 
 @commands.command()
-@opens("orbit.orbit")
+@opens("stuck.orbit")
 def orbit(
         case: CaseFile,
         up_to: Annotated[str | None, option("MOMENTUM",

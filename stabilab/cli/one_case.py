@@ -24,7 +24,7 @@ def show(case: CaseFile):
 
 
 @commands.command()
-@opens("accuracy.compare")
+@opens("one_case.compare")
 def compare(
         case: CaseFile, order: Order = None,
         out: Annotated[Path | None, option("FILE.csv", "Write the errors over time.")] = None,
@@ -38,7 +38,7 @@ def compare(
 
 
 @commands.command()
-@opens("accuracy.precision")
+@opens("one_case.precision")
 def precision(
         case: CaseFile, json: Json = False, csv: Csv = False,
         out: Annotated[Path | None, option(

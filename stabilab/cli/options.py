@@ -10,7 +10,7 @@ from typing import Annotated, Any  # typer reads the annotations at run time
 import typer
 
 from .. import commands
-from ..show.terminal import completion
+from ..show import command_groups
 
 
 def option(metavar: str, words: str | None = None, *names: str, **more: Any) -> Any:
@@ -28,8 +28,9 @@ def argument(metavar: str, words: str, **more: Any) -> Any:
     return typer.Argument(metavar=metavar, help=words, show_default=False, **more)
 
 
-CaseFile = Annotated[Path, argument("CASE", "A case file (TOML).", autocompletion=completion.cases)]
-CaseFiles = Annotated[list[Path], argument("CASE...", "Case files (TOML).", autocompletion=completion.cases)]
+CaseFile = Annotated[Path, argument("CASE", "A case file (TOML).", autocompletion=command_groups.cases)]
+CaseFiles = Annotated[list[Path], argument("CASE...", "Case files (TOML).",
+                                           autocompletion=command_groups.cases)]
 Json = Annotated[bool, flag("--json", "JSON on stdout instead of text.")]
 Csv = Annotated[bool, flag("--csv", "CSV on stdout instead of text.")]
 Digits = Annotated[int | None, option("N",
@@ -47,7 +48,7 @@ Tilt = Annotated[str | None, option("ANGLE",
 UnitsOption = Annotated[str | None, option("UNIT",
     "Of rates in text: deg (deg/s), deg/day, rpm, rev/s, or si (rad/s, and all times in s). Default: "
     "[output] units of the case, else deg; deg/day for a free body below 0.01 deg/s.",
-    autocompletion=completion.units)]
+    autocompletion=command_groups.units)]
 Si = Annotated[bool, flag("--si", "The same as --units si.", hidden=True)]
 Why = Annotated[bool, flag("--why", "With proofs, derivations and algebra.", "-v")]
 Strict = Annotated[bool, flag("--strict",

@@ -7,7 +7,7 @@ from typing import Annotated  # typer reads the annotations at run time
 
 import typer
 
-from ..show.terminal import completion
+from ..show import command_groups
 from .options import CaseFile, Folder, Json, argument, flag, opens, option
 
 commands = typer.Typer()
@@ -18,7 +18,7 @@ commands = typer.Typer()
 def verify(
         certificate: Annotated[Path, argument("CERTIFICATE",
             "A certificate.json of classify --certify or bifurcation --certify.",
-            autocompletion=completion.certificates)],
+            autocompletion=command_groups.certificates)],
         case: Annotated[Path | None, option(
             "CASE.toml", "The case it must be of: exit with 5 where scene or state differ.")] = None,
         json: Json = False,
@@ -54,7 +54,7 @@ def reference(
 def audit(
         paper: Annotated[str | None, argument("[PAPER]",
             "A paper on record or a file of claims, .toml; default: all papers.",
-            autocompletion=completion.audited)] = None,
+            autocompletion=command_groups.audited)] = None,
         equation: Annotated[str | None, option("N", "One equation or claim, as 17 or text-8a.")] = None,
         json: Json = False,
         out: Annotated[Path | None, option(
@@ -71,7 +71,7 @@ def audit(
 @opens("papers.validate")
 def validate(
         source: Annotated[str | None, argument("[SOURCE]",
-            "nesc, basilisk, orekit or 42; default: all.", autocompletion=completion.sources)] = None,
+            "nesc, basilisk, orekit or 42; default: all.", autocompletion=command_groups.sources)] = None,
         json: Json = False,
         out: Annotated[Path | None, option("FILE.html", "Write a page with the table.", "--html")] = None):
     """Compare other tools' published numbers with ours.
@@ -84,10 +84,10 @@ def validate(
 
 
 @commands.command()
-@opens("report.rerun")
+@opens("papers.rerun")
 def rerun(
         manifest: Annotated[Path, argument("MANIFEST",
-            "A manifest.json, or the folder that holds it.", autocompletion=completion.certificates)],
+            "A manifest.json, or the folder that holds it.", autocompletion=command_groups.certificates)],
         out: Annotated[Path | None, option("DIR", "Keep the new files in an empty folder.")] = None):
     """Repeat what made a folder and compare every byte.
 
@@ -101,7 +101,8 @@ def rerun(
 @opens("papers.papers")
 def papers(
         paper: Annotated[str | None, argument(
-            "[PAPER]", "A paper of `stabilab audit`; none: all.", autocompletion=completion.audited)] = None,
+            "[PAPER]", "A paper of `stabilab audit`; none: all.",
+            autocompletion=command_groups.audited)] = None,
         json: Json = False):
     """List equations, figures, tables, claims with verdicts.
 
@@ -127,7 +128,7 @@ def figures(
             "[N...]", "Figure numbers of one paper; none: all.")] = None,
         paper: Annotated[str | None, option("NAME",
             "constant-torque, charged, cavity or top. Default: constant-torque where numbers are given, "
-            "else all.", autocompletion=completion.papers)] = None,
+            "else all.", autocompletion=command_groups.papers)] = None,
         out: Annotated[Path, option("DIR", "Folder for the pictures.")] = Path("figures")):
     """Draw the figures of the papers.
 

@@ -6,7 +6,7 @@ from typing import Annotated  # typer reads the annotations at run time
 
 import typer
 
-from ..show.terminal import completion
+from ..show import command_groups
 from .options import CaseFile, Folder, Json, Order, Strict, UnitsOption, argument, flag, opens, option
 
 commands = typer.Typer()
@@ -21,11 +21,11 @@ def simulate(
             "times over the span of the case.")] = None,
         model: Annotated[str, option("NAME",
             "exact, or an analytic solution that applies: linear, corrected, printed, averaged1, averaged2, "
-            "lindstedt.", autocompletion=completion.models)] = "exact",
+            "lindstedt.", autocompletion=command_groups.models)] = "exact",
         order: Order = None,
         method: Annotated[str | None, option("NAME",
             "taylor (default), a method of SciPy's solve_ivp by name, or reduced (any time at one cost); "
-            "for the exact model.", autocompletion=completion.methods)] = None,
+            "for the exact model.", autocompletion=command_groups.methods)] = None,
         rtol: Annotated[float | None, option("TOL", "Relative tolerance; default: the method's own.")] = None,
         digits: Annotated[int | None, option("N",
             "Reach N digits (1 to 15) the cheapest way, check them, or exit with 5. Without it 10 "
@@ -51,7 +51,7 @@ def plot(
         kind: Annotated[str | None, option("KIND",
             "time, phase, potential, sphere, space, section, equilibria, budget, tilt, wheel, body, state "
             "or attitude (moves). Default: the one that says most of the case.",
-            autocompletion=completion.kinds)] = None,
+            autocompletion=command_groups.kinds)] = None,
         out: Annotated[Path | None, option("FILE.png|.svg|.pdf",
             "Picture to write; default: CASE.png in the current folder. Of an attitude .html, .gif "
             "or .mp4.")] = None,
@@ -85,10 +85,11 @@ def surface(
 
 
 @commands.command()
-@opens("report.report")
+@opens("papers.report")
 def report(
         cases: Annotated[list[Path] | None, argument("[CASE...]",
-            "Case files; none: everything that stabilab brings.", autocompletion=completion.cases)] = None,
+            "Case files; none: everything that stabilab brings.",
+            autocompletion=command_groups.cases)] = None,
         out: Annotated[Path, option("DIR", "Folder for the report.")] = Path("report"),
         papers: Annotated[bool, flag("--papers",
             "The papers' tables and figures, the audit of their formulas and other tools' numbers "
@@ -112,7 +113,7 @@ def report(
 def explore(
         case: Annotated[Path | None, argument("[CASE]",
             "A case file (TOML). Default: one that stabilab brings.",
-            autocompletion=completion.cases)] = None,
+            autocompletion=command_groups.cases)] = None,
         port: Annotated[int, option("N", "Port of this machine; 0: a free one.", min=0, max=65535)] = 0,
         browser: Annotated[bool, flag(
             "--browser/--no-browser", "Open the page, or only print its address.")] = True,

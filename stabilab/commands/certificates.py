@@ -6,13 +6,11 @@ from ..answers.certificate import certificate as proof_of
 from ..answers.certificate import subject
 from ..case.read import blamed_on
 from ..errors import InputError, ToleranceNotMet, printable
-from ..show import certification
-from ..show.files import endings
+from ..show import certification, endings
 from ..verify import verify as check
 from ..verify.form import about, differences, line, read
 from ..verify.numbers import Malformed
-from .common.cases import load_cases
-from .common.output import either, leave_undecided, say
+from .common import either, leave_undecided, load_cases, say
 
 
 def checked(out, paths):

@@ -8,8 +8,8 @@ from importlib import metadata
 
 from ..packages import EXTRAS
 from ..processes import machine
-from ..show.surface.render_probe import probe
-from ..show.terminal.page import tell
+from ..show.render_probe import probe
+from ..show.terminal import tell
 
 
 def doctor():

@@ -1,17 +1,46 @@
-"""`stabilab show`: the equations of a case and the laws that hold; `example`: a case to begin with; `import`:
-another program's spacecraft as a case."""
+"""Commands about one case file, and those that compare methods.
+
+`stabilab show`: the equations of a case and the laws that hold; `example`: a case to begin with; `import`:
+another program's spacecraft as a case.
+
+`stabilab compare` and `precision`: how far analytic models and numerical methods are from the exact
+motion, and at what cost.
+"""
 from __future__ import annotations
 
-from ..case.foreign import import_42, import_basilisk
-from ..case.foreign.imported import case_text, faults_of
+from functools import partial
+
+from ..case import import_42, import_basilisk
+from ..case.imported import case_text, faults_of
+from ..case.read import blamed_on
 from ..case.source import EXAMPLES, command_of, source_text
 from ..case.source import example as text_of
 from ..case.write import data_of
+from ..cost.accuracy import precision as measure
 from ..errors import InputError, printable
 from ..files import write_text
+from ..show import endings
+from ..show import precision as shown
+from ..show.space import natural, seen
+from ..show.text import cost, headline
 from ..show.text.scene import of_all
-from .common.cases import load_cases
-from .common.output import say, tell, write
+from ..theories.follow import models_of
+from ..theories.theory import compare as set_side_by_side
+from .common import (
+    all_reached,
+    answers_of,
+    hold_laws,
+    load_cases,
+    motion_of,
+    one_by_one,
+    say,
+    tell,
+    time_asked,
+    units_asked,
+    write,
+    write_each,
+    write_json,
+)
 
 
 def show(case):
@@ -51,3 +80,60 @@ def import_(file, out, stuck, body=None):
     faults = faults_of(text, out or file)
     if faults:
         raise InputError("\n".join(("the case has faults yet:", *faults)))
+
+
+def compare(case, order, out, json, strict, units):
+    """Set the models of a case beside its exact motion."""
+    loaded = load_cases([case], motion=True)
+    systems = units_asked(loaded, units)
+    if out:
+        endings.file(out, (".csv",))
+    for one in loaded:
+        if one.span is None:
+            raise InputError(f"{one.place}: motion: no span; compare needs span = [0, T] in [motion]")
+        if models_of(one.scene) == ("exact",):
+            raise InputError(
+                f"{one.place}: no analytic model applies to this scene; there is nothing to compare")
+    compared = answers_of(loaded, lambda one: set_side_by_side(one, order=order))
+    if out:
+        write_each(out, [(one, partial(cost.write, one, found)) for one, found in compared])
+    if json:
+        write_json(loaded, [cost.as_dict(one, found) | headline.key(found.validity, one)
+                            for one, found in compared])
+    else:
+        tell("\n\n".join(headline.first(found.validity, cost.text(one, found, system), system,
+                                         one.caveats)
+                         for (one, found), system in zip(compared, systems)))
+    hold_laws(strict, (found.validity for _, found in compared), loaded)
+
+
+def precision(case, json, csv, out, until, quick, all_settings, strict):
+    """Measure error and time of every method."""
+    if out:
+        shown.checked(out)
+    loaded = load_cases([case], motion=True)
+    effort = "quick" if quick else "full"
+    measured = []
+    for one in one_by_one(loaded):
+        end = _end(one, until)
+        with blamed_on(one):
+            measured.append(measure(one, effort, end))
+    if out:
+        write_each(out, [(found.case, partial(shown.write, found)) for found in measured])
+    if json:
+        write_json(loaded, [shown.as_dict(found) | headline.key(found.validity, found.case)
+                            for found in measured])
+    elif csv:
+        write(shown.csv(*measured))
+    else:
+        tell("\n\n".join(headline.first(found.validity, shown.text(found, all_settings),
+                                   caveats=found.case.caveats) for found in measured))
+    all_reached((found.case, found.reference.reason) for found in measured if not found.questions)
+    hold_laws(strict, (found.validity for found in measured), [found.case for found in measured])
+
+
+def _end(case, until):
+    """The end of the span, None for the case's own; as pictures have it where there is neither."""
+    if until is not None or case.span is not None:
+        return time_asked(until, case, "until")
+    return seen(None, motion_of(case, brief=True), natural(case.scene, case.state))[1]

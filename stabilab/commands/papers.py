@@ -1,4 +1,9 @@
-"""The papers' own: the audit of their formulas, other tools' numbers, their tables and figures."""
+"""Commands about the papers, and the report.
+
+The papers' own: the audit of their formulas, other tools' numbers, their tables and figures.
+
+`stabilab report` and `rerun`: a folder of pages, and whether the same command makes the same bytes.
+"""
 from __future__ import annotations
 
 import sys
@@ -8,12 +13,14 @@ from ..papers import index, table
 from ..papers.audit import audited
 from ..papers.audit import page as audit_page
 from ..papers.figures import catalogue
+from ..papers.report import write as write_report
 from ..papers.validation import comparison as validation_text
 from ..papers.validation import validated
-from ..show.files import manifest
+from ..show import manifest
+from ..show import manifest as repetition
 from ..show.progress import counted
-from ..show.terminal.page import width
-from .common.output import either, say, write
+from ..show.terminal import width
+from .common import either, leave_undecided, load_cases, say, tell, unphysical, write
 
 
 def audit(paper, equation, json, out):
@@ -59,3 +66,20 @@ def figures(numbers, paper, out):
                           {row.file: row.tolerance for row in rows}) as folder:
         made = catalogue.write(numbers, folder, paper_name=paper)
     write("\n".join(str(out / path.relative_to(folder)) for path in made))
+
+
+def report(cases, out, papers, precision, certify, workers, strict):
+    """Write the pages; the laws that do not hold are told beside the path."""
+    beyond: list[str] = []
+    undecided: list[str] = []
+    loaded = load_cases(cases or [])
+    made = write_report(loaded, out, arguments=sys.argv[1:], papers=papers, precision=precision,
+                        certify=certify,
+                        workers=workers, beyond=beyond, undecided=undecided)
+    write("\n".join([*beyond, str(made)]))
+    leave_undecided(strict, bool(beyond or undecided) or unphysical(loaded))
+
+
+def rerun(manifest, out):
+    """Repeat what a manifest says."""
+    tell("\n".join(repetition.rerun(manifest, out)))

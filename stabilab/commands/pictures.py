@@ -1,4 +1,9 @@
-"""`stabilab surface`, `plot`, `chaos` and `explore`: a case to look at."""
+"""Commands that draw, one case or a map of many.
+
+`stabilab surface`, `plot`, `chaos` and `explore`: a case to look at.
+
+`stabilab sweep`, `bifurcation`, `basin` and `atlas`: one case over ranges of its numbers.
+"""
 from __future__ import annotations
 
 import sys
@@ -11,19 +16,61 @@ from ..answers.chaos import Order, row_of
 from ..answers.chaos import chaos as ask_chaos
 from ..case.read import blamed_on, load
 from ..errors import RenderingUnavailable, printable
-from ..show import limiting
-from ..show.files import endings
-from ..show.maps import chaos as chaos_shown
-from ..show.maps import picture
-from ..show.maps import to_file as map_files
+from ..maps.atlas import asked, drawn
+from ..maps.basins import basins
+from ..maps.bifurcation.ask import bifurcation as ask
+from ..maps.bifurcation.diagram import certifiable, diagram_certificate
+from ..maps.plan import planned, split_keys
+from ..maps.run import run
+from ..show import certification, endings, limiting
+from ..show import surface as words
+from ..show.maps import (
+    atlas as atlas_shown,
+)
+from ..show.maps import (
+    basins as basins_shown,
+)
+from ..show.maps import (
+    bifurcation as diagram_shown,
+)
+from ..show.maps import (
+    bifurcation_picture,
+    picture,
+)
+from ..show.maps import (
+    chaos as chaos_shown,
+)
+from ..show.maps import (
+    sweep as sweep_shown,
+)
+from ..show.maps import (
+    to_file as map_files,
+)
+from ..show.maps import (
+    to_file as map_to_file,
+)
 from ..show.plot import to_file
-from ..show.surface import words
-from ..show.surface.write import write_all
-from ..show.terminal.letters import lettered
-from ..show.text import law
+from ..show.surface import write_all
+from ..show.terminal import lettered
+from ..show.text import headline
 from ..show.units import units_of
-from .common.cases import answers_of, load_cases, tell_all, time_asked, units_asked
-from .common.output import hold_laws, leave_undecided, say, say_written, tell, write, write_json, written
+from .common import (
+    answers_of,
+    hold_laws,
+    leave_undecided,
+    load_cases,
+    say,
+    say_written,
+    tell,
+    tell_all,
+    time_asked,
+    units_asked,
+    unphysical,
+    write,
+    write_answer,
+    write_json,
+    written,
+)
 
 AN_EXAMPLE = Path(__file__).parents[1] / "cases" / "thruster-stuck-major-axis.toml"
 
@@ -31,7 +78,7 @@ AN_EXAMPLE = Path(__file__).parents[1] / "cases" / "thruster-stuck-major-axis.to
 def surface(case, out, json, strict):
     """Write the separatrix of a case; the summary first, then what kept a picture from being drawn."""
     loaded, unavailable = load_cases([case]), None
-    laws = [law.of_case(one) for one in loaded]
+    laws = [headline.of_case(one) for one in loaded]
     try:
         summaries = write_all(loaded, out, arguments=sys.argv[1:])
     except RenderingUnavailable as error:
@@ -39,10 +86,10 @@ def surface(case, out, json, strict):
             raise
         summaries, unavailable = error.summaries, error
     if json:
-        write_json(loaded, [summary | law.key(held, one, True) for one, summary,
+        write_json(loaded, [summary | headline.key(held, one, True) for one, summary,
                             held in zip(loaded, summaries, laws)])
     else:
-        tell("\n".join(law.first(held, words.text(summary, out), caveats=one.caveats) for one, summary,
+        tell("\n".join(headline.first(held, words.text(summary, out), caveats=one.caveats) for one, summary,
                        held in zip(loaded, summaries, laws)))
     for one, summary in zip(loaded, summaries if json else ()):
         if not summary["sheets"]:
@@ -67,7 +114,7 @@ def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
             end = time_asked(until, one, "until")
             drawn.append(to_file.write_all(one, endings.labelled(target, one), kind, to_file.inches(size),
                                            dpi, units, end, neighbours))
-    laws = [law.of_case(one) for one in loaded]
+    laws = [headline.of_case(one) for one in loaded]
     for one, held, paths in zip(loaded, laws, drawn):
         for line in limiting.beside(one.caveats, units_of(one, units)):
             tell(line)
@@ -85,7 +132,7 @@ def chaos(cases, until, out, csv, json, strict):
     rows = answers_of(loaded, lambda case: ask_chaos(case.scene, row_of(case.scene, case.state, case.blocks),
                                                      time_asked(until, case, "until")))
     drawn = written(out, [(case, partial(chaos_shown.write, case, found)) for case, found in rows])
-    laws = [law.of_case(case) for case in loaded]
+    laws = [headline.of_case(case) for case in loaded]
     if json:
         write(chaos_shown.json(rows, laws))
     elif csv:
@@ -104,7 +151,7 @@ def explore(case, port, browser, static, pyodide):
     one = load(case or AN_EXAMPLE)
     load_cases([case or AN_EXAMPLE])  # says what is wrong with its [sweep]
     if static is not None:
-        from ..show.explore.static import write as write_folder
+        from ..show.explore.serve import write as write_folder
         write(str(write_folder(one, static, pyodide)))
         return
     from ..show.explore.serve import serve
@@ -113,3 +160,57 @@ def explore(case, port, browser, static, pyodide):
         say("Ctrl-C ends it.")
         write(address)
     serve(one, port, browser, announce)
+
+
+def sweep(case, vary, samples, seed, answer, follow, out, workers, scheduler, csv, json, strict, **limits):
+    """Answer the case at every point. limits: those of the answer when, by the names of their options."""
+    plan = planned(case, split_keys(vary or []), samples, seed, answer, follow, **limits)
+    if out:
+        sweep_shown.checked(out)
+    with run(plan, out, workers, scheduler) as found:
+        files = [sweep_shown.write(sweep_shown.dataset(found), out)] if out else []
+    write_answer(sweep_shown, found, json, csv)
+    say_written(files)
+    leave_undecided(strict, strict and (sweep_shown.undecided(found) or unphysical([plan.case])))
+
+
+def bifurcation(case, vary, curve, out, certify, csv, json):
+    """Find where equilibria appear and vanish over the range of one number or two."""
+    if out:
+        endings.file(out, endings.PICTURES)
+    spans = split_keys(vary or [], "KEY=FROM:TO")
+    if certify:
+        endings.file(certify, (".json",))
+        certifiable(spans)
+    found = ask(case, spans, curve)
+    made = diagram_certificate(found) if certify else None
+    files = [bifurcation_picture.write(found, out)] if out else []
+    write_answer(diagram_shown, found, json, csv)
+    say_written(files)
+    if made:
+        say("\n".join([f"written: {certification.write(made, certify)}",
+                       f"certified: {len(made['events'])} values, {len(made['pieces'])} counts between them",
+                       *(f"not certified: {why}" for why in made["uncertified"])]))
+
+
+def basin(case, vary, depth, out, workers, scheduler, follow, csv, json, strict):
+    """Show which initial states of a plane spin up, and how rough the boundary is."""
+    targets = map_to_file.checked(out or [])
+    with basins(case, split_keys(vary or [], "KEY=FROM:TO or KEY=FROM:TO:N"), depth,
+                map_to_file.data_of(targets), workers, scheduler, follow) as found:
+        files = [map_to_file.write_basins(found, path) for path in targets]
+    write_answer(basins_shown, found, json, csv)
+    say_written(files)
+    leave_undecided(strict, strict and (basins_shown.undecided(found) or unphysical([found.plan.case])))
+
+
+def atlas(case, torque, wheel, level, refine, certify, follow, no_time, out, workers, scheduler, units, csv,
+          json, strict, **limits):
+    """Map all directions of a torque. limits: what is to be reached, by the names of the options."""
+    plan = asked(case, torque, wheel, level, refine, certify, follow, not no_time, **limits)
+    system, targets = units_of(plan.case, units), map_to_file.checked(out or [], map_to_file.PAGES)
+    with drawn(plan, targets[0] if targets else None, workers, scheduler) as found:
+        files = [map_to_file.write_atlas(found, target, system) for target in targets]
+    write_answer(atlas_shown, found, json, csv, system)
+    say_written(files)
+    leave_undecided(strict, strict and (atlas_shown.undecided(found) or unphysical([plan.case])))

@@ -5,23 +5,35 @@ from __future__ import annotations
 import sys
 from functools import partial
 
-from ..answers.digits.checked import DEFAULT
-from ..answers.digits.run import best_reached, missed
+from ..answers.digits_asked import DEFAULT
+from ..answers.digits_run import best_reached, missed
 from ..answers.simulate import in_matrices, with_quaternion
 from ..answers.stuck.chain import simulate_burn
 from ..case.read import blamed_on, fires_on_schedule, load_burning
 from ..errors import InputError, ToleranceNotMet
+from ..show import endings, terminal
 from ..show import reference as outside
 from ..show.data import as_json
-from ..show.files import endings
-from ..show.terminal import page
-from ..show.terminal.letters import lettered
-from ..show.text import law, simulation
+from ..show.terminal import lettered
+from ..show.text import headline, simulation
+from ..theories.euler_angles import with_euler_angles
 from ..theories.follow import follow
 from ..theories.theory import lines, theory
-from ..theories.top.euler_angles import with_euler_angles
-from .common.cases import exact_times_asked, load_cases, one_by_one, say_repeated, times_asked, units_asked
-from .common.output import all_reached, hold_laws, say, tell, write, write_each, write_json
+from .common import (
+    all_reached,
+    exact_times_asked,
+    hold_laws,
+    load_cases,
+    one_by_one,
+    say,
+    say_repeated,
+    tell,
+    times_asked,
+    units_asked,
+    write,
+    write_each,
+    write_json,
+)
 
 
 def simulate(case, at, model, order, method, rtol, digits, angles, attitude, matrix, out, json, strict,
@@ -59,10 +71,10 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, mat
     if json:
         write_json(loaded, [_as_dict(*followed) for followed in runs])
     elif not out:
-        tell("\n\n".join(_as_text(*followed, digits, system, page.width())
+        tell("\n\n".join(_as_text(*followed, digits, system, terminal.width())
                          for followed, system in zip(runs, systems)))
     else:
-        for line in law.lines_of([(one, run.validity) for one, run, _ in runs]):
+        for line in headline.lines_of([(one, run.validity) for one, run, _ in runs]):
             say(line)
         for one, _, reached in runs:
             if reached and not reached.enough:
@@ -90,7 +102,7 @@ def _followed(case, times, model, method, rtol, order, digits):
 def _as_dict(case, run, reached) -> dict:
     told = reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because}
     return (simulation.as_dict(case, run) | {"digits": told} | {"theory": _theory(case, run)}
-            | law.key(run.validity, case))
+            | headline.key(run.validity, case))
 
 
 def _as_text(case, run, reached, digits, units, width) -> str:
@@ -100,7 +112,7 @@ def _as_text(case, run, reached, digits, units, width) -> str:
     # as many as the check vouches for, those asked for at least: exit code 5 says where they are not reached
     known = None if digits is None else max(digits, int(min(reached.digits, 99.0)))
     table = simulation.text(case, run, units, known, width)
-    return law.first(run.validity, table + last + told, units, case.caveats)
+    return headline.first(run.validity, table + last + told, units, case.caveats)
 
 
 def _theory(case, run) -> list:

@@ -19,8 +19,7 @@ from ..errors import InputError
 from ..integrate.reference import WORK, Recursion, Reference, one_run, pairs, reference, relative_errors
 from ..integrate.trajectory import SCIPY_METHODS
 from ..physics.coefficients import limits_of
-from .event_methods import answer_methods, fate_methods, known_period
-from .methods import Method, Problem, methods, problem
+from .methods import Method, Problem, answer_methods, fate_methods, known_period, methods, problem
 
 TIMES = 16  # states over the span
 QUESTIONS = {"span": "states over the span", "end": "state at the end", "extremes": "extremes",

@@ -1,8 +1,16 @@
-"""The ways to follow a motion that are set against each other: each a name, a ladder of settings, and how to
+"""The methods that are compared, over time and with events.
+
+The ways to follow a motion that are set against each other: each a name, a ladder of settings, and how to
 make a run.
 
 `prepare(problem, setting)` returns a callable run(times) -> Answer; what is done once for all runs of a scene
 (compiling, series) happens in it. The counters of an Answer are exact.
+
+Period, extremes and fate by the general integrators with events, by the reduced form and in ball
+arithmetic.
+
+A run follows the motion a little further than one period, notes where each rate vanishes and where it passes
+the plane through the start across the first velocity; the passage nearest the known period is its period.
 """
 from __future__ import annotations
 
@@ -13,11 +21,24 @@ from typing import Any
 
 import numpy as np
 
-from ..answers.digits.run import ladder
+from ..answers.digits_run import ladder
+from ..answers.fate import extremes, fate, period
 from ..errors import InputError
-from ..integrate.to_heyoka import TAYLOR_TOLERANCE, heyoka, heyoka_available, heyoka_form, to_taylor
+from ..integrate.to_heyoka import (
+    TAYLOR_TOLERANCE,
+    heyoka,
+    heyoka_available,
+    heyoka_form,
+    taylor_events,
+    to_taylor,
+)
 from ..integrate.trajectory import ATOL_SHARE, SCIPY_METHODS
-from ..orbit.flow.flow import reduced_motion
+from ..orbit.extremes import precise_extremes, precise_period
+from ..orbit.fate import decide, free_margin, is_free
+from ..orbit.flow import reduced_motion
+from ..orbit.landscape import landscape
+from ..orbit.one_orbit import Orbit
+from ..orbit.result import Fate
 from ..physics.equations import Equations
 from ..physics.scene import slices
 from ..physics.states import equations_and_start, quaternion, start_of
@@ -217,3 +238,119 @@ def _filled(values, count):
     """(count, m) states; a model that stopped before the end has none after it (nan)."""
     values = np.asarray(values, float)
     return np.vstack([values, np.full((count - len(values), values.shape[1]), np.nan)])
+
+
+OVERRUN = 1.02  # periods to run: a coarse run comes home late
+EARLY = 0.25  # periods before which a passage of the plane is no return
+EVENT_METHODS = ("RK45", "DOP853", "LSODA")
+
+
+def answer_methods(task: Problem, period: float, every: int = 1) -> list[Method]:
+    """Ways to the period and the extremes of a motion that repeats; run(None) gives parts "period" (1,) and
+    "extremes" (3, 2)."""
+    found = [Method("taylor", "rtol", TAYLOR_LADDER, _taylor_events(period))] if heyoka_available() else []
+    found += [Method(name, "rtol", SCIPY_LADDER[:10], _scipy_events(name, period)) for name in EVENT_METHODS]
+    found = [thinned(m, every) for m in found]
+    return found + [Method("reduced", "formula", (1,), _roots), Method("balls", "formula", (1,), _balls)]
+
+
+def _taylor_events(period) -> Callable:
+    def prepare(task, tolerance):
+        from sympy import Rational
+        state, start = task.equations.state, [Rational(float(v)) for v in task.start]
+        velocity = [Rational(float(v)) for v in task.system(task.start)]
+        plane = sum(n * (x - x0) for n, x, x0 in zip(velocity, state, start))
+        forms = form(task.equations, (*task.equations.rhs, *task.equations.rhs[:3], plane))
+        with taylor_events(forms, tolerance):
+            pass  # compiles
+
+        def run(times):
+            with taylor_events(forms, tolerance) as (integrator, found):
+                integrator.time = 0.0
+                integrator.state[:] = task.start
+                steps = integrator.propagate_until(OVERRUN * period)[3]
+                return _answer(task, period, list(found), steps, steps * integrator.order)
+        return run
+    return prepare
+
+
+def _scipy_events(name, period) -> Callable:
+    def prepare(task, rtol):
+        from scipy.integrate import solve_ivp
+        velocity, rate = task.system(task.start), task.system.rate
+        events = [lambda _, y, i=i: rate(y.tolist())[i] for i in range(3)]
+        # the plane is met at the start itself, where rounding upsets SciPy's search: it counts from a quarter
+        # period on
+        events.append(lambda t, y: float(velocity @ (y - task.start)) if t > EARLY * period else 1.0)
+        options = {"jac": lambda _, y: task.system.jacobian(y)} if name in IMPLICIT else {}
+
+        def run(times):
+            try:
+                run = solve_ivp(lambda _, y: rate(y.tolist()), (0.0, OVERRUN * period), task.start,
+                                method=name, rtol=rtol,
+                                atol=rtol * ATOL_SHARE * np.abs(task.start).max(), events=events, **options)
+            except ValueError:  # its event search: "f(a) and f(b) must have different signs"
+                return Answer({"period": np.array([np.nan]), "extremes": np.full((3, 2), np.nan)})
+            found = [(t, i, y) for i in range(4) for t, y in zip(run.t_events[i], run.y_events[i])]
+            return _answer(task, period, found, len(run.t) - 1, run.nfev)
+        return run
+    return prepare
+
+
+def _answer(task, period, found, steps, evaluations) -> Answer:
+    """Period and extremes of the events (time, index, state); nan where the motion was not seen to come home.
+    """
+    velocity = task.system(task.start)
+    homes = [t for t, i, y in found if i == 3 and t > EARLY * period
+             and task.system(np.asarray(y)) @ velocity > 0]
+    home = min(homes, key=lambda t: abs(t - period), default=np.nan)
+    extremes = np.repeat(task.start[:3, None], 2, axis=1)
+    for t, i, y in found:
+        if i < 3 and not t > home:
+            extremes[i] = min(extremes[i, 0], y[i]), max(extremes[i, 1], y[i])
+    return Answer({"period": np.array([home]), "extremes": extremes}, int(steps), int(evaluations))
+
+
+def _roots(task, _):
+    return lambda times: Answer({"period": np.array([float(period(task.scene, task.start))]),
+                                 "extremes": extremes(task.scene, task.start)})
+
+
+def _balls(task, _):
+    reduction = landscape(task.scene).reduction
+
+    def run(times):
+        return Answer({"period": np.array([precise_period(Orbit(reduction, task.start), Fate.BOUNDED)]),
+                       "extremes": precise_extremes(Orbit(reduction, task.start), Fate.BOUNDED)})
+    return run
+
+
+def known_period(task: Problem):
+    """The period of a motion that repeats, or None where the question does not arise (or no reduction answers
+    it)."""
+    if _landscape(task) is None:
+        return None
+    found = float(period(task.scene, task.start))
+    return found if 0 < found < np.inf else None
+
+
+def _landscape(task: Problem):
+    try:
+        return landscape(task.scene) if task.equations.blocks == ("omega",) else None
+    except InputError:
+        return None
+
+
+def fate_methods(task: Problem) -> list:
+    """(name, call) of the ways to the fate: by energy in doubles, and by energy in balls; call() -> its word.
+    """
+    if (found := _landscape(task)) is None:
+        return []
+    reduction = found.reduction
+
+    def in_balls():
+        margin = (float(free_margin(task.scene, task.start)) if is_free(task.scene)
+                  else decide(Orbit(reduction, task.start)).sign)
+        return ("at the barrier" if not margin else "below the barrier" if margin > 0
+                else "above the barrier, or none stands ahead")
+    return [("energy", lambda: Fate(int(fate(task.scene, task.start).labels)).word), ("balls", in_balls)]

@@ -16,8 +16,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError
 from ..physics.coefficients import limits_of
-from ..physics.ending import stops_before
-from ..physics.scene import AnyScene, slices
+from ..physics.scene import AnyScene, slices, stops_before
 from ..physics.states import checked_rtol, checked_starts, checked_times
 from ..physics.to_numpy import equations_of, to_numpy
 from ..representation import Compared, Shown

@@ -171,7 +171,7 @@ def roots_of_rates(scene, state, t_end: float, tolerance: float = TAYLOR_TOLERAN
     """
     equations, state = equations_and_start(scene, state)
     if getattr(scene, "ending", ()):  # equations may stand for a scene
-        from .past_end import roots_through_the_end
+        from .trajectory import roots_through_the_end
         search = lambda *motion: roots_of_rates(*motion, tolerance)
         if (whole := roots_through_the_end(scene, equations, state, float(t_end), search)) is not None:
             return whole

@@ -8,7 +8,7 @@ import math
 from collections.abc import Sequence
 from operator import mul
 
-from ..numbers.roots import golden_section
+from ..numbers.polynomial import golden_section
 from ..numbers.vectors import CYCLE
 from ..physics.coefficients import content, gyrostat_scene
 from ..physics.law_limits import Validity, of_values

@@ -22,7 +22,7 @@ from operator import mul
 from typing import Any
 
 from ..errors import InputError
-from ..numbers.roots import golden_section
+from ..numbers.polynomial import golden_section
 from ..numbers.vectors import CYCLE
 from ..physics.effects.base import Effect
 from ..physics.scene import AnyScene, Body, QuadraticForm, ScaledGyrostat, Scene

@@ -17,9 +17,8 @@ import numpy as np
 from ..errors import InputError
 from ..numbers.balls import DOUBLE_BITS, working
 from ..numbers.vectors import Number
-from ..physics.ending import hold_on
 from ..physics.equations import derive
-from ..physics.scene import slices
+from ..physics.scene import hold_on, slices
 
 RETURNED = 1e-12  # a passage through the starting plane within this share of the orbit's size is a return
 PIECES = 6  # of a step, each searched for one root

@@ -9,7 +9,7 @@ import numpy as np
 from ..answers.caveats import HOLDS, UNPHYSICAL
 from ..answers.chaos import Order
 from ..errors import InputError, printable
-from ..orbit.fate.one_state import Reason
+from ..orbit.fate import Reason
 from ..orbit.result import Fate
 
 LEVELS = ("undecided", "certified", "exact", "proved")

@@ -25,8 +25,7 @@ import numpy as np
 from ..answers.caveats import HOLDS, STEADY, condition
 from ..answers.chaos import chaos, long_enough, row_of
 from ..answers.equilibria import equilibria
-from ..answers.extremes import extremes, period
-from ..answers.fate import fate
+from ..answers.fate import extremes, fate, period
 from ..answers.kinds import KINDS, kind_of
 from ..answers.motion import motion
 from ..answers.time_to import time_to
@@ -38,7 +37,7 @@ from ..errors import CaseError, InputError, printable
 from ..files import alone_in, whole_file
 from ..interrupt import undoing
 from ..numbers.numba_door import installed
-from ..orbit.extremes_and_periods import extremes_and_periods
+from ..orbit.extremes_arrays import extremes_and_periods
 from ..orbit.result import Fate
 from ..physics.coefficients import effective
 from ..physics.states import start_of

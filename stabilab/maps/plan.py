@@ -31,9 +31,9 @@ from ..errors import InputError, printable
 from ..numbers.units import NONE, TIME, in_si
 from ..physics.coefficients import effective
 from ..version import __version__
-from .atlas.pointed import Pointed, pointed_from
 from .axes import MOST, Axis, Key, axis_of, each_once, key_of, keys_of, si_unit
 from .columns import asked_answers
+from .pointed import Pointed, pointed_from
 
 
 # --- Some places of a grid as a short text, for another process and for the name of a sweep

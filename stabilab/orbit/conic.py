@@ -11,8 +11,7 @@ import math
 from fractions import Fraction
 from typing import NamedTuple
 
-from ..numbers.polynomial import Poly, real_roots
-from ..numbers.roots import bracketed_newton
+from ..numbers.polynomial import Poly, bracketed_newton, real_roots
 
 SHORT = 1e-9  # a last step of Newton's method that leaves its square
 FOLD_BITS = 200

@@ -1,19 +1,60 @@
-"""The reduced potential of many states at once: equilibria, barriers, wells."""
+"""The reduced potential of many states at once: equilibria, barriers, wells, and places to 30 digits.
+
+The places of states on circles and hyperbolas to 30 digits: where the centre stands far off, doubles lose
+what a small motion lives on.
+
+The reduced potential of many states at once: equilibria, barriers, wells.
+"""
 from __future__ import annotations
 
 import itertools
 import math
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property, lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
-from ..numbers.constants import TURN
-from ..numbers.double_double import Twofold
+from ..numbers.double_double import TURN, Twofold
 from .conic import Conic, conic_of
-from .fine.places import SURE, TwofoldConstants, twofold_constants, twofold_places
 from .potential import potential
 from .reduction import reduce
+
+SURE = 1e-20  # of the terms: a sum that is smaller may be zero, which exact arithmetic decides
+
+
+class TwofoldConstants(NamedTuple):
+    """The constants of a reduction as numbers of 32 digits."""
+
+    G: Twofold
+    c: Twofold
+    d: Twofold
+    mu: Twofold
+    sj: Twofold
+    sk: Twofold
+    over_x: Twofold  # flip over rx
+    over_z: Twofold
+
+
+def twofold_constants(reduction) -> TwofoldConstants:
+    """Those of a reduction to circles or hyperbolas."""
+    g = reduction.exact_constants
+    exact = *(g[name] for name in ("G", "c", "d", "mu", "sj", "sk")), g["flip"] / g["rx"], 1 / g["rz"]
+    return TwofoldConstants(*map(twofold_constant, exact))
+
+
+def twofold_constant(value: Fraction) -> Twofold:
+    """A rational, or an exact root of many bits, to 32 digits."""
+    high = float(value)
+    # a double broadcasts as an array does
+    return Twofold(np.float64(high), np.float64(float(value - Fraction(high))))  # type: ignore[arg-type]
+
+
+def twofold_places(constants: TwofoldConstants, j: int, k: int, states) -> tuple[Twofold, Twofold]:
+    """(X, Z) of states (n, 3), whose components across the axis are j and k."""
+    return (constants.sj + states[:, j]) * constants.over_x, (constants.sk + states[:, k]) * constants.over_z
+
 
 # --- Barriers and wells along the orbits of many states at once: what the three geometries have in common,
 # and circle and hyperbola

@@ -1,18 +1,145 @@
-"""The motion of one state of a scene with an orbit: fate, extremes, margins, period, invariants; no arrays.
+"""What is asked of one state, in the unit of rate in which its numbers are of order one.
+
+Motions whose squares leave the range of doubles: answered in their own unit of rate, where their numbers
+are of order one.
+
+Rates and time change by a power of two (`own_unit`), which is exact; energies go with its square. What is no
+double in the scene's own units in the end is NaN in arrays, and told in words of one motion.
+
+The motion of one state of a scene with an orbit: fate, extremes, margins, period, invariants; no arrays.
 """
 from __future__ import annotations
 
 import math
+from contextlib import contextmanager
+from dataclasses import replace
+from fractions import Fraction
+from functools import lru_cache
 
+from ..errors import InputError
 from ..physics.coefficients import three_floats
-from .extremes.one_state import extremes_of
-from .far_states import far_exponent, far_fate, in_scene_unit, own
-from .fate.one_state import fate_of
+from .extremes import extremes_of, precise_period
+from .fate import fate_of, is_free
 from .one_orbit import Orbit
-from .period import precise_period
 from .reduction import reduce
 from .result import Fate, Motion, finite, judged, repeats
 from .separatrix.distance import distance_of
+
+ORDINARY = 100  # rates of 2^-100 to 2^100: fourth powers of them, beside ratios of moments, are doubles
+BEYOND = "beyond the range of doubles"
+
+
+@contextmanager
+def in_range(what: str = "state"):
+    """Context of an answer that has no unit of its own: InputError where its numbers leave the range of
+    doubles."""
+    try:
+        yield
+    except OverflowError:
+        raise InputError(
+            f"{what}: the squares of rates, moments or momenta this large are {BEYOND}: choose "
+            f"other units") from None
+
+
+@lru_cache(maxsize=64)
+def scene_exponent(scene) -> int | None:
+    """log2 of the size of the rates that wheel and torque bring about, to a unit or two; None without either.
+    """
+    form = scene.quadratic()
+    found = [_exponent(v) for v in (*form.rho, *form.sigma) if v] + [_exponent(v) // 2 for v in form.m if v]
+    return max(found, default=None)
+
+
+def far_exponent(scene, state) -> int | None:
+    """The exponent k of the own unit 2^k of a motion from `state` (floats or Fractions); None where its size
+    is ordinary."""
+    found = [_exponent(Fraction(v)) for v in state if v]
+    if (own := scene_exponent(scene)) is not None:
+        found.append(own)
+    size = max(found, default=0)
+    return None if -ORDINARY <= size <= ORDINARY else size
+
+
+def far_rows(scene, states):
+    """(n,) True for the states (n, 3) that `far_exponent` has a unit for."""
+    import numpy as np
+    own = scene_exponent(scene)
+    # wheel or torque of ordinary size, and no larger rate: all of them are ordinary, told without a row's own
+    # size
+    within = len(states) and max(states.max(), -states.min()) < 2.0**ORDINARY
+    if own is not None and abs(own) <= ORDINARY and within:
+        return np.zeros(len(states), bool)
+    sizes = np.abs(states).max(axis=1, initial=0.0)
+    moving = sizes > 0
+    exponents = np.where(moving, np.frexp(sizes)[1], ORDINARY if own is None else own)
+    size = exponents if own is None else np.maximum(exponents, own)
+    return (np.abs(size) > ORDINARY) & (moving if own is None else True)
+
+
+def _exponent(value: Fraction) -> int:
+    return value.numerator.bit_length() - value.denominator.bit_length()
+
+
+def own(orbit: Orbit, k: int) -> Orbit:
+    """The orbit in the unit 2^k."""
+    u, reduction = Fraction(2) ** k, orbit.reduction
+    near = replace(reduction, s=reduction.s / u, p0=reduction.p0 / u, q0=reduction.q0 / u,
+                   rho=reduction.rho / u,
+                   sigma=reduction.sigma / u, m=reduction.m / (u * u))
+    return Orbit(near, tuple(Fraction(v) / u for v in orbit.state))
+
+
+def powered(value: float, k: int) -> float:
+    """value * 2^k; NaN where that is no double, or 0 where value is not."""
+    try:
+        found = math.ldexp(value, k)
+    except OverflowError:
+        return math.nan
+    return found if found or not value else math.nan
+
+
+def far_fate(scene, orbit: Orbit, k: int, near: Orbit | None = None):
+    """The fate of one state of a scene, as an `OneFate`; near: its orbit in the unit 2^k, where that is at
+    hand."""
+    found = fate_of(scene, orbit, near or own(orbit, k))
+    return found if is_free(scene) else found._replace(margin=powered(found.margin, 2 * k))
+
+
+def in_scene_unit(found: Motion, k: int, state, margin: float) -> Motion:
+    """A motion found in the unit 2^k, but for its extremes, in the scene's own; state: the doubles of its
+    start; margin: of its fate, in the scene's unit."""
+    lost = ["the margin in energy"] if math.isnan(margin) else []
+
+    def told(name, value, power):
+        if value is None or not math.isnan(number := powered(value, power * k)):
+            return None if value is None else number
+        lost.append(name)
+    fields = {"margin_energy": finite(margin),
+              "margin_velocity": told("the margin in angular velocity", found.margin_velocity, 1),
+              "period": told("the period", found.period, -1)}
+    invariants = {name: powered(value, 2 * k) for name, value in found.invariants.items()}
+    pairs = found.extremes and _finite(found.extremes)
+    if found.extremes and pairs is None:
+        lost.append("an extreme")
+    because = found.because + (f"; {BEYOND}: {', '.join(lost)}" if lost else "")
+    return replace(found, at=state, because=because, extremes=pairs,
+                   invariants={n: v for n, v in invariants.items() if not math.isnan(v)},
+                   extremes_over=found.extremes_over if pairs or not found.extremes else f"none: {BEYOND}",
+                   **fields)
+
+
+def _finite(pairs):
+    """The pairs, or None where one is larger than any double."""
+    return None if any(map(math.isnan, sum(pairs, ()))) else pairs
+
+
+def far_numbers(scene, state):
+    """((3, 2) extremes, period) of one state of a scene with a reduction, as rows of `extremes` and `period`
+    have them; NaN where they are no doubles."""
+    orbit, k = Orbit(reduce(scene), state), far_exponent(scene, state) or 0
+    near = own(orbit, k)
+    label = fate_of(scene, orbit, near).label
+    return extremes_of(near, label, k), powered(precise_period(near, label), -k)
 
 
 def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:

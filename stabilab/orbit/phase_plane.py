@@ -7,9 +7,9 @@ from functools import cached_property
 
 import numpy as np
 
-from ..numbers.roots import halved
-from .far_states import in_range
+from ..numbers.polynomial import halved
 from .landscape import Landscape, landscape_in_doubles
+from .one_state import in_range
 
 FARTHEST = 30.0  # along an orbit: beyond, where places are e^30 as far, rounding decides on which it lies
 

@@ -7,13 +7,13 @@ from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
-from ..caveat import Caveat
+from ..errors import Caveat
 from ..numbers.vectors import Float3, Number
 from ..representation import Shown
 
 if TYPE_CHECKING:  # a scene of exact laws does not load it
     from ..physics.law_limits import Validity
-    from .energy_integral import EnergyIntegral
+    from .reduction import EnergyIntegral
 
 
 class Fate(IntEnum):
@@ -55,7 +55,7 @@ class Motion(Shown):
     bounded motion (`answers.tilt`), where that was asked; first: the limit of its case in words and its
     `TimeTo`, likewise; caveats: all that limits the answer (`answers.caveats`). largest: |omega| at the
     most, over all time, where a motion repeats or rests, to eight digits. energy_integral: the paper's
-    G1, G2 or G3 (`orbit.energy_integral`), under a torque along a principal axis with no wheel along it.
+    G1, G2 or G3 (`orbit.reduction`), under a torque along a principal axis with no wheel along it.
     level: of the fate, "exact", "certified" (a theorem applied to a run of machine precision) or
     "undecided". Of motions that were followed until a certificate held, or as long as was asked: cause:
     what was found on the way, in words; bounds: ((low, high),) * 3 of the rates at all t >= 0, wider than

@@ -9,7 +9,7 @@ from functools import lru_cache
 import numpy as np
 
 from ..case.read import load_all
-from ..theories.comparison import side_by_side
+from ..theories.theory import side_by_side
 from .table import cases_folder
 
 

@@ -9,9 +9,9 @@ from typing import Any
 
 from ..physics.coefficients import shape_factors
 from ..show.report import html
-from ..show.terminal.letters import written
+from ..show.terminal import written
+from . import table as constant_torque
 from .audit.page import anchor, counted
-from .figures import paper as constant_torque
 from .figures.catalogue import FIRST, of_paper
 from .table import EXTREMES
 
@@ -164,7 +164,7 @@ def data() -> list[tuple[str, str]]:
     body = constant_torque.physical("minor", 0).body
     factors = shape_factors(body)
     k = factors[0] * factors[1] * factors[2]
-    scaled = {lam: constant_torque.scene("minor", lam) for lam in constant_torque.LAMBDAS}
+    scaled = {lam: constant_torque.printed_scene("minor", lam) for lam in constant_torque.LAMBDAS}
     names = ", ".join(map(str, constant_torque.LAMBDAS))
     starts = (("figures 2 to 7, table 2", constant_torque.START_MINOR),
               ("figures 8 to 11", constant_torque.START_MAJOR),

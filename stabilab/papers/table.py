@@ -1,23 +1,224 @@
-"""Tables 1-4 of Amer et al. 2024, recomputed, in five formats: terminal text, CSV, Markdown, LaTeX, HTML."""
+"""Amer et al. 2024: their data, what their formulas give, and Tables 1 to 4.
+
+The data of the tables and figures of Amer et al. 2024 (Sci. Rep.), its body, momentum wheels, torques and
+starts; the formulas that it prints and several of these draw or try; and the equilibria.
+
+Extremes by the formulas that Amer et al. 2024 print, as the paper's Tables 2 to 4 rest on them.
+
+Each pair of printed integrals puts the motion on a curve with one parameter s, along which the square of the
+rate about the torque's axis is known; the motion keeps to the piece around its start where that square is not
+negative. Minor axis: (18) and (30). Middle axis: x1^2 - x3^2 = 2N and (71). Middle axis with x1 = x3: (79).
+The integrals are not constant along the true motion unless the wheel is still: see the audit.
+
+Tables 1-4 of Amer et al. 2024, recomputed, in five formats: terminal text, CSV, Markdown, LaTeX, HTML.
+"""
 from __future__ import annotations
 
 import html
 import math
 import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
-from ..answers.digits.ask import ask
+import numpy as np
+
+from ..answers.digits import ask
 from ..answers.motion import motion
 from ..case.read import load
 from ..equilibrium.torque_table import torque_table
 from ..errors import InputError
+from ..physics.coefficients import to_scaled, torque_from_mu
+from ..physics.effects.constant_torque import ConstantTorque
+from ..physics.effects.gyrostat import Gyrostat
+from ..physics.scene import Body, ScaledGyrostat, Scene
 from ..show import style
 from ..show.data import csv_lines
-from .figures import paper
-from .printed_extremes import FAMILIES, printed_extremes
+
+PAPER = "Amer et al. 2024, Sci. Rep."
+INERTIA = (2000, 1500, 1000)            # kg m^2
+LAMBDAS = (100, 300, 500)               # kg m^2/s, along axis 1
+TORQUE = {"major": (1, 0, 0), "middle": (0, 1, 0), "minor": (0, 0, 1)}
+START_MINOR = (2.5, 4.0, 0.1)           # Figs 2-7, Table 2
+START_MIDDLE = (1.7, 1.1, -0.2)         # Figs 16-17, Table 3
+START_PLANE = (2.5, 1.3, 2.5)           # Table 4
+START_MAJOR = (4.5, 1.8, 3.4)           # Figs 8-11
+START_CAPTURED = (0.0, -1.0, 5.0)       # Figs 12-15
+SPAN = (0.0, 15.0)                      # tau
+
+
+def printed_scene(axis: str, lambda1: float) -> ScaledGyrostat:
+    """The paper's scaled system with the torque along the "major", "middle" or "minor" axis (u = 1)."""
+    return to_scaled(physical(axis, lambda1), mu=TORQUE[axis])[0]
+
+
+def physical(axis: str, lambda1: float) -> Scene:
+    """The same system in physical variables."""
+    body = Body(INERTIA)
+    return Scene(body, Gyrostat((lambda1, 0, 0)), ConstantTorque(torque_from_mu(body, TORQUE[axis])))
+
+
+# of Fig. 4 in the text: lambda1 -> (left and right saddle, left and right centre), alpha
+FIG4 = {100: ((0.0, 6.2), (-3.0, 3.3)), 300: ((0.19, 6.15), (-3.1, 3.29)), 500: ((0.32, 5.8), (-3.13, 3.28))}
+
+
+def height(radius, wheel):
+    """Function of alpha, x^2/2 plus which is constant by (25): printed with F and b, true with A and b -
+    a."""
+    return lambda alpha: radius**2 * np.cos(alpha) - 4 * radius * wheel * np.sin(alpha / 2) - 2 * alpha
+
+
+def saddle(radius, turn=0.0):
+    """alpha of the saddle before a turn as printed below (25): sin alpha = -2/F^2."""
+    return turn - np.arcsin(2 / radius**2)
+
+
+def folds(c: float) -> list[float]:
+    """x2 of the two points of the minor axis at which saddle and centre merge, c = b - a."""
+    return [h.real for h in np.roots([1, 0, 0, -c, -1]) if abs(h.imag) < 1e-12]
+
+
+def fold_radii(c: float) -> list[float]:
+    """Radii of the circles about (-a, 0) through them, rising: the least carries the first equilibrium."""
+    return sorted(float(np.sqrt(h * h + h**6)) for h in folds(c))
+
+
+def circle(radius: float, centre: float = 0.0, count: int = 361) -> tuple[np.ndarray, np.ndarray]:
+    """(x1, x2) of a circle about (centre, 0)."""
+    turn = np.linspace(0, 2 * np.pi, count)
+    return centre + radius * np.sin(turn), radius * np.cos(turn)
+
+
+def side(branch) -> str:
+    """The paper's name of a surface of the minor axis: the left loop of the phase plane has alpha in (-2 pi,
+    0), where x1 + a < 0 about its centre."""
+    return "left" if float(np.asarray(branch.centre)[-1, 0]) < 0 else "right"
+
+
+def equilibria(axis: str, scene: ScaledGyrostat, heights):
+    """(x1, h, whether stable) along both branches of the true equilibria of a torque on the "minor" axis, h =
+    x2 and x1 + b = -1/h, or on the "middle" one, h = x3 and x1 + a = 1/h; heights: sizes of h."""
+    for h in (heights, -heights):
+        x1, sign = (-scene.b - 1 / h, -1) if axis == "minor" else (-scene.a + 1 / h, 1)
+        yield x1, h, (x1 + scene.a) * (x1 + scene.b) + sign * h * h > 0
+
+
+def draw_equilibria(ax, x1, h, stable) -> None:
+    """A branch of `equilibria`, stable and unstable parts, in a plane or in space."""
+    for kind, mask in (("stable", stable), ("unstable", ~stable)):
+        line = np.where(mask, x1, np.nan), np.where(mask, h, np.nan), 0 * h
+        ax.plot(*line[:3 if ax.name == "3d" else 2], **style.MEANING[kind])
+
+
+def drift(runs) -> float:
+    """The largest drift of the laws of the motion along the runs."""
+    return max(d for run in runs for d in run.invariant_drift.values())
+
+
+def name_space(ax, zoom=0.92, order=(1, 2, 3)):
+    """Labels of the three axes of a 3-D picture, close to it and not clipped; `order`: components along its
+    axes."""
+    from matplotlib.ticker import MaxNLocator
+    for setter, component, pad in zip((ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), order, (-2, -2, -4)):
+        setter(f"$x_{component}$", labelpad=pad, rotation=0)
+    ax.tick_params(pad=-1, labelsize=8)
+    for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
+        axis.set_rotate_label(False)  # upright from every side
+        axis.set_major_locator(MaxNLocator(5))
+        axis.set_pane_color((1, 1, 1, 0))  # white would cover a label of the panel before
+    ax.patch.set_visible(False)
+    ax.set_box_aspect(None, zoom=zoom)
+
+
+STEP, FAR = 2e-3, 40.0  # of the walk along the curve
+
+
+class Printed(NamedTuple):
+    """A curve: place(s) -> the two components off the torque's axis, square(s) of the third; stationary: the
+    s at which one of the two may be extreme inside a piece."""
+
+    place: Callable[[float], tuple[float, float]]
+    square: Callable[[float], float]
+    start: float
+    stationary: tuple[float, ...]
+
+
+def minor_axis(x: Sequence[float], a: float, b: float) -> Printed:
+    """x1 = F sin s, x2 = F cos s by (18); 2 x3^2 by (30)."""
+    F, start = math.hypot(x[0], x[1]), math.atan2(x[0], x[1])
+
+    level = height(F, b)
+    G = 2 * x[2] ** 2 + level(2 * start)
+    return Printed(lambda s: (F * math.sin(s), F * math.cos(s)), lambda s: (G - level(2 * s)) / 2, start,
+                   tuple(n * math.pi / 2 for n in range(-8, 9)))
+
+
+def middle_axis(x: Sequence[float], a: float, b: float) -> Printed:
+    """x1 = sqrt(2N) cosh s, x3 = sqrt(2N) sinh s; 2 x2^2 by (71), up to where its artanh ends."""
+    root = math.sqrt(x[0] ** 2 - x[2] ** 2)
+    start = math.atanh(x[2] / x[0])
+
+    def potential(x1: float, x3: float) -> float:
+        size = x1 * x1 + x3 * x3
+        return size * (1 + 2 * (a + b) / root) - 2 * math.atanh(2 * x1 * x1 * x3 * x3 / size)
+
+    def place(s: float) -> tuple[float, float]:
+        return root * math.cosh(s), root * math.sinh(s)
+
+    G = 2 * x[1] ** 2 + potential(x[0], x[2])
+    return Printed(place, lambda s: (G - potential(*place(s))) / 2, start, (0.0,))
+
+
+def middle_axis_equal(x: Sequence[float], a: float, b: float) -> Printed:
+    """x1 = x3 = exp(s); x2^2 by (79)."""
+    def potential(s: float) -> float:
+        return math.exp(2 * s) / 2 + (a + b) * math.exp(s) - s
+
+    start = math.log(x[0])
+    G = x[1] ** 2 / 2 + potential(start)
+    return Printed(lambda s: (math.exp(s), math.exp(s)), lambda s: 2 * (G - potential(s)), start, ())
+
+
+# family of cases -> (its curve, the axis of the torque)
+FAMILIES = {"minor-axis": (minor_axis, 2), "middle-axis": (middle_axis, 1),
+            "middle-axis-equal": (middle_axis_equal, 1)}
+
+
+def printed_extremes(family: str, x: Sequence[float], a: float,
+                     b: float) -> list[tuple[float, float]] | None:
+    """((least, greatest),) * 3 by the printed formulas from a start x; None where they leave the motion open
+    or end on the way."""
+    from scipy.optimize import minimize_scalar
+    curve, axis = FAMILIES[family]
+    found = curve(x, a, b)
+    ends = [_end(found, side) for side in (-1, 1)]
+    if None in ends:
+        return None
+    low, high = ends
+    at = [found.place(s) for s in (low, high, *(s for s in found.stationary if low < s < high))]
+    greatest = max(-minimize_scalar(lambda s: -found.square(s), bounds=(p, p + (high - low) / 50),
+                                    method="bounded", options={"xatol": 1e-12}).fun
+                   for p in (low + n * (high - low) / 50 for n in range(50)))
+    pairs = [(min(values), max(values)) for values in zip(*at)]
+    pairs.insert(axis, (-math.sqrt(greatest), math.sqrt(greatest)))
+    return pairs
+
+
+def _end(found: Printed, side: int) -> float | None:
+    """Where the square first vanishes on one side of the start; None where it does not, or is not defined."""
+    from scipy.optimize import brentq
+    s = found.start
+    try:
+        while found.square(s + side * STEP) >= 0:
+            s += side * STEP
+            if abs(s - found.start) > FAR:
+                return None
+        return brentq(found.square, *sorted((s, s + side * STEP)), xtol=1e-14)
+    except (ValueError, OverflowError):
+        return None
+
 
 DECIMALS = 20  # of periods and extremes, from balls: the double next to each is the right one
 SHOWN_DIGITS = 6  # in the readable formats; the CSV holds every double in full
@@ -66,7 +267,7 @@ _MINUS = re.compile(r"(?<=\bb)-(?=a\b)|(?<![^ (,/|])-(?=[\wμ(])")
 
 def torque_signs() -> Table:
     """Table 1: every combination of torque signs, with the wheel (a != b) and without its effect (a = b)."""
-    scene = paper.scene("minor", 100)
+    scene = printed_scene("minor", 100)
     signs: dict[tuple, list[str]] = {}  # rows that differ in the signs alone are one
     for pair in ((scene.a, scene.b), (scene.a, scene.a)):
         for row in torque_table(*pair):
@@ -131,7 +332,7 @@ def case_files(stems=("*",)) -> list[str]:
 def extremes_table(number: int) -> Table:
     """Table 2, 3 or 4: extremes of every component over all time, from the case files."""
     families, title, caption = EXTREMES[number]
-    rows = [row for family in families for lam in paper.LAMBDAS
+    rows = [row for family in families for lam in LAMBDAS
             for row in _with_printed(family, _extremes_row(cases_folder() / f"{family}-{lam}.toml", lam))]
     return Table(number, title, caption, EXTREMES_HEADER, tuple(rows))
 
@@ -284,7 +485,7 @@ def html_page(table: Table) -> str:
 
 # what tables() reads
 STEMS = tuple(f"{family}-{lam}"
-              for families, *_ in EXTREMES.values() for family in families for lam in paper.LAMBDAS)
+              for families, *_ in EXTREMES.values() for family in families for lam in LAMBDAS)
 TOLERANCES = {"equilibria and verdicts": "exact",
               "extremes and periods": "roots of the rates and of the reduced potential in balls, "
                                       "rounded once"}

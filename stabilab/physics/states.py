@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import InputError, told
-from ..numbers.constants import EPS
+from ..numbers.double_double import EPS
 from ..validation import real
 from .equations import Equations, derive, rotation
 from .scene import BLOCKS, INSIDE, ORDER, AnyScene, Scene, ordered, rests

@@ -7,7 +7,7 @@ from pathlib import Path
 from ..errors import printable
 from ..files import write_text
 from ..representation import values_of
-from .terminal.letters import some
+from .terminal import some
 
 SCHEMA = "stabilab.verification/1"
 

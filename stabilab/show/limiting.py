@@ -8,11 +8,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from .. import caveat
-from ..caveat import Caveat
-from ..errors import printable
+from .. import errors
+from ..errors import Caveat, printable
 from .axes import axes_of
-from .terminal.letters import lettered
+from .terminal import lettered
 from .units import SHORT, Units
 
 INSIDE = ("tilt", "limit", "law")  # told in the first line of an answer itself
@@ -64,12 +63,12 @@ def words(one: Caveat, units: Units) -> str:
 
 def key(case: Any, caveats: Iterable[Caveat]) -> dict[str, list[dict[str, str]]]:
     """The key "caveats" of a JSON object, with the names of the axes of a case."""
-    return caveat.key(_named(case, caveats))
+    return errors.key(_named(case, caveats))
 
 
 def cell(case: Any, caveats: Iterable[Caveat]) -> str:
     """The column "caveats" of a CSV, with the names of the axes of a case."""
-    return caveat.cell(_named(case, caveats))
+    return errors.cell(_named(case, caveats))
 
 
 def _named(case: Any, caveats: Iterable[Caveat]) -> list[Caveat]:

@@ -9,15 +9,15 @@ from pathlib import Path
 
 from ..answers.caveats import limited
 from ..answers.certificate import subject
-from ..answers.digits.ask import ask
+from ..answers.digits import ask
 from ..answers.motion import motion
 from ..answers.tabulated import Tabulated, tabulated
-from ..caveat import key
+from ..errors import key
 from ..files import write_text
 from ..numbers.balls import working
 from ..physics.coefficients import effective
+from . import endings, manifest
 from .data import as_json, csv_lines
-from .files import endings, manifest
 
 SCHEMA = "stabilab.reference/1"
 VERSIONS = ("python", "python-flint")
@@ -121,7 +121,7 @@ def csv(made: dict) -> str:
     for name, pair in zip(course["components"], extremes["value"] or ()):
         rows += [(f"{word} over {extremes['over']}", None, name, value, None, extremes["because"])
                  for word, value in zip(("least", "greatest"), pair)]
-    rows += [("caveat", None, one["kind"], one["words"], None, None) for one in made["caveats"]]
+    rows += [("errors", None, one["kind"], one["words"], None, None) for one in made["caveats"]]
     return csv_lines(rows)
 
 

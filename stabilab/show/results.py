@@ -16,7 +16,7 @@ from ..packages import demand
 from ..physics.scene import PARTS
 from ..representation import values_of
 from .axes import direction
-from .terminal.letters import MINUS, some
+from .terminal import MINUS, some
 
 if TYPE_CHECKING:
     import pandas

@@ -1,4 +1,9 @@
-"""What every view draws in the space of the rates: a box, the separatrix, equilibria, a motion with its start
+"""The space of the rates and the span of time that all views of a motion share.
+
+The one span of time that every view of a motion shows, long enough to see what its headline says; where
+on a curve of equilibria to look.
+
+What every view draws in the space of the rates: a box, the separatrix, equilibria, a motion with its start
 and its direction, and from where it is seen; Matplotlib, VTK and a page only draw it.
 
 Places are rates in the scene's variables. All of it does without NumPy, as a browser does.
@@ -16,13 +21,74 @@ from typing import Any
 from ..equilibrium.result import Equilibria
 from ..errors import InputError, StabilabError
 from ..orbit.result import Fate, Motion
-from ..orbit.separatrix.plain_branches import REACH, PlainBranch, plain_separatrix
+from ..orbit.separatrix.saddles import REACH, PlainBranch, plain_separatrix
 from ..packages import present
 from ..physics.scene import AnyScene
 from . import style
-from .spans import BEYOND as SHOWN
-from .spans import limit_time, spread
 from .units import with_unit
+
+NATURAL = 15.0  # units of the motion's own time, where the case gives no span
+PERIODS = 10  # of a motion that repeats, at most
+FEWEST = 2  # periods, at least
+ALONE = 3  # periods where the case gives no span
+BEYOND = 1.25  # of the time to the limit, at least
+LATEST = 4.0  # of the time to the limit, at most
+GROWTH = 1.5  # of the time from which a spin-up is certain, at least
+STRETCHED = 50.0  # times its span: a motion that spins up later than that is not followed so far
+
+
+def natural(scene: Any, state: Any) -> float:
+    """Some units of the time in which a torque or the rotation itself moves the body."""
+    if scene.variables == "scaled":
+        return NATURAL
+    torque = math.hypot(*(float(v) for v in scene.vector("constant_torque"))) if scene.plain else 0.0
+    rate = math.hypot(*state[:3])
+    return NATURAL * (math.sqrt(sum(scene.body.inertia) / 3 / torque) if torque else 1.0 / (rate or 1.0))
+
+
+def seen(span: tuple[float, ...] | None, motion: Motion, alone: float) -> tuple[float, float]:
+    """(from, to) in the scene's time: past the limit of the case, past the beginning of a spin-up, some
+    periods of a motion that repeats; otherwise the span of the case, and where it gives none, `alone`."""
+    low, high = span or (0.0, alone)
+    if high < low:  # followed backwards, where nothing of the headline lies
+        return low, high
+    if (limit := limit_time(motion)) is not None:
+        return min(low, 0.0), max(BEYOND * limit, min(high, LATEST * limit))
+    if motion.period:
+        wanted = min(high, low + PERIODS * motion.period) if span else low + ALONE * motion.period
+        return low, max(wanted, low + FEWEST * motion.period)
+    late = GROWTH * spin_up_time(motion)
+    return low, late if high < late <= low + STRETCHED * (high - low) else high
+
+
+def limit_time(motion: Motion) -> float | None:
+    """When the limit of the case is reached after the start; None where it is not known to be."""
+    found = None if motion.first is None else motion.first[1]
+    if found is None or not math.isfinite(found.high) or not found.high > 0:
+        return None
+    return float(found.high)
+
+
+def spin_up_time(motion: Motion) -> float:
+    """From when on a spin-up is certain, or its turn never reverses again; 0 of other motions."""
+    if motion.fate is not Fate.SPIN_UP:
+        return 0.0
+    return max(float(motion.evidence.get(name) or 0.0) for name in ("release_time", "t_certificate"))
+
+
+def spread(low: float, high: float, number: int) -> list[float]:
+    """Parameters inside (low, high), dense at both ends, geometric towards an infinite end; towards two of
+    them so many on each side of zero."""
+    if math.isfinite(low) and math.isfinite(high):
+        return [low + (high - low) * (1 - math.cos(1e-3 + (math.pi - 2e-3) * n / (number - 1))) / 2
+                for n in range(number)]
+    away = [10 ** (-4 + 8 * n / (number - 1)) for n in range(number)]
+    if math.isfinite(low):
+        return [low + v * max(1.0, abs(low)) for v in away]
+    if math.isfinite(high):
+        return [high - v * max(1.0, abs(high)) for v in reversed(away)]
+    return [*(-v for v in reversed(away)), *away]
+
 
 NEAR = 2.0     # times the motion's own size: a separatrix or an equilibrium so near is in the picture
 ROOM = 1.25    # of a box about the things in it
@@ -30,7 +96,7 @@ SMALL = 0.22   # of a box: a motion that fills less gets a box of its own, a lim
 # of the longest side: an axis along which less happens has a scale of its own, of which that fills a share
 THIN, FILLED, EVEN = 0.3, 0.6, 1e-6
 WHOLE = 1.6    # times the box of the motion: a surface no larger is shown whole
-LATEST = 3.0   # times its first size, up to which a motion that spins up is drawn
+LATEST_SIZE = 3.0   # times its first size, up to which a motion that spins up is drawn
 FARTHEST = 1e4  # times the fold's radius: how far a branch is followed for a large box
 ARROWS, ARROW = (0.12, 0.45, 0.8), 0.11  # where: shares of the path; how long: of half of the box
 SHAPE = (48, 97)  # rows and columns of a branch
@@ -41,7 +107,7 @@ BETTER = 1.25  # times as broad as from the first side: from there the path is s
 RIM = 0.88  # of half of the box: up to here numbers stand at its edges, the corners are crowded
 # shares of the box across an axis, where the limit is cut; half the steps of an arc, a radian
 LEVELS, ARC = (-0.6, 0.0, 0.6), 6
-HALF, BEYOND = 4095, 8.0  # half of the box in numbers of a page; what is farther off is moved in
+HALF, BEYOND_SIZE = 4095, 8.0  # half of the box in numbers of a page; what is farther off is moved in
 
 Point = Sequence[float]
 
@@ -200,8 +266,8 @@ def near_part(times: Sequence[float], path: list[Point], motion: Motion | None) 
     size = max(math.hypot(*x) for t, x in zip(times, path) if abs(t - times[0]) <= early)
     if motion is not None and motion.margin_velocity is not None and math.isfinite(motion.margin_velocity):
         size = max(size, motion.margin_velocity)
-    limit = SHOWN * ((motion and limit_time(motion)) or 0.0)
-    late = (next((n for n, (t, x) in enumerate(zip(times, path)) if math.hypot(*x) > LATEST * size
+    limit = BEYOND * ((motion and limit_time(motion)) or 0.0)
+    late = (next((n for n, (t, x) in enumerate(zip(times, path)) if math.hypot(*x) > LATEST_SIZE * size
                   and t > limit), len(path)) if size else len(path))
     return path[:late + 1] if late > 20 else path
 
@@ -405,7 +471,7 @@ def data(drawn: Space, row: Callable[[bytes], Any]) -> dict[str, Any]:
 
 
 def _packed(points: Iterable[Point], box: Box) -> bytes:
-    far = int(BEYOND * HALF)
+    far = int(BEYOND_SIZE * HALF)
     (a, b, c), (p, q, r) = box.middle, (HALF / h for h in box.half)
     return packed("h", (min(max(round(v), -far), far) for x, y, z in points
                         for v in ((x - a) * p, (y - b) * q, (z - c) * r)))

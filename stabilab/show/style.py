@@ -10,8 +10,8 @@ from typing import Any
 
 from ..files import whole_file
 from ..packages import demand
-from .files import endings
-from .terminal.letters import written
+from . import endings
+from .terminal import written
 
 # The hues of Okabe and Ito, darker: lines in them have a contrast of at least 3 on white, and colour-blind
 # readers tell them apart. YELLOW is for areas alone.

@@ -12,7 +12,7 @@ from ..physics.coefficients import limits_of
 from ..physics.states import vertical
 
 # model -> the modules that may have it, each with `applies(scene)` and `follow(model, case, times, order)`
-FAMILIES = ("charged.model", "cavity.model", "top.model")
+FAMILIES = ("charged", "cavity", "top")
 MODELS = ("exact", "linear", "corrected", "printed", "averaged1", "averaged2", "lindstedt")
 
 

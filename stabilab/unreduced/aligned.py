@@ -12,24 +12,23 @@ from fractions import Fraction
 import numpy as np
 
 from ..errors import InputError
-from ..numbers.constants import EPS
-from ..orbit import extremes_and_periods as many
-from ..orbit.fate.arrays import at_rest
-from ..orbit.fate.arrays import fates as fates_on_orbit
-from ..orbit.fate.one_state import OneFate, Reason, fate_of
-from ..orbit.fate.one_state import at_rest as rest_of
-from ..orbit.fate.result import FateResult, in_chunks, write_row
+from ..numbers.double_double import EPS
+from ..orbit import extremes_arrays as many
+from ..orbit.extremes import precise_period
+from ..orbit.fate import OneFate, Reason, fate_of
+from ..orbit.fate import at_rest as rest_of
+from ..orbit.fate_arrays import FateResult, at_rest, in_chunks, write_row
+from ..orbit.fate_arrays import fates as fates_on_orbit
 from ..orbit.landscape import landscape
 from ..orbit.one_orbit import Orbit
 from ..orbit.one_state import apart_fields
-from ..orbit.period import precise_period
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate, Motion, finite, judged, pairs, repeats
 from ..physics.coefficients import three_floats
 from ..physics.scene import aligned, rests
+from . import growth
 from .evidence import extremes_over, seen_over
-from .growth import law
-from .growth.law import captured_fate, unbounded
+from .growth import captured_fate, unbounded
 from .near_rest import beside_rest, small_loop
 
 TURN_ROUNDINGS = 16  # units of rounding that turning a state costs: nine products and sums
@@ -130,7 +129,7 @@ def _label(scene, states, out) -> int:
 
 
 def _twin_fates(twin, states) -> FateResult:
-    return law.fates(twin, states) if landscape(twin) is None else fates_on_orbit(twin, states)
+    return growth.fates(twin, states) if landscape(twin) is None else fates_on_orbit(twin, states)
 
 
 def extremes(scene, states, span=None, fast: bool | None = None):

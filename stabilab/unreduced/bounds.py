@@ -23,7 +23,7 @@ from ..equilibrium.dissipative import (
 from ..equilibrium.liquid import trap
 from ..numbers.exact import floats, sqrt_fraction
 from ..numbers.vectors import dot
-from ..orbit.fate.one_state import REASONS, Reason
+from ..orbit.fate import REASONS, Reason
 from ..orbit.result import Fate, Motion
 from ..physics.coefficients import Content, at_rest, content, relative, split, taken_up
 
@@ -317,7 +317,7 @@ def _directed(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
 
 
 def _about_the_field(parts: Content, omega, gamma) -> str:
-    """Where a body tends that eddy currents alone act on: see `equilibrium.eddy`."""
+    """Where a body tends that eddy currents alone act on: see `equilibrium.dissipative`."""
     p = float(dot([d * Fraction(w) for d, w in zip(parts.D, omega)], list(map(Fraction, gamma))))
     axis = max(range(3), key=lambda i: parts.D[i])
     return (f"; H . gamma = {p:.6g} N m s stays, and the motion tends to rotation about the field, at "

@@ -18,9 +18,9 @@ import numpy as np
 from ..errors import InputError
 from ..integrate.events import roots_of_rates
 from ..integrate.quadratic_series import in_unit, mass_unit
-from ..orbit.far_states import BEYOND, ORDINARY, powered
-from ..orbit.fate.arrays import fates as free_fates
-from ..orbit.fate.one_state import as_double, at_rest, free_fate, scaled_double
+from ..orbit.fate import as_double, at_rest, free_fate, scaled_double
+from ..orbit.fate_arrays import fates as free_fates
+from ..orbit.one_state import BEYOND, ORDINARY, powered
 from ..orbit.result import Fate, Motion, finite, judged, pairs, repeats
 from ..orbit.separatrix.distance import has_no_saddle
 from ..physics.coefficients import three_floats

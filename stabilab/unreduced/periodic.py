@@ -25,8 +25,8 @@ from typing import Any
 
 import numpy as np
 
-from ..numbers.constants import EPS
-from ..numbers.roots import bernstein, bernstein_halves, held_newton
+from ..numbers.double_double import EPS
+from ..numbers.polynomial import bernstein, bernstein_halves, held_newton
 from ..numbers.vectors import CYCLE
 
 ORDER, TOLERANCE = 20, 1e-17

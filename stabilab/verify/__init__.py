@@ -14,8 +14,7 @@ from .diagram.claims import claims_of
 from .equilibria import check_equilibria, equilibria_of
 from .form import SCHEMA, check_frame, read, strangers
 from .motion import check_motion, motion_of
-from .numbers import working
-from .rates import Rates
+from .numbers import Rates, working
 
 __all__ = ["SCHEMA", "Finding", "Verification", "verify", "verify_file"]
 OUTSIDE = 53  # bits where a check asks for no more: those of a double, which flint has by itself

@@ -8,21 +8,25 @@ from fractions import Fraction
 from flint import fmpq_poly
 
 from .numbers import (
+    AHEAD,
     LINEAR,
+    TOO_LARGE,
     VERDICT,
     Malformed,
+    TooLarge,
+    Work,
     bracket,
     brief,
+    characteristic,
     entries,
     exact_sign,
     field,
     fraction,
     numbers,
     q,
+    real_roots,
     word,
 )
-from .rates import AHEAD, characteristic
-from .roots import TOO_LARGE, TooLarge, Work, real_roots
 
 
 def dot(a, b):

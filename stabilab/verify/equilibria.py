@@ -22,9 +22,22 @@ from .curves import (
     leaves_double_root,
     words,
 )
-from .numbers import brackets, brief, entries, exact_sign, field, q, word
-from .rates import characteristic, excluded
-from .roots import TOO_LARGE, Root, TooLarge, Work, real_roots
+from .numbers import (
+    TOO_LARGE,
+    Root,
+    TooLarge,
+    Work,
+    brackets,
+    brief,
+    characteristic,
+    entries,
+    exact_sign,
+    excluded,
+    field,
+    q,
+    real_roots,
+    word,
+)
 
 
 # --- Where the two conditions meet in a line: the exact zeros of the rates on it, and whether the boxes

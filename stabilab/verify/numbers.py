@@ -1,17 +1,29 @@
-"""Numbers of certificates read exactly, balls and their precision, the zero of a monotone function.
+"""Numbers and rates of a certificate.
+
+Numbers of certificates read exactly, balls and their precision, the zero of a monotone function.
 
 python-flint's precision belongs to the whole process, which may run the analysis in another thread meanwhile.
 So whoever needs it holds one lock, and the lock stands on the library: the one thing that checker and
-analysis share, and neither has to know the other. """
+analysis share, and neither has to know the other.
+
+The rates of a gyrostat from the certificate's numbers.
+
+Real zeros of polynomials with rational coefficients, isolated by Sturm's sequences, with the work that a
+check may take: bits times operations, counted before each, so that the same file has the same end
+everywhere.
+"""
 from __future__ import annotations
 
 import re
 import reprlib
+from collections.abc import Iterable, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from fractions import Fraction
 from threading import RLock
+from typing import Any
 
-from flint import arb, ctx, fmpq
+from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly
 
 # --- Exact numbers, brackets and balls as a certificate writes them
 # of a whole number, and of an exponent's value: Python's own limit; longer is an attack, not a certificate
@@ -215,3 +227,286 @@ def _exact(value) -> Fraction:
     value = value.mid() if value.is_exact() else value.upper()
     mantissa, exponent = (int(v) for v in value.man_exp())
     return Fraction(mantissa) * Fraction(2) ** exponent
+
+
+# --- The rates of the three components, from the numbers of a scene: x_i' = kappa x_j x_k + rho x_k + sigma
+# x_j + m
+AHEAD = ((1, 2), (2, 0), (0, 1))
+
+
+@dataclass(frozen=True)
+class Rates:
+    """Coefficients (each a list of three fractions), and two affine conditions (normal, constant) that every
+    equilibrium meets: normal . x + constant = 0. torque: whether any component of it acts. integrals: two
+    functions sum (a_i x_i^2/2 + b_i x_i), each as (a, b), whose rates along the motion are these
+    conditions."""
+
+    kappa: list
+    rho: list
+    sigma: list
+    m: list
+    conditions: tuple
+    torque: bool
+    integrals: tuple
+    parallel: tuple | None = None  # (D, lambda) of a body: without torque D x + lambda is parallel to x
+
+    @classmethod
+    def of_scene(cls, scene) -> Rates:
+        """The rates of the certificate's scene."""
+        kind = field(scene, "variables", "scene", str)
+        if kind == "physical":
+            rows = [numbers(field(scene, key, "scene"), f"scene.{key}", 3)
+                    for key in ("inertia", "momentum", "torque")]
+            if min(rows[0]) <= 0:
+                raise Malformed("scene.inertia: expected positive moments")
+        elif kind == "scaled":
+            rows = [[number(field(scene, key, "scene"), f"scene.{key}")] for key in "ab"]
+            rows.append(numbers(field(scene, "mu", "scene"), "scene.mu", 3))
+        else:
+            raise Malformed(f"scene.variables: expected 'physical' or 'scaled', got {kind!r}")
+        return cls.of(kind, *rows)
+
+    @classmethod
+    def of(cls, variables, first, second, torque) -> Rates:
+        """Those of `written_out`, over their weights."""
+        weights, *terms, conditions, integrals = written_out(variables, first, second, torque)
+        kappa, rho, sigma, m = ([c / w for c, w in zip(row, weights)] for row in terms)
+        return cls(kappa, rho, sigma, m, conditions, any(torque), integrals,
+                   (first, second) if variables == "physical" else None)
+
+    def at(self, x, w=1):
+        """The rates at x/w, times w^2: fractions, balls or polynomials alike."""
+        kappa, rho, sigma, m = self._lifted(x)
+        return [kappa[i] * x[j] * x[k] + (rho[i] * x[k] + sigma[i] * x[j]) * w + m[i] * w * w
+                for i, (j, k) in enumerate(AHEAD)]
+
+    def jacobian(self, x, w=1):
+        """Rows of derivatives of the rates at x/w, times w."""
+        kappa, rho, sigma, _ = self._lifted(x)
+        rows = [[x[0] * 0] * 3 for _ in AHEAD]
+        for i, (j, k) in enumerate(AHEAD):
+            rows[i][j], rows[i][k] = kappa[i] * x[k] + sigma[i] * w, kappa[i] * x[j] + rho[i] * w
+        return rows
+
+    def _lifted(self, x):
+        """The coefficients in the arithmetic of x."""
+        lift = q if isinstance(x[0], (fmpq_poly, fmpq_mpoly)) else ball if isinstance(x[0], arb) else Fraction
+        return [[lift(v) for v in row] for row in (self.kappa, self.rho, self.sigma, self.m)]
+
+
+def written_out(variables: str, first, second, torque) -> tuple:
+    """(w, kappa, rho, sigma, m, conditions, integrals) of w_i x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i
+    x_j + m_i, the last two as of `Rates`. first, second: moments and momentum of a body, D x' = (D x +
+    lambda) x x + M; [a] and [b] of the scaled system x1' = x2 x3 + mu1, x2' = -x3 (x1 + a) + mu2, x3' = x2
+    (x1 + b) + mu3. Of numbers of any kind."""
+    o = 0 * torque[0]
+    one = o + 1
+    if variables == "scaled":
+        (a,), (b,), mu = first, second, torque
+        conditions = ([mu[0], mu[1], o], mu[0] * a), ([mu[0], o, -mu[2]], mu[0] * b)
+        integrals = ([one, one, o], [a, o, o]), ([one, o, -one], [b, o, o])
+        return [one] * 3, [one, -one, one], [o, o, b], [o, -a, o], mu, conditions, integrals
+    D, lam = first, second
+    times = lambda v: [d * c for d, c in zip(D, v)]
+    conditions = (torque, o), (times(torque), sum((l * t for l, t in zip(lam, torque)), o))
+    integrals = (D, [o] * 3), (times(D), times(lam))
+    return (D, [D[j] - D[k] for j, k in AHEAD], [lam[j] for j, _ in AHEAD], [-lam[k] for _, k in AHEAD],
+            torque, conditions, integrals)
+
+
+def characteristic(J):
+    """(m, n) of z^3 + m z + n for a matrix with zero diagonal."""
+    m = -(J[0][1] * J[1][0] + J[0][2] * J[2][0] + J[1][2] * J[2][1])
+    n = -(J[0][1] * J[1][2] * J[2][0] + J[0][2] * J[1][0] * J[2][1])
+    return m, n
+
+
+def excluded(rates, box) -> bool:
+    """Whether a rate has one sign all over the box."""
+    return any(sign(v) in (1, -1) for v in rates.at([hull(a, b) for a, b in box]))
+
+
+MOST_BITS = 2_000_000_000  # some five seconds at the most; the certificates of the tests take up to a tenth
+
+
+class TooLarge(Exception):
+    """More work than a certificate may ask for."""
+
+
+class Work:
+    """What is left of it."""
+
+    def __init__(self, left: int | None = None):
+        self.left = MOST_BITS if left is None else left
+
+    def spend(self, count: int) -> None:
+        """Raises `TooLarge` when it is used up."""
+        self.left -= count
+        if self.left < 0:
+            raise TooLarge
+
+    def division(self, f: Any, g: Any) -> None:
+        """A remainder of two polynomials: their bits, once for each degree."""
+        self.spend(OVERHEAD + (bits(f) + bits(g)) * (1 + max(f.degree(), 0) + max(g.degree(), 0)))
+
+    def common(self, f: Any, g: Any) -> None:
+        """The greatest common factor of two polynomials, which is formed modulo primes."""
+        self.spend(OVERHEAD + (bits(f) + bits(g)) * (1 + max(f.degree(), 0) + max(g.degree(), 0)) // 4)
+
+    def value(self, f: Any, at: Any) -> None:
+        """The value of a polynomial at a rational number."""
+        degree = max(f.degree(), 0)
+        self.spend(OVERHEAD + 4 * (1 + degree)
+                   * (height(f) + degree * (at.numerator.bit_length() + at.denominator.bit_length())))
+
+    def factors(self, f: Any) -> None:
+        """The irreducible factors of a polynomial."""
+        degree = max(f.degree(), 0)
+        self.spend(OVERHEAD + (1 + degree) ** 3 * height(f))
+
+
+TOO_LARGE = (f"too large: degrees and digits ask for more than {MOST_BITS:,} operations on bits, and a file "
+             "from a stranger is given no more")
+OVERHEAD = 2000  # of a call: as long as so many bits take
+
+
+def height(f: Any) -> int:
+    """The bits of the longest coefficient."""
+    return int(f.numer().height_bits()) + int(f.denom().bit_length())
+
+
+def bits(f: Any) -> int:
+    """The bits of all coefficients."""
+    return height(f) * (1 + max(f.degree(), 0))
+
+
+HALVINGS = 20_000  # of one bracket; two zeros of polynomials of a certificate are farther apart
+
+
+def sequence(f, work: Work) -> list:
+    """Sturm's sequence of a polynomial without double zeros."""
+    out = [f, f.derivative()]
+    while out[-1].degree() > 0:
+        work.division(out[-2], out[-1])
+        rest = -(out[-2] % out[-1])
+        if rest == 0:
+            break
+        out.append(rest / abs(rest.leading_coefficient()))
+    return out
+
+
+def sign_at(f, at: Fraction, work: Work) -> int:
+    """The sign of a polynomial at a rational number."""
+    work.value(f, at)
+    return exact_sign(f(q(at)))
+
+
+def changes(chain: Sequence, at: Fraction, work: Work) -> int:
+    """Changes of sign of a sequence at a place."""
+    signs = [s for f in chain if (s := sign_at(f, at, work))]
+    return sum(a != b for a, b in zip(signs, signs[1:]))
+
+
+class Root:
+    """A real zero of an irreducible polynomial: the only one in (low, high), or the rational number low =
+    high itself."""
+
+    def __init__(self, polynomial, low: Fraction, high: Fraction, work: Work):
+        self.polynomial, self.low, self.high, self.work = polynomial, low, high, work
+        self.rising = 0 if low == high else sign_at(polynomial, high, work)
+
+    @property
+    def rational(self) -> bool:
+        return self.low == self.high
+
+    def halve(self) -> None:
+        """Half the bracket; a zero that is rational has none."""
+        if not self.rational:
+            middle = (self.low + self.high) / 2
+            if sign_at(self.polynomial, middle, self.work) == self.rising:
+                self.high = middle
+            else:
+                self.low = middle
+
+    def sign(self, f) -> int:
+        """The sign of a polynomial at the zero."""
+        if self.rational:
+            return sign_at(f, self.low, self.work)
+        self.work.division(f, self.polynomial)
+        f = f % self.polynomial
+        if f == 0:
+            return 0
+        self.work.common(f, f)
+        chain = sequence(f / f.gcd(f.derivative()), self.work) if f.degree() > 0 else []
+        for _ in range(HALVINGS):
+            if not chain or (sign_at(chain[0], self.low, self.work)
+                             and changes(chain, self.low, self.work) == changes(chain, self.high, self.work)):
+                return sign_at(f, self.high, self.work)
+            self.halve()
+        raise Malformed(f"a sign that {HALVINGS} halvings do not tell")
+
+    def within(self, low: Fraction, high: Fraction) -> bool:
+        """Whether the zero lies in [low, high]."""
+        for _ in range(HALVINGS):
+            if low <= self.low and self.high <= high:
+                return True
+            if self.high < low or high < self.low or (not self.rational
+                                                      and (self.high == low or high == self.low)):
+                return False
+            self.halve()
+        raise Malformed(f"a bracket whose end {HALVINGS} halvings do not tell from a zero")
+
+    def before(self, other: Root) -> bool:
+        """Whether it is less than a zero of another irreducible polynomial."""
+        for _ in range(HALVINGS):
+            if self.high < other.low or other.high < self.low:
+                return self.high < other.low
+            self.halve()
+            other.halve()
+        raise Malformed(f"two values that {HALVINGS} halvings do not tell apart")
+
+
+def real_roots(f, work: Work) -> list[Root]:
+    """All different real zeros of a polynomial that is not zero, rising."""
+    largest = max(map(abs, f.coeffs()))  # Cauchy: none is as large
+    bound = 1 + fraction(largest / abs(f.leading_coefficient()))
+    return roots([f], -bound, bound, work)
+
+
+def roots(polynomials: Iterable, low: Fraction, high: Fraction, work: Work) -> list[Root]:
+    """The different real zeros in [low, high] of polynomials that are not zero, rising, their brackets apart
+    from one another and from the ends."""
+    factors = {}
+    for p in polynomials:
+        if p.degree() > 0:
+            work.factors(p)
+            factors |= {str(f / f.leading_coefficient()): f / f.leading_coefficient()
+                        for f, _ in p.factor()[1]}
+    found = [root for f in factors.values() for root in _of(f, low, high, work)]
+    for _ in range(HALVINGS):
+        found.sort(key=lambda root: (root.low, root.high))
+        near = {n for n, (a, b) in enumerate(zip(found, found[1:])) if a.high >= b.low}
+        near |= ({n + 1 for n in near} | {n for n, root in enumerate(found) if not root.rational
+                                          and (root.low == low or root.high == high)})
+        if not near:
+            return found
+        for n in near:
+            found[n].halve()
+    raise Malformed(f"two values that {HALVINGS} halvings do not tell apart")
+
+
+def _of(f, low: Fraction, high: Fraction, work: Work) -> list[Root]:
+    if f.degree() == 1:
+        exact = -fraction(f[0] / f[1])
+        return [Root(f, exact, exact, work)] if low <= exact <= high else []
+    chain, out = sequence(f, work), []
+    todo = [(low, high, changes(chain, low, work), changes(chain, high, work))]
+    while todo:
+        a, b, first, last = todo.pop()
+        if first - last == 1:
+            out.append(Root(f, a, b, work))
+        elif first - last > 1:
+            c = (a + b) / 2
+            middle = changes(chain, c, work)
+            todo += [(a, c, first, middle), (c, b, middle, last)]
+    return out

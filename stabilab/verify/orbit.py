@@ -16,6 +16,7 @@ from types import SimpleNamespace
 from flint import acb, arb, ctx, fmpq_poly, fmpz_poly
 
 from .numbers import (
+    AHEAD,
     Malformed,
     Open,
     above,
@@ -32,7 +33,6 @@ from .numbers import (
     word,
     working,
 )
-from .rates import AHEAD
 
 LAWS = ("free", "sphere", "axis of symmetry")
 BITS = 192

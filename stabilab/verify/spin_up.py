@@ -28,6 +28,7 @@ from flint import arb, arb_mat
 from .inequality import MOST_ORDER, Inequality, MovingInequality, Unsuited
 from .normal_form import equator, form_about, moving_form
 from .numbers import (
+    AHEAD,
     Malformed,
     above,
     ball,
@@ -42,7 +43,6 @@ from .numbers import (
     word,
     working,
 )
-from .rates import AHEAD
 
 PATIENCE = 20  # times the present step that later ones may be, in the mean
 LINEAR_BITS, LINEAR_ORDER = 64, 9  # of J: what it errs by multiplies the width of the set alone

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import stabilab as package
-from stabilab.answers.passage.run import stays_below
+from stabilab.answers.passage import stays_below
 from stabilab.answers.tilt import Cone, cone_of, spread, tilt
 from stabilab.errors import InputError
 from tests.oracles.first_crossing import REAL, first_crossing

@@ -106,7 +106,7 @@ EXPRESSIONS = {"sympify", "parse_expr", "parse_latex", "parse_mathematica", "S",
                "from_string"}
 # The formulas of the papers are texts of the package itself; lambdify gets expressions that the program
 # built.
-ALLOWED = {("physics/to_numpy.py", "lambdify"), ("theories/cavity/averaged.py", "lambdify")}
+ALLOWED = {("physics/to_numpy.py", "lambdify"), ("theories/cavity.py", "lambdify")}
 # between the processes of one report, in a folder that the first has just made
 OWN_OBJECTS = {("show/report/workers.py", "pickle")}
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from stabilab.answers.digits.run import best_reached
+from stabilab.answers.digits_run import best_reached
 from stabilab.answers.simulate import simulate
 from stabilab.case.lines import key_lines
 from stabilab.case.read import load

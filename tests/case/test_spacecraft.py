@@ -251,7 +251,7 @@ def test_a_sweep_may_name_a_thruster(case_file):
 
 def test_uncertain_numbers_beside_hardware_keep_their_box(case):
     """Thrusters and wheels shift the middle of a box and leave its widths."""
-    from stabilab.answers.uncertain.box import box_of
+    from stabilab.answers.uncertain.boxes import box_of
     read = case('[body]\ninertia = ["3 +- 1 %", 2, "1.5 +- 0.01 kg m^2"]\n' + STUCK
                 + '[effects.constant_torque]\ntorque = ["1 +- 0.1 N m", 0, 0]\n')
     box = box_of(read)

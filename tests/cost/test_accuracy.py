@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from stabilab import load
-from stabilab.answers.digits import run as precision_digits
-from stabilab.answers.digits.run import best_reached
+from stabilab.answers import digits_run as precision_digits
+from stabilab.answers.digits_run import best_reached
 from stabilab.cost import accuracy as measuring
 from stabilab.cost.accuracy import Point, digit_price, pareto, precision
 from stabilab.cost.methods import methods, problem
@@ -20,8 +20,8 @@ from stabilab.integrate.reference import reference, relative_errors
 from stabilab.physics.effects.gyrostat import Gyrostat
 from stabilab.physics.equations import derive
 from stabilab.physics.scene import Body, Scene
-from stabilab.show.report import precision_page
-from stabilab.show.text.cost import precision as shown
+from stabilab.show import precision as precision_page
+from stabilab.show import precision as shown
 from tests.oracles.model import physical
 from tests.oracles.taylor import integrate_checked
 from tests.shared import CASES, case
@@ -242,7 +242,7 @@ def test_page_has_words_of_every_case_and_a_picture_of_every_kind(tmp_path, monk
 
 
 def test_command_answers_in_strict_json(stabilab, monkeypatch, tmp_path, measured):
-    monkeypatch.setattr("stabilab.commands.accuracy.measure", lambda case, effort, until=None: measured)
+    monkeypatch.setattr("stabilab.commands.one_case.measure", lambda case, effort, until=None: measured)
 
     def refuse(word):
         raise AssertionError(word)
@@ -258,7 +258,7 @@ def test_command_answers_in_strict_json(stabilab, monkeypatch, tmp_path, measure
 
 def test_command_takes_another_end_of_the_span(stabilab, monkeypatch, measured):
     given = []
-    monkeypatch.setattr("stabilab.commands.accuracy.measure", lambda case, effort,
+    monkeypatch.setattr("stabilab.commands.one_case.measure", lambda case, effort,
                         until=None: given.append((effort, until)) or measured)
     code, out, _ = stabilab("precision", CASES / "torque-free-body.toml", "--until", "1500", "--csv")
     assert code == 0 and given == [("full", 1500.0)] and out.startswith("case,question,method")
@@ -268,7 +268,7 @@ def test_a_case_without_a_span_is_measured_over_three_periods(stabilab, monkeypa
     """A body of revolution: in the body its rates go round at (C - A) omega3/A."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     given = []
-    monkeypatch.setattr("stabilab.commands.accuracy.measure", lambda case, effort, until: given.append(until)
+    monkeypatch.setattr("stabilab.commands.one_case.measure", lambda case, effort, until: given.append(until)
                         or measured)
     path = case_file("body.inertia = [2, 2, 3]\nmotion.angular_velocity = [0.1, 0, 0.5]\n", "own")
     assert stabilab("precision", path)[0] == 0 and given == [pytest.approx(3 * 2 * np.pi / 0.25)]

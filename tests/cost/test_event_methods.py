@@ -1,14 +1,13 @@
-"""Tests of `cost/event_methods.py`: what once went wrong there, and its edges."""
+"""Tests of `cost/methods.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
 import stabilab
-from stabilab.cost.event_methods import fate_methods, known_period
-from stabilab.cost.methods import problem
+from stabilab.cost.methods import fate_methods, known_period, problem
 from stabilab.errors import InputError
-from stabilab.theories.comparison import side_by_side
+from stabilab.theories.theory import side_by_side
 from tests.shared import CASES
 
 

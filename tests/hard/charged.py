@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from stabilab.theories.charged.closed_form import solution
+from stabilab.theories.charged import solution
 from tests.hard.row import UNIT, Row
 from tests.theories.charged.test_closed_form import D1, D2, D3, R0, RESONANT, START, K, body_of
 

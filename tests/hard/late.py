@@ -8,7 +8,7 @@ import mpmath as mp
 import numpy as np
 
 import stabilab
-from stabilab.unreduced.growth.law import captured_fate
+from stabilab.unreduced.growth import captured_fate
 from tests.hard.row import Verdict, numbers
 from tests.oracles import energy, taylor
 from tests.oracles.pairs import scaled

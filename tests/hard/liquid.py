@@ -11,7 +11,7 @@ import numpy as np
 import stabilab
 from stabilab import Body, Gyrostat, Scene
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
-from stabilab.theories.cavity.averaged import averaged
+from stabilab.theories.cavity import averaged
 from tests.hard.row import Row, Verdict, numbers
 from tests.oracles import energy, euler
 from tests.theories.cavity.test_averaged import body as small_body

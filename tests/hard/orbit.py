@@ -7,7 +7,7 @@ from fractions import Fraction
 import mpmath as mp
 import numpy as np
 
-from stabilab.equilibrium.circular_orbit.solve import orbit_equilibria
+from stabilab.equilibrium.circular_orbit import orbit_equilibria
 from stabilab.physics.circular_orbit import Satellite
 from tests.hard.row import Verdict, numbers
 from tests.oracles import energy

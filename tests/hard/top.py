@@ -10,9 +10,9 @@ import numpy as np
 from stabilab import Body, Gyrostat, Scene
 from stabilab.errors import InputError
 from stabilab.physics.effects.gravity import Gravity
-from stabilab.theories.top.euler_angles import mean_precession
-from stabilab.theories.top.lindstedt import lindstedt
-from stabilab.theories.top.model import printed
+from stabilab.theories.euler_angles import mean_precession
+from stabilab.theories.top import printed
+from stabilab.theories.top_lindstedt import lindstedt
 from tests.hard.row import Verdict, numbers
 from tests.oracles import energy, euler
 from tests.theories.top.test_lindstedt import ARM, FIELD, MOMENTS, R0, START, WEIGHT, near, top

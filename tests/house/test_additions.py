@@ -16,8 +16,8 @@ from tests.house.rooms import PACKAGE
 KIND = '''"""A sphere without wheel and torque: whatever its rates are, they stay."""
 from __future__ import annotations
 
-from ..orbit.fate.result import in_chunks, write_row
-from ..orbit.fate.one_state import Reason
+from ..orbit.fate_arrays import in_chunks, write_row
+from ..orbit.fate import Reason
 from ..orbit.result import Fate, Motion
 from ..physics.coefficients import three_floats
 
@@ -54,8 +54,8 @@ def periods(scene, states, fast=None):
 '''
 KIND_ROW = (
     "answers/kinds.py", "KINDS",
-    '    "sphere": Kind(lambda scene: _module("unreduced.sphere").holds(scene), "unreduced.sphere", '
-    '"unreduced.sphere"),\n')
+    '    "sphere": Kind(lambda scene: import_module("..unreduced.sphere", __package__).holds(scene), '
+    '"unreduced.sphere", "unreduced.sphere"),\n')
 QUESTION = '''"""How far each rate swings."""
 from __future__ import annotations
 

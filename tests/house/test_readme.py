@@ -22,7 +22,7 @@ from unittest import mock
 import pytest
 
 from stabilab import cli, errors
-from stabilab.show.surface.render_probe import CURE, probe
+from stabilab.show.render_probe import CURE, probe
 
 ROOT = Path(__file__).parents[2]
 README, GUIDE = ROOT / "README.md", ROOT / "docs/guide.md"

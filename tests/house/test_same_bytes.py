@@ -15,8 +15,7 @@ import numpy as np
 import pytest
 
 from stabilab.errors import BAD_INPUT, NO_RENDERING, OK, TOLERANCE_NOT_MET
-from stabilab.show.files import manifest, rerun
-from stabilab.show.surface import render_probe
+from stabilab.show import manifest, render_probe
 
 ROOT = Path(__file__).parents[2]
 CASES = {p.stem: str(p) for p in sorted((ROOT / "cases").glob("*.toml"))}
@@ -124,7 +123,7 @@ MODELS_APART = 1e-15  # of the largest value: one unit in the last place of sine
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["baseline", pytest.param("without AVX-512", marks=pytest.mark.long)])
 def test_surfaces_and_formulas_differ_in_their_last_places_only(tmp_path, name):
-    from stabilab.show.surface.render_probe import use
+    from stabilab.show.render_probe import use
     use()
     import pyvista
     wanted = [["surface", CASES["minor-axis-100"], "--out", "s"],
@@ -256,4 +255,4 @@ def test_files_that_show_times_are_marked_and_not_compared(tmp_path, monkeypatch
             (folder / name).write_text("a")
     rows = {row["path"]: row for row in manifest.read("made")[0]["outputs"]}
     assert rows["precision.html"]["timed"] and "timed" not in rows["index.html"]
-    assert [rerun._compared(rows[name], {name: "0"}) for name in rows] == ["differs", rerun.TIMED]
+    assert [manifest._compared(rows[name], {name: "0"}) for name in rows] == ["differs", manifest.TIMED]

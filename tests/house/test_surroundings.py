@@ -17,7 +17,7 @@ import pytest
 
 from stabilab import files, streams
 from stabilab.errors import BAD_INPUT, INTERRUPTED, InputError
-from stabilab.show.files import manifest
+from stabilab.show import manifest
 
 ROOT = Path(__file__).parents[2]
 MINOR, CHARGED = (ROOT / "cases" / f"{name}.toml" for name in ("minor-axis-100", "charged-body"))
@@ -401,12 +401,12 @@ def test_a_case_that_is_not_here_but_comes_with_the_package_is_named(tmp_path, s
 # A program that writes one file, or fills a folder, and stops in the middle of it, after it said so.
 HALF_FILE = ("from stabilab.files import whole_file\nwith whole_file('wanted.txt') as waiting:\n"
              "    waiting.write_text('half')\n    stop()\n    waiting.write_text('whole')\n")
-HALF_FOLDER = ("from stabilab.show.files import manifest\nwith manifest.written('out', ['tables']) as "
+HALF_FOLDER = ("from stabilab.show import manifest\nwith manifest.written('out', ['tables']) as "
                "folder:\n"
                "    (folder / 'a.txt').write_text('new')\n    stop()\n    (folder / "
                "'b.txt').write_text('new')\n")
 # ... and one that stops between the renames: b.txt is in place, c.txt is not.
-HALF_MOVED = ("import os\nfrom stabilab import files\nfrom stabilab.show.files import manifest\nreal = "
+HALF_MOVED = ("import os\nfrom stabilab import files\nfrom stabilab.show import manifest\nreal = "
               "os.replace\n"
               "def replace(a, b):\n    if str(b).endswith('c.txt'): stop()\n    real(a, b)\n"
               "files.os.replace = replace\nwith manifest.written('out', ['tables']) as folder:\n"

@@ -9,7 +9,7 @@ import pytest
 
 import stabilab
 from stabilab import Fate
-from stabilab.answers.digits.ask import ask
+from stabilab.answers.digits import ask
 from tests.oracles.pairs import physical
 
 BODY, SPAN = (3.0, 2.0, 1.5), 2.0

@@ -20,8 +20,8 @@ import pytest
 import stabilab
 from stabilab import Body, Gyrostat, Scene
 from stabilab.answers.certificate import certificate
-from stabilab.answers.digits.ask import ask
-from stabilab.answers.digits.run import best_reached
+from stabilab.answers.digits import ask
+from stabilab.answers.digits_run import best_reached
 from stabilab.numbers import balls
 from stabilab.numbers.exact import precise
 from stabilab.physics import to_numpy as compiled
@@ -212,7 +212,7 @@ def nodes(path):
 
 def test_only_gates_that_hold_a_lock_set_a_precision():
     """Another place that set it would do so while some thread computes."""
-    gates = {"numbers/balls.py": "flint", "verify/numbers.py": "flint", "theories/top/lindstedt.py": "mpmath"}
+    gates = {"numbers/balls.py": "flint", "verify/numbers.py": "flint", "theories/top_lindstedt.py": "mpmath"}
     words = ("workprec", "extraprec", "workdps", "extradps")
     found = {path.relative_to(ROOT / "stabilab").as_posix(): ast.unparse(node.value).split(".")[0]
              for path in sources(*words)

@@ -51,7 +51,7 @@ def test_a_notebook_has_none_of_our_own_words(notebook):
 
 
 def test_the_help_of_every_command_has_none_of_our_own_words(stabilab):
-    from stabilab.show.terminal.groups import GROUPS
+    from stabilab.show.command_groups import GROUPS
     for _, names in GROUPS.values():
         for name in names:
             assert ours(stabilab(name, "--help")[1]) == [], name

@@ -11,9 +11,9 @@ import numpy as np
 
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
-from stabilab.answers.digits.ask import ask
-from stabilab.orbit.extremes_and_periods import extremes_and_periods
-from stabilab.orbit.fate.one_state import REASONS, Reason
+from stabilab.answers.digits import ask
+from stabilab.orbit.extremes_arrays import extremes_and_periods
+from stabilab.orbit.fate import REASONS, Reason
 from stabilab.orbit.landscape import landscape
 from tests.hunt.disagreements import between
 

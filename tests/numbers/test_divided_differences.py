@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from stabilab.errors import InputError
-from stabilab.numbers.divided_differences import divided_differences
-from stabilab.numbers.double_double import Twofold, twofold
+from stabilab.numbers.double_double import Twofold, divided_differences, twofold
 
 flint = pytest.importorskip("flint")
 BITS = 400

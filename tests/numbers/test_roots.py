@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from stabilab.numbers.roots import EPS, between, bracketed_newton, halved
+from stabilab.numbers.polynomial import EPS, between, bracketed_newton, halved
 
 # name -> (f, f', bracket, root by hand, rising, most evaluations from the middle)
 FUNCTIONS = {

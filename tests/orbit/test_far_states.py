@@ -1,4 +1,4 @@
-"""Tests of `orbit/far_states.py`: what once went wrong there, and its edges."""
+"""Tests of `orbit/one_state.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
 from fractions import Fraction
@@ -10,8 +10,8 @@ import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.motion import motion
 from stabilab.errors import InputError
-from stabilab.orbit.far_states import far_exponent, far_rows
-from stabilab.orbit.flow.flow import reduced_motion
+from stabilab.orbit.flow import reduced_motion
+from stabilab.orbit.one_state import far_exponent, far_rows
 from stabilab.orbit.phase_plane import phase_plane
 
 RATES = (0.1, 0.05, 0.2)

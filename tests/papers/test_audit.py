@@ -14,11 +14,9 @@ from stabilab.papers import audit
 from stabilab.papers.audit.checks import bound_of, decide, pairs, raw, system_of
 from stabilab.papers.audit.findings import examine, prove_systems, repairs, with_domain
 from stabilab.papers.audit.measured import missed as steps_missed
-from stabilab.theories.cavity import model as cavity
-from stabilab.theories.charged import model as charged
+from stabilab.theories import cavity, charged, top
 from stabilab.theories.printed.claims import FormulaError, parse, read, sides
 from stabilab.theories.printed.evaluate import Setting
-from stabilab.theories.top import model as top
 
 PAPERS = {name: audit.paper(name) for name in audit.papers()}
 DOCS = Path(__file__).parents[2] / "docs" / "audit.md"

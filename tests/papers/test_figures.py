@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from matplotlib.colors import rgb_to_hsv, to_rgb
 
-from stabilab.papers.figures import catalogue, cavity, major_axis, middle_axis, minor_axis, paper
+from stabilab.papers import table
+from stabilab.papers.figures import catalogue, cavity, major_axis, middle_axis, minor_axis
 from stabilab.papers.figures.catalogue import figure
 from stabilab.show import style
-from stabilab.show.terminal.letters import written
+from stabilab.show.terminal import written
 
 # Names of letters spelt out; a list of its own, so that one left out of the table of letters is seen.
 SPELT = re.compile(
@@ -24,7 +25,7 @@ def plt():
 
 def test_figures_of_captured_motions_are_drawn_beyond_the_release_they_claim():
     """Oracle: the reversals of the turn about axis 1 counted along the run itself; none after the mark."""
-    (_, printed), (_, longer) = major_axis._rows(paper.START_CAPTURED)
+    (_, printed), (_, longer) = major_axis._rows(table.START_CAPTURED)
     claimed = re.search(r"released at τ = ([\d.]+), ([\d.]+) and ([\d.]+)", figure(12).caption).groups()
     for (lam, (states, seen, release)), claim in zip(longer.items(), claimed):
         turn = np.unwrap(np.arctan2(states[:, 2], states[:, 1]))
@@ -35,7 +36,7 @@ def test_figures_of_captured_motions_are_drawn_beyond_the_release_they_claim():
 
 
 def test_no_equilibrium_stands_at_an_edge_of_the_phase_planes():
-    for lam in paper.LAMBDAS:
+    for lam in table.LAMBDAS:
         plane, start, span = minor_axis._plane(lam)
         for place in plane.repeated(plane.centres + plane.saddles, span[0] - 1, span[1] + 1):
             assert min(abs(start + 2 * place - edge) for edge in minor_axis.WINDOW) > 0.2
@@ -43,7 +44,7 @@ def test_no_equilibrium_stands_at_an_edge_of_the_phase_planes():
 
 def test_figure_4_has_the_equilibria_of_each_wheel_on_its_own_circle():
     """By the balance on a circle of radius A: 1 + A cos(alpha/2) (A sin(alpha/2) + c) = 0, c = b - a."""
-    for lam in paper.FIG4:
+    for lam in table.FIG4:
         plane, start, span = minor_axis._plane(lam)
         A, c = np.hypot(2.5 + lam / 500, 4.0), lam / 500
         places = plane.repeated(plane.centres + plane.saddles, *span)
@@ -53,14 +54,14 @@ def test_figure_4_has_the_equilibria_of_each_wheel_on_its_own_circle():
 
 def test_figure_17_has_every_value_of_the_paper_to_one_scale(plt):
     panels = middle_axis.projections(plt).axes
-    assert [int(re.search(r"lambda_1=(\d+)", ax.get_title())[1]) for ax in panels[:3]] == list(paper.LAMBDAS)
+    assert [int(re.search(r"lambda_1=(\d+)", ax.get_title())[1]) for ax in panels[:3]] == list(table.LAMBDAS)
     assert len({(ax.get_xlim(), ax.get_ylim()) for ax in panels}) == 1
 
 
 def test_separatrix_surfaces_are_named_as_in_the_phase_plane(plt):
     """The left loop lies about a centre with x1 + a < 0, where alpha = 2 atan2(x1 + a, x2) is negative."""
-    sides = {paper.side(branch): branch for branch in minor_axis.branches().branches}
-    a = paper.scene("minor", 100).a
+    sides = {table.side(branch): branch for branch in minor_axis.branches().branches}
+    a = table.printed_scene("minor", 100).a
     for side, sign in (("left", -1), ("right", 1)):
         centre = np.asarray(sides[side].centre)[-1]
         assert np.sign(2 * np.arctan2(centre[0] + a, centre[1])) == sign

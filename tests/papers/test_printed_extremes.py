@@ -2,8 +2,7 @@
 import numpy as np
 import pytest
 
-from stabilab.papers.printed_extremes import printed_extremes
-from stabilab.papers.table import extremes_table, latex_escape, torque_signs
+from stabilab.papers.table import extremes_table, latex_escape, printed_extremes, torque_signs
 
 
 def piece(square, start):

@@ -10,14 +10,13 @@ import numpy as np
 import pytest
 
 import stabilab
+from stabilab.papers import report
+from stabilab.papers import report as chapters
 from stabilab.papers.audit import findings_of
 from stabilab.papers.audit import page as audit_page
 from stabilab.papers.figures import catalogue as figures
-from stabilab.papers.report import chapters, report
-from stabilab.show import style
-from stabilab.show.files import manifest
+from stabilab.show import manifest, render_probe, style
 from stabilab.show.report import html, own
-from stabilab.show.surface import render_probe
 from tests.shared import CASES
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
@@ -146,9 +145,9 @@ def test_a_strict_report_leaves_with_3_where_a_fate_is_undecided(fate, strict, c
                                                                  capsys):
     import typer
 
-    from stabilab.commands import report as command
+    from stabilab.commands import papers as command
     made = {"fate": fate, "path": "a.toml", "title": "", "headline": "", "law": ""}
-    monkeypatch.setattr(own.page, "sections", lambda *_: made)
+    monkeypatch.setattr(own.one_case, "sections", lambda *_: made)
     monkeypatch.setattr(own, "surface_of", lambda *_: None)
     monkeypatch.setattr(own, "write", lambda made, place, prefix, **around: place.write_text("") and place)
     monkeypatch.setattr(command, "sys", type("_", (), {"argv": ["stabilab", "report"]}))

@@ -18,7 +18,7 @@ from stabilab.papers.validation import comparison as shown
 from stabilab.papers.validation import findings, source, sources
 from stabilab.papers.validation.comparison import Source
 from stabilab.papers.validation.quantities import ab2, at, rk4, run
-from stabilab.show.terminal.letters import written
+from stabilab.show.terminal import written
 from tests.oracles import taylor
 from tests.oracles.pairs import physical
 

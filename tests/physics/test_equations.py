@@ -110,7 +110,7 @@ def test_unnamed_effects_are_not_imported():
 def test_deriving_waits_to_import_sympy_and_compiling_heyoka():
     code = (
         "import sys, stabilab.physics.equations, stabilab.physics.to_numpy, stabilab.integrate.trajectory, "
-        "stabilab.unreduced.growth.law;"
+        "stabilab.unreduced.growth;"
         "print(*[m for m in ('sympy', 'heyoka', 'scipy') if m in sys.modules])")
     assert run_python(code).split() == []
 

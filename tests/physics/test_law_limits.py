@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.answers.digits.run import best_reached
+from stabilab.answers.digits_run import best_reached
 from stabilab.answers.simulate import simulate
 from stabilab.case.read import load_all
 from stabilab.physics.coefficients import content, liquid_torque
@@ -21,7 +21,7 @@ from stabilab.physics.effects.liquid_cavity import NEXT_TERM, LiquidCavity, pace
 from stabilab.physics.effects.newtonian_field import NewtonianField
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.scene import Body, Scene
-from stabilab.show.text import law
+from stabilab.show.text import headline
 from stabilab.theories.follow import follow
 
 CASES = Path(__file__).parents[2] / "cases"
@@ -235,28 +235,28 @@ def test_commands_say_first_that_a_thick_liquid_is_within_its_law(stabilab, tmp_
 
 
 def test_surface_carries_it_in_its_summary(stabilab, tmp_path, monkeypatch):
-    from stabilab.show.surface import render_probe
-    monkeypatch.setattr("stabilab.show.surface.write.probe", lambda: render_probe.Renderer(False, "none here"))  # loaded first, so that it is put back
+    from stabilab.show import render_probe
+    monkeypatch.setattr("stabilab.show.surface.probe", lambda: render_probe.Renderer(False, "none here"))  # loaded first, so that it is put back
     _, out, _ = stabilab("surface", CASES / "charged-body.toml", "--out", tmp_path / "s", "--json")
     assert json.loads(out)["validity"]["effect"] == "charge"
 
 
 def test_section_of_a_report_says_it_first(tmp_path):
     from stabilab.case.read import load
-    from stabilab.show.report.one_case.page import sections
+    from stabilab.show.report.one_case import sections
     page = sections(load(water(tmp_path, "1e-6")), tmp_path, "water")
     assert page["law"].startswith("BEYOND THE LAW")  # the page has it below its verdict, before anything else
 
 
 def test_one_reason_of_several_cases_is_one_line_that_names_them():
-    assert law.together(["no body (3) does (one)", "too fast (two)", "no body (3) does (three)"]) == ["no body (3) does (one, three)", "too fast (two)"]
+    assert headline.together(["no body (3) does (one)", "too fast (two)", "no body (3) does (three)"]) == ["no body (3) does (one, three)", "too fast (two)"]
 
 
 def test_a_table_of_a_sweep_has_one_line_on_a_law_and_says_of_how_many_combinations(stabilab, tmp_path):
     """As the report of the same file; beside a file that has no place for it, on stderr."""
     _, out, err = stabilab("extremes", CASES / "charged-sweep.toml", "--csv")
     assert len(out.splitlines()) == 82 and out.count("BEYOND THE LAW: ") == 81 and not err
-    line = law.of_cases(load_all(CASES / "charged-sweep.toml"))
+    line = headline.of_cases(load_all(CASES / "charged-sweep.toml"))
     assert line.count("BEYOND THE LAW") == 1 and "(charged-sweep: 27 of 27 combinations, the farthest of them given)" in line
     farthest = max(row["validity"]["value"] for row in json.loads(stabilab("extremes", CASES / "charged-sweep.toml", "--json")[1]))
     assert f"with the attitude, {farthest:.3g} along" in line
@@ -284,7 +284,7 @@ def test_a_law_beside_other_answers_is_judged_along_the_first_turns_of_a_motion_
     case = stabilab.load({"body": {"inertia": [3, 2, 1.5]},
                           "effects": {"liquid_cavity": {"density": 1000, "viscosity": 1, "radius": 0.05}},
                           "motion": {"angular_velocity": [0, 0, "3e6 rad/s"], "span": [0, 15]}})
-    found = law.of_case(case)
+    found = headline.of_case(case)
     assert found.over == "along the first 0.033 s of the run"
     assert found.value == pytest.approx(stabilab.validity(scene, (0, 0, 3e6)).value, rel=1e-9)
-    assert "along the run" in law.of_case(case, (0, 0.01)).words
+    assert "along the run" in headline.of_case(case, (0, 0.01)).words

@@ -9,7 +9,7 @@ from stabilab.errors import InputError
 from stabilab.show.explore.pictures import unframed
 from stabilab.show.explore.session import Session
 from stabilab.show.plot.subject import offered, subject
-from stabilab.show.report.one_case import page, pictures
+from stabilab.show.report import one_case
 
 PARTS = ("headline", "law", "caveats", "fate", "look", "tiles", "facts", "extremes", "over", "sensitivity",
          "equilibria", "uncertain", "absent")
@@ -19,13 +19,13 @@ SLOW = {"attitude", "budget", "section", "tilt", "wheel"}  # kinds of plot that 
 
 def of_page(path: Path) -> dict:
     """Every word and formula of the page of a case; pictures are named and not drawn."""
-    write_all, picture = pictures.to_file.write_all, pictures.picture
-    pictures.to_file.write_all = lambda one, target, *given, **named: [target]
-    pictures.picture = lambda made, *given, **words: words
+    write_all, picture = one_case.to_file.write_all, one_case.picture
+    one_case.to_file.write_all = lambda one, target, *given, **named: [target]
+    one_case.picture = lambda made, *given, **words: words
     try:
-        made = page.sections(stabilab.load(path), Path(), path.stem)
+        made = one_case.sections(stabilab.load(path), Path(), path.stem)
     finally:
-        pictures.to_file.write_all, pictures.picture = write_all, picture
+        one_case.to_file.write_all, one_case.picture = write_all, picture
     return ({name: made[name] for name in PARTS} | {"space": _of_space(made["space"])}
             | {name: made["equations"][name] for name in ("equations", "parameters")}
             | {"pictures": [[one["kind"], one["title"], one["caption"]] for one in made["pictures"]]})

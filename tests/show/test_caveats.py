@@ -13,7 +13,7 @@ import stabilab as package
 from stabilab.answers.caveats import caveats_of
 from stabilab.case.read import load
 from stabilab.show.explore.session import Session
-from stabilab.show.report.one_case import page
+from stabilab.show.report import one_case
 from tests.shared import craft_file
 from tests.show.explore.test_session import ask
 
@@ -105,7 +105,7 @@ def test_the_explorer_shows_what_limits_its_answer(files, name):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", MOTION)
 def test_a_page_shows_what_limits_its_answer(files, tmp_path, name):
-    made = page.sections(load(files[name]), tmp_path, "case", deep=False)
+    made = one_case.sections(load(files[name]), tmp_path, "case", deep=False)
     assert told(name, f"{made['headline']} {' '.join(made['caveats'])} {made['uncertain']}")
 
 

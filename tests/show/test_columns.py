@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from stabilab.show.terminal import page
+from stabilab.show import terminal
 
 HEADS = ["torque[3]", "momentum[1]", "fate", "ω1 least", "ω1 most", "period"]
 ROWS = [HEADS, ["N m", "N m s", "", "deg/s", "deg/s", "s"], ["0.1", "4", "bounded", "-1.5", "22.25", ""],
@@ -13,7 +13,7 @@ ROWS = [HEADS, ["N m", "N m s", "", "deg/s", "deg/s", "s"], ["0.1", "4", "bounde
 
 @pytest.mark.parametrize("width", [None, 200, 66, 50, 45, 40, 10])
 def test_columns_that_do_not_fit_go_on_in_a_table_below_with_their_keys(width):
-    parts = "\n".join(page.table(ROWS, 2, width)).split("\n\n")
+    parts = "\n".join(terminal.table(ROWS, 2, width)).split("\n\n")
     found = {}
     for part in parts:
         lines = part.split("\n")

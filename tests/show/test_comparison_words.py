@@ -37,11 +37,11 @@ def test_rounding_is_not_drawn_as_motion():
 
     from stabilab.answers.simulate import Simulation
     from stabilab.show import style
-    from stabilab.show.text.cost import comparison
+    from stabilab.show.text import cost
     from tests.shared import case
     t = np.linspace(0, 1, 50)
     run = Simulation(t, {"omega": np.stack([1e-17 * np.sin(40 * t), 0.1 * np.sin(t), 2 + 0 * t], -1)},
                      "exact", "taylor", None)
     with style.drawing() as plt:
-        noise, motion, _ = comparison.picture(plt, case("top-fast"), {"exact": run}).axes
+        noise, motion, _ = cost.picture(plt, case("top-fast"), {"exact": run}).axes
         assert np.ptp(noise.get_ylim()) > 1 and np.ptp(motion.get_ylim()) < 10  # deg/s

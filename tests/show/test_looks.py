@@ -10,7 +10,7 @@ import pytest
 
 from stabilab.show import style
 from stabilab.show.plot import over_time
-from stabilab.show.text.cost import comparison
+from stabilab.show.text import cost
 from tests.recorded.answers import recorded
 
 ROOT = Path(__file__).parents[2]
@@ -52,7 +52,7 @@ def linear(colour: str) -> np.ndarray:
 def lines() -> set[str]:
     """The colours of all lines and markers."""
     looks = [*style.MEANING.values(), *style.MARKER.values(), *over_time.COMPONENTS, over_time.LIMIT,
-             *comparison.LOOKS.values(), over_time.SIZE_LOOK]
+             *cost.LOOKS.values(), over_time.SIZE_LOOK]
     shown = [one.get("markeredgecolor", one.get("color")) for one in looks]
     return {*shown, *style.SERIES, *style.LOOK.values(), *style.SPIN.values()}
 

@@ -16,12 +16,12 @@ from stabilab.show import style
 from stabilab.show.plot.in_space import space_of
 from stabilab.show.plot.path import thinned
 from stabilab.show.plot.subject import subject
-from stabilab.show.report.one_case import space, sweep
-from stabilab.show.report.one_case.page import sections
-from stabilab.show.report.one_case.tables import equilibrium_table as table
+from stabilab.show.report import one_case
+from stabilab.show.report.one_case import sections
+from stabilab.show.report.tables import equilibrium_table as table
 from stabilab.show.space import Box
-from stabilab.show.terminal.letters import printed
-from stabilab.show.text import law
+from stabilab.show.terminal import printed
+from stabilab.show.text import headline
 from stabilab.show.units import DEG, units_of
 from tests.shared import CASES
 
@@ -35,13 +35,13 @@ UNSTABLE_PLANE = "[scaled]\na = 0.5\nb = 1\nmu = [0, 1, 0]\n[motion]\nx = [5, 0,
 def _space(case):
     moved = motion(case.scene, case.start, case.span, exact=case.exact_state)
     one = replace(subject(case), known=moved)
-    return moved, space.space(one, equilibria(case.scene), units_of(case))
+    return moved, one_case.space(one, equilibria(case.scene), units_of(case))
 
 
 @pytest.fixture
 def undrawn(monkeypatch):
     """A page without its pictures, which take most of its time."""
-    monkeypatch.setattr("stabilab.show.report.one_case.page.pictures", lambda *given: [])
+    monkeypatch.setattr("stabilab.show.report.one_case.pictures", lambda *given: [])
 
 
 def _places(packed):
@@ -197,7 +197,7 @@ def test_pieces_of_branches_are_told_by_the_rate_about_the_vertical_in_the_unit_
 @pytest.mark.slow
 def test_a_column_of_a_sweep_that_says_nothing_is_left_out(tmp_path):
     """A charged body's motion has no separatrix to be apart from: a column of empty margins was shown."""
-    page = sweep.sections(load_all(CASES / "charged-sweep.toml")[:2], tmp_path, "charged-sweep")
+    page = one_case.sections_of_sweep(load_all(CASES / "charged-sweep.toml")[:2], tmp_path, "charged-sweep")
     assert page["heads"] == ["fate", "largest rate (deg/s)", "period (s)"]
     assert all(len(row["told"]) == 3 and all(row["told"]) for row in page["rows"])
 
@@ -212,7 +212,7 @@ def test_the_rates_of_a_sweep_on_an_unstable_plane_stay_on_it(tmp_path, case_fil
     monkeypatch.setattr(style, "save", lambda figure,
                         path: kept.extend(line.get_xydata() for line in figure.axes[0].lines)
                         or save(figure, path))
-    sweep.sections(cases, tmp_path, "plane")
+    one_case.sections_of_sweep(cases, tmp_path, "plane")
     assert len(kept) == 2
     for t, size in (rows.T for rows in kept):
         late = t > 3
@@ -232,8 +232,8 @@ def test_a_certificate_without_claims_is_not_said_to_be_checked(name, claims, tm
 def test_the_imaginary_unit_and_the_base_of_the_exponential_are_plain_letters():
     from sympy import I, Symbol, exp
 
-    from stabilab.show.report import typeset
-    told = typeset.inner(exp(I * Symbol("t")))
+    from stabilab.show.report import html
+    told = html.inner(exp(I * Symbol("t")))
     assert "<mi>e</mi>" in told and "<mi>i</mi>" in told and "ExponentialE" not in told
     assert "ImaginaryI" not in told
 
@@ -241,12 +241,12 @@ def test_the_imaginary_unit_and_the_base_of_the_exponential_are_plain_letters():
 def test_a_page_of_a_sweep_begins_with_the_answer_of_the_commands_and_tells_the_farthest_of_its_laws(
     stabilab, tmp_path):
     path = CASES / "charged-sweep.toml"
-    found = sweep.sections(load_all(path), tmp_path, "charged-sweep")
+    found = one_case.sections_of_sweep(load_all(path), tmp_path, "charged-sweep")
     first = stabilab("fate", path)[1].splitlines()[0]
     assert first.endswith(f"; by that law: charged-sweep: {found['headline']}")
     assert found["headline"].startswith(
         "27 combinations: each BOUNDED only while the torque is exactly along x ")
-    assert law.of_cases(load_all(path)) == found["law"] and "27 of 27 combinations" in found["law"]
+    assert headline.of_cases(load_all(path)) == found["law"] and "27 of 27 combinations" in found["law"]
 
 
 @pytest.mark.parametrize("name, limit", [("cubesat-3u", 60.0), ("upper-stage", 120.0), ("space-station", 0.5)])

@@ -12,16 +12,14 @@ import pytest
 from stabilab import errors, load
 from stabilab.case.read import read_text
 from stabilab.orbit import phase_plane as phase
-from stabilab.orbit.separatrix.result import Branch
+from stabilab.orbit.separatrix.homoclinic import Branch
 from stabilab.papers import table
 from stabilab.papers.figures import catalogue as figures
-from stabilab.papers.figures import paper
-from stabilab.show import style
+from stabilab.show import render_probe, style, surface
+from stabilab.show import surface as drawing
+from stabilab.show import surface as mesh
 from stabilab.show.plot import to_file as plane
 from stabilab.show.plot.subject import subject
-from stabilab.show.surface import mesh, render_probe
-from stabilab.show.surface import picture as drawing
-from stabilab.show.surface import write as surface
 from tests.shared import CASES
 
 # -- tables --
@@ -75,12 +73,12 @@ def test_a_minus_of_table_1_is_no_hyphen():
 @pytest.mark.parametrize("number", table.EXTREMES)
 def test_the_case_files_of_the_tables_hold_the_papers_data(number):
     import stabilab
-    starts = {"minor-axis": paper.START_MINOR, "middle-axis": paper.START_MIDDLE,
-              "middle-axis-equal": paper.START_PLANE}
+    starts = {"minor-axis": table.START_MINOR, "middle-axis": table.START_MIDDLE,
+              "middle-axis-equal": table.START_PLANE}
     for family in table.EXTREMES[number][0]:
-        for lam in paper.LAMBDAS:
+        for lam in table.LAMBDAS:
             case = stabilab.load(CASES / f"{family}-{lam}.toml")
-            assert case.scene == paper.scene(family.split("-")[0], lam)
+            assert case.scene == table.printed_scene(family.split("-")[0], lam)
             if family in starts:
                 assert case.state == starts[family]
             else:  # the case that was meant lies in the invariant plane x1 + b = x3
@@ -110,10 +108,10 @@ def test_saddles_without_wheel_are_where_the_paper_puts_them():
     assert len(found.saddles) == len(found.centres) == 2
 
 
-@pytest.mark.parametrize("lam", paper.LAMBDAS)
+@pytest.mark.parametrize("lam", table.LAMBDAS)
 def test_the_drawn_separatrix_is_a_level_curve_of_the_true_integral(lam):
-    scene = paper.scene("minor", lam)
-    found = phase.phase_plane(scene, paper.START_MINOR)
+    scene = table.printed_scene("minor", lam)
+    found = phase.phase_plane(scene, table.START_MINOR)
     saddle = found.saddles[0]
     y, W = found.separatrix(saddle, -4.0, 4.0)
     theta = np.arctan2(2.5 + scene.a, 4.0) + y
@@ -277,7 +275,7 @@ def test_a_surface_picture_names_the_axes_of_its_case(tmp_path):
     plain.write_text(text.format("[12, 9, 5]", "[0, 0, 0.02]"))
     turned.write_text(text.format("[[12, 0, 0], [0, 7, 2], [0, 2, 7]]", "[0, 0.02, -0.02]"))
     named = [drawing.of(subject(given)).names for given in
-             (*map(load, (plain, turned, CASES / "minor-axis-100.toml")), paper.scene("minor", 100))]
+             (*map(load, (plain, turned, CASES / "minor-axis-100.toml")), table.printed_scene("minor", 100))]
     assert named == [("ω₁, x (major) (deg/s)", "ω₂, y (intermediate) (deg/s)", "ω₃, z (minor) (deg/s)"),
                      ("ω₁, major (deg/s)", "ω₂, intermediate (deg/s)", "ω₃, minor (deg/s)"),
                      ("x₁", "x₂", "x₃"), ("x₁", "x₂", "x₃")]

@@ -18,7 +18,7 @@ from stabilab.case.read import read_text
 from stabilab.show import style
 from stabilab.show.plot import path, subject, to_file
 from stabilab.show.plot import subject as which
-from stabilab.show.text.cost import comparison
+from stabilab.show.text import cost
 from tests import shared
 from tests.shared import case as load
 
@@ -84,7 +84,7 @@ def test_a_model_that_ends_early_says_so_and_words_on_cuts_tell_both_sides():
             "printed": SimpleNamespace(t=t[:40], state={"omega": np.column_stack([20 * np.cos(t[:40])] * 3)},
                                        status="left")}
     with style.drawing():
-        figure = comparison.picture(plt, load("minor-axis-100"), runs)
+        figure = cost.picture(plt, load("minor-axis-100"), runs)
         words = [text.get_text() for text in figure.legends[0].get_texts()]
         told = {text.get_text() for ax in figure.axes for text in ax.texts}
         marks = [line.get_xdata() for line in figure.axes[0].get_lines() if line.get_marker() == "X"]

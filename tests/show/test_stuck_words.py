@@ -5,7 +5,7 @@ import re
 import pytest
 
 from stabilab.case.read import load
-from stabilab.show.report.one_case.page import sections
+from stabilab.show.report.one_case import sections
 from tests.shared import craft_file
 
 SATELLITE = craft_file([12.0, 9.0, 5.0], ([0.5, 0, 0], [0, 1, 0], "40 mN"), [([1, 0, 0], "0.8 N m s")],

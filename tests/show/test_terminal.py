@@ -11,8 +11,10 @@ from pathlib import Path
 import pytest
 
 from stabilab import cli
-from stabilab.show.terminal import completion, letters, page
-from stabilab.show.terminal.groups import GROUPS
+from stabilab.show import command_groups
+from stabilab.show import terminal as letters
+from stabilab.show import terminal as page
+from stabilab.show.command_groups import GROUPS
 from tests.shared import CASES, MOVING
 
 ROOT = Path(__file__).parents[2]
@@ -189,10 +191,10 @@ def test_names_that_are_offered_are_those_that_are_known():
     from stabilab.show.plot.subject import KINDS
     from stabilab.show.units import SYSTEMS
     from stabilab.theories.follow import MODELS
-    assert completion.units("") == list(SYSTEMS) and completion.kinds("") == list(KINDS)
-    assert set(completion.methods("")) == {"taylor", "reduced",
-                                           *SCIPY_METHODS} and set(completion.models("")) == set(MODELS)
-    assert {"constant-torque-gyrostat"} <= set(completion.audited("")) and completion.sources("o") == [
+    assert command_groups.units("") == list(SYSTEMS) and command_groups.kinds("") == list(KINDS)
+    assert set(command_groups.methods("")) == {"taylor", "reduced",
+                                           *SCIPY_METHODS} and set(command_groups.models("")) == set(MODELS)
+    assert {"constant-torque-gyrostat"} <= set(command_groups.audited("")) and command_groups.sources("o") == [
         "orekit"]
 
 

@@ -4,15 +4,15 @@ import math
 import re
 from fractions import Fraction
 
-from stabilab.show.text import uncertain
+from stabilab.show.text import classification
 from tests.shared import CASES
 
 
 def test_an_uncertain_rate_in_degrees_is_told_in_digits_and_not_as_a_long_ratio():
     # 5.7 +- 0.5 deg in rad, with the digits of a double of pi
     half, middle = Fraction(math.pi) / 360, Fraction(math.pi) * 57 / 1800
-    assert uncertain.rounded(middle) == "0.0994838" and uncertain.rounded(half) == "0.00872665"
-    assert uncertain.rounded(Fraction(1, 3)) == "1/3" and uncertain.rounded(Fraction(1, 8)) == "0.125"
+    assert classification.rounded(middle) == "0.0994838" and classification.rounded(half) == "0.00872665"
+    assert classification.rounded(Fraction(1, 3)) == "1/3" and classification.rounded(Fraction(1, 8)) == "0.125"
 
 
 def test_a_place_of_the_box_is_told_in_six_digits_and_json_has_them_all(stabilab):

@@ -8,7 +8,7 @@ from stabilab.show.report.workers import Task
 
 def _tasks(number):
     """Tasks that need next to nothing: a symbol, typeset."""
-    return [Task(f"symbol {n}", "show.report.typeset:symbol", (f"omega{n}",), float(n))
+    return [Task(f"symbol {n}", "show.report.html:symbol", (f"omega{n}",), float(n))
             for n in range(number)]
 
 
@@ -21,7 +21,7 @@ def test_tasks_answer_in_their_order(tmp_path, number):
 
 def test_a_task_that_fails_in_a_helper_fails_here(tmp_path):
     with pytest.raises(InputError, match="nowhere.toml"):
-        workers.done([Task("a fault", "papers.report.report:of_all", (["nowhere.toml"],), 9.0), *_tasks(3)],
+        workers.done([Task("a fault", "papers.report:of_all", (["nowhere.toml"],), 9.0), *_tasks(3)],
                      tmp_path, lambda words: None, 2)
 
 

@@ -1,10 +1,10 @@
-"""Tests of `theories/comparison.py`: what once went wrong there, and its edges."""
+"""Tests of `theories/theory.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
 import numpy as np
 
 import stabilab
-from stabilab.theories.comparison import side_by_side
+from stabilab.theories.theory import side_by_side
 
 
 def liquid_case(folder, torque):

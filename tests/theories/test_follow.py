@@ -10,8 +10,8 @@ from stabilab import Body, Gyrostat, Scene, load
 from stabilab.case.read import load_all
 from stabilab.errors import CaseError, InputError
 from stabilab.physics.effects.resistance import Resistance
-from stabilab.theories.comparison import compare
 from stabilab.theories.follow import follow, models_of
+from stabilab.theories.theory import compare
 from tests.shared import SCALED_MINOR
 
 CASES = Path(__file__).parents[2] / "cases"
@@ -28,7 +28,7 @@ def test_the_models_of_a_case_are_those_whose_assumptions_its_scene_meets(name, 
 
 def test_a_charge_that_follows_the_attitude_is_modelled_with_its_first_angle():
     """gamma3 = 1 at the start: k = e H l^2 = 0.003 * 100 * 1.02^2, by hand."""
-    from stabilab.theories.charged.model import body_of
+    from stabilab.theories.charged import body_of
     assert float(np.max(body_of(load(CASES / "charged-body-attitude.toml")).charge_moment)) == pytest.approx(
         0.312120, rel=1e-12)
 
@@ -54,7 +54,7 @@ def test_models_have_the_parts_of_the_state_that_the_exact_motion_has():
 def test_the_model_printed_follows_the_print_and_the_model_corrected_the_integrals_it_means():
     """(44) of the paper: I_omega is the integral of I_Gamma, so the rate of omega is -i f3 e^(i r0 t)
     Gamma/m; (46) as typed misses that, and (61) does not vanish at t = 0."""
-    from stabilab.theories.charged.model import body_of, printed
+    from stabilab.theories.charged import body_of, printed
     case, t, h = load(CHARGED), 20.0, 1e-4
     runs = {model: follow(case, [0.0, t - h, t, t + h], model).state for model in ("corrected", "printed")}
     for model, right in (("corrected", True), ("printed", False)):
@@ -169,8 +169,8 @@ def test_compare_names_the_attracting_spin_of_a_body_with_a_liquid():
 
 
 def test_the_periodic_motion_precesses_as_the_exact_one_through_it():
+    from stabilab.theories.euler_angles import with_euler_angles
     from stabilab.theories.theory import theory
-    from stabilab.theories.top.euler_angles import with_euler_angles
     case = load(CASES / "top-fast.toml")
     rows = {row["about"]: row["values"] for row in theory(case, 8)}
     turns = rows["periodic motion"]["period"] * np.array([0.0, 24.0])

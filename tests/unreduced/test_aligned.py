@@ -11,10 +11,10 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
-from stabilab.answers.extremes import extremes, period
+from stabilab.answers.fate import extremes, period
 from stabilab.answers.motion import motion
 from stabilab.errors import InputError
-from stabilab.orbit.extremes_and_periods import extremes_and_periods
+from stabilab.orbit.extremes_arrays import extremes_and_periods
 from stabilab.unreduced.off_axis import outward
 
 from .spin_up.scenes import euler, run

@@ -9,10 +9,10 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
-from stabilab.answers.digits.ask import ask
+from stabilab.answers.digits import ask
 from stabilab.answers.kinds import kind_of
 from stabilab.errors import InputError
-from stabilab.orbit.fate.one_state import free_margin
+from stabilab.orbit.fate import free_margin
 from stabilab.unreduced.free_gyrostat import extremes_over_period
 from tests.oracles import sphere
 
@@ -95,7 +95,7 @@ def test_a_rational_state_on_the_separatrix_of_a_free_gyrostat_is_recognised_and
 
 
 def test_the_digits_of_a_free_margin_are_those_asked_for():
-    from stabilab.answers.digits.ask import ask
+    from stabilab.answers.digits import ask
     lam, D, state = (0.125, 0.25, -0.125), (4, 3, 2), (1.0, 0.5, -0.25)
     told = ask("fate", Scene(Body(D), Gyrostat(lam)), state, 40)
     assert told.digits >= 40

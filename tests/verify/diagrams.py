@@ -10,8 +10,7 @@ import numpy as np
 
 from stabilab.errors import InputError
 from stabilab.maps.bifurcation.ask import family_of
-from stabilab.maps.bifurcation.diagram import diagram
-from stabilab.maps.diagram_certificate import diagram_certificate
+from stabilab.maps.bifurcation.diagram import diagram, diagram_certificate
 from tests.maps.bifurcation.test_line import case_text
 
 

@@ -9,14 +9,13 @@ import numpy as np
 import pytest
 from flint import fmpq_poly
 
-from stabilab.commands.maps import bifurcation as command
+from stabilab.commands.pictures import bifurcation as command
 from stabilab.errors import InputError
 from stabilab.verify import verify
 from stabilab.verify.diagram.check import check_diagram
 from stabilab.verify.diagram.claims import claims_of
 from stabilab.verify.diagram.equations import System, count_at, critical
-from stabilab.verify.numbers import Malformed, q
-from stabilab.verify.roots import MOST, Root, Work, roots
+from stabilab.verify.numbers import MOST_BITS, Malformed, Root, Work, q, roots
 from tests.shared import CASES
 from tests.verify.diagrams import certified, drawn, forgeries
 
@@ -151,14 +150,14 @@ class Counted(Work):
 @pytest.mark.parametrize("counted, degree, digits",
                          [("motion", 1, 9), ("borders", 3, 60), ("isolated", 3, 90), ("motion", 3, 399)])
 def test_a_certificate_that_asks_for_too_much_work_is_not_checked(counted, degree, digits):
-    work, findings = Counted(MOST // 20), []
+    work, findings = Counted(MOST_BITS // 20), []
     check_diagram(claims_of(heavy(np.random.default_rng(3), counted, degree, digits)),
                   lambda *found: findings.append(found), work)
     claim, status, reason = findings[-1]
     assert (claim, status) == ("1 pieces and 0 events",
                                "not checked") and reason.startswith("too large") and work.left < 0
     assert all(status != "refuted" for _, status, _ in findings)
-    again = Counted(MOST // 20)
+    again = Counted(MOST_BITS // 20)
     check_diagram(claims_of(heavy(np.random.default_rng(3), counted, degree, digits)), lambda *found: None,
                   again)
     # no clock: the same file ends at the same place
@@ -169,7 +168,7 @@ def test_a_certificate_that_asks_for_too_much_work_is_not_checked(counted, degre
 def test_known_diagrams_take_an_eighth_of_the_work_that_is_given_at_most(name):
     work = Counted()
     check_diagram(claims_of(made(name)), lambda *found: None, work)
-    assert 0 < MOST - work.left < MOST / 8
+    assert 0 < MOST_BITS - work.left < MOST_BITS / 8
 
 
 # -- the parts by hand

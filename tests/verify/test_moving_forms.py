@@ -11,14 +11,12 @@ import pytest
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.certificate import certificate
 from stabilab.unreduced.spin_up.centres import moving_centre
-from stabilab.unreduced.spin_up.certificate import Certifier
+from stabilab.unreduced.spin_up.certificate import Certifier, equatorial
 from stabilab.unreduced.spin_up.form import forms_of
-from stabilab.unreduced.spin_up.symmetric import equatorial
 from stabilab.verify import verify
 from stabilab.verify.inequality import MovingInequality
 from stabilab.verify.normal_form import equator, moving_form
-from stabilab.verify.numbers import ball, working
-from stabilab.verify.rates import Rates
+from stabilab.verify.numbers import Rates, ball, working
 from stabilab.verify.spin_up import FORMS
 from tests.oracles.taylor import integrate
 from tests.unreduced.spin_up.scenes import random_scene, sphere

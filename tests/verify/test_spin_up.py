@@ -17,8 +17,7 @@ from stabilab.unreduced.spin_up.form import forms_of
 from stabilab.verify import verify
 from stabilab.verify.inequality import Inequality
 from stabilab.verify.normal_form import form_about
-from stabilab.verify.numbers import above, ball, below, working
-from stabilab.verify.rates import Rates
+from stabilab.verify.numbers import Rates, above, ball, below, working
 from stabilab.verify.spin_up import Lost, Way
 from tests.oracles.taylor import integrate
 from tests.unreduced.spin_up.scenes import EXAMPLE, random_scene, sphere

@@ -23,11 +23,19 @@ from ...physics.scene import Scene
 from ..caveats import STEADY, caveats_of
 from ..tilt import Spread, Tilt
 from ..when import limit_of, of_tilt
-from .fate import PATIENCE, Outcome, Scenario, first_time, outcome_of, scenario_of, time_under
+from .fate import (
+    PATIENCE,
+    Outcome,
+    Scenario,
+    delayed,
+    first_time,
+    intervals,
+    outcome_of,
+    scenario_of,
+    time_under,
+)
 from .line import Family
-from .margins import margins
-from .result import Helper, Principal, Row, Stuck, WheelAnswer
-from .wheel import delayed, intervals
+from .margins import Helper, Principal, Row, Stuck, WheelAnswer, margins
 
 NO_TORQUE = Fraction(1, 10**9)  # of the torque: what is left of it counts as none
 WORTH = Fraction(999, 1000)  # of the torque: a helper that leaves more is none

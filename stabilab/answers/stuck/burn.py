@@ -1,5 +1,30 @@
 """Burns: what is left when thrusters close, and by when they must close.
 
+By when a burn must close so that |omega| stays below a limit L for ever.
+
+After the last closing a body without wheels moves freely. With D1 <= D2 <= D3, on one polhode (constant
+kinetic energy and angular momentum) omega1^2 and omega3^2 are linear in omega2^2, and so is
+
+    |omega|^2 = g^2 - (D2 - D1)(D3 - D2)/(D1 D3) omega2^2,
+    g^2 = omega1^2 + D2 (D1 + D3 - D2)/(D1 D3) omega2^2 + omega3^2,
+
+whose factor is not negative. Every polhode passes omega2 = 0 but for a rest at the middle axis, so that g,
+constant on it, is its largest |omega| over all time. Closed at t, the body never turns faster than g(t), and
+|omega(t)| <= g(t): the latest closing time is the first root of g^2 = L^2 along the burn, one crossing of a
+quadratic form (`answers.passage`). With two equal moments and the wheels along the third axis |omega| is
+constant in a free motion, and g = |omega|.
+
+With other wheels G, the largest |omega| of the free motion, is no such form: it is the most over one period,
+by a run, and the latest closing time the first root of G = L between two times that are known better. As
+(D_i - D1)(D_i - D3) <= 0 for each axis, and as 2T = omega . D omega and h = |D omega + lambda| are constant,
+
+    |omega|^2 <= ((D1 + D3) 2T - |D omega|^2)/(D1 D3) <= ((D1 + D3) 2T - (h - |lambda|)^2)/(D1 D3) = U^2
+
+and |omega|^2 <= 2T/D1: while 2T < D1 L^2 closing is early enough, and it is too late once |omega| itself has
+reached L. Only where U >= L a run is looked at.
+
+Burns: what is left when thrusters close, and by when they must close.
+
 While it fires a thruster's torque is constant in the body, so that a burn is a chain of motions under
 constant torques, each started where the one before ended, at switching times that are exact.
 """
@@ -9,23 +34,199 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from itertools import groupby
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
 
-from ...caveat import Caveat
-from ...errors import InputError
+from ...errors import Caveat, InputError
 from ...numbers.units import RATE, TIME, Dimension, in_si
 from ...numbers.vectors import Float3
 from ...orbit.result import Motion
-from ..attitude.ask import of_motion
-from ..attitude.result import Attitude
+from ...physics.scene import Scene
+from ..attitude import of_motion
+from ..attitude_result import Attitude
+from ..fate import period
+from ..limit import Limit, asked
 from ..motion import motion
-from ..passage.limit import Limit, asked
-from ..passage.run import ROUNDING, WIDER, Found, TimeTo, largest_rate, times_of
-from .chain import Chain, Piece, limit_after
-from .closing import Latest, largest_after, largest_of_run, latest
-from .crossing import RUN_STEPS, Link, crossing_of, first_along, links_of
+from ..passage import ROUNDING, WIDER, Found, TimeTo, largest_rate, times_of
+from ..simulate import trajectory
+from .chain import (
+    RUN_STEPS,
+    Chain,
+    Link,
+    Piece,
+    crossing_of,
+    end_of,
+    first_along,
+    limit_after,
+    links_of,
+    weights_of_largest,
+)
+
+LOOKS = 2000  # closing times looked at after the first that is too late
+WHEEL_LOOKS = 100  # with wheels, where each takes a run: before it
+SHARE = 1e-12  # of the limit, to which the largest rate of a run over one period is known
+TURNS = 1000.0  # rad: how long a motion is followed that does not return, next to a separatrix
+
+
+@dataclass(frozen=True)
+class Latest:
+    """The latest closing time that keeps |omega| below `limit`, rad/s, up to it and for ever after: between
+    low and high, s. Both inf: no closing is too late. high NaN: not known, but any up to low is early enough.
+
+    level: "exact", "proved" (the motion enclosed over all switches; low and high are neighbouring doubles but
+    for the longest burns), "run" (roots along runs in machine precision, wider by what a second run shows) or
+    "undecided"; because: how it is known. again: (from, to), s, of later closing
+    times after which the free motion stays below the limit again, though the burn has passed it or would
+    have left such a motion in between; seen at 2,000 closing times, no proof. surely: (s, s), where wheels
+    leave no closed form: closing is early enough up to the first and too late from the second on; None else.
+    """
+
+    limit: float
+    low: float
+    high: float
+    level: str
+    because: str
+    again: tuple[tuple[float, float], ...] = ()
+    surely: tuple[float, float] | None = None
+
+
+def largest_after(scene: Scene, rates: Sequence[float]) -> float:
+    """The largest |omega|, rad/s, over all time of the free motion through these rates of a body that
+    has a closed form (`Chain.free`); of a rest at the middle axis, of the motions next to it."""
+    return math.sqrt(sum(float(c) * w * w for c, w in zip(weights_of_largest(scene), rates)))
+
+
+def largest_of_run(scene: Scene, rates: Sequence[float]) -> float:
+    """The largest |omega|, rad/s, over all time of a motion without torque, with any wheels: over one period,
+    to some 1e-13 of it; over a thousand radians of one that is not seen to return."""
+    time = float(period(scene, rates))
+    if not time:
+        return math.hypot(*rates)
+    until = 1.001 * time if math.isfinite(time) else TURNS / math.hypot(*rates)
+    return largest_rate(scene, list(rates), until, RUN_STEPS)[0]
+
+
+def bound_of_largest(scene: Scene, states: np.ndarray) -> np.ndarray:
+    """U of states (n, 3): what |omega| of the free motion through each never exceeds, rad/s, (n,)."""
+    D, wheel = np.array(scene.body.inertia), np.array([float(v) for v in scene.vector("gyrostat")])
+    least, greatest = D.min(), D.max()
+    apart = np.linalg.norm(states * D + wheel, axis=1) - np.linalg.norm(wheel)
+    square = ((least + greatest) * (states**2 @ D) - apart**2) / (least * greatest)
+    return np.sqrt(np.minimum(square, states**2 @ D / least))
+
+
+def latest(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
+    """The first closing time after which |omega| does not stay below, rad/s."""
+    if not chain.free:
+        return _by_runs(chain, links, below)
+    base, size = chain.base, float(below)
+    limit = limit_after(base, below)
+    words = limit.words
+    if links and limit.reached_by(links[0].exact or links[0].start.tolist()):
+        return Latest(size, 0.0, 0.0, "exact", f"{words}: the motion before the burn reaches it already")
+    found = _first(chain, links, limit)
+    if found.never:
+        return Latest(size, math.inf, math.inf, found.level, f"{words}: never, whenever the thrusters close")
+    again = _again(base, links, found.high, size) if found.time else ()
+    return Latest(size, found.low, found.high, found.level, found.words, again)
+
+
+def _first(chain: Chain, links: Sequence[Link], limit: Limit, every: bool = False) -> Found:
+    return (crossing_of(chain, limit) if len(links) > 1 else None) or first_along(links, limit, every)
+
+
+def _by_runs(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
+    """The first root of G = below, with the two times that bound it."""
+    base, size = chain.base, float(below)
+    words = f"largest |omega| after closing = {size:.10g} rad/s"
+    if largest_of_run(base, list(chain.case.state)) >= size:
+        return Latest(size, 0.0, 0.0, "run", f"{words}: the motion before the burn reaches it already")
+    if not links:
+        return Latest(size, math.inf, math.inf, "run", f"{words}: never, as nothing fires")
+    energy = asked(base, energy=min(base.body.exact) * below**2 / 2)
+    started = energy.reached_by(links[0].exact or links[0].start.tolist())
+    early = Found(0.0, 0.0, "exact", "") if started else _first(chain, links, energy, every=True)
+    if early.never:
+        return Latest(size, math.inf, math.inf, early.level,
+                      f"{words}: never, for 2T/D1 stays below its square")
+    late = _first(chain, links, asked(base, rate=below), every=True)
+    end = late.high if late.time else math.inf
+    known = f"early enough up to {early.low:.10g} s (2T/D1 is below its square, {early.level})"
+    if end < math.inf:
+        known += f", too late from {end:.10g} s on (|omega| reaches it, {late.level})"
+    bracket = _bracket(base, links, (early.low, end), size)
+    if bracket is None:
+        return Latest(size, early.low if late.time else math.inf, end, "run",
+                      f"{words}: not after any of some {WHEEL_LOOKS} closing times, no proof; {known}",
+                      surely=(early.low, end))
+    one, times = bracket
+    slack = max(SHARE, *(np.abs(one.end - one.second_end) / size))
+    low, high = (_root(base, one, times, size * (1 + sign * slack)) for sign in (-1, 1))
+    begin = float(one.begin)
+    low, high = math.nextafter(begin + low, -math.inf), math.nextafter(begin + high, math.inf)
+    low = max(low, early.low)  # which is proved
+    return Latest(size, low, max(min(high, end), low), "run",
+                  f"{words}: by runs over one period, each known to {slack:.1g} of it, the first among some "
+                  f"{WHEEL_LOOKS} closing times; {known}", surely=(early.low, end))
+
+
+def _bracket(base: Scene, links: Sequence[Link], span: tuple[float, float],
+             size: float) -> tuple[Link, tuple[float, float]] | None:
+    """The first link and the two times after its begin, s, between which G reaches the limit; None where no
+    look shows it."""
+    for one, times in _looks(links, span, WHEEL_LOOKS):
+        states = np.asarray(trajectory(one.scene, one.start, times, laws=False).states)
+        for n in np.flatnonzero(bound_of_largest(base, states) >= size * (1 - SHARE)).tolist():
+            if largest_of_run(base, states[n].tolist()) >= size * (1 - SHARE):
+                return one, (float(times[max(n - 1, 0)]), float(times[n]))
+    return None
+
+
+def _looks(links: Sequence[Link], span: tuple[float, float], most: int) -> Iterator[tuple[Link, np.ndarray]]:
+    """Each link that fires within a span, with times after its begin, from 0 on; some `most` in all."""
+    last = links[-1]
+    end = min(span[1], float(last.begin + last.length))
+    for one in links:
+        begin, length = float(one.begin), float(one.length)
+        low, high = max(span[0] - begin, 0.0), min(end - begin, length)
+        if one.firing and low < high:
+            count = max(3, math.ceil(most * (high - low) / (end - span[0])))
+            yield one, np.unique([0.0, *np.linspace(low, high, count)])
+
+
+def _root(base: Scene, one: Link, times: tuple[float, float], size: float) -> float:
+    """Where G = size between two times after the begin of a link; the nearer of them where it is beyond."""
+    from scipy.optimize import brentq
+
+    def over(time: float) -> float:
+        return largest_of_run(base, end_of(one.scene, one.start, Fraction(time)).tolist()) - size
+    low, high = times
+    if over(low) >= 0:
+        return low
+    return high if over(high) <= 0 else float(brentq(over, low, high, xtol=1e-300, rtol=1e-15))
+
+
+def _again(base: Scene, links: Sequence[Link], after: float, size: float) -> tuple[tuple[float, float], ...]:
+    """Intervals of closing times after `after` at which g is below the limit again."""
+    weights = np.array([float(c) for c in weights_of_largest(base)])
+    last = links[-1]
+    end = float(last.begin + last.length)
+    times, sizes = [], []
+    for one in links:
+        length, begin = float(one.length), float(one.begin)
+        if begin + length <= after:
+            continue
+        count = max(3, math.ceil(LOOKS * length / max(end - after, length)))
+        steps = np.linspace(0.0, length, count)
+        run = trajectory(one.scene, one.start, steps, laws=False)
+        times += (begin + np.asarray(run.t)).tolist()
+        sizes += np.sqrt(np.asarray(run.states) ** 2 @ weights).tolist()
+    looks = [(time, value < size) for time, value in zip(times, sizes) if time > after]
+    inside = [[time for time, _ in group] for below, group in groupby(looks, key=itemgetter(1)) if below]
+    return tuple((group[0], group[-1]) for group in inside)
 
 
 @dataclass(frozen=True)
@@ -163,11 +364,11 @@ def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = Non
     """
     chain = Chain(burning)
     limit = asked(chain.base, **ask)
-    found = _first(chain, limit, ask, until)
+    found = _first_crossing(chain, limit, ask, until)
     return times_of([found], (), limit.words, chain.base, np.array(chain.case.state), chain.case.caveats)
 
 
-def _first(chain: Chain, limit: Limit, ask: dict[str, Any], until: Fraction | None) -> Found:
+def _first_crossing(chain: Chain, limit: Limit, ask: dict[str, Any], until: Fraction | None) -> Found:
     case, closed = chain.case, chain.closed
     if limit.reached_by(case.exact_state or case.state):
         return Found(0.0, 0.0, "exact", f"{limit.words}: reached already at the start")

@@ -1,9 +1,16 @@
-"""The chain of motions of a burn: while thrusters fire their torque is constant in the body, and each motion
-starts where the one before ended, at switching times that are exact."""
+"""The chain of motions of a burn, and when it first reaches a limit.
+
+The chain of motions of a burn: while thrusters fire their torque is constant in the body, and each motion
+starts where the one before ended, at switching times that are exact.
+
+The first crossing of a limit along the chain of motions of a burn: proved where it can be enclosed, else
+by roots along runs, link by link.
+"""
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from os import PathLike
 from typing import Any, NamedTuple
@@ -12,14 +19,15 @@ import numpy as np
 
 from ...case.read import Case, load_burning
 from ...errors import InputError
-from ...numbers.vectors import CYCLE, Exact3
+from ...numbers.vectors import CYCLE, Exact3, Float3
 from ...physics.effects import effect_class
 from ...physics.scene import Scene
-from ...physics.states import checked_times
+from ...physics.states import checked_times, moved_row
 from ...validation import came
-from ..passage.enclosed import Enclosed, enclosed
-from ..passage.limit import AXES, Limit
-from ..simulate import Simulation, in_matrices, quaternion_blocks, simulate
+from ..limit import AXES, Enclosed, Limit, enclosed
+from ..passage import MOVED, ROUNDING, Found, by_run
+from ..simulate import Simulation, in_matrices, quaternion_blocks, simulate, trajectory
+from ..time_to import down, of_one, up
 
 
 class Piece(NamedTuple):
@@ -34,7 +42,7 @@ class Piece(NamedTuple):
 class Chain:
     """The scenes of a burn, one after the other, up to its last closing, at `stop` (s) at the latest. base:
     the scene without the thrusters, which holds from then on; closed: s, the last closing; quiet: whether
-    no torque acts from then on; free: whether moreover the largest |omega| has a closed form (`closing`):
+    no torque acts from then on; free: whether moreover the largest |omega| has a closed form (`burn`):
     without wheels, or with these along the axis of a body whose other two moments are equal."""
 
     def __init__(self, burning: Any, stop: Fraction | None = None) -> None:
@@ -93,7 +101,7 @@ class Chain:
 
 
 def weights_of_largest(scene: Scene) -> Exact3:
-    """Of the squares of the rates in g^2, that of the largest |omega| of a free motion: see `closing`."""
+    """Of the squares of the rates in g^2, that of the largest |omega| of a free motion: see `burn`."""
     D = scene.body.exact
     least, middle, greatest = sorted(range(3), key=lambda i: D[i])
     found = [Fraction(1)] * 3
@@ -152,3 +160,82 @@ def _joined(runs: Sequence[Simulation]) -> Simulation:
         invariant_drift={name: float(v) for name, v in most([run.invariant_drift for run in runs]).items()},
         counters={name: sum(run.counters.get(name, 0) for run in runs) for name in first.counters},
         error=most([run.error for run in runs]), reason=f"{last.reason}; thrusters switch at exact times")
+
+
+RUN_STEPS = 1_000_000  # of one segment
+
+
+@dataclass(frozen=True)
+class Link:
+    """One motion of the chain; start, end: states of the run and of the second one, (3,) each."""
+
+    begin: Fraction
+    length: Fraction
+    firing: tuple[str, ...]
+    torque: Float3
+    scene: Scene
+    start: np.ndarray
+    second: np.ndarray
+    end: np.ndarray
+    second_end: np.ndarray
+    exact: Exact3 | None
+
+
+def links_of(chain: Chain, pieces: Sequence[Piece] | None = None) -> Iterator[Link]:
+    given = chain.case.exact_state
+    state = np.array(chain.case.state, float)
+    second = moved_row(state, MOVED) if state.any() else state
+    for begin, length, firing, scene in chain.pieces() if pieces is None else pieces:
+        after, after_second = (end_of(scene, one, length) for one in (state, second))
+        yield Link(begin, length, firing, tuple(float(m) for m in scene.vector("constant_torque")), scene,
+                   state, second, after, after_second, given if not begin else None)
+        state, second = after, after_second
+
+
+def end_of(scene: Scene, state: np.ndarray, length: Fraction) -> np.ndarray:
+    if not length:
+        return np.asarray(state, float)
+    run = trajectory(scene, state, (0.0, float(length)), laws=False)
+    if run.status == "stopped":
+        raise InputError(f"state: the burn cannot be followed: {run.reason}")
+    return np.asarray(run.states[-1], float)
+
+
+def crossing_of(chain: Chain, limit: Limit, end: Fraction | None = None) -> Found | None:
+    """The first crossing along the chain, by `end` (None: the last closing), proved; None where the work does
+    not reach it."""
+    proof = chain.enclosed(limit, end)
+    words = f"{limit.words}: the chain of motions enclosed, its first crossing by roots"
+    if proof.high is not None and proof.low is not None:
+        return Found(down(proof.low), up(proof.high), "proved", words)
+    return Found(math.inf, math.inf, "proved", words) if proof.done and proof.low is None else None
+
+
+def first_along(links: Sequence[Link], limit: Limit, every: bool = False) -> Found:
+    """The first crossing link by link, the first of them enclosed; inf where there is none. every: in those
+    too where nothing fires, and g is constant."""
+    for one in links:
+        if not one.firing and not every:
+            continue
+        found = _first(one, limit)
+        if found is not None:
+            low = float(one.begin + Fraction(found.low))
+            high = float(one.begin + Fraction(found.high)) if found.time else math.nan
+            if one.begin:  # times of the chain, rounded outward
+                low, high = math.nextafter(low, -math.inf), math.nextafter(high, math.inf)
+            return replace(found, low=low, high=high)
+    burns = [one for one in links if one.firing or every]
+    level = "proved" if len(burns) <= 1 and all(one.exact for one in burns) else "run"
+    return Found(math.inf, math.inf, level, limit.words)
+
+
+def _first(link: Link, limit: Limit) -> Found | None:
+    """The first crossing within a link, None where there is none: proved from an exact start, else by runs
+    from the ends of those before."""
+    start = link.start.tolist()
+    found = (of_one(link.scene, start, link.exact, limit, link.length) if link.exact
+             else by_run(link.scene, start, limit, float(link.length), RUN_STEPS, link.second))
+    if found.time:
+        return found
+    whole = found.low >= float(link.length) * (1 - 2 * ROUNDING)
+    return None if whole else replace(found, level="undecided")

@@ -36,7 +36,7 @@ from typing import Any, TypeAlias
 
 from ...numbers.balls import working
 from ...numbers.vectors import CYCLE, Exact3, Number, Triple
-from ...orbit.fate.one_state import fate_of
+from ...orbit.fate import fate_of
 from ...orbit.one_orbit import Orbit
 from ...orbit.reduction import Reduction, reduce
 from ...orbit.result import Fate

@@ -14,8 +14,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from ...orbit.result import Fate
-from .box import Box, Numbers, Point
-from .branch_and_bound import Proof
+from .boxes import Box, Numbers, Point, Proof
 
 MOST = 100.0          # times the stated uncertainty
 LADDER = np.concatenate([10.0 ** np.arange(-9, -2), 2.0 ** np.arange(-6, 7) * (MOST / 64)])

@@ -18,8 +18,7 @@ from flint import arb, fmpq_mpoly, fmpq_poly
 
 from ...numbers.algebraic import Algebraic, Powers, coefficients, univariate
 from ...numbers.balls import Unclear, evaluated, rational, real_roots_of
-from .equations import LEANS, Conics, OnLine, common_divisor
-from .family import Family
+from .equations import LEANS, Conics, Family, OnLine, common_divisor
 
 SPARE = 7  # leans looked at: of four points in the plane, complex ones counted, at most six pairs are in line
 PROBES = (Fraction(37, 97), Fraction(53, 89))  # parts of the range where the general case is looked at

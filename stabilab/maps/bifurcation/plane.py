@@ -28,8 +28,7 @@ from ...representation import Shown
 from ..axes import with_values
 from .diagram import ball_form, diagram, doubles, spread, state_of
 from .eliminated import Eliminated, at_rational, over_field
-from .equations import chosen, common_divisor
-from .family import Diagram, Event, Family
+from .equations import Diagram, Event, Family, chosen, common_divisor
 
 MOST_BITS = 2048  # beyond which a state is taken to have no number
 

@@ -29,7 +29,7 @@ from itertools import pairwise
 from ...numbers.balls import FIRST_BITS, START_BITS, Unclear, settled
 from ...physics.scene import aligned
 from ..conic import conic_of, planes_touched
-from ..fate.one_state import decide, on_separatrix
+from ..fate import decide, on_separatrix
 from ..one_orbit import Orbit
 from ..potential import Circle, slope_at
 from ..reduction import reduce
@@ -44,9 +44,8 @@ from .charts import (
     ParabolaChart,
     Straight,
 )
-from .homoclinic import TURN, others
+from .homoclinic import ENDED, NO_SEPARATRIX, TURN, UNKNOWN, Apart, others
 from .nearest import FINE, INF, Form, Search, double, ends_of
-from .result import ENDED, NO_SEPARATRIX, UNKNOWN, Apart
 
 BITS = START_BITS  # of the first try; the places of two nearly equal moments cancel
 MOST_BITS = 2048

@@ -15,12 +15,12 @@ from ...equilibrium.stability import invariants
 from ...physics.coefficients import scaling
 from ...physics.effects.gyrostat import Gyrostat
 from ...physics.scene import Body, Scene
-from ...theories.cavity.normal_form import constants
-from ...theories.charged.closed_form import one_frequency, solution
-from ...theories.charged.model import body_of, circle
+from ...theories.cavity_normal_form import constants
+from ...theories.charged import body_of, circle, one_frequency, solution
 from ...theories.follow import follow
+from .. import table as paper
 from ..families import FAMILIES, SPANS, sweep
-from ..figures import cavity, paper
+from ..figures import cavity
 
 # --- How a quantity goes as a number grows, and on which side of zero it is
 GOES = {"rises": lambda change, size: change > size, "falls": lambda change, size: change < -size,
@@ -157,7 +157,7 @@ def _contradiction():
 def _characteristic():
     """How far the printed coefficients of zeta^3 + m zeta + n are from those of the Jacobian, at a rational
     state."""
-    scene = paper.scene("major", 100)
+    scene = paper.printed_scene("major", 100)
     a, b = scene.exact_ab
     x1, x2, x3 = state = tuple(map(Fraction, ("7/5", "3/4", "5/6")))
     m, n = invariants(scene.quadratic(), state)
@@ -176,7 +176,7 @@ def _ranges(table):
     """Largest distance of the table's ranges from those of the motion."""
     worst = 0.0
     for lam, limits in zip(paper.LAMBDAS, table):
-        run = trajectory(paper.scene("major", lam), paper.START_MAJOR, np.linspace(0, 15, 60001))
+        run = trajectory(paper.printed_scene("major", lam), paper.START_MAJOR, np.linspace(0, 15, 60001))
         for component, (low, high) in zip((1, 2), limits):
             x = np.asarray(run.states)[:, component]
             worst = max(worst, abs(x.min() - low), abs(x.max() - high))
@@ -185,7 +185,7 @@ def _ranges(table):
 
 def _spins_up():
     """How many of the motions of Fig. 8 do not gain 100 of x1, to 1 %, over tau from 300 to 400."""
-    runs = [trajectory(paper.scene("major", lam), paper.START_MAJOR, (0.0, 300.0, 400.0)).states
+    runs = [trajectory(paper.printed_scene("major", lam), paper.START_MAJOR, (0.0, 300.0, 400.0)).states
             for lam in paper.LAMBDAS]
     return sum(abs(states[2][0] - states[1][0] - 100) > 1 for states in runs), 0
 
@@ -194,7 +194,7 @@ def _capture():
     """x2^2 + x3^2 - 2 c x1 of the end of Fig. 12, lambda1 = 100, less that of its start: a stable motion
     would keep it; plus 2 c tau, the law that forbids a bounded motion."""
     c = 0.2
-    run = trajectory(paper.scene("major", 100), paper.START_CAPTURED, paper.SPAN)
+    run = trajectory(paper.printed_scene("major", 100), paper.START_CAPTURED, paper.SPAN)
     first, last = (x2 * x2 + x3 * x3 - 2 * c * x1 for x1, x2, x3 in (run.states[0], run.states[-1]))
     return last - first, last - first + 2 * c * 15
 
@@ -347,7 +347,8 @@ def _stable_parts():
 def _arc(inside):
     """Turns of (x1 + a, x2) on its circle, lambda1 = 100: beyond one whole turn, and short of it. inside:
     from (2.5, 4, 0.1), in a loop; else from (2.5, 4, 6), the other way round."""
-    run = trajectory(paper.scene("minor", 100), (2.5, 4.0, 0.1 if inside else 6.0), np.linspace(0, 40, 8001))
+    start = (2.5, 4.0, 0.1 if inside else 6.0)
+    run = trajectory(paper.printed_scene("minor", 100), start, np.linspace(0, 40, 8001))
     x = np.asarray(run.states)
     turns = float(np.ptp(np.unwrap(np.arctan2(x[:, 0] + 0.2, x[:, 1])))) / (2 * math.pi)
     return (max(0.0, turns - 1), max(0.0, 1 - turns))[::1 if inside else -1]
@@ -356,7 +357,7 @@ def _arc(inside):
 def _directions(lambda1):
     """Share of motions outside the loops, from either direction, that turn with x3 > 0 in the end: what a
     claim of two directions denies; share of the others."""
-    ends = [trajectory(paper.scene("minor", lambda1), (2.5, 4.0, x3), (0.0, 60.0)).states[-1][2]
+    ends = [trajectory(paper.printed_scene("minor", lambda1), (2.5, 4.0, x3), (0.0, 60.0)).states[-1][2]
             for x3 in (-9.0, -7.0, 6.0, 8.0)]
     up = sum(end > 0 for end in ends) / len(ends)
     return up, 1 - up

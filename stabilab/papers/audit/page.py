@@ -11,8 +11,8 @@ from pathlib import Path
 
 from ...representation import values_of
 from ...show.report import html
-from ...show.report.typeset import numbered
-from ...show.terminal.letters import ALPHABET, lettered, some
+from ...show.report.html import numbered
+from ...show.terminal import ALPHABET, lettered, some
 from ...theories.printed.claims import FormulaError
 from .checks import raw
 from .findings import VERDICTS

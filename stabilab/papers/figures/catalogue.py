@@ -8,12 +8,13 @@ from pathlib import Path
 from ...errors import InputError
 from ...show import style
 from ...version import __version__
+from .. import table
 from . import cavity as figures_cavity
 from . import charged as figures_charged
+from . import major_axis, minor_axis
 from . import major_axis as major
 from . import middle_axis as middle
 from . import minor_axis as minor
-from . import minor_map, paper, without_wheel
 from . import top as figures_top
 from .figure import POINTS, Figure, model_figure, words
 
@@ -27,10 +28,10 @@ def _run(start, plane=None):
 
 
 def _released():
-    return major.releases(paper.START_CAPTURED)
+    return major.releases(table.START_CAPTURED)
 
 
-_STARTED, _CAPTURED = (partial(major.exactness, start) for start in (paper.START_MAJOR, paper.START_CAPTURED))
+_STARTED, _CAPTURED = (partial(major.exactness, start) for start in (table.START_MAJOR, table.START_CAPTURED))
 
 
 FIGURES = (
@@ -57,8 +58,8 @@ FIGURES = (
     Figure(6, "Contour map of the separatrix surfaces",
            lambda: "The folds lie on two circles of different radius about (−a, 0), "
            "one on either side of the printed √2 about the origin; the curve (x1+a)(x1+b) = x2² parts stable "
-           f"from unstable equilibria, not the line x1 + x2 = 0. {minor_map.fourth_departure()}",
-           minor_map.contour_map, minor_map.exactness),
+           f"from unstable equilibria, not the line x1 + x2 = 0. {minor_axis.fourth_departure()}",
+           minor_axis.contour_map, minor_axis.map_exactness),
     Figure(7, "Typical stable motions, minor axis",
            lambda: "Periodic motions on arcs of circles about (−a, 0), 0.6 of the way up "
            "to the separatrix, and the paper's own start. The paper says that a motion on the separatrix "
@@ -66,25 +67,25 @@ FIGURES = (
            f"{minor.circle_departure()}", minor.stable_motions, minor.runs_exactness),
     Figure(8, "Major axis from (4.5, 1.8, 3.4)",
            lambda: f"Spin-up about axis 1. {_LAW}. The paper's τ is not in seconds: "
-           f"t = {major.second():.4g} τ s.", _run(paper.START_MAJOR), _STARTED),
+           f"t = {major.second():.4g} τ s.", _run(table.START_MAJOR), _STARTED),
     Figure(9, "Major axis from (4.5, 1.8, 3.4): x1, x3",
-           lambda: f"The amplitudes of x3 are {major.amplitudes(paper.START_MAJOR, 2)}; "
-           "the paper says that they grow to 6 at λ1 = 500.", _run(paper.START_MAJOR, "13"), _STARTED),
+           lambda: f"The amplitudes of x3 are {major.amplitudes(table.START_MAJOR, 2)}; "
+           "the paper says that they grow to 6 at λ1 = 500.", _run(table.START_MAJOR, "13"), _STARTED),
     Figure(10, "Major axis from (4.5, 1.8, 3.4): x2, x3",
            lambda: "The ring hardly changes with λ1: |x2| stays within "
-           f"{major.amplitudes(paper.START_MAJOR, 1)}; the paper says [−4, 4], [−4.2, 4], [−4.5, 4].",
-           _run(paper.START_MAJOR, "23"),
+           f"{major.amplitudes(table.START_MAJOR, 1)}; the paper says [−4, 4], [−4.2, 4], [−4.5, 4].",
+           _run(table.START_MAJOR, "23"),
            _STARTED),
     Figure(11, "Major axis from (4.5, 1.8, 3.4): x1, x2",
            "The caption in print names x2 and x3 again; x1 and x2 are meant.",
-           _run(paper.START_MAJOR, "12"), _STARTED),
+           _run(table.START_MAJOR, "12"), _STARTED),
     Figure(12, "Major axis from (0, −1, 5)",
            lambda: "A long capture about axis 3, then spin-up about axis 1. "
            f"{_released()} The paper calls λ1 = 100 stable because its run ends at 15.",
-           _run(paper.START_CAPTURED), _CAPTURED),
-    Figure(13, "Major axis from (0, −1, 5): x1, x3", _released, _run(paper.START_CAPTURED, "13"), _CAPTURED),
-    Figure(14, "Major axis from (0, −1, 5): x2, x3", _released, _run(paper.START_CAPTURED, "23"), _CAPTURED),
-    Figure(15, "Major axis from (0, −1, 5): x1, x2", _released, _run(paper.START_CAPTURED, "12"), _CAPTURED),
+           _run(table.START_CAPTURED), _CAPTURED),
+    Figure(13, "Major axis from (0, −1, 5): x1, x3", _released, _run(table.START_CAPTURED, "13"), _CAPTURED),
+    Figure(14, "Major axis from (0, −1, 5): x2, x3", _released, _run(table.START_CAPTURED, "23"), _CAPTURED),
+    Figure(15, "Major axis from (0, −1, 5): x1, x2", _released, _run(table.START_CAPTURED, "12"), _CAPTURED),
     Figure(16, "Middle axis: no separatrix for the paper's data",
            lambda: f"For |b−a| < {middle.CUSP:.4f} there is no saddle: every motion is periodic but those on "
                    "the plane x1 + b = −x3, which spin up. The paper draws separatrices and three regions. "
@@ -98,14 +99,14 @@ FIGURES = (
            f"folds is unstable. {middle.level_departure()}", middle.projections,
            "closed forms; motions: level sets of the exact potential; fourth surface as printed: traced on a "
            f"grid of {POINTS} x {POINTS}"),
-    Figure(18, "Without a wheel: λ1 = 0 (not in the paper)", without_wheel.words, without_wheel.draw,
+    Figure(18, "Without a wheel: λ1 = 0 (not in the paper)", major_axis.words, major_axis.draw,
            f"{_LEVEL}; printed: its formulas", added=True),
 )
 NUMBERS = tuple(f.number for f in FIGURES)
 
 
 FIRST = "constant-torque"  # the paper that numbers without a name belong to
-PAPERS = {FIRST: paper.PAPER, "charged": figures_charged.PAPER, "cavity": figures_cavity.PAPER,
+PAPERS = {FIRST: table.PAPER, "charged": figures_charged.PAPER, "cavity": figures_cavity.PAPER,
           "top": figures_top.PAPER}
 
 

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ...theories.cavity.averaged import RTOL, polar
+from ...theories.cavity import RTOL, polar
 from .. import families
 from ..families import compared, sweep
 from . import panels

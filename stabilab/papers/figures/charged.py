@@ -7,10 +7,9 @@ from functools import partial
 
 import numpy as np
 
-from ...theories.charged.closed_form import one_frequency
-from ...theories.charged.model import body_of
-from ...theories.charged.model import circle as by_35
-from ...theories.charged.modes import horizon
+from ...theories.charged import body_of, one_frequency
+from ...theories.charged import circle as by_35
+from ...theories.charged_modes import horizon
 from .. import families
 from ..families import Span
 from . import panels

@@ -14,9 +14,8 @@ from ...case.read import Case
 from ...show import style
 from ...show.plot.body import BOX, PARTS, body
 from ...show.plot.in_space import levels
-from ...show.terminal.letters import written
-from ...show.text.cost.comparison import short
-from ...show.text.cost.words import share
+from ...show.terminal import written
+from ...show.text.cost import share, short
 from ..families import FAMILIES, SPANS, Family, sweep
 from . import panels
 

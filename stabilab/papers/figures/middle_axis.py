@@ -5,7 +5,7 @@ import numpy as np
 
 from ...orbit.phase_plane import motion_curve, phase_plane
 from ...show import style
-from . import paper
+from .. import table
 from .figure import PRINTED, farthest, level_curves, listed, within
 from .minor_axis import branches
 from .minor_axis import exactness as of_branches
@@ -69,21 +69,21 @@ def true_level(scene) -> list:
 def level_departure() -> str:
     """How far the printed fourth surface of Fig. 17 is from the true one, in words."""
     apart = []
-    for lam in paper.LAMBDAS:
-        scene = paper.scene("middle", lam)
+    for lam in table.LAMBDAS:
+        scene = table.printed_scene("middle", lam)
         shown = [within(curve, *VIEW) for curve in printed_level(scene)]
         apart.append(farthest(shown, true_level(scene)))
-    x1, x2, x3 = paper.START_MIDDLE
-    start = 2 * x2**2 + printed_energy(paper.scene("middle", 100), x1, x3)
+    x1, x2, x3 = table.START_MIDDLE
+    start = 2 * x2**2 + printed_energy(table.printed_scene("middle", 100), x1, x3)
     return (f"The fourth surface of the paper's list, (71) for x2 = 0 and G2 = {LEVEL}, is drawn in truth "
             f"and, dashed, as printed: within a panel up to {listed(apart, '{:.2f}')} off for λ1 = "
-            f"{listed(paper.LAMBDAS, '{}')}. The start has G2 = {start:.2f} by the printed (71), "
+            f"{listed(table.LAMBDAS, '{}')}. The start has G2 = {start:.2f} by the printed (71), "
             f"not {LEVEL}.")
 
 
 def printed_path() -> np.ndarray:
     """The motion of Table 3 by the printed (53) and (71), as far as |x2| <= `HIGH`: states (n, 3)."""
-    scene, (x1, x2, x3) = paper.scene("middle", 100), paper.START_MIDDLE
+    scene, (x1, x2, x3) = table.printed_scene("middle", 100), table.START_MIDDLE
     size, total = np.sqrt(x1**2 - x3**2), 2 * x2**2 + printed_energy(scene, x1, x3)
     u = np.linspace(-1.0, 1.0, 20001)
     first, third = size * np.cosh(u), size * np.sinh(u)
@@ -95,7 +95,7 @@ def printed_path() -> np.ndarray:
 
 def path_departure() -> str:
     """How far the printed path of Fig. 16 is from the true motion, in words."""
-    true = _tube(paper.scene("middle", 100), paper.START_MIDDLE)
+    true = _tube(table.printed_scene("middle", 100), table.START_MIDDLE)
     return (f"Dashed: the surface (71) with the printed G2 = {LEVEL} where it cuts the plane x2 = 0, and the "
             f"motion of Table 3 by (53) and (71): this does not close, its x2 grows beyond bounds, and as "
             f"far as |x2| = {HIGH:g} it is up to {farthest([printed_path()], [true]):.2f} away from the true "
@@ -116,7 +116,7 @@ def surfaces(plt):
     """Fig. 16."""
     figure = plt.figure(figsize=(11.4, 6.0), layout="constrained")
     left = figure.add_subplot(1, 2, 1, projection="3d")
-    scene = paper.scene("middle", 100)
+    scene = table.printed_scene("middle", 100)
     _nested(left, scene)
     left.set_title(rf"$\lambda_1=100$, $c={scene.b - scene.a:g}$: nested closed motions, no separatrix",
                    fontsize=9.5)
@@ -154,19 +154,19 @@ def _upright(points):
 
 
 def _nested(ax, scene):
-    for x1, x3, stable in paper.equilibria("middle", scene, HEIGHTS):
+    for x1, x3, stable in table.equilibria("middle", scene, HEIGHTS):
         shown = (np.abs(x1) < 3) & (np.abs(x3) < 3) & stable
         ax.plot(np.where(shown, x1, np.nan), np.where(shown, x3, np.nan), 0 * x1, **style.MEANING["stable"])
     for g in (-1.8, -1.0, -0.5, 0.5, 1.0, 1.8):
         for height in (0.4, 0.8):
             ax.plot(*_upright(_tube(scene, (1 / g - scene.a, height, g))), color=style.SKY, linewidth=1.0)
-    ax.plot(*_upright(_tube(scene, paper.START_MIDDLE)), **style.MEANING["this motion"])
-    ax.plot(*_upright(np.array([paper.START_MIDDLE])), **style.MARKER["start"])
+    ax.plot(*_upright(_tube(scene, table.START_MIDDLE)), **style.MEANING["this motion"])
+    ax.plot(*_upright(np.array([table.START_MIDDLE])), **style.MARKER["start"])
     for curve in printed_level(scene):
         ax.plot(*within(curve, (-3, 3), (-3, 3)).T, 0.0, **PRINTED)
     for half in printed_path():
         ax.plot(*_upright(half), **PRINTED)
-    paper.name_space(ax, order=UPRIGHT)
+    table.name_space(ax, order=UPRIGHT)
     ax.view_init(32, -118)
 
 
@@ -181,7 +181,7 @@ def _figure_eight(ax):
         ax.plot(*_upright(branch.saddle), zorder=6, **style.MEANING["unstable"])
         ax.plot(*_upright(branch.centre), zorder=6, **style.MEANING["stable"])
     _one_eight(ax, *found.branches[:2])
-    paper.name_space(ax, 0.98, order=UPRIGHT)
+    table.name_space(ax, 0.98, order=UPRIGHT)
     ax.view_init(26, -20)  # onto both loops: from other sides one hides the other
     return [branch.name for branch in found.branches]
 
@@ -197,8 +197,8 @@ def _one_eight(ax, left, right):
 def projections(plt):
     """Fig. 17: four values of lambda1 to one scale."""
     figure, axes = plt.subplots(1, 4, figsize=(14.0, 4.7), layout="constrained", sharey=True)
-    for ax, lam in zip(axes, (*paper.LAMBDAS, LAMBDA_BEYOND)):
-        scene = paper.scene("middle", lam)
+    for ax, lam in zip(axes, (*table.LAMBDAS, LAMBDA_BEYOND)):
+        scene = table.printed_scene("middle", lam)
         _projection(ax, scene, draw_motion=lam != LAMBDA_BEYOND)
         ax.set_title(rf"$\lambda_1={lam}$, $c={scene.b - scene.a:g}$")
     axes[0].set_ylabel("$x_3$")
@@ -220,8 +220,8 @@ VIEW = ((-8.0, 4.5), (-6.25, 6.25))  # of x1 and x3, in every panel of Fig. 17
 
 def _projection(ax, scene, draw_motion):
     b = scene.b
-    for x1, x3, stable in paper.equilibria("middle", scene, HEIGHTS):
-        paper.draw_equilibria(ax, x1, x3, stable)
+    for x1, x3, stable in table.equilibria("middle", scene, HEIGHTS):
+        table.draw_equilibria(ax, x1, x3, stable)
         folds = np.nonzero(np.diff(stable))[0]
         ax.plot(x1[folds], x3[folds], zorder=5, **style.MARKER["degenerate"])
     ends = np.array([-20.0, 20.0])
@@ -232,7 +232,7 @@ def _projection(ax, scene, draw_motion):
         for curve in curves:
             ax.plot(*curve.T, **look)
     if draw_motion:
-        states = _tube(scene, paper.START_MIDDLE)
+        states = _tube(scene, table.START_MIDDLE)
         ax.plot(states[:, 0], states[:, 2], **style.MEANING["this motion"])
-        ax.plot(paper.START_MIDDLE[0], paper.START_MIDDLE[2], zorder=6, **style.MARKER["start"])
+        ax.plot(table.START_MIDDLE[0], table.START_MIDDLE[2], zorder=6, **style.MARKER["start"])
     ax.set(xlim=VIEW[0], ylim=VIEW[1], aspect="equal", xlabel="$x_1$")

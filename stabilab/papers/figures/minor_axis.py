@@ -1,4 +1,10 @@
-"""Figures 2-5 and 7 of Amer et al. 2024: constant torque on the minor axis, drawn from the equations."""
+"""Figures 2 to 7 of Amer et al. 2024.
+
+Figures 2-5 and 7 of Amer et al. 2024: constant torque on the minor axis, drawn from the equations.
+
+Figure 6 of Amer et al. 2024: the separatrix surfaces of the minor axis from above, with the equilibria and
+what parts these.
+"""
 from __future__ import annotations
 
 from functools import lru_cache
@@ -10,8 +16,8 @@ from ...orbit.phase_plane import motion_curve, phase_plane
 from ...orbit.separatrix.branches import separatrix
 from ...show import style
 from ...show.plot.phase_plane import draw
-from . import paper
-from .figure import PRINTED, farthest, listed
+from .. import table
+from .figure import POINTS, PRINTED, farthest, level_curves, listed, within
 
 # alpha = 2 theta: both wells and their saddles, no equilibrium at an edge; the plane repeats every 4 pi
 WINDOW = (-7.0, 8.4)
@@ -24,12 +30,12 @@ LEFT, RIGHT = style.MEANING["separatrix 2"], style.MEANING["separatrix"]
 COPY = RIGHT | {"linestyle": (0, (5, 2)), "linewidth": 1.1}
 LOOPS = [("left separatrix", LEFT), ("right separatrix", RIGHT), ("right separatrix, a turn earlier", COPY)]
 PRINTED_LINE = ("separatrices as printed: (26), (27)", PRINTED)
-POINTS = [("centre (stable)", style.MARKER["centre"]), ("saddle (unstable)", style.MARKER["saddle"])]
+POINT_STYLES = [("centre (stable)", style.MARKER["centre"]), ("saddle (unstable)", style.MARKER["saddle"])]
 
 
 def _plane(lambda1):
     """(phase plane, alpha of the start, window of y) for the start of the paper."""
-    plane = phase_plane(paper.scene("minor", lambda1), paper.START_MINOR)
+    plane = phase_plane(table.printed_scene("minor", lambda1), table.START_MINOR)
     start = 2 * float(np.arctan2(*plane.place))
     return plane, start, tuple((edge - start) / 2 for edge in WINDOW)
 
@@ -51,7 +57,7 @@ def trajectories(plt):
     ax.set_title(rf"Torque on the minor axis, $\lambda_1=100$: the circle $A={radius:.4f}$ of the start")
     style.legend(figure,
                  [("this motion", style.MEANING["this motion"]), ("start", style.MARKER["start"]), *LOOPS,
-                     PRINTED_LINE, ("other energies", style.MEANING["level"]), *POINTS], columns=3)
+                     PRINTED_LINE, ("other energies", style.MEANING["level"]), *POINT_STYLES], columns=3)
     return figure
 
 
@@ -74,9 +80,9 @@ def _left(saddles, start):
 
 def _heights():
     """(height by (25), as it is printed, true height) over alpha: x^2/2 + height is constant."""
-    scene, (x1, x2, _) = paper.scene("minor", 100), paper.START_MINOR
-    return (paper.height(np.hypot(x1, x2), scene.b),
-            paper.height(np.hypot(x1 + scene.a, x2), scene.b - scene.a))
+    scene, (x1, x2, _) = table.printed_scene("minor", 100), table.START_MINOR
+    return (table.height(np.hypot(x1, x2), scene.b),
+            table.height(np.hypot(x1 + scene.a, x2), scene.b - scene.a))
 
 
 def _separatrix_by(level, alpha):
@@ -127,7 +133,7 @@ def left_right(plt):
     figure, ax = plt.subplots(figsize=(7.4, 5.2), layout="constrained")
     plane, start, span = _plane(100)
     _loops(ax, plane, start, span)
-    scene = paper.scene("minor", 100)
+    scene = table.printed_scene("minor", 100)
     for centre in plane.repeated(plane.centres, *span):
         other = phase_plane(scene, plane.states(np.float64(centre), np.float64(2.2)))
         ys, Ws = motion_curve(other, -np.pi, np.pi)
@@ -144,7 +150,7 @@ def left_right(plt):
     ax.set_title(rf"Left and right separatrices, $\lambda_1=100$, $A={np.sqrt(plane.Q):.4f}$")
     style.legend(figure, [*LOOPS, ("periodic motions", style.MEANING["bounded"]),
                           ("spin-up", style.MEANING["spin-up"]),
-                     ("upright crossing", style.MARKER["turning"]), PRINTED_LINE, *POINTS], columns=3)
+                     ("upright crossing", style.MARKER["turning"]), PRINTED_LINE, *POINT_STYLES], columns=3)
     return figure
 
 
@@ -153,7 +159,7 @@ def wheel_effect(plt):
     figure, axes = plt.subplots(3, 1, figsize=(7.2, 9.2), sharex=True, layout="constrained")
     printed = {"marker": "|", "color": style.ORANGE, "markersize": 30, "markeredgewidth": 2.2,
                "linestyle": "none"}
-    for ax, letter, (lambda1, (saddles, centres)) in zip(axes, "abc", paper.FIG4.items()):
+    for ax, letter, (lambda1, (saddles, centres)) in zip(axes, "abc", table.FIG4.items()):
         plane, start, span = _plane(lambda1)
         _loops(ax, plane, start, span)
         # taller than the true points, and behind them
@@ -165,14 +171,14 @@ def wheel_effect(plt):
         ax.set_title(
             rf"({letter}) $\lambda_1={lambda1}$: $c=b-a={lambda1 / 500:g}$, $A={np.sqrt(plane.Q):.4f}$")
     axes[-1].set_xlabel(r"$\alpha = 2\,\mathrm{atan2}(x_1+a,\ x_2)$")
-    style.legend(figure, [*LOOPS, *POINTS, ("upright crossing", style.MARKER["turning"]),
+    style.legend(figure, [*LOOPS, *POINT_STYLES, ("upright crossing", style.MARKER["turning"]),
                           ("printed position", printed | {"markersize": 14})], columns=3)
     return figure
 
 
 def branches(lambda1=100, reach=REACH, shape=(60, 121), axis="minor"):
     """The separatrix of the paper's scene."""
-    return separatrix(paper.scene(axis, lambda1), reach=reach, shape=shape)
+    return separatrix(table.printed_scene(axis, lambda1), reach=reach, shape=shape)
 
 
 def exactness(*arguments, **options) -> str:
@@ -189,7 +195,7 @@ def circle() -> float:
 def left_saddles() -> str:
     """alpha of the left saddle for each lambda1."""
     found = []
-    for lambda1 in paper.FIG4:
+    for lambda1 in table.FIG4:
         plane, start, span = _plane(lambda1)
         found.append(start + 2 * _left(plane.repeated(plane.saddles, *span), start))
     return listed(found, "{:.3f}").replace("-", "−")
@@ -198,7 +204,7 @@ def left_saddles() -> str:
 def printed_loops() -> dict:
     """side -> loops by the printed (31), one for each of `CIRCLES`: states (n, 3). tan^-1(x1/x2) goes on
     as an angle from the saddle, at which the print has sin alpha = -2/F^2."""
-    b = paper.scene("minor", 100).b
+    b = table.printed_scene("minor", 100).b
     return {side: [_printed_loop(radius, b, turn) for radius in CIRCLES]
             for side, turn in (("left", 0.0), ("right", 2 * np.pi))}
 
@@ -206,8 +212,8 @@ def printed_loops() -> dict:
 def _printed_loop(radius, b, turn):
     """The loop that hangs on alpha = turn - asin(2/F^2)."""
     from scipy.optimize import brentq
-    level = paper.height(radius, b)
-    saddle = paper.saddle(radius, turn)
+    level = table.height(radius, b)
+    saddle = table.saddle(radius, turn)
     room = lambda alpha: level(saddle) - level(alpha)
     alpha = saddle + np.linspace(-2 * np.pi, 0.0, 4001)
     low = int(np.argmax(room(alpha)))
@@ -221,7 +227,7 @@ def _printed_loop(radius, b, turn):
 
 def surface_departure() -> str:
     """How far the printed loops and folds of Fig. 5 are from the true surface of their side, in words."""
-    true = {paper.side(branch): np.asarray(branch.points) for branch in branches(shape=FINE).branches}
+    true = {table.side(branch): np.asarray(branch.points) for branch in branches(shape=FINE).branches}
     loops = printed_loops()
     words = [f"{listed([farthest([loop], [true[side]]) for loop in loops[side]], '{:.2f}')} on the {side}"
              for side in SIDES]
@@ -239,16 +245,16 @@ def surfaces(plt):
         ax.computed_zorder = False  # lines over the surfaces that they are on or beside
         for branch in branches(reach=reach).branches:
             p = np.asarray(branch.points)
-            ax.plot_surface(p[..., 0], p[..., 1], p[..., 2], color=SIDES[paper.side(branch)], alpha=0.6,
+            ax.plot_surface(p[..., 0], p[..., 1], p[..., 2], color=SIDES[table.side(branch)], alpha=0.6,
                             rstride=2, cstride=3, linewidth=0.2, edgecolor="#333333", shade=False)
             ax.plot(*np.asarray(branch.saddle).T, zorder=4, **style.MEANING["unstable"])
             ax.plot(*np.asarray(branch.centre).T, zorder=4, **style.MEANING["stable"])
         for loops in printed_loops().values():
             for loop in loops[:circles]:
                 ax.plot(*loop.T, zorder=5, **PRINTED)
-        ax.plot(*paper.circle(FOLD_RADIUS, count=181), 0.0, zorder=5, **PRINTED)
+        ax.plot(*table.circle(FOLD_RADIUS, count=181), 0.0, zorder=5, **PRINTED)
         ax.view_init(*view)
-        paper.name_space(ax, 1.05)
+        table.name_space(ax, 1.05)
     figure.suptitle(r"Separatrix surfaces, torque on the minor axis, $\lambda_1=100$; "
                     "right: the folds, enlarged")
     sides = [(f"{side} separatrix surface", {"color": colour, "linewidth": 8, "solid_capstyle": "butt"})
@@ -272,14 +278,14 @@ SHADES = ("#D9D9D9", "#B8B8B8", "#969696", "#6E6E6E", "#303030")
 def _stable_runs():
     """(radius, trajectory) of a periodic motion on each side of each circle, and (None, that of the paper's
     start)."""
-    scene = paper.scene("minor", 100)
+    scene = table.printed_scene("minor", 100)
     return [(radius, trajectory(scene, state, np.linspace(0.0, 15.0, 3001)))
-            for radius, state in [*_bounded_starts(scene), (None, paper.START_MINOR)]]
+            for radius, state in [*_bounded_starts(scene), (None, table.START_MINOR)]]
 
 
 def runs_exactness() -> str:
     """How exact the periodic motions of Fig. 7 are: by their laws."""
-    drift = paper.drift(run for _, run in _stable_runs())
+    drift = table.drift(run for _, run in _stable_runs())
     return ("Taylor integration, relative tolerance 1.1e-16; the laws of the motion drift by "
             f"{drift:.1e} at most")
 
@@ -287,7 +293,7 @@ def runs_exactness() -> str:
 def circle_departure() -> str:
     """How far the motion of Fig. 7 from the paper's start is from its printed circle (18), in words."""
     x1, x2 = np.asarray(_stable_runs()[-1][1].states)[:, :2].T
-    radius = np.hypot(*paper.START_MINOR[:2])
+    radius = np.hypot(*table.START_MINOR[:2])
     return (f"Dashed: the printed circle (18) of the start, F = {radius:.2f} about the origin, from which "
             f"this motion is up to {np.abs(np.hypot(x1, x2) - radius).max():.3f} away, and the circle F = "
             f"√2, on which the text has it move: it stays {np.hypot(x1, x2).min():.2f} and more from the "
@@ -303,16 +309,16 @@ def stable_motions(plt):
         states = np.asarray(run.states)
         ax.plot(*states.T, **looks[radius] if radius else style.MEANING["this motion"])
         above.plot(*states[:, :2].T, **looks[radius] if radius else style.MEANING["this motion"])
-    ax.plot(*np.array([paper.START_MINOR]).T, **style.MARKER["start"])
-    above.plot(*paper.START_MINOR[:2], zorder=6, **style.MARKER["start"])
-    for radius in (FOLD_RADIUS, np.hypot(*paper.START_MINOR[:2])):
-        ax.plot(*paper.circle(radius), 0.0, **PRINTED)
-        above.plot(*paper.circle(radius), **PRINTED)
-    for branch in paper.equilibria("minor", paper.scene("minor", 100), np.geomspace(0.17, 5.0, 800)):
+    ax.plot(*np.array([table.START_MINOR]).T, **style.MARKER["start"])
+    above.plot(*table.START_MINOR[:2], zorder=6, **style.MARKER["start"])
+    for radius in (FOLD_RADIUS, np.hypot(*table.START_MINOR[:2])):
+        ax.plot(*table.circle(radius), 0.0, **PRINTED)
+        above.plot(*table.circle(radius), **PRINTED)
+    for branch in table.equilibria("minor", table.printed_scene("minor", 100), np.geomspace(0.17, 5.0, 800)):
         for panel in (ax, above):
-            paper.draw_equilibria(panel, *branch)
+            table.draw_equilibria(panel, *branch)
     ax.view_init(28, -58)
-    paper.name_space(ax, 1.0)
+    table.name_space(ax, 1.0)
     above.set(aspect="equal", xlabel="$x_1$", ylabel="$x_2$", title="from above")
     figure.suptitle(r"Periodic motions on their circles of radius $A$ about $(-a, 0)$, $\lambda_1=100$")
     style.legend(figure, [("centres (stable)", style.MEANING["stable"]),
@@ -337,3 +343,122 @@ def _bounded_starts(scene):
                 starts.append((radius,
                                plane.states(np.float64(centre), np.float64(np.sqrt(2 * 0.6 * depth)))))
     return starts
+
+
+SHAPE = (240, 241)
+MAP_REACH = 6.3           # radii of the outer fold circle: beyond the corners of the map
+LEVELS = np.linspace(0, 7.5, 16)
+SIZE, MAP_NEAR = 6.0, 2.1  # half a side of the map, and of the enlargement about the folds
+BEYOND = 8.0           # half a side of the square in which the fourth surface is traced
+
+
+def contour_map(plt):
+    """Fig. 6: the map, and its middle enlarged."""
+    figure, axes = plt.subplots(1, 2, figsize=(11.4, 6.2), layout="constrained")
+    scene, found = table.printed_scene("minor", 100), _branches()
+    for ax, size in zip(axes, (SIZE, MAP_NEAR)):
+        heights = _map(ax, scene, found, size)
+    axes[0].set_title(r"Height $x_3>0$ of the separatrix surfaces, $\lambda_1=100$")
+    axes[1].set_title("the middle, enlarged")
+    box = axes[0].add_patch(plt.Rectangle((-MAP_NEAR, -MAP_NEAR), 2 * MAP_NEAR, 2 * MAP_NEAR, fill=False,
+                                        linewidth=0.9,
+                                          edgecolor=style.BLACK))
+    box.set_zorder(6)
+    figure.colorbar(heights, ax=axes, label="$x_3$ on the surface", shrink=0.7, pad=0.02)
+    style.legend(figure, [("stable equilibria", style.MEANING["stable"]),
+                          ("unstable equilibria", style.MEANING["unstable"]),
+                     ("fold circles", style.MEANING["fold"]),
+                          (r"$(x_1+a)(x_1+b)=x_2^2$", style.MEANING["dividing"]),
+                     ("edge of the stable regions", EDGE),
+                          (r"printed: $x_1+x_2=0$, radius $\sqrt{2}$", style.MEANING["printed"]),
+                          ("fourth surface: (30), $x_3=0$, $G_1=0$", FOURTH),
+                          ("fourth surface as printed", PRINTED_FOURTH)], columns=3)
+    return figure
+
+
+EDGE = {"color": style.PURPLE, "linewidth": 1.4}
+FOURTH = {"color": style.SKY, "linewidth": 1.8}
+PRINTED_FOURTH = style.MEANING["printed"] | {"linestyle": "--", "linewidth": 1.6}
+
+
+@lru_cache(maxsize=1)
+def fourth_surface() -> dict:
+    """The fourth of the paper's surfaces, (30) for x3 = 0 and G1 = 0, as "printed" and "true": curves (n, 2).
+    tan^-1 is the principal value, which jumps at x2 = 0: there the curves end."""
+    a, b, found = table.printed_scene("minor", 100).a, table.printed_scene("minor", 100).b, {}
+    for name, shift, wheel in (("printed", 0.0, b), ("true", a, b - a)):
+        def energy(x1, x2, shift=shift, wheel=wheel):
+            X = x1 + shift
+            return x2**2 - X**2 - 4 * wheel * X - 4 * np.arctan(X / x2)
+        found[name] = [curve for half in ((0.0, BEYOND), (-BEYOND, -0.0))
+                       for curve in level_curves(energy, 0.0, (-BEYOND, BEYOND), half)]
+    return found
+
+
+def fourth_departure() -> str:
+    """How far the printed fourth surface is from the true one within the map, in words."""
+    found = fourth_surface()
+    shown = [within(curve, (-SIZE, SIZE), (-SIZE, SIZE)) for curve in found["printed"]]
+    return (f"The fourth surface of the paper's list, (30) for x3 = 0 and G1 = 0, is drawn in truth and, "
+            f"dashed, as printed: up to {farthest(shown, found['true']):.2f} off.")
+
+
+def _branches():
+    return branches(reach=MAP_REACH, shape=SHAPE)
+
+
+def map_exactness() -> str:
+    """How far the vertices of the map are from the surface; how the fourth surface is traced."""
+    return (f"{exactness(reach=MAP_REACH, shape=SHAPE)}; fourth surface: traced on grids of {POINTS} x "
+            f"{POINTS}")
+
+
+def _map(ax, scene, found, size):
+    """One panel, `size` to all sides of the origin; the filled contours are returned."""
+    a, b = scene.a, scene.b
+    for branch in found.branches:
+        upper, triangles = _upper(np.asarray(branch.points))
+        filled = ax.tricontourf(upper[:, 0], upper[:, 1], triangles, upper[:, 2], levels=LEVELS, cmap="Greys",
+                                antialiased=True, extend="max")
+        ax.plot(*np.asarray(outline(np.asarray(branch.points)))[:, :2].T, **EDGE)
+    for branch in table.equilibria("minor", scene, np.geomspace(0.05, 20, 4000)):
+        table.draw_equilibria(ax, *branch)
+    _dividing(ax, a, b)
+    for radius in table.fold_radii(b - a):
+        ax.plot(*table.circle(radius, -a), **style.MEANING["fold"])
+    ax.plot(*table.circle(np.sqrt(2)), **style.MEANING["printed"])
+    for name, look in (("true", FOURTH), ("printed", PRINTED_FOURTH)):
+        for curve in fourth_surface()[name]:
+            ax.plot(*curve.T, **look)
+    ax.set(xlim=(-size, size), ylim=(-size, size), aspect="equal", xlabel="$x_1$", ylabel="$x_2$")
+    return filled
+
+
+def _upper(points):
+    """Upper half (x3 >= 0) of a branch as vertices and triangles of its grid."""
+    n, m, _ = points.shape
+    columns = [j for j in range(m) if np.all(points[:, j, 2] >= -1e-12)]
+    part = points[:, columns]
+    rows, width = part.shape[:2]
+    index = np.arange(rows * width).reshape(rows, width)
+    lower = np.stack([index[:-1, :-1], index[1:, :-1], index[:-1, 1:]], -1).reshape(-1, 3)
+    upper = np.stack([index[1:, :-1], index[1:, 1:], index[:-1, 1:]], -1).reshape(-1, 3)
+    flat, triangles = part.reshape(-1, 3), np.concatenate([lower, upper])
+    corner = flat[triangles][..., :2]
+    (u1, u2), (v1, v2) = (corner[:, 1] - corner[:, 0]).T, (corner[:, 2] - corner[:, 0]).T
+    # folded flat in the projection: nothing to shade
+    return flat, triangles[np.abs(u1 * v2 - u2 * v1) > 1e-12]
+
+
+def outline(points):
+    """The line of saddles inward, then the far ends of the loops outward: where a branch meets the plane x3 =
+    0."""
+    return np.concatenate([points[::-1, 0], points[:, points.shape[1] // 2]])
+
+
+def _dividing(ax, a, b):
+    x1 = np.concatenate([np.linspace(-6, -b, 400), [np.nan], np.linspace(-a, 6, 400)])
+    height = np.sqrt(np.maximum((x1 + a) * (x1 + b), 0))
+    for sign in (1, -1):
+        ax.plot(x1, sign * height, **style.MEANING["dividing"])
+    ax.plot([-6, 6], [6, -6], **style.MEANING["printed"])

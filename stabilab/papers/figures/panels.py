@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ...show import style
-from ...show.text.cost import comparison
+from ...show.text import cost
 from ..families import Family, Span, compared
 
 TIME = "$t$ (s)"
@@ -47,7 +47,7 @@ BESIDE = tuple({"color": c, "linewidth": 0.8, "linestyle": s, "zorder": z - 0.5}
 LINE = 13  # points from a line of words above a panel to the next
 # in the legend, after the exact motion
 ORDER = ("printed", "corrected", "averaged1", "linear", "averaged2", "lindstedt")
-WORDS = comparison.WORDS | {"corrected": "corrected integrals, frequency (8)"}
+WORDS = cost.WORDS | {"corrected": "corrected integrals, frequency (8)"}
 
 
 @dataclass(frozen=True)
@@ -171,8 +171,8 @@ def _ending(ax, column):
     """In the panel, where curves leave room: which model ends early, and why."""
     from matplotlib.lines import Line2D
     rows = [(f"ends at {run.t[-1]:.3g} s: {run.reason.split(' at t = ')[0]}",
-             comparison.END | {"color": LOOKS[name]["color"]})
-            for name, run in column.runs.items() if comparison.stops(run)]
+             cost.END | {"color": LOOKS[name]["color"]})
+            for name, run in column.runs.items() if cost.stops(run)]
     if rows:
         ax.legend([Line2D([], [], **look) for _, look in rows], [fill(text, 34) for text, _ in rows],
                   fontsize=7.5, loc="best")
@@ -188,7 +188,7 @@ def _picked(row, columns, model) -> list:
 def _leaves(row, columns) -> bool:
     """Whether a printed curve leaves the limits that the columns share."""
     limits = _window(row, columns)
-    return any(comparison.beyond(v, *ends) for _, *xy in _picked(row, columns, "printed")
+    return any(cost.beyond(v, *ends) for _, *xy in _picked(row, columns, "printed")
                for v, ends in zip(xy, limits))
 
 
@@ -213,8 +213,8 @@ def _panel(ax, row, column, limits):
             continue
         x, y = picked
         ax.plot(x, y, **LOOKS[name])
-        if comparison.stops(column.runs[name]) and len(x):
-            ax.plot(x[-1:], y[-1:], color=LOOKS[name]["color"], **comparison.END)
+        if cost.stops(column.runs[name]) and len(x):
+            ax.plot(x[-1:], y[-1:], color=LOOKS[name]["color"], **cost.END)
     if column.mark is not None and row.over_time:
         ax.axvline(column.mark, **style.MEANING["crossing"])
     ax.set_xlim(*limits[0])
@@ -238,7 +238,7 @@ def _cuts(row, column, limits) -> list[tuple[str, str]]:
         if picked is None or not len(picked[0]):
             continue
         labels = ("", "") if row.over_time else (f"{_bare(row.xlabel)} ", f"{_bare(row.ylabel)} ")
-        spans = [comparison.beyond(v, *ends) for v, ends in zip(picked, limits)]
+        spans = [cost.beyond(v, *ends) for v, ends in zip(picked, limits)]
         told = [f"{label}{'from ' if len(span) > 1 else 'to '}{' to '.join(span)}"
                 for label, span in zip(labels, spans) if span]
         found += [(name, f"cut: {', '.join(told)}")] * bool(told)

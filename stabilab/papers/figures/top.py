@@ -7,9 +7,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from ...theories.top.euler_angles import euler_angles
-from ...theories.top.model import printed
-from ...theories.top.scaling import fast_top
+from ...theories.euler_angles import euler_angles
+from ...theories.top import printed
+from ...theories.top_lindstedt import fast_top
 from .. import families
 from ..families import compared, sweep
 from . import panels

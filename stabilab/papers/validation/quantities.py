@@ -19,9 +19,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from operator import mul
 
-from ...answers.attitude.ask import attitude
-from ...answers.circular_orbit.ask import circular_orbit
-from ...answers.passage.enclosed import flow_of, own_unit
+from ...answers.attitude import attitude
+from ...answers.circular_orbit import circular_orbit
+from ...answers.limit import flow_of, own_unit
 from ...case.read import load
 from ...numbers.balls import working
 from ...numbers.vectors import CYCLE, cross, dot

@@ -11,7 +11,7 @@ from dataclasses import dataclass, fields
 from fractions import Fraction
 from typing import Any, ClassVar
 
-from ...caveat import Caveat
+from ...errors import Caveat
 from ...numbers.principal import PrincipalAxes
 from ...numbers.vectors import Number, Triple
 from ...validation import Asked

@@ -6,8 +6,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, ClassVar
 
-from ...caveat import Caveat
-from ...errors import InputError
+from ...errors import Caveat, InputError
 from ...numbers.exact import floats
 from ...numbers.principal import PrincipalAxes
 from ...numbers.units import TIME, TORQUE, in_si, vector_in_si

@@ -23,7 +23,7 @@ from ...case.write import data_of
 from ...equilibrium.result import Equilibria
 from ...errors import StabilabError
 from ...orbit.result import Motion
-from ...orbit.separatrix.plain_branches import REACH
+from ...orbit.separatrix.saddles import REACH
 from ...packages import explained, present
 from ...physics.coefficients import content, gyrostat_scene
 from ...physics.effects import effect_class
@@ -36,19 +36,17 @@ from ...verify.form import line as about_line
 from ...verify.numbers import Malformed
 from .. import frame, limiting, space
 from ..axes import with_moments
-from ..report.one_case.tiles import tiles
-from ..spans import natural, seen
-from ..terminal.letters import greek, lettered, written
-from ..text import law
+from ..report.tables import tiles
+from ..space import natural, seen
+from ..terminal import greek, lettered, written
+from ..text import headline as law
 from ..text.headline import headline, look
 from ..text.motion import margins
 from ..units import SHORT, Units, but_for_rounding, units_of
-from . import orbits as other
 from . import parameters as controls
-from . import pictures as planes
-from .orbits import line
+from . import pictures
 from .parameters import changed
-from .pictures import Bag
+from .pictures import Bag, line
 
 # --- The tables beside the pictures: what is known of the motion, and the equilibria
 MOST = 12  # rows of equilibria
@@ -111,7 +109,7 @@ class Session:
     """One case on one page. What only depends on the scene is kept for the next answer."""
 
     def __init__(self, case: Case) -> None:
-        other.check(case)
+        pictures.check(case)
         self.case, self.units = case, units_of(case)
         self._swept = SWEPT if "sweep" in data_of(case.text) else ""
         self._kept: dict[str, tuple[Any, Any]] = {}
@@ -146,7 +144,7 @@ class Session:
         if isinstance(case.scene, Scene):  # names of the axes by moments whose order the sliders may change
             units = replace(units, axes=with_moments(units.axes, case.scene.body.exact))
         if asked.get("click"):
-            clicked = planes.clicked(self._twin(case), case.state, asked["click"], self.units)
+            clicked = pictures.clicked(self._twin(case), case.state, asked["click"], self.units)
             case, note = changed(self.case, asked | {"start": clicked, "click": None}, self.units)
         found, words = self._motion(case, moving, stopped)
         if found is not None:
@@ -175,10 +173,10 @@ class Session:
                 "toml": case.text, "axes": _named(units), "space": picture,
                 "rows": [*([["axes", lettered(about_axes)]] if about_axes else []),
                          *([] if found is None else rows(case, found, units))],
-                "plane": None if twin is None else planes.drawn_planes(bag, twin, case.state, units),
-                "time": planes.over_time(bag, case, found, times, path, units),
-                "film": other.film(case, times[-1], bag, units) if turns else None}
-        made["equilibria"] = equilibrium_rows(at_rest, units) if at_rest else other.NOT_YET
+                "plane": None if twin is None else pictures.drawn_planes(bag, twin, case.state, units),
+                "time": pictures.over_time(bag, case, found, times, path, units),
+                "film": pictures.film(case, times[-1], bag, units) if turns else None}
+        made["equilibria"] = equilibrium_rows(at_rest, units) if at_rest else pictures.NOT_YET
         return made | {"analysis": 1e3 * (settled - began), "work": 1e3 * (time.process_time() - began)}
 
     def _motion(self, case: Case, moving: bool, stopped) -> tuple[Motion | None, str]:
@@ -206,7 +204,7 @@ class Session:
 
     def _twin(self, case: Case) -> AnyScene | None:
         """The scene of wheel and torque alone with the same rates; None where there is none."""
-        return (None if other.needed(case.scene) else case.scene if case.scene.plain
+        return (None if pictures.needed(case.scene) else case.scene if case.scene.plain
                 else gyrostat_scene(content(case.scene)))
 
     def _at_rest(self, case: Case, twin: AnyScene | None, moving: bool) -> Equilibria | None:
@@ -217,7 +215,7 @@ class Session:
         if moving and slow and self._kept.get("equilibria", (None,))[0] != case.scene:
             return None
         began = time.process_time()
-        found = self._once("equilibria", case.scene, lambda: other.at_rest(case.scene))
+        found = self._once("equilibria", case.scene, lambda: pictures.at_rest(case.scene))
         self._cost["equilibria"] = max(self._cost.get("equilibria", 0.0), time.process_time() - began)
         return found
 
@@ -228,7 +226,7 @@ class Session:
         limit = space.limit_of(case)
         rests = [*space.beside_limit(limit, near), *([] if moving else space.nearest(at_rest, near))]
         box = space.box_of(near, marks + rests, reaching=True, asked=asked, kept=moving or ghost)
-        branches, words = (), other.why(case.scene)
+        branches, words = (), pictures.why(case.scene)
         if bare is not None:  # as far as the box reaches
             reach = self._kept.get("reach", (None, REACH))[1]
             branches, words, far = self._once("branches", (bare, box, moving), lambda: space.branches_of(

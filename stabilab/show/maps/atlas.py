@@ -13,9 +13,9 @@ import numpy as np
 
 from ...case.read import Case, read_text
 from ...errors import InputError, printable
-from ...maps.atlas.pointed import AXES, OWN, THRUSTERS, Leaves, Point, area, corners, directions
-from ...maps.atlas.run import LEVEL, REFINE, Asked, Atlas, asked, drawn
+from ...maps.atlas import LEVEL, REFINE, Asked, Atlas, asked, drawn
 from ...maps.columns import ISLANDS, LEVELS, LIMIT_LEVELS, columns_of, record
+from ...maps.pointed import AXES, OWN, THRUSTERS, Leaves, Point, area, corners, directions
 from ...orbit.result import Fate
 from ...packages import demand
 from .. import limiting, style

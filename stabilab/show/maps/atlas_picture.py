@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from ...errors import InputError, printable
-from ...maps.atlas.pointed import AXES, DEEPEST, places_of
-from ...maps.atlas.run import Atlas
+from ...maps.atlas import Atlas
 from ...maps.columns import ISLANDS, LEVELS, LIMIT_LEVELS
+from ...maps.pointed import AXES, DEEPEST, places_of
 from ...packages import demand
 from .. import style
 from ..axes import axes_of

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...case.read import Case
 from ...errors import printable
-from ...maps.basins.ask import (
+from ...maps.basins import (
     BOUNDED,
     DEPTH,
     NO_AXIS,
@@ -29,7 +29,7 @@ from ...maps.plan import from_json
 from .. import limiting
 from ..axes import axes_of
 from ..data import as_json, csv_lines
-from ..text import law
+from ..text import headline
 from ..units import units_of, with_unit
 from .shades import limits_of
 from .sweep import checked, column_in, finished, origin, write
@@ -58,7 +58,7 @@ def text(found: Basins) -> str:
         f"  {len(mesh.keys):,} states computed, of {full[0] * full[1]:,} of the grid of finest cells "
         f"({full[0]:,} x {full[1]:,})")
     lines += (limiting.lines(limits_of(found.plan.case, found.records), units_of(found.plan.case))
-              + law.beside(found.plan.case))
+              + headline.beside(found.plan.case))
     if mesh.full:
         lines.append(
             "  refinement ended before the depth asked for: more than the largest number of states would be "

@@ -3,16 +3,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from ...caveat import cell, key
+from ...errors import cell, key
 from ...maps.axes import Span
 from ...maps.bifurcation.diagram import branches
-from ...maps.bifurcation.equations import BORDERS
-from ...maps.bifurcation.family import CURVES, ENDLESS, Diagram, Event, Piece, State
+from ...maps.bifurcation.equations import BORDERS, CURVES, ENDLESS, Diagram, Event, Piece, State
 from ...maps.bifurcation.plane import Plane, rows
-from .. import frame, limiting
+from .. import frame, limiting, terminal
 from ..data import as_json, csv_lines
-from ..terminal import page
-from ..terminal.letters import greek, listed
+from ..terminal import greek, listed
 from ..units import Units, units_of, with_unit
 
 SCHEMA = "stabilab.bifurcation/1"
@@ -248,7 +246,7 @@ def _examples(found: Plane) -> list[str]:
     for cusp in found.cusps:
         where = units.vector(cusp.state, units.rates) if cusp.state else "no one state"
         table.append(["cusp", *([] if border else [""]), where, _number(cusp.at[0]), _number(cusp.at[1])])
-    return page.table(table)
+    return terminal.table(table)
 
 
 def _plane_rows(found: Plane) -> tuple[list[str], list[list[Any]]]:

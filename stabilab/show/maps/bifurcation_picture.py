@@ -1,20 +1,121 @@
-"""A diagram of equilibria over one number or over two as a picture."""
+"""Pictures of equilibria over one number, over two, and on a circular orbit.
+
+What stands above a panel over one number: how many equilibria there are, and where that changes.
+
+Equilibria on a circular orbit over the momentum of the wheels as a picture.
+
+A diagram of equilibria over one number or over two as a picture.
+"""
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from ...answers.circular_orbit import CircularOrbit, followed
+from ...case.read import Case
+from ...equilibrium.circular_orbit import OrbitEquilibrium
 from ...errors import InputError
 from ...maps.bifurcation.diagram import Branch, branches
-from ...maps.bifurcation.equations import BORDERS
-from ...maps.bifurcation.family import CURVES, ENDLESS, Diagram
+from ...maps.bifurcation.equations import BORDERS, CURVES, ENDLESS, Diagram
 from ...maps.bifurcation.plane import Plane
 from ...maps.bifurcation.plane import rows as arcs_of
+from ...numbers.vectors import dot
 from .. import style
 from ..axes import axes_of
-from ..units import units_of, with_unit
-from .over_values import counts_above
+from ..units import Units, units_of, with_unit
 from .shades import light, mark_own, own_values
+
+# of the values above the panel: points, rows at the most, inches of the figure beside the panel
+SIZE, ROWS, MARGIN = 7.5, 3, 1.2
+GLYPH = 0.64  # width of a digit of the house's font over the size of the font
+GAP = 4.0  # points between two labels of a row
+
+
+def counts_above(ax: Any, ends: tuple[float, float], pieces: Sequence[tuple[float, float, str]],
+                 values: Sequence[float]) -> None:
+    """How many there are in each piece (low, high, words), and the values between, above a panel whose axis
+    goes from end to end."""
+    whole = ends[1] - ends[0]
+    for low, high, words in pieces:
+        if high - low > 0.03 * whole:
+            ax.annotate(words, (0.5 * (low + high), 1.0), xycoords=("data", "axes fraction"),
+                        xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=9,
+                        fontweight="bold")
+    shown = sorted((value, f"{value + 0.0:.5g}") for value in values if value not in ends)
+    wide = 72 * (ax.figure.get_figwidth() - MARGIN) / whole
+    places = [wide * (value - ends[0]) for value, _ in shown]
+    for (value, told), row in zip(shown, rows_apart(places, [told for _, told in shown], SIZE, ROWS)):
+        if row is not None:
+            ax.annotate(told, (value, 1.0), xycoords=("data", "axes fraction"),
+                        xytext=(0, 16 + 1.3 * SIZE * row), textcoords="offset points",
+                        ha="center", va="bottom", fontsize=SIZE)
+
+
+def rows_apart(places: Sequence[float], texts: Sequence[str], size: float, rows: int) -> list[int | None]:
+    """The row (0 is the lowest) of each text, centred at a rising place and in a font of so many points, such
+    that no two of a row meet.
+
+    places: in points. None where no row has room.
+    """
+    ends = [-float("inf")] * rows
+    out: list[int | None] = []
+    for place, text in zip(places, texts):
+        half = 0.5 * GLYPH * size * len(text)
+        row = next((n for n, end in enumerate(ends) if place - half >= end + GAP), None)
+        if row is not None:
+            ends[row] = place + half
+        out.append(row)
+    return out
+
+
+WORDS = {"stable": "stable (Lyapunov)", "unstable": "unstable",
+         "undecided": "undecided by energy (gyroscopic)"}
+
+
+def write_orbit(case: Case, found: CircularOrbit, out: str | Path, units: Units) -> Path:
+    """Draw two angles of each equilibrium over the momentum: of the orbit normal to that momentum, and of the
+    vertical to the body's minor axis. Raises InputError where there are no branches."""
+    rows = followed(found)
+    return style.write(out, lambda plt: _drawn(case, found, rows, units, plt))
+
+
+def _drawn(case: Case, found: CircularOrbit, rows: Any, units: Units, plt: Any) -> Any:
+    name, one = units.angles
+    wheel, minor = _unit(found.momentum), min(range(3), key=lambda i: found.moments[i])
+    panels: list[tuple[str, float, Callable[[OrbitEquilibrium], float]]] = [
+        ("orbit normal to momentum", math.pi, lambda at: math.acos(_within(dot(at.normal, wheel)))),
+        ("vertical to minor axis", math.pi / 2, lambda at: math.acos(_within(abs(at.vertical[minor]))))]
+    figure, axes = plt.subplots(2, 1, sharex=True, layout="constrained", figsize=(8, 7))
+    ends = 0.0, found.spans[-1].high  # type: ignore[index]
+    for ax, (words, most, angle) in zip(axes, panels):
+        for branch in rows:
+            ax.plot(branch.momenta, [angle(at) * one for at in branch.points],
+                    **style.MEANING[branch.verdict])
+        for span in found.spans:  # type: ignore[union-attr]
+            ax.axvline(span.high, color=style.GREY, linewidth=0.7, linestyle=":", zorder=0)
+        ax.set_ylim(-0.03 * most * one, 1.03 * most * one)
+        ax.set_ylabel(f"{words} ({name})")
+    axes[-1].set_xlim(*ends)
+    own = [mark_own(ax, [math.hypot(*found.momentum)]) for ax in axes]
+    axes[-1].set_xlabel("momentum of the wheels (N m s)")
+    counts_above(axes[0], ends, [(span.low, span.high, str(span.count)) for span in found.spans],
+                 [span.low for span in found.spans])
+    figure.suptitle(f"{style.literal(case.title or case.name)}\nin bold: the number of equilibria, two or "
+                    "more a line", x=0.02, ha="left", fontsize=10.5, wrap=True)
+    kinds = dict.fromkeys(branch.verdict for branch in rows)
+    style.legend(figure, {WORDS[kind]: style.MEANING[kind] for kind in kinds} | own[0])
+    return figure
+
+
+def _within(cosine: float) -> float:
+    return min(1.0, max(-1.0, cosine))
+
+
+def _unit(vector: Any) -> tuple[float, ...]:
+    return tuple(v / math.hypot(*vector) for v in vector)
+
 
 CROWD = 6.0  # a component that goes to infinity is cut at so many times what nine tenths of the points reach
 LOOKS = {"stable": ("stable", "stable"), "unstable": ("unstable", "unstable"),

@@ -12,14 +12,13 @@ from ...answers.caveats import caveats_of
 from ...answers.chaos import FLAT, Chaos, Order, chaos
 from ...errors import printable
 from ...packages import demand
-from .. import style
+from .. import endings, style
 from ..data import as_json, csv_lines
-from ..files import endings
 from ..limiting import cell
 from ..plot import phase_plane as plane_section
 from ..plot import subject as which
 from ..plot.subject import Measures, Subject, measures, subject
-from ..text import law
+from ..text import headline
 from ..units import number
 from .shades import light
 
@@ -165,7 +164,7 @@ def as_dict(case: Any, found: Chaos) -> dict[str, Any]:
 def json(rows: list[tuple[Any, Chaos]], laws: Sequence[Any]) -> str:
     """One object a case, a list of them for several. laws: how far the approximate laws of each hold, or
     None."""
-    told = [as_dict(*row) | law.key(held, row[0]) for row, held in zip(rows, laws)]
+    told = [as_dict(*row) | headline.key(held, row[0]) for row, held in zip(rows, laws)]
     return as_json(told if len(told) > 1 else told[0])
 
 

@@ -14,11 +14,10 @@ from ...maps.plan import Plan, from_json
 from ...maps.run import changes, known_exactly
 from ...orbit.result import Fate
 from ...packages import demand
-from .. import style
-from ..files import endings
+from .. import endings, style
 from ..plot import basins as basin_picture
 from ..plot.to_file import check_size
-from ..terminal.letters import written
+from ..terminal import written
 from ..units import Units, units_of, with_unit
 from . import basins as basin_data
 from . import shades

@@ -11,7 +11,7 @@ import numpy as np
 from ...answers.caveats import HOLDS, UNPHYSICAL, stated, unseen
 from ...case.lines import KeyLines
 from ...case.table import Faults, Table
-from ...caveat import Caveat
+from ...errors import Caveat
 from ...maps.axes import Key, Span, value_at
 from ...maps.columns import ENERGY, PACE, RATE, TIME, Column
 from ...maps.plan import Plan

@@ -19,13 +19,11 @@ from ...maps.run import Swept, run
 from ...orbit.result import Fate
 from ...packages import demand
 from ...version import __version__
-from .. import limiting
+from .. import endings, limiting, terminal
 from ..axes import Axes, axes_of
 from ..data import as_json, csv_lines, endless
-from ..files import endings
-from ..terminal import page
-from ..terminal.letters import greek
-from ..text import law
+from ..terminal import greek
+from ..text import headline
 from ..units import Unit, units_of, with_unit
 from .shades import SAMPLE, dimensions, limits_of, names, said, unit
 
@@ -55,7 +53,8 @@ def text(found: Swept) -> str:
     """The answer first; then what else was asked, in ranges; a table of the points where there are few."""
     plan = found.plan
     lines = [f"{plan.case.name}: {_answer(found)}", *_details(found)]
-    lines += limiting.lines(limits_of(plan.case, found.records), units_of(plan.case)) + law.beside(plan.case)
+    lines += limiting.lines(limits_of(plan.case, found.records), units_of(plan.case))
+    lines += headline.beside(plan.case)
     if found.broken:
         told = (f"{found.broken:,} points are no case; the first" if found.broken > 1
                 else "one point is no case")
@@ -241,8 +240,8 @@ def _table(found: Swept) -> list[str]:
     axes = axes_of(plan.case)
     cells = [[_cell(value, one, kind, axes) for value, one, kind in zip(row, factors, kinds)] for row in told]
     said_of = [n for n in range(len(titles)) if any(row[n] for row in cells)]
-    return page.table([[row[n] for n in said_of] for row in (titles, units, *cells)], len(keys + sampled),
-                      page.width())
+    return terminal.table([[row[n] for n in said_of] for row in (titles, units, *cells)], len(keys + sampled),
+                      terminal.width())
 
 
 def _cell(value: Any, one: float, kind: str, axes: Axes) -> str:

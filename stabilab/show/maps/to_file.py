@@ -5,11 +5,10 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from ...errors import InputError, printable
-from ...maps.atlas.run import Atlas
-from ...maps.basins.ask import Basins
+from ...maps.atlas import Atlas
+from ...maps.basins import Basins
 from ...packages import demand
-from .. import style
-from ..files import endings
+from .. import endings, style
 from ..plot import basins as basin_picture
 from ..units import Units, units_of
 from . import atlas, atlas_picture, basins, sweep

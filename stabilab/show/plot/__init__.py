@@ -4,15 +4,15 @@ from .body import body as body
 from .equilibria import equilibria as equilibria
 from .in_space import space as space
 from .over_time import state as state
+from .over_time import tilt as tilt
 from .over_time import time as time
+from .over_time import wheel as wheel
 from .path import budget as budget
 from .phase_plane import phase as phase
+from .phase_plane import potential as potential
 from .phase_plane import section as section
-from .potential import potential as potential
 from .surfaces import sphere as sphere
 from .to_file import write as write
-from .to_limit import tilt as tilt
-from .to_limit import wheel as wheel
 from .turning import attitude as attitude
 
 __all__ = ["attitude", "basin", "body", "budget", "equilibria", "phase", "potential", "section", "space",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...errors import InputError, told
-from ...maps.basins.ask import BOUNDED, NO_AXIS, UNDECIDED, Basins
+from ...maps.basins import BOUNDED, NO_AXIS, UNDECIDED, Basins
 from ...packages import demand
 from .. import style
 from ..maps.basins import basin_name, cells_of

@@ -11,7 +11,7 @@ from ...errors import InputError
 from ...packages import demand
 from .. import style
 from ..axes import axes_of
-from ..text import law
+from ..text import headline
 from ..text.headline import outcome
 from ..units import units_of
 from .subject import Measures, Subject
@@ -70,7 +70,7 @@ def answer(one: Subject, scale: Measures) -> str:
         return ""
     units = replace(scale.system or units_of(one.case), axes=axes_of(one.case))
     became, limit, _ = outcome(one.motion, units)
-    return law.warned(one.motion.validity, "; ".join(filter(None, (became, limit))))
+    return headline.warned(one.motion.validity, "; ".join(filter(None, (became, limit))))
 
 
 def title(ax: Any, *lines: str) -> None:

@@ -12,9 +12,8 @@ from ...answers.equilibria import equilibria as all_of
 from ...equilibrium.result import Equilibria
 from ...errors import InputError
 from .. import style
-from ..space import Box, Space, curves_of, look, marks_of
+from ..space import Box, Space, curves_of, look, marks_of, spread
 from ..space import space as drawn_in
-from ..spans import spread
 from . import canvas, in_space
 from .in_space import POINTS, disc, holds, inside, marker, plane_of
 from .subject import Subject, measures, subject

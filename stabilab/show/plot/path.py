@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...answers.digits.run import best_reached
+from ...answers.digits_run import best_reached
 from ...answers.simulate import simulate, trajectory
 from ...cost.accuracy import Precision, precision
 from ...errors import InputError
 from .. import style
-from ..report.precision_picture import meanings, panel, picture
+from ..precision import meanings, panel, picture
 from . import canvas
 from . import subject as which
 from .subject import Subject, subject

@@ -10,10 +10,10 @@ from typing import Any
 from ...answers.equilibria import equilibria
 from ...answers.motion import motion
 from ...answers.stuck.ask import stuck
-from ...answers.stuck.result import Row
+from ...answers.stuck.margins import Row
 from ...case.read import Case, load
 from ...errors import InputError, printable
-from ...orbit.far_states import far_exponent
+from ...orbit.one_state import far_exponent
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate, Motion
 from ...physics.coefficients import effective
@@ -22,9 +22,9 @@ from ...physics.states import checked_states, start_of
 from ...theories.follow import models_of
 from ...unreduced.periodic import LEAST, crossed
 from ...validation import checked_scene, checked_span
-from .. import spans
+from .. import space
 from ..axes import PLAIN, Axes, axes_of
-from ..text import law
+from ..text import headline
 from ..units import SYSTEMS, Units, suited
 
 # --- What a plot is of: a scene, one motion of it where there is one, and what a case says besides
@@ -98,7 +98,7 @@ class Subject:
             return self.known
         gamma = tuple(self.blocks.get("gamma", ())) if "gamma" in self.scene.blocks else ()
         found = motion(self.scene, (*self.state, *gamma), self.span, exact=self.exact_state)
-        return found if self.case is None else law.judged(self.case, found)
+        return found if self.case is None else headline.judged(self.case, found)
 
     @cached_property
     def stuck(self) -> Row:
@@ -108,7 +108,7 @@ class Subject:
     @cached_property
     def seen(self) -> tuple[float, ...]:
         """(from, to): the span that its pictures show, in the scene's time."""
-        return self.asked or spans.seen(self.span, self.motion, spans.natural(self.scene, self.state))
+        return self.asked or space.seen(self.span, self.motion, space.natural(self.scene, self.state))
 
 
 def subject(given: Any, state: Any = None, span: Any = None) -> Subject:
@@ -228,7 +228,7 @@ def _wheel(one: Subject) -> str:
         return "it is drawn of a body with wheels and a torque alone"
     if one.case is None or not one.case.wheels:
         return "the case has no wheel of its own: describe it in a table [[wheels]]"
-    return "the motion is not known to reach a limit" if spans.limit_time(one.motion) is None else _far(one)
+    return "the motion is not known to reach a limit" if space.limit_time(one.motion) is None else _far(one)
 
 
 def bodily(one: Subject) -> Any:

@@ -6,11 +6,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...answers.equilibria import equilibria
-from ...numbers.roots import halved
+from ...numbers.polynomial import halved
 from ...orbit.phase_plane import PhasePlane, motion_curve, phase_plane, window
 from .. import style
-from ..space import Box
-from ..spans import spread
+from ..space import Box, spread
 from ..units import with_unit
 from . import canvas, in_space
 from . import subject as which

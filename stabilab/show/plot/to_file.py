@@ -8,19 +8,16 @@ from typing import Any
 
 from ...errors import InputError
 from ...packages import demand
-from .. import style
-from ..files import endings
+from .. import endings, style
 from . import subject as which
 from .body import body
 from .equilibria import equilibria
 from .in_space import space
-from .over_time import states, time
+from .over_time import states, tilt, time, wheel
 from .path import whole as budget
-from .phase_plane import phase, section
-from .potential import potential
+from .phase_plane import phase, potential, section
 from .subject import Subject, subject
 from .surfaces import sphere
-from .to_limit import tilt, wheel
 from .turning import ENDINGS, film
 
 LEAST, MOST, SHARP = 1.0, 60.0, 1200  # inches of a side, dots an inch

@@ -10,13 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...answers.simulate import simulate, trajectory
-from ...case.attitude import attitude_of
+from ...case.sections import attitude_of
 from ...errors import InputError, RenderingUnavailable, printable
 from ...files import whole_file
 from ...physics.equations import rotation
 from ...physics.states import quaternion, start_of
-from .. import style
-from ..files import endings
+from .. import endings, style
 from ..report import html
 from ..units import SHORT, Unit, Units
 from . import canvas, in_space

@@ -1,4 +1,6 @@
-"""The report on cases of one's own: a page a case, a page a sweep, and, where there are several, a first page
+"""The report on cases of one's own, by several processes.
+
+The report on cases of one's own: a page a case, a page a sweep, and, where there are several, a first page
 that lists them."""
 from __future__ import annotations
 
@@ -9,11 +11,10 @@ from pathlib import Path
 
 from ...errors import StabilabError
 from ...orbit.separatrix.branches import separatrix
-from ..surface import write as surface
-from ..text import law
-from ..text.sweep import groups
-from . import html
-from .one_case import page, sweep
+from .. import surface
+from ..text import headline
+from ..text.scene import groups
+from . import html, one_case
 from .workers import Task, done
 
 SHAPE = (48, 97)  # rows and columns of a branch of a mesh: smooth to the eye, 1.5 MB of meshes a scene
@@ -46,12 +47,12 @@ def entries(cases) -> list[tuple[str, list]]:
 def section(stem, cases, folder, wanted) -> dict:
     """Everything that a page says of one entry, its pictures and meshes written: a task of `workers`."""
     if cases[0].variant:
-        found = sweep.sections(cases, folder, stem)
-        return {"sweep": found, "surface": None, "beyond": law.of_cases(cases),
+        found = one_case.sections_of_sweep(cases, folder, stem)
+        return {"sweep": found, "surface": None, "beyond": headline.of_cases(cases),
                 "open": any(row["fate"] == "undecided" for row in found["rows"])}
     (case,) = cases
-    made = page.sections(case, folder, stem, wanted.deep, wanted.certify)
-    return {"case": made, "surface": surface_of(case, stem, folder), "beyond": law.of_cases([case]),
+    made = one_case.sections(case, folder, stem, wanted.deep, wanted.certify)
+    return {"case": made, "surface": surface_of(case, stem, folder), "beyond": headline.of_cases([case]),
             "open": made["fate"] == "undecided"}
 
 

@@ -1,12 +1,24 @@
-"""A motion in words: where it starts, how far its rates go, its margins and period, and why; every number
-with its unit."""
+"""Motions in words: rates, attitude, rest on an orbit, what dissipation makes of a spin.
+
+A motion in words: where it starts, how far its rates go, its margins and period, and why; every number
+with its unit.
+
+How a motion turns in space: as text and as JSON.
+
+Equilibria of a satellite on a circular orbit: as text and as JSON.
+
+What internal dissipation makes of a spin: as text and as JSON.
+"""
 from __future__ import annotations
 
 import math
 
-from .. import limiting
-from ..terminal.letters import greek, lettered
-from ..units import DEG, DIGITS, Units, but_for_rounding, number
+from ...equilibrium.circular_orbit import yaw_pitch_roll
+from ...representation import values_of
+from .. import frame, limiting
+from ..axes import Axes, axes_of
+from ..terminal import greek, lettered
+from ..units import DEG, DIGITS, SHORT, Units, but_for_rounding, number, vector
 from .headline import rate_margin, span_words
 
 WIDE = 24  # columns of a name
@@ -195,3 +207,224 @@ def followed(m) -> dict:
     if m.cause:
         known |= {"t": m.evidence.get("t_certificate"), "cause": m.cause, "bounds": m.bounds}
     return known
+
+
+HEADS = {"long-axis": "LONG-AXIS MODE", "short-axis": "SHORT-AXIS MODE", "separatrix": "ON THE SEPARATRIX",
+         "steady": "STEADY ROTATION", "heavy top": "HEAVY TOP"}
+
+
+def attitude_dict(answered) -> dict:
+    """The object of `stabilab attitude --json`: a row a case, vectors in the frame of the file, s and rad."""
+    return {"schema": "stabilab.attitude/1",
+            "rows": [{"case": case.name} | row_of(case, found) for case, found in answered]}
+
+
+def row_of(case, one) -> dict:
+    """One motion; null is what it does not have."""
+    return {"at": one.at, "fate": one.fate.word,
+            **values_of(one, "rotation_period precession_period mode momentum"),
+            "momentum_direction": in_file(case, one.momentum_direction),
+            **values_of(one, "cone lean nutation_period turn_angle"),
+            "turn_axis": in_file(case, one.turn_axis),
+            **values_of(one, "error decimals because")} | limiting.key(case, one.caveats)
+
+
+def in_file(case, along):
+    """A vector along the principal axes in the frame of the file."""
+    return frame.back(case, along) or along
+
+
+def attitude_text(case, found, units: Units) -> str:
+    """The answer first, then the numbers and why."""
+    condition = limiting.condition(found.caveats, units)
+    lines = [f"{case.name}: {', '.join(_answer(found, units))}{',' * bool(condition)}{condition}"]
+    if found.momentum_direction is not None:
+        lines.append(row("angular momentum", f"{number(found.momentum, DIGITS)} N m s along "
+                                             f"{_vector(case, found.momentum_direction)}"))
+    if found.cone is not None:
+        low, high = (units.angle(angle) for angle in found.cone)
+        named = (found.mode or "").partition("-")[0]
+        lines.append(row("cone", f"{low} to {high} between it and the {named} axis"))
+    if found.lean is not None:
+        low, high = (units.angle(angle) for angle in found.lean)
+        lines.append(row("lean", f"{low} to {high} from the upward vertical" if low != high else
+                         f"{low} from the upward vertical, always"))
+    if found.turn_angle is not None:
+        about = f" about {_vector(case, found.turn_axis)}" if found.turn_axis else ""
+        lines.append(row("turn after one period", units.angle(found.turn_angle) + about))
+    for name, digits in (found.decimals or {}).items():
+        lines.append(row(name.replace("_", " "), f"{digits} s"))
+    if found.error is not None and found.decimals is None:
+        lines.append(row("relative error", f"at most {found.error:.0e}"))
+    words = "\n".join([*lines, f"why: {reason(found.because, units)}", *frame.note(case)])
+    return limiting.noted(found.caveats, words, units)
+
+
+def rows(found, units: Units) -> list[tuple[str, str]]:
+    """(name, words) of the periods, for the lines of another answer; "found" None: nothing."""
+    if found is None:
+        return []
+    times = (("rotation period", found.rotation_period), ("precession period", found.precession_period))
+    return [*([("mode", found.mode)] if found.mode else []),
+            *((name, units.time(time)) for name, time in times if time is not None)]
+
+
+def _answer(found, units):
+    yield HEADS.get(found.mode, "ROTATION PERIOD KNOWN" if found.rotation_period else "NO ROTATION PERIOD")
+    if found.lean is not None:
+        low, high = (units.angle(angle, SHORT) for angle in found.lean)
+        yield f"leaning by {low} to {high}" if low != high else f"leaning by {low}"
+    if found.rotation_period is not None:
+        yield f"rotation period {units.time(found.rotation_period)}"
+    if found.nutation_period is not None:
+        yield f"nutation period {units.time(found.nutation_period)}"
+    if found.precession_period is not None:
+        yield f"mean precession period {units.time(found.precession_period)}"
+    elif found.nutation_period is not None:
+        yield "no precession, for its axis passes through the vertical"
+
+
+def _vector(case, along) -> str:
+    place = "in the frame of the file" if frame.back(case, along) else "along axes 1, 2, 3"
+    return f"{vector(in_file(case, along))} {place}"
+
+
+ASSUMED = ("a circular orbit about a sphere, wheels whose momentum relative to the body is constant, no "
+           "other torque")
+
+
+def circular_orbit_dict(case, found) -> dict:
+    """The object of `stabilab orbit --json`: SI units, vectors in the frame of the file."""
+    result = found.equilibria
+    return {"schema": "stabilab.orbit/1", "case": case.name, **values_of(found, "rate period moments"),
+            "momentum": in_file(case, found.momentum), **values_of(result, "kind reason"),
+            "equilibria": [_object(case, found, one) for one in result.points],
+            "families": [_object(case, found, one) | {"family": one.family,
+                                                      "axis": one.axis and in_file(case, one.axis)}
+                         for one in result.families],
+            "momentum_spans": None if found.spans is None else
+            [{"low": one.low, "high": one.high, "families" if one.families else "equilibria": one.count,
+              "minima": one.minima} for one in found.spans]} | limiting.key(case, found.caveats)
+
+
+def _object(case, found, one) -> dict:
+    frame = _frame(case, one)
+    return {**dict(zip(("velocity", "normal", "vertical"), frame)), "yaw_pitch_roll": yaw_pitch_roll(*frame),
+            **values_of(one, "linear verdict because minimum eigenvalues frequencies"),
+            "per_orbit": [f / found.rate for f in one.frequencies], "potential": one.potential}
+
+
+def _frame(case, one):
+    """The orbital frame in the frame of the file."""
+    return tuple(tuple(in_file(case, along)) for along in (one.velocity, one.normal, one.vertical))
+
+
+def circular_orbit_text(case, found, units: Units) -> str:
+    """The answer first, then each pair of equilibria, and why."""
+    result = found.equilibria
+    lines = [f"{case.name}: {_headline_on_orbit(result)}",
+             row("orbit", f"rate {units.rate(found.rate)}, period {units.time(found.period)}"),
+             row("wheels", f"{units.vector(in_file(case, found.momentum), ('N m s', 1.0))}")]
+    for number_, one in enumerate(result.points[::2]):
+        lines += _lines(case, found, one, units, f"{2 * number_ + 1} and {2 * number_ + 2}",
+                        result.points[2 * number_ + 1])
+    for one in result.families:
+        lines += [row("family", one.family), *_lines(case, found, one, units, "one of it")]
+    for span in found.spans or ():
+        kind = "families" if span.families else "equilibria"
+        lines.append(row("momentum", f"{number(span.low, DIGITS)} to {number(span.high, DIGITS)} N m s: "
+                                     f"{span.count} {kind}, {span.minima} of them stable (Lyapunov)"))
+    reasons = dict.fromkeys((one.verdict, one.because) for one in (*result.points, *result.families))
+    lines += [f"why: {result.reason}", *(f"  {verdict}: {because}" for verdict, because in reasons),
+              f"assumed: {ASSUMED}"]
+    return limiting.noted(found.caveats, "\n".join(lines), units)
+
+
+def _headline_on_orbit(result) -> str:
+    if result.kind == "all":
+        return "EVERY ATTITUDE IS AN EQUILIBRIUM"
+    stable = sum(one.verdict == "stable" for one in result.families)
+    families = f"{len(result.families)} FAMILIES OF EQUILIBRIA, {stable} STABLE" if result.families else ""
+    if result.families and not result.points:
+        return families
+    gyroscopic = sum(one.verdict == "undecided" and one.linear == "stable" for one in result.points)
+    more = [*([f"{gyroscopic} undecided (gyroscopically stable)"] if gyroscopic else []),
+            *([families] if families else [])]
+    return ", ".join([f"{len(result.points)} EQUILIBRIA, {result.count('stable')} STABLE", *more])
+
+
+def _lines(case, found, one, units: Units, name: str, other=None):
+    """An attitude (and the other of its pair), its verdict and librations."""
+    pair = (yaw_pitch_roll(*_frame(case, each)) for each in (one, other) if each is not None)
+    angles = " and ".join(units.vector(each, units.angles)
+                          for each in sorted(pair, key=lambda angles: sum(map(abs, angles))))
+    word = one.verdict if one.linear != "degenerate" else f"{one.verdict}, degenerate"
+    yield row(name, f"{word}: yaw, pitch, roll {angles}")
+    if one.verdict == "unstable":
+        grows = max(z.real for z in one.eigenvalues)
+        yield row("", f"a disturbance grows e-fold in {units.time(1 / grows, SHORT)}")
+        return
+    _, normal, vertical = map(vector, _frame(case, one))
+    yield row("", f"orbit normal {normal}, up {'+-' if other else ''}{vertical} in the body")
+    if one.frequencies:
+        yield row("", f"librations {units.vector(one.frequencies, units.rates)[1:].replace(')', '')}, "
+                      f"{', '.join(number(f / found.rate, DIGITS) for f in one.frequencies)} per orbit")
+
+
+NAMES = {"phase": "phase", "nutation": "nutation angle", "damping": "strength of the damping"}
+
+
+def flat_spin_dict(case, found) -> dict:
+    """The object of `stabilab flat-spin --json`: SI units, vectors in the frame of the file. Times: [s, error
+    in s], null where past at the start or not reached; changes: null where none was found."""
+    times = {name: one and [one.at, one.error]
+             for name, one in values_of(found, "leaves crosses settles").items()}
+    return {"schema": "stabilab.flat_spin/1", "case": case.name, **values_of(found, "outcome level because"),
+            "minor_axis": found.minor, **values_of(found, "momentum final_rate"),
+            "final_rates": found.rates and in_file(case, found.rates),
+            **values_of(found, "energy final_energy"), "energy_lost": found.lost, "within": found.within,
+            **times, "passage": found.passage, "growth_time": found.growth, "decay_time": found.decay,
+            "changes": {one.name: [one.down, one.up] for one in found.spans},
+            "steps": found.steps} | axes_of(case).key(found.axis) | limiting.key(case, found.caveats)
+
+
+def flat_spin_text(case, found, units: Units) -> str:
+    """The answer first, then when, the numbers, what changes the outcome and why; without its caveats."""
+    within = units.angle(found.within, 4)
+    lines = [f"{case.name}: {_headline(found, axes_of(case), units)}"]
+    rates = "" if found.rates is None else f": {units.vector(in_file(case, found.rates), units.rates)}"
+    lines.append(row("final rate", f"{units.rate(found.final_rate)}{rates}"))
+    lines.append(row("energy", f"{units.energy(found.energy)}, of which {number(found.lost, DIGITS)} J are "
+                               f"lost in the end"))
+    for name, one in ((f"nutation over {within}", found.leaves), ("separatrix crossed", found.crosses),
+                      (f"within {within}", found.settles)):
+        if one is not None:
+            lines.append(row(name, f"t = {units.time(one.at)}, known to {units.time(one.error, 1)}"))
+    if found.passage is not None:
+        lines.append(row("passage", units.time(found.passage)))
+    for name, one in (("growth", found.growth), ("decay", found.decay)):
+        if one is not None:
+            lines.append(row(f"nutation {name}", f"time constant {units.time(one)}, by eigenvalues"))
+    for one in found.spans:
+        size = ((lambda v: units.angle(v, 3)) if one.name == "phase"
+                else lambda v: f"{number(100 * v, 3)} %")
+        ends = [f"{sign}{size(v)}" for sign, v in (("-", one.down), ("+", one.up)) if math.isfinite(v)]
+        lines.append(row("outcome changes at", f"{' and '.join(ends)} of {NAMES[one.name]}" if ends else
+                         f"no change of {NAMES[one.name]} that was looked at"))
+    if found.steps:
+        lines.append(row("cost", f"{found.steps} steps"))
+    return "\n".join([*lines, f"why: {reason(found.because, units)}"])
+
+
+def _headline(found, axes: Axes, units: Units) -> str:
+    name = axes.name(found.axis)
+    if found.outcome == "undecided":
+        one = found.crosses
+        when = "" if one is None else f", separatrix crossed at {units.moment(one.at)}"
+        return f"UNDECIDED: +{name} or -{name}{when}"
+    if found.outcome.startswith("across"):
+        return f"FLAT SPIN about an axis across {axes.name(found.minor)}"
+    sign = "+" if found.outcome.startswith("positive") else "-"
+    when = ("the separatrix is past at the start" if found.crosses is None
+            else f"separatrix crossed at {units.moment(found.crosses.at)}")
+    return f"FLAT SPIN about {sign}{name}, {when}"

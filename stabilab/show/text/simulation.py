@@ -13,11 +13,10 @@ from ...packages import demand
 from ...physics.scene import ATTITUDES, PARTS
 from ...representation import values_of
 from ...version import __version__
-from .. import frame
+from .. import endings, frame
 from ..data import csv_lines
-from ..files import endings
 from ..results import of_parts
-from ..terminal.letters import lettered, written
+from ..terminal import lettered, written
 from ..units import DIGITS, SHORT, Units, with_unit
 
 ALL = 16  # digits of a double

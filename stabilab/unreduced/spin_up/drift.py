@@ -38,7 +38,7 @@ from math import factorial
 import numpy as np
 
 from . import steps as kernel
-from .compiled import functions
+from .certificate import functions
 
 STEP_ERROR = 2.0**-52  # units of rounding by which a step may move a motion: a Taylor polynomial of 20 terms
 FAR = 2.0**-6    # changes beyond this share of the size, or delays of so many radians, tell no growth

@@ -23,13 +23,11 @@ from ...physics.coefficients import effective, three_floats
 from ...physics.scene import AnyScene
 from ...physics.states import checked_states
 from ...validation import checked_scene
-from ..enclosure.run import proved
-from .certificate import Tests, natural, tests_of
-from .compiled import loaded, stored
+from ..enclosure import proved
+from .certificate import Tests, exactly, loaded, natural, stored, tests_of
 from .drift import Leaps, Runs
 from .form import island_words, recurs, seen
 from .result import SpinUp, Trap
-from .symmetric import exactly
 
 NATURAL_TIMES, BUDGET = 1e9, 600_000
 FARTHEST = 1e150  # natural units: a run in doubles holds no squares of larger rates

@@ -45,7 +45,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ...equilibrium.gyrostat import gyrostat_equilibria
-from ...orbit.far_states import in_range
+from ...orbit.one_state import in_range
 
 HALF_TURN = (-1, 1, -1)  # about axis 2: a rotation of the body, so every vector takes part
 

@@ -1,4 +1,4 @@
-"""Tests of `answers/digits/ask.py`: what once went wrong there, and its edges."""
+"""Tests of `answers/digits.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
 import json
@@ -8,7 +8,7 @@ import pytest
 
 import stabilab
 from stabilab import ScaledGyrostat
-from stabilab.answers.digits.ask import ask, ask_all
+from stabilab.answers.digits import ask, ask_all
 from tests.shared import MARGIN, PERIOD, SCALED_MINOR, answer
 
 TENTH = """

@@ -1,11 +1,11 @@
-"""Tests of `answers/digits/checked.py`: what once went wrong there, and its edges."""
+"""Tests of `answers/digits_asked.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
 import math
 
 import pytest
 
-from stabilab.answers.digits.checked import digits_of
+from stabilab.answers.digits_asked import digits_of
 
 
 def test_digits_of_an_error_are_its_negative_logarithm_within_what_numbers_hold():

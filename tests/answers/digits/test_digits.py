@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from stabilab import extremes, fate, period, trajectory
-from stabilab.answers.digits import ask as precision_questions
-from stabilab.answers.digits import run as precision_digits
-from stabilab.answers.digits.ask import ask, ask_all
-from stabilab.answers.digits.checked import Told
-from stabilab.answers.digits.run import best_reached
+from stabilab.answers import digits as precision_questions
+from stabilab.answers import digits_run as precision_digits
+from stabilab.answers.digits import ask, ask_all
+from stabilab.answers.digits_asked import Told
+from stabilab.answers.digits_run import best_reached
 from stabilab.errors import InputError, ToleranceNotMet
 from tests.oracles import energy
 from tests.oracles.model import physical, scaled

@@ -1,4 +1,4 @@
-"""Tests of `answers/digits/run.py`: what once went wrong there, and its edges."""
+"""Tests of `answers/digits_run.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.answers.digits import run as precision_digits
-from stabilab.answers.digits.run import OWN
+from stabilab.answers import digits_run as precision_digits
+from stabilab.answers.digits_run import OWN
 from tests.shared import case
 
 

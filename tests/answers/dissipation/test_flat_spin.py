@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from stabilab import Body, ConstantTorque, InputError, LiquidCavity, Scene, ViscousDamper, flat_spin, load
-from stabilab.answers.dissipation import ask, spinner
+from stabilab.answers import dissipation
 
 RAHN_BARBA = """[body]
 inertia = [2000, 1500, 1000]
@@ -26,7 +26,7 @@ def case(rates="0.1224, 0, 2.99"):
 
 @pytest.fixture
 def no_search(monkeypatch):
-    monkeypatch.setattr(ask, "SPAN_STEPS", 0)
+    monkeypatch.setattr(dissipation, "SPAN_STEPS", 0)
 
 
 @pytest.fixture(scope="module")
@@ -283,6 +283,6 @@ def test_a_slow_tumble_says_what_it_cost(no_search):
 
 
 def test_a_run_that_does_not_reach_the_separatrix_is_undecided(no_search, monkeypatch):
-    monkeypatch.setattr(spinner, "STEPS", 500)
+    monkeypatch.setattr(dissipation, "STEPS", 500)
     found = flat_spin(case())
     assert found.outcome == "undecided" and "were not enough" in found.because

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.answers.passage import enclosed as enclosing
-from stabilab.answers.passage.enclosed import WORK, enclosed
-from stabilab.answers.passage.limit import asked
-from stabilab.answers.passage.never import earliest
+from stabilab.answers import limit as enclosing
+from stabilab.answers.limit import WORK, asked, enclosed
+from stabilab.answers.time_to import earliest
 from tests.oracles.first_crossing import first_crossing
 
 from .test_time_to import FAR, random_question

@@ -4,8 +4,8 @@ import math
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
-from stabilab.answers.passage.limit import asked
-from stabilab.answers.passage.run import largest_rate, run_once
+from stabilab.answers.limit import asked
+from stabilab.answers.passage import largest_rate, run_once
 from tests.answers.stuck.brute import Craft
 from tests.shared import craft_file
 

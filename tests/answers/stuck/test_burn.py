@@ -10,8 +10,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import stabilab
-from stabilab.answers.stuck.closing import largest_after
-from stabilab.case.burns import Burn, segments
+from stabilab.answers.stuck.burn import largest_after
+from stabilab.case.sections import Burn, segments
 from stabilab.errors import InputError
 from tests.oracles import model, taylor
 from tests.shared import later

@@ -11,7 +11,7 @@ from fractions import Fraction
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, load, stuck
-from stabilab.answers.stuck.wheel import intervals
+from stabilab.answers.stuck.fate import intervals
 from stabilab.show.text.stuck import merged
 from tests.answers.stuck.symmetric import least, scene
 from tests.oracles import brute

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, load, stuck
-from stabilab.answers.stuck.wheel import intervals
+from stabilab.answers.stuck.fate import intervals
 from tests.answers.stuck import energy
 from tests.answers.stuck.brute import Craft
 from tests.oracles import brute

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import stabilab as program
-from stabilab.answers.uncertain.box import box_of
+from stabilab.answers.uncertain.boxes import box_of
 from stabilab.answers.uncertain.fate import uncertain
 from stabilab.answers.uncertain.result import SAMPLE, SEED
 from stabilab.case.read import load

@@ -7,13 +7,12 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from stabilab.answers.uncertain.box import box_of
-from stabilab.answers.uncertain.equilibria import signature_at
-from stabilab.answers.uncertain.fate import uncertain
+from stabilab.answers.uncertain.boxes import box_of
+from stabilab.answers.uncertain.fate import signature_at, uncertain
 from stabilab.case.read import load
 from stabilab.errors import CaseError
 from stabilab.numbers.affine import Affine, root
-from stabilab.show.text import uncertain as shown
+from stabilab.show.text import classification as shown
 from tests.shared import CASES
 
 BODY = """
@@ -126,7 +125,7 @@ def test_a_box_across_the_separatrix_has_a_witness_on_each_side_that_the_ordinar
     over = uncertain(case, ("fate",)).fate
     assert over.answer == "depends" and over.changes_at < 1 and over.proved > 0.9 * over.changes_at
     words = []
-    for witness in shown.as_dict(uncertain(case, ("fate",)))["uncertain"]["fate"]["witnesses"]:
+    for witness in shown.uncertain_dict(uncertain(case, ("fate",)))["uncertain"]["fate"]["witnesses"]:
         quoted = {name: ", ".join(f'"{v}"' for v in witness[name])
                   for name in ("inertia", "momentum", "torque", "state")}
         case_of(tmp_path, **quoted)

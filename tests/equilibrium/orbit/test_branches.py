@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from stabilab import InputError, circular_orbit, load_orbiting
-from stabilab.answers.circular_orbit.ask import followed
+from stabilab.answers.circular_orbit import followed
 from tests.equilibrium.orbit import newton
 
 CASE = """[body]

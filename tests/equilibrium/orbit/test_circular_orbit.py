@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 import sympy
 
-from stabilab.equilibrium.circular_orbit.result import yaw_pitch_roll
-from stabilab.equilibrium.circular_orbit.solve import orbit_equilibria
+from stabilab.equilibrium.circular_orbit import orbit_equilibria, yaw_pitch_roll
 from stabilab.physics.circular_orbit import Satellite
 from tests.equilibrium.orbit import newton
 

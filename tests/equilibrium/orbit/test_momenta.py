@@ -5,8 +5,7 @@ from math import sqrt
 import numpy as np
 import pytest
 
-from stabilab.equilibrium.circular_orbit.momenta import spans
-from stabilab.equilibrium.circular_orbit.solve import orbit_equilibria
+from stabilab.equilibrium.circular_orbit import orbit_equilibria, spans
 from tests.equilibrium.orbit import newton
 from tests.equilibrium.orbit.test_circular_orbit import satellite
 

@@ -10,8 +10,8 @@ import stabilab
 from stabilab.case.read import read_text
 from stabilab.errors import InputError
 from stabilab.maps import run as machinery
-from stabilab.maps.atlas.pointed import neighbours
-from stabilab.maps.atlas.run import asked, drawn, kinds_of
+from stabilab.maps.atlas import asked, drawn, kinds_of
+from stabilab.maps.pointed import neighbours
 from stabilab.orbit.result import Fate
 from stabilab.show.maps import atlas as atlas_files
 from stabilab.show.maps import atlas as atlas_words

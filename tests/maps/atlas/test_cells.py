@@ -6,8 +6,8 @@ import itertools
 import numpy as np
 import pytest
 
-from stabilab.maps.atlas import pointed as cells
-from stabilab.maps.atlas.pointed import Leaves
+from stabilab.maps import pointed as cells
+from stabilab.maps.pointed import Leaves
 
 
 def solid_angle(outline):

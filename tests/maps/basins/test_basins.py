@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 from stabilab.errors import InputError
-from stabilab.maps.basins import ask
-from stabilab.maps.basins import ask as mesh
-from stabilab.maps.basins.ask import BOUNDED, UNDECIDED, basins
+from stabilab.maps import basins as ask
+from stabilab.maps import basins as mesh
+from stabilab.maps.basins import BOUNDED, UNDECIDED, basins
 from stabilab.show.maps.basins import basin, dataset
 from tests.shared import CASES
 

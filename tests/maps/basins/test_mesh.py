@@ -6,8 +6,8 @@ import math
 import numpy as np
 import pytest
 
-from stabilab.maps.basins import ask as meshes
-from stabilab.maps.basins.ask import counted, dimension, refined
+from stabilab.maps import basins as meshes
+from stabilab.maps.basins import counted, dimension, refined
 
 
 def followed(label, cells, depth):

@@ -11,7 +11,7 @@ import pytest
 import stabilab
 from stabilab.errors import InputError
 from stabilab.maps.bifurcation.diagram import branches
-from stabilab.maps.bifurcation.family import ENDLESS
+from stabilab.maps.bifurcation.equations import ENDLESS
 from stabilab.show.maps import bifurcation as diagram_words
 from tests.oracles import elimination as by_hand
 from tests.shared import CASES

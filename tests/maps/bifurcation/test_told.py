@@ -8,7 +8,7 @@ import pytest
 
 import stabilab
 from stabilab.errors import InputError
-from stabilab.maps.bifurcation.family import ENDLESS
+from stabilab.maps.bifurcation.equations import ENDLESS
 from stabilab.show.maps import bifurcation as words
 from stabilab.show.maps import bifurcation_picture as picture
 from tests.maps.bifurcation.test_line import written

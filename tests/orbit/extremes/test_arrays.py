@@ -72,7 +72,7 @@ def free_extremes(problem, state):
 @pytest.mark.parametrize("name", FREE)
 def test_free_motions_over_and_between_their_barriers_have_the_extremes_of_the_potential(name, monkeypatch):
     """Both kinds, in both senses, without ball arithmetic."""
-    from stabilab.orbit import extremes_and_periods as both
+    from stabilab.orbit import extremes_arrays as both
     monkeypatch.setattr(both, "precise_extremes",
                         lambda *a: pytest.fail("a generic state went to ball arithmetic"))
     scene, problem = FREE[name]

@@ -1,4 +1,4 @@
-"""Tests of `orbit/extremes/one_state.py`: what once went wrong there, and its edges."""
+"""Tests of `orbit/extremes.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
 import json
@@ -9,7 +9,7 @@ import pytest
 import stabilab.errors
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.certificate import certificate
-from stabilab.answers.digits.ask import ask
+from stabilab.answers.digits import ask
 from stabilab.verify import verify
 from tests.oracles import energy
 from tests.oracles.pairs import assert_extremes, exactly, scaled

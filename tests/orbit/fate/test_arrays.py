@@ -12,7 +12,7 @@ import stabilab
 from stabilab import Body, ConstantTorque, Fate, Scene
 from stabilab.answers.fate import fate_grid
 from stabilab.errors import InputError
-from stabilab.orbit.fate.one_state import REASONS, Reason, fate_of
+from stabilab.orbit.fate import REASONS, Reason, fate_of
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.one_orbit import Orbit
 from stabilab.orbit.reduction import reduce
@@ -20,7 +20,7 @@ from tests.oracles import energy
 from tests.oracles.pairs import WORDS, assert_extremes, assert_margin, axis_of, brink, physical, scaled
 from tests.shared import ELLIPTIC, FAMILIES, PARABOLIC, sample
 
-fate = importlib.import_module("stabilab.orbit.fate.arrays")
+fate = importlib.import_module("stabilab.orbit.fate_arrays")
 COLUMNS = ("labels", "margins", "axis", "sense", "reasons")
 
 
@@ -59,7 +59,7 @@ def test_long_arrays_are_answered_in_chunks_and_any_chunk_gives_the_same_bytes(n
     states[[7, 31]] = near
     whole = stabilab.fate(scene, states)
     assert whole.precise == 2
-    monkeypatch.setattr("stabilab.orbit.fate.result.CHUNK", 7)
+    monkeypatch.setattr("stabilab.orbit.fate_arrays.CHUNK", 7)
     same(stabilab.fate(scene, states), whole)
 
 
@@ -103,7 +103,7 @@ families = pytest.mark.parametrize("name", FAMILIES)
 @families
 def test_generic_states_need_no_many_digits(name, monkeypatch):
     """Error bounds that are too wide change no answer, only the cost: the counters tell."""
-    monkeypatch.setattr("stabilab.orbit.extremes_and_periods.precise_extremes",
+    monkeypatch.setattr("stabilab.orbit.extremes_arrays.precise_extremes",
                         lambda *a: pytest.fail("a generic state went to ball arithmetic"))
     scene, states = FAMILIES[name][0], sample(name, 300)
     assert stabilab.fate(scene, states).precise == 0

@@ -12,7 +12,7 @@ from tests.oracles import energy
 from tests.oracles.pairs import assert_margin, axis_of
 from tests.shared import PARABOLIC
 
-fate = importlib.import_module("stabilab.orbit.fate.arrays")
+fate = importlib.import_module("stabilab.orbit.fate_arrays")
 # of the others the force along a parabola is no cubic
 CUBIC = sorted(set(PARABOLIC) - {"no gyrostat", "wheel on the symmetry axis", "a sphere"})
 

@@ -13,7 +13,7 @@ from tests.oracles import energy
 from tests.oracles.pairs import assert_margin, axis_of, brink, scaled
 from tests.shared import ELLIPTIC, FAMILIES, PARABOLIC
 
-fate = importlib.import_module("stabilab.orbit.fate.arrays")
+fate = importlib.import_module("stabilab.orbit.fate_arrays")
 
 
 def brinks(name, problem, count=3):

@@ -6,7 +6,7 @@ import numpy as np
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Scene
 from stabilab.numbers.balls import working
-from stabilab.orbit.fate.one_state import Reason, exact_tie
+from stabilab.orbit.fate import Reason, exact_tie
 from stabilab.orbit.one_orbit import ball_orbit
 from stabilab.orbit.reduction import reduce
 from tests.oracles.pairs import physical

@@ -13,14 +13,12 @@ import pytest
 import stabilab
 from stabilab import Fate, fate
 from stabilab.numbers import numba_door
-from stabilab.orbit.extremes.arrays import trapped_rows
-from stabilab.orbit.extremes.one_state import precise_extremes
-from stabilab.orbit.fate.arrays import fate_on_orbit
-from stabilab.orbit.fine import rows_numba
-from stabilab.orbit.fine.rows_numba import settle_rows
+from stabilab.orbit import extremes_arrays
+from stabilab.orbit.extremes import precise_extremes, precise_period
+from stabilab.orbit.extremes_arrays import settle_rows, trapped_rows
+from stabilab.orbit.fate_arrays import fate_on_orbit
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.one_orbit import Orbit
-from stabilab.orbit.period import precise_period
 from tests.oracles import energy
 from tests.oracles.pairs import assert_extremes, physical
 from tests.shared import FAMILIES, sample
@@ -139,8 +137,8 @@ def test_any_split_of_the_rows_gives_the_same_bytes_and_either_question_those_of
 def test_without_numba_plain_python_serves(monkeypatch):
     monkeypatch.setattr(numba_door, "find_spec", lambda name: None)
     numba_door.installed.cache_clear()
-    monkeypatch.setattr(rows_numba, "COLD", 1)
-    monkeypatch.setattr(rows_numba, "_compiled", lambda base: pytest.fail("compiled without numba"))
+    monkeypatch.setattr(extremes_arrays, "COLD", 1)
+    monkeypatch.setattr(extremes_arrays, "_compiled", lambda base: pytest.fail("compiled without numba"))
     one, states = FAMILIES["minor scaled +"][0], sample("minor scaled +", 5)
     try:
         assert np.isfinite(stabilab.extremes(one, states, fast=True)).any()

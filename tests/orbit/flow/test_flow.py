@@ -9,9 +9,9 @@ import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, fate, trajectory
 from stabilab.errors import InputError
 from stabilab.integrate.reference import reference, relative_errors
-from stabilab.orbit.flow.flow import reduced_motion
-from stabilab.orbit.flow.periodic import ByPanels
-from stabilab.orbit.flow.spin_up import SpinUp
+from stabilab.orbit.flow import reduced_motion
+from stabilab.orbit.profile import ByPanels
+from stabilab.orbit.spin_up import SpinUp
 from tests.hunt.disagreements import DISAGREEMENTS, many_digits
 from tests.oracles import energy
 from tests.oracles.pairs import exactly, physical, scaled

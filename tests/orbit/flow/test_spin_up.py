@@ -1,4 +1,4 @@
-"""Tests of `orbit/flow/spin_up.py`: what once went wrong there, and its edges."""
+"""Tests of `orbit/spin_up.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
 import numpy as np

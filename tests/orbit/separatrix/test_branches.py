@@ -12,7 +12,7 @@ from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
 from stabilab.errors import InputError
 from stabilab.orbit.reduction import reduce
 from stabilab.orbit.separatrix.distance import distance_of
-from stabilab.orbit.separatrix.plain_branches import plain_separatrix
+from stabilab.orbit.separatrix.saddles import plain_separatrix
 from tests.hunt.disagreements import off_surface
 from tests.oracles import energy
 from tests.oracles.pairs import PAPER_BODY, WORDS, axis_of, physical, scaled

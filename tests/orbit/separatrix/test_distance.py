@@ -10,7 +10,7 @@ import stabilab
 from stabilab.answers.motion import motion
 from stabilab.orbit.reduction import reduce
 from stabilab.orbit.separatrix.distance import distance_of
-from stabilab.orbit.separatrix.result import NO_SEPARATRIX, UNKNOWN
+from stabilab.orbit.separatrix.homoclinic import NO_SEPARATRIX, UNKNOWN
 from tests.oracles import energy
 from tests.oracles.pairs import physical, scaled
 

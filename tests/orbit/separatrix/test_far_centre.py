@@ -12,8 +12,7 @@ import pytest
 import stabilab
 from benchmarks.random_scenes import drawn
 from stabilab.orbit.landscape import landscape
-from stabilab.orbit.separatrix.far_centre import saddles_of
-from stabilab.orbit.separatrix.homoclinic_arrays import loops, residual
+from stabilab.orbit.separatrix.homoclinic_arrays import loops, residual, saddles_of
 from stabilab.orbit.separatrix.saddles import limit_of, saddle_branches
 from tests.hunt.disagreements import off_surface
 from tests.oracles import homoclinic

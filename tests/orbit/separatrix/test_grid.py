@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.show.surface.mesh import triangulate
+from stabilab.show.surface import triangulate
 from tests.oracles.pairs import PAPER_BODY, physical, scaled
 
 SCENES = {
@@ -49,9 +49,9 @@ def test_random_scenes_take_few_places_and_their_sheets_keep_shapes_of_their_own
     number 51 took two million. With steps like the root of how far edges stray where they bend within a cell
     too, the first four took 63,000 to 73,000."""
     from benchmarks.random_scenes import drawn
-    from stabilab.orbit.separatrix import grid
-    counted, loops = [], grid.loops
-    monkeypatch.setattr(grid, "loops", lambda land, parts, s,
+    from stabilab.orbit.separatrix import branches
+    counted, loops = [], branches.loops
+    monkeypatch.setattr(branches, "loops", lambda land, parts, s,
                         u: counted.append(s.size * u.shape[1]) or loops(land, parts, s, u))
     # of Flying Edges at 256^3 there
     accuracy = {51: 1.05e-3, 177: 0.142, 32: 1.705e-2, 88: 1.765e-3, 33: 6.64e-3, 98: 5.23e-4}[number]

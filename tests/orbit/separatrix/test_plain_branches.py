@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from stabilab import load, separatrix, trajectory
-from stabilab.orbit.separatrix.plain_branches import plain_separatrix
+from stabilab.orbit.separatrix.saddles import plain_separatrix
 
 CASES = [path for path in sorted((Path(__file__).parents[3] / "cases").glob("*.toml"))
          if load(path).scene.plain]

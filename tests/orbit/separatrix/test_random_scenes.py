@@ -10,7 +10,7 @@ import pytest
 import stabilab
 from benchmarks.random_scenes import drawn
 from stabilab import separatrix
-from stabilab.show.surface.mesh import triangulate
+from stabilab.show.surface import triangulate
 from tests.oracles import homoclinic
 from tests.shared import later
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, fate, separatrix
-from stabilab.show.surface.mesh import triangulate
+from stabilab.show.surface import triangulate
 
 SEAMS = {  # the distance of facets that is asked for
     "nearly equal": (Scene(Body(("5.771", "4.602", "4.74")), Gyrostat((0, 0, "-0.126")),

@@ -9,8 +9,8 @@ from typer.testing import CliRunner
 from stabilab import Scene, derive, load
 from stabilab.cli import whole
 from stabilab.errors import CaseError
-from stabilab.papers.cost import effects as effect_cost
-from stabilab.papers.cost.effects import (
+from stabilab.papers import cost_effects as effect_cost
+from stabilab.papers.cost_effects import (
     BODY,
     EXAMPLES,
     alone,
@@ -164,8 +164,8 @@ def test_a_force_of_zero_asks_for_no_mass_once_it_is_built():
 
 
 def test_the_page_shows_every_effect(tmp_path, monkeypatch):
-    from stabilab.papers.cost import effects as analysis
-    from stabilab.papers.cost import effects as show
+    from stabilab.papers import cost_effects as analysis
+    from stabilab.papers import cost_effects as show
     monkeypatch.setattr(analysis, "REPEATS", 1)
     few = ("constant_torque", "gravity")
     monkeypatch.setattr(show, "EXAMPLES", {name: EXAMPLES[name] for name in few})

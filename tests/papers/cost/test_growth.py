@@ -9,9 +9,9 @@ import pytest
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, load
 from stabilab.answers.fate import fate
 from stabilab.orbit.result import Fate
-from stabilab.papers.cost import growth as cost_growth
-from stabilab.papers.cost import growth as shown
-from stabilab.papers.cost.growth import (
+from stabilab.papers import cost_growth
+from stabilab.papers import cost_growth as shown
+from stabilab.papers.cost_growth import (
     Growth,
     bits_needed,
     engines,

@@ -9,8 +9,8 @@ from stabilab.case.read import load, read_text
 from stabilab.case.write import data_of, text_of
 from stabilab.errors import InputError
 from stabilab.show.axes import axes_of, with_moments
-from stabilab.show.explore import orbits
 from stabilab.show.explore import parameters as controls
+from stabilab.show.explore import pictures
 from stabilab.show.explore.parameters import changed
 from stabilab.show.units import units_of
 
@@ -144,7 +144,7 @@ def test_the_torque_of_a_fast_top_goes_as_far_as_that_of_its_weight():
 def test_a_damper_alike_along_all_axes_is_shown_along_the_principal_ones():
     # proof: a multiple of the unit matrix is the same matrix along all axes
     case, new = moved("cubesat-3u-detumbling", start=[None, "0.1", None])
-    orbits.check(case)
+    pictures.check(case)
     assert new.frame.as_given and new.scene.effect("rate_damper").exact == case.scene.effect(
         "rate_damper").exact
     assert new.scene.body.inertia == pytest.approx(case.scene.body.inertia, rel=1e-15)
@@ -156,4 +156,4 @@ def test_a_damper_that_differs_by_the_axis_is_refused_in_oblique_axes():
     unlike = text.replace('coefficient = "2e-5 N m s"', "coefficient = [1e-5, 2e-5, 3e-5]")
     case = read_text("oblique.toml", unlike)
     with pytest.raises(InputError, match="but not rate damper: state the case along its principal axes"):
-        orbits.check(case)
+        pictures.check(case)

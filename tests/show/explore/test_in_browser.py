@@ -14,8 +14,8 @@ import pytest
 from stabilab import load, motion
 from stabilab.answers.certificate import certificate
 from stabilab.case.read import read_text
-from stabilab.show.explore import static
-from stabilab.show.terminal.letters import greek
+from stabilab.show.explore import serve
+from stabilab.show.terminal import greek
 from stabilab.show.text.headline import headline
 from tests.browser import CHROMIUM, Browser
 
@@ -33,12 +33,12 @@ def pyodide(tmp_path_factory):
     if shutil.which("npm") is None:
         pytest.skip("npm is not installed")
     try:
-        packed = subprocess.run(["npm", "pack", "--silent", f"pyodide@{static.PYODIDE}"], cwd=folder,
+        packed = subprocess.run(["npm", "pack", "--silent", f"pyodide@{serve.PYODIDE}"], cwd=folder,
                                 capture_output=True, text=True, timeout=300)
         wheel = subprocess.run([sys.executable, "-m", "pip", "download", "--quiet", "--no-deps",
                                 "--only-binary=:all:", "--python-version", "3.14",
                                 "--platform", "pyemscripten_2026_0_wasm32", "--dest", str(folder / "package"),
-                                f"python-flint=={static.FLINT}"],
+                                f"python-flint=={serve.FLINT}"],
                                capture_output=True, text=True, timeout=300)
     except subprocess.TimeoutExpired as error:
         pytest.skip(f"a registry does not answer: {error}")
@@ -52,7 +52,7 @@ def pyodide(tmp_path_factory):
 @pytest.fixture(scope="module")
 def page(pyodide, tmp_path_factory):
     """The page of a static server, in a browser that finds no other host."""
-    index = static.write(load(CASE), tmp_path_factory.mktemp("site"), pyodide)
+    index = serve.write(load(CASE), tmp_path_factory.mktemp("site"), pyodide)
 
     class Quiet(http.server.SimpleHTTPRequestHandler):
         def log_message(self, *_):

@@ -11,7 +11,7 @@ from stabilab.errors import InputError
 from stabilab.orbit.phase_plane import phase_plane
 from stabilab.show.explore.pictures import plane_of, unframed
 from stabilab.show.explore.session import FOLLOWED, Session, Stopped
-from stabilab.show.terminal.letters import greek
+from stabilab.show.terminal import greek
 from stabilab.show.text.headline import headline
 from tests.shared import MOVING
 from tests.shared import case as case_of

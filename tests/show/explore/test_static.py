@@ -12,7 +12,7 @@ import pytest
 
 from stabilab import load
 from stabilab.errors import InputError
-from stabilab.show.explore import static
+from stabilab.show.explore import serve
 
 CASE = "cases/thruster-stuck-major-axis.toml"
 LOCK = {"info": {"abi_version": "2026_0", "python": "3.14.2"}}
@@ -24,23 +24,23 @@ def pyodide(tmp_path):
     """A folder with the names of Pyodide's files."""
     folder = tmp_path / "pyodide"
     folder.mkdir()
-    for name in (*static.NEEDED, WHEEL):
+    for name in (*serve.NEEDED, WHEEL):
         (folder / name).write_bytes(name.encode())
     (folder / "pyodide-lock.json").write_text(json.dumps(LOCK))
     return folder
 
 
 def test_the_archive_is_the_same_every_time_and_holds_no_papers():
-    once = static.archive()
+    once = serve.archive()
     names = zipfile.ZipFile(io.BytesIO(once)).namelist()
-    assert once == static.archive() and "stabilab/show/explore/session.py" in names
+    assert once == serve.archive() and "stabilab/show/explore/session.py" in names
     assert "stabilab/verify/__init__.py" in names
     assert not [name for name in names if name.startswith("stabilab/papers") or not name.endswith(".py")]
 
 
 def test_the_archive_answers_and_checks_with_python_flint_alone(tmp_path):
     """In an interpreter that sees the archive and python-flint, and no other package."""
-    with zipfile.ZipFile(io.BytesIO(static.archive())) as packed:
+    with zipfile.ZipFile(io.BytesIO(serve.archive())) as packed:
         packed.extractall(tmp_path)
     flint = Path(find_spec("flint").origin).parent
     (tmp_path / "flint").symlink_to(flint)
@@ -70,7 +70,7 @@ def test_the_archive_answers_and_checks_with_python_flint_alone(tmp_path):
 
 def test_the_archive_holds_all_that_a_motion_and_a_film_need(tmp_path):
     """With NumPy, from the archive alone: what draws the body, and what follows a motion that floats lose."""
-    with zipfile.ZipFile(io.BytesIO(static.archive())) as packed:
+    with zipfile.ZipFile(io.BytesIO(serve.archive())) as packed:
         packed.extractall(tmp_path)
     code = "import stabilab.show.plot.turning, stabilab.show.plot.path; print(stabilab.__file__)"
     run = subprocess.run([sys.executable, "-c", f"import sys; sys.path.insert(0, {str(tmp_path)!r})\n{code}"],
@@ -79,26 +79,26 @@ def test_the_archive_holds_all_that_a_motion_and_a_film_need(tmp_path):
 
 
 def test_the_folder_says_from_where_python_comes(tmp_path):
-    index = static.write(load(CASE), tmp_path / "site")
+    index = serve.write(load(CASE), tmp_path / "site")
     assert sorted(path.name for path in index.parent.iterdir()) == ["index.html", "stabilab.zip", "worker.js"]
     text = index.read_text(encoding="utf-8")
-    assert static.ADDRESS in text and f"Pyodide {static.PYODIDE} from {static.ADDRESS}" in text
+    assert serve.ADDRESS in text and f"Pyodide {serve.PYODIDE} from {serve.ADDRESS}" in text
     assert "worker-src" in text
 
 
 def test_with_a_folder_of_pyodide_nothing_comes_from_elsewhere(tmp_path, pyodide):
-    index = static.write(load(CASE), tmp_path / "site", pyodide)
-    assert {path.name for path in (index.parent / "pyodide").iterdir()} == {*static.NEEDED, WHEEL}
+    index = serve.write(load(CASE), tmp_path / "site", pyodide)
+    assert {path.name for path in (index.parent / "pyodide").iterdir()} == {*serve.NEEDED, WHEEL}
     text = index.read_text(encoding="utf-8")
-    assert static.ADDRESS not in text and "https://" not in text
+    assert serve.ADDRESS not in text and "https://" not in text
     assert f"from the folder of this page, {WHEEL} too" in text
 
 
-@pytest.mark.parametrize("without", [*static.NEEDED, WHEEL])
+@pytest.mark.parametrize("without", [*serve.NEEDED, WHEEL])
 def test_what_is_missing_of_pyodide_is_named_with_the_cure(tmp_path, pyodide, without):
     (pyodide / without).unlink()
     with pytest.raises(InputError, match="npm pack pyodide") as refused:
-        static.write(load(CASE), tmp_path / "site", pyodide)
+        serve.write(load(CASE), tmp_path / "site", pyodide)
     assert ("python_flint" if without == WHEEL
             else without) in str(refused.value) and not (tmp_path / "site").exists()
 
@@ -107,11 +107,11 @@ def test_what_is_missing_of_pyodide_is_named_with_the_cure(tmp_path, pyodide, wi
 def test_a_lock_that_is_none_is_refused(tmp_path, pyodide, lock):
     (pyodide / "pyodide-lock.json").write_text(lock)
     with pytest.raises(InputError, match="is not Pyodide's"):
-        static.write(load(CASE), tmp_path / "site", pyodide)
+        serve.write(load(CASE), tmp_path / "site", pyodide)
 
 
 def test_the_wheel_must_be_of_this_python(tmp_path, pyodide):
     (pyodide / "pyodide-lock.json").write_text(
         json.dumps({"info": {"abi_version": "2027_0", "python": "3.15.0"}}))
     with pytest.raises(InputError, match="no wheel python_flint"):
-        static.write(load(CASE), tmp_path / "site", pyodide)
+        serve.write(load(CASE), tmp_path / "site", pyodide)

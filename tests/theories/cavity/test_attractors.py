@@ -1,4 +1,4 @@
-"""Tests of `theories/cavity/normal_form.py`: what once went wrong there, and its edges."""
+"""Tests of `theories/cavity_normal_form.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
 import pytest
@@ -6,7 +6,7 @@ import pytest
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.physics.effects.charge import Charge
 from stabilab.physics.effects.resistance import Resistance
-from stabilab.theories.cavity.normal_form import attractors
+from stabilab.theories.cavity_normal_form import attractors
 from tests.shared import LIQUID, ROUND
 
 
@@ -14,12 +14,12 @@ from tests.shared import LIQUID, ROUND
                                          ((0, -1), "neutral"),
                                          ((0, 1), "repelling"), ((1j, -1j), "neutral")])
 def test_averaged_steady_states_are_named_by_their_rates(rates, kind):
-    from stabilab.theories.cavity.normal_form import _kind
+    from stabilab.theories.cavity_normal_form import _kind
     assert _kind(tuple(map(complex, rates))) == kind
 
 
 def test_cross_torques_average_out_of_the_steady_states_and_the_reason_says_so():
-    from stabilab.theories.cavity.normal_form import attractors
+    from stabilab.theories.cavity_normal_form import attractors
     body, drag = Body(("9.5", "9.5", "9")), Resistance("0.1")
     alone, crossed = (attractors(Scene(body, drag, ConstantTorque((m, 0, 1)))) for m in (0, "0.01"))
     assert [p.spin for p in alone.points] == [p.spin for p in crossed.points]

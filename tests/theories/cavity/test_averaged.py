@@ -15,10 +15,9 @@ from stabilab.physics.effects.charge import Charge
 from stabilab.physics.effects.gravity import Gravity
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.resistance import Resistance
-from stabilab.theories.cavity import averaged as averaging
-from stabilab.theories.cavity.averaged import averaged
-from stabilab.theories.cavity.model import printed
-from stabilab.theories.cavity.normal_form import NAMES, attractors, constants, normal_form
+from stabilab.theories import cavity as averaging
+from stabilab.theories.cavity import averaged, printed
+from stabilab.theories.cavity_normal_form import NAMES, attractors, constants, normal_form
 
 CASES = Path(__file__).parents[3] / "cases"
 J0 = 9.0

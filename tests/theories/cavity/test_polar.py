@@ -1,4 +1,4 @@
-"""Tests of `theories/cavity/averaged.py`: amplitude and phase of a liquid's motion far below the rounding of
+"""Tests of `theories/cavity.py`: amplitude and phase of a liquid's motion far below the rounding of
 its spin."""
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from stabilab import Gyrostat, Scene
 from stabilab.errors import InputError
 from stabilab.papers.figures.catalogue import figure
 from stabilab.papers.figures.figure import differences
-from stabilab.theories.cavity.averaged import averaged, polar
+from stabilab.theories.cavity import averaged, polar
 from tests.shared import case
 from tests.theories.cavity.test_averaged import body, rates_by_hand
 

@@ -6,9 +6,17 @@ import numpy as np
 import pytest
 
 from stabilab.errors import InputError
-from stabilab.theories.charged.closed_form import BEYOND, WITHIN, corrected, solution
-from stabilab.theories.charged.model import MISPRINTS, circle, formulas, printed
-from stabilab.theories.charged.modes import (
+from stabilab.theories.charged import (
+    BEYOND,
+    MISPRINTS,
+    WITHIN,
+    circle,
+    corrected,
+    formulas,
+    printed,
+    solution,
+)
+from stabilab.theories.charged_modes import (
     ChargedBody,
     horizon,
     largest_tilt,

@@ -6,10 +6,10 @@ import pytest
 
 import stabilab
 from stabilab.errors import InputError
-from stabilab.theories.charged.model import printed
-from stabilab.theories.charged.modes import ChargedBody
-from stabilab.theories.comparison import side_by_side
+from stabilab.theories.charged import printed
+from stabilab.theories.charged_modes import ChargedBody
 from stabilab.theories.follow import models_of
+from stabilab.theories.theory import side_by_side
 
 
 def followed(tmp_path, effect, rates):

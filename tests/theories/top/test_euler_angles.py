@@ -1,4 +1,4 @@
-"""Tests of `theories/top/euler_angles.py`: what once went wrong there, and its edges."""
+"""Tests of `theories/euler_angles.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
 import math
@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stabilab.errors import InputError
-from stabilab.theories.top.euler_angles import euler_angles
+from stabilab.theories.euler_angles import euler_angles
 
 
 def spinning(t):

@@ -13,9 +13,9 @@ from stabilab.errors import InputError
 from stabilab.integrate.to_heyoka import heyoka_available
 from stabilab.physics.effects.gravity import Gravity
 from stabilab.physics.effects.newtonian_field import NewtonianField
-from stabilab.theories.top.euler_angles import euler_angles, mean_precession
-from stabilab.theories.top.lindstedt import lindstedt
-from stabilab.theories.top.model import paper_numbers, printed
+from stabilab.theories.euler_angles import euler_angles, mean_precession
+from stabilab.theories.top import paper_numbers, printed
+from stabilab.theories.top_lindstedt import lindstedt
 
 CASES = Path(__file__).parents[3] / "cases"
 R0, START = 150.0, {"omega": (0.0, 0.0, 150.0), "gamma": (0.8, 0.0, 0.6)}

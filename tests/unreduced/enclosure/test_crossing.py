@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from stabilab import Body, ConstantTorque, Scene
 from stabilab.errors import InputError
 from stabilab.numbers.numba_door import installed
-from stabilab.unreduced.enclosure.bands import first_crossing
+from stabilab.unreduced.off_axis import first_crossing
 
 from ..spin_up.scenes import EXAMPLE, random_scene, rates_of, sphere
 

@@ -12,8 +12,8 @@ import pytest
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 from stabilab.errors import InputError
 from stabilab.numbers.numba_door import installed
-from stabilab.unreduced.enclosure import kernel
-from stabilab.unreduced.enclosure.run import Course
+from stabilab.unreduced import enclosure_kernel
+from stabilab.unreduced.enclosure import Course
 from tests.oracles.pairs import model_of
 from tests.oracles.taylor import integrate
 
@@ -55,7 +55,7 @@ def holds(scene, start, end, rng):
     """The greatest share of a radius that the true motion takes, at the end and at times between; the
     enclosure at the end."""
     course, bands = Course(scene, start, end), []
-    while course.status == kernel.GOING:
+    while course.status == enclosure_kernel.GOING:
         bands.append(course.advance(end, band=True))
     found = course.now
     assert found.status == "enclosed" and found.t == end
@@ -140,7 +140,7 @@ def test_energy_and_squares_of_a_band_are_those_of_the_motion():
 
 def test_a_band_is_one_piece_and_ends_at_the_time_asked_for():
     course, bands = Course(EXAMPLE, (.1, 1, 2), 1.7), []
-    while course.status == kernel.GOING:
+    while course.status == enclosure_kernel.GOING:
         bands.append(course.advance(1.7, band=True))
     times = np.concatenate([band.times for band in bands])
     assert times[0] == 0 and times[-1] == 1.7 and (np.diff(times) >= 0).all()
@@ -172,8 +172,8 @@ def test_steps_without_the_compiler_give_the_same_bits(plain, monkeypatch):
         scene, state = random_scene(rng, rng.choice((0, 1, 5))), sphere(rng, rng.choice((.1, 3, 30)))
         told = []
         for first, compiler in ((0, True), (plain, True), (0, False)):
-            monkeypatch.setattr("stabilab.unreduced.enclosure.run.loaded", lambda first=first: not first)
-            monkeypatch.setattr("stabilab.unreduced.enclosure.run.installed", lambda there=compiler: there)
+            monkeypatch.setattr("stabilab.unreduced.enclosure.loaded", lambda first=first: not first)
+            monkeypatch.setattr("stabilab.unreduced.enclosure.installed", lambda there=compiler: there)
             course = Course(scene, state, 40.0, plain=first)
             bands = [course.advance(40.0, 12, band=True), course.advance(40.0, 3, band=True)]
             told.append([course.t, course.steps, course.status,
@@ -188,7 +188,7 @@ def test_a_short_way_is_proved_without_the_compiler():
     program = """
 import sys
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
-from stabilab.unreduced.enclosure.run import proved
+from stabilab.unreduced.enclosure import proved
 from stabilab.unreduced.spin_up.follow import spin_up
 scene = Scene(Body((1.4, 1, .6)), Gyrostat((.2, .1, -.3)), ConstantTorque((.5, .6, .62)))
 print(proved(scene, (.1, 1, 2), spin_up(scene, (.1, 1, 2)), plain=64).level, "numba" in sys.modules)

@@ -8,7 +8,7 @@ import pytest
 
 from stabilab import Body, ConstantTorque, Scene
 from stabilab.numbers.numba_door import installed
-from stabilab.unreduced.enclosure.run import _up, proved
+from stabilab.unreduced.enclosure import _up, proved
 from stabilab.unreduced.spin_up.certificate import Certifier
 from stabilab.unreduced.spin_up.follow import LEVELS, spin_up, spin_up_many
 from tests.oracles.pairs import model_of

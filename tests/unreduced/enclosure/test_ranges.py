@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from stabilab.answers.motion import motion
-from stabilab.unreduced.enclosure.bands import ranges_until
+from stabilab.unreduced.off_axis import ranges_until
 
 from ..spin_up.scenes import EXAMPLE, random_scene, rates_of, run, sphere
 

@@ -11,14 +11,14 @@ import pytest
 
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.simulate import trajectory
-from stabilab.unreduced.growth.certificate import (
+from stabilab.unreduced.growth import captured_fate
+from stabilab.unreduced.growth_certificate import (
     captured_extremes,
     search_certificate,
     spin_up_margin,
     turning_run,
     well_margin,
 )
-from stabilab.unreduced.growth.law import captured_fate
 
 STATES = [(c, y) for c in (-0.05, -0.7, -3.0, -20.0) for y in (
     (0.3, -1.0, 5.0), (-6.5, 2.0, -1.0), (2.0, 0.5, 0.25), (0.1, 30.0, -40.0), (8.0, -3.0, 0.5),

@@ -1,4 +1,4 @@
-"""Tests of `unreduced/growth/certificate.py`: what is known of the extremes of a motion that grows for ever,
+"""Tests of `unreduced/growth_certificate.py`: what is known of the extremes of a motion that grows for ever,
 and how it is told."""
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, errors
-from stabilab.answers.digits.ask import ask
-from stabilab.unreduced.growth.certificate import captured_extremes
-from stabilab.unreduced.growth.law import captured_fate
+from stabilab.answers.digits import ask
+from stabilab.unreduced.growth import captured_fate
+from stabilab.unreduced.growth_certificate import captured_extremes
 
 BALL = 2.5
 

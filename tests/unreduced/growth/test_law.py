@@ -10,12 +10,8 @@ import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.simulate import trajectory
 from stabilab.errors import InputError
-from stabilab.unreduced.growth.certificate import (
-    certificate,
-    growth_law,
-    standard_form,
-)
-from stabilab.unreduced.growth.law import captured_fate
+from stabilab.unreduced.growth import captured_fate
+from stabilab.unreduced.growth_certificate import certificate, growth_law, standard_form
 
 heyoka = pytest.importorskip("heyoka")
 BODY = Body((2000, 1500, 1000))

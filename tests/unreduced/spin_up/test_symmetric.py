@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
+from stabilab.unreduced.spin_up.certificate import axis_of_symmetry, equatorial
 from stabilab.unreduced.spin_up.follow import spin_up
-from stabilab.unreduced.spin_up.symmetric import axis_of_symmetry, equatorial
 
 from .scenes import rates_of, run, sphere
 

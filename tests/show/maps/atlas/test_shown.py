@@ -11,7 +11,7 @@ import pytest
 import stabilab
 from stabilab.case.read import read_text
 from stabilab.errors import InputError
-from stabilab.maps.atlas.run import asked, drawn
+from stabilab.maps.atlas import asked, drawn
 from stabilab.show.maps import atlas as atlas_words
 from stabilab.show.maps import atlas_picture, to_file
 from stabilab.show.units import DEG
@@ -143,7 +143,7 @@ def test_a_narrow_page_has_names_to_be_read_and_a_tap_is_answered(found, tmp_pat
 @pytest.mark.slow
 @pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed")
 def test_the_pages_pointer_tells_the_cell_that_python_finds(found, tmp_path):
-    from stabilab.maps.atlas.pointed import places_of
+    from stabilab.maps.pointed import places_of
     path = atlas_picture.write_page(found, tmp_path / "sky.html", DEG)
     directions = np.random.default_rng(3).normal(size=(300, 3))
     directions /= np.linalg.norm(directions, axis=1)[:, None]

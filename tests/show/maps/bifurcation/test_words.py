@@ -6,11 +6,11 @@ import json
 import pytest
 
 import stabilab
-from stabilab.commands import maps
+from stabilab.commands import pictures
 from stabilab.errors import InputError
 from stabilab.show.maps import bifurcation as words
 from stabilab.show.maps import bifurcation_picture as picture
-from stabilab.show.maps.over_values import GAP, GLYPH, rows_apart
+from stabilab.show.maps.bifurcation_picture import GAP, GLYPH, rows_apart
 from tests.shared import CASES, SATELLITE
 
 MINOR = CASES / "wheel-and-thruster.toml"
@@ -76,4 +76,4 @@ def test_labels_take_the_lowest_row_with_room_and_none_where_no_row_has():
 
 def test_a_range_that_is_missing_is_asked_for_in_the_form_that_a_diagram_takes():
     with pytest.raises(InputError, match=r'expected KEY=FROM:TO, got "torque\[3\]"'):
-        maps.bifurcation(MINOR, ["torque[3]"], False, None, None, False, False)
+        pictures.bifurcation(MINOR, ["torque[3]"], False, None, None, False, False)

@@ -1,0 +1,255 @@
+"""How a body turns in space: rotation and precession periods, nutation, the turn after one period.
+
+How a heavy symmetric top turns: nutation and mean precession, by Lagrange's cubic.
+
+A body with D_j = D_k = A turns about a fixed point under its weight, which acts on axis i at the moment P = M
+g c; a wheel may turn about that axis. Constant are the momentum about it, L = D_i omega_i + lambda_i, the
+momentum about the vertical and the energy. With u the cosine of the lean, between the upward vertical and the
+direction from the fixed point to the centre of mass (Landau & Lifshitz, Mechanics, section 35),
+
+    u'^2 = F(u) = (1 - u^2)(eps - beta u) - (kappa - a u)^2,    beta = 2 |P|/A,  a = L/A,
+    eps = omega_j^2 + omega_k^2 + beta u,    kappa = (D omega + lambda) . gamma/A, up to its sign.
+
+u goes to and fro between the lower two roots of F, u_1 <= u <= u_2 <= 1 <= u_3: with m = (u_2 - u_1)/(u_3 -
+u_1)
+
+    nutation period = 4 K(m) / (beta (u_3 - u_1))^(1/2),
+
+and the axis precesses at the rate (kappa - a u)/(1 - u^2), half the sum of (kappa - a)/(1 - u) and (kappa +
+a)/(1 + u), whose means over that period are integrals of the third kind. Where |gamma| = g is not quite one,
+u is between -g and g. Exact fractions and balls.
+
+How a body turns in space: rotation and precession periods, angular momentum, the turn after one period.
+
+Without a torque the angular momentum H = D omega + lambda is fixed in space. Seen from the body it goes round
+the long axis (least moment) or the short axis (greatest moment) once in a rotation period, the period of the
+rates, while that axis precesses about H at the mean rate
+
+    < (omega.h - (omega.e)(e.h))/(1 - (e.h)^2) >,    h = H/|H|, e the axis.
+
+Of a body without wheels that is Jacobi's solution (Landau & Lifshitz, Mechanics, section 37): with a the axis
+that H goes round, c the other one with an extreme moment, b the intermediate axis, u = lambda t,
+
+    omega_a = A dn(u, m),  A^2 = (H^2 - 2T D_c)/(D_a (D_a - D_c))
+    lambda^2 = A^2 (D_c - D_a)(D_b - D_a)/(D_b D_c),  rotation period = 4 K(m)/lambda
+    mean rate = (H/D_a) [1 - (H^2 - 2T D_a)/(H^2 - D_a^2 A^2) Pi(n, m)/K(m)]
+    n = -m D_a^2 A^2/(H^2 - D_a^2 A^2)
+
+in exact fractions and balls. Motions with wheels and under a torque: `attitude_followed`.
+"""
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+from ..errors import InputError, ToleranceNotMet
+from ..numbers.balls import Digits, Unclear, settled
+from ..numbers.vectors import CYCLE, dot
+from ..orbit.result import Fate, Motion
+from ..physics.scene import Scene
+from ..validation import is_case, scene_and_state
+from .attitude_result import LONG, SEPARATRIX, SHORT, TOP, Attitude, narrow, steady, turned, with_periods
+from .caveats import limited
+from .digits_asked import MOST_DECIMALS, checked_digits, digits_of
+from .motion import motion
+
+UPRIGHT = "the axis passes through the vertical, where it has no precession"
+
+
+def axis_of_top(scene: Any) -> int | None:
+    """The axis of a heavy symmetric top, which its weight and its wheels act on alone; None of other scenes.
+    """
+    if {effect.name for effect in scene.effects} - {"gyrostat"} != {"gravity"}:
+        return None
+    D, wheel = scene.body.exact, scene.vector("gyrostat")
+    along = [i for i, weight in enumerate(scene.vector("gravity")) if weight]
+    if len(along) != 1:
+        return None
+    j, k = CYCLE[along[0]]
+    return along[0] if D[j] == D[k] and not wheel[j] and not wheel[k] else None
+
+
+def of_top(scene: Scene, axis: int, start: Sequence[Fraction], base: Attitude, digits: int | None = None
+           ) -> Attitude:
+    """base: what is known at the start, three rates and the vertical; digits: of the periods."""
+    top = _Top(scene, axis, start)
+    if top.vertical:
+        return replace(steady(base, start[:3], digits), because="the axis stands on the vertical")
+    balls: list[Any] = settled(
+        lambda numbers: [None if one is None else narrow(one, digits) for one in top.answer(numbers)])
+    least, greatest, nutation, precession = balls
+    words = "the lean goes to and fro between two roots of Lagrange's cubic"
+    if top.steady:
+        words = "the axis keeps its lean and precesses about the vertical"
+    elif least is None:
+        return replace(base, mode=SEPARATRIX, because="the axis comes ever closer to the vertical and does "
+                                                      "not come back")
+    found = replace(base, mode=TOP, lean=(float(least.mid()), float(greatest.mid())),
+                    because=words if precession is not None else f"{words}; {UPRIGHT}")
+    return with_periods(found, {"nutation_period": nutation, "precession_period": precession}, digits)
+
+
+class _Top:
+    """The constants of the cubic, of u = +-gamma_i."""
+
+    def __init__(self, scene: Scene, axis: int, start: Sequence[Fraction]) -> None:
+        j, k = CYCLE[axis]
+        D, wheel = scene.body.exact, scene.vector("gyrostat")
+        omega, gamma = start[:3], start[3:]
+        arm = scene.vector("gravity")[axis]  # times the weight, N m
+        momentum = [d * w + l for d, w, l in zip(D, omega, wheel)]
+        up = -1 if arm > 0 else 1  # gamma is the direction of the weight
+        u, self.square = up * gamma[axis], dot(gamma, gamma)
+        beta, self.a = 2 * abs(arm) / D[j], momentum[axis] / D[j]
+        self.kappa = up * dot(momentum, gamma) / D[j]
+        eps = omega[j] ** 2 + omega[k] ** 2 + beta * u
+        self.u, self.beta = u, beta
+        self.cubic = (self.square * eps - self.kappa**2, 2 * self.kappa * self.a - self.square * beta,
+                      -eps - self.a**2, beta)
+        slope = self.cubic[1] + 2 * self.cubic[2] * u + 3 * beta * u * u
+        self.steady = not slope and not sum(c * u**n for n, c in enumerate(self.cubic))
+        self.vertical = self.steady and u * u == self.square
+        # at u = g and u = -g the cubic is -(kappa -+ a g)^2
+        tie, sign = self.kappa**2 == self.a**2 * self.square, self.kappa * self.a
+        self.down = tie and sign <= 0
+        self.up = tie and sign >= 0 and eps > 0 and eps**2 > beta**2 * self.square
+
+    def answer(self, numbers: Digits) -> tuple[Any, Any, Any, Any]:
+        """(least, greatest lean, nutation period, precession period) in balls; None what it does not have."""
+        g, a, kappa = numbers.ball(self.square).sqrt(), numbers.ball(self.a), numbers.ball(self.kappa)
+        if self.steady:
+            u, turns = numbers.ball(self.u), self.kappa != self.a * self.u
+            rate = g * (kappa - a * u) / (g * g - u * u)
+            return _lean(u / g), _lean(u / g), None, _period(numbers, rate) if turns else None
+        roots = [(root, many) for root, many in numbers.real_roots(self.cubic) for _ in range(many)]
+        if len(roots) < 3:
+            raise Unclear
+        (low, _), (high, many), (far, _) = roots
+        if many > 1:
+            return None, None, None, None
+        low, high = -g if self.down else low, g if self.up else high
+        swing, m = high - low, (high - low) / (far - low)
+        ends = (numbers.ball(0) if self.up else _lean(high / g),
+                numbers.pi() if self.down else _lean(low / g))
+        whole, _ = numbers.elliptic(numbers.ball(0), m)
+        nutation = 4 * whole / (numbers.ball(self.beta) * (far - low)).sqrt()
+        if self.up or self.down:
+            return *ends, nutation, None
+        ahead = numbers.elliptic(swing / (g - low), m)[1] / (whole * (g - low))
+        behind = numbers.elliptic(-swing / (g + low), m)[1] / (whole * (g + low))
+        return *ends, nutation, _period(numbers, ((kappa - a * g) * ahead + (kappa + a * g) * behind) / 2)
+
+
+def _period(numbers: Digits, rate: Any) -> Any:
+    return 2 * numbers.pi() / abs(rate)
+
+
+def _lean(cosine: Any) -> Any:
+    """Its angle, without loss where it is near one."""
+    return 2 * ((1 - cosine) / 2).sqrt().asin()
+
+
+def attitude(scene: Any, state: Any = None, digits: int | None = None) -> Attitude:
+    """How the motion from `state` (three rates, rad/s; of a top followed by the vertical) turns in space.
+
+    scene: a Scene of a body, wheels and a constant torque, or of a heavy symmetric top, or a case, whose own
+    start holds where none is given. digits: 1 to 50, of the periods, which are then written out too. Raises
+    InputError for scaled variables, which have no attitude, for other effects, and as `motion` does;
+    ToleranceNotMet where the periods of a motion that is followed have fewer digits.
+    """
+    digits = None if digits is None else checked_digits(digits, MOST_DECIMALS)
+    exact, case = None, scene if is_case(scene) and state is None else None
+    if case is not None:
+        scene, state, exact = _physical(case)
+    scene, state = scene_and_state(scene, state)
+    if scene.variables == "scaled":
+        raise InputError("attitude: scaled variables have no attitude: give body, wheel and torque, and the "
+                         "motion as angular_velocity, in rad/s")
+    axis = None if scene.plain else axis_of_top(scene)
+    if not scene.plain and axis is None:
+        others = ", ".join(sorted({effect.with_article for effect in scene.beyond}))
+        raise InputError("attitude: it is known of a body with wheels and a torque constant in the body, and "
+                         f"of a heavy symmetric top; this scene also has {others}")
+    exact = exact or tuple(Fraction(v) for v in state[:3])
+    found = motion(scene, state, brief=True, exact=exact)
+    found = found if case is None else limited(found, scene, case)
+    if axis is None:
+        return of_motion(scene, exact, found, digits)
+    start = (*exact, *map(Fraction, found.at[3:]))
+    return of_top(scene, axis, start, _at_start(scene, exact, found), digits)
+
+
+def of_motion(scene: Scene, omega: Sequence[float | Fraction], found: Motion, digits: int | None = None
+              ) -> Attitude:
+    """How a motion that is known turns in space; omega: its rates at the start, taken exactly; digits: as
+    `attitude` has it."""
+    exact = [Fraction(w) for w in omega]
+    base = _at_start(scene, exact, found)
+    if found.fate == Fate.EQUILIBRIUM:
+        return steady(base, exact, digits)
+    if found.fate == Fate.SEPARATRIX:
+        return replace(base, mode=SEPARATRIX, because="the motion is on a separatrix and does not repeat")
+    if found.period is None:
+        return replace(base, because=f"the motion is not known to repeat: {found.because}")
+    if in_closed_form(scene):
+        return _of_free_body(scene.body.exact, exact, base, digits)
+    from .attitude_followed import followed
+    answer = followed(scene, base, found, found.period)
+    if digits is not None and answer.error is not None and answer.error > 0.1**digits:
+        raise ToleranceNotMet(f"attitude: {digits} digits asked for, {digits_of(answer.error):.1f} reached "
+                              "(with wheels or a torque the motion is followed); ask for fewer")
+    return answer
+
+
+def _physical(case: Any) -> tuple[Any, Any, Any]:
+    """(scene, state, exact state) of a case; of one in scaled variables that states its body, in SI."""
+    if case.variables != "scaled" or not case.physical or not case.scaling or case.state is None:
+        return case.scene, case.start, case.exact_state
+    rates = [r * Fraction(x) for r, x in zip(case.scaling.rate, case.exact_state or case.state)]
+    return case.physical, tuple(map(float, rates)), rates
+
+
+def in_closed_form(scene: Any) -> bool:
+    """Whether it is a body alone, whose attitude takes no run."""
+    return scene.variables == "physical" and scene.plain and not any(scene.vector("gyrostat")) and not any(
+        scene.vector("constant_torque"))
+
+
+def _at_start(scene: Scene, omega: Sequence[Fraction], found: Motion) -> Attitude:
+    H = [d * w + l for d, w, l in zip(scene.body.exact, omega, scene.vector("gyrostat"))]
+    size = math.hypot(*map(float, H))
+    along = tuple(float(v) / size for v in H) if size else None
+    return Attitude(found.at[:3], found.fate, None, size, along, "", caveats=found.caveats)
+
+
+def _of_free_body(D: Sequence[Fraction], omega: Sequence[Fraction], base: Attitude,
+                  digits: int | None) -> Attitude:
+    """A body without wheels, by Jacobi's solution; see the module text."""
+    least, b, greatest = sorted(range(3), key=lambda i: D[i])
+    T2 = dot(D, [w * w for w in omega])
+    H2 = dot([d * d for d in D], [w * w for w in omega])
+    long = H2 < T2 * D[b]
+    a, c = (least, greatest) if long else (greatest, least)
+    A2 = (H2 - T2 * D[c]) / (D[a] * (D[a] - D[c]))
+    m = 1 - (H2 - T2 * D[b]) / (D[a] * (D[a] - D[b])) / A2
+    speed = A2 * (D[c] - D[a]) * (D[b] - D[a]) / (D[b] * D[c])
+    across = H2 - D[a] ** 2 * A2  # least square of the momentum across the axis
+
+    def periods(numbers: Digits) -> list[Any]:
+        ball = numbers.ball
+        whole, third = numbers.elliptic(ball(-m * D[a] ** 2 * A2 / across), ball(m))
+        period = 4 * whole / ball(speed).sqrt()
+        rate = ball(H2).sqrt() * (1 - ball((H2 - T2 * D[a]) / across) * third / whole) / ball(D[a])
+        turns = rate * period / (2 * numbers.pi())
+        return [narrow(one, digits) for one in (period, 2 * numbers.pi() / rate, turns - int(float(turns)))]
+
+    period, precession, turn = settled(periods)
+    shares = [D[a] ** 2 * square / H2 for square in (A2, A2 * (1 - m))]  # cos^2 of the angle, greatest first
+    least_angle, greatest_angle = (math.atan2(math.sqrt(1 - share), math.sqrt(share)) for share in shares)
+    words = f"no torque: the angular momentum goes round the {'long' if long else 'short'} axis in the body"
+    found = replace(base, mode=LONG if long else SHORT, cone=(least_angle, greatest_angle), because=words)
+    found = with_periods(found, {"rotation_period": period, "precession_period": precession}, digits)
+    return turned(found, float(turn.mid()))

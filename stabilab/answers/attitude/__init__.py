@@ -1,1 +1,0 @@
-"""How a motion turns in space."""

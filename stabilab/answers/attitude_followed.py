@@ -1,0 +1,87 @@
+"""The attitude of motions that are followed: wheels without a torque, and bounded motions under a torque.
+
+With wheels the mean rate of precession is a sum over equal times of one period, whose error falls like a
+power with their number (the trapezoidal rule on a periodic function); under a torque the attitude is followed
+for one period.
+"""
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from ..orbit.result import Motion
+from ..physics.scene import Scene
+from .attitude_result import LONG, SHORT, Attitude, turned
+from .simulate import simulate, trajectory
+
+SUM_ERROR, RUN_ERROR = 1e-11, 1e-10  # relative: of a sum over a run, of a run's end
+FEWEST, MOST = 64, 1 << 17  # times of the sum
+
+
+def followed(scene: Scene, base: Attitude, found: Motion, period: float) -> Attitude:
+    """base: what is known at the start; found: the motion; period: its own."""
+    if any(scene.vector("constant_torque")):
+        return _under_torque(scene, base, period)
+    return _of_gyrostat(scene, base, found, period)
+
+
+def _of_gyrostat(scene: Scene, base: Attitude, found: Motion, period: float) -> Attitude:
+    """A body with wheels and no torque: sums over equal times of one period."""
+    D, wheel = (np.array(v, float) for v in (scene.body.exact, scene.vector("gyrostat")))
+    count, before, names = FEWEST, math.inf, _long_and_short(scene.body.exact)
+    while True:
+        states = trajectory(scene, found.at, np.arange(1, count) * (period / count), laws=False).states
+        omega = np.vstack([found.at, states])
+        h = D * omega + wheel
+        h /= np.linalg.norm(h, axis=1)[:, None]
+        across = 1 - h * h  # of each axis, the square of the sine of its angle from H
+        # the long or the short axis where H goes round it alone; else the axis that H keeps farthest from
+        encircled = [i for i in names if _winding(h, i)]
+        e = encircled[0] if len(encircled) == 1 else int(across.min(axis=0).argmax())
+        rates = (np.einsum("ij,ij->i", omega, h) - omega[:, e] * h[:, e]) / across[:, e]
+        mean = float(rates.mean())
+        if abs(mean - before) <= SUM_ERROR * abs(mean) or count >= MOST:
+            break
+        before, count = mean, 2 * count
+    error = max(SUM_ERROR, abs(mean - before) / abs(mean))
+    mode = names[e] if encircled == [e] else None
+    words = (f"no torque: the angular momentum goes round the {mode[:-5]} axis in the body" if mode else
+             "no torque: in the body the angular momentum goes round neither the long nor the short axis "
+             "alone, so none of them precesses about it")
+    cone = None
+    if mode and found.extremes is not None:
+        low, high = (min(1.0, max(-1.0, (D[e] * v + wheel[e]) / base.momentum)) for v in found.extremes[e])
+        low, high = (-high, -low) if low + high < 0 else (low, high)
+        cone = math.acos(high), math.acos(low)
+    return turned(replace(base, mode=mode, rotation_period=period, cone=cone, error=error, because=words,
+                           precession_period=2 * math.pi / abs(mean) if mode else None),
+                   mean * period / (2 * math.pi))
+
+
+def _winding(h: Any, i: int) -> int:
+    """How often the directions h, a closed row of them, go round axis i."""
+    z = h[:, (i + 1) % 3] + 1j * h[:, (i + 2) % 3]
+    return round(float(np.angle(np.roll(z, -1) / z).sum()) / (2 * math.pi))
+
+
+def _long_and_short(D: Sequence[Fraction]) -> dict[int, str]:
+    """The axes of least and of greatest moment; where two moments are equal, the one that differs."""
+    low, middle, high = sorted(range(3), key=lambda i: D[i])
+    return {**({low: LONG} if D[low] < D[middle] else {}), **({high: SHORT} if D[middle] < D[high] else {})}
+
+
+def _under_torque(scene: Scene, base: Attitude, period: float) -> Attitude:
+    """The turn after one period of the rates; the attitude is followed."""
+    run = simulate(scene, base.at, [0.0, period], {"attitude": (0.0, 0.0, 0.0, 1.0)})
+    *vector, w = run.state["quaternion"][-1].tolist()
+    size = math.hypot(*vector)
+    axis = tuple(math.copysign(1.0, w) * v / size for v in vector) if size else None
+    return replace(base, rotation_period=period, turn_angle=2 * math.atan2(size, abs(w)), turn_axis=axis,
+                   error=RUN_ERROR,
+                   because="a torque changes the angular momentum: no axis precesses about it; the rates "
+                           "repeat after one rotation period, and the attitude has turned")

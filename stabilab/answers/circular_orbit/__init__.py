@@ -1,1 +1,0 @@
-"""A satellite on a circular orbit: its equilibria in the orbital frame."""

@@ -1,0 +1,331 @@
+"""Fate, extremes and period to as many digits as are asked for, in the cheapest way, checked afterwards.
+
+A motion with a reduction: formulas in doubles, checked in ball arithmetic, whose answer takes over where they
+fall short or where more digits are asked for. A motion that repeats without one: its return in a run, checked
+by a Taylor series in many digits run at two precisions. Any other: a run over the span, checked by a run at
+another tolerance from a start moved in its last place, and done again in many digits where that is not
+enough.
+"""
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ..integrate.events import roots_of_rates
+from ..integrate.reference import DIGITS, GUARD, SEARCH, WORK, Exhausted, Recursion, reference, steps, widen
+from ..integrate.to_heyoka import TAYLOR_TOLERANCE
+from ..numbers.balls import DOUBLE_BITS, Digits, working
+from ..numbers.vectors import Exact3, Number
+from ..orbit.extremes import extreme_balls, period_ball
+from ..orbit.fate import free_margin, is_free, precise_margin
+from ..orbit.landscape import landscape
+from ..orbit.one_orbit import Orbit
+from ..orbit.reduction import reduce
+from ..orbit.result import Fate, Motion, no_period
+from ..physics.coefficients import effective
+from ..physics.equations import Equations
+from ..physics.scene import AnyScene, QuadraticForm, Scene, aligned, stops_before
+from ..physics.states import checked_states, equations_and_start, moved_row
+from ..unreduced.growth_certificate import law_extremes
+from ..unreduced.near_rest import beside_rest, small_loop
+from ..validation import reach_of
+from .digits_asked import (
+    CAUTION,
+    MOST,
+    MOST_DECIMALS,
+    NEAR,
+    Told,
+    checked_digits,
+    digits_of,
+    nothing,
+    number_of,
+)
+from .motion import motion
+
+FORMULA_DIGITS = 11  # the formulas hand over to balls where they hold less
+SAMPLE = 16  # states of an array that are checked one by one; where all agree the formulas serve for the rest
+LAW_BITS = 200  # of the numbers of a law that holds for all time: more than MOST_DECIMALS
+
+
+def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = None,
+        known: Motion | None = None, exact: Exact3 | None = None, aim: bool = False) -> Told:
+    """The extremes, the period, or the margin of the "fate" of one state, to `digits` decimal digits (1 to
+    50).
+
+    state, span, exact: as of `motion`; known: what `motion` found, where that is at hand. Digits of extremes
+    are relative to the size of their component. aim: nobody asked for the digits, so a run that misses them
+    by `NEAR` is not done again. Told.digits may be below what was asked: see Told.required.
+    """
+    digits = checked_digits(digits, MOST_DECIMALS)
+    twin = effective(scene)  # it turns alike and has nothing but a wheel and a torque, if `plain`
+    land = landscape(twin) if twin.plain else None
+    if known is None:  # by a reduction none of the three questions needs the distance from the separatrix
+        known = motion(scene, state, span, brief=land is not None, exact=exact)
+    if question != "extremes" and number_of(question, known) is None:
+        return nothing(question, digits, no_period(known.fate) if question == "period"
+                       else "there is no margin in energy to be judged")
+    if question == "fate" and is_free(twin):
+        return _margin_without_reduction(twin, known, digits, exact or known.at[:3])
+    if land is not None:
+        orbit = Orbit(land.reduction, exact or known.at[:3])
+        balls = _balls(question, orbit, known.fate, max(digits, MOST) + 1)
+        return (_tie(question, digits) if balls is None  # on the separatrix
+                else _judged(question, number_of(question, known), balls, digits))
+    if known.fate == Fate.EQUILIBRIUM:
+        return Told(question, number_of(question, known), digits, math.inf, "exact",
+                    "the state is an equilibrium")
+    if question == "fate":
+        return _margin_without_reduction(twin, known, digits, exact or known.at[:3])
+    if question == "extremes" and (balls := law_extremes(twin, exact or known.at[:3],
+                                                         known.evidence.get("certificate"), LAW_BITS)):
+        return _judged(question, known.extremes, [list(pair) for pair in balls], digits)
+    if known.period:
+        return _by_return(question, twin, known, digits, exact or known.at[:3])
+    return _over_span(scene, state, span, known, digits, exact, NEAR * aim)
+
+
+def ask_all(question: str, scene: AnyScene, states: Any, digits: int, values: Any, span: Any = None) -> Told:
+    """The same for an array of states (..., 3); values (..., 3, 2) or (...,): what the formulas say of them;
+    span: a time. Of many states a sample is checked."""
+    array = checked_states(states)
+    rows = array.reshape(-1, 3)
+    picked = np.unique(np.linspace(0, len(rows) - 1, min(SAMPLE, len(rows))).astype(int))
+    whole = None if span is None else (0.0, float(span))
+    told = [ask(question, scene, rows[i], digits, whole) for i in picked]
+    if len(picked) < len(rows) and not all(t.method in ("formulas", "none") for t in told):
+        told = [ask(question, scene, row, digits, whole) for row in rows]
+    values = np.reshape(values, (len(rows), *np.shape(values)[array.ndim - 1:]))
+    if len(told) == len(rows):
+        values = np.array([old if t.values is None else t.values
+                           for old, t in zip(values, told)]).reshape(values.shape)
+    judged = [t for t in told if t.digits is not None]
+    worst = min(judged, key=lambda t: t.digits or 0.0) if judged else told[0]
+    sampled = f"; {len(told)} of {len(rows)} states checked" if len(told) < len(rows) else ""
+    shape = array.shape[:-1]
+    texts = (None if worst.decimals is None
+             else np.array([t.decimals for t in told],
+                           dtype=object).reshape((*shape, *np.shape(worst.decimals))))
+    return replace(worst, values=values.reshape((*shape, *values.shape[1:])), because=worst.because + sampled,
+                   decimals=texts)
+
+
+# -- motions with a reduction
+
+
+def _tie(question: str, digits: int) -> Told:
+    return Told(question, 0.0, digits, math.inf, "balls", "the energy equals the barrier's, by algebra")
+
+
+def _judged(question: str, values: Any, balls: Any, digits: int) -> Told:
+    """The formulas' values where the balls (to max(digits, MOST) + 1 digits) confirm so many digits, else the
+    balls'."""
+    wanted = max(digits, MOST) + 1
+    with working(DOUBLE_BITS):
+        error = _gap(values, balls)
+    if digits <= FORMULA_DIGITS and error <= 10.0**-digits:
+        return Told(question, values, digits, digits_of(error), "formulas",
+                    f"formulas in doubles, {error:.1e} from ball arithmetic")
+    width = max(_width(balls), 10.0**-wanted)  # the balls of a period are narrower than its two rules agree
+    return _of_balls(question, balls, digits, digits_of(width, wanted), "balls",
+                     f"ball arithmetic: the number is within {width:.0e}")
+
+
+def _of_balls(question: str, balls: Any, digits: int, held: float, method: str, because: str) -> Told:
+    """The balls as floats, and written out where more digits are asked for than these have. held: digits."""
+    more = digits > MOST
+    return Told(question, _floats(balls), digits, held if more else min(held, MOST + 0.95), method, because,
+                _decimals(balls, digits) if more else None)
+
+
+def _balls(question: str, orbit: Orbit, label: Fate, digits: int) -> Any:
+    """The answer in balls, nested as its floats are."""
+    if question == "extremes":
+        return extreme_balls(orbit, int(label), math.ceil(digits * math.log2(10)))
+    if question == "period":
+        return period_ball(orbit, digits) if label == Fate.BOUNDED else Digits(DOUBLE_BITS).ball(0)
+    return precise_margin(orbit, digits)
+
+
+def _each(values: Any) -> list[tuple[Any, Any]]:
+    """(value, size of its component) of a number or of pairs."""
+    if not isinstance(values, (list, tuple, np.ndarray)):
+        return [(values, values)]
+    return [(v, max((u for u in pair if math.isfinite(float(u))), key=lambda u: abs(float(u)), default=1))
+            for pair in values for v in pair]
+
+
+def _gap(values: Any, balls: Any) -> float:
+    """Largest distance of floats from balls, relative to the component's size."""
+    from flint import arb
+    worst = 0.0
+    for (value, _), (exact, size) in zip(_each(values), _each(balls)):
+        if math.isinf(float(value)) or math.isinf(float(exact)):
+            worst = worst if float(value) == float(exact) else math.inf
+        elif (far := float(abs(arb(float(value)) - exact).mid())) > 0:
+            worst = max(worst, far / abs(float(size)) if float(size) else math.inf)
+    return worst
+
+
+def _width(balls: Any) -> float:
+    from flint import arb
+    return max(float(arb(v).rad()) / abs(float(size)) if float(size) else float(arb(v).rad())
+               for v, size in _each(balls) if math.isfinite(float(v)))
+
+
+def _floats(balls: Any) -> Any:
+    if isinstance(balls, list):
+        return tuple(tuple(map(_floats, pair)) for pair in balls)
+    return float(balls) if isinstance(balls, float) or 0 not in balls else 0.0
+
+
+def _decimals(balls: Any, digits: int) -> Any:
+    """Written out with one digit more, so that writing costs none of them."""
+    if isinstance(balls, list):
+        return [[_decimals(v, digits) for v in pair] for pair in balls]
+    from flint import arb
+    if isinstance(balls, float):
+        return str(balls)
+    return "0" if 0 in arb(balls) else arb(balls).mid().str(digits + 1, radius=False)
+
+
+# -- motions without one
+
+
+def _margin_without_reduction(scene: AnyScene, known: Motion, digits: int, state: Any) -> Told:
+    wanted = max(digits, MOST) + 1
+    if is_free(scene):
+        margin = free_margin(scene, state, wanted)
+        balls = None if margin.tie else margin.ball
+    else:
+        turn: Any = aligned(scene)  # between two equal moments, or there were no margin
+        twin: Any = reduce(turn.twin)
+        balls = precise_margin(Orbit(twin, turn(state)), wanted)
+    return _tie("fate", digits) if balls is None else _judged("fate", known.margin_energy, balls, digits)
+
+
+def _by_return(question: str, scene: AnyScene, known: Any, digits: int, state: Any) -> Told:
+    """A closed motion: its return in doubles against the return of a Taylor series in many digits."""
+    values = number_of(question, known)
+    if beside_rest(scene.quadratic(), state):
+        return _by_small_loop(question, scene.quadratic(), values, digits, state)
+    exact: Any = reference(scene, state, [0.5 * known.period], orbit=True)
+    if exact.period is None:
+        return Told(question, values, digits, 0.0, "run",
+                    "no return was found in many digits within the work allowed")
+    with working(400) as numbers:
+        add = lambda pair: numbers.ball(float(pair[0])) + numbers.ball(float(pair[1]))
+        found = (add(exact.period) if question == "period"
+                 else [[add(v) for v in pair] for pair in exact.extremes])
+        # two doubles hold 32 digits
+        own = max(exact.period[2] if question == "period" else exact.extremes_error, 1e-31)
+        error = max(_gap(values, found), own)
+        pair = f"{exact.digits[0]} and {exact.digits[1]} digits"
+        if digits <= MOST and error <= 10.0**-digits:
+            because = f"the return of a run in doubles, {error:.1e} from that of a Taylor series in {pair}"
+            return Told(question, values, digits, digits_of(error), "run", because)
+        return _of_balls(question, found, digits, digits_of(own, 31.0), "many digits",
+                         f"the return of a Taylor series in {pair}, {own:.0e} apart")
+
+
+def _by_small_loop(question: str, form: QuadraticForm, values: Any, digits: int, state: Any) -> Told:
+    """A closed motion that starts next to an equilibrium: two runs of its series from the start, the second
+    with more digits."""
+    more = max(digits, MOST) + 8
+    with working(2 * int(3.33 * more) + 400):
+        found = [loop and loop[question != "period"]
+                 for loop in (small_loop(form, state, n) for n in (more, more + 8))]
+        if None in found:
+            return Told(question, values, digits, 0.0, "run",
+                        "no return was found in many digits within the work allowed")
+        error = max(_balls_apart(found[1], found[0]), 10.0**-more)
+        if digits <= MOST and (gap := max(_gap(values, found[1]), error)) <= 10.0**-digits:
+            return Told(question, values, digits, digits_of(gap), "run",
+                        f"its series from the start in many digits, {gap:.1e} apart")
+        return _of_balls(question, found[1], digits, digits_of(error, more), "many digits",
+                         f"two runs of its series from the start, {error:.0e} apart")
+
+
+def _over_span(scene: AnyScene, state: Any, span: Any, known: Motion, digits: int, exact: Exact3 | None,
+               slack: float) -> Told:
+    """The extremes over the span: by a second run where its difference from the first is small enough, else
+    in many digits. slack: digits that may be missing."""
+    if known.extremes is None or span is None and known.bounds:
+        return nothing("extremes", digits, known.extremes_over)
+    if scene.variables != "scaled":  # a force at the centre of mass does not turn the body
+        scene = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
+    length = reach_of(span) or 0.0
+    equations, start = equations_and_start(scene, known.at)
+    # a spin-up may have been run on to where its least rate is certain
+    length = max(length, known.evidence.get("span", length))
+    values = np.array(known.extremes)
+    other = roots_of_rates(scene, moved_row(start), length, 8 * TAYLOR_TOLERANCE)
+    error = CAUTION * _apart(values, other.extremes()) if not other.reason else math.inf
+    because = (f"a run over the span; one at rtol {8 * TAYLOR_TOLERANCE:.1e} from a start moved in its last "
+               f"place differs by {error / CAUTION:.1e}")
+    if digits <= MOST and error <= 10.0 ** (slack - digits):
+        return Told("extremes", values, digits, digits_of(error), "run", because)
+    one_law = stops_before(scene, equations.blocks, [start], length) is None
+    found = (_many_digits(equations, [*(exact or start[:3]), *start[3:]], length, digits)
+             if one_law else None)
+    return (_unbounded_again(found, values) if found
+            else Told("extremes", values, digits, digits_of(error), "run", other.reason or because))
+
+
+def _apart(values: Any, other: Any) -> float:
+    """Largest distance of what is finite among the values from the other's, relative to the size of its
+    component."""
+    finite = np.isfinite(values)
+    size = np.where(finite, np.abs(values), 0.0).max(axis=-1, keepdims=True)
+    return float((np.where(finite, np.abs(np.where(finite, values, 0.0) - other),
+                           0.0) / np.where(size > 0, size, 1.0)).max())
+
+
+def _unbounded_again(told: Told, values: Any) -> Told:
+    """What a run found, with the entries that are known to be infinite."""
+    known = values.tolist()
+
+    def put(found: Any, kind: Callable[[Any], Any]) -> tuple[tuple[Any, ...], ...]:
+        return tuple(tuple(kind(old) if math.isinf(old) else new for new, old in zip(*both))
+                     for both in zip(found, known))
+    return replace(told, values=put(told.values, float), decimals=told.decimals and put(told.decimals, str))
+
+
+def _many_digits(equations: Equations, start: Sequence[Number], length: float, digits: int) -> Told | None:
+    """Extremes over the span by a Taylor series, each precision checked by the one before; None where the
+    work allowed is not enough."""
+    recursion, before = Recursion(equations), None
+    for n in DIGITS:
+        budget = [WORK // 12 if before is None else WORK // 4]  # the second run costs twice the first
+        with working(int((n + GUARD) * 3.33)) as numbers:
+            try:
+                now = _series_extremes(recursion, start, length, n, budget, numbers)
+            except Exhausted:
+                return None
+            error = max(_balls_apart(now, before), 10.0**-n) if before else 1.0
+            if before and error <= 10.0**-digits:
+                return _of_balls("extremes", now, digits, digits_of(error, n), "many digits",
+                                 f"Taylor series over the span in two precisions, {error:.0e} apart")
+            before = now
+    return None
+
+
+def _balls_apart(now: Any, before: Any) -> float:
+    """Largest distance of balls, relative to the size of their component."""
+    return max(float(abs(a - b) / abs(size)) if size != 0 else 0.0
+               for (a, size), (b, _) in zip(_each(now), _each(before)))
+
+
+def _series_extremes(recursion: Recursion, start: Sequence[Number], length: float, digits: int,
+                     budget: list[int], numbers: Digits) -> list[list[Any]]:
+    pairs, left = [[numbers.ball(v)] * 2 for v in start[:3]], numbers.ball(length)
+    for step in steps(recursion, start, digits, budget, numbers):
+        budget[0] -= SEARCH * len(pairs) * len(step.rows[0])
+        widen(pairs, step, min(step.length, left))
+        left = (left - step.length).mid()
+        if left <= 0:
+            break
+    return pairs

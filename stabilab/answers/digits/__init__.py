@@ -1,1 +1,0 @@
-"""The same questions to a number of digits, checked."""

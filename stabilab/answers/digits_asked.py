@@ -1,0 +1,84 @@
+"""An answer with the digits that its check showed, and the errors that a check may find."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from ..errors import InputError, ToleranceNotMet
+from ..orbit.result import Motion, no_period
+
+DEFAULT = 10  # digits, where nothing else is asked for
+NEAR = 1.0  # a digit by which an aim that nobody asked for may be missed, rather than pay for many digits
+MOST = 15  # decimal digits that every double holds
+MOST_DECIMALS = 50  # digits that are given as decimals
+CAUTION = 4  # differences between runs are samples of the error, not bounds: several times their size counts
+
+
+@dataclass(frozen=True)
+class Told:
+    """One answer. values: floats, as the question's own function gives them; decimals: the same, written out,
+    where more digits were asked for than doubles hold; digits: what the check showed, None where there is no
+    number to judge (no period, no barrier); because: how they were checked, or why there are none."""
+
+    question: str
+    values: Any
+    asked: int
+    digits: float | None
+    method: str
+    because: str
+    decimals: Any = None
+
+    @property
+    def enough(self) -> bool:
+        return self.digits is None or self.digits >= self.asked
+
+    def required(self) -> Told:
+        """Itself; raises ToleranceNotMet where the digits asked for were not reached."""
+        if not self.enough:
+            raise ToleranceNotMet(f"{self.question}: {short(self)}")
+        return self
+
+
+def short(told: Told) -> str:
+    """What is missing, in words."""
+    return f"{told.asked} digits asked for, {told.digits:.1f} reached ({told.because}); ask for fewer"
+
+
+def checked_digits(digits: int, most: int) -> int:
+    """The number of digits, if it can be asked for."""
+    if not (isinstance(digits, int) and not isinstance(digits, bool) and 1 <= digits <= most):
+        raise InputError(f"digits: expected a whole number from 1 to {most}, got {digits!r}")
+    return digits
+
+
+def digits_of(error: float, most: float = MOST + 0.95) -> float:
+    """Correct digits of a relative error, at most what the numbers hold."""
+    if not error > 0:
+        return most if error == 0 else 0.0
+    return max(0.0, min(-math.log10(error), most))
+
+
+def number_of(question: str, motion: Motion) -> Any:
+    """What a motion says to a question, None where it has no such number."""
+    return {"extremes": motion.extremes, "period": motion.period, "fate": motion.margin_energy}[question]
+
+
+def by_bound(question: str, motion: Motion) -> Told | None:
+    """What the formulas of the reduced motion say of themselves: they bound their rounding as they go, and
+    hand over to ball arithmetic where the bound is too large. None where no formula answered."""
+    if motion.tolerance is None:
+        return None
+    values = number_of(question, motion)
+    if question == "fate":
+        return None if values is not None else nothing(question, DEFAULT, motion.because)
+    if values is None:
+        return nothing(question, DEFAULT, no_period(motion.fate))
+    tolerance = motion.tolerance * (10 if question == "period" else 1)
+    return Told(question, values, DEFAULT, digits_of(tolerance), "formulas",
+                f"formulas that bound their own rounding by {tolerance:.0e}, balls beyond")
+
+
+def nothing(question: str, asked: int, why: str) -> Told:
+    """The answer that there is no such number."""
+    return Told(question, None, asked, None, "none", why)

@@ -1,0 +1,278 @@
+"""A motion to as many digits as are asked for, checked afterwards.
+
+The check needs no reference: the same motion at another tolerance, its start moved by a unit in its last
+place, shows the error of the first run and what doubles can hold, for the price of one run more. What falls
+short is done again in another way, at last in many digits, rounded once.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..integrate.reference import reference
+from ..integrate.to_heyoka import TAYLOR_TOLERANCE
+from ..integrate.trajectory import FALLBACK_RTOL
+from ..orbit.flow import reduced_motion
+from ..physics.coefficients import limits_of
+from ..physics.equations import derive
+from ..physics.scene import AnyScene, stops_before
+from ..physics.states import (
+    angles,
+    as_quaternion,
+    beyond,
+    body_momentum,
+    equations_and_start,
+    moved_row,
+    start_of,
+    to_space,
+)
+from ..physics.to_numpy import to_numpy
+from .digits_asked import CAUTION, DEFAULT, MOST, NEAR, checked_digits, digits_of
+from .simulate import STIFF_METHOD, Simulation, errors_of, in_quaternions, simulate
+
+# --- The reduced form as one of the ways to follow a motion: `reduced_motion` at a given resolution
+POINTS = (2, 4, 6, 8, 12, 16)  # of Gauss's rule on each panel
+
+
+def ladder(scene: AnyScene, state: Any) -> tuple[int, ...]:
+    """Resolutions worth trying for this motion."""
+    if reduced_motion(scene, state).period == 0:
+        raise InputError("the state is an equilibrium: there is nothing to follow")
+    return POINTS
+
+
+MANY, REDUCED_FORM = "many digits", "reduced form"
+# the finest Taylor series, which costs little more than a coarse one; Radau where the scene is stiff
+OWN: tuple[Any, Any] = (None, None)  # method and tolerance as `simulate` chooses
+STIFF_FINE = (STIFF_METHOD, 1e-12)
+SAFETY = 1.0  # digits that a stiff run at its own tolerance must have to spare
+FAR = 1e4  # radians or so from which the reduced form, whose cost does not grow, is cheaper than a run
+# radians beyond which a run in many digits takes more than the work allowed (`precision_reference.WORK`)
+FARTHEST = 1e5
+NODES = (-4, -1)  # which of the reduced form's resolutions are tried: one that mostly does, and the finest
+# last places by which a start is moved to see what one does; the answer's share up to which it grows in
+# proportion
+SHIFT, STRAIGHT = 2.0**12, 0.01
+COUNTED = 1.0  # rad: angles this near to those of a run in doubles have the same number of turns
+
+
+@dataclass(frozen=True)
+class Reached:
+    """A motion, with the errors that the check showed, and its digits. because: how they were checked."""
+
+    run: Simulation
+    asked: int
+    digits: float
+    because: str
+
+    @property
+    def enough(self) -> bool:
+        return self.run.status == "reached" and self.digits >= self.asked
+
+
+def missed(case: Any, found: Any) -> str:
+    """Why digits were not reached, in words."""
+    if found.run.status != "reached":
+        return f"{case.place}: {found.run.reason}"
+    return (f"{case.place}: {found.asked} digits asked for, {found.digits:.1f} reached ({found.because}); "
+            "ask for fewer or for a shorter span")
+
+
+def best_reached(case: Any, times: np.ndarray, digits: int = DEFAULT, aim: bool = False) -> Reached:
+    """The exact motion of a case at the times (as of `simulate`) to 1 to 15 decimal digits, relative to the
+    largest size of each part of the state over the times. Where nothing reaches them, the motion that comes
+    nearest.
+
+    aim: nobody asked for the digits: the last `NEAR` of them may be missing, and many digits go no farther
+    than FAR.
+    """
+    checked_digits(digits, MOST)
+    times = np.atleast_1d(np.asarray(times, float))
+    best: Any = None  # `simulate`'s own way always has an answer
+    turned, reduced = _turned(case, times), [("reduced", nodes) for nodes in _resolutions(case, times)]
+    far = turned > (FAR if aim else FARTHEST)
+    # what `simulate` chooses itself and many digits, with the reduced form before the one that costs more
+    for method, value in [*reduced, OWN, (MANY, 0.0)] if turned > FAR else [OWN, *reduced, (MANY, 0.0)]:
+        if best is not None and method != "reduced" and _hopeless(method, best, far):
+            continue
+        found = _checked(case, times, method, value, digits)
+        if found is None:
+            continue
+        if found.run.status == "reached" and found.digits >= digits - NEAR * aim:
+            return found
+        best = max(best or found, found, key=lambda one: (one.run.status == "reached", one.digits))
+    return best
+
+
+def _hopeless(method: str, best: Reached, far: bool) -> bool:
+    """Whether steps are not worth trying after what was found: where steps stopped, or the reduced form,
+    which makes none, has answered first; many digits where the way is far."""
+    return best.run.status != "reached" or (far if method == MANY else best.run.method == REDUCED_FORM)
+
+
+def _turned(case: Any, times: np.ndarray) -> float:
+    """Radians or so that a motion goes through: its rates, or the roots of their rates where these are
+    larger, times the longest time."""
+    scene = case.scene
+    row = np.array([*case.state,
+                    *(v for name in scene.blocks[1:] for v in case.blocks.get(name, (0.0,) * 3))])
+    if scene.blocks != ("omega",):
+        return math.hypot(*row[:3]) * float(np.abs(times).max())
+    with np.errstate(all="ignore"):
+        rates = np.abs(to_numpy(derive(scene))(row)).max()
+    return max(math.hypot(*row), math.sqrt(rates)) * float(np.abs(times).max())
+
+
+def _resolutions(case: Any, times: np.ndarray) -> tuple[int, ...]:
+    """Of the reduced form; none where it does not serve."""
+    if case.blocks or case.scene.blocks != ("omega",) or (times < 0).any():
+        return ()
+    try:
+        found = ladder(case.scene, case.state)
+    except InputError:
+        return ()
+    return tuple(found[n] for n in NODES)
+
+
+def _checked(case: Any, times: np.ndarray, method: str, value: Any, asked: int) -> Reached | None:
+    """The motion by one setting with the digits that the check shows; None where that way has no answer."""
+    if method == MANY:
+        return _many_digits(case, times, asked)
+    try:
+        run = (_reduced if method == "reduced" else _integrated)(case, times, method, value)
+    except InputError:
+        if (method, value) == OWN:
+            raise
+        return None
+    if (method, value) == OWN:
+        method, value = run.method, run.rtol
+        if method == STIFF_METHOD and value > STIFF_FINE[1] and asked > -math.log10(value) - SAFETY:
+            return _checked(case, times, *STIFF_FINE, asked)
+    if method == "reduced":
+        return _checked_reduced(case, times, run, value, asked)
+    other_value = _other(method, value)
+    other = _integrated(_moved(case), times, method, other_value) if run.status == "reached" else run
+    if other.status != "reached":
+        return Reached(run, asked, 0.0, f"the check of {method} stopped early")
+    gap = _distance(run, other)
+    return _told(run, asked, CAUTION * gap,
+                 f"{method} with rtol {other_value:.2g} from a start moved in its last place differs by "
+                 f"{gap:.1e}")
+
+
+def _told(run: Simulation, asked: int, error: float, because: str) -> Reached:
+    """A run whose parts are off by so much of their size."""
+    digits = digits_of(error)
+    known = replace(run, error=errors_of(run.state, 10.0**-digits)) if digits >= 1 else run
+    return Reached(known, asked, digits, because)
+
+
+def _checked_reduced(case: Any, times: np.ndarray, run: Simulation, nodes: float,
+                     asked: int) -> Reached | None:
+    """By twice the nodes, and from a start moved by so many last places that the period, rounded, moves with
+    it: what a period is off by grows with the number of periods, and two runs that round it alike would not
+    show that."""
+    try:
+        finer, moved = (_reduced(one, times, "reduced", 2 * nodes) for one in (case, _moved(case, SHIFT)))
+    except InputError:
+        return None
+    own, far = _distance(run, finer), _distance(finer, moved)
+    gap = max(own, far / SHIFT) if far < STRAIGHT else 1.0
+    return _told(run, asked, CAUTION * gap,
+                 f"reduced with {2 * nodes:g} nodes differs by {own:.1e}, and a start moved in its last "
+                 f"place by {far / SHIFT:.1e}" if far < STRAIGHT
+                 else "the motion goes too far for its start in doubles")
+
+
+def _other(method: str, value: float) -> float:
+    """A setting fine enough to judge by, or, where there is none, a coarser one: the difference is then too
+    large."""
+    finest = TAYLOR_TOLERANCE if method == "taylor" else FALLBACK_RTOL
+    return max(value / 1000, finest) if value > 4 * finest and method != STIFF_METHOD else value * 8
+
+
+def _moved(case: Any, places: float = 1.0) -> Any:
+    """The case with its start moved; what is zero throughout (rest at the origin) stays."""
+    return replace(case, state=tuple(map(float, moved_row(case.state, places))),
+                   blocks={name: tuple(map(float, moved_row(row, places)))
+                           for name, row in case.blocks.items()})
+
+
+def _distance(one: Any, two: Any) -> float:
+    worst = 0.0
+    for name, values in one.state.items():
+        size = np.abs(values).max() or 1.0
+        worst = max(worst, float(np.abs(values - two.state[name]).max() / size))
+    return worst if math.isfinite(worst) else math.inf
+
+
+def _integrated(case: Any, times: np.ndarray, method: str | None, rtol: float | None) -> Simulation:
+    return simulate(case.scene, case.state, times, case.blocks, method, rtol)
+
+
+def _reduced(case: Any, times: np.ndarray, method: str, nodes: float) -> Simulation:
+    orbit = reduced_motion(case.scene, case.state, int(nodes))
+    counters = {"evaluations": int(orbit.evaluations)}  # of the integrand in its preparation
+    return Simulation(times, {_first(case): orbit.states(times)}, "exact", REDUCED_FORM, None,
+                      counters=counters,
+                      reason=f"time as an integral over the reduced coordinate, {int(nodes)} nodes")
+
+
+def _first(case: Any) -> str:
+    return "x" if case.scene.variables == "scaled" else "omega"
+
+
+def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
+    """The reference itself, rounded once; at times of one sign."""
+    scaled = case.scene.variables == "scaled"
+    equations, start = equations_and_start(case.scene, case.state if scaled
+                                           else start_of(case.scene, case.state, case.blocks))
+    if (times.min() < 0 < times.max()
+            or stops_before(case.scene, equations.blocks, [start], times.max()) is not None):
+        return None
+    written = [*(case.exact_state or start[:3]), *start[3:]]  # the decimals
+    order = np.argsort(np.abs(times), kind="stable")
+    found = reference(case.scene, written, times[order], equations.blocks)
+    if found.status != "agrees":
+        return None
+    states = np.empty_like(found.states)
+    states[order] = found.states
+    blocks: Any = {name: states[:, part] for name, part in found.slices.items()}
+    limits = limits_of(case.scene)
+    validity = limits.along(case.scene, blocks, "at the times given") if limits else None
+    parts: Any = {_first(case) if name == "omega" else name: values for name, values in blocks.items()}
+    error = float(found.error.max()) + 2.0**-53
+    if as_quaternion(case.blocks.get("attitude", ())):
+        parts = in_quaternions(case.scene, parts)
+    elif "attitude" in parts:
+        parts = _with_angles(case, times, parts)
+        if parts is None:
+            return None
+        # phi and theta magnify the rounding of the quaternion
+        error += 2.0**-51 / np.abs(np.cos(parts["angles"][:, 0])).min()
+    because = (f"Taylor series in {found.digits[0]} and {found.digits[1]} digits differ by "
+               f"{found.error.max():.0e}; rounded once")
+    run = Simulation(times, parts, "exact", MANY, None, counters={"multiplications": found.work},
+                     reason=because, validity=validity)
+    return _told(run, asked, error, because)
+
+
+def _with_angles(case: Any, times: np.ndarray, parts: dict[str, np.ndarray]) -> dict[str, np.ndarray] | None:
+    """Angles and momentum in place of the quaternion: turns counted by a run in doubles; None where it is too
+    far off to count."""
+    near, q = _integrated(case, times, *OWN), parts.pop("attitude")
+    if near.status != "reached":
+        return None
+    ways = [found + 2 * np.pi * np.round((near.state["angles"] - found) / (2 * np.pi))
+            for found in (angles(q), beyond(angles(q)))]
+    gaps = [np.abs(way - near.state["angles"]).max(axis=1, keepdims=True) for way in ways]
+    if np.minimum(*gaps).max() > COUNTED:
+        return None
+    found = np.where(gaps[0] <= gaps[1], *ways)
+    first = {name: parts.pop(name) for name in ("omega", "gamma") if name in parts}
+    return (first | {"angles": found, "momentum": to_space(q, body_momentum(case.scene, first | parts))}
+            | parts)

@@ -1,1 +1,0 @@
-"""What internal dissipation does to a body that spins freely."""

@@ -1,0 +1,312 @@
+"""A limit of a motion, and the time at which an enclosed motion first reaches it.
+
+A limit as it is asked for: of the rate, of a component, of the kinetic energy, of the angle by which a
+body axis has turned.
+
+The first crossing with the motion enclosed in integers, of as many bits as it takes, as long as the work
+allowed reaches; beyond that by compiled steps, for rates along principal axes alone.
+"""
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from ..errors import InputError
+from ..integrate.integer_flow import IntegerFlow, Search, Threshold
+from ..numbers.exact import exact, exact_vector, precise, sqrt_fraction, unit_vector
+from ..numbers.numba_door import installed
+from ..numbers.vectors import Exact3, Float3, Number
+from ..physics.scene import AnyScene
+from ..unreduced.off_axis import Crossing, first_crossing
+
+AXES = tuple(tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3))
+COSINE_BITS = 1200  # of the cosine of a tilt: more than any run has
+SIGN = " (it is a size: give it without a sign)"
+
+
+@dataclass(frozen=True)
+class Limit:
+    """kind: "rate", "component", "energy" or "tilt". parts: ((weights and vectors, limit), ...): sum c (a .
+    omega)^2 reaches the limit's value `most`, the first of the parts counts; for a tilt vector and angle,
+    rad. words: for the reader, in SI. origin: of a tilt, the direction in space that it counts from; None:
+    that of its body axis at the start."""
+
+    kind: str
+    parts: tuple[Any, ...]
+    words: str
+    origin: Float3 | None = None
+
+    def thresholds(self, unit: Fraction) -> list[Threshold]:
+        """In the motion's own unit, as `crossing` takes them."""
+        if self.kind == "tilt":
+            ((_, vector),), angle = self.parts[0]
+            zero = (Fraction(0),) * 3
+            return [Threshold(((Fraction(1), zero + vector),), precise("cos", angle, bits=COSINE_BITS), True)]
+        return [Threshold(terms, most / (unit * unit)) for terms, most in self.parts]
+
+    @property
+    def direction(self) -> Exact3 | None:
+        """The body axis whose tilt is asked for, a unit vector; None for other limits."""
+        return self.parts[0][0][0][1] if self.kind == "tilt" else None
+
+    def reached_by(self, state: Sequence[Number]) -> bool:
+        """Whether an exact state has reached it; a tilt is 0 at the start."""
+        return self.kind != "tilt" and any(part.passed(state) for part in self.thresholds(Fraction(1)))
+
+    def beyond(self, extremes: Iterable[Iterable[float]], slack: float) -> bool:
+        """Whether rates within their extremes, ((least, greatest),) * 3, each wider by the share `slack`,
+        stay below it."""
+        if self.kind == "tilt":
+            return False
+        sizes = [max(abs(low), abs(high)) * (1 + slack) for low, high in extremes]
+
+        def below(terms: Any, most: Fraction) -> bool:
+            """In exact numbers, as squares of doubles may be none."""
+            own = [size if any(vector[n] for _, vector in terms) else 0.0 for n, size in enumerate(sizes)]
+            return all(map(math.isfinite, own)) and most > sum(
+                c * sum(abs(a) * Fraction(size) for a, size in zip(vector, own)) ** 2 for c, vector in terms)
+        return all(below(terms, most) for terms, most in self.parts)
+
+    def least_rate(self) -> float:
+        """The largest |omega| below which it is surely not reached."""
+        return min(float(sqrt_fraction(Fraction(most) / max(c for c, _ in terms)))
+                   for terms, most in self.parts)
+
+
+def along_axes(terms: Iterable[Any]) -> list[float] | None:
+    """Three weights of the squares of the rates; None where a direction is not a principal axis."""
+    weights = [0.0, 0.0, 0.0]
+    for c, vector in terms:
+        entries = [n for n, v in enumerate(vector) if v]
+        if len(entries) != 1:
+            return None
+        weights[entries[0]] += float(c * vector[entries[0]] ** 2)
+    return weights
+
+
+def asked(scene: AnyScene, rate: Any = None, component: Any = None, energy: Any = None,
+          tilt: Any = None) -> Limit:
+    """The one limit that is given; InputError for none, several, and for numbers that are none."""
+    given = {name: value for name, value in (("rate", rate), ("component", component), ("energy", energy),
+                                             ("tilt", tilt)) if value is not None}
+    if len(given) != 1:
+        raise InputError(
+            f"time_to: expected one of rate, component, energy and tilt, got {', '.join(given) or 'none'}")
+    (name, value), = given.items()
+    return {"rate": _rate, "component": _component, "energy": _energy, "tilt": _tilt}[name](scene, value)
+
+
+def _rate(scene: AnyScene, value: Any) -> Limit:
+    unit = _unit(scene)
+    if hasattr(value, "__len__") and not isinstance(value, str):
+        limits = exact_vector(value, "rate")
+        parts = tuple((((Fraction(1), axis),), _positive(most, "rate") ** 2)
+                      for axis, most in zip(AXES, limits))
+        return Limit("component", parts,
+                     "|components| " + ", ".join(f"{float(v):.10g}" for v in limits) + f" {unit}")
+    most = _positive(value, "rate")
+    letter = "x" if scene.variables == "scaled" else "omega"
+    return Limit("rate", ((tuple((Fraction(1), axis) for axis in AXES), most**2),),
+                 f"|{letter}| = {float(most):.10g} {unit}".rstrip())
+
+
+def _component(scene: AnyScene, value: Any) -> Limit:
+    several = isinstance(value, list) and value and all(isinstance(one, tuple) for one in value)
+    parts, words = [], []
+    for axis, most in (_pair(one, "component") for one in (value if several else [value])):
+        vector, named = _direction(axis, "component")
+        most = _positive(most, "component")
+        parts.append((((Fraction(1), vector),), most**2))
+        words.append(f"|rate about {named}| = {float(most):.10g} {_unit(scene)}".rstrip())
+    return Limit("component", tuple(parts), " or ".join(words))
+
+
+def _energy(scene: AnyScene, value: Any) -> Limit:
+    if scene.variables == "scaled":
+        raise InputError("energy: scaled variables know no kinetic energy: give a body")
+    most = _positive(value, "energy")
+    return Limit("energy", ((tuple((d / 2, axis) for d, axis in zip(scene.body.exact, AXES)), most),),
+                 f"kinetic energy = {float(most):.10g} J")
+
+
+def _tilt(scene: AnyScene, value: Any) -> Limit:
+    if scene.variables == "scaled":
+        raise InputError("tilt: scaled variables know no attitude: give a body")
+    axis, angle = _pair(value, "tilt")
+    vector, named = _direction(axis, "tilt")
+    angle = _positive(angle, "tilt")
+    if not float(angle) < math.pi:
+        raise InputError(f"tilt: expected an angle below half a turn (pi rad), got {float(angle):.10g} rad")
+    return Limit("tilt", ((((Fraction(1), vector),), angle),), f"tilt of {named} = {float(angle):.10g} rad")
+
+
+def _unit(scene: AnyScene) -> str:
+    return "" if scene.variables == "scaled" else "rad/s"
+
+
+def _pair(value: Any, name: str) -> tuple[Any, Any]:
+    try:
+        axis, most = value
+    except (TypeError, ValueError):
+        raise InputError(f"{name}: expected (axis, limit), the axis 1, 2, 3 or three numbers along it, got "
+                         f"{value!r:.80}") from None
+    return axis, most
+
+
+def _direction(axis: Any, name: str) -> tuple[Exact3, str]:
+    """(unit vector along it, its name)."""
+    if isinstance(axis, (int, float, str)) and not isinstance(axis, bool):
+        if axis in (1, 2, 3):
+            return AXES[int(axis) - 1], f"axis {int(axis)}"
+        raise InputError(f"{name}: expected the axis 1, 2 or 3 or three numbers along it, got {axis!r}")
+    vector = exact_vector(axis, name)
+    if not any(vector):
+        raise InputError(f"{name}: expected a direction, got zero: give a vector of any length but that")
+    unit = unit_vector(vector)
+    return unit, f"({', '.join(f'{float(v):.6g}' for v in unit)})"
+
+
+def _positive(value: Any, name: str) -> Fraction:
+    try:
+        number = exact(value)
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from None
+    if number <= 0:
+        raise InputError(
+            f"{name}: expected a positive limit, got {float(number):.10g}{SIGN if number < 0 else ''}")
+    return number
+
+
+FIRST_BITS, MOST_BITS = 112, 720
+KEPT = 58  # bits that the enclosure of the state is to keep
+MARGIN = KEPT + 18  # beyond the growth of the error, for the rounding of a longer series
+WORK = 30_000_000  # multiplications; two to four seconds
+# after this part of the work a way that would take so many times what is left is given up
+TRIED, HOPELESS = 16, 8
+STEADY = 1.125  # steps that grow faster than this are those of the first search for a length
+STEPS = 60_000  # validated ones; some two seconds
+
+
+@dataclass(frozen=True)
+class Enclosed:
+    """low, high: of the first crossing, in the scene's time, exact; high None: not found before `until`, and
+    low is None or a place where the limit is touched. until: the last time that was looked at; done: whether
+    that is the time asked for."""
+
+    low: Fraction | None
+    high: Fraction | None
+    until: Fraction
+    done: bool
+
+
+def enclosed(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: Fraction | None = None,
+             work: int = WORK,
+             earliest: Fraction = Fraction(0), later: Sequence[tuple[Fraction, AnyScene]] = ()) -> Enclosed:
+    """The first crossing of the motion of a plain scene from three rationals, proved; or until when there is
+    none.
+
+    t_max: None where only the work is to end the search. earliest: a time before which it is known not to
+    happen: a way that would not come so far with the work is given up soon. later: times, in order, from
+    which on another scene holds, of the same body and wheels. A first attempt, at few bits, is carried on
+    beyond what its bits can prove, to learn how many it takes.
+    """
+    unit = max(own_unit(one, start) for one in (scene, *(one for _, one in later)))
+    switches = [(time * unit, one.quadratic()) for time, one in later]
+    bits, best, spent = FIRST_BITS, Enclosed(None, None, Fraction(0), False), 0
+    while True:
+        attempt = _Attempt(flow_of(scene, start, bits, unit, limit.direction), limit, unit, t_max, earliest,
+                           switches)
+        found = attempt.run(work - spent)
+        spent += attempt.flow.work
+        best = found if found.high is not None or found.until > best.until or found.done else best
+        if best.high is not None or best.done or attempt.needs is None or spent > work:
+            return best
+        bits = max(attempt.needs, bits + KEPT)
+
+
+def flow_of(scene: AnyScene, start: Sequence[Number], bits: int, unit: Fraction,
+            direction: Exact3 | None = None) -> IntegerFlow:
+    """The motion of a plain scene from three rationals; bits, unit, direction: as of IntegerFlow."""
+    weights = (Fraction(1), Fraction(2), Fraction(1)) if scene.variables == "scaled" else scene.body.exact
+    return IntegerFlow(scene.quadratic(), weights, start, bits, unit, direction)
+
+
+def own_unit(scene: AnyScene, start: Sequence[Number]) -> Fraction:
+    """A power of two near the largest rate, or near the root of its rate of change."""
+    form = scene.quadratic()
+    # its square may be beyond doubles
+    change = sqrt_fraction(max(map(abs, form.rate([Fraction(v) for v in start]))))
+    size = max(float(max(map(abs, start))), float(change))
+    return Fraction(2) ** math.frexp(size)[1] if size else Fraction(1)
+
+
+class _Attempt:
+    """One run at a number of bits. needs: the bits that a proof would have taken, where these were too few;
+    None otherwise."""
+
+    def __init__(self, flow: IntegerFlow, limit: Limit, unit: Fraction, t_max: Fraction | None,
+                 earliest: Fraction, switches: Sequence[tuple[Fraction, Any]]) -> None:
+        self.flow, self.unit, self.switches = flow, unit, [*switches]
+        self.needs: int | None = None
+        self.end = None if t_max is None else t_max * unit
+        self.earliest = (earliest if t_max is None else min(earliest, t_max)) * unit
+        self.thresholds = limit.thresholds(unit)
+        self.proved = [Search(one) for one in self.thresholds]
+
+    def run(self, work: int) -> Enclosed:
+        """Proved as far as the bits reach, then on, at its word, to where a proof would end."""
+        until, lost, flow = Fraction(0), 0, self.flow
+        searches, proving, length = self.proved, True, math.inf
+        while True:
+            needs = lost + flow.error.bit_length() + MARGIN
+            if flow.work * (1 if proving else 1 + (needs / flow.bits) ** 2) > work or needs > MOST_BITS:
+                return self._answer(until, False)
+            if proving and flow.error.bit_length() > flow.bits - KEPT:
+                proving, searches = False, [Search(one, exactly=False) for one in self.thresholds]
+            before = flow.work
+            try:
+                piece = flow.step(self.switches[0][0] if self.switches else None)
+            except OverflowError:  # the error of one step is beyond doubles: what was proved before stays
+                return self._answer(until, False)
+            hit = [search.take(piece) for search in searches]
+            now, shorter, length = flow.now, length, float(piece.length)
+            if self.switches and now == self.switches[0][0]:
+                flow.turn_on(self.switches.pop(0)[1])
+            if (flow.work * TRIED > work and length < STEADY * shorter and (self.earliest - piece.start)
+                    * (flow.work - before) > HOPELESS * (work - flow.work) * piece.length):
+                return self._answer(until, False)  # steps like this one would take much more than is left
+            if proving:
+                until = now
+            elif (excess := flow.error.bit_length() - flow.bits) > 0:
+                flow.forget(excess)
+                lost += excess
+            ended = self.end is not None and now >= self.end
+            if any(hit) or ended:
+                if proving:
+                    return self._answer(until, ended)
+                self.needs = needs + 1
+                return self._answer(until, False)
+
+    def _answer(self, until: Fraction, done: bool) -> Enclosed:
+        low = min((one.low for one in self.proved if one.low is not None), default=None)
+        high = min((one.high for one in self.proved if one.high is not None), default=None)
+        if self.end is not None and low is not None and low > self.end:
+            low = high = None
+        scale = lambda t: None if t is None else t / self.unit
+        until = min(until, self.end) if done and self.end is not None else until
+        return Enclosed(scale(low), scale(high), until / self.unit, done)
+
+
+def banded(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: float,
+           steps: int = STEPS) -> Crossing | None:
+    """low and high of the first crossing (high inf where none is found before low) of the motion from three
+    rationals; None where numba is not there to compile the steps, or the limit is of another kind."""
+    if limit.kind == "tilt" or not installed() or any(not along_axes(terms) for terms, _ in limit.parts):
+        return None
+    found = [first_crossing(scene, start, math.sqrt(most), along_axes(terms), t_max=t_max, steps=steps)
+             for terms, most in limit.parts]
+    first = min(found, key=lambda one: one.low)
+    return Crossing(first.low, min(one.high for one in found), first.because, sum(one.steps for one in found))

@@ -1,1 +1,0 @@
-"""Other programs' spacecraft, read and written as a case."""

@@ -1,0 +1,391 @@
+"""The spacecraft description file of NASA's simulator 42 (SC_*.txt) as a case: a value and its label a line,
+in titled sections.
+
+42 states rates in deg/s, products of inertia as positive integrals, and puts thrusters at nodes whose places
+are in a file of their own; a thruster without a place cannot be used and is listed.
+
+Several bodies become one rigid body, their joints locked where they are. Of a joint from body i to body o, 42
+(InitSpacecraft in 42init.c, MapStateVectorToBodyStates in 42dynamics.c) turns components by C_oi = C(Go to
+Bo) C(angles) C(Bi to Gi), each from angles and a sequence, "312" first about axis 3; the origin of o is at
+(position wrt inner) + C(Bi to Gi)^T (displacements) - C_oi^T (position wrt outer) from that of i. Angles and
+displacements beyond the joint's degrees of freedom count as zero. A body's moments are about its mass centre,
+or about its origin (REFPT_JOINT).
+"""
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..errors import InputError
+from ..numbers.exact import precise
+from .imported import Craft
+
+# Matrices (3, 3) and vectors (3,) are arrays of Fractions: products of these are exact.
+ONE = np.array([[Fraction(i == j) for j in range(3)] for i in range(3)])
+DIGITS = 12  # of the largest number of a vector or a tensor: products of decimals and cosines do not end
+
+
+class Part(NamedTuple):
+    """A body in its own frame. mass, kg; tensor about its mass centre, kg m^2; centre, m, from its origin;
+    momentum of its wheels, N m s."""
+
+    mass: Fraction
+    tensor: np.ndarray
+    centre: np.ndarray
+    momentum: np.ndarray
+
+
+class Joint(NamedTuple):
+    """From body `inner` to `outer`. turn: components of the inner frame to those of the outer; origin: of the
+    outer body in the inner frame, m."""
+
+    inner: int
+    outer: int
+    turn: np.ndarray
+    origin: np.ndarray
+
+
+Places = dict[int, tuple[np.ndarray, np.ndarray]]
+
+
+def turn(angles: Iterable[Fraction], sequence: str) -> np.ndarray:
+    """What turns components by angles in deg about the axes of a sequence such as "312", the first first."""
+    found = ONE
+    for angle, axis in zip(angles, sequence):
+        found = _about(int(axis) - 1, angle) @ found
+    return found
+
+
+def _about(axis: int, angle: Fraction) -> np.ndarray:
+    j, k, c, s = (axis + 1) % 3, (axis + 2) % 3, _cosine(angle), _cosine(angle - 90)
+    found = ONE.copy()
+    found[j, j], found[j, k], found[k, j], found[k, k] = c, s, -s, c
+    return found
+
+
+def _cosine(angle: Fraction) -> Fraction:
+    """Of an angle in deg, exact at quarters of a turn."""
+    quarters = {0: 1, 90: 0, 180: -1, 270: 0}
+    angle %= 360
+    return (Fraction(quarters[int(angle)]) if angle in quarters
+            else precise("cos", angle * precise("pi") / 180))
+
+
+def _parallel(mass: Fraction, arm: np.ndarray) -> np.ndarray:
+    """mass (|arm|^2 I - arm arm^T): what parallel axes add to a tensor, kg m^2."""
+    return mass * (arm @ arm * ONE - np.outer(arm, arm))
+
+
+def places(joints: Sequence[Joint], count: int) -> Places:
+    """Of every body that joints tie to body 0: (what turns components of body 0 to its own, its origin in the
+    frame of body 0)."""
+    found: Places = {0: (ONE, 0 * ONE[0])}
+    for _ in range(count):  # 42 wants inner bodies first; a tree in any other order is read too
+        for joint in joints:
+            if joint.inner in found and joint.outer not in found:
+                to_inner, at = found[joint.inner]
+                found[joint.outer] = joint.turn @ to_inner, at + to_inner.T @ joint.origin
+    return found
+
+
+def joined(parts: Sequence[Part], where: Places) -> Part:
+    """The parts as one body in the frame of body 0, by parallel axes about their common mass centre. Their
+    masses are positive together."""
+    turns, origins = zip(*(where[index] for index in range(len(parts))))
+    centres = [at + turn.T @ part.centre for part, turn, at in zip(parts, turns, origins)]
+    mass = sum((part.mass for part in parts), Fraction(0))
+    centre = sum(part.mass * own for part, own in zip(parts, centres)) / mass
+    tensor = sum(turn.T @ part.tensor @ turn + _parallel(part.mass, own - centre)
+                 for part, turn, own in zip(parts, turns, centres))
+    return Part(mass, tensor, centre, sum(turn.T @ part.momentum for part, turn in zip(parts, turns)))
+
+
+def decimals(numbers: Iterable[Fraction]) -> list[str]:
+    """The numbers to so many digits of the largest of them, as a case file writes them."""
+    numbers = list(numbers)
+    most = max(map(abs, numbers))
+    places = DIGITS - 1 - math.floor(math.log10(most)) if most else 0
+    return [f"{float(round(v, places)) + 0.0:.{DIGITS}g}" for v in numbers]
+
+
+_TITLE = re.compile(r"\s*([*=<]{3,})\s*(.*?)\s*[*=>]*\s*")
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+USED = {"mass", "moments of inertia", "products of inertia", "location of mass center",
+        "constant embedded momentum", "initial momentum",
+        "wheel axis", "thrust force", "thrust axis", "ang vel (", "description", "label", "body"}
+PLACED = {"inner, outer", "rotdof, seq", "trndof, seq", "initial angles", "initial displacements", "bi to gi",
+          "go to bo", "position wrt"}
+WORDS = {1: "a number", 2: "two numbers", 3: "three numbers", 4: "three angles and a sequence"}
+
+
+class Entry(NamedTuple):
+    section: str
+    block: str
+    value: str
+    label: str
+    line: int
+
+
+def is_one(text: str) -> bool:
+    """Whether a text is such a file."""
+    return "42:" in text[:200] and "!" in text
+
+
+def spacecraft(text: str, path, body: int | None = None) -> Craft:
+    """What the file says of all its bodies as one, or of one of them alone, in that body's frame. Raises
+    InputError where it says no inertia."""
+    entries = _used(_entries(text))
+    craft = Craft(_value(entries, "", "description") or "spacecraft")
+    bodies = ([rows for _, rows in _blocks(entries, "body")]
+              or [[e for e in entries if e.section.startswith("body")]])
+    if body is not None and not 0 <= body < len(bodies):
+        raise InputError(
+            f"--body {body}: no such body; the file has "
+            f"{f'bodies 0 to {len(bodies) - 1}' if len(bodies) > 1 else 'body 0 alone'}")
+    where = _places(entries, len(bodies), path)
+    alone, whole = bodies[body or 0], body is None and len(bodies) > 1
+    craft.rate, craft.rate_unit = _numbers(entries, "ang vel (", 3, path), "deg/s"
+    if body and craft.rate:
+        craft.rate = decimals(where[body][0] @ [Fraction(v) for v in craft.rate])
+    if whole:
+        parts = [_part(rows, _at_joint(entries), path) for rows in bodies]
+        if sum(part.mass for part in parts) <= 0:
+            raise InputError(
+                f"{path}: {len(parts)} bodies without a mass have no common mass centre; --body N takes one "
+                "alone")
+        _together(craft, joined(parts, where), len(bodies))
+    else:
+        _alone(craft, alone, _at_joint(entries), path)
+    for block, rows in _blocks(entries, "wheel"):
+        _wheel(craft, block, rows, where, body, path)
+    for block, rows in _blocks(entries, "thr"):
+        on = _on(rows, len(bodies), path)
+        if whole or on == (body or 0):
+            _thruster(craft, block, rows, where[on] if whole else None, path)
+    craft.omitted += _warnings(entries) + _left(entries)
+    return craft
+
+
+def _alone(craft: Craft, rows, at_joint: bool, path):
+    """One body as the file writes it."""
+    craft.mass = (_numbers(rows, "mass", 1, path) or [None])[0]
+    craft.inertia = _moments(rows, path)
+    craft.products = _acting(_numbers(rows, "products of inertia", 3, path))
+    craft.centre = _numbers(rows, "location of mass center", 3, path)
+    craft.momentum = _acting(_numbers(rows, "constant embedded momentum", 3, path))
+    if at_joint and _acting(craft.centre):
+        craft.inertia, craft.products = _rows(_part(rows, at_joint, path)), None
+        craft.said.append("moments about the body's origin (REFPT_JOINT) are brought to its mass centre")
+
+
+def _together(craft: Craft, whole: Part, count: int):
+    """Several bodies as one."""
+    craft.mass, craft.inertia = decimals([whole.mass])[0], _rows(whole)
+    craft.centre, craft.momentum = decimals(whole.centre), _acting(decimals(whole.momentum))
+    craft.said.append(f"{count} bodies are combined into one rigid body about their common mass centre, in "
+                      "the frame of body 0, the joints locked as the file places them (--body N takes one "
+                      "alone)")
+
+
+def _rows(part: Part) -> list:
+    """The tensor of a part, or its moments where it is diagonal."""
+    flat = decimals(part.tensor.ravel())
+    return flat[::4] if not any(float(flat[i]) for i in (1, 2, 5)) else [flat[i:i + 3] for i in (0, 3, 6)]
+
+
+def _moments(rows, path) -> list[str]:
+    found = _numbers(rows, "moments of inertia", 3, path)
+    if found is None:
+        raise InputError(
+            f"{path}: expected a line with three numbers and the label Moments of Inertia in the section "
+            "Body Parameters")
+    return found
+
+
+def _part(rows, at_joint: bool, path) -> Part:
+    """A body in exact numbers."""
+    mass, = _exact(rows, "mass", 1, path)
+    x, y, z = (Fraction(v) for v in _moments(rows, path))
+    xy, xz, yz = -_exact(rows, "products of inertia", 3, path)
+    centre = _exact(rows, "location of mass center", 3, path)
+    tensor = np.array([(x, xy, xz), (xy, y, yz), (xz, yz, z)])
+    return Part(mass, tensor - _parallel(mass, centre) if at_joint else tensor, centre,
+                _exact(rows, "constant embedded momentum", 3, path))
+
+
+def _exact(rows, label: str, count: int, path) -> np.ndarray:
+    """The numbers of a line, zeros where it is missing."""
+    return np.array([Fraction(v) for v in _numbers(rows, label, count, path) or ["0"] * count])
+
+
+def _at_joint(entries) -> bool:
+    return _value(entries, "dynamics", "mass props") == "REFPT_JOINT"
+
+
+def _places(entries, count: int, path):
+    """Of every body, what turns components of body 0 to its own, and its origin. Raises InputError where no
+    joint leads to it."""
+    found = (places([_joint(rows, path) for _, rows in _blocks(entries, "joint")], count) if count > 1
+             else places((), 1))
+    missing = [str(n) for n in range(count) if n not in found]
+    if missing:
+        raise InputError(
+            f"{path}: no joint of the section Joint Parameters ties body {', '.join(missing)} to body 0; "
+            "--body N takes one body alone")
+    return found
+
+
+def _joint(rows, path) -> Joint:
+    """The joint that a block of the section Joint Parameters describes, locked where it is."""
+    inner, outer = (int(v) for v in _exact(rows, "inner, outer", 2, path))
+    (free, sequence), (slides, along) = (_exact(rows, label, 2, path)
+                                         for label in ("rotdof, seq", "trndof, seq"))
+    angles = _exact(rows, "initial angles", 3, path)[:int(free)]
+    before, after = (_static(rows, label, path) for label in ("bi to gi", "go to bo"))
+    slid = 0 * ONE[0]
+    for axis, way in zip(str(along), _exact(rows, "initial displacements", 3, path)[:int(slides)]):
+        slid[int(axis) - 1] += way
+    turned = after @ turn(angles, str(sequence)) @ before
+    inside, outside = (_exact(rows, f"position wrt {word}", 3, path) for word in ("inner", "outer"))
+    return Joint(inner, outer, turned, inside + before.T @ slid - turned.T @ outside)
+
+
+def _static(rows, label, path):
+    *angles, sequence = _exact(rows, label, 4, path)
+    return turn(angles, str(sequence))
+
+
+def _on(rows, count: int, path) -> int:
+    """The body that a wheel or a thruster stands on."""
+    found = int(_exact(rows, "body", 1, path)[0])
+    if not 0 <= found < count:
+        raise InputError(
+            f"{path}:{next(e.line for e in rows if e.label.lower().startswith('body'))}: Body: the file has "
+            f"no body {found}")
+    return found
+
+
+def _wheel(craft: Craft, block, rows, where, body, path):
+    momentum = _numbers(rows, "initial momentum", 1, path)
+    if momentum is None:
+        return
+    on = _on(rows, len(where), path)
+    if body is not None and on != body:
+        return
+    try:
+        axis = _numbers(rows, "wheel axis", 3, path)
+    except InputError as error:
+        if float(momentum[0]):
+            raise
+        craft.said.append(
+            f"line {str(error).removeprefix(f'{path}:')}; {block} has no momentum and is left out")
+        return
+    if axis:
+        craft.wheels.append({"name": block, "axis": axis if not on or body else _turned(where[on], axis),
+                             "momentum": momentum[0]})
+
+
+def _turned(place, vector) -> list[str]:
+    """A vector of a body in the frame of body 0."""
+    return decimals(place[0].T @ [Fraction(v) for v in vector])
+
+
+def _thruster(craft, block, rows, where, path):
+    axis, force = _numbers(rows, "thrust axis", 3, path), _numbers(rows, "thrust force", 1, path)
+    place = _numbers(rows, "location", 3, path)
+    if axis and where:
+        axis = _turned(where, axis)
+    if place and where:
+        place = decimals([a + Fraction(b) for a, b in zip(where[1], _turned(where, place))])
+    if axis and force and place:
+        craft.thrusters.append({"name": block, "position": place, "direction": axis, "force": force[0]})
+    elif axis and force:
+        craft.omitted.append(f"{block}: {force[0]} N along [{', '.join(axis)}] at node "
+                             f"{_value(rows, '', 'node')}, whose place is in a node file: add it as "
+                             "[[thrusters]] with its position")
+
+
+def _entries(text: str) -> list[Entry]:
+    section = block = ""
+    found = []
+    for number, line in enumerate(text.splitlines(), 1):
+        title = _TITLE.fullmatch(line)
+        if title:
+            if title[1][0] == "=":
+                block = title[2].lower()
+            elif title[2]:
+                section, block = title[2].lower(), ""
+            continue
+        value, mark, label = line.partition("!")
+        if mark:
+            found.append(Entry(section, block, value.strip().strip('"'), label.strip(), number))
+    return found
+
+
+def _used(entries):
+    """Without the samples that follow a number of none, and joints of a single body."""
+    none = {e.section for e in entries if e.label.lower().startswith("number of") and e.value == "0"}
+    one = any(e.label.lower().startswith("number of bodies") and e.value == "1" for e in entries)
+    return [e for e in entries
+            if not (e.block and (e.section in none or (one and e.section.startswith("joint"))))]
+
+
+def _blocks(entries, kind):
+    """(title, entries) of every block of the section that begins so."""
+    titles = dict.fromkeys(e.block for e in entries if e.section.startswith(kind) and e.block)
+    return [(title, [e for e in entries if e.section.startswith(kind) and e.block == title])
+            for title in titles]
+
+
+def _value(entries, section, label):
+    return next((e.value for e in entries if e.section.startswith(section)
+                 and e.label.lower().startswith(label)), None)
+
+
+def _numbers(entries, label, count, path):
+    entry = next((e for e in entries if e.label.lower().startswith(label)), None)
+    if entry is None:
+        return None
+    words = entry.value.split()
+    numbers = all(_NUMBER.fullmatch(word) for word in words[:count])
+    if len(words) < count or not numbers or (len(words) > count and _NUMBER.fullmatch(words[count])):
+        raise InputError(
+            f"{path}:{entry.line}: {entry.label}: expected {WORDS[count]}, got \"{entry.value[:60]}\"")
+    return [_written(word) for word in words[:count]]
+
+
+def _written(word: str) -> str:
+    """As TOML writes it: digits on both sides of the point, no plus and no needless zero in front."""
+    mantissa, mark, power = re.fullmatch(r"\+?([^eE]*)([eE]?)(.*)", word).groups()
+    sign, digits = ("-", mantissa[1:]) if mantissa.startswith("-") else ("", mantissa)
+    whole, point, rest = digits.partition(".")
+    return f"{sign}{whole.lstrip('0') or '0'}{f'.{rest or 0}' if point else ''}{mark}{power}"
+
+
+def _acting(vector):
+    return vector if vector and any(float(v) for v in vector) else None
+
+
+def _warnings(entries) -> list[str]:
+    notes = []
+    frame = _value(entries, "", "ang vel wrt")
+    if frame and not frame.upper().startswith("N"):
+        notes.append(
+            "the angular velocity is relative to the orbit frame (Ang Vel wrt L): it is taken as relative to "
+            "inertial space")
+    return notes
+
+
+def _left(entries) -> list[str]:
+    """What was not used, a line a section."""
+    sections: dict[str, Any] = {}
+    for e in entries:
+        if not e.label.lower().startswith((*USED, *PLACED, "mass props",
+                                           "number of")) and e.value not in ("0", "NONE"):
+            sections.setdefault(e.section or "head", []).append(e.label.split("(")[0].split(",")[0].strip())
+    return [f"{section}: {', '.join(dict.fromkeys(labels))}" for section, labels in sections.items()]

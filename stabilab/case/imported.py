@@ -1,0 +1,83 @@
+"""A spacecraft that another program describes, written as a case: what is common to all formats."""
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass, field
+
+from ..errors import InputError, printable
+from .read import read_text
+
+
+@dataclass
+class Craft:
+    """What a file says of a spacecraft, every number as it is written there.
+
+    inertia: three texts, or three rows of three; products: texts xy, xz, yz whose integrals are positive, or
+    None; thrusters and wheels: {key of the case: text or three texts}; omitted: what has no counterpart in a
+    case, in words; said: what was done with the rest.
+    """
+
+    title: str
+    mass: str | None = None
+    inertia: list = field(default_factory=list)
+    products: list | None = None
+    centre: list | None = None
+    momentum: list | None = None
+    thrusters: list = field(default_factory=list)
+    wheels: list = field(default_factory=list)
+    rate: list | None = None
+    rate_unit: str = ""
+    omitted: list = field(default_factory=list)
+    said: list = field(default_factory=list)
+
+
+def case_text(craft: Craft, path, stuck=()) -> str:
+    """The case as TOML. stuck: names of the thrusters that are."""
+    names = [t["name"] for t in craft.thrusters]
+    for name in stuck:
+        if name not in names:
+            raise InputError(
+                f"--stuck {printable(name)}: no such thruster; the file has "
+                f"{', '.join(map(printable, names)) or 'none that can be used'}")
+    lines = [f"title = {_text(craft.title)}",
+             f"source = {_text('imported from ' + os.path.basename(os.fspath(path)))}", "", "[body]"]
+    rows = [_list(row) for row in craft.inertia] if isinstance(craft.inertia[0], list) else None
+    lines.append(f"inertia = [{', '.join(rows)}]" if rows else f"inertia = {_list(craft.inertia)}")
+    if craft.products:
+        pairs = ", ".join(f"{name} = {value}" for name, value in zip(("xy", "xz", "yz"), craft.products))
+        lines.append(f'products = {{{pairs}, convention = "positive"}}')
+    lines += [f"mass = {craft.mass}"] if craft.mass else []
+    lines += [f"centre_of_mass = {_list(craft.centre)}"] if craft.centre else []
+    lines += ["", "[effects.gyrostat]", f"momentum = {_list(craft.momentum)}"] if craft.momentum else []
+    for thruster in craft.thrusters:
+        lines += ["", "[[thrusters]]", *_pairs(thruster),
+                  *(["stuck = true"] if thruster["name"] in stuck else [])]
+    for wheel in craft.wheels:
+        lines += ["", "[[wheels]]", *_pairs(wheel)]
+    if craft.rate:
+        rate = [_text(f"{v} {craft.rate_unit}") for v in craft.rate] if craft.rate_unit else craft.rate
+        lines += ["", "[motion]", f"angular_velocity = {_list(rate)}"]
+    return "\n".join(lines) + "\n"
+
+
+def faults_of(text: str, path) -> list[str]:
+    """What a reader of the case would refuse."""
+    try:
+        read_text(path, text)
+    except InputError as error:
+        return str(error).split("\n")
+    return []
+
+
+def _pairs(part):
+    return [f"{key} = {_text(value) if key == 'name' else _list(value) if isinstance(value, list) else value}"
+            for key, value in part.items()]
+
+
+def _list(values) -> str:
+    return f"[{', '.join(values)}]"
+
+
+def _text(words: str) -> str:
+    return json.dumps(printable(words), ensure_ascii=False)

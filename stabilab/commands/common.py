@@ -1,0 +1,269 @@
+"""What commands share: cases from files, and what is written.
+
+What a command writes: data and answers to stdout, messages to stderr, an exit code where an answer falls
+short.
+
+Cases that a command is given, their motions, and what is printed of them.
+"""
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import typer
+
+from ..answers.motion import motion
+from ..case.limit_options import stated_tilt
+from ..case.read import Case, blamed_on, load_all
+from ..errors import UNDECIDED, InputError, ToleranceNotMet, printable
+from ..numbers.units import NONE, TIME, quantity, split
+from ..show import terminal
+from ..show.data import as_json
+from ..show.endings import labelled
+from ..show.progress import each
+from ..show.terminal import say, tell
+from ..show.text import classification, headline, scene
+from ..show.units import DEG, DIGITS, SCALED, SI, Units, number, units_of
+from ..streams import Progress
+
+
+def write(text: str):
+    """Text to stdout as it is: data, or names of files."""
+    sys.stdout.write(text.rstrip("\n") + "\n")
+    sys.stdout.flush()
+
+
+def either(json: bool, data, words):
+    """JSON to stdout, or text for people; both are functions, and one of them is called."""
+    if json:
+        write(as_json(data()))
+    else:
+        tell(words())
+
+
+def write_answer(shown, found, json: bool, csv: bool, *more):
+    """What was found by json, csv or text of `shown`; `more`: for all but csv."""
+    if json or csv:
+        write(shown.json(found, *more) if json else shown.csv(found))
+    else:
+        tell(shown.text(found, *more))
+
+
+def write_json(cases, rows):
+    """An object for a case, a list of them for the combinations of a [sweep]."""
+    write(as_json(rows if any(case.variant for case in cases) else rows[0]))
+
+
+def write_each(out, writers):
+    """Let write(path) of every (case, write) make its file; each is named."""
+    say_written(written(out, writers))
+
+
+def written(out, writers) -> list:
+    """Let write(path) of every (case, write) make its file where `out` is a name: the files."""
+    return [writer(labelled(out, case)) for case, writer in writers] if out else []
+
+
+def say_written(files):
+    """Name files that were written, a line each."""
+    for file in files:
+        say(f"written: {file}")
+
+
+def leave_undecided(strict: bool, open_: bool):
+    """Exit with 3 where strict and something is open."""
+    if strict and open_:
+        raise typer.Exit(UNDECIDED)
+
+
+def hold_laws(strict: bool, validities, cases=()):
+    """Exit with 3 where strict and a law does not hold, or no rigid body has the tensor of a case."""
+    leave_undecided(strict, strict and (headline.beyond(*validities) or unphysical(cases)))
+
+
+def unphysical(cases) -> bool:
+    """Whether no rigid body has the tensor of one of the cases."""
+    return any(one.kind == "unphysical" for case in cases for one in case.caveats)
+
+
+def all_reached(short):
+    """Exit with 5 where (case, why) says that an answer falls short."""
+    lines = [f"{case.place}: {why}" for case, why in short]
+    if lines:
+        raise ToleranceNotMet("\n".join(lines))
+
+
+# --- The cases, times and units that a command line names
+def load_cases(paths: Iterable[Path], motion: bool = False) -> list[Case]:
+    """All cases and combinations of [sweep]; the faults of all files at once. motion: each must state one."""
+    cases, faults = [], []
+    for path in paths:
+        try:
+            cases.extend(load_all(path))
+        except InputError as error:
+            faults.append(str(error))
+    faults += dict.fromkeys(f"{case.path}: motion: expected x or angular_velocity in [motion]; this command "
+                            f"needs a state"
+                            for case in cases if motion and case.state is None)
+    if faults:
+        raise InputError("\n".join(faults))
+    return cases
+
+
+def one_by_one(cases: Sequence[Case]) -> Iterable[Case]:
+    """The cases, told one by one to a terminal where they take their time."""
+    return cases if len(cases) < 2 else each(cases, lambda case: printable(case.name))
+
+
+def answers_of(cases: Sequence[Case], ask: Callable[[Case], Any]) -> list[tuple[Case, Any]]:
+    """(case, ask(case)) of each, faults blamed on the file of the case."""
+    found = []
+    for case in one_by_one(cases):
+        with blamed_on(case):
+            found.append((case, ask(case)))
+    return found
+
+
+def units_asked(cases: Sequence[Case], asked: str | None, **options: str | None) -> list[Units]:
+    """The units in which each case is told. options: angles and rates as typed, of which a message says that
+    they came without a unit, where answers are in degrees: 1 may mean a degree."""
+    systems = [units_of(case, asked) for case in cases]
+    if not options or systems[0].name in (SI.name, SCALED.name):
+        return systems
+    for option, text in options.items():
+        found = split((text or "").rpartition("=")[2].strip())
+        if found is None or found[1]:
+            continue
+        unit, degrees = ("rad", "deg") if option in ("tilt", "within") else ("rad/s", "deg/s")
+        with suppress(InputError):  # of a number that none can be: told where it is used
+            taken = number(float(quantity(found[0], NONE)[0]) * DEG.rates[1], DIGITS)
+            say(f'--{option}: {found[0]} alone is in {unit}: {taken} {degrees}; for degrees write '
+                f'"{found[0]} {degrees}"')
+    return systems
+
+
+def time_asked(text: str | None, case: Case, option: str = "follow") -> float | None:
+    """A time of the command line: a number in the time of the case, or one with a unit where that is s."""
+    if text is None:
+        return None
+    time = _time(text, case, option)
+    if time <= 0:
+        raise InputError(f"--{option}: expected a time above zero, got {text.strip()[:60]}")
+    return float(time)
+
+
+def times_asked(case: Case, at: Sequence[str] | None) -> list[float]:
+    """The times asked for, in order; without any, 201 over the span of the case."""
+    if not at:
+        start, end = _span(case)
+        return [start + (end - start) * i / 200 for i in range(200)] + [end]
+    return sorted({float(time) for time in _each(at, case)})
+
+
+def exact_times_asked(case: Case, at: Sequence[str] | None) -> list[Fraction]:
+    """The times asked for as rationals, as they are written; without any, 201 over the span of the case."""
+    if not at:
+        start, end = (Fraction(repr(t)) for t in _span(case))
+        return [start + (end - start) * i / 200 for i in range(201)]
+    return sorted(set(_each(at, case)))
+
+
+def _span(case: Case) -> tuple[float, ...]:
+    if case.span is None:
+        raise InputError(f"{case.path}: motion: no span; give --at T1,T2,... or span (or tau) in [motion]")
+    return case.span
+
+
+def _each(at: Sequence[str], case: Case) -> list[Fraction]:
+    """The times between the commas of every --at, exact as they are written."""
+    return [_time(word, case, "at") for one in at for word in one.split(",")]
+
+
+def say_repeated(case: Case, at: Sequence[str] | None):
+    """A message where --at names a time more than once: it is shown once."""
+    given = _each(at or (), case)
+    twice = sorted({time for time in given if given.count(time) > 1})
+    if twice:
+        say(f"--at: named more than once and shown once: {', '.join(f'{float(time):.6g}' for time in twice)}")
+
+
+def _time(text: str, case: Case, option: str) -> Fraction:
+    """A time in that of the case, or with a unit where that is s. Raises InputError that names the option."""
+    try:
+        return quantity(text.strip(), NONE if case.variables == "scaled" else TIME)[0]
+    except InputError as error:
+        raise InputError(f"--{option}: {error}") from None
+
+
+# --- The motion of a case, with what a tilt of its torque and uncertain numbers do to it
+def motion_of(case, brief=False, follow=None, proof=False):
+    """The motion of a case. follow: how long a run follows it, as typed; proof: its way is enclosed."""
+    long = time_asked(follow, case)
+    with blamed_on(case), Progress() as progress:
+        words = lambda t, steps, left: progress(
+            f"{printable(case.name)}: followed to {t:.4g} {case.scene.time_unit}, {steps} steps")
+        found = motion(case.scene, case.start, case.span, brief, case.exact_state, long,
+                       words if progress.wanted else None, proof)
+        return headline.judged(case, found)
+
+
+def tilted(case, motion, angle: str | None):
+    """The motion with what a tilt of its torque does, where asked for or given: a second of work."""
+    stated = (case.limits is not None
+              or any(thruster.stuck and thruster.misalignment for thruster in case.thrusters))
+    if angle is None and not stated:
+        return motion
+    from ..answers.when import with_tilt
+    with blamed_on(case):
+        return with_tilt(case, motion, None if angle is None else stated_tilt(angle))
+
+
+def over_boxes(cases, motions, *questions):
+    """(what uncertain numbers do to the verdicts of each case, None where it has none; the motions, with what
+    samples show of that and no proof as a caveat)."""
+    if not questions or not any(case.uncertain for case in cases):
+        return [None] * len(cases), motions
+    from ..answers.uncertain.fate import uncertain as over_box
+    boxes = [over_box(case, questions) for case in cases]
+    return boxes, [motion if motion is None or box is None
+                   else replace(motion, caveats=(*motion.caveats, *box.caveats))
+                   for motion, box in zip(motions, boxes)]
+
+
+# --- The answers of several cases as text: one after the other, or the combinations of a [sweep] as one
+# table
+def tell_all(answered, systems, text, swept=None, laws=None, boxes=None, between="\n\n"):
+    """The answers as text to stdout; of a [sweep] as one table where `swept` is given.
+
+    answered: (case, what was found ...) of each; text(case, what was found ..., units); swept(answered,
+    units): (answer in a line, columns, rows) of a table; systems: the units of each; laws: how far the
+    approximate laws of each hold, or None; boxes: what uncertain numbers do to each, or None.
+    """
+    nothing = [None] * len(answered)
+    laws, boxes, cases = laws or nothing, boxes or nothing, [case for case, *_ in answered]
+    below = list(map(classification.in_si, boxes, systems))
+    tabled, parts = swept is not None and any(case.variant for case in cases), []
+    for of in scene.groups(cases) if tabled else [[n] for n in range(len(cases))]:
+        first, units = of[0], systems[of[0]]
+        if tabled and cases[first].variant:
+            words = scene.text([cases[n] for n in of], *swept([answered[n] for n in of], units))
+        else:
+            words = classification.first(boxes[first], text(*answered[first], units), units)
+        # without that on uncertain numbers where the words on their box follow
+        caveats = dict.fromkeys(one for n in of for one in cases[n].caveats
+                                if not below[n] or one.kind != "uncertain")
+        parts.append(headline.first(headline.worst(*(laws[n] for n in of)), words, units, caveats)
+                     + "".join(dict.fromkeys(below[n] for n in of)))
+    terminal.tell(("\n\n" if tabled else between).join(parts))
+
+
+def swept_motions(motions, units):
+    """The table of the motions of a sweep."""
+    if None in motions:
+        return f"{motions.count(None)} of them state no motion", [], [[] for _ in motions]
+    return scene.fates(motions, units), *scene.of_motions(motions, units)

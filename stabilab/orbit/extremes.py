@@ -1,0 +1,406 @@
+"""Extremes and period of one motion.
+
+Extremes of one motion, in balls: every digit returned is certain.
+
+The period of one motion in balls: the integral of dtheta/W by the double-exponential rule, cut at every
+equilibrium that the motion passes, where the rate is least or largest.
+"""
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from functools import lru_cache
+
+from ..numbers.balls import FIRST_BITS, START_BITS, Unclear, sign, working
+from .fate import as_double, scaled_double
+from .one_orbit import TIE_BITS, Orbit
+from .result import Fate, without_return
+
+CERTAIN_BITS = 56  # the balls of the extremes are this much narrower than the component is large
+# A root's ball in units of the height's over the slope: y is exact, so its height may be much narrower than
+# its neighbours'.
+WIDER = 4, 64, 4096
+STEPS = 128  # of Newton's method, after which a bracket's ends count by their powers of two
+MOST_BITS = 1 << 13  # a component that is still not settled is zero to this precision
+
+
+def precise_extremes(orbit: Orbit, label: int):
+    """(3, 2) array of one state with the given `Fate` label, in the scene's variables."""
+    import numpy as np
+    return np.array([[float(v if isinstance(v, float) else v.mid()) for v in pair]
+                     for pair in extreme_balls(orbit, label)])
+
+
+def extreme_balls(orbit: Orbit, label: int, certain: int = CERTAIN_BITS):
+    """[(least, greatest)] of the three components as balls, 2^-certain of the component's size wide at most;
+    floats (infinite) where unbounded."""
+    if label == Fate.EQUILIBRIUM:
+        with working(START_BITS) as numbers:
+            return [(numbers.ball(v), numbers.ball(v)) for v in orbit.state]
+    how = {Fate.SPIN_UP: _unbounded, Fate.SEPARATRIX: _asymptotic, Fate.BOUNDED: _bounded}[Fate(label)]
+
+    def question(orbit):
+        return _ranges(orbit, *how(orbit), certain)
+    start = TIE_BITS if label == Fate.SEPARATRIX else FIRST_BITS if certain <= CERTAIN_BITS else 2 * certain
+    return orbit.settled(question, start)
+
+
+def turning_points(orbit):
+    """Offsets of both turning points as balls; None for a torque-free rotation over all barriers."""
+    ends = [turning_point(orbit, side) for side in (-1, 1)]
+    return None if None in ends else ends
+
+
+def turning_point(orbit, side, tie=False):
+    """Offset of the turning point on one side (-1, +1); None where every barrier of a circle is lower.
+
+    tie: the motion is on the separatrix, so that a barrier that cannot be told from the energy is where it
+    ends.
+    """
+    zero = orbit.energy * 0
+    if orbit.energy.is_zero() and (orbit.force_here > 0) - (orbit.force_here < 0) == -side * orbit.flip:
+        return zero  # at rest in this coordinate, pushed away from this side
+    inner = zero
+    for spot in _spots_towards(orbit, side):
+        over = orbit.height(spot.y) - orbit.energy
+        if tie and 0 in over:
+            return spot.y
+        if sign(over) >= 0:
+            return solve(orbit, inner, spot.y)
+        inner = spot.y
+    outer = orbit.wall(inner, side)
+    return None if outer is None else solve(orbit, inner, outer)
+
+
+def _spots_towards(orbit, side):
+    """The equilibria on one side, nearest first."""
+    ahead = [s for s in orbit.all_spots if (s.y > 0 if side > 0 else s.y < 0)]
+    return ahead if side > 0 else ahead[::-1]
+
+
+def solve(orbit, inner, outer):
+    """The offset between inner (potential below the energy) and outer (above) where they are equal, as a
+    ball.
+
+    Newton's method held in a bracket on the middles of the balls; the ball that is returned has a change of
+    sign.
+    """
+    balls = orbit.numbers
+    lo, hi = inner.mid(), outer.mid()
+    side = 1 if hi > lo else -1
+    y, last = (lo + hi).mid() / 2, None
+    for step in range(4000):
+        value = orbit.height(y) - orbit.energy
+        if 0 in value:
+            break
+        if value < 0:
+            lo = y
+        else:
+            hi = y
+        slope = -orbit.force(y)
+        new = (y - value / slope).mid() if 0 not in slope else None
+        far = _between_scales(lo, hi, step - STEPS) if step >= STEPS else None
+        if far is not None:
+            new = far
+        elif (new is None or not (lo < new < hi or hi < new < lo)
+              or (last is not None and 2 * abs(new - y) > last)):
+            new = ((lo + hi) / 2).mid()
+        last = abs(new - y).mid()
+        if new == y:
+            break
+        y = new.mid()
+    slope = orbit.force(y)
+    if 0 in slope:
+        raise Unclear
+    over = orbit.height(y) - orbit.energy
+    if over.is_zero():
+        return y  # the root itself: no width about it would have a height of both signs to show but its own
+    reach = balls.upper(over) / balls.lower(slope)
+    for times in WIDER:
+        width = balls.upper(times * reach)
+        below, above = orbit.height(y - side
+                                    * width) - orbit.energy, orbit.height(y + side * width) - orbit.energy
+        if below < 0 and above > 0:
+            return balls.around(y, width)
+    raise Unclear
+
+
+def _between_scales(lo, hi, times):
+    """A point of a bracket that many steps have not narrowed, where the root may be any number of powers of
+    two nearer to zero than an end: next to a double root Newton's method gains one a step, as halving does.
+    None where the ends are of one size."""
+    if lo.is_zero() or hi.is_zero():
+        return ((lo + hi) / (1 << (1 << min(times, 9)))).mid()
+    within = (abs(lo).sqrt() * abs(hi).sqrt()).mid() * (1 if hi > 0 else -1)
+    return (within if 2 * abs(lo) < abs(within) < abs(hi) / 2 or 2 * abs(hi) < abs(within) < abs(lo) / 2
+            else None)
+
+
+def _bounded(orbit):
+    ends = turning_points(orbit)
+    return _round_the_circle(orbit) if ends is None else _between(orbit, *ends)
+
+
+def _between(orbit, left, right):
+    """Offsets and rates that bound a motion between two turning points."""
+    top = (2 * _fastest(orbit, left, right)).sqrt()
+    return [left, right, *_tops_between(orbit, left, right), orbit.energy * 0], (-top, top)
+
+
+def _asymptotic(orbit):
+    """A motion on the separatrix: it tends to an equilibrium (or, without torque, along an invariant plane to
+    a permanent rotation) straight away, or after one turn."""
+    towards = sign(orbit.w) or (1 if orbit.force_here * orbit.flip > 0 else -1)
+    ahead = _asymptote(orbit, towards)
+    if ahead is not None:
+        end, last = ahead
+        low, high = sorted((orbit.energy * 0, end), key=lambda y: y.mid())
+        slow, fast = orbit.energy.min(last), _fastest(orbit, low, high).max(last)
+        for spot in orbit.all_spots:
+            if low < spot.y and spot.y < high:
+                slow = slow.min(orbit.energy - orbit.height(spot.y))
+        rates = sorted((towards * (2 * slow).sqrt(), towards * (2 * fast).sqrt()), key=lambda w: w.mid())
+        return [low, high, *_tops_between(orbit, low, high)], tuple(rates)
+    turn = turning_point(orbit, towards, True)
+    behind = _asymptote(orbit, -towards)
+    if turn is None or behind is None:
+        return _round_the_circle(orbit)
+    end, last = behind
+    low, high = sorted((turn, end), key=lambda y: y.mid())
+    there = (2 * _fastest(orbit, *sorted((orbit.energy * 0, turn), key=lambda y: y.mid()))).sqrt()
+    back = (2 * _fastest(orbit, low, high).max(last)).sqrt()
+    # on the way to the turning point only what lies before it counts
+    rates = (-back, there) if towards > 0 else (-there, back)
+    return [low, high, *_tops_between(orbit, low, high), orbit.energy * 0], rates
+
+
+def _asymptote(orbit, side):
+    """(offset, W^2/2 there) of the equilibrium or plane's end that the motion would tend to on that side, or
+    None."""
+    zero = orbit.energy * 0
+    for spot in _spots_towards(orbit, side):
+        over = orbit.height(spot.y) - orbit.energy
+        if 0 in over:
+            return spot.y, zero
+        if over > 0:
+            return None
+    return orbit.end_of_plane(side)
+
+
+def _fastest(orbit, low, high):
+    """Largest W^2/2 between two offsets, the state's own included."""
+    fastest = orbit.energy
+    for spot in orbit.all_spots:
+        if not (spot.y < low or spot.y > high):
+            fastest = fastest.max(orbit.energy - orbit.height(spot.y))
+    return fastest
+
+
+def _tops_between(orbit, low, high):
+    return [y for y in orbit.tops() if not (y < low or y > high)]
+
+
+def _round_the_circle(orbit):
+    """Torque-free rotation: the whole circle, one sign of W."""
+    slow = fast = orbit.energy
+    for spot in orbit.spots:
+        value = orbit.energy - orbit.height(spot.y)
+        slow, fast = slow.min(value), fast.max(value)
+    turn = sign(orbit.w)
+    return [orbit.energy * 0, *orbit.tops()], (turn * (2 * slow).sqrt(), turn * (2 * fast).sqrt())
+
+
+def _unbounded(orbit):
+    """Spin-up: all of the orbit's conic that it passes, and W from its least value to infinity."""
+    zero = orbit.energy * 0
+    if orbit.spins_purely:
+        return [zero], (orbit.w, None)
+    least, left = orbit.w, None
+    if sign(orbit.w) < 0:
+        left = turning_point(orbit, -1)
+        # wells more than a turn behind are higher by the torque's tilt
+        least = -(2 * _fastest(orbit, zero - 7 if left is None else left, zero)).sqrt()
+    else:
+        for spot in orbit.spots:
+            if spot.y > 0:
+                least = least.min((2 * (orbit.energy - orbit.height(spot.y))).sqrt())
+    return orbit.swept(left), (least, None)
+
+
+def _ranges(orbit, offsets, rates, certain):
+    """[(least, greatest)] per component; Unclear unless the balls are narrow against the component's size."""
+    r, bits = orbit.r, orbit.numbers.bits
+    out = [None] * 3
+    pairs = [orbit.components(y) for y in offsets]
+    for row, axis in enumerate((r.j, r.k)):
+        out[axis] = _range([pair[row] for pair in pairs], certain, bits)
+    low, high = _range([orbit.component_i(w) for w in rates if w is not None], certain, bits)
+    if rates[1] is None:
+        low, high = (low, float("inf")) if r.sense > 0 else (float("-inf"), high)
+    out[r.axis] = low, high
+    return out
+
+
+def _range(values, certain, bits):
+    """(least, largest) of balls."""
+    low = high = values[0]
+    for value in values[1:]:
+        low, high = low.min(value), high.max(value)
+    size = max(float(abs(low).mid()), float(abs(high).mid()))
+    width = max(float(low.rad()), float(high.rad()))
+    if not width <= size * 2.0**-certain and bits < MOST_BITS:  # nor is a root of both signs a number
+        raise Unclear
+    return low, high
+
+
+# --- The extremes of one state's motion, without arrays
+def extremes_of(orbit: Orbit, label: Fate, k: int = 0) -> tuple:
+    """((least, greatest),) * 3 over t >= 0 in units 2^-k of the orbit's; +-inf where unbounded, NaN where
+    larger than any double."""
+    here = [as_double(Fraction(v) * Fraction(2) ** k) for v in orbit.state]
+    if label == Fate.EQUILIBRIUM:
+        return tuple((v, v) for v in here)
+    balls = extreme_balls(orbit, label)
+    # rounding must not exclude the state itself
+    return tuple((min(scaled_double(low, k), v), max(scaled_double(high, k), v)) for (low, high),
+                 v in zip(balls, here))
+
+
+# two steps agree to so many; the rule doubles its digits with every halving, so the second is exact to a
+# double
+DIGITS = 14
+SPARE = 8  # digits beyond those: terms that are smaller are left out
+AGREED = 9  # the same for a double alone: the next step, twice as many digits, is not taken to see it
+# digits that the last step must have beyond those in which it agrees with the one before, by the rate at
+# which the steps draw together
+LEFT = 5
+WEIGHT = 1.7  # log(pi cosh t)/pi, which the weights of the last nodes have beside an exponential
+FINEST = 9  # halvings of the step; the seventh serves a double
+
+
+def precise_period(orbit: Orbit, label: int) -> float:
+    """Period of one state with the given `Fate` label: inf where the motion does not repeat, 0 at an
+    equilibrium, NaN where it is undecided."""
+    return without_return(label) if label != Fate.BOUNDED else float(period_ball(orbit, AGREED).mid())
+
+
+def period_ball(orbit: Orbit, digits: int = DIGITS):
+    """Period of a bounded motion as a ball that is at most 10^-digits of it wide: two steps of the rule agree
+    to `digits`."""
+    def question(orbit):
+        ends = turning_points(orbit)
+        found = _rotation(orbit, digits) if ends is None else _libration(orbit, *ends, digits)
+        if not 10 ** digits * found.rad() < found:
+            raise Unclear
+        return found
+    return orbit.settled(question, _bits(digits))
+
+
+def _bits(digits: int) -> int:
+    """Bits for so many digits: of the first two rows of nodes, whole steps from 0 and from a half, the last
+    stands up to a step beyond where terms vanish, and so near a turning point E - V, which goes with the
+    square of the distance, must keep its digits."""
+    vanishing = math.asinh((digits + SPARE) * math.log(10) / math.pi + WEIGHT)
+    last = max(math.ceil(vanishing), math.ceil(vanishing - 0.5) + 0.5)
+    return int(2 * math.pi * math.sinh(last) / math.log(2) + 3.33 * (digits + 2 * SPARE))
+
+
+def _libration(orbit, left, right, digits):
+    """Twice the time between the turning points; y = middle - half cos(phi) removes the roots at both ends.
+    """
+    from flint import arb
+    half, middle = (right - left) / 2, (right + left) / 2
+    inside = [s.y for s in orbit.all_spots if s.y > left and s.y < right]
+    knots = [arb(0), *(((middle - y) / half).acos() for y in inside), arb.pi()]
+
+    def integrand(near, a, b):
+        """At phi = a + near (near > 0) or b + near (near < 0), accurate next to both ends of [0, pi]."""
+        phi = ((a if near > 0 else b) + near).mid()
+        y = middle - half * phi.cos()
+        return half * phi.sin() / _rate(orbit, y)
+    return 2 * _sum_over(integrand, knots, digits)
+
+
+def _rotation(orbit, digits):
+    """Once round the circle without torque."""
+    from flint import arb
+    spots = [s.y for s in orbit.spots]
+    knots = [*spots, spots[0] + 2 * arb.pi()] if spots else [arb(0), 2 * arb.pi()]
+    return _sum_over(lambda near, a, b: 1 / _rate(orbit, (a if near > 0 else b) + near), knots, digits)
+
+
+def _rate(orbit, y):
+    kinetic = orbit.energy - orbit.height(y)
+    if sign(kinetic) <= 0:
+        raise Unclear
+    return (2 * kinetic).sqrt()
+
+
+def _sum_over(integrand, knots, digits):
+    return sum(_tanh_sinh(integrand, a.mid(), b.mid(), digits) for a, b in zip(knots, knots[1:]))
+
+
+def _tanh_sinh(integrand, a, b, digits):
+    """Integral over (a, b); the step is halved until two results agree, each row goes on until its terms
+    vanish."""
+    from flint import arb
+    length, rows, before, changes = (b - a).mid(), arb(0), None, []
+    least, agree = arb(10) ** -(digits + SPARE), arb(10) ** -digits
+    for level in range(FINEST + 1):
+        for row in _rows(level, digits):
+            for near, weight in row:
+                term = weight * integrand((near * length).mid(), a, b)
+                rows += term
+                if term < least * rows:
+                    break
+            else:
+                raise Unclear
+        now = rows * arb(2) ** -level
+        if before is not None:
+            change = abs(now - before)
+            # less than ten times what the rows leave out says nothing
+            changes.append(_power_of_ten((change / now).mid(), 1 - digits - SPARE))
+            if level > 2 and change <= agree * now and power_of_error(*changes[-3:]) <= -digits - LEFT:
+                return now * length
+        before = now
+    raise Unclear
+
+
+def _power_of_ten(value, least) -> float:
+    return max(least, float(value.log_base(10))) if value > 0 else least
+
+
+def power_of_error(first, middle, last) -> float:
+    """Power of ten of the error of a sum over nodes, given the powers of ten of its last three changes as its
+    nodes were doubled.
+
+    The error is C r^n for n nodes, but its sign goes round, and two sums may agree by chance. So the rate is
+    told by either ratio of changes, the size by its own change or by the one before, and the largest error
+    counts; as `converged` in `rows_kernel`, which needs NumPy.
+    """
+    a, b, c = first, middle, last
+    return max(3 * c - 2 * b, c + 4 * (b - a), b + 2 * (c - a), 7 * b - 6 * a)
+
+
+@lru_cache(maxsize=64)
+def _nodes(level, side, digits):
+    """Nodes as (distance from the nearer end / length, signed by the end; weight), outward from the middle.
+    """
+    from flint import arb
+    step, nodes = arb(2) ** -level, []
+    with working(int(3.33 * 2 * (digits + 2 * SPARE)) + 128):
+        for k in range(0 if side > 0 else 1, 12 * 2**level):
+            if level and k % 2 == 0:
+                continue
+            t = k * step
+            e = (arb.pi() * t.sinh()).exp()  # x = 1/(1 + exp(-pi sinh t)): 1 - x = 1/(1 + e)
+            far = 1 / (1 + e)
+            weight = arb.pi() * t.cosh() * far * (1 - far)
+            nodes.append((-side * far.mid(), weight))
+            if far < arb(10) ** -300:
+                break
+    return tuple(nodes)
+
+
+def _rows(level, digits):
+    return _nodes(level, 1, digits), _nodes(level, -1, digits)

@@ -1,1 +1,0 @@
-"""Turning points, and the ranges of the rates between them."""

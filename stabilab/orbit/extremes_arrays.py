@@ -1,0 +1,383 @@
+"""Extremes and periods of many motions.
+
+Extremes and periods of rows that no two turning points hold: at rest, round a circle without torque,
+spinning up; by NumPy.
+
+What doubles would lose, next to a separatrix or far from the centre of the orbits, is left open for balls.
+
+Extremes and periods of librations, one row at a time: the door of numba. What the kernels leave open is
+left to balls.
+
+Extremes and periods of many states in one pass: fates, then librations row by row, the rest by NumPy, and
+balls of what these leave open.
+"""
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import lru_cache, partial
+
+import numpy as np
+
+from ..errors import InputError
+from ..numbers.double_double import TURN
+from ..numbers.numba_door import compiled, installed, twins
+from ..physics.coefficients import effective
+from ..physics.states import checked_states
+from . import parabola_kernel, rows_kernel
+from .extremes import precise_extremes, precise_period
+from .fate_arrays import CHUNK, fate_on_orbit, fates, rows_beyond_doubles
+from .landscape import CENTRE, Landscape, landscape, spots_along, twofold_constant
+from .one_orbit import Orbit
+from .one_state import far_numbers
+from .reduction import reduce
+from .result import Fate, without_return
+from .rows_kernel import BOX, PERIOD
+
+# closer to the separatrix than this share of the energy terms, rounding costs extremes 1e-12
+EXTREMES_SHARE = 1e-7
+# the same for the least rate of a motion that just passes a barrier: the root of a difference
+SPIN_UP_SHARE = 1e-4
+PERIOD_SHARE = 1e-5  # the same for a period, 1e-11
+ON_TOP = 1e-13  # of the terms of the force, some hundreds of roundings
+# canonical variables lose this factor of accuracy to the shift before the precise path takes over
+SHIFT_LIMIT = 1e4
+# relative, of the sums over so many nodes and twice as many: the error left is its square; rounding leaves
+# some 1e-13
+AGREE = 1e-12
+MOST_NODES = 1 << 15  # more than the peaks of the integrand ask for at `PERIOD_SHARE`
+
+
+def trapped_rows(land, decided):
+    """(n,) True for motions between two turning points."""
+    trapped = decided.labels == Fate.BOUNDED
+    return trapped & (decided.margins >= 0) if land.may_rotate else trapped
+
+
+def needs_digits(land: Landscape, states):
+    """(n,) True where the canonical shift is so large that doubles would lose digits (nearly equal moments,
+    or a wheel on the axis of symmetry of a body that hardly turns about it)."""
+    r = land.reduction
+    shift, along = r.parabolic_shift_size, abs(float(r.s))
+    lost = np.zeros(len(states), bool)
+    if shift:
+        lost |= shift > SHIFT_LIMIT * np.maximum(np.abs(states).max(axis=1), 1e-300)
+    return lost | (along > SHIFT_LIMIT * np.abs(states[:, r.axis])) if along else lost
+
+
+def on_top(land: Landscape, place):
+    """(n,) True where the state is at the place of a barrier to rounding: before it or behind, doubles do not
+    tell."""
+    pot = land.potential
+    return (np.abs(pot.force(place)) <= ON_TOP * pot.terms(place)) & (pot.slope(place) > 0)
+
+
+def near_separatrix(land, place, w, margins, share):
+    """(n,) True where the margin is below `share` of the energy's terms: turning points and periods magnify
+    its rounding there."""
+    return np.abs(margins) <= share * land.reduction.energy_unit * land.energy_terms(place, w)
+
+
+def open_extremes(land: Landscape, states, labels, margins):
+    """Extremes (n, 3, 2) of rows that are not `trapped_rows`; NaN where these are left to balls."""
+    out = np.repeat(states[:, :, None], 2, axis=2)
+    moving = np.nonzero((labels != Fate.EQUILIBRIUM) & (labels != Fate.UNDECIDED))[0]
+    if not moving.size:
+        return out
+    states, labels, margins = states[moving], labels[moving], margins[moving]
+    place, w, _ = land.start(states)
+    share = np.where(labels == Fate.SPIN_UP, SPIN_UP_SHARE, EXTREMES_SHARE)
+    doubtful = (needs_digits(land, states) | land.beside_centre(place)
+                | near_separatrix(land, place, w, margins, share))
+    doubtful |= on_top(land, place)
+    values = np.full((len(states), 3, 2), np.nan)
+    for label, extremes in ((Fate.BOUNDED, _rotating), (Fate.SPIN_UP, SPINNING[land.e])):
+        rows = (labels == label) & ~doubtful
+        if rows.any():
+            values[rows] = extremes(land, tuple(v[rows] for v in place), w[rows])
+    out[moving] = values
+    return out
+
+
+def rotation_periods(land: Landscape, states, margins):
+    """Periods (n,) of motions without torque over all barriers of a circle; NaN where these are left to
+    balls."""
+    place, w, _ = land.start(states)
+    values = np.full(len(states), np.nan)
+    doubtful = needs_digits(land, states) | near_separatrix(land, place, w, margins, PERIOD_SHARE)
+    live, before, nodes = np.nonzero(~doubtful)[0], np.full(np.count_nonzero(~doubtful), np.nan), 16
+    force = land.potential.force(place)
+    # the integrand is periodic: the plain sum converges geometrically
+    while live.size and nodes <= MOST_NODES:
+        now, one = np.zeros(len(live)), tuple(v[live] for v in place)
+        for angle in np.arange(nodes) * (TURN / nodes):
+            with np.errstate(all="ignore"):
+                rise = land.potential.rise(np.full(len(live), angle), one, force[live])
+                now += 1 / np.sqrt(np.maximum(w[live] ** 2 - 2 * rise, 0))
+        now *= TURN / nodes
+        done = np.abs(now - before) <= AGREE * now
+        values[live[done]] = now[done]
+        live, before, nodes = live[~done], now[~done], 2 * nodes
+    return values
+
+
+def _components(land, low, high, w_low, w_high):
+    """(n, 3, 2) from canonical ranges, whatever signs the change of variables has."""
+    a, b = land.components(low, w_low), land.components(high, w_high)
+    return np.stack([np.minimum(a, b), np.maximum(a, b)], axis=2)
+
+
+def _rotating(land, place, w):
+    """Torque-free motions over all barriers of the circle: the whole circle, one sign of W."""
+    spots = spots_along(land, place, w)
+    energy = np.where(spots.there, spots.energy, np.nan)
+    with np.errstate(all="ignore"):
+        energies = np.concatenate([energy, 0.5 * w[:, None] ** 2], axis=1)
+        slow, fast = np.sqrt(2 * np.nanmin(energies, axis=1)), np.sqrt(2 * np.nanmax(energies, axis=1))
+    radius = np.hypot(*place)
+    sign = np.sign(w)
+    return _components(land, (-radius, -radius), (radius, radius), sign * slow, sign * fast)
+
+
+def _spinning_round(land, place, w):
+    """Over the future of a spin-up, W -> +inf, on a circle: all of it, from the slowest rate on."""
+    radius = np.hypot(*place)
+    return _components(land, (-radius, -radius), (radius, radius), _slowest_ahead(land, place, w),
+                       np.full(len(w), np.inf))
+
+
+def _slowest_ahead(land, place, w):
+    """The least W over the future: over the barriers ahead, or on the way to the turning point behind if W <
+    0."""
+    spots = spots_along(land, place, w)
+    slowest = _over_barriers_ahead(spots, w)
+    back = w < 0
+    if back.any():
+        # the wells between the turning point on the left and the state
+        fastest = _fastest_behind(land, tuple(v[back] for v in place), w[back])
+        slowest[back] = -np.sqrt(2 * fastest)
+    return slowest
+
+
+def _over_barriers_ahead(spots, w):
+    ahead = np.where(spots.there & (spots.offset > 0), spots.energy, np.inf)
+    with np.errstate(all="ignore"):
+        return np.minimum(w, np.sqrt(2 * np.maximum(ahead.min(axis=1, initial=np.inf), 0)))
+
+
+def _fastest_behind(land, place, w):
+    """Largest W^2/2 between the turning point behind and the state, for W < 0 on a tilted circle.
+
+    Wells further back than one turn are higher by 2 pi mu, so the first turn behind decides.
+    """
+    best, blocked = 0.5 * w * w, np.zeros(len(w), bool)
+    spots = spots_along(land, place, w)
+    for column in range(spots.offset.shape[1] - 1, -1, -1):
+        here = spots.there[:, column] & (spots.offset[:, column] < 0)
+        blocked |= here & spots.barrier[:, column] & (spots.energy[:, column] < 0)
+        well = here & ~blocked & ~spots.barrier[:, column]
+        best = np.where(well, np.maximum(best, spots.energy[:, column]), best)
+    return best
+
+
+def _spinning_on_plane(land, place, w):
+    """On the decaying plane xi = 0: eta shrinks to 0. Balls tell the excursion back to a turning point
+    behind."""
+    eta, zero = place[1], np.zeros(len(w))
+    slowest = _over_barriers_ahead(spots_along(land, place, w), w)
+    slowest[(w < 0) & (eta != 0)] = np.nan
+    return _components(land, (zero, np.minimum(eta, 0)), (zero, np.maximum(eta, 0)), slowest,
+                       np.full(len(w), np.inf))
+
+
+def _spinning_purely(land, place, w):
+    """Along a parabola whose force does not change: both other rates stay."""
+    sense, start = land.sense, land.components(place, w)
+    spun = np.arange(3) == land.reduction.axis
+    low, high = (-np.inf, start) if sense < 0 else (start, np.inf)
+    return np.stack([np.where(spun, low, start), np.where(spun, high, start)], axis=2)
+
+
+SPINNING = {-1: _spinning_round, 1: _spinning_on_plane, 0: _spinning_purely}
+
+
+# Functions without which loops call instead of adding
+INLINED = {"swing", "kinetic", "converged", "rounding_of"}
+INLINED_ON_PARABOLAS = {"quartic", "cubic", "bend", "terms_of", "blur_of_force", "place_at"}
+# Loading the code from disk costs some 0.3 s of a processor, compiling it once per machine some ten for each
+# geometry;
+# a row of plain Python costs two milliseconds.
+COLD, WARM = 1000, 20
+STRAIGHT = 1e-6  # of the slopes, as in `conic`: a circle so small hardly sees the bend of its equilibria
+PARABOLA = "p", "p0", "q", "q0", "kappa", "rho", "sigma", "m", "s"
+REACH = 3.45  # of t: beyond, the weights of double-exponential nodes are 1e-20
+LAST_LEVEL = 8  # of these nodes, whose steps are 2^-level
+HALVED = 8, 16, 32, 64  # intervals whose midpoints are added to the trapezoidal nodes of eight
+
+
+def settle_rows(land: Landscape, states, boxes, periods, left_open, by_numba: bool | None = None):
+    """Fill boxes (n, 3, 2) and periods (n,), each unless it is empty, of the librations of states (n, 3) that
+    are open.
+
+    left_open: (n,) bits, `BOX` and `PERIOD`, of which those that are settled are cleared. by_numba: whether
+    compiled code serves, where numba is installed; None: where so many rows repay loading it.
+    """
+    rows = np.nonzero(left_open)[0]
+    if not rows.size:
+        return
+    if by_numba is None:
+        by_numba = rows.size >= (WARM if COMPILED[land.base].cache_info().currsize else COLD)
+    kernel = COMPILED[land.base]() if by_numba and installed() else plain(land.base)
+    with np.errstate(all="ignore"):
+        kernel(states, rows, *kernel_input(land), boxes, periods, left_open)
+
+
+@lru_cache(maxsize=3)
+def plain(base: str):
+    """`rows` on a geometry, named as landscapes name it, in plain Python."""
+    module, _, names = _module(base)
+    return twins(module, lambda name, twin: twin, **names)["rows"]
+
+
+def _module(base: str):
+    """(module with the kernel of a geometry, its functions to inline, the names that are the geometry's own).
+    """
+    if base == "parabola":
+        return parabola_kernel, INLINED_ON_PARABOLAS, {}
+    return rows_kernel, INLINED, rows_kernel.functions_of(rows_kernel.GEOMETRIES[base])
+
+
+def _compiled(base: str):
+    module, inlined, names = _module(base)
+    return compiled(module, inlined, base, **names)["rows"]
+
+
+COMPILED = {base: lru_cache(maxsize=1)(partial(_compiled, base))
+            for base in ("circle", "hyperbola", "parabola")}
+
+
+@lru_cache(maxsize=64)
+def kernel_input(land: Landscape):
+    """The numbers of a landscape as its kernel takes them, between the rows and what these fill."""
+    r = land.reduction
+    shift = float(r.s)
+    rest = float(r.s - Fraction(shift))
+    axes = r.j, r.k, r.axis
+    if land.conic is None:
+        return axes, _parts([twofold_constant(getattr(r, name)) for name in PARABOLA]), *np.empty((3, 3))
+    conic, g = land.conic, r.constants
+    # of conics
+    fine = *land.twofold, twofold_constant(r.exact_constants["n"] ** 2 / 2)  # type: ignore[attr-defined]
+    lines, straight, beside = conic.lines, np.inf, 0.0
+    if conic.pieces:
+        centre = CENTRE * (abs(conic.c) + abs(conic.d)) / abs(conic.G)
+        beside = centre if conic.mu <= (abs(conic.c) + abs(conic.d)) * centre else 0.0
+        lines, straight = (), -np.inf
+        if land.e < 0 and conic.limit is not None:
+            lines, straight = (conic.limit,), float(STRAIGHT * np.hypot(conic.c, conic.d) / conic.G) ** 2
+    form = g["flip"] * g["rx"], g["rz"], g["flip"] / g["n"], shift, rest, straight
+    numbers = tuple(map(float, (conic.c, conic.d, conic.G, conic.mu, conic.K, conic.shift, beside)))
+    pieces = np.array([(p.sign, p.inner, p.outer, p.rising, p.barrier, *conic.reach(p))
+                       for p in conic.pieces], float)
+    points = np.array([(*line, side) for line in lines for side in (-1, 1)], float)
+    folds = np.array(conic.fold_invariants + conic.tangents, float)
+    return (_parts(fine).ravel(), form, axes, numbers, pieces.reshape(-1, 7), points.reshape(-1, 5), folds,
+            rules())
+
+
+def _parts(numbers):
+    """(n, 2) high and low parts of twofold numbers."""
+    return np.array([(float(number.high), float(number.low)) for number in numbers])
+
+
+@lru_cache(maxsize=1)
+def rules():
+    """(shares sin(phi/2)^2 <= 1/2 of the trapezoidal nodes of eight intervals, then of the midpoints of these
+    and of twice as many; distances of the double-exponential nodes from the nearer end, negative where that
+    is the inner one, their weights, and where levels begin)."""
+    phi = np.concatenate([np.arange(5) * (np.pi / 8)]
+                         + [(np.arange(n // 2) + 0.5) * (np.pi / n) for n in HALVED])
+    levels = [double_exponential_nodes(level) for level in range(LAST_LEVEL + 1)]
+    near, weights = (np.concatenate(parts) for parts in zip(*levels))
+    return np.sin(0.5 * phi) ** 2, near, weights, np.cumsum([0] + [len(way) for way, _ in levels])
+
+
+def double_exponential_nodes(level):
+    """(signed distances over the length, weights) of the nodes that a level adds."""
+    k = np.arange(-int(REACH * 2**level), int(REACH * 2**level) + 1)
+    if level:
+        k = k[k % 2 != 0]
+    t = k * 2.0**-level
+    u = 0.5 * np.pi * np.sinh(t)
+    # x = 1/(1 + exp(-2 u)), dx = pi/2 cosh t / (2 cosh(u)^2) dt
+    near = 1 / (1 + np.exp(2 * np.abs(u)))
+    return np.where(t > 0, -near, near), 0.25 * np.pi * np.cosh(t) / np.cosh(u) ** 2
+
+
+def extremes_and_periods(scene, states, *, box=True, period=True, by_numba: bool | None = None):
+    """(extremes (..., 3, 2), periods (...,)) in one go, each as the function of its name gives it; None for
+    one that is not asked for. For scenes with a reduction only (InputError for others, and as `extremes`
+    raises it).
+
+    by_numba: as of `settle_rows`.
+    """
+    scene, array = effective(scene), checked_states(states)
+    if reduce(scene) is None:
+        raise InputError("extremes_and_periods: this scene has no reduction to one coordinate; ask for "
+                         "`extremes` with a"
+                         " span, or for `period`")
+    flat = np.ascontiguousarray(array.reshape(-1, 3))
+    boxes, periods = np.empty((len(flat) if box else 0, 3, 2)), np.empty(len(flat) if period else 0)
+    far = rows_beyond_doubles(scene, flat)
+    for index in np.nonzero(far)[0]:  # their squares may be no doubles: each in its own unit
+        extremes, time = far_numbers(scene, flat[index].tolist())
+        if box:
+            boxes[index] = extremes
+        if period:
+            periods[index] = time
+    near = np.nonzero(~far)[0]
+    for start in range(0, len(near), CHUNK):
+        rows = near[start:start + CHUNK]
+        some, times = _of_chunk(scene, flat[rows], box, period, by_numba)
+        boxes[rows if box else []], periods[rows if period else []] = some, times
+    return boxes.reshape(array.shape
+                         + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None
+
+
+def _of_chunk(scene, states, box, period, by_numba):
+    """(boxes (n, 3, 2), periods (n,)) of one chunk, each empty where it is not asked for."""
+    land = landscape(scene)
+    decided = fate_on_orbit(scene, land, states)
+    boxes, periods = np.empty((len(states) if box else 0, 3, 2)), np.empty(len(states) if period else 0)
+    trapped = trapped_rows(land, decided)
+    left_open = np.where(trapped, BOX * box + PERIOD * period, 0).astype(np.uint8)
+    settle_rows(land, states, boxes, periods, left_open, by_numba)
+    if box:
+        boxes[~trapped] = open_extremes(land, states[~trapped], decided.labels[~trapped],
+                                        decided.margins[~trapped])
+        for index in np.nonzero((left_open & BOX > 0) | (~trapped & np.isnan(boxes).any(axis=(1, 2))))[0]:
+            boxes[index] = precise_extremes(Orbit(land.reduction, states[index]), int(decided.labels[index]))
+        boxes[:, :, 0] = np.minimum(boxes[:, :, 0], states)  # rounding must not exclude the state itself
+        boxes[:, :, 1] = np.maximum(boxes[:, :, 1], states)
+    if period:
+        rotating = (decided.labels == Fate.BOUNDED) & ~trapped
+        other = decided.labels != Fate.BOUNDED
+        periods[other] = [without_return(label) for label in decided.labels[other]]
+        periods[rotating] = rotation_periods(land, states[rotating], decided.margins[rotating])
+        for index in np.nonzero((left_open & PERIOD > 0) | (rotating & np.isnan(periods)))[0]:
+            periods[index] = precise_period(Orbit(land.reduction, states[index]), Fate.BOUNDED)
+    return boxes, periods
+
+
+# --- Many states of a scene with an orbit: fates, extremes and periods of rows (n, 3)
+__all__ = ["extremes", "fates", "periods"]
+
+
+def extremes(scene, states, span=None, fast: bool | None = None):
+    """(n, 3, 2) over t >= 0; `span` and `fast` are not needed."""
+    return extremes_and_periods(scene, states, period=False)[0]
+
+
+def periods(scene, states, fast: bool | None = None):
+    """(n,); inf where the motion does not repeat, 0 at an equilibrium, NaN where it is undecided; `fast` is
+    not needed."""
+    return extremes_and_periods(scene, states, box=False)[1]

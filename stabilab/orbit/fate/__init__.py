@@ -1,1 +1,0 @@
-"""Does a barrier stand ahead? Fate and margin: one state, arrays, tables of barriers."""

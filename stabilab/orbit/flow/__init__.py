@@ -1,1 +1,0 @@
-"""The state at any time, by quadrature along the orbit."""

@@ -1,1 +1,0 @@
-"""What cost depends on, measured."""

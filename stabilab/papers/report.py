@@ -1,0 +1,537 @@
+"""The report on everything, and its chapters of the papers.
+
+A chapter of the report per paper: its data, its figures, when its models leave the exact motion, and a
+variant that makes sense.
+
+Every number in a chapter is computed while the report is written.
+
+The report: one folder of pages, read from disk without a network: on cases of one's own, or on everything,
+with a start page, the papers, all cases in groups, the audit, other tools' numbers and what answers cost.
+"""
+from __future__ import annotations
+
+import os
+import sys
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..case.read import load_all
+from ..errors import StabilabError
+from ..interrupt import undoing
+from ..packages import demand
+from ..physics.equations import derive
+from ..physics.scene import PARTS, torque_axis
+from ..show import manifest, style
+from ..show import precision as precision_page
+from ..show.report import html, own
+from ..show.report.html import picture
+from ..show.report.workers import Task, done
+from ..show.terminal import some, written
+from ..show.text import cost as comparison
+from ..show.text import headline
+from ..show.text.cost import so_many
+from ..show.text.scene import PRODUCTS
+from ..show.units import SI, parameter_unit
+from ..theories.printed.claims import MAIN
+from ..theories.theory import compare, side_by_side
+from ..version import __version__
+from . import cost_effects as effect_cost
+from . import cost_growth, index, table
+from .audit import page as audit_page
+from .audit import papers as audited_papers
+from .families import sweep
+from .figures import catalogue as figures
+from .figures import panels
+from .figures.figure import words
+from .validation import comparison as validation
+
+FOLDER = "figures/"  # of a report
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """paper: short name as of `figures`; about: what the paper does and where it stands; compared: (case
+    file, variant) of the motions whose errors are listed; end: s; sensible: case file of the variant;
+    sensible_end: s; why: what makes it sensible; parts: of the state to draw, over `window`, s; short: name
+    in the navigation; weight: s of one core."""
+
+    paper: str
+    title: str
+    about: str
+    compared: tuple
+    end: float
+    sensible: str
+    sensible_end: float
+    why: str
+    parts: tuple
+    window: float
+    short: str
+    weight: float
+
+
+POINTS = 401  # times at which models are set beside the exact motion
+_SWEEP = "charged-sweep"
+CHAPTERS = (
+    Chapter("charged", "A charged, nearly axisymmetric body",
+            "A spinning body with a gyrostatic moment, a charge in a magnetic field, and a torque and a "
+            "thrust fixed in it: angular velocity, 3-1-2 angles, angular momentum, velocity and displacement "
+            "in closed form, for small angles psi and phi. Euler's equations give two different rates a and "
+            "b; equation (8) keeps one. The corrected closed form keeps both.",
+            tuple((_SWEEP, v) for v in ("-1-2-1", "-3-2-1", "-1-3-1", "-1-2-3")), 50.0,
+            "charged-body-small-torque", 50.0, "the torque is so small that the tilt stays small for ever",
+            ("omega", "angles", "position"), 50.0,
+            "Charged body", 25.0),
+    Chapter("cavity", "A body with a cavity of viscous liquid",
+            "A nearly spherical body with a gyrostatic moment, a charge, a resisting medium, a constant "
+            "torque and a liquid so viscous that it follows the body at once. The paper averages over the "
+            "turn about axis 3 and takes the first terms of a Taylor series of the averaged equations. No "
+            "figure states all of its data; what is missing is completed as the titles of the figures say. "
+            "They give zeta and M3 as the paper does, whose equations hold them times eps^2 = 0.01: 2 1/s "
+            "stands for 0.02 1/s, -6 N m for -0.06 N m.",
+            tuple((f"liquid-{name}", "")
+                  for name in ("base", "lambda3-0_2", "lambda3-15", "lambda3-25", "zeta-2_5", "torque-9",
+                                                      "charge-1e3", "charge-1e4")), 20.0,
+            "liquid-sensible", 20000.0,
+            "the cavity fits into the body, and the liquid is slow and viscous enough for its "
+            "law", ("omega",), 3000.0, "Liquid cavity", 14.0),
+    Chapter("top", "A fast top in a Newtonian field",
+            "A body about a fixed point, nearly Lagrange's top, under its weight, the gradient of a "
+            "Newtonian field and a gyrostatic moment (l_x, 0, l_z), expanded in 1/r0 for a fast spin. The "
+            "corrected expansion keeps C* = C + l_z/r0, the permanent tilt by l_x and the frequency.",
+            tuple((f"top-lx{a}-lz{b}", "") for a, b in ((30, 30), (90, 30), (30, 90))), 1.3,
+            "top-fast", 2.0, "it spins fast, delta1 and delta2 are of order one, and gamma0'' is not near 0",
+            ("omega", "gamma"), 0.15, "Fast top", 11.0),
+)
+
+
+def section(name: str, folder: Path) -> dict:
+    """The chapter on a paper: plain data, its figures drawn into `folder`/figures."""
+    chapter = next(chapter for chapter in CHAPTERS if chapter.paper == name)
+    made = {"id": chapter.paper, "title": chapter.title, "paper": figures.PAPERS[chapter.paper],
+            "about": written(chapter.about), "problem": "",
+            "compared": [], "sensible": None, "parameters": "", "end": chapter.end,
+            "figures": [drawn(row, folder) for row in figures.of_paper(chapter.paper)]}
+    try:
+        made["parameters"] = _parameters(sweep(chapter.compared[0][0])[chapter.compared[0][1]])
+        made["compared"] = [row for name, variant in chapter.compared
+                            for row in _errors(sweep(name)[variant], chapter.end)]
+        made["sensible"] = _sensible(chapter, folder)
+    except StabilabError as error:  # no such case yet, or a motion that cannot be run: the chapter says so
+        made["problem"] = str(error)
+    return made
+
+
+def drawn(row, folder: Path) -> dict:
+    """What a page says of a figure, whose pictures are drawn into `folder`/figures; rows: of the audit."""
+    path, *more = figures.write([row.number], folder / FOLDER, paper_name=row.paper or None)
+    return picture(path, FOLDER, id=f"{row.paper or 'figure'}-{row.number}", number=row.number,
+                   title=row.title, caption=row.caption, tolerance=row.tolerance, differences=words(row),
+                   command=row.command, rows=(), more=[FOLDER + part.name for part in more])
+
+
+def _parameters(case):
+    """Parameters and start of a case in words, with their units."""
+    values = ", ".join(f"{PRODUCTS.get(name, name)} = {float(value):.6g} {parameter_unit(name)}".rstrip()
+                       for name, value in derive(case.scene).parameters.items())
+    starts = {"omega": case.state, **case.blocks}
+    return written(f"{values}; at t = 0: "
+                   + ", ".join(
+                       f"{name} = ({', '.join(f'{v:.6g}' for v in row)}) "
+                       f"{PARTS[name].unit if name in PARTS else ''}".rstrip()
+                       for name, row in starts.items()))
+
+
+def _errors(case, end, found=None):
+    """A row per model and part of the state: first times of 1 % and 10 %, and the largest error."""
+    found = found or compare(case, np.linspace(0.0, end, POINTS))
+    rows = [{"case": case.name, "model": panels.WORDS[d.model], "part": written(d.part),
+             "one": _time(d.first[0.01]), "ten": _time(d.first[0.1]),
+             "largest": so_many(d.largest / d.scale if d.scale else d.largest, 2)} for d in found.departures]
+    return rows + [{"case": case.name, "model": panels.WORDS[name], "part": "", "one": "no answer",
+                    "ten": written(why), "largest": ""}
+                   for name, why in found.refused.items()]
+
+
+def _time(value):
+    return "never" if value is None else f"{so_many(value, 3)} s".replace("e-0", "e−")
+
+
+def _sensible(chapter, folder):
+    """The variant: its errors and its picture."""
+    case = sweep(chapter.sensible)[""]
+    found = compare(case, np.linspace(0.0, chapter.sensible_end, POINTS))
+    runs, _ = side_by_side(case, np.linspace(0.0, chapter.window, 1001))
+    with style.drawing() as plt:
+        path = style.save(comparison.picture(plt, case, runs, chapter.parts, units=SI),
+                          folder / FOLDER / f"{chapter.paper}-sensible.png")
+    return picture(path, FOLDER, case=case.name, title=written(case.title), why=written(chapter.why),
+                   end=chapter.sensible_end, rows=_errors(case, None, found), parameters=_parameters(case),
+                   path=f"cases/{case.name}.toml")
+
+
+TITLE = "Bounded motion and spin-up of a gyrostat under constant torque"
+FINEST = 5                   # number of the figure on the start page
+GROWING = "minor-axis-100"   # the case about which the growth of cost is measured
+# s
+AUDIT_TAKES = {"constant-torque-gyrostat": 15.0, "charged-axisymmetric-short": 13.0,
+               "charged-axisymmetric": 12.0, "liquid-cavity": 10.0}
+
+
+# -- what is drawn and computed, by whichever process is free
+
+
+def tables(folder: Path) -> list[dict]:
+    """Tables 1-4 in all formats, and what the page says of them."""
+    rows = []
+    (folder / "tables").mkdir()
+    for one in table.tables():
+        names = []
+        for kind, make in table.FORMATS.items():
+            path = folder / "tables" / f"{one.stem}.{kind}"
+            path.write_text(make(one), encoding="utf-8")
+            names.append(f"tables/{path.name}")
+        rows.append({"number": one.number, "title": one.title, "wide": one.wide, "rows": one.rows,
+                     "files": names, "html": table.html_fragment(one)})
+    return rows
+
+
+def figure(number: int, folder: Path) -> dict:
+    """A figure of the constant-torque paper, and what the page says of it."""
+    return drawn(figures.figure(number), folder)
+
+
+# -- the pages
+
+
+def everything_of(cases, folder: Path, tell, wanted: own.Wanted, workers=None,
+                  **around) -> list[tuple[str, bool]]:
+    """Everything: tasks first, by all processes, then the pages. Of each entry a line for each law that a
+    motion leaves, and whether a fate is undecided."""
+    work = [Task("tables", "papers.report:tables", (folder,), 0.5), *own.tasks(cases, folder, wanted)]
+    work += [Task(f"figure {row.number}", "papers.report:figure", (row.number, folder), 1.2)
+             for row in figures.FIGURES]
+    work += [Task(f"chapter {one.paper}", "papers.report:section", (one.paper, folder), one.weight)
+             for one in CHAPTERS]
+    work += [Task(f"audit of {name}", "papers.audit:findings_of", (name,), AUDIT_TAKES.get(name, 6.0))
+             for name in audited_papers()]
+    work += [Task("numbers of other tools", "papers.validation:validated", (), 5.0)]
+    work += ([Task("what answers cost", "papers.report:costs", (cases, folder), 90.0)]
+             if wanted.precision else [])
+    found = dict(zip([task.words for task in work], done(work, folder, tell, workers)))
+    cost = found.get("what answers cost", [])
+    nav = _nav(cost)
+    _papers(folder, found, nav)
+    groups = _cases(cases, folder, found, nav, around)
+    audit, tools = _audit(folder, found, nav), _validation(folder, found, nav)
+    index.page([found[f"audit of {name}"] for name in audited_papers()], folder, nav=nav, here="where.html")
+    index.hard_cases(folder, nav=nav, here="hard-cases.html")
+    if cost:
+        html.write(folder / "cost.html", "cost.html", title="What answers cost", pages=cost, nav=nav,
+                   here="cost.html")
+    _start(cases, folder, found, nav, groups, audit, tools, cost, around)
+    return [(made["beyond"], made["open"]) for name, made in found.items() if name.startswith("case ")]
+
+
+def _nav(cost):
+    rows = [("index.html", "Start"), ("constant-torque.html", "Constant torque"),
+            *((f"{one.paper}.html", one.short) for one in CHAPTERS), ("cases.html", "Cases"),
+            ("audit.html", "Printed formulas"), ("where.html", "Where is it?"),
+            ("hard-cases.html", "Hard cases"), ("validation.html", "Other tools")]
+    rows += [("cost.html", "Cost")] if cost else []
+    return [{"file": file, "title": title} for file, title in rows]
+
+
+def _papers(folder, found, nav):
+    """The pages of the papers."""
+    from markupsafe import Markup
+    # escaped cell by cell in table.py
+    rows = [one | {"html": Markup(one["html"])} for one in found["tables"]]
+    main = found[f"audit of {MAIN}"]
+    drawn = [found[f"figure {row.number}"] | {"rows": index.of_figure(*main, row.number)}
+             for row in figures.FIGURES]
+    html.write(folder / "constant-torque.html", "constant_torque.html", title="Constant torque",
+               paper=table.PAPER, tables=rows, nav=nav, here="constant-torque.html", data=index.data(),
+               claims=index.claims(*main), figures=drawn)
+    audits = {audit[0].figures: audit for audit in (found[f"audit of {name}"] for name in audited_papers())}
+    for one in CHAPTERS:
+        html.write(folder / f"{one.paper}.html", "chapter.html", chapter=found[f"chapter {one.paper}"],
+                   claims=index.claims(*audits[one.paper]), nav=nav, here=f"{one.paper}.html",
+                   title=one.title)
+
+
+GROUPS = (("Constant torque along a principal axis",
+           lambda case: case.scene.plain and not case.thrusters and torque_axis(case.scene)),
+          ("Constant torque in another direction",
+           lambda case: case.scene.plain and not case.thrusters and _acts(case.scene)),
+          ("No torque", lambda case: case.scene.plain and not case.thrusters),
+          ("Spacecraft with thrusters", lambda case: case.thrusters),
+          ("A charge in a magnetic field",
+           lambda case: _has(case, "charge") and not _has(case, "liquid_cavity")),
+          ("A cavity of viscous liquid", lambda case: _has(case, "liquid_cavity")),
+          ("Weight and field: tops", lambda case: _has(case, "gravity") or _has(case, "newtonian_field")),
+          ("Other effects", lambda case: True))
+
+
+# look of the answer -> title
+OUTCOMES = {"changes": "Spins up, or reaches its limit",
+            "conditional": "Bounded on a condition, or undecided",
+            "bounded": "Bounded for ever", "": "Sweeps, and cases without a motion"}
+
+
+def _acts(scene):
+    return any(scene.quadratic().m)
+
+
+def _has(case, effect):
+    return case.variables == "physical" and any(one.name == effect for one in case.scene.effects)
+
+
+def group(case) -> str:
+    """The title of the group of a case: by its effects."""
+    return next(title for title, belongs in GROUPS if belongs(case))
+
+
+def _cases(cases, folder, found, nav, around):
+    """A page a case, and the page that lists them by outcome, those of one kind of scene side by side;
+    (title, number) of the groups."""
+    order = [title for title, _ in GROUPS]
+    rows: dict[str, list] = {look: [] for look in OUTCOMES}
+    for stem, _ in sorted(own.entries(cases), key=lambda one: order.index(group(one[1][0]))):
+        made = found[f"case {stem}"]
+        own.write(made, folder / own.FOLDER / f"{stem}.html", "", nav=nav, up="../", below="cases.html",
+                  **own.of_one(made, around))
+        row = own.listed(stem, made)
+        rows["" if "sweep" in made else row["look"]].append(row | {"file": f"{own.FOLDER}/{row['file']}"})
+    groups = [{"title": title, "rows": rows[look]} for look, title in OUTCOMES.items() if rows[look]]
+    html.write(folder / "cases.html", "list.html", title="Cases by outcome", groups=groups, nav=nav,
+               here="cases.html", **around)
+    return [(one["title"], len(one["rows"])) for one in groups]
+
+
+def _audit(folder, found, nav):
+    """The page of the audit; in words how many rows have which verdict."""
+    findings = [found[f"audit of {name}"] for name in audited_papers()]
+    audit_page.page(findings, folder / "audit.html", nav=nav, here="audit.html")
+    return audit_page.counts([finding for _, rows in findings for finding in rows])
+
+
+def _validation(folder, found, nav):
+    findings = found["numbers of other tools"]
+    validation.page(findings, folder / "validation.html", nav=nav, here="validation.html")
+    return "; ".join(f"{source.title}: {validation.counts(rows)}"
+                     for source, rows in validation.told(findings))
+
+
+# -- what measures times
+
+
+def _precision_of_kinds(cases, folder, **around):
+    """The first case of every kind: the others of a kind obey the same equations with other numbers."""
+    firsts: dict = {}
+    for case in cases:
+        if case.state is not None and case.span is not None:
+            firsts.setdefault(precision_page.kind(case), case)
+    left = len(own.entries(cases)) - len(firsts)
+    return precision_page.page(firsts.values(), folder,
+                               passed=(
+                                   f"{left} other cases, with the equations of one of these and other "
+                                   f"numbers",) if left else (), **around)
+
+
+def _growth(cases, folder, **around):
+    case = next((case for case in cases if case.name == GROWING), None)
+    return case and cost_growth.page(case, folder, **around)
+
+
+def _effects(cases, folder, **around):
+    return effect_cost.page(folder, **around)
+
+
+# (title, what it says, page(cases, folder) -> its path, or None where the cases do not call for it)
+COSTS = (("What accuracy costs",
+          "every way to follow each motion: error against time, and the cheapest way to each digit",
+          _precision_of_kinds),
+         ("How cost grows", "with the number of states, the digits, and closeness to the separatrix",
+          _growth), ("What each effect costs", "state, equations and time as effects are added one at a time",
+                     _effects))
+
+
+def costs(cases, folder: Path) -> list[dict]:
+    """The pages that hold measured times, one after the other by one process: never two measurements at once.
+    """
+    made = [(title, words, page(cases, folder, nav=_nav(True), below="cost.html"))
+            for title, words, page in COSTS]
+    return [{"title": title, "words": words, "file": path.name} for title, words, path in made if path]
+
+
+def _hero(cases, found) -> dict | None:
+    """The answer to a stuck thruster that the start page begins with: of a spacecraft with wheels, if one is
+    among the cases."""
+    craft = [(stem, members[0]) for stem, members in own.entries(cases)
+             if len(members) == 1 and members[0].thrusters]
+    for stem, _ in sorted(craft, key=lambda one: not one[1].wheels):
+        made = found[f"case {stem}"]["case"]
+        picture = next((one for one in made["pictures"] if one["kind"] == "time"), None)
+        if picture:
+            short = "; ".join(f"{name}: {value} {note}".strip() for name, value, note in made["tiles"][:3])
+            return {"file": f"{own.FOLDER}/{stem}.html", "title": made["title"], "headline": made["headline"],
+                    "look": made["look"], "picture": picture, "folder": f"{own.FOLDER}/", "short": short}
+    return None
+
+
+def _edge(cases, found) -> tuple[str, str] | None:
+    """(what is said, page) of the first bounded motion under a torque whose distance from the separatrix is
+    known."""
+    for stem, members in own.entries(cases):
+        made = found[f"case {stem}"]
+        if "sweep" not in made and made["case"]["look"] == "conditional" and members[0].scene.plain:
+            *_, (_, value, note) = made["case"]["tiles"] or [("", "", "")]
+            if note.startswith("the smallest change"):
+                return f"{written(made['case']['title'])}: {value}, {note}", f"{own.FOLDER}/{stem}.html"
+    return None
+
+
+def _questions(cases, found, hero, audit, cost) -> list[dict]:
+    """(question, its answer, where more of it stands) of what the report answers."""
+    edge = _edge(cases, found)
+    rows = [("My thruster is stuck: what happens, how soon, how large?", hero["short"], hero["file"])
+            ] if hero else []
+    rows += [("How far is it from the edge, the separatrix?", *edge)] if edge else []
+    rows += [("What does accuracy cost in time?", "; ".join(page["words"] for page in cost), "cost.html")
+             ] if cost else []
+    rows += [("Where do formulas that are right on paper lose their digits?",
+              "hard cases, each with what a plain evaluation gives and what is done instead",
+             "hard-cases.html"),
+             ("What do the five papers say, and what is so?", f"of their equations and claims {audit}",
+              "where.html")]
+    return [{"question": question, "words": words, "file": file} for question, words, file in rows]
+
+
+def _start(cases, folder, found, nav, groups, audit, tools, cost, around):
+    """The first page: a stuck thruster as it is answered, the questions, the finest picture, and what is
+    inside."""
+    hero = _hero(cases, found)
+    drawn = [row.number for row in figures.FIGURES if not row.added]
+    words = {"constant-torque.html": f"{table.PAPER}: tables 1 to {len(found['tables'])}, figures {drawn[0]} "
+                                     f"to {drawn[-1]}, recomputed and corrected",
+             "cases.html": "; ".join(f"{title[0].lower()}{title[1:]} ({some(number, 'case')})"
+                                     for title, number in groups),
+             "audit.html": "every numbered equation of five papers, tried on the equations of motion: "
+                           f"{audit}",
+             "validation.html": tools,
+             "where.html": "every equation, figure, table and claim of the five papers, with its place",
+             "hard-cases.html": "where formulas that are right on paper lose their digits",
+             "cost.html": "What accuracy, many states and each effect cost, measured"}
+    words |= {f"{one.paper}.html": f"{one.title}: {figures.PAPERS[one.paper]}" for one in CHAPTERS}
+    cards = [page | {"words": words[page["file"]]} for page in nav if page["file"] != "index.html"]
+    picture = found.get(f"figure {FINEST}") or found[f"figure {figures.FIGURES[0].number}"]
+    html.write(folder / "index.html", "start.html", title=TITLE, picture=picture, cards=cards, nav=nav,
+               hero=hero, questions=_questions(cases, found, hero, audit, cost), here="index.html", **around)
+
+
+PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista", "python-flint")
+TOLERANCES = {"verdicts, fates, periods": "exact structure of the equations, to rounding",
+              "extremes": "roots, to rounding",
+              "trajectories": 1.1e-16}  # relative, of the Taylor series
+SHOW_CURSOR = b"\x1b[?25h"  # the progress line hides it
+DEEP = 4  # pages up to which each also tells what takes seconds
+
+
+def write(cases=None, out="report", progress=None, arguments=None, papers=False, precision=False,
+          certify=False, workers=None,
+          beyond: list | None = None, undecided: list | None = None) -> Path:
+    """Write a report into the folder `out`: on `cases` (paths or Case), or, where there are none, on
+    everything the package brings.
+
+    papers: the papers' tables and figures, the audit and other tools' numbers as well; precision: what
+    accuracy costs; certify: a certificate of each case, checked. workers: processes that share the work
+    (None: one a core); the pages are the same for any number. Everything is made in a temporary folder inside
+    `out` and renamed into place, index.html and manifest.json last; no renderer is needed. progress(words) is
+    called before every step; by default a line on stderr where that is a terminal. arguments: of the command
+    line, for the manifest. beyond: a list, which gets a line for every approximate law that a motion leaves;
+    undecided: one that gets the stem of every file with an undecided fate. Returns the path of index.html;
+    raises CaseError for a case file with faults, before anything is written.
+    """
+    out = Path(out)
+    # what a report cannot do without, before its minutes of work
+    demand("jinja2", *style.PACKAGES, "scipy", "sympy", "flint")
+    loaded, everything = of_all(cases), not cases
+    wanted = own.Wanted(papers or everything, precision or everything, certify,
+                        len(own.entries(loaded)) <= DEEP)
+    # the papers' figures read their cases
+    inputs = dict.fromkeys([*(case.path for case in loaded), *(table.case_files() if wanted.papers else ())])
+    around = {"command": command(loaded if cases else (), papers, precision, certify), "versions": versions(),
+              "extra": ()}
+    with _progress(progress) as tell, manifest.written(out, arguments, inputs, TOLERANCES) as folder:
+        if wanted.papers:
+            left = everything_of(loaded, folder, tell, wanted, workers, **around)
+        else:
+            around["extra"] = _precision(loaded, folder, tell) if wanted.precision else ()
+            left = own.pages(loaded, folder, tell, wanted, workers, **around)
+    if beyond is not None:
+        beyond += headline.together(line for lines, _ in left for line in lines.splitlines())
+    if undecided is not None:
+        undecided += [stem for (stem, _), (_, open_) in zip(own.entries(loaded), left) if open_]
+    return out / "index.html"
+
+
+def report(case: Any, out: str | os.PathLike[str] = "report", precision: bool = False, certify: bool = False,
+           workers: int | None = None) -> Path:
+    """Write the pages on a case into the folder `out`, as `stabilab report` does; precision: what accuracy
+    costs as well; certify: a certificate, checked. Returns the path of index.html. Raises
+    InputError where a package that draws is not installed."""
+    return write([case], out, precision=precision, certify=certify, workers=workers)
+
+
+def of_all(cases):
+    """The cases that a report is on: those given, or all of the papers."""
+    paths = list(cases or sorted(table.case_files(), key=lambda p: _natural(Path(p).stem)))
+    return [case for item in paths for case in ([item] if hasattr(item, "scene") else load_all(item))]
+
+
+def _natural(name):
+    stem, _, number = name.rpartition("-")
+    return (stem, int(number)) if number.isdigit() else (name, 0)
+
+
+def command(cases, papers, precision, certify) -> str:
+    """What was typed, but for the folder."""
+    options = [name for name,
+               given in (("--papers", papers), ("--precision", precision), ("--certify", certify)) if given]
+    return " ".join(["stabilab report", *dict.fromkeys(case.path for case in cases), *options])
+
+
+def _precision(cases, folder, tell):
+    path = precision_page.page([members[0] for _, members in own.entries(cases)], folder, tell)
+    return [{"title": "What accuracy costs", "words": "every way to follow the motion, error against time",
+             "file": path.name}]
+
+
+@contextmanager
+def _progress(given):
+    if given or not sys.stderr.isatty():
+        yield given or (lambda words: None)
+        return
+    from rich.console import Console
+    console = Console(stderr=True)
+    with undoing(lambda: os.write(2, SHOW_CURSOR)), console.status("report") as status:
+        yield lambda words: status.update(f"report: {words}")
+
+
+def versions():
+    """(name, version) of the program, Python, the machine and the libraries that had a part."""
+    import platform
+    from importlib.metadata import PackageNotFoundError, version
+
+    rows = [("stabilab", __version__), ("Python", platform.python_version()),
+            ("system", f"{platform.system()} {platform.machine()}")]
+    for name in PACKAGES:
+        try:
+            rows.append((name, version(name)))
+        except PackageNotFoundError:
+            rows.append((name, "not installed"))
+    return rows

@@ -1,1 +1,0 @@
-"""The report: its pages on papers and cases."""

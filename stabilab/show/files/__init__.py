@@ -1,1 +1,0 @@
-"""What is written beside an answer: manifests, trajectories; and making it again."""

@@ -1,0 +1,329 @@
+"""What accuracy costs: in words, as a picture, as a page.
+
+The work-precision picture: time against error, a line a method, the front marked.
+
+What accuracy costs, shown: as a table, in words, as CSV, JSON and the work-precision picture.
+
+A page of the report: what accuracy costs, for every case with a motion.
+"""
+from __future__ import annotations
+
+import math
+import textwrap
+from pathlib import Path
+
+from ..answers.caveats import caveats_of
+from ..cost import accuracy as measuring
+from ..cost.accuracy import EPS, digit_price
+from ..errors import InputError
+from ..files import write_text
+from ..packages import demand
+from ..physics.equations import derive
+from ..processes import machine, versions
+from . import endings, limiting, style
+from .data import csv_lines
+from .report import html
+from .terminal import RAISED, written
+from .text.cost import (
+    DOUBLES,
+    FORMULAS,
+    NAMES,
+    by_digits,
+    caption,
+    duration,
+    flat,
+    methods,
+    setting,
+    so_many,
+    title,
+    words,
+)
+
+LOOKS = {  # method -> how its line is drawn; the same in every picture
+    "taylor": {"color": style.BLUE, "marker": "o"},
+    "taylor-batch": {"color": style.SKY, "marker": "o", "linestyle": "--"},
+    "RK45": {"color": style.ORANGE, "marker": "s"},
+    "RK23": {"color": style.ORANGE, "marker": "v", "linestyle": "--"},
+    "DOP853": {"color": style.VERMILION, "marker": "D"}, "Radau": {"color": style.PURPLE, "marker": "^"},
+    "BDF": {"color": style.PURPLE, "marker": "<", "linestyle": "--"},
+    "LSODA": {"color": style.GREY, "marker": ">"},
+    "reduced": {"color": style.GREEN, "marker": "P"},
+    "balls": {"color": style.BLACK, "marker": "X", "linestyle": "none"},
+    "reference": {"color": style.BLACK, "marker": "h", "linestyle": "none"},
+    "linear": {"color": style.BLACK, "marker": "1", "linestyle": "none"},
+    "corrected": {"color": style.PURPLE, "marker": "x", "linestyle": "none"},
+    "printed": {"color": style.ORANGE, "marker": "*", "linestyle": "none"},
+    "averaged1": {"color": style.GREEN, "marker": "2", "linestyle": "none"},
+    "averaged2": {"color": style.BLUE, "marker": "3", "linestyle": "none"},
+    "lindstedt": {"color": style.GREEN, "marker": "4", "linestyle": ":"}}
+WORST, LEAST = 10.0, 1e-17  # errors beyond are drawn at the edge
+PANEL = (3.4, 2.6)  # inches that a panel needs at least
+NOTED = 1.5  # digits: stretches of the front at least so long have their price written on them
+
+
+def picture(plt, found, size=None, most=None):
+    """Time against error, both logarithmic: a panel per question, a line per method, the front as a grey
+    band. size: (width, height) in inches; a figure of that size has as many of the questions, in their order,
+    as have room. most: of panels; where it is given the legend has the methods without their prices."""
+    questions = found.questions[:most]
+    if not questions:
+        raise InputError(f"{found.case.name}: nothing to draw: {found.reference.reason}")
+    columns = min(2, len(questions))
+    if size is not None:
+        columns = max(1, min(columns, int(size[0] / PANEL[0])))
+        questions = questions[:columns * max(1, int(size[1] / PANEL[1]))]
+    rows = -(-len(questions) // columns)
+    usual = (5.6 * columns, 4.0 * rows + (1.3 if columns == 2 else 2.1))
+    figure, axes = plt.subplots(rows, columns, figsize=size or usual, layout="constrained", squeeze=False)
+    for ax, question in zip(axes.flat, questions):
+        panel(ax, found, question)
+    for ax in axes.flat[len(questions):]:
+        ax.set_visible(False)
+    looks = meanings(found, questions, most is None and (size is None or size[0] >= usual[0]))
+    style.legend(figure, looks, (3 if columns == 2 else 1) if size is None else None)
+    figure.suptitle(f"{found.case.name}: what accuracy costs", fontsize=11 * style.share(), parse_math=False)
+    if size is not None and style.share() < 1:
+        return figure  # without the note, which a small figure has no room for
+    formulas = ("Dotted: the error of a formula, at whatever time. "
+                if any(p.method in FORMULAS for p in found.points) else "")
+    power = math.ceil(math.log10(found.reference.error.max() or LEAST))
+    ten = f"10{'⁻' * (power < 0)}{str(abs(power)).translate(RAISED)}"
+    note = (
+        f"Thin lines reach up to the slowest of several runs. {formulas}Error of the reference at most "
+        f"{ten}. {caption()}")
+    width = int((150 if columns == 2 else 84) * figure.get_figwidth() / usual[0])
+    figure.legends[0].set_title("\n".join(textwrap.wrap(note, width)), prop={"size": 7.5})
+    figure.legends[0].get_title().set(color=style.GREY, parse_math=False)
+    return figure
+
+
+FRONT = {"color": "#CDD5DA", "linewidth": 7, "marker": "o", "markersize": 11, "markeredgewidth": 0,
+         "solid_joinstyle": "round"}
+
+
+def meanings(found, questions=None, prices=True) -> list[tuple[str, dict]]:
+    """Rows (name, look) of the legend: methods, with the price of a digit or alone, and the front."""
+    asked = [p.method for p in found.points if questions is None or p.question in questions]
+    asked += ["reference"] * ("span" in (questions or found.questions))
+    rows = []
+    for method in (one for one in LOOKS if one in asked):
+        factors = (digit_price(found.of(q, method)) for q in found.questions) if prices else ()
+        factor = next((f for f in factors if f is not None), None)
+        rows.append((NAMES.get(method, method) + ("" if factor is None else f": ×{factor:.2f} a digit"),
+                     LOOKS[method]))
+    return [*rows, ("front: no single run beats it" if prices else "front", FRONT)]
+
+
+def panel(ax, found, question):
+    """One question of a measurement on given axes: a line a method, the front as a grey band."""
+    ax.set(xscale="log", yscale="log", xlabel="largest relative error", ylabel="processor time (s)",
+           title=title(found, question))
+    front = found.front(question)
+    ax.plot([_clipped(p.error) for p in front], [p.seconds for p in front], zorder=1, **FRONT)
+    for method in methods(found, question):
+        points = [p for p in found.of(question, method) if not math.isinf(p.error)]
+        x, y = [_clipped(p.error) for p in points], [p.seconds for p in points]
+        ax.vlines(x, y, [p.slowest for p in points], color=LOOKS[method]["color"], linewidth=0.6, alpha=0.3,
+                  zorder=2)
+        ax.plot(x, y, markersize=5, linewidth=1.3, zorder=3, **LOOKS[method])
+        if method in FORMULAS and points:
+            ax.axvline(min(x), color=LOOKS[method]["color"], linewidth=0.8, linestyle=":", zorder=1)
+        for p in (points[0], points[-1]) if len(points) > 1 and points[0].setting == "rtol" else ():
+            ax.annotate(f"{p.value:.0e}".replace("e-0", "e-"), (_clipped(p.error), p.seconds), (0, 5),
+                        textcoords="offset points", ha="center", fontsize=6.5 * style.share(),
+                        color=LOOKS[method]["color"])
+    if question == "span":
+        ax.plot([LEAST], [found.reference_seconds], markersize=7, clip_on=False, **LOOKS["reference"])
+        ax.annotate(f"{found.reference.digits[0]} digits", (LEAST, found.reference_seconds), (-7, 0),
+                    textcoords="offset points", ha="right", va="center", fontsize=7 * style.share())
+    if question in ("span", "end") and found.sensitivity is not None:
+        ax.axvline(_clipped(found.sensitivity * EPS), color=style.GREY, linestyle="--", linewidth=0.9)
+        ax.annotate("last place of the start", (_clipped(found.sensitivity * EPS), 0.98),
+                    xycoords=("data", "axes fraction"),
+                    rotation=90, va="top", ha="right", fontsize=7 * style.share(), color=style.GREY)
+    ax.invert_xaxis()  # better to the right
+    for one, two in zip(front, front[1:]):
+        if two.digits - one.digits >= NOTED:
+            factor = (two.seconds / one.seconds) ** (1 / (two.digits - one.digits))
+            ax.annotate(f"×{factor:.2f} a digit", (math.sqrt(_clipped(one.error) * _clipped(two.error)),
+                        math.sqrt(one.seconds * two.seconds)), xytext=(0, 9), textcoords="offset points",
+                        ha="center", fontsize=7.5 * style.share())
+
+
+def _clipped(error) -> float:
+    return min(max(error, LEAST), WORST)
+
+
+COLUMNS = ("case", "question", "method", "setting", "value", "error", "digits", "steps", "evaluations",
+           "seconds", "slowest", "repeats", "compile_seconds", "lanes", "parts", "on_front")
+
+
+def text(found, all_settings: bool = False) -> str:
+    """The cheapest method for each number of digits; with all settings their table, too, * marking the front,
+    and the words. rates: how often the rates were evaluated; the slowest run is in CSV and JSON."""
+    told = words(found)
+    answer = next((line for line in told if "six digits cost" in line), told[0])
+    lines = [f"{found.case.name}: {answer}", *([written(found.case.title)] if found.case.title else []),
+             *(["", *_by_digits(found)] if by_digits(found) else [])]
+    if not all_settings:
+        return "\n".join([*lines, "", "--all prints every setting of every method."])
+    for question in found.questions:
+        front = set(map(id, found.front(question)))
+        lines += ["", title(found, question),
+                  f"  {'method':<13}{'setting':<13}{'error':>8}{'digits':>8}{'steps':>8}{'rates':>8}"
+                  f"{'time':>10}{'compile':>9}"]
+        lines += [_line(p, id(p) in front) for p in found.of(question)]
+    left_out: dict = {}  # reason -> the methods that it holds for, each from its coarsest setting on
+    for name, value, why in found.left_out:
+        left_out.setdefault(why, {}).setdefault(name, []).append(value)
+    for why, settings in left_out.items():
+        coarsest = [f"{name}, {values[0]:g}{' and finer' if len(values) > 1 else ''}"
+                    for name, values in settings.items()]
+        lines.append(f"  left out: {'; '.join(coarsest)}: {why}")
+    return "\n".join([*lines, "", *told, "", caption()])
+
+
+def _by_digits(found):
+    """The table by digits wanted: the cheapest method, its time, that of fewest digits as one, the second."""
+    lines = [f"{'digits':>6}  {'cheapest':<40}{'time':>10}{'times 3 digits':>16}  second best"]
+    for row in by_digits(found):
+        second = row["second"]
+        other = "" if second is None else f"{NAMES.get(second['method'], second['method'])}: " + duration(
+            second["seconds"])
+        lines.append(f"{row['digits']:>6}  {NAMES.get(row['method'], row['method']):<40}"
+                     f"{duration(row['seconds']):>10}{row['relative']:>16.3g}  {other}".rstrip())
+    return [*lines, *filter(None, [flat(found)])]
+
+
+def _line(p, best) -> str:
+    error = "none" if math.isinf(p.error) else f"{p.error:.1e}"
+    counts = "".join(f"{'' if n is None else n:>{width}}" for n, width in ((p.steps, 8), (p.evaluations, 8)))
+    times = f"{duration(p.seconds):>10}{duration(p.compile) if p.compile > 1e-4 else '':>9}"
+    return (f"{'*' if best else ' '} "
+            f"{p.method:<13}{setting(p)[2:]:<13}{error:>8}{p.digits:>8.1f}{counts}{times}".rstrip())
+
+
+def as_dict(found) -> dict:
+    """The object of `stabilab precision --json`. Errors are null where no answer came."""
+    r = found.reference
+    return {"schema": "stabilab.precision/1", "case": found.case.name, "time": found.case.scene.time_unit,
+            "quick": found.quick,
+            "times": r.t, "machine": machine(), "versions": versions(),
+            "reference": {"digits": r.digits, "error": float(r.error.max()) if len(r.t) else None,
+                          "status": r.status,
+                          "reason": r.reason, "multiplications": r.work, "period": r.period and r.period[0],
+                          "period_error": r.period and r.period[2], "extremes_error": r.extremes_error},
+            "sensitivity": found.sensitivity, "points": [_row(found, p) for p in found.points],
+            "digit_price": {q: {m: digit_price(found.of(q, m)) for m in methods(found, q)}
+                            for q in found.questions},
+            "by_digits": by_digits(found),
+            "fates": [vars(f) for f in found.fates],
+            "left_out": [{"method": m, "value": v, "reason": why} for m, v, why in found.left_out],
+            "words": words(found)}
+
+
+def _row(found, p) -> dict:
+    values = (found.case.name, p.question, p.method, p.setting, p.value, p.error, min(p.digits, 99.0),
+              p.steps, p.evaluations, p.seconds,
+              p.slowest, p.repeats, p.compile, p.lanes, p.parts, any(p is q for q in found.front(p.question)))
+    return dict(zip(COLUMNS, values))
+
+
+def csv(*measured) -> str:
+    """One line per point of every case; empty where a count does not exist, inf where no answer came."""
+    lines: list = [(*COLUMNS, "caveats")]
+    for found in measured:
+        case = found.case
+        caveats = caveats_of(case.scene, validity=found.validity, file=case.caveats)
+        lines += [(*_row(found, p).values(), limiting.cell(case, caveats)) for p in found.points]
+    return csv_lines(lines)[:-1]
+
+
+def write(found, path, size=None, most=None) -> Path:
+    """The picture (.png, .svg, .pdf) or the points (.csv). size, most: as of `picture`."""
+    path = checked(path)
+    if endings.ending(path) == ".csv":
+        return write_text(path, csv(found) + "\n")
+    with style.drawing() as plt:
+        return style.save(picture(plt, found, size, most), path)
+
+
+def checked(path) -> Path:
+    """The path, if its ending is one that can be written."""
+    path = endings.file(path, (*endings.PICTURES, ".csv"))
+    if endings.ending(path) != ".csv":
+        demand(*style.PACKAGES)
+    return path
+
+
+SHORT = {"reduced": "closed form", "reference": "many digits"}
+STATES = "precision/states.png"
+ONE = (7.0, 5.8)  # inches of a picture of the states alone
+FIRST = "minor-axis-100"  # the motion that the page begins with, where it was measured
+
+
+def page(cases, folder, tell=None, passed=(), **around) -> Path:
+    """Measure every case that has a motion and a span and write precision.html with its pictures and points
+    (in precision/) into the folder; returns its path. The first case of every kind (the same equations, the
+    same axis of the torque) is measured with every method and drawn; the others, with the methods that are
+    likely to be best, are told in words. passed: lines on cases that are left out; around: of the pages
+    beside it (`html.render`)."""
+    folder, tell, sections, passed, seen = Path(folder), tell or (lambda words: None), [], list(passed), set()
+    for case in cases:
+        if case.state is None or case.span is None:
+            passed.append(f"{case.name}: no motion with a span")
+            continue
+        tell(f"precision of {case.name}")
+        of = kind(case)
+        section, why = _section(case, folder, "glance" if of in seen else "brief")
+        if section is None:
+            passed.append(f"{case.name}: {why}")
+            continue
+        seen.add(of)
+        sections.append(section)
+    drawn = [section for section in sections if section["picture"]]
+    first = next((section for section in drawn if section["name"] == FIRST), drawn[0] if drawn else None)
+    opening = first and (STATES if first["name"] == FIRST else first["picture"])
+    return html.write(folder / "precision.html", "precision.html", cases=sections, passed=passed, first=first,
+                      opening=opening, machine=caption(), priced=DOUBLES, **around)
+
+
+def kind(case) -> tuple:
+    """What cases have in common that are measured alike: equations but for numbers, axes of the torque."""
+    equations = derive(case.scene, case.blocks)
+    acting = tuple(m != 0 for m in case.scene.quadratic().m) if case.scene.plain else ()
+    return equations.blocks, tuple(map(str, equations.rhs)), acting
+
+
+def _section(case, folder, effort):
+    """(what the template says of a case, None), or (None, why nothing could be measured)."""
+    try:
+        found = measuring.precision(case, effort)
+    except InputError as error:
+        return None, str(error)
+    if not found.questions:
+        return None, found.reference.reason
+    picture = None
+    if effort == "brief":
+        if case.name == FIRST:
+            write(found, folder / STATES, ONE, most=1)
+        picture = f"precision/{write(found, folder / 'precision' / f'{case.name}.png').name}"
+    write(found, folder / "precision" / f"{case.name}.csv")
+    rows = {row["digits"]: row for row in by_digits(found)}
+    return {"name": case.name, "title": case.title or case.name, "words": words(found), "picture": picture,
+            "csv": f"precision/{case.name}.csv", "flat": flat(found), "times": len(found.reference.t),
+            "command": f"stabilab precision {case.path}", "error": f"{found.reference.error.max():.0e}",
+            "prices": [_price(rows.get(digits)) for digits in DOUBLES],
+            "rows": [{"digits": row["digits"], "relative": so_many(row["relative"], 3),
+                      "method": NAMES.get(row["method"], row["method"]), "time": duration(row["seconds"]),
+                      "second": second and NAMES.get(second["method"], second["method"]),
+                      "its": second and duration(second["seconds"])}
+                     for row in rows.values() for second in [row["second"] or ""]]}, None
+
+
+def _price(row) -> str:
+    """The cheapest time for some digits, with the method where that is no Taylor series."""
+    if row is None:
+        return "–"
+    named = "" if row["method"] == "taylor" else f", {SHORT.get(row['method'], row['method'])}"
+    return duration(row["seconds"]) + named

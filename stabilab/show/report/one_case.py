@@ -1,0 +1,337 @@
+"""One case, or one sweep, as a page.
+
+The space of the three rates, to be turned by hand, as numbers that a small script of the page draws.
+
+The pictures of one motion on its page: the plots that a user can ask for, of each kind it has.
+
+One case as a page: every section with what applies to it, and in words what does not.
+
+A file with [sweep] as one page: a row a combination, a column a swept key, one picture of all motions.
+"""
+from __future__ import annotations
+
+import math
+from base64 import b64encode
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from ...answers.certificate import certificate
+from ...answers.equilibria import equilibria
+from ...answers.motion import motion
+from ...answers.uncertain.fate import uncertain
+from ...answers.when import with_tilt
+from ...errors import StabilabError
+from ...physics.equations import derive, invariants
+from ...theories.follow import models_of
+from ...verify import verify_file
+from .. import certification, frame, limiting, style
+from ..axes import axes_of
+from ..plot import subject as which
+from ..plot import to_file
+from ..plot.in_space import space_of
+from ..plot.over_time import file_axes
+from ..plot.path import along
+from ..plot.subject import subject
+from ..space import data
+from ..terminal import greek, printed, some
+from ..text import classification as boxes
+from ..text.headline import headline, judged, lines_of, look
+from ..text.motion import constants, margins, shown, state
+from ..text.scene import fates, key_columns, latex, of_motions
+from ..units import DIGITS, but_for_rounding, number, parameter_unit, units_of, with_unit
+from . import html
+from .html import picture
+from .tables import equilibrium_table, sensitivity, tiles
+
+
+def space(one, at_rest, units) -> dict:
+    """What the script draws of a subject, the legend, and words on the separatrix. at_rest: equilibria."""
+    found = space_of(one, map(printed, one.scene.components), units.rates, at_rest, reaching=True)
+    drawn = data(found, lambda places: b64encode(places).decode("ascii"))
+    reason = "; ".join(filter(None, (found.words, found.part)))
+    return {"drawn": drawn, "legend": drawn["legend"], "reason": printed(units.words(reason)),
+            "clipped": any(max(map(abs, found.box.share(at))) > 1 + 1e-9 for _, branch in found.branches
+                           for at in branch.points)}
+
+
+# kind -> (title, caption)
+SHOWN = {
+    "time": ("Rates over time", "The rates along the principal axes."),
+    "phase": ("Phase plane",
+              "Turn about one axis since the start, and the rate about it. A motion stays on its curve; "
+              "black curves, where there are any, part motions of different kinds."),
+    "potential": ("Reduced potential",
+                  "The motion stays where its energy is above the potential; a barrier holds it."),
+    "sphere": ("The surface on which the motion stays", "With the other motions on it."),
+    "equilibria": ("All equilibria", "Stable and unstable ones in the space of the rates."),
+    "state": ("Analytic models beside the exact motion",
+              "Each part of the state over time; stabilab compare tells when a model is off by 1 % "
+              "and 10 %."),
+    "tilt": ("Time to the limit against the tilt",
+             "From the earliest to the latest of runs at directions round the edge of each cone."),
+    "wheel": ("Time gained by another momentum of a wheel", "The other wheels left as they are."),
+    "body": ("The body and what acts on it", "Directions are those of the case, lengths of arrows are not.")}
+TITLED = ("sphere", "equilibria", "state")  # by what no heading of the page says
+SIZES = {"tilt": (6.0, 3.8), "wheel": (6.0, 3.8), "body": (5.2, 5.2)}  # inches, of the smaller ones
+ALONE = ("Every part of the state over time", "No approximate theory comes with these effects.")
+OF_THE_FILE = "The rates along the axes of the file, about which its limits are."
+BRIEF = ("time", "phase", "state")  # on a page among many
+
+
+def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg", at_rest=None) -> list[dict]:
+    """Draw every plot of a subject (`plot.subject`) that a page shows; file, size in pixels, title and
+    caption of each, in order. deep: all kinds, not only those of the motion itself. at_rest: its
+    equilibria."""
+    found, offered = [], [kind for kind in SHOWN if not which.why_not(kind, one)]
+    # what another part of the page has: table and space the single points, the plane what is wrapped round a
+    # surface
+    case, bodily = one.case, which.bodily(one)
+    # a sketch of the body shows more than its moments: effects, or axes that the file has not
+    acted_on = (bodily and bodily.effects) or case.thrusters or case.frame and not case.frame.as_given
+    spared = {"equilibria": at_rest is not None and not at_rest.curves, "body": not acted_on,
+              "sphere": "phase" in offered and not which.free(one), "state": which.rates_alone(one)}
+    exact_alone = models_of(one.scene) == ("exact",)
+    for kind, (title, caption) in SHOWN.items():
+        if kind in offered and (deep or kind in BRIEF) and not spared.get(kind):
+            if kind == "state" and exact_alone:
+                title, caption = ALONE
+            if kind == "time" and file_axes(one) is not None:
+                caption = OF_THE_FILE
+            if kind == "time":
+                caption += _later(one)
+            narrow = None if found or kind != "time" else folder / f"{stem}-{kind}-narrow.png"
+            made, *more = to_file.write_all(one, folder / f"{stem}-{kind}.png", kind, SIZES.get(kind),
+                                            units=units, narrow=narrow, titled=kind in TITLED)
+            found.append(picture(made, "", narrow, caption=caption, kind=kind, title=title,
+                                 more=[path.name for path in more],
+                                 command=f"stabilab plot {one.path} --kind {kind}"))
+    return found
+
+
+def _later(one) -> str:
+    """What a picture that ends before a spin-up begins has to say."""
+    release = one.motion.evidence.get("release_time")
+    if release is None or one.case is None or release <= max(one.seen):
+        return ""
+    units = units_of(one.case)
+    told = printed(units.moment(release) if units.scaled else units.time(release))
+    return f" The spin-up begins later: the turn reverses for the last time at {told}."
+
+
+EXPLAINED = {"margin, rate": ": the smallest change of the rates that reaches the separatrix",
+             "margin, energy": ", the barrier ahead less the energy"}
+
+
+def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = False) -> dict:
+    """Everything that the template says of a case; pictures go into the folder, their names begin with the
+    stem.
+
+    deep: also what takes seconds (a tilt of the torque). certify: write a certificate and check it. What the
+    analysis cannot answer stands under "absent" with its reason; nothing of it raises.
+    """
+    units, absent, one = units_of(case), [], subject(case)
+    found = _tried(absent, "Equilibria", lambda: equilibria(case.scene))
+    moved = None if case.state is None else _tried(absent, "Motion", lambda: one.motion)
+    if deep and moved is not None:
+        moved = _tried(absent, "Tilt of the torque", lambda: with_tilt(case, moved)) or moved
+        one = replace(one, known=moved)
+    if case.state is None:
+        absent.append(("Motion", "the case states none: no fate, margins and pictures of it"))
+    asked = ("equilibria", "fate") if case.state else ("equilibria",)
+    box = _tried(absent, "Uncertain numbers", lambda: uncertain(case, asked)) if case.uncertain else None
+    answer = f"No motion is given. Equilibria: {found.kind if found else 'not known'}"
+    answer = headline(case, moved, units) if moved else answer
+    beyond = "" if moved is None or moved.validity is None or moved.validity.held else moved.validity.words
+    caveats = limiting.beside((one for one in case.caveats if one.kind != "uncertain"), units)
+    page = {"name": case.name, "title": case.heading, "source": case.source,
+            "path": case.path, "text": case.text,
+            "headline": printed("; ".join(filter(None, (answer, boxes.what_changes(box, units))))),
+            "law": printed(units.words(beyond)), "caveats": list(map(printed, caveats)),
+            "fate": "" if moved is None else "undecided" if boxes.open_fate(box) else moved.fate.word,
+            "look": "" if moved is None else "conditional" if boxes.open_fate(box) else look(moved),
+            "tiles": [], "facts": [], "extremes": [], "over": "", "pictures": [], "sensitivity": None,
+            "certificate": None,
+            "equilibria": found and equilibrium_table(found, units),
+            "equations": _tried(absent, "Equations", lambda: equations(case))}
+    if moved is not None:
+        page |= {"tiles": tiles(moved, units), "facts": facts(case, moved, units),
+                 "extremes": extremes(case, moved, units), "over": _over(units.words(moved.extremes_over))}
+        page["pictures"] = (_tried(absent, "Pictures",
+                                   lambda: pictures(one, folder, stem, deep,
+                                                    "deg" if units.scaled else units.name, found)) or [])
+        missing: dict[str, list[str]] = {}  # titles by their reason
+        for kind, (title, _) in SHOWN.items():
+            missing.setdefault(which.why_not(kind, one), []).append(title)
+        absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
+        page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(one, units))
+    page["space"] = _tried(absent, "Space of the rates", lambda: space(one, found, units))
+    page["uncertain"] = greek(boxes.uncertain_text(box, units))
+    if certify:
+        page["certificate"] = _tried(absent, "Certificate", lambda: _certificate(case, folder, stem))
+    return page | {"absent": [(what, printed(units.words(why))) for what, why in absent]}
+
+
+def _over(words) -> str:
+    """Over which times extremes are known, as the end of a heading."""
+    if words == "all time":
+        return "for all times"
+    if not words.startswith(("finite", "the ")):
+        words = f"over {words}"
+    return printed(words.replace("finite entries over", "the finite ones over"))
+
+
+def _tried(absent, what, made):
+    """What a function makes; None where the analysis cannot answer, with the reason among the absent."""
+    try:
+        return made()
+    except StabilabError as error:
+        absent.append((what, str(error)))
+        return None
+
+
+def facts(case, motion, units) -> list[tuple[str, str]]:
+    """(what, its value) of everything known of the motion, in the order in which one asks."""
+    validity, axes, words = motion.validity, frame.rows_of_axes(case), units.words
+    found = [("law", words(validity.words))] if validity is not None and validity.held else []
+    at = state(motion.at, units, case.scene.blocks)
+    found += [("start", f"{at} at {'tau' if units.scaled else 't'} = 0")]
+    found += [("because", words(motion.because.removeprefix("undecided: ")))]
+    explained = EXPLAINED | ({"margin, rate": ""} if motion.velocity_because else {})
+    found += [(name, told + explained.get(name, "")) for name, told in margins(motion, units)]
+    found += [("margin, rate", words(motion.velocity_because))] if motion.velocity_because else []
+    found += [("frame", frame.lines(case)[0].removeprefix("frame: "))] if axes else []
+    found += [(f"axis {name}", told) for name, told in axes]
+    return [(name, printed(told)) for name, told in (*found, *constants(motion, units))]
+
+
+def extremes(case, motion, units) -> list[dict]:
+    """A row a component: least and greatest rate, and the bounds for all times where these are others."""
+    if motion.extremes is None:
+        return []
+    name, one = units.rates
+
+    def told(value):
+        if value in (math.inf, -math.inf):
+            return "no end" if value > 0 else "no end downwards"
+        return printed(f"{shown(value, one)} {name}".rstrip())
+    bounds = motion.bounds if motion.bounds is not None and motion.bounds != motion.extremes else [None] * 3
+    pairs = but_for_rounding(motion.extremes, motion.tolerance)
+    return [{"name": printed(component), "least": told(low), "greatest": told(high),
+             "within": "" if bound is None else " to ".join(map(told, bound))}
+            for component, (low, high), bound in zip(case.scene.components, pairs, bounds)]
+
+
+def equations(case) -> dict:
+    """Equations of motion, parameters and laws, typeset."""
+    made, physical = derive(case.scene), case.variables == "physical"
+    unit = lambda name: f" {parameter_unit(name)}".rstrip() if physical else ""
+    return {"equations": html.equations_of_motion(made), "latex": latex(made),
+            "parameters": [(html.symbol(name), printed(number(float(value), DIGITS) + unit(name)))
+                           for name, value in made.parameters.items()],
+            "laws": [(printed(axes_of(case).sentence(law.words)), html.law(law))
+                     for law in invariants(case.scene)]}
+
+
+def _certificate(case, folder: Path, stem: str) -> dict:
+    """A certificate beside the page, checked by the code that shares nothing with the analysis."""
+    made = certificate(case.scene, case.exact_state)
+    path = certification.write(made, folder / f"{stem}-certificate.json")
+    found = verify_file(path)
+    return {"file": path.name, "summary": certification.summary(made).splitlines(), "status": found.status,
+            "findings": certification.as_dict(found, {})["findings"]}
+
+
+STYLES = ("-", "--", ":", "-.")
+WIDTHS = (1.0, 1.8, 2.6)
+POINTS = 801
+
+
+def sections_of_sweep(cases, folder: Path, stem: str) -> dict:
+    """What the template says of the combinations of one file; the picture goes into the folder."""
+    units, first = units_of(cases[0]), cases[0]
+    keys = [key_columns(cases, place) for place in range(len(first.swept))]
+    answered = [(case, *_answer(case)) for case in cases]
+    moved = [(case, found) for case, found, _ in answered if found is not None]
+    motions = [motion for _, motion in moved]
+    heads, table = of_motions(motions, units) if motions else ([], [])
+    told = iter(table)
+    cells = [[why] if found is None else next(told) for _, found, why in answered]
+    rows = [{"name": case.name, "values": [column[n] for key in keys for _, _, column in key],
+             "told": list(map(printed, cells[n])), "fate": "" if found is None else found.fate.word}
+            for n, (case, found, _) in enumerate(answered)]
+    caveats = dict.fromkeys(one for case in cases for one in case.caveats)
+    without = len(cases) - len(motions)
+    answers, seen = [fates(motions, units)] if motions else [], set(map(look, motions))
+    answers += [f"without a motion: {without}"] if without else []
+    laws = [(case, found and found.validity) for case, found, _ in answered]
+    beyond = [(case, None if law is None or law.held else law) for case, law in laws]
+    return {"name": stem, "title": first.title or stem,
+            "caveats": [printed(line) for line in limiting.beside(caveats, units)],
+            "heads": [with_unit(head, unit) for head, unit in heads],
+            "source": first.source, "path": first.path, "text": first.text, "rows": rows,
+            "keys": [with_unit(label.replace("_", " "), unit) for key in keys for label, unit, _ in key],
+            "equations": _equations(first),
+            "picture": _picture(moved, keys, cases, units, folder / f"{stem}-sweep.png") if moved else None,
+            "headline": f"{some(len(rows), 'combination')}: {'; '.join(answers)}",
+            "look": seen.pop() if len(seen) == 1 else "",
+            "law": "; ".join(lines_of(beyond, units))}
+
+
+def _answer(case):
+    """(the motion or None, why there is none)."""
+    if case.state is None:
+        return None, "no motion is given"
+    try:
+        return judged(case, motion(case.scene, case.start, case.span, True, case.exact_state)), ""
+    except StabilabError as error:
+        return None, str(error)
+
+
+def _places(case):
+    """Which value of each key a combination has."""
+    return [int(word) - 1 for word in case.variant.split("-")[1:]]
+
+
+def _equations(case):
+    try:
+        return equations(case) | {"kind": equilibria(case.scene).kind}
+    except StabilabError:
+        return None
+
+
+def _picture(moved, keys, cases, units, path):
+    """The rates' size over time of all combinations: colour, dashes, width by the first three keys."""
+    followed = [replace(subject(case), known=found) for case, found in moved]
+    until = max(max(one.seen) for one in followed)
+    (unit, one), (clock, per) = units.rates, units.times(until)
+    letter = "ω" if unit else "x"
+    with style.drawing() as plt:
+        figure, ax = plt.subplots(figsize=(9.0, 4.8), layout="constrained")
+        for each in followed:
+            t, states = along(each, np.linspace(0.0, until, POINTS))
+            ax.plot(t * per, np.linalg.norm(states, axis=1) * one, **_look(_places(each.case)))
+        ax.set(xlim=(0.0, until * per), xlabel=f"time ({clock})" if unit else "τ",
+               ylabel=with_unit(f"|{letter}|", unit))
+        style.legend(figure, list(_legend(keys, cases)), columns=3)
+        return html.picture(style.save(figure, path),
+                            caption=f"The size of the rates, |{letter}|, of every combination.")
+
+
+def _look(places):
+    first, second, third = (*places, 0, 0, 0)[:3]
+    return {"color": style.SERIES[first % len(style.SERIES)], "linestyle": STYLES[second % len(STYLES)],
+            "linewidth": WIDTHS[third % len(WIDTHS)]}
+
+
+def _legend(keys, cases):
+    """A row a value of each of the first three keys."""
+    for place, columns in enumerate(keys[:3]):
+        # value -> the first combination that has it
+        first = {_places(case)[place]: n for n, case in reversed(list(enumerate(cases)))}
+        for at, n in sorted(first.items()):
+            look = _look([at if m == place else 0 for m in range(3)])
+            words = ", ".join(f"{label.replace('_', ' ')} = {cells[n]} {unit}".rstrip() for label, unit,
+                              cells in columns)
+            yield words, look if place == 0 else look | {"color": style.GREY}

@@ -1,0 +1,229 @@
+"""The answer of a page at a glance, and its tables.
+
+The answer of a page at a glance: the outcome, when, the largest rate, and the distance from another
+outcome.
+
+The tables of a page: equilibria with their verdicts, and what change gives the motion another fate.
+"""
+from __future__ import annotations
+
+import math
+import re
+from typing import Any
+
+from ...case.limit_options import stated_limit
+from ...errors import InputError
+from ...orbit.potential import potential
+from ...orbit.reduction import reduce
+from ...orbit.result import Motion
+from ...physics.coefficients import effective
+from .. import limiting
+from ..terminal import listed, printed
+from ..text import headline
+from ..text.classification import in_units
+from ..text.headline import cause, fate_parts, largest, rate_and_height
+from ..text.motion import tilt_lines
+from ..text.questions import asked
+from ..text.stuck import WORDS, amount, holds_for, means
+from ..units import DIGITS, SHORT, Units, number, vector
+from .html import css
+
+
+def tiles(motion: Motion, units: Units) -> list[tuple[str, str, str]]:
+    """(what, its value, what belongs to it) of four: when a limit is reached first."""
+    found = [("outcome", _outcome(motion, units)), ("when", _when(motion, units)),
+             ("largest rate", _largest(motion, units)), ("to another outcome", _distance(motion, units))]
+    if any(one.kind == "limit" for one in motion.caveats):
+        found[:2] = reversed(found[:2])
+    return [(name, printed(value), printed(note)) for name, (value, note) in found]
+
+
+def _outcome(motion, units):
+    value, about, condition = fate_parts(motion, units)
+    if motion.fate.word == "undecided":
+        note = cause(motion, units)
+    else:
+        note = f"{about}{condition.split(':')[0]}".strip()  # what a tilt does stands beside it
+    return value.capitalize(), "; ".join(filter(None, ["by a law that does not hold"
+                                                       * headline.beyond(motion.validity), note]))
+
+
+def _when(motion, units):
+    """The limit of the case first, then what a tilt of the torque does, then a spin-up without a limit."""
+    limit, found = motion.first or ("", None)
+    limit = f"the limit, {units.words(limit)},"
+    if found is not None and math.isfinite(found.high):
+        middle = 0.5 * float(found.low + found.high)
+        return units.time(middle, SHORT), f"until {limit} is reached ({found.level})"
+    tilt: Any = motion.tilt
+    if tilt is not None and not tilt.ranges and tilt.ends:
+        return (units.time(tilt.low, SHORT),
+                f"until {units.rate(tilt.limit, SHORT)}, where the torque is tilted by "
+                f"{units.angle(tilt.angle, SHORT)} ({tilt.level}); else never")
+    if found is not None:
+        never = math.isinf(found.low)
+        return ("never" if never else "not known", f"{limit} is not reached" + (
+            f" ({found.level})" if never else f" before {units.time(float(found.low), SHORT)}"))
+    if motion.fate.word == "spin-up":
+        certain = motion.evidence.get("t_certificate")
+        if certain is not None:
+            return units.time(float(certain), SHORT), "from then on the spin-up is certain"
+        return ("from the start", "the spin-up is certain") if motion.level == "exact" else ("not known", "")
+    return ("never" if motion.fate.word in ("bounded", "equilibrium") else "not known"), ""
+
+
+def _largest(motion, units):
+    found = largest(motion, units)
+    if motion.fate.word == "spin-up":
+        return "without end", found
+    if motion.fate.word == "equilibrium":
+        return units.rate(math.hypot(*motion.at[:3]), SHORT), found
+    value, _, note = found.removeprefix("largest rate ").partition(" (")
+    return value or "not known", note.replace(")", "")
+
+
+def _distance(motion, units):
+    rate, height = rate_and_height(motion, units)
+    if rate:
+        told = f"; in energy {height}" if height else ""
+        return rate, f"the smallest change of the rates to the separatrix{told}"
+    if height:
+        return height, "of energy, to the barrier"
+    if motion.fate.word == "separatrix":
+        return "none", "the smallest change decides"
+    return "not known", units.words(motion.velocity_because).removeprefix("not known: ")
+
+
+ROUNDING = 1e-12  # of a unit vector from the difference of two states in doubles
+ASK_TILT = "`stabilab fate CASE --tilt \"1 deg\"` says what a tilt does."
+
+
+def equilibrium_table(found, units) -> dict:
+    """kind, reason, rows and the curves' equations; places and parameters that are rates in their unit."""
+    rows = [_row(units.vector(p.at[:3], units.rates), p, units) for p in found.points]
+    for curve in found.curves:
+        for part in curve.segments:
+            rows.append(_row(f"{_name(curve, units)}, {_piece(curve, part.t, units)}", part, units))
+        for fold in curve.folds:
+            row = _fold(curve, fold, units)
+            rows += [] if row in rows else [row]  # a point where curves meet is one of each
+    groups: dict = {}
+    for curve in found.curves:
+        groups.setdefault(curve.equation, []).append(curve)
+    return {"kind": found.kind, "reason": printed(units.words(found.reason)), "rows": rows,
+            "curves": [_equation(group, units) for group in groups.values()]}
+
+
+def _row(where, part, units):
+    return {"where": printed(where), "linear": part.linear, "verdict": part.verdict,
+            "because": printed(units.words(part.because)), "css": css(part.verdict)}
+
+
+def _fold(curve, at, units):
+    """A point between two pieces of a curve, with its verdict where it has one."""
+    where = units.vector(at[:3], units.rates)
+    found = next((sample for sample in curve.samples
+                  if tuple(sample.at[:3]) == tuple(at[:3]) and sample.linear == "degenerate"), None)
+    if found is None:
+        blank = dict.fromkeys(("verdict", "because", "css"), "")
+        return {"where": printed(f"fold at {where}"), "linear": "degenerate"} | blank
+    return _row(f"{'fold' if found.because.startswith('fold') else 'meeting point'} at {where}", found, units)
+
+
+def _name(curve, units):
+    """The name of a curve without the range of its parameter, which its pieces tell."""
+    return units.axes.sentence(re.sub(r" for t in \(.*\)$", "", in_units(curve, units).name))
+
+
+def _equation(group, units):
+    """(names, the equation that curves share with its unit, their parametrisations without ranges)."""
+    told = [in_units(curve, units) for curve in group]
+    names = list(dict.fromkeys(_name(curve, units) for curve in group))
+    words = [re.sub(r"^t = Omega from \S+ to \S+ rad/s; ", "", curve.parametrisation) for curve in told]
+    measured = told[0].unit and re.search(r"(?<![\w.^])(?!0(?![\d.]))\d", told[0].equation)
+    return (printed(" and ".join(names) if len(names) < 3 else f"{names[0]} to {names[-1]}"),
+            printed(told[0].equation) + (f" (ω in {told[0].unit})" if measured else ""),
+            list(dict.fromkeys(map(printed, words))))
+
+
+def _piece(curve, pair, units):
+    """Between which values of its parameter a piece of a curve lies, with the parameter's name and unit."""
+    if curve.parametrisation.startswith("t = Omega from "):  # the rate about the vertical
+        return _between("Ω", pair, *units.rates)
+    if re.search(r"\b(?:omega|x)\d = [^,]*\bt\b", curve.parametrisation):
+        told = in_units(curve, units)
+        return _between("t", pair, told.unit, told.one)
+    turns = not units.scaled and re.search(r"cos t\b|: angle", curve.parametrisation)
+    return _between("t", pair, *(units.angles if turns else ("", 1.0)))
+
+
+def _between(name, pair, unit, one):
+    """Both ends of a piece with as many digits as tell them apart; an end that is none is not told."""
+    low, high = next(ends for digits in (DIGITS, 8, 10, 17)
+                     if (ends := [number(t * one, digits) for t in pair])[0] != ends[1] or digits == 17)
+    if math.isinf(pair[0]):
+        return f"every {name}" if math.isinf(pair[1]) else f"{name} below {high} {unit}".rstrip()
+    span = f"above {low}" if math.isinf(pair[1]) else f"from {low} to {high}"
+    return f"{name} {span} {unit}".rstrip()
+
+
+def sensitivity(one, units) -> dict:
+    """Of a subject (`plot.subject`) with a case and a motion: rows (what changes, by how much, in which
+    direction, what is to be said) and sentences on wheels, thrusters and a tilt of the torque. A tilt is that
+    of the motion; where it has none, the command that asks for one is named. An empty table comes with the
+    reason.
+    """
+    case, motion = one.case, one.motion
+    try:
+        row = one.stuck
+    except InputError as error:
+        return {"rows": _of_motion(case.scene, motion, units), "words": [],
+                "reason": printed(f"No margin of wheel or torque: {units.words(str(error))}.")}
+    words = []
+    if row.time_to_limit:
+        limit, when = asked(stated_limit(case), units), units.clock(*row.time_to_limit)
+        words.append(f"The limit of the case, {limit}, is reached after {when} ({row.time_level}).")
+    words += [f"{line[0].upper()}{line[1:]}." for line in means(row, units)]
+    why: dict[str, list] = {}
+    for name, margin in row.margins.items():
+        if margin.size is None:
+            why.setdefault(margin.because, []).append(WORDS[name])
+    reasons = [f"No margin in {listed(names, 'or')}: {units.words(because)}."
+               for because, names in why.items()]
+    rows = [_change(name, amount(name, margin.size, units), margin.direction, holds_for(name, margin, units))
+            for name, margin in row.margins.items() if margin.size is not None]
+    words += _tilt(case, motion if motion.tilt else row, units)
+    return {"rows": rows, "words": list(map(printed, words)), "reason": printed(" ".join(reasons))}
+
+
+def _change(name, size, along, because):
+    """A row; a component of the direction that is rounding is zero."""
+    direction = vector([0.0 if abs(v) < ROUNDING else v for v in along]) if along else ""
+    return {"what": WORDS[name], "size": printed(size), "direction": printed(direction),
+            "because": printed(because)}
+
+
+def _of_motion(scene, motion, units):
+    """The margin that the motion itself has, where nothing more can be asked."""
+    if motion.margin_velocity is None or motion.velocity_witness is None:
+        return []
+    change = [b - a for a, b in zip(motion.at[:3], motion.velocity_witness)]
+    size, because = math.hypot(*change), [units.words(motion.velocity_because)]
+    along = [v / size for v in change] if size else None
+    reduced = reduce(effective(scene))
+    if reduced is not None and reduced.geometry.centred and (not reduced.sense or potential(reduced).walled):
+        because.append("this does not change the fate: beyond the separatrix motions are bounded too, "
+                       "about other centres or round the axis")
+    return [_change("rate", units.rate(motion.margin_velocity), along, "; ".join(filter(None, because)))]
+
+
+def _tilt(case, answer, units):
+    """What a tilt of the torque does; answer: what was asked with it."""
+    told = [f"{limiting.words(one, units)}." for one in answer.caveats if one.kind == "tilt"]
+    told = [("This " if one.startswith("holds") else "") + one for one in told]
+    if answer.tilt is None:
+        return [f"{one} {ASK_TILT}" for one in told]
+    if answer.tilt.ranges:
+        return told
+    lines = [re.sub(r"  +", " ", line.strip()) for line in tilt_lines(case, answer, units)]
+    return [*told, "; ".join(lines) + "."]

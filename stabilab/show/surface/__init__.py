@@ -1,1 +1,0 @@
-"""Separatrix surfaces as meshes and pictures."""

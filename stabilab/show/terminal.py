@@ -1,0 +1,215 @@
+"""Text for a terminal: letters, width, colour, tables.
+
+One vocabulary: names such as omega1 and lambda3 as people write them, and back where an encoding has no
+such letters.
+
+Text for people on stdout and stderr: wrapped to a terminal and coloured there, tables in columns, and the
+plain lines anywhere else.
+"""
+from __future__ import annotations
+
+import os
+import re
+import sys
+from collections.abc import Sequence
+
+GREEK = {"omega": "ω", "lambda": "λ", "Lambda": "Λ", "mu": "μ", "gamma": "γ", "alpha": "α", "sigma": "σ",
+         "zeta": "ζ", "tau": "τ"}
+# What papers write in captions and formulas, where no key, path or option can stand: every Greek letter, with
+# or without its number, and powers.
+ALPHABET = GREEK | {"beta": "β", "delta": "δ", "eps": "ε", "eta": "η", "theta": "θ", "kappa": "κ", "nu": "ν",
+                    "Pi": "Π", "pi": "π", "phi": "φ",
+                    "psi": "ψ", "rho": "ρ", "Gamma": "Γ", "Delta": "Δ", "Omega": "Ω"}
+PLAIN = {letter: name for name, letter in ALPHABET.items()} | {
+    "ᵢ": "_i", "ⱼ": "_j", "ₖ": "_k", "∞": "inf",
+    "²": "^2", "³": "^3", "⁴": "^4", "±": "+-", "∓": "-+", "−": "-", "–": "-", "≤": "<=", "≥": ">=",
+    "≠": "!=", "√": "sqrt", "×": "x",
+    "·": ".", "µ": "u", "°": " deg", "…": "..."}
+# A name with its number, between bars, or the time of a scaled case; not part of a path, a key or an option.
+NAMES = re.compile(r"(?<![\w./\\])(?<![\w-]-)(omega|lambda|Lambda|mu|gamma|alpha|sigma|zeta)"
+                   r"(?=(?:[123]|_[ijk])\b(?!\\|/[A-Za-z]|\.\w))"
+                   r"|(?<=\|)(?:omega|gamma)(?= ?[xyz]?\|)|\bomega(?= \. \()|\bgamma(?= = \()|(?<=[\d )=] "
+                   r")tau\b|(?<=\bin )tau\b(?! \[)|(?<=\bof )tau\b")
+LETTER = re.compile(r"(?<![A-Za-z_])(" + "|".join(sorted(ALPHABET, key=len, reverse=True))
+                    + r")(?:_?(?=\d)|(?=_[ijk]\b)|(?![\w-]))|(?<![A-Za-z])l_(?=[xyz]\b)")
+MINUS = re.compile(r"(?<![\w)\]./-])-(?=\d)")
+LONG = re.compile(r"(?<![\w.])\d+\.\d{6,}(?:e[+-]?\d+)?")
+UNIT = re.compile(
+    r"(?<![\w\\^])(kg m|rad/s|deg/s|m/s|1/s|N m s|s|m|\((?:deg/s|rad/s|N m s)\))\^([2-9])(?!\w)")
+INDEX = re.compile(r"(?<=[^\W\d_])_([ijk])\b")
+INDICES = {"i": "ᵢ", "j": "ⱼ", "k": "ₖ"}
+POWER = re.compile(r"\^(\d)(?!\d)|sqrt(?=\()")
+SIGNS = {"+-": "±", "-+": "∓", "<=": "≤", ">=": "≥", "-inf ": "-∞ ", " inf ": " ∞ "}
+PRINTED = (  # what a book sets otherwise than a terminal
+    (r"(?<=\de)\+?0*(?=[1-9])", ""), (r"(?<=\de)-0*(?=\d)", "−"), (r"\binf\b", "∞"), (r"\^T\b", "ᵀ"),
+    (r"(?<![\w)\]-])-(?=[\d.∞])|(?<=[ (])-(?=[\w(])", "−"), (r"(?<=[\w)²³]) - (?=[\w(])", " − "),
+    (r"(?<=\s)x(?=\s[\w(]+\s=)", "×"), (r"(?<=[\w)]) \. (?=[\w(])", " · "),
+    (r"\b(?<=[MHωλγ])\.(?=[(MHDωλγ])", "·"))
+RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def written(text: str) -> str:
+    """A caption or a claim as a paper sets it: lambda3 becomes λ3, r0^2 becomes r0², sqrt(x) becomes √(x),
+    l_x becomes lx, +- becomes ±."""
+    return _in_letters(MINUS.sub("−", text.replace("+-", "±").replace("-+", "∓")))
+
+
+def lettered(text: str) -> str:
+    """Words of the analysis at a terminal: letters as `written`, numbers with six digits."""
+    return _in_letters(LONG.sub(lambda found: f"{float(found[0]):.6g}", text))
+
+
+def printed(text: str) -> str:
+    """Words of the analysis for a page: letters as `lettered`, minus, products and powers of ten as a book
+    sets them. What stands between backquotes is a command and stays as it is."""
+    parts = re.split(r"(`[^`]*`)", text)
+    for n, part in enumerate(parts):
+        if not part.startswith("`"):
+            part = lettered(part)
+            for plain_sign, sign in PRINTED:
+                part = re.sub(plain_sign, sign, part)
+            parts[n] = greek(part)
+    return "".join(parts)
+
+
+def _in_letters(text):
+    for plain, sign in SIGNS.items():
+        text = text.replace(plain, sign)
+    text = INDEX.sub(lambda found: INDICES[found[1]],
+                     LETTER.sub(lambda found: ALPHABET.get(found[1], "l"), text))
+    return POWER.sub(lambda found: found[1].translate(RAISED) if found[1] else "√", text)
+
+
+def some(count: int, noun: str) -> str:
+    """A number with its noun: "1 curve", "2 curves"."""
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+
+
+def listed(words: Sequence[str], last: str = "and") -> str:
+    """Words one after the other: "a", "a and b", "a, b and c"."""
+    return f" {last} ".join(filter(None, (", ".join(words[:-1]), words[-1])))
+
+
+def greek(text: str) -> str:
+    """The text with the names of angular velocities, momenta and torques as letters, omega1 becomes ω1, and
+    with powers of units raised."""
+    return UNIT.sub(lambda found: found[1] + found[2].translate(RAISED),
+                    NAMES.sub(lambda found: GREEK[found[0]], text))
+
+
+def plain(text: str) -> str:
+    """The text in ASCII as far as its letters have names: ω1 becomes omega1."""
+    return "".join(PLAIN.get(letter, letter) for letter in text)
+
+
+def encodable(text: str, encoding: str | None) -> str:
+    """The text as it is, or in names of letters where the encoding (None: any letter) cannot write them."""
+    try:
+        text.encode(encoding or "utf-8")
+    except (UnicodeEncodeError, LookupError):
+        return plain(text)
+    return text
+
+
+USUAL = 80   # columns of a terminal that does not say how wide it is
+GAP = 2      # columns between those of a table
+NARROW = 40  # columns below which nothing is wrapped any narrower
+COLOURS = {r"\bBOUNDED\b|\bNEVER\b|\bAT REST\b|\bSTEADY ROTATION\b|\bPROVED\b": "bold green",
+           r"\bSPINS UP\b|BEYOND THE LAW|\bREFUTED\b": "bold red",
+           r"\bUNDECIDED\b|ON THE SEPARATRIX|NOT KNOWN": "bold yellow"}
+# a file, with a line of it: one word, whatever blanks its name holds
+PLACE = re.compile(r"(?:written: .*|[^:\n]*\.\w+(?::\d+)*:)")
+BLANK = "\0"  # stands for a blank that no line is broken at
+STABLE = {r"\bunstable\b": "red", r"(?<!un)\b(?:asymptotically )?stable\b": "green",
+          r"\bundecided\b": "yellow"}
+
+
+def tell(text: str) -> None:
+    """Write text for people to stdout."""
+    out = sys.stdout
+    text = encodable(greek(text), getattr(out, "encoding", None)).rstrip("\n") + "\n"
+    columns = width()
+    if columns is not None:
+        text = wrapped(text, columns)
+        if not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb":
+            return _in_colours(text)
+    out.write(text)
+    out.flush()
+
+
+def say(text: str) -> None:
+    """Write a message for people to stderr. What a file calls its keys stays as it is, for the reader looks
+    for it there."""
+    err = sys.stderr
+    columns = width(err)
+    text = encodable(text.rstrip("\n"), getattr(err, "encoding", None))
+    print(text if columns is None else wrapped(text, columns), file=err)
+
+
+def wrapped(text: str, columns: int) -> str:
+    """The text with every line at most so wide; what is continued stands two columns further in."""
+    import textwrap
+    columns = max(columns, NARROW)
+    lines = []
+    for line in text.split("\n"):
+        if len(line) <= columns:
+            lines.append(line)
+            continue
+        indent = " " * _hang(line, columns)
+        line = (PLACE.sub(lambda found: found[0].replace(" ", BLANK), line, count=1) if PLACE.match(line)
+                else line)
+        lines += (textwrap.wrap(line, columns, subsequent_indent=indent, break_long_words=False,
+                                break_on_hyphens=False) or [""])
+    return "\n".join(lines).replace(BLANK, " ")
+
+
+def _hang(line, columns):
+    """Where what does not fit goes on: below the words after a column of names, else two columns in."""
+    named = re.match(r"( +\S.*? {2,})\S", line)
+    if named and len(named[1]) <= columns // 2:
+        return len(named[1])
+    return len(line) - len(line.lstrip()) + 2
+
+
+def table(rows: Sequence[Sequence[str]], keys: int = 1, width: int | None = None) -> list[str]:
+    """Lines of right-aligned cells, two columns apart. width: of a terminal; where the columns do not fit,
+    the others go on in a table below, with the first `keys` columns again, or with the first alone where
+    these fill half a line."""
+    sizes = [GAP + max(map(len, column)) for column in zip(*rows)]
+    fits = max(width, NARROW) if width is not None else sum(sizes)
+    again = range(keys if sum(sizes[:keys]) <= fits // 2 else 1)
+    lines: list[str] = []
+    left = list(range(len(sizes)))
+    while left:
+        chosen = [] if not lines else list(again)
+        while left and (sum(sizes[n] for n in [*chosen, left[0]]) <= fits
+                        or len(chosen) == (len(again) if lines else 0)):
+            chosen.append(left.pop(0))
+        lines += [""] * bool(lines)
+        lines += filter(None, ("".join(f"{row[n]:>{sizes[n]}}" for n in chosen).rstrip() for row in rows))
+    return lines
+
+
+def width(stream=None) -> int | None:
+    """Columns of the terminal that the stream (None: stdout) is; None of a pipe or file."""
+    stream = stream or sys.stdout
+    if not stream.isatty():
+        return None
+    asked = os.environ.get("COLUMNS", "")
+    if asked.isdecimal() and int(asked):
+        return int(asked)
+    try:
+        return os.get_terminal_size(stream.fileno()).columns or USUAL
+    except OSError:  # it has no descriptor of its own
+        return USUAL
+
+
+def _in_colours(text):
+    from rich.console import Console
+    from rich.text import Text
+    shown = Text(text, end="")
+    for table in (STABLE, COLOURS):
+        for words, style in table.items():
+            shown.highlight_regex(words, style)
+    Console(file=sys.stdout, highlight=False, soft_wrap=True, width=10_000).print(shown, end="")
+    sys.stdout.flush()

@@ -1,1 +1,0 @@
-"""The body with a cavity of viscous liquid, averaged."""

@@ -1,1 +1,0 @@
-"""The charged, nearly axisymmetric body."""

@@ -1,1 +1,0 @@
-"""The fast top in a Newtonian field, by a small parameter."""

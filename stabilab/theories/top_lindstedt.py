@@ -1,0 +1,548 @@
+"""A fast top: its numbers, and its periodic motion to any order.
+
+The numbers of a fast top: what gravity, a Newtonian field and a gyrostatic moment weigh against its spin.
+
+Everything is formed from exact fractions: near a resonance the divisors Omega^2 - m^2 keep all their digits.
+
+The periodic motion of a fast top in a Newtonian field by the Poincare-Lindstedt expansion, to any order: a
+power series in the small parameter, each coefficient a Fourier sum.
+
+With e = `size`, p = e r0 u, q = e r0 v, r = r0 w, s = nu r0 t, a dash for d/ds and hats for quantities over
+their power of e, the Euler-Poisson equations (Amer et al. 2023, fast top: eq. (5), there for gamma/gamma0'')
+are
+
+    nu u' = -(A1 w + l_z/(A r0)) v + w y2/a + e [(F2 g3 - F3 g2)/a + k A1 g2 g3]
+    nu v' = -(B1 w - l_z/(B r0)) u - w y1/b + e [(F3 g1 - F1 g3)/b + k B1 g1 g3]
+    nu w' = e^2 [-C1 u v + y1 v - y2 u + F1 g2 - F2 g1 + k C1 g1 g2]
+    nu G' = -i w G + i e (u + i v) g3,  G = g1 + i g2,        nu g3' = e (v g1 - u g2)
+
+A1 = (C-B)/A, B1 = (A-C)/B, C1 = (B-A)/C, y = tilt, F = force, k = field. At order 0 G turns as exp(-is) and
+u, v are at rest; the kernel of the linear part is the size and phase of G and the means of w and g3, four
+constants that the start gamma, r sets. The harmonic exp(-is) of the order n equation of G settles nu_n; the
+other three conditions of solvability hold by the three integrals (`defect` keeps how well).
+
+The expansion has no free wobble in it (source: Amer et al. 2023, fast top; its first order is printed
+wrongly, see `top`). A start therefore gives r and gamma at t = 0, and the periodic motion
+through them says what p and q must be; `departure` is how far the given p and q are from that. A start
+elsewhere wobbles about the periodic motion at the frequency Omega r0 with an amplitude of that size, which
+the expansion leaves out.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import lru_cache
+
+import numpy as np
+
+from ..errors import InputError, told
+from ..numbers.exact import exact, mpmath_alone
+from ..numbers.vectors import Exact3
+from ..physics.states import numbers_in_a_row
+
+COVERED = ("gravity", "newtonian_field", "gyrostat")
+UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector
+
+
+@dataclass(frozen=True)
+class FastTop:
+    """A top turning fast about axis 3, in units of its own spin: time tau = r0 t, rates p/r0, q/r0, r/r0.
+
+    a = A/C, b = B/C; force = M g (centre of mass)/(C r0^2); field = N/r0^2; tilt = (l_x, l_y)/(C r0); wheel =
+    l_z/(C r0). omega: rad/s and gamma: unit vector, the start. All exact.
+    """
+
+    r0: Fraction
+    a: Fraction
+    b: Fraction
+    force: Exact3
+    field: Fraction
+    tilt: tuple[Fraction, Fraction]
+    wheel: Fraction
+    omega: Exact3
+    gamma: Exact3
+
+    @property
+    def spin(self) -> Fraction:
+        """C*/C with C* = C + l_z/r0: everything depends on l_z through it alone."""
+        return 1 + self.wheel
+
+    @property
+    def alpha(self) -> Fraction:
+        """(C* - B)/A."""
+        return (self.spin - self.b) / self.a
+
+    @property
+    def beta(self) -> Fraction:
+        """(A - C*)/B."""
+        return (self.a - self.spin) / self.b
+
+    @property
+    def Omega2(self) -> Fraction:
+        """Square of the free precession's frequency over the spin, -alpha beta."""
+        return -self.alpha * self.beta
+
+    @property
+    def size(self) -> float:
+        """What the expansion is in: the largest of sqrt(M g L/C)/r0, sqrt|N|/r0 and |l_x, l_y|/(C r0)."""
+        weight = math.hypot(*map(float, self.force))
+        return max(math.sqrt(weight), math.sqrt(abs(self.field)), math.hypot(*map(float, self.tilt)))
+
+    @property
+    def epsilon(self) -> float:
+        """The paper's small parameter sqrt(M g L |gamma0''|/C)/r0 (Amer et al. 2023, fast top: eq. (4))."""
+        return math.sqrt(math.hypot(*map(float, self.force)) * abs(self.gamma[2]))
+
+
+def fast_top(scene, state) -> FastTop:
+    """The numbers of a scene and a start.
+
+    state: {"omega": (3,) rad/s, "gamma": (3,) unit vector}, body frame, or the six numbers in a row. Raises
+    InputError where the scene has other effects than gravity, Newtonian field and gyrostat, and for a top
+    without spin.
+    """
+    other = [e.name for e in scene.effects if e.name not in COVERED]
+    if other or scene.variables != "physical":
+        raise InputError("the expansion of the fast top covers gravity, a Newtonian field and a gyrostat; "
+                         f"the scene has {', '.join(other) or 'scaled variables'}")
+    omega, gamma = _start(state)
+    r0 = omega[2]
+    if r0 == 0:
+        raise InputError("angular_velocity: the third component is 0; the expansion is about a fast rotation "
+                         "around axis 3")
+    A, B, C = scene.body.exact
+    weight, field = scene.effect("gravity"), scene.effect("newtonian_field")
+    arm = weight.exact if weight else (Fraction(0),) * 3
+    lx, ly, lz = scene.vector("gyrostat")
+    return FastTop(r0, A / C, B / C, tuple(f / (C * r0**2) for f in arm),
+                   (field.exact if field else Fraction(0)) / r0**2,
+                   (lx / (C * r0), ly / (C * r0)), lz / (C * r0), omega, gamma)
+
+
+def _start(state):
+    expected = 'state: expected {"omega": three numbers, "gamma": three numbers}, or the six numbers in a row'
+    try:
+        rows = (state["omega"], state["gamma"]) if isinstance(state, dict) else (state[:3], state[3:])
+        omega, gamma = (tuple(exact(v) for v in row) for row in rows)
+    except (KeyError, TypeError, IndexError):
+        raise InputError(f"{expected}; got {told(state)}") from None
+    if len(omega) != 3 or len(gamma) != 3:
+        raise InputError(f"{expected}; got {len(omega)} and {len(gamma)}")
+    length = math.hypot(*map(float, gamma))
+    if abs(length - 1) > UNIT_SLACK:
+        raise InputError(f"gamma: expected a unit vector, got one of length {length:.12g}")
+    return omega, gamma
+
+
+ROUNDED = 3  # digits lost to rounding: a forcing whose share of the largest one lies below the others is none
+# Where the weight's tilt sin(theta0) is below what the first orders add to it, the orders of nu are small
+# differences over the tilt: each order loses that ratio, so they are formed in many digits. A top that needs
+# it for more is not fast.
+SMALL_TILT = 0.5
+LEAST_TILT = 1e-18  # stands for a weight along axis 3 exactly; the series is continuous there
+
+
+@dataclass(frozen=True)
+class Expansion:
+    """Coefficients of the periodic motion.
+
+    nu: (n+1,) orders of the frequency over r0; fields: (n+1, 5, 2K+1) Fourier coefficients -K..K of u, v, w,
+    G, g3 by order (G complex, the others real functions); order: the highest that exists, at most the one
+    asked for, -1 where there is not even a generating motion; stopped: the harmonic m whose divisor Omega^2 -
+    m^2 is 0 under a forcing, or None; defect: largest violation of the conditions of solvability, relative;
+    terms: size of each order's term.
+    """
+
+    size: float
+    nu: np.ndarray
+    fields: np.ndarray
+    order: int
+    stopped: int | None
+    defect: float
+    terms: tuple[float, ...]
+
+    def sums(self):
+        """(nu, (5, 2K+1) Fourier coefficients) with the powers of the small parameter summed up."""
+        powers = self.size ** np.arange(self.order + 1)
+        return float(powers @ self.nu), np.tensordot(powers, self.fields, 1)
+
+
+@lru_cache(maxsize=16)
+def expand(top, order: int) -> Expansion:
+    """The expansion of a `FastTop` to `order`, kept: a comparison asks for the same one again and again."""
+    if _nearly_upright(top):
+        digits = 30 + 20 * (order + 1)
+        with mpmath_alone() as mpmath, mpmath.workdps(digits):
+            return _Solver(top, order, lambda x: mpmath.mpf(x.numerator) / x.denominator, mpmath.mpc,
+                           digits).run()
+    return _Solver(top, order, float, complex, 16).run()
+
+
+def _nearly_upright(top) -> bool:
+    rest = [float(y / d) if d else 0.0 for y, d in zip(top.tilt, (top.b * top.beta, top.a * top.alpha))]
+    return (float(np.hypot(float(top.gamma[0]),
+                           float(top.gamma[1]))) < min(SMALL_TILT, top.size + abs(rest[0]) + abs(rest[1])))
+
+
+class _Solver:
+    def __init__(self, top, order, number, cplx, digits):
+        self.exact, self.N, self.K = top, order, order + 2
+        self.number, self.complex, self.rounding = number, cplx, number(Fraction(1, 10**(digits - ROUNDED)))
+        self.e = top.size or 1.0
+        e = Fraction(self.e)
+        self.a, self.b = number(top.a), number(top.b)
+        self.A1, self.B1, self.C1 = (number(x)
+                                     for x in ((1 - top.b) / top.a, (top.a - 1) / top.b, top.b - top.a))
+        self.alpha, self.beta = number(top.alpha), number(top.beta)
+        self.F, self.k = tuple(number(f / e**2) for f in top.force), number(top.field / e**2)
+        self.y = tuple(number(y / e) for y in top.tilt)
+        self.m = np.arange(-self.K, self.K + 1)
+        zero = cplx(0)
+        dtype = complex if cplx is complex else object
+        self.u, self.v, self.w, self.G, self.g1, self.g2, self.g3 = (
+            np.full((order + 1, 2 * self.K + 1), zero, dtype) for _ in range(7))
+        self.nu = [number(Fraction(1))] + [number(Fraction(0))] * order
+        self.defect, self.reached, self.stopped = 0.0, -1, None
+
+    def run(self) -> Expansion:
+        if self.generate():
+            self.reached = 0
+            for n in range(1, self.N + 1):
+                if not self.step(n):
+                    break
+                self.reached = n
+        keep = self.reached + 1
+        fields = np.stack([self.u, self.v, self.w, self.G, self.g3], 1)[:keep].astype(complex)
+        sizes = tuple(float(np.abs(f * np.array([self.e, self.e, 1, 1, 1])[:, None]).sum(1).max()) * self.e**n
+                      for n, f in enumerate(fields))
+        return Expansion(self.e, np.array(self.nu[:keep], float), fields, self.reached, self.stopped,
+                         self.defect, sizes)
+
+    def generate(self) -> bool:
+        """Order 0: the weight turns round the top, the spin axis rests beside axis 3 by the tilt of l_x, l_y.
+        """
+        K, (g1, g2, g3) = self.K, self.exact.gamma
+        if (self.exact.beta == 0 and self.exact.tilt[0]) or (self.exact.alpha == 0 and self.exact.tilt[1]):
+            self.stopped = 0
+            return False
+        if self.exact.tilt[0]:
+            self.u[0, K] = -self.y[0] / (self.b * self.beta)
+        if self.exact.tilt[1]:
+            self.v[0, K] = self.y[1] / (self.a * self.alpha)
+        self.w[0, K] = self.complex(1)
+        self.g3[0, K] = self.complex(self.number(g3))
+        least = 0 if self.complex is complex or g1 or g2 else LEAST_TILT
+        self.set_G(0, {K - 1: self.complex(self.number(g1) + least, self.number(g2))})
+        return True
+
+    def set_G(self, n, values):
+        """Order n of G, and of its real and imaginary parts g1, g2."""
+        for k, value in values.items():
+            self.G[n, k] = value
+        mirrored = np.conjugate(self.G[n, ::-1])
+        self.g1[n] = (self.G[n] + mirrored) / 2
+        self.g2[n] = (self.G[n] - mirrored) / self.complex(0, 2)
+
+    def product(self, f, g, n, first=0):
+        """Order n of f g, the orders of f running from `first` on. Order j holds harmonics up to j + 1 only
+        (G; the others up to j), by induction over the products below."""
+        K, total = self.K, self.u[0] * 0
+        for j in range(first, n + 1):
+            low, high = f[j, K - j - 1:K + j + 2], g[n - j, K - n + j - 1:K + n - j + 2]
+            if low.any() and high.any():
+                total[K - n - 2:K + n + 3] += np.convolve(low, high)
+        return total
+
+    def drift(self, f, n):
+        """Sum of nu_j f'_(n-j) over the orders 0 < j < n, which are known."""
+        return sum((self.nu[j] * self.derivative(f[n - j]) for j in range(1, n)), self.u[0] * 0)
+
+    def derivative(self, f):
+        return f * (self.complex(0, 1) * self.m)
+
+    def integral(self, f):
+        """Periodic integral of f that is 0 at s = 0; the mean of f vanishes by an integral of the motion."""
+        out, K = f * 0, self.K
+        self.note(f[K], f)
+        for k, m in enumerate(self.m):
+            if m:
+                out[k] = f[k] / self.complex(0, int(m))
+        out[K] = -out.sum()
+        return out
+
+    def note(self, number, beside):
+        size = float(np.abs(beside).sum())
+        self.defect = max(self.defect, float(abs(number)) / size if size else 0.0)
+
+    def step(self, n) -> bool:
+        """Order n from all lower ones; False where a resonance forbids it."""
+        P, u, v, g1, g2, g3 = self.product, self.u, self.v, self.g1, self.g2, self.g3
+        (y1, y2), (F1, F2, F3), k = self.y, self.F, self.k
+        torque = 0 if n < 2 else (self.product(u, v, n - 2) * -self.C1 + y1 * v[n - 2] - y2 * u[n - 2]
+                                  + F1 * g2[n - 2] - F2 * g1[n - 2] + k * self.C1 * P(g1, g2, n - 2))
+        self.w[n] = self.integral(torque - self.drift(self.w, n))
+        if not self.precession(n, -self.drift(u, n) - self.A1 * P(self.w, v, n, 1) + self.w[n] * (y2 / self.a)
+                               + (F2 * g3[n - 1] - F3 * g2[n - 1]) / self.a + k * self.A1 * P(g2, g3, n - 1),
+                               -self.drift(v, n) - self.B1 * P(self.w, u, n, 1) - self.w[n] * (y1 / self.b)
+                               + (F3 * g1[n - 1] - F1 * g3[n - 1]) / self.b + k * self.B1 * P(g1, g3, n - 1)):
+            return False
+        self.g3[n] = self.integral(P(v, g1, n - 1) - P(u, g2, n - 1) - self.drift(g3, n))
+        self.weight(n)
+        return True
+
+    def precession(self, n, Ru, Rv) -> bool:
+        """u, v of order n: u' + alpha v = Ru, v' + beta u = Rv, harmonic by harmonic."""
+        K, i = self.K, self.complex(0, 1)
+        floor = self.rounding * max(np.abs(Ru).max(), np.abs(Rv).max())
+        silent = (np.abs(Ru) <= floor) & (np.abs(Rv) <= floor)
+        if not (self.at_rest(self.v[n], Ru[K], self.exact.alpha, floor, self.alpha)
+                and self.at_rest(self.u[n], Rv[K], self.exact.beta, floor, self.beta)):
+            self.stopped = 0
+            return False
+        for k, m in enumerate(self.m):
+            if m == 0 or silent[k]:
+                continue
+            exact = self.exact.Omega2 - int(m)**2
+            if exact == 0:
+                self.stopped = abs(int(m))
+                return False
+            divisor, im = self.number(exact), i * int(m)
+            self.u[n, k] = (im * Ru[k] - self.alpha * Rv[k]) / divisor
+            self.v[n, k] = (im * Rv[k] - self.beta * Ru[k]) / divisor
+        return True
+
+    def at_rest(self, out, forcing, exact, floor, number) -> bool:
+        """The mean: forcing over alpha or beta, which are 0 for C* = B and C* = A."""
+        if exact:
+            out[self.K] = forcing / number
+        return bool(exact) or abs(forcing) <= floor
+
+    def weight(self, n):
+        """G and nu of order n: G' + iG = R + i nu_n G_0; the harmonic exp(-is) of the right side must vanish.
+        """
+        K, i = self.K, self.complex(0, 1)
+        turned = self.product(self.u, self.g3, n - 1) + i * self.product(self.v, self.g3, n - 1)
+        R = i * turned - i * self.product(self.w, self.G, n, 1) - self.drift(self.G, n)
+        amplitude = self.G[0, K - 1]
+        if amplitude:
+            nu = i * R[K - 1] / amplitude
+            self.nu[n] = nu.real
+            self.note(nu.imag * abs(amplitude), R)
+        out = {k: R[k] / (i * (int(m) + 1)) for k, m in enumerate(self.m) if m != -1}
+        out[K - 1] = -sum(out.values(), self.complex(0))
+        self.set_G(n, out)
+
+
+HIGHEST_ORDER = 24  # the cost grows as the fourth power of the order; double precision is used up long before
+# orders beyond the one asked for, by which it is judged: without l_x, l_y odd ones hold p, q alone, even ones
+# the rest
+FURTHER = 2
+NEAR = 0.1  # a divisor Omega - m this small makes the coefficients grow tenfold and more, order by order
+SETTLED = 1e-12  # terms below are rounding, and do not fall any more
+ROUNDING = 1e-14  # of the spin: a departure this small is none
+NEAR_SLACK = 1e-9  # so that a distance of 0.1 itself, rounded, is named
+
+
+@dataclass(frozen=True)
+class Resonance:
+    """A resonance in reach of the orders asked for: harmonic m, its condition in words, |Omega - m| (for m =
+    0 the relative distance of C* from A or B)."""
+
+    harmonic: int
+    condition: str
+    distance: float
+
+
+@dataclass(frozen=True)
+class LindstedtMotion:
+    """The periodic motion at the times t (s).
+
+    omega: (n, 3) rad/s, body frame; gamma: (n, 3), of length 1 up to the order's error. order: what was
+    reached; epsilon: the paper's sqrt(M g L |gamma0''|/C)/r0; size: what the expansion is in (see
+    `FastTop.size`); frequency: nu r0, rad/s (with the sign of r0); period: s; Omega2: square of the free
+    wobble's frequency over r0; resonances: those in reach, nearest first; terms: size of each order's term
+    relative to the spin, 0 ... order; ahead: those of the next two orders, where they exist; residual:
+    largest residual over one revolution of the scaled equations (above); departure:
+    (2,) given minus periodic p, q at t = 0, rad/s; left_out: what p, q at t = 0 change by in the next two
+    orders, rad/s (by the residual, where these do not exist).
+
+    status: "asymptotic", "near resonance", "unstable" (Omega^2 < 0), "diverging" (the terms do not fall, or
+    the equations of motion are missed by more than the last terms), "resonant" (a divisor is 0: the expansion
+    ends below the order asked for; with order -1 there is no motion at all and the arrays are empty); reason:
+    in words.
+    """
+
+    t: np.ndarray
+    omega: np.ndarray
+    gamma: np.ndarray
+    order: int
+    epsilon: float
+    size: float
+    frequency: float
+    period: float
+    Omega2: float
+    resonances: tuple[Resonance, ...]
+    terms: tuple[float, ...]
+    ahead: tuple[float, ...]
+    residual: float
+    departure: np.ndarray
+    left_out: float
+    status: str
+    reason: str
+    r0: float
+    expansion: Expansion = field(repr=False, compare=False)
+
+    def at(self, times):
+        """(omega (n, 3), gamma (n, 3)) at other times, s."""
+        return _evaluate(self.expansion, self.r0, np.asarray(times, float))
+
+
+def lindstedt(scene, state, times, order: int = 2) -> LindstedtMotion:
+    """The periodic motion of a fast top with r and gamma of `state` at t = 0, expanded to `order`.
+
+    scene: a body with any of gravity, Newtonian field, gyrostat (whatever its direction), spinning about axis
+    3. state: {"omega": (3,) rad/s, "gamma": (3,) unit vector along the weight}, or the six numbers; its p and
+    q are not free (see the module's text). times: (n,), s, of any sign and order. Nothing is expanded in
+    1/r0: l_z enters through C* = C + l_z/r0, and A, B are the body's own. A weight along axis 3 (no tilt) and
+    one across it (gamma0'' = 0 or negative) are covered. Raises InputError for other effects, a zero third
+    component of omega, and no whole order from 0 to 24.
+    """
+    if isinstance(order, bool) or not isinstance(order, (int, np.integer)) or not 0 <= order <= HIGHEST_ORDER:
+        raise InputError(f"order: expected a whole number from 0 to {HIGHEST_ORDER}, got {order!r}")
+    times = numbers_in_a_row(times, "times")
+    top = fast_top(scene, state)
+    expansion, further, r0 = expand(top, int(order)), expand(top, int(order) + FURTHER), float(top.r0)
+    exists = expansion.order >= 0
+    times = times if exists else times[:0]
+    omega, gamma = _evaluate(expansion, r0, times)
+    nu = expansion.sums()[0] if exists else 1.0
+    start, better = ((_evaluate(e, r0, np.zeros(1))[0][0, :2] if exists else np.zeros(2))
+                     for e in (expansion, further))
+    departure = np.array([float(x) for x in top.omega[:2]]) - start
+    residual = _residual(top, expansion) if exists else float("inf")
+    beyond = further.order > expansion.order
+    left_out = float(np.hypot(*(better - start))) if beyond else abs(r0) * top.size * residual
+    near, ahead = _resonances(top, int(order)), further.terms[len(expansion.terms):]
+    status, reason = _verdict(top, expansion, near, int(order), ahead, residual)
+    if exists:
+        wobble = departure - (better - start) if beyond else departure
+        reason = "; ".join(filter(None, (reason, _how_far(departure, wobble, left_out, abs(r0), status))))
+    return LindstedtMotion(times, omega, gamma, expansion.order, top.epsilon, top.size, nu * r0,
+                           2 * np.pi / abs(nu * r0),
+                           float(top.Omega2), near, expansion.terms, ahead, residual, departure, left_out,
+                           status, reason, r0, expansion)
+
+
+def _evaluate(expansion, r0, times):
+    if expansion.order < 0:
+        return np.empty((0, 3)), np.empty((0, 3))
+    nu, coefficients = expansion.sums()
+    u, v, w, G, g3 = _fourier(coefficients, nu * r0 * times)
+    omega = np.stack([r0 * expansion.size * u.real, r0 * expansion.size * v.real, r0 * w.real], -1)
+    return omega, np.stack([G.real, G.imag, g3.real], -1)
+
+
+def _fourier(coefficients, s):
+    """Sums of Fourier coefficients (..., 2K+1) at the phases s (n,): (..., n)."""
+    z, total = np.exp(1j * s), np.zeros(coefficients.shape[:-1] + s.shape, complex)
+    for k in range(coefficients.shape[-1] - 1, -1, -1):  # by Horner's rule: no array over times and harmonics
+        total = total * z + coefficients[..., k, None]
+    return total * np.exp(-1j * (coefficients.shape[-1] // 2) * s)
+
+
+def _residual(top, expansion) -> float:
+    """Largest residual of the six scaled equations on a grid fine enough for every product."""
+    nu, fields = expansion.sums()
+    K, e = fields.shape[-1] // 2, expansion.size
+    s = np.linspace(0, 2 * np.pi, 8 * K, endpoint=False)
+    u, v, w, G, g3 = _fourier(fields, s)
+    du, dv, dw, dG, dg3 = nu * _fourier(fields * (1j * np.arange(-K, K + 1)), s)
+    a, b, c = float(top.a), float(top.b), float(top.wheel)
+    A1, B1, C1 = float((1 - top.b) / top.a), float((top.a - 1) / top.b), float(top.b - top.a)
+    F, k, y = [float(f) / e**2 for f in top.force], float(top.field) / e**2, [float(t) / e for t in top.tilt]
+    g1, g2 = G.real, G.imag
+    rates = (du + (A1 * w + c / a) * v - w * y[1] / a - e * ((F[1] * g3 - F[2] * g2) / a + k * A1 * g2 * g3),
+             dv + (B1 * w - c / b) * u + w * y[0] / b - e * ((F[2] * g1 - F[0] * g3) / b + k * B1 * g1 * g3),
+             dw - e**2 * (-C1 * u * v + y[0] * v - y[1] * u + F[0] * g2 - F[1] * g1 + k * C1 * g1 * g2),
+             dG + 1j * w * G - 1j * e * (u + 1j * v) * g3, dg3 - e * (v * g1 - u * g2))
+    return float(max(np.abs(r).max() for r in rates))
+
+
+def _resonances(top, order) -> tuple[Resonance, ...]:
+    """Those within NEAR whose harmonic the orders reach; C* = A and C* = B concern every order."""
+    found = [Resonance(0, f"C* = {name}", abs(float(top.spin / moment - 1)))
+             for name, moment in (("A", top.a), ("B", top.b))]
+    if top.Omega2 > 0:
+        Omega = float(top.Omega2) ** 0.5
+        for m in range(1, order + 1):
+            # (Omega^2 - m^2)/(Omega + m) keeps the digits of a small distance
+            found.append(Resonance(m, _condition(top, m), abs(float(top.Omega2 - m * m)) / (Omega + m)))
+    return tuple(sorted((r for r in found if r.distance <= NEAR * (1 + NEAR_SLACK)),
+                        key=lambda r: r.distance))
+
+
+def _condition(top, m) -> str:
+    """For m = 1 the distance Omega^2 - 1 is C*(C* - A - B)/(A B): name the factor that is small."""
+    if m != 1:
+        return f"Omega = {m}"
+    return f"Omega = 1, {'C* = 0' if abs(top.spin) < abs(top.spin - top.a - top.b) else 'C* = A + B'}"
+
+
+def _verdict(top, expansion, near, order, ahead, residual):
+    r0, reasons, status = abs(float(top.r0)), [], "asymptotic"
+    if near:
+        status = "near resonance"
+        reasons += [f"near the resonance {r.condition} (distance {r.distance:.3g}): its small divisor "
+                    f"magnifies the terms"
+                    for r in near if r.distance]
+    if words := _diverging(expansion.terms, ahead, residual):
+        status = "diverging"
+        reasons.append(
+            f"{words}: the top is not fast enough for this expansion (small parameter {expansion.size:.3g})")
+    elif expansion.order >= 0:
+        reasons.append(f"the series misses the equations of motion by {residual:.2g} of the spin, so it may "
+                       f"be off by {2 * np.pi * residual:.2g} after a revolution; its last terms are "
+                       f"{', '.join(f'{x:.2g}' for x in expansion.terms[-2:])}")
+    if top.Omega2 < 0:
+        status = "unstable"
+        reasons.append(f"Omega^2 = {float(top.Omega2):.3g} < 0 (C* lies between A and B): the periodic "
+                       f"motion is unstable, "
+                       f"neighbours leave it at {r0 * abs(float(top.Omega2))**0.5:.3g} 1/s")
+    if expansion.stopped is not None:
+        status = "resonant"
+        what = _condition(top, expansion.stopped) if expansion.stopped else "C* = A or C* = B"
+        end = (f"the expansion ends at order {expansion.order}" if expansion.order >= 0
+               else "there is no periodic motion to start from")
+        reasons.append(f"exact resonance ({what}) under a forcing: {end}, order {order} does not exist")
+    return status, "; ".join(reasons)
+
+
+def _diverging(terms, ahead, residual) -> str:
+    """Why the series up to these terms is no approximation, "" where it is: what is left out must be smaller
+    than the last terms kept, by the terms of the next two orders and by the residual of the equations of
+    motion."""
+    if not terms or (kept := max(terms[-2:])) < SETTLED:
+        return ""
+    # a term is measured against the two before it: one of them may hold nothing
+    if len(terms) > 1 and terms[-1] > 0 and terms[-1] >= max(terms[-3:-1]):
+        return f"the terms do not fall ({', '.join(f'{x:.3g}' for x in terms[-3:])})"
+    if ahead and max(ahead) > 0 and max(ahead) >= kept:
+        return (f"the terms do not fall ({', '.join(f'{x:.3g}' for x in terms[-2:])}, then "
+                f"{', '.join(f'{x:.3g}' for x in ahead)})")
+    if residual >= kept:
+        return (f"the series misses the equations of motion by {residual:.3g} of the spin, no less than its "
+                f"last terms, {kept:.3g}")
+    return ""
+
+
+def _how_far(departure, wobble, left_out, r0, status) -> str:
+    """What the given p, q say of the start; wobble: their departure from the series two orders further."""
+    differ = f"p, q differ by ({departure[0]:.6g}, {departure[1]:.6g}) rad/s"
+    if status == "diverging":
+        return f"the start's {differ} from a series that does not converge there"
+    if float(np.hypot(*wobble)) <= left_out + ROUNDING * r0:
+        return ("the start lies on the periodic motion to within what this order leaves out there, "
+                f"{left_out:.2g} rad/s")
+    return (f"the start is not on the periodic motion: {differ}, a free wobble of that size which the "
+            "expansion leaves out")

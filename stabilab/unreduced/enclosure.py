@@ -1,0 +1,289 @@
+"""A motion enclosed step by step, and a spin-up proved along it.
+
+One motion under a constant torque of any direction, enclosed from an exact start: a set at each time, a
+band between them.
+
+The steps are those of `enclosure_kernel`, compiled where there is a compiler, with the same bits where there
+is none. Scenes are taken at their exact numbers. Those of a frame of principal axes that is irrational have
+an error of 2^-240 (`numbers.principal`): each step allows the coefficients FINE = 2^-92 of themselves.
+
+A certified spin-up proved: the way from an exact start to the inequality enclosed, and the inequality for
+every state of the set there.
+
+The theorem's inequality (`spin_up.certificate`) is tested for the ball that holds the enclosure at the time
+when it fired. Its test is one in doubles, whose rounding is bounded beforehand: forms are exact before the
+one root, each coefficient comes with a bound of its rounding (`spin_up.centres`), the place of the ball
+is taken at its worse ends, and every comparison leaves room for the rest. So nothing in the answer rests on a
+run that was not enclosed.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..numbers.exact import exact_vector
+from ..numbers.numba_door import compiled, installed
+from ..physics.coefficients import effective
+from ..validation import checked_scene
+from . import enclosure_kernel
+from .spin_up.certificate import natural, tests_of
+from .spin_up.result import SpinUp, Trap
+
+# at most, unless others are asked for: compiled some three seconds, else some ten
+STEPS, SLOW_STEPS = 200_000, 2_000
+CHUNK = 512  # steps kept at a time between which the band is asked for
+TOLERANCE = 2.0**-88  # of a step's tail, beside the state: as small as the rounding of its coefficients
+WHY = {enclosure_kernel.DONE: "enclosed",
+       enclosure_kernel.GOING: "not finished: the steps allowed were used up",
+       enclosure_kernel.LOST: "lost: the set has grown too wide to follow",
+       enclosure_kernel.ENDLESS: "lost: a step would be below the grain of time"}
+
+
+@dataclass(frozen=True)
+class Band:
+    """Where the motion surely is during each of n steps.
+
+    times: (n + 1,) ends, exact doubles; polynomials: (n, 3, N + 1) rates as polynomials in x = (t -
+    times[i])/(times[i + 1] - times[i]), lowest first; radii: (n, 3): at every time of step i each rate is
+    within radii[i] of its polynomial, however exactly that is evaluated.
+    """
+
+    times: np.ndarray
+    polynomials: np.ndarray
+    radii: np.ndarray
+
+    def form(self, weights) -> tuple[np.ndarray, np.ndarray]:
+        """((n, 2 N + 1) polynomials, (n,) radii) of the sum of weights_i omega_i^2 (three numbers, not
+        negative) during each step: ones for |omega|^2, halves of the moments for the energy."""
+        weights = [float(w) for w in weights]
+        n, _, m = self.polynomials.shape
+        out, radius, size = np.zeros((n, 2 * m - 1)), np.zeros(n), np.abs(self.polynomials).sum(axis=2)
+        for i, w in enumerate(weights):
+            row = self.polynomials[:, i]
+            for k in range(m):
+                out[:, k:k + m] += w * row * row[:, k:k + 1]
+            r = self.radii[:, i]
+            # N + 1 products and three sums to a coefficient, and the weight's rounding
+            radius += w * (r * (2 * size[:, i] + r) + 2.0**-44 * size[:, i] ** 2)
+        return out, radius * (1 + 2.0**-30)
+
+
+@dataclass(frozen=True)
+class Enclosed:
+    """The set that surely holds the state at one time.
+
+    t: exact, the scene's unit of time; middle: (3,) rates (rad/s, or x when scaled); rest: (3,), to be added
+    to them: the centre is a sum of two doubles; radius: (3,) each true rate is within it of the centre.
+    steps: so many; status: "enclosed" where t is the time asked for, else "stopped", and reason says why.
+    """
+
+    t: float
+    middle: np.ndarray
+    rest: np.ndarray
+    radius: np.ndarray
+    steps: int
+    status: str
+    reason: str
+
+    @property
+    def box(self):
+        """((low, high),) * 3 in exact fractions."""
+        ends = []
+        for m, r, e in zip(self.middle.tolist(), self.rest.tolist(), self.radius.tolist()):
+            ends.append((Fraction(m) + Fraction(r) - Fraction(e), Fraction(m) + Fraction(r) + Fraction(e)))
+        return tuple(ends)
+
+
+class Course:
+    """A motion followed by validated steps: `advance` carries it on, `now` tells where it is.
+
+    scene: gyrostat and constant torque, physical or scaled; state: three rates at t = 0, each an exact number
+    (a double at its word, a Fraction, a decimal in a string). t_end: the end of what will be asked for; its
+    last binary digit is the grain of time, and every step ends at a whole number of grains, so that times are
+    exact. plain: so many first steps are taken by the interpreter unless the compiled code is loaded, to the
+    same bits (powers are those of one library): a motion may be at its end before that is.
+    """
+
+    def __init__(self, scene, state, t_end: float, plain: int = 0):
+        scene = effective(checked_scene(scene))
+        scene.quadratic()  # says which effect of the scene is not covered
+        start = exact_vector(state, "state")
+        if not (math.isfinite(t_end) and t_end > 0):
+            raise InputError(f"t: expected a time above 0, got {t_end!r}")
+        own, self.unit = natural(scene)
+        self.t, self.steps, self.status, self.plain = 0.0, 0, enclosure_kernel.GOING, plain
+        self._end = t_end * self.unit
+        self._grain = math.ulp(self._end)
+        form = own.quadratic()
+        self._numbers = *twofold([form.kappa, form.rho, form.sigma, form.m]), energy_of(own), TOLERANCE
+        centre, low = twofold([v / Fraction(self.unit) for v in start])
+        self._set = [centre, low, np.eye(3), np.abs(centre) * 2.0**-104 + enclosure_kernel.TINY]
+
+    def advance(self, t: float, steps: int | None = None, band: bool = False) -> Band | None:
+        """Carry the motion on to the time t (taken down to the grain of time), by at most so many steps, at
+        most CHUNK where the band is asked for.
+
+        steps: None for as many as take some seconds, those made already counted. Returns the band where it is
+        asked for and a step was made."""
+        t = min(t * self.unit, self._end)
+        t = float(int(t / self._grain)) * self._grain
+        steps = max(0, allowed() - self.steps) if steps is None else steps
+        size = min(steps, CHUNK) if band else 0
+        kept = [np.empty(size), np.empty((size, 3, enclosure_kernel.ORDER + 1)), np.empty((size, 3))]
+        begun = self.t * self.unit
+        now, made = self._carried(begun, t, size or steps, kept)
+        self.t, self.steps = now / self.unit, self.steps + made
+        if not (band and made):
+            return None
+        times, polynomials, radii = (rows[:made] for rows in kept)
+        return Band(np.append(begun, times) / self.unit, polynomials * self.unit, radii * self.unit)
+
+    def _carried(self, t, t_end, steps, kept):
+        """(time, steps made) of the set carried on; what is told of each step goes to arrays `kept`."""
+        made, plainly = 0, not installed() or self.plain > 0 and not loaded()
+        if plainly:
+            before, most = [v.copy() for v in self._set], min(steps, self.plain) if installed() else steps
+            try:
+                t, made = self._run(_plainly, t, t_end, most, kept)
+                self.plain -= made
+            except (ArithmeticError, ValueError):  # what is no number has no whole part for the interpreter
+                self._set, self.plain = before, 0
+                self.status = enclosure_kernel.GOING if installed() else enclosure_kernel.LOST
+        if installed() and (not plainly or self.status == enclosure_kernel.GOING and made < steps):
+            rest = [rows[made:] for rows in kept]
+            t, more = self._run(functions()["advance"], t, t_end, steps - made, rest)
+            made += more
+        return t, made
+
+    def _run(self, by, t, t_end, steps, kept):
+        self.status, t, made = by(*self._numbers, t, t_end, self._grain, steps, *self._set, *kept)
+        return t, made
+
+    @property
+    def now(self) -> Enclosed:
+        """Where the motion is."""
+        centre, low, B, rad = self._set
+        status = "enclosed" if self.status == enclosure_kernel.DONE else "stopped"
+        return Enclosed(self.t, centre * self.unit, low * self.unit,
+                        np.abs(B) @ rad * enclosure_kernel.WIDER * self.unit,
+                        self.steps, status, WHY[self.status])
+
+
+def allowed() -> int:
+    """How many steps take some seconds."""
+    return STEPS if installed() else SLOW_STEPS
+
+
+def twofold(values):
+    """Exact numbers, nested lists of them, as two arrays of doubles whose sum they are to 105 bits."""
+    values = np.array(values, dtype=object)
+    high = np.array([float(v) for v in values.ravel()])
+    low = np.array([float(v - Fraction(h)) for v, h in zip(values.ravel(), high.tolist())])
+    return high.reshape(values.shape), low.reshape(values.shape)
+
+
+def energy_of(own):
+    """(4,) roots of the moments, and the greatest rate at which the root of the sum of D omega^2 grows; zeros
+    for scaled variables."""
+    if own.variables == "scaled":
+        return np.zeros(4)
+    D, M = (np.array([float(v) for v in vector])
+            for vector in (own.body.exact, own.vector("constant_torque")))
+    return np.append(np.sqrt(D), math.sqrt(float((M * M / D).sum())))
+
+
+@lru_cache(maxsize=1)
+def functions() -> dict:
+    """The kernel's functions by name, compiled."""
+    return compiled(enclosure_kernel)
+
+
+def loaded() -> bool:
+    """Whether these are at hand, without loading them."""
+    return bool(functions.cache_info().currsize)
+
+
+def _plainly(*arguments):
+    """`kernel.advance` as it is written."""
+    with np.errstate(all="ignore"):  # as compiled code
+        return enclosure_kernel.advance(*arguments)
+
+
+TRIED, HOPELESS = 512, 16  # steps after which a way that would take so many times what is allowed is given up
+# times, over that of the certified run, at which the inequality is asked again
+LATER = (1.0, 1.0625, 1.25, 1.5, 2.0)
+WIDER_BY_A_STEP = 1 + 2.0**-40
+
+
+def proved(scene, state, found: SpinUp, steps: int | None = None, fast: bool = False,
+           plain: int = 0) -> SpinUp:
+    """The answer of `spin_up` for the motion from a state (three exact numbers: floats at their word,
+    Fractions, decimals in strings), with level "proved" where its way can be enclosed in so many validated
+    steps and the inequality holds for the whole set there; else as it was found, its cause told what
+    hindered. plain: as of `Course`. fast: ask the inequality by compiled loops, for which the first of an
+    installation waits some seconds: where those that found it have loaded them."""
+    if found.level != "certified":
+        return found
+    before: Any = found.trap  # of a motion off the axes of symmetry
+    scene = effective(checked_scene(scene))
+    own, unit = natural(scene)
+    rates = "" if scene.variables == "scaled" else " rad/s"
+    test = tests_of(own).certifier(before.field, before.orders)
+    way = _Way(scene, state, found.t * LATER[-1], plain)
+    for later in LATER:
+        reached = way.to(found.t * later, steps)
+        if reached is None:
+            return replace(found,
+                           cause=f"{found.cause}; not proved: after {way.steps} validated steps, at t = "
+                                 f"{way.t:.6g}, the motion is {way.why}")
+        middle, near = reached
+        constants = test.constants(middle / unit, near / unit * WIDER_BY_A_STEP, fast)
+        if constants:
+            # six constants
+            trap = Trap(before.field, before.form, before.orders, *constants, unit, way.t)  # type: ignore[call-arg]
+            words = (found.cause.replace("is certified", "is proved")
+                     + f"; the motion up to there is enclosed, within {near:.2g}{rates} at t = {way.t:.6g}")
+            return replace(found, level="proved", trap=trap, t=way.t, state=tuple(middle.tolist()),
+                           cause=words)
+        if not found.t:
+            break
+    return replace(found,
+                   cause=f"{found.cause}; not proved: the inequality does not hold for the whole set that is "
+                         f"known to hold the state")
+
+
+class _Way:
+    """The motion at rising times, as the centre and radius of a ball."""
+
+    def __init__(self, scene, state, t_end, plain):
+        self.start = exact_vector(state, "state")
+        self.course = Course(scene, state, t_end, plain) if t_end else None
+        self.t, self.steps, self.why = 0.0, 0, ""
+
+    def to(self, t, steps):
+        """(middle (3,), radius of a ball about it); None where the steps do not reach."""
+        if self.course is None:
+            middle = np.array([float(v) for v in self.start])
+            return middle, _up([abs(v - Fraction(m)) for v, m in zip(self.start, middle.tolist())])
+        steps = allowed() if steps is None else steps
+        if not self.course.steps:
+            self.course.advance(t, min(steps, TRIED))
+            slow = self.course.t * steps < t * self.course.steps / HOPELESS
+            if self.course.status == enclosure_kernel.GOING and slow:
+                self.t, self.steps, self.why = self.course.t, self.course.steps, "too long to enclose"
+                return None
+        self.course.advance(t, steps - self.course.steps)
+        now = self.course.now
+        self.t, self.steps, self.why = now.t, now.steps, now.reason
+        return (now.middle, _up(now.radius + np.abs(now.rest))) if now.status == "enclosed" else None
+
+
+def _up(reach) -> float:
+    """A bound of the length of a vector with components of at most these sizes."""
+    return math.hypot(*map(float, reach)) * WIDER_BY_A_STEP  # squares of small reaches would vanish

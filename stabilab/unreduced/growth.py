@@ -1,0 +1,234 @@
+"""Endless growth: a torque along a principal axis that carries a gyrostatic component along it, too.
+
+Law (any lambda): (|H|^2/2 - D_i T)' = lambda_i M_i, so there is no equilibrium and no bounded motion. What
+remains to be decided is about which axis the body spins up.
+
+Standard form (torque on the major or minor axis i, no gyrostatic component across it; `standard_form`):
+
+    u' = y2 y3 + 1,   y2' = -y3 (u - c/2),   y3' = y2 (u + c/2),      J = y2^2 + y3^2 - 2 c u,   J' = -2c,
+
+and with phi = atan2(y3, y2), P = phi' = u + (c/2) cos 2phi:
+
+    P' = -dV/dphi,   V(phi, J) = -phi - (J/2) sin^2 phi + (c^2/8) sin^2 2phi,   E = P^2/2 + V,   E' = c sin^2
+    phi.
+
+y2 = y3 = 0 stays so: spin-up. c > 0: every motion spins up about axis i; only its release from a temporary
+capture is left to observe. Certificate "spin-up" (any c): P > 0 and E + phi + min(J, 0)/2 - c^2/8 > c^2/2;
+for c > 0 also J < -c^2. Certificate "well" (c < 0): phi mod pi inside (pi - phi_b, phi_b) with E < V(phi_b,
+J) for one phi_b in [pi/2, pi]; the motion then grows about axis 3 of the form, like the root of time. Once
+one holds it holds for ever, so it may be looked for at any later time. Proofs: docs/mathematics/spin-up.md.
+
+For c < 0 the end of the run that led there decides, and its rounding could carry a motion over the boundary
+between the two; so six neighbours, as far away as that rounding could at most have moved it, must end alike,
+else the answer is "undecided".
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import InputError
+from ..numbers.vectors import CYCLE
+from ..orbit.fate import OneFate, Reason
+from ..orbit.fate_arrays import FateResult, in_chunks, write_row
+from ..orbit.fate_arrays import at_rest as mark_rest
+from ..orbit.one_state import in_range
+from ..orbit.result import Fate, Motion, judged, pairs
+from ..physics.coefficients import three_floats
+from ..physics.states import three_numbers
+from ..validation import reach_of
+from .evidence import growth as seen_growth
+from .evidence import seen_over, span_needed
+from .growth_certificate import (
+    angle_of,
+    captured_extremes,
+    growth_law,
+    nearest_other,
+    release_estimate,
+    search_certificate,
+    standard_form,
+)
+
+# How long to look where the caller names no time, in the motion's own unit 1/sqrt(g |m|).
+PATIENCE = 1e6
+# How well the axis is known by each kind of certificate; that the motion is unbounded is exact.
+LEVEL = {"axis": "exact", "law": "exact", "bound": "exact", "spin-up": "certified", "well": "certified",
+         "evidence": "run"}
+
+
+@dataclass(frozen=True)
+class CapturedFate:
+    """What becomes of a motion that no bound holds.
+
+    axis, sense: 1, 2, 3 and +-1 of the spin-up (0 where unclear). J0, J_rate: the law J = J0 + J_rate t at
+    the state, in the scene's variables (|H|^2/2 - D_i T; x2^2 + x3^2 - 2(b-a) x1 when scaled). release_time:
+    last reversal of the turn about axis i, after which it spins up for ever (0: there is none; None: captured
+    for ever, or not run to it); release_estimate: about when the barrier will have vanished at the latest
+    (None where no capture was seen or it lasts for ever). certificate: "bound", "spin-up",
+    "well", "axis", "law", "evidence" or "none"; t_certificate: time at which it was found to hold; times in
+    the scene's unit.
+    """
+
+    J0: float
+    J_rate: float
+    because: str
+    fate: Fate = Fate.UNDECIDED
+    axis: int = 0
+    sense: int = 0
+    release_time: float | None = None
+    release_estimate: float | None = None
+    certificate: str = "none"
+    t_certificate: float | None = None
+    steps: int = 0
+
+
+def captured_fate(scene, state, t_max: float | None = None, exact=None) -> CapturedFate:
+    """Which axis the motion from `state` (three numbers, the scene's variables) spins up about, and when it
+    is released.
+
+    t_max: how long to look for a certificate, in the scene's time (None: a million of the motion's own
+    units). exact: the state as it was given (Fractions), which decides whether it is a pure spin. Raises
+    InputError for a scene whose torque is not along one principal axis with a gyrostatic component along it.
+    """
+    state = tuple(three_numbers(state).tolist())
+    try:
+        law = growth_law(scene)
+        start = None if law is None else law[1](state)
+    except OverflowError:
+        raise InputError(
+            "state: the squares of rates this large, or of moments, are beyond the largest double: choose "
+            "other units") from None
+    if law is None:
+        raise InputError("capture needs a torque along one principal axis and a gyrostatic component along "
+                         "that axis; "
+                         "this scene is for the reduction or for the torque off the axes")
+    axis, _, rate = law
+    if _is_pure_spin(scene.quadratic(), axis, exact or state):
+        words = f"pure spin about axis {axis + 1}, which the torque speeds up for ever"
+        return CapturedFate(start, rate, **_by_law("axis", axis, scene.quadratic(), words))
+    change = standard_form(scene)
+    answer = (_by_certificate(change, change.to_standard(state), t_max) if change
+              else _without_form(scene, state, axis, t_max))
+    return CapturedFate(start, rate, **answer)
+
+
+def _is_pure_spin(form, i, x) -> bool:
+    """Whether nothing turns but the torque's axis and, with no gyrostatic component across it, nothing else
+    ever will."""
+    j, k = CYCLE[i]
+    return not (x[j] or x[k] or form.rho[j] or form.sigma[k])
+
+
+def _by_law(certificate, i, form, because):
+    """Fields of CapturedFate of a spin about the torque's axis i that is known exactly for all time."""
+    return dict(fate=Fate.SPIN_UP, axis=i + 1, sense=1 if form.m[i] > 0 else -1, release_time=0.0,
+                certificate=certificate, t_certificate=0.0, because=because)
+
+
+def _by_certificate(change, y, t_max):
+    """Fields of CapturedFate from the standard form."""
+    c, (i, _, q), unit = change.c, change.axes, change.time
+    spin = dict(fate=Fate.SPIN_UP, axis=i + 1, sense=1 if change.rates[0] > 0 else -1)
+    vanishing = release_estimate(c, angle_of(c, y)[2]) * unit if c > 0 else None
+    t_max = PATIENCE * unit if t_max is None else t_max
+    name, t, end, last, steps = search_certificate(c, y, t_max / unit)
+    if c < 0 and steps and name != "none" and (reach := nearest_other(c, y, t_max / unit, name, steps)):
+        return dict(steps=steps, because=(
+            f"unbounded, but between spin-up about axis {i + 1} and capture about axis {q + 1}: a change of "
+            f"the state by {reach:.0e} of its size, as rounding of the run may make, turns the one into the "
+            "other"))
+    estimate = None if name == "spin-up" and not last else vanishing
+    when = None if t is None else t * unit
+    known = dict(release_estimate=estimate, certificate=name, t_certificate=when, steps=steps)
+    if name == "well":
+        sense = (1 if change.rates[2] > 0 else -1) * (1 if end[2] > 0 else -1)
+        return known | dict(fate=Fate.SPIN_UP, axis=q + 1, sense=sense, because=(
+            f"captured about axis {q + 1} for ever: the barrier ahead grows faster than the energy, and the "
+            f"spin about axis {q + 1} grows like the square root of time"))
+    if name == "spin-up":
+        return spin | known | dict(release_time=last * unit, because=(
+            f"spin-up about axis {i + 1}: the turn about it can reverse no more (proved from t = "
+            f"{when:.6g} on)"))
+    if c > 0:
+        return spin | known | dict(certificate="bound", t_certificate=0.0, because=(
+            f"spin-up about axis {i + 1}: its rate is bounded below by a growing line; still captured when "
+            f"the search ended, release expected at about t = {estimate:.6g}"))
+    return known | dict(because=(
+        f"unbounded, but neither spin-up about axis {i + 1} nor capture about axis {q + 1} was certain after "
+        f"{steps} steps (the search ends at t = {t_max:g})"))
+
+
+def _without_form(scene, state, axis, t_max):
+    """Fields of CapturedFate where the standard form does not exist: exact spin of a symmetric body, else
+    evidence."""
+    form = scene.quadratic()
+    if not (form.kappa[axis] or form.rho[axis] or form.sigma[axis]):
+        return _by_law("law", axis, form, f"the moments across axis {axis + 1} are equal: its spin grows "
+                                          "exactly in proportion to time")
+    if not any(form.kappa):
+        return dict(fate=Fate.SPIN_UP, release_time=0.0, certificate="law", t_certificate=0.0, because=(
+            "three equal moments: the spin along lambda, which is on no axis, grows exactly in proportion to "
+            "time, the rest of the motion is bounded"))
+    t_max = PATIENCE / math.sqrt(abs(form.m[axis])) if t_max is None else t_max
+    seen = seen_growth(scene, state, t_max)
+    words = (f"spin-up about axis {seen.axis} by the evidence of a run to t = {seen.span:.6g} ({seen.words})"
+             if seen.axis else f"no axis of spin-up was clear in a run to t = {seen.span:.6g}")
+    known = dict(fate=Fate.SPIN_UP, certificate="evidence") if seen.axis else {}
+    return known | dict(axis=seen.axis, sense=seen.sense, steps=seen.steps, because=(
+        f"unbounded, because |H|^2/2 - D{axis + 1} T grows in proportion to time; {words}"))
+
+
+def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
+    """See `answers.motion`: unbounded by an exact law; what is seen over the span is told beside it."""
+    state = three_floats(state)
+    found = captured_fate(scene, state, exact=exact)
+    known = {"certificate": found.certificate, "t_certificate": found.t_certificate,
+             "release_time": found.release_time,
+             "release_estimate": found.release_estimate, "steps": found.steps}
+    fields, seen = {**judged(state, unbounded(found)), "because": found.because,
+                    "level": LEVEL.get(found.certificate, "undecided")}, {}
+    if span is not None or _for_ever(found):
+        grown = captured_extremes(scene, state, found, reach_of(span), exact)
+        fields |= {"extremes": pairs(grown.box), "extremes_over": grown.over}
+        seen = ({} if span is None
+                else seen_over(scene, state, (0.0, grown.span or reach_of(span)))["evidence"])
+    return Motion(**fields, invariants={"J": found.J0, "J_rate": found.J_rate}, evidence={**seen, **known})
+
+
+def _for_ever(found) -> bool:
+    """Whether all extremes of the motion are known for all time."""
+    return found.certificate in ("axis", "law")
+
+
+def extremes(scene, states, span=None, fast: bool | None = None):
+    """(n, 3, 2), as of `captured_extremes`, NaN where the run ends before its span does; InputError where
+    they are not known for all time and no span is named."""
+    found = [captured_fate(scene, state) for state in states]
+    if span is None and not all(map(_for_ever, found)):
+        raise span_needed(scene)
+    known = [captured_extremes(scene, *row, span) for row in zip(states, found)]
+    return np.array([one.box if one.whole else np.where(np.isinf(one.box), one.box, np.nan)
+                     for one in known]).reshape(-1, 3, 2)
+
+
+def periods(scene, states, fast: bool | None = None):
+    """(n,): inf, for what grows for ever does not repeat."""
+    return np.full(len(states), math.inf)
+
+
+def unbounded(found) -> OneFate:
+    """The fate that `captured_fate` found under the law: unbounded, about an axis that may be undecided."""
+    return OneFate(found.fate, Reason.UNBOUNDED_LAW, -math.inf, found.axis, found.sense)
+
+
+def fates(scene, states, fast: bool | None = None) -> FateResult:
+    """Fates of states (n, 3), one by one."""
+    def label(rows, out):
+        with in_range():
+            for index, state in enumerate(rows):
+                write_row(out, index, *unbounded(captured_fate(scene, state)))
+        mark_rest(scene, rows, out)
+        return 0
+    return in_chunks(label, states)
