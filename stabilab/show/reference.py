@@ -121,7 +121,7 @@ def csv(made: dict) -> str:
     for name, pair in zip(course["components"], extremes["value"] or ()):
         rows += [(f"{word} over {extremes['over']}", None, name, value, None, extremes["because"])
                  for word, value in zip(("least", "greatest"), pair)]
-    rows += [("errors", None, one["kind"], one["words"], None, None) for one in made["caveats"]]
+    rows += [("caveat", None, one["kind"], one["words"], None, None) for one in made["caveats"]]
     return csv_lines(rows)
 
 

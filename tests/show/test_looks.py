@@ -91,7 +91,7 @@ def test_no_view_has_outcomes_in_colours_of_its_own():
     own = re.compile(r"#[0-9A-Fa-f]{6}\b")
     room = ROOT / "stabilab" / "show"
     for file in [*room.rglob("*.py"), *room.rglob("*.js")]:
-        if file.name in ("style.py", "comparison.py"):  # the table; darker words beside its lines
+        if file.name in ("style.py", "cost.py"):  # the table; darker words beside its lines
             continue
         for colour in own.findall(file.read_text(encoding="utf-8")):
             values = [int(colour[n:n + 2], 16) for n in (1, 3, 5)]
