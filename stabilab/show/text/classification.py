@@ -355,7 +355,7 @@ def uncertain_text(found, units: Units) -> str:
         return ""
     numbers = []
     for u in found.numbers:  # the middle and half the width, with the unit
-        unit, one = units.of(unit_of_key(u.path))
+        unit, one = (SI if units.scaled else units).of(unit_of_key(u.path))  # a file's numbers have units
         in_unit = rounded if one == 1.0 else lambda v, one=one: told(float(v) * one, DIGITS)
         numbers.append(f"{key(u)} = {in_unit(u.middle)} ± {in_unit(u.half)} {unit}".rstrip())
     lines = [f"uncertain: {', '.join(numbers)}"]
