@@ -355,7 +355,7 @@ def uncertain_text(found, units: Units) -> str:
         return ""
     numbers = []
     for u in found.numbers:  # the middle and half the width, with the unit
-        unit, one = (SI if units.scaled else units).of(unit_of_key(u.path))  # a file's numbers have units
+        unit, one = _of_file(units, unit_of_key(u.path))
         in_unit = rounded if one == 1.0 else lambda v, one=one: told(float(v) * one, DIGITS)
         numbers.append(f"{key(u)} = {in_unit(u.middle)} ± {in_unit(u.half)} {unit}".rstrip())
     lines = [f"uncertain: {', '.join(numbers)}"]
@@ -363,6 +363,11 @@ def uncertain_text(found, units: Units) -> str:
         over = getattr(found, name)
         lines += [] if over is None else _lines(name, over, units)
     return "\n" + "\n".join(lines)
+
+
+def _of_file(units: Units, unit: str) -> tuple[str, float]:
+    """The unit of a number that the file states, and how many of it are one of SI; scaled cases state SI."""
+    return (SI if units.scaled else units).of(unit)
 
 
 def first(found, told: str, units: Units) -> str:
@@ -409,7 +414,7 @@ def _lines(subject, over, units) -> list[str]:
     for w in over.witnesses:  # to six digits: JSON has them all
         known, numbers = UNITS | ({"state": "rad/s"} if "torque" in w.values else {}), []
         for name, values in w.values.items():
-            unit, one = units.of(known.get(name, ""))
+            unit, one = _of_file(units, known.get(name, ""))
             row = ", ".join(told(float(v) * one, DIGITS) for v in values)
             numbers.append(f"{name} = {row} {unit}".rstrip())
         lines.append(f"    {units.axes.sentence(w.verdict)} at {'; '.join(numbers)}")
