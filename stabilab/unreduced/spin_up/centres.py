@@ -61,7 +61,7 @@ nothing like g Im eta^2 r Re eta^2 but Im eta^4: the products are written down b
 
 Equatorial spin-up (D2 = D3 of the body, cyclic triple (2, 3, 1), the wheel's transverse part along the form's
 axis 1): d2 = 0, q = s l1 is constant, l2 = 0 and n3 = 0; every term of the rate of the amplitude that is left
-must fall faster than 1/x, and its integral is infinite where one does not (`moving_kernel.tail`).
+must fall faster than 1/x, and its integral is infinite where one does not (`kernel.tail`).
 """
 from __future__ import annotations
 

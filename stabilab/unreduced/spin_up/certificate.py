@@ -52,7 +52,7 @@ x and |zeta| are taken at their worse ends and each term at the start within the
 of it. Coefficients hold their rounding (`centres`), sums of positive numbers are off by less than 2^-40
 of themselves, and every comparison leaves SLACK = 2^-30 of the sum of the sizes in it.
 
-A and z are searched from the smallest that could do, by `moving_kernel`: compiled, or as it is written.
+A and z are searched from the smallest that could do, by `kernel`: compiled, or as it is written.
 """
 from __future__ import annotations
 
