@@ -1,14 +1,11 @@
-"""Errors of a user, and the caveats of an answer.
+"""Errors of a user with the exit codes that announce them, and the caveats of an answer.
 
-What limits an answer: a tilt that it leaves out, a limit that comes first, a law that does not hold, a
-tensor that no rigid body has, samples in place of a proof, numbers that are the middles of uncertain ones,
-what a burn or a motor takes for granted.
+Caveats are what limits an answer: a tilt that it leaves out, a limit that comes first, a law that does not
+hold, a tensor that no rigid body has, samples in place of a proof, numbers that are the middles of
+uncertain ones, what a burn or a motor takes for granted.
 
 A caveat belongs to the answer: every view of it (text, JSON, CSV, sweep, map, page, explorer) shows its
-words.
-
-What can go wrong, in words for the user, and the exit codes that announce it.
-"""
+words."""
 from __future__ import annotations
 
 from collections.abc import Iterable

@@ -1,8 +1,5 @@
-"""The processors of this machine, and processes that work for this one.
-
-Processes of this machine that help another one: how many it may use, and an end with the one that started
-them, whatever ends it.
-"""
+"""Processes of this machine that work for this one: how many it may use, and an end with the one that
+started them, whatever ends it."""
 from __future__ import annotations
 
 import os

@@ -1,25 +1,5 @@
-"""How a body turns in space: rotation and precession periods, nutation, the turn after one period.
-
-How a heavy symmetric top turns: nutation and mean precession, by Lagrange's cubic.
-
-A body with D_j = D_k = A turns about a fixed point under its weight, which acts on axis i at the moment P = M
-g c; a wheel may turn about that axis. Constant are the momentum about it, L = D_i omega_i + lambda_i, the
-momentum about the vertical and the energy. With u the cosine of the lean, between the upward vertical and the
-direction from the fixed point to the centre of mass (Landau & Lifshitz, Mechanics, section 35),
-
-    u'^2 = F(u) = (1 - u^2)(eps - beta u) - (kappa - a u)^2,    beta = 2 |P|/A,  a = L/A,
-    eps = omega_j^2 + omega_k^2 + beta u,    kappa = (D omega + lambda) . gamma/A, up to its sign.
-
-u goes to and fro between the lower two roots of F, u_1 <= u <= u_2 <= 1 <= u_3: with m = (u_2 - u_1)/(u_3 -
-u_1)
-
-    nutation period = 4 K(m) / (beta (u_3 - u_1))^(1/2),
-
-and the axis precesses at the rate (kappa - a u)/(1 - u^2), half the sum of (kappa - a)/(1 - u) and (kappa +
-a)/(1 + u), whose means over that period are integrals of the third kind. Where |gamma| = g is not quite one,
-u is between -g and g. Exact fractions and balls.
-
-How a body turns in space: rotation and precession periods, angular momentum, the turn after one period.
+"""How a body turns in space: rotation and precession periods, angular momentum, the turn after one period;
+the nutation and mean precession of a heavy symmetric top.
 
 Without a torque the angular momentum H = D omega + lambda is fixed in space. Seen from the body it goes round
 the long axis (least moment) or the short axis (greatest moment) once in a rotation period, the period of the
@@ -36,7 +16,25 @@ that H goes round, c the other one with an extreme moment, b the intermediate ax
     n = -m D_a^2 A^2/(H^2 - D_a^2 A^2)
 
 in exact fractions and balls. Motions with wheels and under a torque: `attitude_followed`.
-"""
+
+A heavy symmetric top, by Lagrange's cubic.
+
+A body with D_j = D_k = A turns about a fixed point under its weight, which acts on axis i at the moment P = M
+g c; a wheel may turn about that axis. Constant are the momentum about it, L = D_i omega_i + lambda_i, the
+momentum about the vertical and the energy. With u the cosine of the lean, between the upward vertical and the
+direction from the fixed point to the centre of mass (Landau & Lifshitz, Mechanics, section 35),
+
+    u'^2 = F(u) = (1 - u^2)(eps - beta u) - (kappa - a u)^2,    beta = 2 |P|/A,  a = L/A,
+    eps = omega_j^2 + omega_k^2 + beta u,    kappa = (D omega + lambda) . gamma/A, up to its sign.
+
+u goes to and fro between the lower two roots of F, u_1 <= u <= u_2 <= 1 <= u_3: with m = (u_2 - u_1)/(u_3 -
+u_1)
+
+    nutation period = 4 K(m) / (beta (u_3 - u_1))^(1/2),
+
+and the axis precesses at the rate (kappa - a u)/(1 - u^2), half the sum of (kappa - a)/(1 - u) and (kappa +
+a)/(1 + u), whose means over that period are integrals of the third kind. Where |gamma| = g is not quite one,
+u is between -g and g. Exact fractions and balls."""
 from __future__ import annotations
 
 import math

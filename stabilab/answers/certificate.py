@@ -1,11 +1,9 @@
-"""The certificate of a case: claims that separate code can check.
-
-A certificate: what was found of a case, as exact numbers and brackets that separate code can check.
+"""The certificate of a case: what was found of it, as exact numbers and brackets that separate code can
+check.
 
 Equilibria come from exact algebra (rationals and roots of polynomials), fate, extremes and period from ball
 arithmetic; nothing here is a rounded guess. What cannot be certified is left out and named in `uncertified`.
-docs/certificate.md has the form.
-"""
+docs/certificate.md has the form."""
 from __future__ import annotations
 
 from collections.abc import Sequence

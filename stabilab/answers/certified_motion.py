@@ -1,15 +1,14 @@
 """What a certificate (its form: docs/certificate.md) says of motions with a closed solution, and of spin-up
 under a torque of any direction.
 
-Closed solutions (`unreduced.spin_up.symmetric`) are those without a torque, of spheres, and of bodies of
-revolution without a transverse wheel. Told are the law, the exact direction along which the rates grow, how
-fast they do at least, and how large what lies across that direction (or, bounded, the whole rate) ever
-becomes at most.
+Closed solutions (`unreduced.spin_up.certificate.closed`) are those without a torque, of spheres, and of
+bodies of revolution without a transverse wheel. It states the law, the exact direction along which the
+rates grow, how fast they do at least, and how large what lies across that direction (or, bounded, the whole
+rate) ever becomes at most.
 
-Of a spin-up under a torque of any direction it has the way, and an inequality at its end that stays true:
-that about the fixed centre where it holds soon, else that about the moving centre, or along the equator of a
-body of revolution. A checker can work out each from the rates alone.
-"""
+Of a spin-up under a torque of any direction it has the motion up to a time, and an inequality at its end
+that stays true: that about the fixed centre where it holds soon, else that about the moving centre, or
+along the equator of a body of revolution. A checker can work out each from the rates alone."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence

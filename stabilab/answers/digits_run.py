@@ -51,7 +51,7 @@ OWN: tuple[Any, Any] = (None, None)  # method and tolerance as `simulate` choose
 STIFF_FINE = (STIFF_METHOD, 1e-12)
 SAFETY = 1.0  # digits that a stiff run at its own tolerance must have to spare
 FAR = 1e4  # radians or so from which the reduced form, whose cost does not grow, is cheaper than a run
-# radians beyond which a run in many digits takes more than the work allowed (`precision_reference.WORK`)
+# radians beyond which a run in many digits takes more than the work allowed (`integrate.reference.WORK`)
 FARTHEST = 1e5
 NODES = (-4, -1)  # which of the reduced form's resolutions are tried: one that mostly does, and the finest
 # last places by which a start is moved to see what one does; the answer's share up to which it grows in

@@ -1,10 +1,8 @@
-"""What internal dissipation makes of a spin, and the body that it is followed on.
-
-A free body that something takes energy from: exact at its start, and followed from one level of its energy
-to the next.
-
-What internal dissipation makes of a spin: when a body tumbles from its minor axis, and about which
+"""What internal dissipation makes of a spin: when a body tumbles from its minor axis, and about which
 direction of the major axis it ends.
+
+The body is free but for what takes energy from it. It is exact at its start, and followed from one level of
+its energy to the next.
 
 A damper or a liquid keeps the angular momentum H and takes kinetic energy T. With D1 > D2 > D3 the principal
 moments of the whole,
@@ -20,11 +18,10 @@ an axis at most by the angle theta,
     sin^2 theta = (2T/|H|^2 - 1/D1)/(1/D2 - 1/D1)  from the major axis,
                   (1/D3 - 2T/|H|^2)/(1/D3 - 1/D2)  from the minor axis: the nutation angle of an energy sink.
 
-Which cone it is hangs on the phase: while H circles the minor axis its component along axis 1 changes sign
+Which cone it is depends on the phase: while H circles the minor axis its component along axis 1 changes sign
 every half turn, and the separatrix is crossed within one of them. Turned by pi about the minor axis a motion
 ends in the other direction (the equations are symmetric), so that the two directions share the phases in
-equal parts; in the nutation angle, or in the strength of the damper, the bands shrink with the damping.
-"""
+equal parts; in the nutation angle, or in the strength of the damper, the bands shrink with the damping."""
 from __future__ import annotations
 
 import math

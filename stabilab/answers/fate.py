@@ -1,10 +1,6 @@
-"""Fates, extremes and periods of arrays of states, whatever the scene.
+"""Fates, extremes and periods of arrays or grids of states, whatever the scene.
 
-The fate of every state of an array or of a grid, whatever the scene: bounded, spin-up, on the separatrix,
-at rest, or undecided.
-
-The extremes and the period of every state of an array are told here, whatever the scene.
-"""
+A fate is bounded, spin-up, on the separatrix, at rest, or undecided."""
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence

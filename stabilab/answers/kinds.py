@@ -1,11 +1,10 @@
-"""A table tells which way answers a scene: it has a row for each kind of scene, and the module of a row
-answers the same questions as every other.
+"""Which kind of scene is answered by which module: a table with a row for each kind, whose modules all
+answer the same questions.
 
 One state: `motion(scene, state, span, exact, brief)` -> Motion. Many: `fates(scene, states, fast)` ->
 FateResult, `extremes(scene, states, span, fast)` -> (n, 3, 2), `periods(scene, states, fast)` -> (n,), for
 rows (n, 3). Kinds that follow motions also take `follow`, how long a motion is followed (None: as long as a
-user waits), and `tell`, which hears of it on the way.
-"""
+user waits), and `tell`, which hears of it on the way."""
 from __future__ import annotations
 
 import math

@@ -1,11 +1,8 @@
-"""A limit of a motion, and the time at which an enclosed motion first reaches it.
+"""A limit of a motion (of the rate, of a component, of the kinetic energy, of the angle by which a body
+axis has turned), and the time at which an enclosed motion first reaches it.
 
-A limit as it is asked for: of the rate, of a component, of the kinetic energy, of the angle by which a
-body axis has turned.
-
-The first crossing with the motion enclosed in integers, of as many bits as it takes, as long as the work
-allowed reaches; beyond that by compiled steps, for rates along principal axes alone.
-"""
+The motion is enclosed in integers, of as many bits as are needed, as far as the work allowed reaches;
+beyond that by compiled steps, for rates along principal axes alone."""
 from __future__ import annotations
 
 import math

@@ -1,6 +1,9 @@
-"""When a motion reaches a limit: the result; by roots along a run in machine precision, whose error a second
-run from a start moved in its last place shows; and for how long a motion bounded by a torque on an axis
-surely stays below a rate when the torque is a little off that axis, by the following.
+"""When a motion reaches a limit: the result; a run's roots in machine precision; and how long a small
+torque across the axis leaves a bounded motion below a rate.
+
+The error of a run's roots is shown by a second run from a start moved in its last place (`by_run`).
+
+The drift of a motion that is bounded by a torque on an axis (`stays_below`):
 
 Axis i carries the torque, j, k follow it cyclically, and the wheel has no momentum along i. Let a_j = D_j -
 D_i, a_k = D_k - D_i be of one sign (the major or the minor axis), c_j = -l_j/a_j, c_k = -l_k/a_k, and
@@ -19,8 +22,7 @@ for the kinetic energy T, and E = T - (M_i/n)(theta - theta(0)) drifts by no mor
 = T_perp(rho, theta) - (M_i/n)(theta - theta(0)), the phase cannot pass a place theta_b while E < V there.
 Given a time t: rho lies within |mu| t of its start, E within its drift; if at some theta_a behind and theta_b
 ahead the least V over these rho exceeds the most E, the phase stays between them until t, and |omega| stays
-below its most there.
-"""
+below its most there."""
 from __future__ import annotations
 
 import math

@@ -3,9 +3,8 @@ torque are all there is, else by Taylor series in two precisions.
 
 Along an enclosed motion each zero and extreme of the rates is proved to be one, and none is passed over. On
 an interval where a function's enclosure leaves out zero it has none; where its derivative's does, it has one
-at most, and the signs at the ends tell. Any other interval is divided. The rates' own equations give the
-derivatives, so that no error is differentiated.
-"""
+at most, and the signs at the ends decide. Any other interval is divided. The rates' own equations give the
+derivatives, so that no error is differentiated."""
 from __future__ import annotations
 
 from collections.abc import Sequence

@@ -1,11 +1,10 @@
 """What a tilt of the torque does to a motion: no thruster points exactly along an axis.
 
 A verdict that rests on a torque exactly on an axis is lost with any tilt: the integrals of the axis drift,
-and the motion leaves its well after a time like 1/tilt. Two answers stand beside it: the shortest time to the
-rate limit that is found at the edge of the cone of torques, and a time before which no torque of the cone
-reaches it (`passage.drift`). Any other motion has a range instead: of the time to its limit, or of its fate,
-over the cone.
-"""
+and the motion leaves its well after a time like 1/tilt. Two answers stand beside it: the shortest time to
+the rate limit that is found at the edge of the cone of torques, and a time before which no torque of the
+cone reaches it (`passage.stays_below`). Any other motion has a range instead: of the time to its limit, or
+of its fate, over the cone."""
 from __future__ import annotations
 
 import math

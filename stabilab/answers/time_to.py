@@ -1,7 +1,8 @@
-"""When a motion first reaches a limit: never, past the end of an effect, or at a time.
+"""When a motion first reaches a limit: of the rate, of a component, of the energy, or of the angle by
+which a body axis has turned; also where an effect stops acting before.
 
-What is known of a limit without a run: that it is never reached, as rest, extremes, a bound or one whole
-period tell; when a certified spin-up reaches it, by its clock; a time before which the torque cannot.
+Without a run it is known that a limit is never reached, where rest, extremes, a bound or one whole period
+show it; when a certified spin-up reaches it, by its clock; and a time before which the torque cannot.
 
 The torque feeds energy at a bounded rate. Let W = (omega . D omega)^(1/2), the root of twice the kinetic
 energy. The torque alone does work, so that W W' = M . omega, and with M . omega <= |D^(-1/2) M| W
@@ -9,13 +10,7 @@ energy. The torque alone does work, so that W W' = M . omega, and with M . omega
     W(t) <= W(0) + |D^(-1/2) M| t.
 
 A quantity sum c (a . omega)^2 is at most q W^2, q the sum of the c a . D^(-1) a, or the greatest of them
-where the a are different principal axes. It reaches its limit no earlier than q W^2 does.
-
-When a motion first reaches a limit in which an effect stops acting on the way.
-
-When a motion first reaches a limit: of the rate, of a component, of the energy, or of the angle by which a
-body axis has turned.
-"""
+where the a are different principal axes. It reaches its limit no earlier than q W^2 does."""
 from __future__ import annotations
 
 import math

@@ -1,9 +1,6 @@
-"""Where functions of the state vanish along a motion: the zeros of a component, or of any function that is
-given, as `events` of SciPy's `solve_ivp`.
-
-When the motion of a case reaches a limit, stated as on a command line ("30 deg/s", "z = 30 deg/s"), and
-what a tilt of its torque makes of that.
-"""
+"""When the motion of a case reaches a limit, stated as on a command line ("30 deg/s", "z = 30 deg/s"), and
+what a tilt of its torque makes of that; the zeros of a component, or of any function of the state, as
+`events` of SciPy's `solve_ivp`."""
 from __future__ import annotations
 
 import math

@@ -1,13 +1,12 @@
 """The tables of a case file that few cases have: attitude, circular orbit, burns.
 
-The attitude of a case at t = 0: its angles and its vertical must agree.
+Attitude at t = 0: its angles and its vertical must agree.
 
-[circular_orbit] of a case file: the circular orbit of a satellite, by its rate, its period, or its height
-or radius about the Earth.
+[circular_orbit]: the orbit of a satellite, by its rate, its period, or its height or radius about the
+Earth.
 
 Burns: when a thruster of a case file fires, as `start`, `stop`, pulses (`period` with `duty` or `on_time`)
-and `propellant` with its `mass_flow` say it; exact times.
-"""
+and `propellant` with its `mass_flow` say it; exact times."""
 from __future__ import annotations
 
 import math

@@ -1,10 +1,8 @@
-"""Tables of a case file: every value with its line, its unit and its uncertainty; what a case expects.
-
-One table of a case file: reads values by key and notes every fault with its line.
+"""One table of a case file: reads values by key, each with its line, its unit and its uncertainty, and
+notes every fault with its line; the table of what a case expects.
 
 Written by hand rather than with pydantic, whose import alone takes longer than the whole of `stabilab
-classify`.
-"""
+classify`."""
 from __future__ import annotations
 
 import re

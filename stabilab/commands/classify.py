@@ -1,10 +1,8 @@
-"""`stabilab classify` and the questions of one motion.
-
-`stabilab classify`: equilibria, their stability, and the fate of the motion.
+"""`stabilab classify`: equilibria, their stability, and the fate of the motion; and the questions of one
+motion.
 
 `stabilab extremes`, `fate` and `period`: one question about each motion, with the digits of its answer;
-`attitude`: how it turns in space.
-"""
+`attitude`: how it turns in space."""
 from __future__ import annotations
 
 from dataclasses import replace

@@ -1,10 +1,5 @@
-"""What commands share: cases from files, and what is written.
-
-What a command writes: data and answers to stdout, messages to stderr, an exit code where an answer falls
-short.
-
-Cases that a command is given, their motions, and what is printed of them.
-"""
+"""What commands share: the cases that they are given, their motions, and how answers are written: data and
+answers to stdout, messages to stderr, an exit code where an answer falls short."""
 from __future__ import annotations
 
 import sys

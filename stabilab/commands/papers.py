@@ -1,9 +1,7 @@
-"""Commands about the papers, and the report.
+"""Commands about the papers (the audit of their formulas, other tools' numbers, their tables and figures),
+and the report.
 
-The papers' own: the audit of their formulas, other tools' numbers, their tables and figures.
-
-`stabilab report` and `rerun`: a folder of pages, and whether the same command makes the same bytes.
-"""
+`stabilab report` and `rerun`: a folder of pages, and whether the same command makes the same bytes."""
 from __future__ import annotations
 
 import sys

@@ -7,8 +7,7 @@ fire on a schedule leave, and by when they must close.
 
 `stabilab flat-spin`: what internal dissipation makes of a spin.
 
-`stabilab orbit`: the equilibria of a satellite on a circular orbit.
-"""
+`stabilab orbit`: the equilibria of a satellite on a circular orbit."""
 from __future__ import annotations
 
 from dataclasses import replace

@@ -1,17 +1,14 @@
-"""The methods that are compared, over time and with events.
-
-The ways to follow a motion that are set against each other: each a name, a ladder of settings, and how to
-make a run.
+"""The ways to follow a motion that are compared: each a name, a ladder of settings, and how to make a run;
+and those that find period, extremes and fate.
 
 `prepare(problem, setting)` returns a callable run(times) -> Answer; what is done once for all runs of a scene
 (compiling, series) happens in it. The counters of an Answer are exact.
 
-Period, extremes and fate by the general integrators with events, by the reduced form and in ball
+Period, extremes and fate come from the general integrators with events, from the reduced form and from ball
 arithmetic.
 
 A run follows the motion a little further than one period, notes where each rate vanishes and where it passes
-the plane through the start across the first velocity; the passage nearest the known period is its period.
-"""
+the plane through the start across the first velocity; the passage nearest the known period is its period."""
 from __future__ import annotations
 
 from collections.abc import Callable

@@ -1,10 +1,7 @@
-"""Equilibria on a circular orbit, and how they change with the momentum of the wheels.
+"""All equilibria of a satellite on a circular orbit, with their stability, as data; and how they change
+with the momentum of the wheels.
 
-Equilibria on a circular orbit as data.
-
-All equilibria of a satellite on a circular orbit, with their stability.
-
-How many equilibria there are as the momentum of the wheels grows along one direction.
+Their number as the momentum of the wheels grows along one direction changes at isolated momenta only.
 
 With a momentum s h the equations F = G = 0 of `circular_orbit_places` are polynomials in s^2. The number of
 their real common points, and of the roots of the balances across the principal axes, can change only where
@@ -12,7 +9,7 @@ the resultant R(u, s^2) gets a double root, loses its leading coefficient or van
 in s with exact coefficients (discriminants, resultants of factors, leading coefficients, contents). They are
 all isolated, and between two of them the equilibria at one rational s stand for all.
 
-The equilibria on a circular orbit followed as the momentum of the wheels grows, for pictures.
+For pictures the equilibria are followed as the momentum grows.
 
 At each of some momenta between two changes of their number all are found, exactly, each with its verdict.
 What belongs together at two neighbouring momenta is what lies nearest, of all their pairs the nearest first.
@@ -302,7 +299,7 @@ def _critical(satellite: Satellite) -> Iterator[fmpq_poly]:
 
 
 def _across(satellite: Satellite) -> Iterator[fmpq_poly]:
-    """Of the vertical along a principal axis: see `elimination.plane`."""
+    """Of the vertical along a principal axis: see `circular_orbit_places.plane`."""
     axes, h, n2 = eigenvectors(satellite), satellite.momentum, rational(satellite.rate_squared)
     ring = fmpq_mpoly_ctx.get(("t", "s"), Ordering.lex)
     t, s = ring.gens()

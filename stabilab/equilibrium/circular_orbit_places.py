@@ -1,6 +1,7 @@
-"""The attitudes at rest on a circular orbit: places, families, stability.
+"""The attitudes at rest on a circular orbit: isolated ones, continuous families, and the stability of
+each.
 
-All attitudes at rest in the orbital frame, as algebraic numbers: by one polynomial of degree 12.
+The isolated ones are algebraic numbers, by one polynomial of degree 12.
 
 With w = n a2 the torques balance where a1 . I a3 = 0, a1 . (n I a2 + h) = 0 and 4 n a2 . I a3 + a3 . h = 0.
 Let X be a vector along a3 and N = X x I X, which is along a1. Where N is not zero it fixes the attitude,
@@ -16,18 +17,18 @@ The 12 others are lines along +-a3, so that there are 24 equilibria at the most.
 X . h = 0 has N = 0: it is a principal axis, and then a2 is found in the plane across it,
 (w x (I w + h)) = 0, by a polynomial of degree 4.
 
-Only n^2 and h enter, so that all is exact for any rational n^2. F and G are eliminated along a direction in
-which no two points are in line and none is at infinity, which is tested; each real root of the resultant
-then stands for one line exactly.
+Only n^2 and h enter, so that the answer is exact for any rational n^2. F and G are eliminated along a
+direction in which no two points are in line and none is at infinity, which is tested; each real root of the
+resultant then stands for one line exactly.
 
-Continuous families of equilibria on a circular orbit: of bodies with equal moments and a wheel along their
-axis of symmetry, and of one wheel momentum along an axis of three different moments.
+Continuous families have bodies with equal moments and a wheel along their axis of symmetry, and one
+momentum of a wheel along an axis of three different moments.
 
 Each family here is given by one attitude of it, an algebraic one; a turn about an axis of the body leads to
 the others. Those of a body with one axis of symmetry are its cylindrical (the axis normal to the orbit),
 hyperbolic (across the vertical) and conical (across the velocity) equilibria (Likins 1965, Pringle 1966).
 
-Stability of an attitude at rest in the orbital frame: Lyapunov's function, and the exact spectrum.
+Stability: Lyapunov's function, and the exact spectrum.
 
 A small turn s of the body moves as I s'' + g x s' + K s = 0, with w = n a2 and
 
@@ -46,8 +47,7 @@ z^2 g . M g for a symmetric M, the characteristic polynomial is a cubic in m = z
   A zero root or a double one: undecided where K is not positive definite.
 
 A continuous family of equilibria has one root m = 0, of turns along itself; the verdict then is on the
-family: where K is positive definite across it, the Jacobi integral has a strict minimum on it.
-"""
+family: where K is positive definite across it, the Jacobi integral has a strict minimum on it."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence

@@ -1,16 +1,9 @@
-"""Equilibria with dissipation from outside: medium, dampers, eddy currents.
+"""Equilibria of a body that something outside takes energy from: medium, linear damper, eddy currents; all
+of them, and their stability.
 
-Equilibria of a body that eddy currents damp in a field at rest in space: rotations about the field.
-
-T' = -k B^2 |omega across the field|^2, and p = H . gamma stays. Where T stays, omega = s gamma; then gamma' =
-gamma x omega = 0, and D omega' = s^2 D gamma x gamma has the product s' gamma . D gamma = 0 with gamma: s
-stays, and gamma is a principal axis or s = 0. So the equilibria are these alone, and every motion tends to
-them (LaSalle). At one p the least T is p^2/(2 D1), of rotation about an axis of the largest moment D1, for
-T >= |H|^2/(2 D1) >= p^2/(2 D1).
-
-Equilibria with dissipation: where medium and linear damper take omega . R omega, R = c D + C positive
-definite (`Content.drag`), all solutions of (D omega + Lambda) x omega - R omega + M = 0 and their stability;
-and what a field or a liquid beside them leaves to say.
+Medium and linear damper take omega . R omega, R = c D + C positive definite (`Content.drag`). All solutions
+of (D omega + Lambda) x omega - R omega + M = 0 are found, and their stability; also what a field or a
+liquid beside them changes.
 
 Given omega_e of one axis e the other two components solve two linear equations, whose determinant is q(t),
 t = omega_e: by c alone c^2 + ((D_e - D_i) t + Lambda_e)((D_e - D_j) t + Lambda_e)/(D_i D_j). Put into the
@@ -23,7 +16,14 @@ M . omega - omega . R omega.
 
 `liquid` has the balance with a liquid, which does no work against rest, and for Lambda = 0 only takes energy:
 T' <= M . omega - 2 c T.
-"""
+
+Eddy currents in a field at rest in space: the equilibria are rotations about the field.
+
+T' = -k B^2 |omega across the field|^2, and p = H . gamma stays. Where T stays, omega = s gamma; then gamma' =
+gamma x omega = 0, and D omega' = s^2 D gamma x gamma has the product s' gamma . D gamma = 0 with gamma: s
+stays, and gamma is a principal axis or s = 0. So the equilibria are these alone, and every motion tends to
+them (LaSalle). At one p the least T is p^2/(2 D1), of rotation about an axis of the largest moment D1, for
+T >= |H|^2/(2 D1) >= p^2/(2 D1)."""
 from __future__ import annotations
 
 from fractions import Fraction

@@ -60,7 +60,7 @@ class Piece:
 class IntegerFlow:
     """The pieces of the motion from an exact start, by `step`.
 
-    form: `physics.quadratic.QuadraticForm`; weights: q above, positive rationals; start: three rationals;
+    form: `physics.scene.QuadraticForm`; weights: q above, positive rationals; start: three rationals;
     unit: one of the motion's own rates in the scene's, a rational (the motion's own time runs `unit` times as
     fast); direction: n at the start, three rationals, or None. work: multiplications done.
     """

@@ -1,16 +1,11 @@
-"""One motion in time, past the end of an effect too.
-
-A run past the time at which an effect stops acting: the scene without it goes on from the state there; and
-the roots of the rates along it.
-
-One motion in time, by Taylor series or SciPy, with its balance laws; SciPy in the place of the Taylor
-series.
-
-Trajectories: the state at asked-for times, and how far the run departs from the laws of the motion.
+"""One motion in time, by Taylor series or SciPy: the state at given times, and how far the run departs
+from the laws of the motion; past the end of an effect too.
 
 The laws are checked against the integrals of their rates, which ride along in the same run without steering
 its steps (feathered, see `to_heyoka`), so a law with a non-zero rate is as good a witness as a constant.
-"""
+
+Past the time at which an effect stops acting the scene without it goes on from the state there. The roots
+of the rates along a run are found too."""
 from __future__ import annotations
 
 from collections.abc import Callable

@@ -1,12 +1,9 @@
-"""What a sweep computes: points over ranges, lists or random samples, and the answers at each.
-
-A sweep before it is run: a case, the numbers of it that vary, what is asked, and how the points fall into
-chunks.
+"""A sweep before it is run: a case, the numbers of it that vary (over ranges, lists or random samples),
+what is asked at each point, and how the points fall into chunks.
 
 Scenes run in the outer order and states of one scene in the inner one, so that a chunk is one call of a
 kernel wherever one serves. The order in which the user named the axes is restored when the parts are put
-together. Chunks depend on the sweep alone, never on who computes them.
-"""
+together. Chunks depend on the sweep alone, never on who computes them."""
 from __future__ import annotations
 
 import base64

@@ -1,11 +1,10 @@
 """A sweep run by processes of this machine or a Dask cluster, and where its fates change.
 
-The same chunks on the workers of a Dask scheduler that is there already: numbers go out, records come back,
-this process writes the parts.
+On Dask the chunks go to the workers of a scheduler that is there already: numbers go out, records come
+back, this process writes the parts.
 
 The workers need no common disk. One that dies costs the chunks it was at, which others do again; who computes
-a chunk does not change its bytes.
-"""
+a chunk does not change its bytes."""
 from __future__ import annotations
 
 import os

@@ -1,23 +1,20 @@
 """Twofold numbers, and divided differences of the exponential that need them.
 
-Constants of the arithmetic.
-
-Twofold numbers: unevaluated sums of two doubles, 32 digits, for the few differences that decide a small
+Twofold numbers are unevaluated sums of two doubles, 32 digits, for the few differences that decide a small
 divisor.
 
 Whole arrays at once, no fused multiply-add needed. Magnitudes must stay within 1e-140 ... 1e140, so that no
 partial product is lost.
 
-Divided differences of the exponential: the response of a chain of oscillators and integrators at any small
-divisor.
+Divided differences of the exponential are the response of a chain of oscillators and integrators at any
+small divisor.
 
 D[x0 ... xn](t) = t^n exp[x0 t, ..., xn t], that is the inverse Laplace transform of 1/((s - x0) ... (s -
 xn)). Partial fractions divide by every difference of two nodes, and lose all digits where two of them meet;
 here nodes closer than a few units (times t) form a cluster, treated by Taylor's series about one of them, and
 the recursion D[S] = (D[S - i] - D[S - j]) / (xj - xi) runs only between the two farthest nodes of a set
 (McCurdy, Ng and Parlett 1984, Math. Comp. 43, 501-528, for real nodes). Every subset of the nodes is needed
-anyway, by the recursion and by the caller.
-"""
+anyway, by the recursion and by the caller."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence

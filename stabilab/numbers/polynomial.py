@@ -1,10 +1,8 @@
-"""Polynomials with exact coefficients and their real roots; roots of functions in doubles.
+"""Polynomials in one variable with exact coefficients and all their real roots; roots of functions in
+doubles.
 
-Polynomials in one variable with exact coefficients, and all their real roots: python-flint's, which know
-no Fraction.
-
-Root finding: Newton's method held inside a bracket, for arrays and for floats; the golden section.
-"""
+The exact roots are python-flint's, which knows no Fraction. Functions in doubles have Newton's method
+inside a bracket, for arrays and for floats, and the golden section."""
 from __future__ import annotations
 
 import math

@@ -1,10 +1,7 @@
-"""Extremes and period of one motion.
+"""Extremes and period of one motion, in balls: every digit returned is certain.
 
-Extremes of one motion, in balls: every digit returned is certain.
-
-The period of one motion in balls: the integral of dtheta/W by the double-exponential rule, cut at every
-equilibrium that the motion passes, where the rate is least or largest.
-"""
+The period is the integral of dtheta/W by the double-exponential rule, cut at every equilibrium that the
+motion passes, where the rate is least or largest."""
 from __future__ import annotations
 
 import math

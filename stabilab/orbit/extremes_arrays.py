@@ -1,16 +1,10 @@
-"""Extremes and periods of many motions.
+"""Extremes and periods of many states: fates first, then librations row by row, the rest by NumPy, and
+balls for what these leave open.
 
-Extremes and periods of rows that no two turning points hold: at rest, round a circle without torque,
-spinning up; by NumPy.
+NumPy answers the rows that no two turning points bound: at rest, round a circle without torque, spinning
+up. Librations go to the kernels (`rows_kernel`, `parabola_kernel`), which numba compiles.
 
-What doubles would lose, next to a separatrix or far from the centre of the orbits, is left open for balls.
-
-Extremes and periods of librations, one row at a time: the door of numba. What the kernels leave open is
-left to balls.
-
-Extremes and periods of many states in one pass: fates, then librations row by row, the rest by NumPy, and
-balls of what these leave open.
-"""
+Balls take what doubles would lose, next to a separatrix or far from the centre of the orbits."""
 from __future__ import annotations
 
 from fractions import Fraction

@@ -422,7 +422,7 @@ INF = math.inf
 
 
 class OneFate(NamedTuple):
-    """Fate of one state: as in `result.FateResult`, the margin in the scene's energy."""
+    """Fate of one state: as in `fate_arrays.FateResult`, the margin in the scene's energy."""
 
     label: Fate
     reason: Reason

@@ -1,8 +1,4 @@
-"""Fates of many states.
-
-Fates and margins of arrays as data.
-
-The fates of many states, NumPy: bounded, spin-up, on the separatrix or at rest, with margins in energy.
+"""The fates of many states, NumPy: bounded, spin-up, on the separatrix or at rest, with margins in energy.
 
 Decided by energy, never by running. On a circle (elliptic reduction) a motion is bounded iff a barrier at
 least as high as its energy stands ahead, in the direction of the torque, within one turn: one turn later the
@@ -18,8 +14,7 @@ gyrostatic moment nor, to first order, the error of s:
 
 About a middle axis without a gyrostatic moment s = D_i, and that component drops out. Other saddles lie
 between the least and the greatest moment, on a branch on either side of the middle one, along which |H| runs
-one way; s is measured from the middle moment, so that its distance from the pole there keeps its digits.
-"""
+one way; s is measured from the middle moment, so that its distance from the pole there keeps its digits."""
 from __future__ import annotations
 
 from collections.abc import Sequence

@@ -1,8 +1,7 @@
 """The state of a motion with one degree of freedom at any time, at a cost that does not grow with the time.
 
 A torque along a principal axis (or none) leaves a particle in a potential: what repeats is folded by its
-period (`periodic`), what spins up is summed over its turns in closed form (`spin_up`). Nothing is stepped.
-"""
+period (`profile`), what spins up is summed over its turns in closed form (`spin_up`). Nothing is stepped."""
 from __future__ import annotations
 
 import math
@@ -25,7 +24,7 @@ DIGITS = 1e-11  # rounding of the potential about an equilibrium beyond which do
 
 
 def reduced_motion(scene, state, nodes: int | None = None, backwards: bool = False):
-    """The motion from `state` (three numbers), a `repeating_motion.Motion`.
+    """The motion from `state` (three numbers), a `profile.Motion`.
 
     nodes: points a panel; None: as many as it takes.
     backwards: times before 0 are wanted too. Raises InputError where the scene has no reduction, on a

@@ -1,10 +1,8 @@
-"""The reduced potential of many states at once: equilibria, barriers, wells, and places to 30 digits.
+"""The reduced potential of many states at once: equilibria, barriers, wells; and their places to 30
+digits.
 
-The places of states on circles and hyperbolas to 30 digits: where the centre stands far off, doubles lose
-what a small motion lives on.
-
-The reduced potential of many states at once: equilibria, barriers, wells.
-"""
+Thirty digits are for circles and hyperbolas whose centre stands far off, where doubles lose what a small
+motion depends on."""
 from __future__ import annotations
 
 import itertools

@@ -134,7 +134,7 @@ class BallOrbit:
         return None
 
     def invariants(self) -> dict[str, float]:
-        """Q and the energy, as `invariants_of` tells them; nothing on a parabola."""
+        """Q and the energy, as a motion's `invariants`; nothing on a parabola."""
         return {}
 
 

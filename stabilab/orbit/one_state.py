@@ -1,13 +1,11 @@
-"""What is asked of one state, in the unit of rate in which its numbers are of order one.
+"""The motion of one state of a scene with an orbit: fate, extremes, margins, period, invariants; no
+arrays.
 
-Motions whose squares leave the range of doubles: answered in their own unit of rate, where their numbers
-are of order one.
+It is answered in the unit of rate in which its numbers are of order one, so that squares stay in the range
+of doubles.
 
 Rates and time change by a power of two (`own_unit`), which is exact; energies go with its square. What is no
-double in the scene's own units in the end is NaN in arrays, and told in words of one motion.
-
-The motion of one state of a scene with an orbit: fate, extremes, margins, period, invariants; no arrays.
-"""
+double in the scene's own units in the end is NaN in arrays, and said in words of one motion."""
 from __future__ import annotations
 
 import math

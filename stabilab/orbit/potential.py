@@ -1,12 +1,10 @@
 """The reduced potential: differences of height and force along an orbit, free of cancellation.
 
 Each class is one geometry of the reduction (circle, hyperbola, parabola) with the same small interface, and
-what the geometry says of every motion. A *place* is a
-pair of arrays that moves along the orbit with the coordinate theta; `rise(y, place, force)` is V(theta + y) -
-V(theta). At an equilibrium (force 0) the first-order terms drop out analytically, so barriers and turning
-points keep their digits next to a separatrix. The formulas serve arrays and Python floats alike; floats load
-no NumPy.
-"""
+what the geometry says of every motion. A *place* is a pair of arrays that moves along the orbit with the
+coordinate theta; `rise(y, place, force)` is V(theta + y) - V(theta). At an equilibrium (force 0) the
+first-order terms drop out analytically, so barriers and turning points keep their digits next to a
+separatrix. The formulas serve arrays and Python floats alike; floats load no NumPy."""
 from __future__ import annotations
 
 import math

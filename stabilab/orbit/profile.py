@@ -1,7 +1,5 @@
-"""The profile of a reduced motion, hills and wells with the kinetic energy above, and motions that repeat.
-
-The relief that one orbit runs over: its hills and wells, each with the kinetic energy above it, from exact
-inputs.
+"""The profile of a reduced motion: its hills and wells, each with the kinetic energy above it, from exact
+inputs; and motions that repeat, at any time.
 
 About an equilibrium the potential is V(0) - V(y) = R(y), and only divided differences (R(a + d) - R(a))/d are
 ever formed, from closed expressions that keep their digits however small a and d are: the kinetic energy is K
@@ -9,8 +7,7 @@ ever formed, from closed expressions that keep their digits however small a and 
 are never subtracted. Offsets and heights come from ball arithmetic and are rounded once, so a state next to a
 separatrix costs no digits.
 
-A motion that repeats, at any time: librations between two turning points, rotations without torque.
-"""
+Motions that repeat are librations between two turning points, and rotations without torque."""
 from __future__ import annotations
 
 import math

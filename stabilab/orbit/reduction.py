@@ -27,13 +27,12 @@ torque along the minor axis, or along the intermediate axis off and on its invar
     G3 = (x2^2 + x3^2)/2 - c x3 - ln|x3|  where x1 + b = x3,
          (x2^2 + x3^2)/2 + c x3 + ln|x3|  where x1 + b = -x3
 
-so that G1 = 4 E + Q and G2 = 4 E + Q with the energy E and the invariant Q of `stabilab.motion`. Derivation,
-and what the paper prints instead: docs/mathematics/reduction.md.
+so that G1 = 4 E + Q and G2 = 4 E + Q with the energy E and the invariant Q of `orbit.one_state.motion`.
+Derivation, and what the paper prints instead: docs/mathematics/reduction.md.
 
 The same integrals exist for any wheel across the torque and any order of the moments (`_canonical`): on a
 circle G1, on a hyperbola G2, on an invariant plane G3. A torque of negative sign is that of the motion turned
-half round axis 1, (x1, -x2, -x3).
-"""
+half round axis 1, (x1, -x2, -x3)."""
 from __future__ import annotations
 
 import math

@@ -1,14 +1,4 @@
-"""Motions that spin up, at any time.
-
-Time along a motion in one degree of freedom: passages over hills and away from turning points, panel by
-panel.
-
-A motion is a chain of passages, each in a coordinate in which dt/dx is smooth: the offset from a hill that it
-passes, or the root of the way from the point where it turns. A passage is cut into panels until Gauss's rule
-sees the end of its own series on each; next to a separatrix the panels shrink towards the hill, some forty of
-them for a distance of 1e-12.
-
-A motion that spins up about the axis of a torque, at any time: its turns are summed in closed form.
+"""Motions that spin up about the axis of a torque, at any time: their turns are summed in closed form.
 
 Each turn of the circle adds the same work, so at one place the kinetic energies of successive turns are C (a
 + n) with C = 2 pi mu, and the time n turns take is an integral over one turn of sums of (a + n)^(-1/2). By
@@ -19,8 +9,14 @@ Euler and Maclaurin
 
 to the last digit once a >= 12, whatever the height of the hills; the dozen turns before that are summed one
 by one. The turn in which the motion comes from rest, or the state lies, is cut into panels of its own
-(`passages`).
-"""
+(`Panels`).
+
+Time along a motion in one degree of freedom goes from passage to passage, panel by panel.
+
+A motion is a chain of passages, each in a coordinate in which dt/dx is smooth: the offset from a hill that it
+passes, or the root of the way from the point where it turns. A passage is cut into panels until Gauss's rule
+sees the end of its own series on each; next to a separatrix the panels shrink towards the hill, some forty of
+them for a distance of 1e-12."""
 from __future__ import annotations
 
 import math

@@ -1,13 +1,9 @@
-"""The report on everything, and its chapters of the papers.
+"""The report: one folder of pages, read from disk without a network, on cases of one's own, or on
+everything: a start page, the papers, all cases in groups, the audit, other tools' numbers and what answers
+cost.
 
-A chapter of the report per paper: its data, its figures, when its models leave the exact motion, and a
-variant that makes sense.
-
-Every number in a chapter is computed while the report is written.
-
-The report: one folder of pages, read from disk without a network: on cases of one's own, or on everything,
-with a start page, the papers, all cases in groups, the audit, other tools' numbers and what answers cost.
-"""
+A paper's chapter has its data, its figures, when its models leave the exact motion, and a variant that
+makes sense. Every number in it is computed while the report is written."""
 from __future__ import annotations
 
 import os

@@ -1,17 +1,14 @@
 """Amer et al. 2024: their data, what their formulas give, and Tables 1 to 4.
 
-The data of the tables and figures of Amer et al. 2024 (Sci. Rep.), its body, momentum wheels, torques and
-starts; the formulas that it prints and several of these draw or try; and the equilibria.
+The data are the paper's body, momentum wheels, torques and starts. The tables are recomputed, in five
+formats: terminal text, CSV, Markdown, LaTeX, HTML.
 
-Extremes by the formulas that Amer et al. 2024 print, as the paper's Tables 2 to 4 rest on them.
+Tables 2 to 4 rest on extremes by the printed formulas.
 
 Each pair of printed integrals puts the motion on a curve with one parameter s, along which the square of the
-rate about the torque's axis is known; the motion keeps to the piece around its start where that square is not
+rate about the torque's axis is known; the motion stays on the piece around its start where that square is not
 negative. Minor axis: (18) and (30). Middle axis: x1^2 - x3^2 = 2N and (71). Middle axis with x1 = x3: (79).
-The integrals are not constant along the true motion unless the wheel is still: see the audit.
-
-Tables 1-4 of Amer et al. 2024, recomputed, in five formats: terminal text, CSV, Markdown, LaTeX, HTML.
-"""
+The integrals are not constant along the true motion unless the wheel is still: see the audit."""
 from __future__ import annotations
 
 import html

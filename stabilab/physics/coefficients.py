@@ -1,15 +1,16 @@
-"""A scene in numbers: coefficients of its rates, one state checked without NumPy, the dimensionless variables
-of the papers, and whether laws are approximate.
+"""A scene in numbers: coefficients of its rates, one state checked without NumPy, the dimensionless
+variables of the papers, and whether laws are approximate.
 
-What acts on the body, in exact numbers: a constant charge turns it as a wheel of moment -k e3 would.
+The coefficients, in exact numbers:
 
     D omega' = (D omega + Lambda + h) x omega + M - u - c D omega - C omega + kappa (omega'' + omega x omega')
                + s x gamma + N gamma x D gamma + E gamma3 omega x e3 + eddy (omega x gamma) x gamma,
     gamma' = gamma x omega,  h' = u
 
-Lambda = lambda - k e3 (gyrostat, charge of constant angle; k is no part of the angular momentum, yet the
-rates are the same), s = M g times the centre of mass, E = e H l^2 of a charge whose angle follows the
-attitude. A force at the centre of mass does not turn the body.
+Lambda = lambda - k e3 (gyrostat; a charge of constant angle turns the body as a wheel of moment -k e3
+would; k is no part of the angular momentum, yet the rates are the same), s = M g times the centre of mass,
+E = e H l^2 of a charge whose angle follows the attitude. A force at the centre of mass does not turn the
+body.
 
 The dimensionless variables of Amer et al. 2024, eqs (2)-(4), both ways.
 
@@ -18,8 +19,7 @@ With k1 = (D2-D3)/D1, k2 = (D1-D3)/D2, k3 = (D1-D2)/D3, k = k1 k2 k3 and a torqu
     omega_j = sqrt(u k_j) x_j,   t = tau / sqrt(u k),   M_j = D_j u sqrt(k k_j) mu_j,
     a = lambda1 / ((D1-D3) sqrt(u k1)),   b = lambda1 / ((D1-D2) sqrt(u k1)).
 
-The paper forgets the root of u in a and b, which is harmless only for its u = 1.
-"""
+The paper forgets the root of u in a and b, which is harmless only for its u = 1."""
 from __future__ import annotations
 
 import math

@@ -1,6 +1,5 @@
-"""The equations of motion of a scene, written once in symbols, and the laws that hold along them.
-
-Equations of motion of a scene: rates, torque by torque, and the balance laws that come with them.
+"""The equations of motion of a scene, written once in symbols, torque by torque, and the balance laws that
+hold along them.
 
     D omega' = (D omega + h) x omega + tau,     h, tau: momenta and torques of the effects, each once
     T' = omega . tau  (effects that do work),   (|H|^2 / 2)' = H . tau,   H = D omega + h
@@ -8,8 +7,7 @@ Equations of motion of a scene: rates, torque by torque, and the balance laws th
 A part that turns inside the body (`effects.base.Part`) has its moment taken off D on the left, its friction's
 torque on the right, and its own share of T and of H.
 
-Everything here is a SymPy value; numbers enter at `to_numpy`.
-"""
+Everything here is a SymPy value; numbers enter at `to_numpy`."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping

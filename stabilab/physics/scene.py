@@ -1,17 +1,15 @@
-"""A scene: body, blocks of its state, effects, rates as quadratic forms, alignment of torque and axes.
+"""A scene: body, blocks of its state, effects, rates as quadratic forms, alignment of torque and axes, and
+the ends of its effects.
 
-Quadratic rate equations of a gyrostat under constant torque, with exact coefficients.
+The rates of a gyrostat under constant torque are quadratic, with exact coefficients:
 
     x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i        (i, j, k cyclic)
 
 Physical and scaled variables both have this form, so one analysis serves both. Coefficients are exact
 rationals: differences such as D1 - D2 or b - a are formed before the one rounding to double.
 
-Turning a symmetric body so that its torque lies along a principal axis: every axis in the plane of two equal
-moments is principal.
-
-Effects that stop acting some time: when, and the scene that is left.
-"""
+Where two moments are equal every axis in their plane is principal, and the body is turned so that its
+torque lies along one. Of effects that stop acting it is known when, and which scene is left."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence

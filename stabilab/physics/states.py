@@ -1,11 +1,9 @@
-"""States of a scene as arrays, checked, and the attitude as a rotation.
-
-Attitudes: quaternions inside, the 3-1-2 angles psi, phi, theta at the door.
+"""States of a scene as arrays, checked, and the attitude as a rotation: quaternions inside, the 3-1-2
+angles psi, phi, theta in and out.
 
 The rotation from body to space is R = Rz(theta) Rx(psi) Ry(phi) (Galal et al., charged body: eq. (30); its
 R23 is misprinted). The angles are singular where cos psi = 0: there phi and theta are not determined one by
-one.
-"""
+one."""
 from __future__ import annotations
 
 import math

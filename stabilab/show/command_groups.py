@@ -1,9 +1,5 @@
-"""The commands in groups for the help, and what the shell completes.
-
-The help of the program: its commands in groups, by what one wants to know.
-
-What the shell offers while a command is typed: case files, and the names that an option takes.
-"""
+"""The commands of the program in groups, by what one wants to know, for the help; and what the shell
+completes: case files, and the names that an option takes."""
 from __future__ import annotations
 
 import os

@@ -1,13 +1,10 @@
-"""The manifest of an output folder, and its repetition.
-
-What an output folder was made from: manifest.json with inputs, versions, command, processor, and the hash
-of every file.
+"""The manifest of an output folder: what it was made from (inputs, versions, command, processor, and the
+hash of every file), as manifest.json; and its repetition.
 
 It is written last and describes every command whose files are in the folder; a command that is not in it did
 not end.
 
-Repeats the commands of a manifest and compares: which files come out the same, byte for byte.
-"""
+To repeat it the commands of the manifest are run again, and the files compared, byte for byte."""
 from __future__ import annotations
 
 import hashlib

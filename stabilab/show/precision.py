@@ -1,11 +1,5 @@
-"""What accuracy costs: in words, as a picture, as a page.
-
-The work-precision picture: time against error, a line a method, the front marked.
-
-What accuracy costs, shown: as a table, in words, as CSV, JSON and the work-precision picture.
-
-A page of the report: what accuracy costs, for every case with a motion.
-"""
+"""What accuracy costs: as a table, in words, as CSV and JSON, as the work-precision picture (time against
+error, a line a method, the front marked), and as a page of the report."""
 from __future__ import annotations
 
 import math

@@ -1,13 +1,10 @@
-"""The space of the rates and the span of time that all views of a motion share.
+"""What all views of a motion share: the span of time, and what is drawn in the space of the rates.
 
-The one span of time that every view of a motion shows, long enough to see what its headline says; where
-on a curve of equilibria to look.
+The span is long enough to see what the headline says. In the space of the rates every view draws a box, the
+separatrix, equilibria (on a curve of these, at places to look at), a motion with its start and its
+direction, seen from one place; Matplotlib, VTK and a page only draw it.
 
-What every view draws in the space of the rates: a box, the separatrix, equilibria, a motion with its start
-and its direction, and from where it is seen; Matplotlib, VTK and a page only draw it.
-
-Places are rates in the scene's variables. All of it does without NumPy, as a browser does.
-"""
+Places are rates in the scene's variables. All of it does without NumPy, as a browser does."""
 from __future__ import annotations
 
 import math

@@ -1,14 +1,6 @@
-"""The separatrix as files: meshes, a summary, a picture.
-
-What was written of a separatrix, in words.
-
-Triangles of the separatrix: from parametric grids to watertight meshes, and to .glb and .stl without any
-GL.
-
-The separatrix by VTK, in the space of rates that every view draws, with title and legend by Matplotlib.
-
-The separatrix as files: meshes of every branch, a summary and a picture.
-"""
+"""The separatrix as files: watertight meshes of every branch (.glb and .stl without any GL), a summary in
+words, and a picture by VTK in the space of rates that every view draws, with title and legend by
+Matplotlib."""
 from __future__ import annotations
 
 import json
@@ -38,7 +30,7 @@ from .terminal import some
 
 def text(summary: dict[str, Any], out: Path) -> str:
     """The answer in a line, a line a branch, and the files; why there is no surface where there is none.
-    summary: of `write.summarise`."""
+    summary: of `summarise`."""
     name, branches = summary["case"], summary["sheets"]
     if not branches:
         return f"{name}: no surface to write: {summary['reason']}"

@@ -1,11 +1,6 @@
-"""Text for a terminal: letters, width, colour, tables.
-
-One vocabulary: names such as omega1 and lambda3 as people write them, and back where an encoding has no
-such letters.
-
-Text for people on stdout and stderr: wrapped to a terminal and coloured there, tables in columns, and the
-plain lines anywhere else.
-"""
+"""Text for people on stdout and stderr: wrapped to a terminal and coloured there, tables in columns, plain
+lines anywhere else; names such as omega1 and lambda3 as people write them, and back where an encoding has
+no such letters."""
 from __future__ import annotations
 
 import os

@@ -1,7 +1,5 @@
-"""The averaged motion of a nearly spherical body with a viscous liquid.
-
-Slow amplitude, spin and phase of a nearly spherical body with a liquid: by the averaged equations, and
-exactly.
+"""Models of a nearly spherical body with a viscous liquid: slow amplitude, spin and phase by the averaged
+equations, exactly, and by the paper's Taylor polynomials as printed.
 
 p = A cos phi, q = -A sin phi, r: A and r change slowly while phi turns at about nu = (d r - Gamma)/J0. The
 averaged equations come from `cavity_normal_form`; they are integrated in W = A exp(i (phi - psi)), r, psi,
@@ -12,7 +10,7 @@ p and q of an exact run in doubles are known to a share of the whole angular vel
 A has fallen below the rounding of r they are noise, and so is the angle of (p, -q). Where p' and q' vanish
 with p and q, A'/A and phi' stay regular however small A is, so log A and phi are followed instead.
 
-The averaged models of a body with a liquid as models of a case, and the Taylor polynomials as printed.
+The polynomials as printed:
 
 Galal, Amer, Elneklawy, El-Kafly, "Studying the influence of a gyrostatic moment on the motion of a charged
 rigid body containing a viscous incompressible liquid", eqs (13), (14), (24)-(29). The formulas are

@@ -1,7 +1,5 @@
-"""The charged, nearly axisymmetric body: closed forms, and models of a case.
-
-The motion of the charged, nearly axisymmetric body in closed form, under constant body-fixed torque and
-force.
+"""Models of the charged, nearly axisymmetric body under constant body-fixed torque and force: closed
+forms, and the paper's formulas as they stand in print, misprints and all.
 
 The linear model of `charged_modes`, solved with both of its rates a and b; how far to believe it:
 `charged_modes.horizon`. Every quantity is a sum of divided differences D of the exponential, regular at every
@@ -29,18 +27,16 @@ D2:
 In p and q that keeps a and replaces b = zeta2 r0 + Lambda/D2 by a zeta2/zeta1: exact for D1 = D2 and for
 Lambda = 0, otherwise a wrong frequency W for sqrt(ab), and a phase error that grows with t and does not
 shrink with the amplitude. `corrected` is this model, solved without further error: what the paper means where
-its integrals for velocity and displacement are misprinted. `model.printed` follows the print itself.
+its integrals for velocity and displacement are misprinted. `printed` follows the print itself.
 
-The closed forms of the charged axisymmetric body as models of a case, and the paper's formulas as they
-stand in print, misprints and all.
+The formulas as printed (`printed`):
 
 Galal et al., charged body, (11)-(13), (20)-(26), (33), (35), (43)-(51), (58)-(66). The formulas are those of
 the audit's file on the paper (`theories/printed/papers/charged-axisymmetric.toml`), which holds each against
 the equations of motion; here they are put together. Supplied is only what print leaves open: zeta3 and zeta4
 of (64), not defined: (sqrt(zeta1) +- sqrt(zeta2))/(2 zeta) as in (49); the bracket of (45) and (60) that does
 not close, closed as in (46). The short form (Elneklawy) prints the same, but for the second zeta of (46).
-`corrected` has the integrals that the paper means.
-"""
+`corrected` has the integrals that the paper means."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace

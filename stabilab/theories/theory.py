@@ -1,10 +1,5 @@
-"""Analytic models beside the exact motion: how far off, and what the theory says beyond it.
-
-What the theory behind the analytic models of a case says of its motion beyond the motion itself, in words
-and numbers.
-
-Each analytic model of a case beside its exact motion: how far off it is, and from when on.
-"""
+"""What the theory behind a case's analytic models says of its motion, in words and numbers; and each model
+beside the exact motion: how far off it is, and from when on."""
 from __future__ import annotations
 
 from dataclasses import dataclass

@@ -1,11 +1,9 @@
-"""A fast top: its numbers, and its periodic motion to any order.
+"""The periodic motion of a fast top in a Newtonian field by the Poincare-Lindstedt expansion, to any
+order: a power series in the small parameter, each coefficient a Fourier sum.
 
-The numbers of a fast top: what gravity, a Newtonian field and a gyrostatic moment weigh against its spin.
+The top's numbers say what gravity, the field and a gyrostatic moment weigh against its spin.
 
-Everything is formed from exact fractions: near a resonance the divisors Omega^2 - m^2 keep all their digits.
-
-The periodic motion of a fast top in a Newtonian field by the Poincare-Lindstedt expansion, to any order: a
-power series in the small parameter, each coefficient a Fourier sum.
+They are formed from exact fractions: near a resonance the divisors Omega^2 - m^2 keep all their digits.
 
 With e = `size`, p = e r0 u, q = e r0 v, r = r0 w, s = nu r0 t, a dash for d/ds and hats for quantities over
 their power of e, the Euler-Poisson equations (Amer et al. 2023, fast top: eq. (5), there for gamma/gamma0'')
@@ -22,11 +20,10 @@ constants that the start gamma, r sets. The harmonic exp(-is) of the order n equ
 other three conditions of solvability hold by the three integrals (`defect` keeps how well).
 
 The expansion has no free wobble in it (source: Amer et al. 2023, fast top; its first order is printed
-wrongly, see `top`). A start therefore gives r and gamma at t = 0, and the periodic motion
-through them says what p and q must be; `departure` is how far the given p and q are from that. A start
-elsewhere wobbles about the periodic motion at the frequency Omega r0 with an amplitude of that size, which
-the expansion leaves out.
-"""
+wrongly, see `top`). A start therefore gives r and gamma at t = 0, and the periodic motion through them says
+what p and q must be; `departure` is how far the given p and q are from that. A start elsewhere wobbles
+about the periodic motion at the frequency Omega r0 with an amplitude of that size, which the expansion
+leaves out."""
 from __future__ import annotations
 
 import math

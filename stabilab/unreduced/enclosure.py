@@ -1,21 +1,20 @@
-"""A motion enclosed step by step, and a spin-up proved along it.
+"""A motion under a constant torque of any direction, enclosed step by step from an exact start, and a
+spin-up proved along it.
 
-One motion under a constant torque of any direction, enclosed from an exact start: a set at each time, a
-band between them.
+Each step has a set at its time, and a band between it and the next.
 
 The steps are those of `enclosure_kernel`, compiled where there is a compiler, with the same bits where there
 is none. Scenes are taken at their exact numbers. Those of a frame of principal axes that is irrational have
 an error of 2^-240 (`numbers.principal`): each step allows the coefficients FINE = 2^-92 of themselves.
 
-A certified spin-up proved: the way from an exact start to the inequality enclosed, and the inequality for
-every state of the set there.
+A certified spin-up is proved: the motion from an exact start to the inequality is enclosed, and the
+inequality holds for every state of the set there.
 
 The theorem's inequality (`spin_up.certificate`) is tested for the ball that holds the enclosure at the time
 when it fired. Its test is one in doubles, whose rounding is bounded beforehand: forms are exact before the
 one root, each coefficient comes with a bound of its rounding (`spin_up.centres`), the place of the ball
 is taken at its worse ends, and every comparison leaves room for the rest. So nothing in the answer rests on a
-run that was not enclosed.
-"""
+run that was not enclosed."""
 from __future__ import annotations
 
 import math
@@ -210,7 +209,7 @@ def loaded() -> bool:
 
 
 def _plainly(*arguments):
-    """`kernel.advance` as it is written."""
+    """`enclosure_kernel.advance` as it is written."""
     with np.errstate(all="ignore"):  # as compiled code
         return enclosure_kernel.advance(*arguments)
 

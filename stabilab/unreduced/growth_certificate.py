@@ -1,4 +1,4 @@
-"""Growth of a free body's motion certified, and its extremes.
+"""Endless growth of a free body's motion certified, and its extremes.
 
 Torque along a principal axis and a gyrostatic component along it: the law of growth, the standard form
 
@@ -8,7 +8,7 @@ of the extreme (major or minor) axis, one number c, certificates of endless grow
 one. Once true, a certificate stays true (`growth`). Differences of moments and offsets are exact before
 rounding.
 
-Extremes of a motion that grows for ever by an exact law.
+The extremes of a motion that grows for ever by an exact law:
 
 Pure spin about the torque's axis: the two other components stay 0. Equal moments across it, and no gyrostatic
 component: the spin grows in proportion to time, and the two others turn round their circle faster and faster.
@@ -19,8 +19,7 @@ x M/|lambda|^2 (lambda x c cancels what of M stands across lambda)
     sin(Omega t).
 
 These hold for all time; so does, of a spin-up that is certified, the growing component. The rest is over the
-span of a run.
-"""
+span of a run."""
 from __future__ import annotations
 
 import math

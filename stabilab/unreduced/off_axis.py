@@ -1,7 +1,12 @@
-"""A torque off the principal axes: spin-up, or a limit reached on the way.
+"""A torque off the principal axes: spin-up with its certificate, found by following the motion, or
+undecided with the cause seen; and when a limit is reached meanwhile.
 
-What the bands of validated steps say: when a rate, or a sum of squares of rates, first reaches a limit,
-and bounds of the rates over a whole span.
+No integral of motion is known that would settle boundedness here. `spin_up` follows each motion until an
+inequality holds that stays true for ever; what it finds is said here in the words of every other kind of
+scene, with the bounds that hold for all times.
+
+Of validated steps (`enclosure`): when a rate, or a sum of squares of rates, first reaches a limit, and
+bounds of the rates over a whole span.
 
 A polynomial on [0, 1] lies between the least and the greatest of its Bernstein coefficients, which are
 positive sums of those of its powers.
@@ -14,15 +19,7 @@ of coefficients (de Casteljau), so what rounding adds in all is less than HALVIN
 the greatest of them.
 
 Ranges. Each step is cut into PIECES of equal length; a coefficient formed in doubles errs by less than 2^-44
-of the sum of sizes.
-
-A torque off the principal axes: spin-up with its certificate, found by following the motion, or undecided
-with the cause seen.
-
-No integral of motion is known that would settle boundedness here. `spin_up` follows each motion until an
-inequality holds that stays true for ever; what it finds is told here in the words of every other kind of
-scene, with the bounds that hold for all times.
-"""
+of the sum of sizes."""
 from __future__ import annotations
 
 import math
@@ -76,8 +73,8 @@ def first_crossing(scene, state, limit: float, weights=(1.0, 1.0, 1.0), t_max: f
                    steps: int | None = None) -> Crossing:
     """The first time at which the root of the sum of weights_i omega_i^2 (of ones: |omega|) reaches `limit`.
 
-    scene, state: as of `run.Course`. t_max: how far to look (None: as far as so many steps reach; these None:
-    as many as take some seconds). Raises InputError for a limit that is not above 0.
+    scene, state: as of `enclosure.Course`. t_max: how far to look (None: as far as so many steps reach;
+    these None: as many as take some seconds). Raises InputError for a limit that is not above 0.
     """
     if not (isinstance(limit, (int, float)) and 0 < limit < math.inf):
         raise InputError(f"limit: expected a number above 0, got {limit!r:.80}")
@@ -163,7 +160,7 @@ def ranges(band: Band) -> np.ndarray:
 
 def ranges_until(scene, state, t: float, steps: int | None = None) -> np.ndarray | None:
     """(3, 2) bounds of each rate over [0, t]; None where the steps do not reach. Arguments as of
-    `run.Course`."""
+    `enclosure.Course`."""
     course, out = Course(scene, state, t), np.array([[math.inf, -math.inf]] * 3)
     steps = allowed() if steps is None else steps
     while course.status == enclosure_kernel.GOING and course.steps < steps:

@@ -1,7 +1,7 @@
-"""Periodic motions and sections of the flow.
+"""Periodic motions and Poincare sections of the flow under a torque of any direction with a wheel, and
+whether such a motion is elliptic.
 
-Periodic motions under a torque of any direction with a wheel, and whether they are elliptic: Newton's
-method on the return map of a section.
+A periodic motion is found by Newton's method on the return map of a section.
 
 A section is a plane on which one rate has a value and grows (or falls). The map from one passage to the next
 is evaluated by Taylor series, its derivative by the variational equations V' = J(x) V beside it: a change dx
@@ -10,13 +10,12 @@ keeps volume, so the product of the map's two multipliers at a fixed point is 1:
 or exp(+- i angle): elliptic, and then, where the angle is in no low resonance and the map twists, tori
 surround it (KAM): the island in which neighbours stay. That is not proved here.
 
-The Poincaré section of a motion: the plane that it crosses most, its passages through it by roots of the
-Taylor series, and a fan of neighbours.
+The section of a motion is the plane that it crosses most; its passages through it are roots of the Taylor
+series, and a fan of neighbours crosses it beside them.
 
-A section is a plane on which one rate has a value and grows. It maps the plane to itself: a periodic motion
+It maps the plane to itself: a periodic motion
 is a fixed point (or comes back after a few passages), a motion on a torus fills a closed curve, one that
-leaves scatters.
-"""
+leaves scatters."""
 from __future__ import annotations
 
 import math

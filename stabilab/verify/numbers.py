@@ -1,17 +1,13 @@
-"""Numbers and rates of a certificate.
-
-Numbers of certificates read exactly, balls and their precision, the zero of a monotone function.
+"""Numbers of certificates read exactly, rates of a gyrostat from them, balls and their precision, and the
+zero of a monotone function.
 
 python-flint's precision belongs to the whole process, which may run the analysis in another thread meanwhile.
 So whoever needs it holds one lock, and the lock stands on the library: the one thing that checker and
 analysis share, and neither has to know the other.
 
-The rates of a gyrostat from the certificate's numbers.
-
 Real zeros of polynomials with rational coefficients, isolated by Sturm's sequences, with the work that a
 check may take: bits times operations, counted before each, so that the same file has the same end
-everywhere.
-"""
+everywhere."""
 from __future__ import annotations
 
 import re

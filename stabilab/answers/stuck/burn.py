@@ -1,6 +1,10 @@
-"""Burns: what is left when thrusters close, and by when they must close.
+"""Burns: what is left when thrusters close, and by when they must close so that |omega| stays below a
+limit for ever.
 
-By when a burn must close so that |omega| stays below a limit L for ever.
+While it fires a thruster's torque is constant in the body, so that a burn is a chain of motions under
+constant torques, each started where the one before ended, at switching times that are exact.
+
+The latest closing time for a limit L:
 
 After the last closing a body without wheels moves freely. With D1 <= D2 <= D3, on one polhode (constant
 kinetic energy and angular momentum) omega1^2 and omega3^2 are linear in omega2^2, and so is
@@ -21,13 +25,7 @@ by a run, and the latest closing time the first root of G = L between two times 
     |omega|^2 <= ((D1 + D3) 2T - |D omega|^2)/(D1 D3) <= ((D1 + D3) 2T - (h - |lambda|)^2)/(D1 D3) = U^2
 
 and |omega|^2 <= 2T/D1: while 2T < D1 L^2 closing is early enough, and it is too late once |omega| itself has
-reached L. Only where U >= L a run is looked at.
-
-Burns: what is left when thrusters close, and by when they must close.
-
-While it fires a thruster's torque is constant in the body, so that a burn is a chain of motions under
-constant torques, each started where the one before ended, at switching times that are exact.
-"""
+reached L. Only where U >= L a run is looked at."""
 from __future__ import annotations
 
 import math

@@ -1,11 +1,8 @@
 """The chain of motions of a burn, and when it first reaches a limit.
 
-The chain of motions of a burn: while thrusters fire their torque is constant in the body, and each motion
-starts where the one before ended, at switching times that are exact.
-
-The first crossing of a limit along the chain of motions of a burn: proved where it can be enclosed, else
-by roots along runs, link by link.
-"""
+While thrusters fire their torque is constant in the body, and each motion starts where the one before
+ended, at switching times that are exact. The first crossing of a limit is proved where the motion can be
+enclosed; else it comes from roots along runs, one motion after another."""
 from __future__ import annotations
 
 import math

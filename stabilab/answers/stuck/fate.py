@@ -1,11 +1,8 @@
-"""The fates of a stuck thruster, and the momenta of a wheel that keep its motion bounded.
+"""The fate of a motion with a stuck thruster, the time to its limit, and the momenta of a wheel that keep
+it bounded.
 
-A stuck thruster as a scenario: the fate of its motion under one torque of any direction, the time to its
-limit, and the largest rate before.
-
-Which momenta of a wheel keep a motion bounded under a torque that lasts: all intervals, by roots; else the
-momentum that delays the limit most.
-"""
+The thruster gives one torque of any direction. Where that lasts, all intervals of a wheel's momentum that
+keep the motion bounded are found by roots; where there are none, the momentum that delays the limit most."""
 from __future__ import annotations
 
 import math

@@ -1,10 +1,6 @@
-"""What is found of a stuck thruster, and how little must change for its fate to change.
-
-What is told of a stuck thruster: frozen rows that say how well they are known.
-
-How little must change for the fate to change: rate, wheel momentum, torque, each with its direction, where
-a separatrix is there.
-"""
+"""What is found of a stuck thruster, as frozen rows that say how well they are known, and how little must
+change for its fate to change: rate, wheel momentum, torque, each with its direction, where a separatrix is
+there."""
 from __future__ import annotations
 
 import math

@@ -1,13 +1,12 @@
 """A body known within bounds as a box, and proofs over the whole of it by branch and bound.
 
-A body whose inertia, gyrostatic moment, torque or state are known only within bounds: the box of all it
-may be.
+The box holds all that inertia, gyrostatic moment, torque and state may be.
 
 A point of the box is a tuple of numbers in [-1, 1], one for each uncertain number (times a reach that
 stretches the whole box). `Box.at` gives the exact scene and state there, `Box.numbers` the same numbers over
 many sub-boxes at once, and `rates` the equations of motion from either.
 
-Proofs that every motion of a box of bodies is bounded, or that every one spins up: branch and bound.
+Proved is that every motion of a box of bodies is bounded, or that every one spins up.
 
 A part of the box is settled where one angle ahead stands above the energy all over it (bounded), or where no
 angle of one turn does (spin-up; cells of angles, each settled on its own). What is not settled is halved
@@ -22,8 +21,7 @@ ahead in the torque's direction,
 
 with dX, dZ what X, Z change by. A motion is bounded iff excess > 0 somewhere ahead, and surely spins up where
 excess < 0 all over one turn ahead, as the next turn is lower by 2 pi mu. Formulas serve floats, arrays and
-`Affine` numbers.
-"""
+`Affine` numbers."""
 from __future__ import annotations
 
 import math
@@ -245,7 +243,7 @@ def _torque(D: Sequence[Number], mu: Sequence[Number]) -> Triple:
 
 
 def _scaled(D: Sequence[Number], lam1: Number, numbers: Numbers) -> Triple:
-    """(a, b, mu) of a body (`scaling.to_scaled`)."""
+    """(a, b, mu) of a body (`coefficients.to_scaled`)."""
     ks = _shape_factors(D)
     k = ks[0] * ks[1] * ks[2]
     if "mu" in numbers:

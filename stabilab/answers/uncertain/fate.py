@@ -1,25 +1,23 @@
-"""Equilibria and fate of a body known within bounds.
-
-Number, kind and stability of the equilibria of a body that is known only within bounds, by quantities that
-keep their sign as long as these stay the same.
-
-Off the axes: M.y = 0 and M.(D y + lambda) = 0 meet in a line along v = M x D M, on which one quadratic is
-left (`isolated_equilibria`); simple roots have n != 0, so they are unstable. On axis i with lambda_i = 0:
-with s t = K the conic's two coordinates from its centre, times a positive factor
-
-    -(t^2/kappa) m = p t^4 + P t^3 + Q K t + q K^2,   P = p0 - p sigma/kappa,   Q = q0 - q rho/kappa,
-
-so folds neither meet, nor pass the poles t = 0 and infinity, nor change in number while p, q, K and the
-discriminant keep their signs. Numbers are of any kind; one that vanishes for every body of the box is exactly
-0 and makes its own case.
-
-What uncertain numbers of a case do to the fate of its motion, and to all its verdicts.
+"""What a body known within bounds does: the fate of its motion, and the number, kind and stability of its
+equilibria.
 
 A case may state inertia, gyrostatic moment, torque and state with half-widths; together they span a box. For
 the whole box a verdict holds (proved), or it depends (with a point of the box on each side), or it stays
 undecided (with the reason); and the smallest change that flips it is bracketed: proved to be safe below one
 factor of the stated uncertainties, seen to flip at another.
-"""
+
+The number, kind and stability of the equilibria follow from quantities that keep their sign as long as
+these stay the same.
+
+Off the axes: M.y = 0 and M.(D y + lambda) = 0 meet in a line along v = M x D M, on which one quadratic is
+left (`gyrostat.isolated_states`); simple roots have n != 0, so they are unstable. On axis i with lambda_i =
+0: with s t = K the conic's two coordinates from its centre, times a positive factor
+
+    -(t^2/kappa) m = p t^4 + P t^3 + Q K t + q K^2,   P = p0 - p sigma/kappa,   Q = q0 - q rho/kappa,
+
+so folds neither meet, nor pass the poles t = 0 and infinity, nor change in number while p, q, K and the
+discriminant keep their signs. Numbers are of any kind; one that vanishes for every body of the box is exactly
+0 and makes its own case."""
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence

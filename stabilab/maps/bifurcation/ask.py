@@ -1,20 +1,17 @@
-"""A case and one or two ranges in, a diagram out; where separatrices meet on the way.
+"""A bifurcation diagram from a case and one or two ranges; where separatrices connect in it.
 
-Where two saddles of a motion's circle come to one height: the separatrix of each then ends at the other,
-and its type changes.
+A connection: two saddles of a motion's circle come to one height, so that the separatrix of each ends at
+the other, and its type changes.
 
 On a circle about its centre, X' = p Y and Y' = q X with p q < 0 per angle alpha of the turn, the force is k X
 Y + c Y + d X + F0, so the potential is
 
     U = -k X^2/(2 p) - c X/p - d Y/q - F0 alpha,   alpha = atan2(-p Y/n, X)/n,   n = sqrt(-p q).
 
-Between two critical values there are two saddles at the most (four equilibria). Both ways round, the rise of
-U from one to the next is a function of the number that varies, enclosed with its slope over whole intervals;
-an interval is dropped where the rise keeps away from zero, settled where the slope does, and halved
-otherwise. Hyperbolas and parabolas have one saddle a branch.
-
-The question: a case and one or two ranges in, a diagram out.
-"""
+Between two critical values there are two saddles at the most (four equilibria). In both directions, the
+rise of U from one to the next is a function of the number that varies, enclosed with its slope over whole
+intervals; an interval is dropped where the rise keeps away from zero, settled where the slope does, and
+halved otherwise. Hyperbolas and parabolas have one saddle a branch."""
 from __future__ import annotations
 
 import os

@@ -1,23 +1,22 @@
 """The diagram of equilibria over one number, and its certificate.
 
-The diagram over one number: critical values by elimination, the equilibria at each and at one value
-between neighbours, their stability by the signs of m and n in balls.
+The critical values come from elimination; at each, and at one value between neighbours, there are the
+equilibria, with their stability by the signs of m and n in balls.
 
-Where equilibria form curves for every value of the range, these are given in words. Without a torque they are
-lines along principal axes that carry no wheel, planes of equal moments, and the curve on which momentum is
-along the rotation. Under a torque along equal moments of inertia they are a conic in the plane across it.
-Which of these there are hangs on differences of moments, on parts of wheel and torque that vanish, on lambda
-. M, and on the determinant of the conic alone: polynomials in what varies.
+Where equilibria form curves for every value of the range, these are given in words. Without a torque they
+are lines along principal axes that carry no wheel, planes of equal moments, and the curve on which momentum
+is along the rotation. Under a torque along equal moments of inertia they are a conic in the plane across
+it. Which of these there are depends on differences of moments, on parts of wheel and torque that vanish, on
+lambda . M, and on the determinant of the conic alone: polynomials in what varies.
 
 Branches are numbered by one component, and two may pass one above the other: they keep their order in the
 parts of a piece alone.
 
-A certificate of a diagram over one number: the scene as polynomials in it, every value at which equilibria
-change, and how many there are between.
+The certificate has the scene as polynomials in the number, every value at which equilibria change, and how
+many there are between.
 
 What is claimed is checked by other algebra (`verify.diagram`): trace forms and Sturm's sequences, where the
-diagram comes from resultants and balls.
-"""
+diagram comes from resultants and balls."""
 from __future__ import annotations
 
 import math

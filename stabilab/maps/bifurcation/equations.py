@@ -1,21 +1,18 @@
-"""Scenes over a range as polynomials, and the equations whose real zeros are counted.
-
-The scenes over a range as polynomials, and what is found over it: a diagram as data.
+"""Scenes over a range as polynomials, the equations whose real zeros a diagram counts, and the diagram as
+data.
 
 Moments, wheel, torque and start are polynomials with exact coefficients in the numbers that vary.
 The case is read at rational values of its numbers; polynomials through these that hold at further values as
 well are the law by which the numbers enter. Torques, momenta, moments, forces, arms and speeds enter so; a
 direction or a product of inertia turns axes, by roots, and is refused.
 
-Which equilibria a diagram counts, as equations in one or two unknowns with polynomial coefficients in the
-numbers that vary.
+The equations have one or two unknowns, with polynomial coefficients in the numbers that vary.
 
 Off the principal axes they are isolated: on the line where the two linear conditions meet, y = (P + x v)/w,
 one quadratic remains (`equilibrium.gyrostat`). A torque on principal axis i, with no wheel along it, has a
 whole conic of them, and a motion keeps to its own curve across that axis, W = const: the equilibria on this
 curve are where two conics meet. Without a motion the points of the conic where stability changes are counted,
-m = 0, another two conics. All unknowns are components of y (`equilibrium.balance.Pencil`).
-"""
+m = 0, another two conics. All unknowns are components of y (`equilibrium.stability.Pencil`)."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence

@@ -1,21 +1,5 @@
-"""The separatrix as surfaces, on grids that follow it within an accuracy.
-
-Rows and columns of a branch, graded so that its flat facets stray from the surface about equally
-everywhere: in a given shape, or as few as keep them within an allowed distance.
-
-A facet's edge with steps (du, ds) of the parameters strays from a surface r(u, s) with unit normal n by |L
-du^2 + 2 M du ds + N ds^2|/8, where L = r_uu.n, M = r_us.n, N = r_ss.n: an edge of length l by c l^2/8 where
-the normal curvature c along it hardly changes. Differences on a small trial grid give them, and where the
-surface bends within one cell it strays by up to four times as much; how far the bend is gathered there is
-told by the curvatures next to it (`_gathered`). Columns stand uniformly in the sum of the steps that cells
-ask for, rows too, each for the worst of the others. The finished grid is measured in the same way.
-
-Within an accuracy, a grid that is too coarse is graded anew by what it shows, until one is fine enough: where
-bends are narrow a coarse grid tells little of their width, so none has more than `GROW` times the cells of
-the one before.
-
-The separatrix as surfaces: for each value of the invariant the homoclinic loop of each saddle, an exact
-curve.
+"""The separatrix as surfaces: for each value of the invariant the homoclinic loop of each saddle, an exact
+curve, on grids that follow the surface within an accuracy.
 
 A branch of the separatrix sweeps one curve of saddles
 outward from its fold, where the loop shrinks to a point. On a circle the loop runs from its saddle against
@@ -27,7 +11,20 @@ drawn.
 Without torque the potential is periodic, so a saddle may see another one at its own height ahead (or itself,
 one turn on). The loop then runs from saddle to saddle and back, and the saddle at its far end sees the same
 closed curve on its other side. Such a loop is taken from one end only, its left one.
-"""
+
+Rows and columns of a branch are graded so that its flat facets stray from the surface about equally
+everywhere: in a given shape, or as few as keep them within an allowed distance.
+
+A facet's edge with steps (du, ds) of the parameters strays from a surface r(u, s) with unit normal n by |L
+du^2 + 2 M du ds + N ds^2|/8, where L = r_uu.n, M = r_us.n, N = r_ss.n: an edge of length l by c l^2/8 where
+the normal curvature c along it hardly changes. Differences on a small trial grid give them, and where the
+surface bends within one cell it strays by up to four times as much; how far the bend is gathered there is
+shown by the curvatures next to it (`_gathered`). Columns stand uniformly in the sum of the steps that cells
+ask for, rows too, each for the worst of the others. The finished grid is measured in the same way.
+
+Within an accuracy, a grid that is too coarse is graded anew by what it shows, until one is fine enough: where
+bends are narrow a coarse grid says little of their width, so none has more than `GROW` times the cells of
+the one before."""
 from __future__ import annotations
 
 from dataclasses import dataclass

@@ -1,11 +1,8 @@
-"""The answers about surfaces and distances are frozen results; these are their classes.
-
-One homoclinic loop in floats: the equilibria on a saddle's orbit and where the motion that leaves the
-saddle turns back.
+"""One homoclinic loop in floats: the equilibria on a saddle's orbit and where the motion that leaves the
+saddle turns back; the results about surfaces and distances, as frozen classes.
 
 The saddle is one equilibrium of its orbit; divided out, a cubic is left for the others: in tan(y/2) on a
-circle, in exp(y) on a hyperbola. `loops` asks here too, row by row.
-"""
+circle, in exp(y) on a hyperbola. `homoclinic_arrays.loops` uses this too, row by row."""
 from __future__ import annotations
 
 import math

@@ -1,11 +1,15 @@
-"""Homoclinic loops of many saddles.
+"""Homoclinic loops of many saddles, NumPy: where the motion that leaves a saddle turns back, and the
+points of the loop in between.
 
-Loops whose orbits are centred far away, those of nearly equal moments: told from their saddles in the
+Along a loop W = +-sqrt(2 (V_saddle - V(theta))), the difference formed without cancellation, so points lie on
+the separatrix to rounding.
+
+Loops whose orbits are centred far away, those of nearly equal moments, start from their saddles in the
 components themselves.
 
-Canonical places are told from the centre, and would keep no digit of a loop that is a million times smaller
-than the way there. With t = p q alpha^2 and S = sum t^k alpha^(2k+1)/(2k+1)!, C its integral, L that of C
-(sin, 1 - cos, alpha - sin of an orbit, or hyperbolic ones), a loop is
+Canonical places are measured from the centre, and would have no digit of a loop that is a million times
+smaller than its distance from there. With t = p q alpha^2 and S = sum t^k alpha^(2k+1)/(2k+1)!, C its
+integral, L that of C (sin, 1 - cos, alpha - sin of an orbit, or hyperbolic ones), a loop is
 
     omega_j = u + a S + p b C,   omega_k = v + b S + q a C,   a = p v + p0, b = q u + q0,   (omega_i + s)^2 =
     2 alpha^2 R(alpha),
@@ -15,21 +19,14 @@ than the way there. With t = p q alpha^2 and S = sum t^k alpha^(2k+1)/(2k+1)!, C
 F' and F1 = F'' - 2 kappa a b at the saddle (u, v). Nothing here is a difference of large numbers, and R is
 nearly a parabola, whose roots begin the search.
 
-Seams of a branch: where the loop of a saddle reaches a second saddle as high, behind which it opens a
+Seams of a branch are where the loop of a saddle reaches a second saddle as high, behind which it opens a
 second well.
 
 At the seam the far end of the loop jumps: on one side the loop turns back before the second saddle, on the
 other it passes over it. The branch is smooth on both sides, W^2 = 2 (V_saddle - V) being a saddle surface
 itself next to the second saddle, but rows of a grid are level curves of it: they must crowd towards the seam
 like squares, and columns towards the second saddle, where loops are pinched. So a strip is cut there, and
-each part graded by itself.
-
-Homoclinic loops of many saddles, NumPy: where the motion that leaves a saddle turns back, and the points
-of the loop in between.
-
-Along a loop W = +-sqrt(2 (V_saddle - V(theta))), the difference formed without cancellation, so points lie on
-the separatrix to rounding.
-"""
+each part graded by itself."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -146,7 +143,7 @@ def saddles_of(land, branch, s):
 
 
 def shrinks_far(land, branch, side) -> bool | None:
-    """`grid.shrinks` of a fold whose orbit's centre is far; None of others."""
+    """`branches.shrinks` of a fold whose orbit's centre is far; None of others."""
     (u, v), far = saddles_of(land, branch, np.zeros(1))
     if not far[0]:
         return None
@@ -384,7 +381,7 @@ class Loops:
     saddle, centre: places (2, k, n); end: (k, n) offsets of the far ends; found: (k, n) whether there is a
     loop; shared: (k, n) whether the far end is a saddle too; offset, w: (k, n, m) offsets and W; points: (k,
     n, m, 3). saddle_state, centre_state: (k, n, 3) the same as states; ways: (k, n, 2) those of
-    `far_centre.Orbits` where states and points are told from them, and not from places; else nan.
+    `Orbits` where states and points are told from them, and not from places; else nan.
     """
 
     saddle: np.ndarray
@@ -401,7 +398,7 @@ class Loops:
 
     @property
     def far(self) -> np.ndarray:
-        """(k, n) True where `far_centre` told the loop."""
+        """(k, n) True where the loop comes from `Orbits`."""
         return np.isfinite(self.ways[..., 0])
 
     def at_rows(self, rows) -> Loops:
@@ -416,7 +413,7 @@ class Loops:
 
 
 def loops(land, strips, s, u) -> Loops:
-    """The loops of strips (`seams.Part`, or pairs of branch and side) at parameters s (k, n) along them and u
+    """The loops of strips (`Part`, or pairs of branch and side) at parameters s (k, n) along them and u
     (k, m) round them.
 
     A loop shared with the saddle at its far end is found from the left one only; at s = 0, the fold, it is a

@@ -1,16 +1,11 @@
-"""The saddles that a separatrix hangs on, as branches, and a coarse surface in plain floats.
+"""The saddles of a separatrix as branches, each from its fold outward, why a scene has none; and a coarse
+surface in plain floats.
 
-Saddles that a surface hangs on, and why a scene has none.
-
-The branches of saddles, each from its fold outward: the edges along which the branches of a separatrix hang.
-
-In plain floats; a branch gives its places for floats and arrays alike.
-
-The branches of a separatrix in plain floats: coarse, while a slider moves and in a browser without NumPy.
+A branch gives its places for floats and arrays alike. The coarse surface is for a slider that moves, and
+for a browser without NumPy.
 
 Saddles, loops and heights are those of `branches`, which grades its rows and columns by the bend; here rows
-are dense towards the fold and columns towards both ends of a loop.
-"""
+are dense towards the fold and columns towards both ends of a loop."""
 from __future__ import annotations
 
 import math

@@ -3,11 +3,10 @@ is decided of it.
 
 A system is either derived (`effects`: the equations that the program integrates, renamed by `names`), or
 stated by its rates in other variables (`follows`, `meaning`, `pace`) and then proved to follow from its
-parent before anything is held against it, or a parent with some symbols set (`set`).
+parent before anything is compared with it, or a parent with some symbols set (`set`).
 
 Whether two expressions are one: by symbols where SymPy can, else by their values at random points with 50
-and 80 digits.
-"""
+and 80 digits."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace

@@ -1,15 +1,12 @@
-"""The verdicts on the formulas of a paper, units included.
+"""The verdicts on the formulas of a paper, their units included.
 
-Units of printed equations.
-
-A paper's rows, each with its verdict: held against the equations of motion, with condition, correction,
-how it was decided, and the smallest change that makes a wrong formula right: single edits of its tree, tried
-one after another.
+A row is compared with the equations of motion; its verdict has the condition, the correction, how it was
+decided, and the smallest change that makes a wrong formula right: single edits of its tree, tried one after
+another.
 
 Edits: a sign, an index (another symbol of the same stem), another symbol of the formula, a missing or an
 extra factor from the formula's own symbols and 2, sine for cosine, i for -i, a power raised, lowered, halved
-or doubled, a term left out.
-"""
+or doubled, a term left out."""
 from __future__ import annotations
 
 import re

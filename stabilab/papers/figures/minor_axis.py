@@ -1,10 +1,5 @@
-"""Figures 2 to 7 of Amer et al. 2024.
-
-Figures 2-5 and 7 of Amer et al. 2024: constant torque on the minor axis, drawn from the equations.
-
-Figure 6 of Amer et al. 2024: the separatrix surfaces of the minor axis from above, with the equilibria and
-what parts these.
-"""
+"""Figures 2 to 7 of Amer et al. 2024: constant torque on the minor axis, drawn from the equations; figure
+6 is the separatrix surfaces from above, with the equilibria and the curves between these."""
 from __future__ import annotations
 
 from functools import lru_cache

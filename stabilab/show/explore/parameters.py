@@ -198,7 +198,7 @@ def _base(case: Case) -> dict[str, Any]:
     if not scaled:
         made["body"] |= _kept(data["body"], "mass")
         for name in made.get("effects", {}).keys() - {"gyrostat", "constant_torque"}:
-            made["effects"][name] = data["effects"][name]  # alike along all axes (`orbits.check`)
+            made["effects"][name] = data["effects"][name]  # alike along all axes (`pictures.check`)
         if case.limits is not None and case.limits.rate is not None:
             made |= _kept(data, "limits")
     made |= _kept(data, "title", "source", "output")

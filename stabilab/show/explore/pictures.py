@@ -1,21 +1,18 @@
-"""What the explorer draws of a motion, in numbers packed for the browser.
-
-What the explorer draws: the plane of the reduced motion and the rates over time, as bytes for a page.
+"""What the explorer draws: the plane of the reduced motion and the rates over time, as bytes for a page.
 
     4 bytes: length of the header, little-endian | header, JSON | zeros up to a multiple of 4 | numbers
 
 In the header a row of numbers is {"type": "int16" or "float32", "from": byte in the numbers, "count": how
 many}. `orbit.phase_plane` has the same plane in arrays, to the last digit; the one here, in plain floats,
-serves a hand that moves, and a browser without NumPy.
+serves a slider that moves, and a browser without NumPy.
 
-The motion as a page draws it: in plain floats where these are sure of it, else in as many digits as it
-takes once the hand rests, for on an unstable plane, and on the separatrix itself, whatever a step in floats
-leaves grows until the line is another motion's; and why a body on which more acts than wheels and a torque
-has no separatrix and no phase plane.
+The motion is drawn in plain floats where these are sure of it, else in as many digits as needed once the
+slider rests: on an unstable plane, and on the separatrix itself, whatever a step in floats leaves out grows
+until the line is another motion's. A body on which more acts than wheels and a torque has no separatrix and
+no phase plane, and the page says why.
 
-A liquid, a medium, weight and a field take the law away from which both come; a charge that only adds to the
-wheel has the rates of a gyrostat, and is no such body.
-"""
+A liquid, a medium, weight and a field take away the law from which both come; a charge that only adds to the
+wheel has the rates of a gyrostat, and is no such body."""
 from __future__ import annotations
 
 import json

@@ -1,17 +1,15 @@
-"""The explorer as a local server, or as a folder for any web server.
+"""The explorer as a local server on the loopback address, by the standard library, or as a folder for any
+static web server.
 
-The explorer as a local server: the page and its answers on the loopback address, by the standard library.
+The local server answers a page that knows the random token in the address, from this machine, under the
+address that was printed. A name that some other server lets point here is refused by the header Host, a
+page of another origin by the header Origin.
 
-Who may ask: a page that knows the random token in the address, from this machine, under the address that was
-printed. A name that some other server lets point here is refused by the header Host, a page of another origin
-by the header Origin.
+In the folder's page Python runs in the browser (Pyodide), and answers there.
 
-The page as a folder for any static web server: Python runs in the browser (Pyodide), and answers there.
-
-The folder holds the page, a worker, and the package without papers, cases and commands. Python
-itself and python-flint come from the address of the Pyodide project and from the index of Python packages,
-or, with a folder of theirs given, from this folder alone.
-"""
+The folder holds the page, a worker, and the package without papers, cases and commands. Python itself and
+python-flint come from the address of the Pyodide project and from the index of Python packages, or, with a
+folder of theirs given, from this folder alone."""
 from __future__ import annotations
 
 import hmac

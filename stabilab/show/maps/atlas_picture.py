@@ -1,9 +1,8 @@
 """An atlas as a picture and as a page.
 
-The sphere of directions on a sheet: Hammer's map, on which areas are kept, turned so that no principal axis
+The sphere of directions is drawn by Hammer's map, which preserves areas, turned so that no principal axis
 lies on its rim. Axis 3 points up. Axes 1 and 2 stand 45 degrees left and right of the middle, so all six
-directions of the axes lie inside; the rim is half way from -1 to -2.
-"""
+directions of the axes lie inside; the rim is half way from -1 to -2."""
 from __future__ import annotations
 
 from pathlib import Path

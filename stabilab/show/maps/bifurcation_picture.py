@@ -1,11 +1,5 @@
-"""Pictures of equilibria over one number, over two, and on a circular orbit.
-
-What stands above a panel over one number: how many equilibria there are, and where that changes.
-
-Equilibria on a circular orbit over the momentum of the wheels as a picture.
-
-A diagram of equilibria over one number or over two as a picture.
-"""
+"""Pictures of equilibria over one number, over two, and, on a circular orbit, over the momentum of the
+wheels; above a panel over one number, how many equilibria there are and where that changes."""
 from __future__ import annotations
 
 import math

@@ -1,9 +1,5 @@
-"""Rates over time, and times to a limit against what changes them.
-
-Rates and whole states over time, and the rates after thrusters that are stuck.
-
-The time to a limit against what changes it: the tilt of the torque, the momentum of a wheel.
-"""
+"""Rates and whole states over time, the rates after thrusters that are stuck, and the time to a limit
+against what changes it: the tilt of the torque, the momentum of a wheel."""
 from __future__ import annotations
 
 import math

@@ -1,7 +1,5 @@
-"""The phase plane of the reduced motion, and plane sections.
-
-The reduced potential of a motion, with its energy, its wells and the barrier ahead.
-"""
+"""The phase plane of the reduced motion, plane sections, and the reduced potential with the motion's
+energy, its wells and the barrier ahead."""
 from __future__ import annotations
 
 import math

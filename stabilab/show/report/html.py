@@ -1,10 +1,7 @@
-"""Pages from templates, and formulas as MathML.
+"""Pages of the report from their templates, and formulas as MathML.
 
-Pages of the report from their templates: what comes from case files is escaped, what a template lacks is
-an error.
-
-Formulas as MathML, which a browser sets by itself: no script, no font, nothing from a network.
-"""
+What comes from case files is escaped, and what a template lacks is an error. MathML is set by the browser
+itself: no script, no font, nothing from a network."""
 from __future__ import annotations
 
 import re

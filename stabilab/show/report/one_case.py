@@ -1,13 +1,8 @@
-"""One case, or one sweep, as a page.
+"""One case, or one sweep, as a page: every section with what applies to it, and in words what does not.
 
-The space of the three rates, to be turned by hand, as numbers that a small script of the page draws.
-
-The pictures of one motion on its page: the plots that a user can ask for, of each kind it has.
-
-One case as a page: every section with what applies to it, and in words what does not.
-
-A file with [sweep] as one page: a row a combination, a column a swept key, one picture of all motions.
-"""
+The pictures of a motion are the plots that a user can ask for, of each kind it has; the space of the three
+rates is turned with the mouse, by a small script of the page. A file with [sweep] has a row a combination,
+a column a swept key, and one picture of all motions."""
 from __future__ import annotations
 
 import math

@@ -1,7 +1,5 @@
-"""The report on cases of one's own, by several processes.
-
-The report on cases of one's own: a page a case, a page a sweep, and, where there are several, a first page
-that lists them."""
+"""The report on cases of one's own, by several processes: a page a case, a page a sweep, and, where there
+are several, a first page that lists them."""
 from __future__ import annotations
 
 import re

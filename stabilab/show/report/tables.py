@@ -1,10 +1,5 @@
-"""The answer of a page at a glance, and its tables.
-
-The answer of a page at a glance: the outcome, when, the largest rate, and the distance from another
-outcome.
-
-The tables of a page: equilibria with their verdicts, and what change gives the motion another fate.
-"""
+"""The answer of a page at a glance (outcome, time, largest rate, distance from another outcome), and its
+tables: equilibria with their verdicts, and what change gives the motion another fate."""
 from __future__ import annotations
 
 import math

@@ -1,10 +1,6 @@
-"""All that is known of a case in words; of one known within bounds too.
-
-What `stabilab classify` prints: the answer, the motion's numbers, the equilibria, why; proofs and algebra
-on request; the same as JSON; and curves of equilibria with their numbers in the unit of rates.
-
-What uncertain numbers do to the verdicts, as JSON and text.
-"""
+"""What `stabilab classify` prints: the answer, the motion's numbers, the equilibria, why; proofs and
+algebra on request; the same as JSON; curves of equilibria with their numbers in the unit of rates; and
+what uncertain numbers do to the verdicts."""
 from __future__ import annotations
 
 import math

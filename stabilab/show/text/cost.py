@@ -1,9 +1,5 @@
-"""Costs of methods and comparisons of models in words.
-
-What accuracy costs, in plain words made from the measured front.
-
-Models beside the exact motion: as text, JSON, CSV, and as a picture of histories.
-"""
+"""Costs of methods in words, made from the measured front; and models beside the exact motion, as text,
+JSON, CSV, and as a picture of histories."""
 from __future__ import annotations
 
 import math

@@ -1,10 +1,8 @@
-"""The answer in one line, and how far an approximate law holds, which stands above it.
-
-How far approximate laws hold: the first line of a text, a key of JSON, a line of a picture, exit code.
-
-The answer in one line: what becomes of a motion and when, how large its rates grow, how far it is from
+"""The answer in one line: what becomes of a motion and when, how large its rates grow, how far it is from
 another fate, and its period; and how that line looks.
-"""
+
+How far approximate laws hold stands above it: the first line of a text, a key of JSON, a line of a picture,
+an exit code."""
 from __future__ import annotations
 
 import math

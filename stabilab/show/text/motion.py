@@ -1,14 +1,6 @@
-"""Motions in words: rates, attitude, rest on an orbit, what dissipation makes of a spin.
-
-A motion in words: where it starts, how far its rates go, its margins and period, and why; every number
-with its unit.
-
-How a motion turns in space: as text and as JSON.
-
-Equilibria of a satellite on a circular orbit: as text and as JSON.
-
-What internal dissipation makes of a spin: as text and as JSON.
-"""
+"""Motions in words: where one starts, how far its rates go, its margins and period, and why, every number
+with its unit; as text and as JSON also how it turns in space, the equilibria on a circular orbit, and what
+internal dissipation makes of a spin."""
 from __future__ import annotations
 
 import math

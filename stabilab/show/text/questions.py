@@ -1,11 +1,6 @@
-"""The answer to one question in words.
-
-When a limit is reached, in words, JSON and CSV: the answer first, in the units of engineers; what a tilt
-of the torque does to a bounded motion.
-
-What `fate`, `extremes` and `period` print: the answer, its numbers, why, and how many digits were checked;
-the same as JSON and CSV.
-"""
+"""The answer to one question in words, JSON and CSV: what `fate`, `extremes` and `period` print, with how
+many digits were checked; and when a limit is reached, with what a tilt of the torque does to a bounded
+motion."""
 from __future__ import annotations
 
 import math

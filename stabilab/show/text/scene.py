@@ -1,9 +1,5 @@
-"""A scene in words: its equations, and what its file states; a sweep as a table.
-
-All combinations of a [sweep] as one table: a column a key that varies, then the answer's numbers.
-
-The scene in words, its equations of motion, and the laws that hold for it.
-"""
+"""A scene in words: what its file states, its equations of motion, and the laws that hold for it; and all
+combinations of a [sweep] as one table, a column a key that varies, then the answer's numbers."""
 from __future__ import annotations
 
 import math

@@ -1,9 +1,4 @@
-"""Stuck thrusters and burns in words.
-
-A stuck thruster in words, JSON and CSV: the answer first, in the units of engineers.
-
-What a burn leaves and by when it must close: as text and as JSON.
-"""
+"""Stuck thrusters and burns in words, JSON and CSV: the answer first, in the units of engineers."""
 from __future__ import annotations
 
 import math

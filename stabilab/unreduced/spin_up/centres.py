@@ -1,25 +1,7 @@
-"""Centres that the rates across the axis of spin-up circle about, and the terms eliminated there.
+"""The forms in which spin-up is certified, about the fixed centre and about a moving one, and the
+elimination of what oscillates there.
 
-Taking away what oscillates about a moving centre: corrected energy and corrected amplitude, to any order.
-
-Quantities are sums of c zeta^j zeta*^k p^(-a/4) q^(-b/4), many terms at a time in arrays (`Terms`); p and q
-are linear in the spin x. Along the motion, with `Algebra`'s names,
-
-    zeta' = i om p^(-turn_a/4) q^(-turn_b/4) zeta + x' carried + drift,        x' = x_rate,
-    d/dt  = i Om (zeta d - zeta* d*) + x' [d/dx + along carried] + along drift.
-
-An oscillating term c zeta^j zeta*^k f(x) of a rate (j != k) is taken away by adding -c/(i Om (j - k)) zeta^j
-zeta*^k f(x) to the quantity: its rate then holds -c zeta^j zeta*^k f(x) and the price, what the rest of d/dt
-makes of the added term, smaller by at least one power of the spin. What does not oscillate (j = k) stays.
-Level of a term: four times the power of 1/x with which it falls.
-
-Rounding. Beside each coefficient goes its majorant, formed by the same operations on sizes, without
-subtraction: a coefficient is a sum of products, its majorant the sum of the same products' sizes. Each
-product is formed by fewer than 2^14 roundings (orders below 40: some ten to a level, and sums of fewer than
-300 terms at each), so a coefficient in doubles errs by less than 2^-38 of its majorant. `sizes` gives |c| +
-ROUNDING majorant, ROUNDING = 2^-32, which covers that 64 times over.
-
-The forms in which spin-up is certified: about the fixed centre, and about a moving one for nearly equal
+The forms are about the fixed centre, and about a moving one for nearly equal
 moments with a wheel and for spin-up in the equator of a symmetric body.
 
 In every such field x is the spin that grows and D1 x' = drive + what oscillates.
@@ -62,7 +44,26 @@ nothing like g Im eta^2 r Re eta^2 but Im eta^4: the products are written down b
 Equatorial spin-up (D2 = D3 of the body, cyclic triple (2, 3, 1), the wheel's transverse part along the form's
 axis 1): d2 = 0, q = s l1 is constant, l2 = 0 and n3 = 0; every term of the rate of the amplitude that is left
 must fall faster than 1/x, and its integral is infinite where one does not (`kernel.tail`).
-"""
+
+Elimination: a corrected energy and a corrected amplitude, to any order, take away what oscillates about the
+centre.
+
+Quantities are sums of c zeta^j zeta*^k p^(-a/4) q^(-b/4), many terms at a time in arrays (`Terms`); p and q
+are linear in the spin x. Along the motion, with `Algebra`'s names,
+
+    zeta' = i om p^(-turn_a/4) q^(-turn_b/4) zeta + x' carried + drift,        x' = x_rate,
+    d/dt  = i Om (zeta d - zeta* d*) + x' [d/dx + along carried] + along drift.
+
+An oscillating term c zeta^j zeta*^k f(x) of a rate (j != k) is taken away by adding -c/(i Om (j - k)) zeta^j
+zeta*^k f(x) to the quantity: its rate then holds -c zeta^j zeta*^k f(x) and the price, what the rest of d/dt
+makes of the added term, smaller by at least one power of the spin. What does not oscillate (j = k) stays.
+Level of a term: four times the power of 1/x with which it falls.
+
+Rounding. Beside each coefficient goes its majorant, formed by the same operations on sizes, without
+subtraction: a coefficient is a sum of products, its majorant the sum of the same products' sizes. Each
+product is formed by fewer than 2^14 roundings (orders below 40: some ten to a level, and sums of fewer than
+300 terms at each), so a coefficient in doubles errs by less than 2^-38 of its majorant. `sizes` gives |c| +
+ROUNDING majorant, ROUNDING = 2^-32, which covers that 64 times over."""
 from __future__ import annotations
 
 from collections.abc import Sequence

@@ -1,29 +1,5 @@
-"""What proves a spin-up off the axes.
-
-The kernels of spin-up, compiled by numba or as they are written.
-
-Bodies with equal moments: what is exact, and the second fate, spin-up in the equatorial plane.
-
-Axis 1 the axis of symmetry, D2 = D3 = D, d = D1 - D, no transverse wheel (l2 = l3 = 0): D1 omega1' = M1
-exactly, and with X = omega1 + l1/d, xi = omega2 + i omega3, mu = (M2 + i M3)/D the other two are xi' = i
-(d/D) X xi + mu.
-
-* M1 != 0: every state spins up about the axis, in the sense of M1, with |xi(t)| <= |xi(0)| + 8 |mu|/sqrt(|d|
-|M1|/(D D1)); nothing is integrated.
-* M1 = 0: X is constant. X != 0: xi goes round a circle about i mu D/(d X): bounded. X = 0: xi = xi(0) + mu t,
-it grows along the transverse
-  torque (or stands still without one).
-
-Sphere, D omega' = M - omega x l: without a wheel omega grows along M; with one spin-up along sgn(M.l) l,
-bounded where M.l = 0.
-
-A transverse wheel l_perp (and D2 = D3): besides axis 1 the motion may spin up in the equator, along e =
--sgn(D1 - D2) l_perp/|l_perp|, where (M_perp.l_perp)(D1 - D2) < 0. In the frame (e, a1 x e, a1) the form about
-the moving centre has d2 = 0, q = |l_perp|, p = a3 x + |l_perp|, both positive for great x = omega.e exactly
-with that sign of e, and M.e > 0. Its certificate is the theorem of `certificate`. Proofs:
-docs/mathematics/spin-up.md.
-
-A certificate of spin-up: an inequality between numbers of one state that, once true, stays true for ever.
+"""A certificate of spin-up: an inequality between numbers of one state that, once true, stays true for
+ever; and bodies with equal moments: what is exact, and the second fate, spin-up in the equatorial plane.
 
 Theorem (proof: docs/mathematics/spin-up.md). Let x be the spin of a form, D1 x' = V(x) + what oscillates,
 zeta its amplitude, Om(x) > 0 increasing (the rate of the phase up to a constant), V >= drive from z on, and
@@ -53,7 +29,24 @@ of it. Coefficients hold their rounding (`centres`), sums of positive numbers ar
 of themselves, and every comparison leaves SLACK = 2^-30 of the sum of the sizes in it.
 
 A and z are searched from the smallest that could do, by `kernel`: compiled, or as it is written.
-"""
+
+Equal moments: axis 1 the axis of symmetry, D2 = D3 = D, d = D1 - D, no transverse wheel (l2 = l3 = 0): D1
+omega1' = M1 exactly, and with X = omega1 + l1/d, xi = omega2 + i omega3, mu = (M2 + i M3)/D the other two
+are xi' = i (d/D) X xi + mu.
+
+* M1 != 0: every state spins up about the axis, in the direction of M1; nothing is integrated, and
+  |xi(t)| <= |xi(0)| + 8 |mu|/sqrt(|d| |M1|/(D D1)).
+* M1 = 0: X is constant. X != 0: xi goes round a circle about i mu D/(d X): bounded. X = 0: xi = xi(0) + mu t,
+  it grows along the transverse torque (or stands still without one).
+
+Sphere, D omega' = M - omega x l: without a wheel omega grows along M; with one spin-up along sgn(M.l) l,
+bounded where M.l = 0.
+
+A transverse wheel l_perp (and D2 = D3): besides axis 1 the motion may spin up in the equator, along e =
+-sgn(D1 - D2) l_perp/|l_perp|, where (M_perp.l_perp)(D1 - D2) < 0. In the frame (e, a1 x e, a1) the form about
+the moving centre has d2 = 0, q = |l_perp|, p = a3 x + |l_perp|, both positive for great x = omega.e exactly
+with that sign of e, and M.e > 0. Its certificate is the theorem. Proofs:
+docs/mathematics/spin-up.md."""
 from __future__ import annotations
 
 import math

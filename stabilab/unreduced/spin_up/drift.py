@@ -1,15 +1,16 @@
-"""Many motions followed together, and their drift towards spin-up.
+"""Many motions of one scene followed together, how much a small change of each has grown, and their drift
+over many revolutions at once.
 
-Many motions of one scene by Taylor steps (`steps`), and how much a small change of each has grown.
+They are followed by Taylor steps (`steps`).
 
 A change along a motion is a mere delay. It alters nothing in what the motion comes to, but it grows (the
 faster of two turns round ever farther ahead), and a large delay would be taken for a change across. So the
-two are told apart: what lies across the motion is followed from advance to advance, and tells the growth; the
+two are told apart: what lies across the motion is followed from advance to advance, and gives the growth; the
 delay is a blur of the time. Where a motion hardly moves, all is across. Over steps the change obeys the
 linear equation beside the motion; over a window of many revolutions (`drift`) a twin runs from close by.
 
-Motions carried on over many revolutions at once, where that is less work than step by step: powers of a
-map that is near the identity.
+Where it is less work than step by step, motions are carried on over many revolutions at once, by powers of
+a map that is near the identity.
 
 A motion that goes round much faster than it drifts returns to a plane across it near to where it left: x(n +
 1) = x(n) + d(x(n)), d small. As long as no resonance is felt (what it would make falls faster than any power
@@ -27,8 +28,7 @@ and by d itself at a place between two nodes.
 
 The map is the return to a section, the surface on which n . omega' = 0: where the motion is at its farthest
 against the unit vector n. A drift of the whole path in space shifts it by its speed over that of going round
-only, so that small circles that drift far stay on it.
-"""
+only, so that small circles that drift far stay on it."""
 from __future__ import annotations
 
 from dataclasses import dataclass

@@ -119,7 +119,7 @@ def _ask(out, rows, which, fast):
 def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int | None = None,
             after: float = 0.0, proof: bool = False,
             tell: Callable[..., Any] | None = None, fast: bool | None = None) -> SpinUp:
-    """Whether and how the motion from a state spins up, decided by a certificate (`certificate`, `symmetric`)
+    """Whether and how the motion from a state spins up, decided by a certificate (`certificate`)
     or not at all.
 
     scene: gyrostat and constant torque, physical or scaled. state: three rates at t = 0, taken at their word.

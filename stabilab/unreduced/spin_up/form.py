@@ -1,7 +1,5 @@
-"""The normal form of spin-up, and what decides whether a motion spins up.
-
-A gyrostat under a constant torque of any direction, seen from its major or minor axis: the exact normal
-form.
+"""The exact normal form of spin-up, about the major or minor axis, under a torque of any direction; and
+what is seen of a motion that no certificate decides.
 
 With the axis under study called 1 (cyclic relabelling), d2 = D1 - D2 and d3 = D1 - D3 of one sign s, a2 =
 |d2|, a3 = |d3|, m2 = M2 - l1 l3/d3, m3 = M3 + l1 l2/d2, U = omega2 - l2/d2 and V = omega3 - l3/d3, Euler's
@@ -25,8 +23,7 @@ The scaled gyrostat x1' = x2 x3 + mu1, x2' = -x3 (x1 + a) + mu2, x3' = x2 (x1 + 
 any a and b, those of no body as well: about x1 with zeta = x2 + i x3, X = x1 + (a + b)/2, h = (b - a)/2, kap
 = 0, and about x3 with zeta = x2 + i (x1 + a), X = x3, h = 0, kap = b - a; om = 1 and gam = 1/2 in both.
 
-What is seen of a motion that no certificate decides, in words; where averaging puts bounded islands, and
-when a motion looks like one.
+Of an undecided motion it is said in words where averaging puts bounded islands, and when it looks like one.
 
 Islands need a wheel. About an extremal axis (`form`; X the spin, I = |eta|^2 the action across, a = l2 M2/d2,
 b = l3 M3/d3, c = (d3 - d2) M2 M3/(d2 d3), l1 = 0) the averaged flow is X' = f0 + I f1, I' = -(I f0' + I^2
@@ -36,8 +33,7 @@ f1'/2), with the stream function psi = I f0 + I^2 f1/2,
 
 Where M1 c < 0, (a + b)^2 > 4 |M1 c| (both equilibria on one side) and (|d3| - |d2|)(b^2 - a^2) > 0, psi has a
 centre with I > 0: an elliptic periodic orbit between two saddle-foci, which tori surround (by averaging, for
-great X). This is a pointer, not a proof.
-"""
+great X). This is a pointer, not a proof."""
 from __future__ import annotations
 
 import math

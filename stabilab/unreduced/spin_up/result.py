@@ -132,7 +132,7 @@ class SpinUp(Shown):
     sense: +1 or -1 about it, 0 where undecided; direction: unit vector in principal axes along which the rate
     grows, None where undecided. level: "exact" (by a closed solution), "certified" (the theorem's inequality
     holds for the state at time t of a run in machine precision and for a ball about it that holds the run's
-    rounding), "proved" (the way to the inequality is enclosed, `enclosure.run`; t is exact, state the
+    rounding), "proved" (the way to the inequality is enclosed, `unreduced.enclosure`; t is exact, state the
     middle of what holds it) or "undecided". trap: bounds and clocks. t: when it fired, or how long the motion
     was followed; state there; steps. cause: words. condition: growth of a small change of the start, across
     the motion, on the way to t. passed: steps that the way to t takes one by one; steps are those computed,

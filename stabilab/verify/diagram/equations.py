@@ -1,7 +1,8 @@
-"""The equations of a diagram, and how many real zeros they have.
+"""The equations of a diagram, as polynomials that are zero together, and how many real zeros they have at
+a value of t.
 
-How many real zeros equations have, by a Groebner basis and Hermite's trace form, while a number t varies:
-their coefficients are rational functions of t, or what these are at one algebraic value of it.
+Zeros are counted by a Groebner basis and Hermite's trace form, while t varies: the coefficients are
+rational functions of t, or what these are at one algebraic value of it.
 
 A polynomial is a table from the powers of its unknowns to coefficients that are not zero (`Ratio`,
 `Residue`). The order of monomials is by total degree, then by the powers. Buchberger's algorithm: every pair
@@ -9,16 +10,13 @@ of the basis leaves the remainder zero, or its remainder joins the basis.
 
 For any polynomial q Hermite's trace form with entries tr(b_i b_j q), over the monomials b that remain, has
 the rank "different zeros at which q is not zero" and the signature "real ones where q > 0 less real ones
-where q < 0". All its eigenvalues are real, so the signs of its characteristic polynomial's coefficients tell
+where q < 0". All its eigenvalues are real, so the signs of its characteristic polynomial's coefficients say
 how many are positive (Descartes' rule is exact then).
 
-What is counted, as polynomials that are zero together, and how many real zeros these have at a value of t.
-
-They are rates, the law that a motion keeps, and where stability changes: flint's polynomials in t and the
-three unknowns. A body's rates stand times its moments, w_i x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j +
-m_i with w = D (1 for the scaled system). Equilibria satisfy two linear conditions besides (`rates.Rates`),
-which are sums of the rates.
-"""
+The equations are rates, the law that holds along a motion, and where stability changes: flint's polynomials
+in t and the three unknowns. A body's rates stand times its moments, w_i x_i' = kappa_i x_j x_k + rho_i x_k
++ sigma_i x_j + m_i with w = D (1 for the scaled system). Equilibria satisfy two linear conditions besides
+(`numbers.Rates`), which are sums of the rates."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
