@@ -221,7 +221,7 @@ def _blocks(equations: Equations, row: np.ndarray) -> dict[str, np.ndarray]:
     return {name: row[part] for name, part in slices(equations.blocks).items()}
 
 
-ENCLOSED_LATER = 1e-6  # of the time that a run finds: the enclosure goes on for so long after it
+BEYOND = 1e-6  # of the time that a run finds: the enclosure goes on for so long after it
 
 
 def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = None, energy: Any = None,
@@ -337,8 +337,8 @@ def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end:
     last = math.inf if end is None else float(end)
     run = by_run(scene, state, limit, last)
     open_end = math.isnan(run.high)  # the run did not come to the limit
-    if run.steps <= bands and (not open_end or run.low >= last * (1 - ENCLOSED_LATER)):
-        band = banded(scene, start, limit, last if open_end else run.high * (1 + ENCLOSED_LATER), bands)
+    if run.steps <= bands and (not open_end or run.low >= last * (1 - BEYOND)):
+        band = banded(scene, start, limit, last if open_end else run.high * (1 + BEYOND), bands)
         if band is not None and band.high < math.inf:
             return Found(band.low, band.high, "proved",
                          f"{limit.words}: the motion enclosed in {band.steps} compiled steps")

@@ -15,8 +15,7 @@ from ..answers.equilibria import equilibria
 from ..case.read import blamed_on
 from ..show.data import as_json
 from ..show.text import classification, headline, questions, scene
-from ..show.text import motion as attitudes
-from ..show.text.motion import row_of
+from ..show.text.motion import attitude_dict, attitude_text, row_of
 from ..show.units import DEG
 from .common import (
     all_reached,
@@ -40,8 +39,8 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
     loaded = load_cases(cases)
     systems = units_asked(loaded, units, tilt=tilt)
     if certify:
-        from . import certificates as proof
-        proof.checked(out, cases)
+        from . import certificates
+        certificates.checked(out, cases)
     rests = answers_of(loaded, lambda case: equilibria(case.scene))
     motions = [tilted(case, motion_of(case, follow=follow, proof=certify), tilt) if case.state else None
                for case in one_by_one(loaded)]
@@ -60,9 +59,9 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
         swept = lambda rows, units: swept_motions([motion for _, _, motion, _ in rows], units)
         tell_all(answered, systems, partial(classification.text, proofs=why), None if why else swept, laws,
                  boxes)
-    certified = all([proof.certified(case, out) for case in loaded]) if certify else True
+    certified = all([certificates.certified(case, out) for case in loaded]) if certify else True
     undecided = (any(classification.undecided(found, motion) for _, found, motion, _ in answered)
-                 or any(map(classification.uncertain_undecided, boxes)))
+                 or any(map(classification.open_in_box, boxes)))
     leave_undecided(strict, not certified or undecided)
     hold_laws(strict, laws, loaded)
 
@@ -91,7 +90,7 @@ def answer(question, cases, json, digits, strict, units, why, csv=False, follow=
     if digits is not None:
         all_reached((case, f"{question}: {short(told)}") for case, _, told in answered if not told.enough)
     leave_undecided(strict, any(motion.fate.word == "undecided" for _, motion, _ in answered)
-                    or any(map(classification.uncertain_undecided, boxes)))
+                    or any(map(classification.open_in_box, boxes)))
     hold_laws(strict, (motion.validity for _, motion, _ in answered), loaded)
 
 
@@ -129,8 +128,8 @@ def attitude(cases, json, digits, strict, units):
     systems = [DEG if system.scaled else system for system in units_asked(loaded, units)]  # all is in SI here
     answered = answers_of(loaded, partial(turning, digits=digits))
     if json:
-        write(as_json(attitudes.attitude_dict(answered)))
+        write(as_json(attitude_dict(answered)))
     else:
         bare = [(replace(case, caveats=()), found) for case, found in answered]  # the texts have them
-        tell_all(bare, systems, attitudes.attitude_text)
+        tell_all(bare, systems, attitude_text)
     leave_undecided(strict, any(found.fate.word == "undecided" for _, found in answered))

@@ -223,8 +223,8 @@ def over_boxes(cases, motions, *questions):
     samples show of that and no proof as a caveat)."""
     if not questions or not any(case.uncertain for case in cases):
         return [None] * len(cases), motions
-    from ..answers.uncertain.fate import uncertain as over_box
-    boxes = [over_box(case, questions) for case in cases]
+    from ..answers.uncertain.fate import uncertain
+    boxes = [uncertain(case, questions) for case in cases]
     return boxes, [motion if motion is None or box is None
                    else replace(motion, caveats=(*motion.caveats, *box.caveats))
                    for motion, box in zip(motions, boxes)]

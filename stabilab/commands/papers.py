@@ -12,10 +12,9 @@ from ..papers.audit import audited
 from ..papers.audit import page as audit_page
 from ..papers.figures import catalogue
 from ..papers.report import write as write_report
-from ..papers.validation import comparison as validation_text
-from ..papers.validation import validated
+from ..papers.validation import comparison, validated
 from ..show import manifest
-from ..show import manifest as repetition
+from ..show.manifest import rerun as repeated
 from ..show.progress import counted
 from ..show.terminal import width
 from .common import either, leave_undecided, load_cases, say, tell, unphysical, write
@@ -36,9 +35,9 @@ def validate(source, json, out):
     with counted() as tell:
         found = validated(source, tell)
     if out is not None:
-        say(f"written: {validation_text.page(found, out)}")
-    either(json, lambda: validation_text.as_dict(found), lambda: validation_text.text(found))
-    if apart := validation_text.unexplained(found):
+        say(f"written: {comparison.page(found, out)}")
+    either(json, lambda: comparison.as_dict(found), lambda: comparison.text(found))
+    if apart := comparison.unexplained(found):
         raise ToleranceNotMet("\n".join(apart))
 
 
@@ -80,4 +79,4 @@ def report(cases, out, papers, precision, certify, workers, strict):
 
 def rerun(manifest, out):
     """Repeat what a manifest says."""
-    tell("\n".join(repetition.rerun(manifest, out)))
+    tell("\n".join(repeated(manifest, out)))

@@ -23,7 +23,6 @@ from ..maps.bifurcation.diagram import certifiable, diagram_certificate
 from ..maps.plan import planned, split_keys
 from ..maps.run import run
 from ..show import certification, endings, limiting
-from ..show import surface as words
 from ..show.maps import (
     atlas as atlas_shown,
 )
@@ -50,6 +49,7 @@ from ..show.maps import (
     to_file as map_to_file,
 )
 from ..show.plot import to_file
+from ..show.surface import text as surface_text
 from ..show.surface import write_all
 from ..show.terminal import lettered
 from ..show.text import headline
@@ -89,7 +89,7 @@ def surface(case, out, json, strict):
         write_json(loaded, [summary | headline.key(held, one, True) for one, summary,
                             held in zip(loaded, summaries, laws)])
     else:
-        tell("\n".join(headline.first(held, words.text(summary, out), caveats=one.caveats) for one, summary,
+        tell("\n".join(headline.first(held, surface_text(summary, out), caveats=one.caveats) for one, summary,
                        held in zip(loaded, summaries, laws)))
     for one, summary in zip(loaded, summaries if json else ()):
         if not summary["sheets"]:

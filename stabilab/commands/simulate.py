@@ -12,7 +12,7 @@ from ..answers.stuck.chain import simulate_burn
 from ..case.read import blamed_on, fires_on_schedule, load_burning
 from ..errors import InputError, ToleranceNotMet
 from ..show import endings, terminal
-from ..show import reference as outside
+from ..show import reference as shown
 from ..show.data import as_json
 from ..show.terminal import lettered
 from ..show.text import headline, simulation
@@ -135,13 +135,13 @@ def reference(case, at, digits, out, json):
     loaded, made = load_cases([case], motion=True), []
     say_repeated(loaded[0], at)
     if out:
-        endings.file(out, outside.KINDS)
+        endings.file(out, shown.KINDS)
     for one in loaded:
         with blamed_on(one):
-            made.append((one, *outside.as_dict(one, exact_times_asked(one, at), digits, sys.argv[1:])))
+            made.append((one, *shown.as_dict(one, exact_times_asked(one, at), digits, sys.argv[1:])))
     if out:
-        write_each(out, [(one, partial(outside.write, found)) for one, found, _ in made])
+        write_each(out, [(one, partial(shown.write, found)) for one, found, _ in made])
     else:
         write(as_json([found for _, found, _ in made] if len(made) > 1 else made[0][1]) if json
-              else "".join(outside.csv(found) for _, found, _ in made).rstrip("\n"))
-    all_reached(short for one in made for short in outside.missing(*one))
+              else "".join(shown.csv(found) for _, found, _ in made).rstrip("\n"))
+    all_reached(short for one in made for short in shown.missing(*one))

@@ -10,7 +10,7 @@ from typing import Any
 from ..physics.coefficients import shape_factors
 from ..show.report import html
 from ..show.terminal import written
-from . import table as constant_torque
+from . import table
 from .audit.page import anchor, counted
 from .figures.catalogue import FIRST, of_paper
 from .table import EXTREMES
@@ -161,18 +161,18 @@ def of_figure(paper: Any, group: Sequence[Any], number: int) -> list[dict[str, s
 
 def data() -> list[tuple[str, str]]:
     """(name, its value and meaning) of the main paper's data and scaled numbers."""
-    body = constant_torque.physical("minor", 0).body
+    body = table.physical("minor", 0).body
     factors = shape_factors(body)
     k = factors[0] * factors[1] * factors[2]
-    scaled = {lam: constant_torque.printed_scene("minor", lam) for lam in constant_torque.LAMBDAS}
-    names = ", ".join(map(str, constant_torque.LAMBDAS))
-    starts = (("figures 2 to 7, table 2", constant_torque.START_MINOR),
-              ("figures 8 to 11", constant_torque.START_MAJOR),
-              ("figures 12 to 15", constant_torque.START_CAPTURED),
-              ("figures 16 and 17, table 3", constant_torque.START_MIDDLE),
-              ("table 4", constant_torque.START_PLANE))
+    scaled = {lam: table.printed_scene("minor", lam) for lam in table.LAMBDAS}
+    names = ", ".join(map(str, table.LAMBDAS))
+    starts = (("figures 2 to 7, table 2", table.START_MINOR),
+              ("figures 8 to 11", table.START_MAJOR),
+              ("figures 12 to 15", table.START_CAPTURED),
+              ("figures 16 and 17, table 3", table.START_MIDDLE),
+              ("table 4", table.START_PLANE))
     return [
-        ("D", f"{constant_torque.INERTIA} kg m^2: the principal moments, D1 > D2 > D3"),
+        ("D", f"{table.INERTIA} kg m^2: the principal moments, D1 > D2 > D3"),
         ("lambda1", f"{names} kg m^2/s: the gyrostatic moment, along axis 1"),
         ("k1, k2, k3", f"{', '.join(map(str, factors))}: (D2 - D3)/D1, (D1 - D3)/D2, (D1 - D2)/D3; "
                        f"k = k1 k2 k3 = {k}"),

@@ -27,7 +27,7 @@ from ..show.report import html, own
 from ..show.report.html import picture
 from ..show.report.workers import Task, done
 from ..show.terminal import some, written
-from ..show.text import cost as comparison
+from ..show.text import cost as cost_text
 from ..show.text import headline
 from ..show.text.cost import so_many
 from ..show.text.scene import PRODUCTS
@@ -35,13 +35,11 @@ from ..show.units import SI, parameter_unit
 from ..theories.printed.claims import MAIN
 from ..theories.theory import compare, side_by_side
 from ..version import __version__
-from . import cost_effects as effect_cost
-from . import cost_growth, index, table
+from . import cost_effects, cost_growth, index, table
 from .audit import page as audit_page
 from .audit import papers as audited_papers
 from .families import sweep
-from .figures import catalogue as figures
-from .figures import panels
+from .figures import catalogue, panels
 from .figures.figure import words
 from .validation import comparison as validation
 
@@ -107,10 +105,10 @@ CHAPTERS = (
 def section(name: str, folder: Path) -> dict:
     """The chapter on a paper: plain data, its figures drawn into `folder`/figures."""
     chapter = next(chapter for chapter in CHAPTERS if chapter.paper == name)
-    made = {"id": chapter.paper, "title": chapter.title, "paper": figures.PAPERS[chapter.paper],
+    made = {"id": chapter.paper, "title": chapter.title, "paper": catalogue.PAPERS[chapter.paper],
             "about": written(chapter.about), "problem": "",
             "compared": [], "sensible": None, "parameters": "", "end": chapter.end,
-            "figures": [drawn(row, folder) for row in figures.of_paper(chapter.paper)]}
+            "figures": [drawn(row, folder) for row in catalogue.of_paper(chapter.paper)]}
     try:
         made["parameters"] = _parameters(sweep(chapter.compared[0][0])[chapter.compared[0][1]])
         made["compared"] = [row for name, variant in chapter.compared
@@ -123,7 +121,7 @@ def section(name: str, folder: Path) -> dict:
 
 def drawn(row, folder: Path) -> dict:
     """What a page says of a figure, whose pictures are drawn into `folder`/figures; rows: of the audit."""
-    path, *more = figures.write([row.number], folder / FOLDER, paper_name=row.paper or None)
+    path, *more = catalogue.write([row.number], folder / FOLDER, paper_name=row.paper or None)
     return picture(path, FOLDER, id=f"{row.paper or 'figure'}-{row.number}", number=row.number,
                    title=row.title, caption=row.caption, tolerance=row.tolerance, differences=words(row),
                    command=row.command, rows=(), more=[FOLDER + part.name for part in more])
@@ -162,7 +160,7 @@ def _sensible(chapter, folder):
     found = compare(case, np.linspace(0.0, chapter.sensible_end, POINTS))
     runs, _ = side_by_side(case, np.linspace(0.0, chapter.window, 1001))
     with style.drawing() as plt:
-        path = style.save(comparison.picture(plt, case, runs, chapter.parts, units=SI),
+        path = style.save(cost_text.picture(plt, case, runs, chapter.parts, units=SI),
                           folder / FOLDER / f"{chapter.paper}-sensible.png")
     return picture(path, FOLDER, case=case.name, title=written(case.title), why=written(chapter.why),
                    end=chapter.sensible_end, rows=_errors(case, None, found), parameters=_parameters(case),
@@ -197,7 +195,7 @@ def tables(folder: Path) -> list[dict]:
 
 def figure(number: int, folder: Path) -> dict:
     """A figure of the constant-torque paper, and what the page says of it."""
-    return drawn(figures.figure(number), folder)
+    return drawn(catalogue.figure(number), folder)
 
 
 # -- the pages
@@ -209,7 +207,7 @@ def everything_of(cases, folder: Path, tell, wanted: own.Wanted, workers=None,
     motion leaves, and whether a fate is undecided."""
     work = [Task("tables", "papers.report:tables", (folder,), 0.5), *own.tasks(cases, folder, wanted)]
     work += [Task(f"figure {row.number}", "papers.report:figure", (row.number, folder), 1.2)
-             for row in figures.FIGURES]
+             for row in catalogue.FIGURES]
     work += [Task(f"chapter {one.paper}", "papers.report:section", (one.paper, folder), one.weight)
              for one in CHAPTERS]
     work += [Task(f"audit of {name}", "papers.audit:findings_of", (name,), AUDIT_TAKES.get(name, 6.0))
@@ -248,7 +246,7 @@ def _papers(folder, found, nav):
     rows = [one | {"html": Markup(one["html"])} for one in found["tables"]]
     main = found[f"audit of {MAIN}"]
     drawn = [found[f"figure {row.number}"] | {"rows": index.of_figure(*main, row.number)}
-             for row in figures.FIGURES]
+             for row in catalogue.FIGURES]
     html.write(folder / "constant-torque.html", "constant_torque.html", title="Constant torque",
                paper=table.PAPER, tables=rows, nav=nav, here="constant-torque.html", data=index.data(),
                claims=index.claims(*main), figures=drawn)
@@ -344,7 +342,7 @@ def _growth(cases, folder, **around):
 
 
 def _effects(cases, folder, **around):
-    return effect_cost.page(folder, **around)
+    return cost_effects.page(folder, **around)
 
 
 # (title, what it says, page(cases, folder) -> its path, or None where the cases do not call for it)
@@ -411,7 +409,7 @@ def _start(cases, folder, found, nav, groups, audit, tools, cost, around):
     """The first page: a stuck thruster as it is answered, the questions, the finest picture, and what is
     inside."""
     hero = _hero(cases, found)
-    drawn = [row.number for row in figures.FIGURES if not row.added]
+    drawn = [row.number for row in catalogue.FIGURES if not row.added]
     words = {"constant-torque.html": f"{table.PAPER}: tables 1 to {len(found['tables'])}, figures {drawn[0]} "
                                      f"to {drawn[-1]}, recomputed and corrected",
              "cases.html": "; ".join(f"{title[0].lower()}{title[1:]} ({some(number, 'case')})"
@@ -422,9 +420,9 @@ def _start(cases, folder, found, nav, groups, audit, tools, cost, around):
              "where.html": "every equation, figure, table and claim of the five papers, with its place",
              "hard-cases.html": "where formulas that are right on paper lose their digits",
              "cost.html": "What accuracy, many states and each effect cost, measured"}
-    words |= {f"{one.paper}.html": f"{one.title}: {figures.PAPERS[one.paper]}" for one in CHAPTERS}
+    words |= {f"{one.paper}.html": f"{one.title}: {catalogue.PAPERS[one.paper]}" for one in CHAPTERS}
     cards = [page | {"words": words[page["file"]]} for page in nav if page["file"] != "index.html"]
-    picture = found.get(f"figure {FINEST}") or found[f"figure {figures.FIGURES[0].number}"]
+    picture = found.get(f"figure {FINEST}") or found[f"figure {catalogue.FIGURES[0].number}"]
     html.write(folder / "index.html", "start.html", title=TITLE, picture=picture, cards=cards, nav=nav,
                hero=hero, questions=_questions(cases, found, hero, audit, cost), here="index.html", **around)
 

@@ -26,7 +26,7 @@ from ..version import __version__
 from . import endings
 
 SCHEMA, NAME = "stabilab.manifest/1", "manifest.json"
-TIMED_FILES = ("precision.html", "precision/", "growth.html", "growth.csv", "growth/", "effects.html",
+TIMED_PATHS = ("precision.html", "precision/", "growth.html", "growth.csv", "growth/", "effects.html",
          "effects.png")  # pages and pictures that show measured times: no two runs give the same bytes
 PACKAGES = ("numpy", "scipy", "sympy", "mpmath", "python-flint", "heyoka", "numba", "matplotlib", "pillow",
             "vtk", "pyvista",
@@ -55,7 +55,7 @@ def written(out, arguments=None, inputs=(), tolerances=None):
         yield folder
         run["tolerances"] = dict(tolerances or {})
         run["outputs"] = [{"path": path, "sha256": sha256(file), "bytes": file.stat().st_size}
-                          | ({"timed": True} if path.startswith(TIMED_FILES) else {})
+                          | ({"timed": True} if path.startswith(TIMED_PATHS) else {})
                           for file in files.inside(folder)
                           for path in [file.relative_to(folder).as_posix()]]
         with files.alone_in(out):

@@ -7,7 +7,7 @@ import textwrap
 from pathlib import Path
 
 from ..answers.caveats import caveats_of
-from ..cost import accuracy as measuring
+from ..cost import accuracy
 from ..cost.accuracy import EPS, digit_price
 from ..errors import InputError
 from ..files import write_text
@@ -292,7 +292,7 @@ def kind(case) -> tuple:
 def _section(case, folder, effort):
     """(what the template says of a case, None), or (None, why nothing could be measured)."""
     try:
-        found = measuring.precision(case, effort)
+        found = accuracy.precision(case, effort)
     except InputError as error:
         return None, str(error)
     if not found.questions:

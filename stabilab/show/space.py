@@ -91,9 +91,9 @@ NEAR = 2.0     # times the motion's own size: a separatrix or an equilibrium so 
 ROOM = 1.25    # of a box about the things in it
 SMALL = 0.22   # of a box: a motion that fills less gets a box of its own, a limit that does is not drawn
 # of the longest side: an axis along which less happens has a scale of its own, of which that fills a share
-THIN, FILLED, EVEN = 0.3, 0.6, 1e-6
+FLAT, FILLED, EVEN = 0.3, 0.6, 1e-6
 WHOLE = 1.6    # times the box of the motion: a surface no larger is shown whole
-LATEST_SIZE = 3.0   # times its first size, up to which a motion that spins up is drawn
+GROWN = 3.0   # times its first size, up to which a motion that spins up is drawn
 FARTHEST = 1e4  # times the fold's radius: how far a branch is followed for a large box
 ARROWS, ARROW = (0.12, 0.45, 0.8), 0.11  # where: shares of the path; how long: of half of the box
 SHAPE = (48, 97)  # rows and columns of a branch
@@ -264,7 +264,7 @@ def near_part(times: Sequence[float], path: list[Point], motion: Motion | None) 
     if motion is not None and motion.margin_velocity is not None and math.isfinite(motion.margin_velocity):
         size = max(size, motion.margin_velocity)
     limit = BEYOND * ((motion and limit_time(motion)) or 0.0)
-    late = (next((n for n, (t, x) in enumerate(zip(times, path)) if math.hypot(*x) > LATEST_SIZE * size
+    late = (next((n for n, (t, x) in enumerate(zip(times, path)) if math.hypot(*x) > GROWN * size
                   and t > limit), len(path)) if size else len(path))
     return path[:late + 1] if late > 20 else path
 
@@ -305,7 +305,7 @@ def _about(points: list[Point]) -> Box:
     halves = [(max(v) - min(v)) / 2 for v in zip(*points)]
     longest = cube.half[0]
     return Box(cube.middle, tuple(
-        ROOM * (own / FILLED if EVEN * longest < own < THIN * longest else longest) for own in halves))
+        ROOM * (own / FILLED if EVEN * longest < own < FLAT * longest else longest) for own in halves))
 
 
 def _given(asked: Any) -> Box:

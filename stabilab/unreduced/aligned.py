@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..numbers.double_double import EPS
-from ..orbit import extremes_arrays as many
+from ..orbit import extremes_arrays
 from ..orbit.extremes import precise_period
 from ..orbit.fate import OneFate, Reason, fate_of
 from ..orbit.fate import at_rest as rest_of
@@ -177,5 +177,5 @@ def turned_periods(scene, states, labels):
     out, bounded = np.where(labels == Fate.EQUILIBRIUM, 0.0, np.inf), labels == Fate.BOUNDED
     # a state at rest, turned in doubles, hardly moves: a period that no number of bits finds
     if bounded.any():
-        out[bounded] = many.periods(turn.twin, states[bounded] @ turn.matrix.T)
+        out[bounded] = extremes_arrays.periods(turn.twin, states[bounded] @ turn.matrix.T)
     return out

@@ -34,6 +34,7 @@ from . import enclosure_kernel
 from .spin_up.certificate import natural, tests_of
 from .spin_up.result import SpinUp, Trap
 
+# --- The enclosed motion
 # at most, unless others are asked for: compiled some three seconds, else some ten
 STEPS, SLOW_STEPS = 200_000, 2_000
 CHUNK = 512  # steps kept at a time between which the band is asked for
@@ -214,10 +215,11 @@ def _plainly(*arguments):
         return enclosure_kernel.advance(*arguments)
 
 
+# --- A spin-up proved along it
 TRIED, HOPELESS = 512, 16  # steps after which a way that would take so many times what is allowed is given up
 # times, over that of the certified run, at which the inequality is asked again
 LATER = (1.0, 1.0625, 1.25, 1.5, 2.0)
-WIDER_BY_A_STEP = 1 + 2.0**-40
+WIDENED = 1 + 2.0**-40
 
 
 def proved(scene, state, found: SpinUp, steps: int | None = None, fast: bool = False,
@@ -242,7 +244,7 @@ def proved(scene, state, found: SpinUp, steps: int | None = None, fast: bool = F
                            cause=f"{found.cause}; not proved: after {way.steps} validated steps, at t = "
                                  f"{way.t:.6g}, the motion is {way.why}")
         middle, near = reached
-        constants = test.constants(middle / unit, near / unit * WIDER_BY_A_STEP, fast)
+        constants = test.constants(middle / unit, near / unit * WIDENED, fast)
         if constants:
             # six constants
             trap = Trap(before.field, before.form, before.orders, *constants, unit, way.t)  # type: ignore[call-arg]
@@ -285,4 +287,4 @@ class _Way:
 
 def _up(reach) -> float:
     """A bound of the length of a vector with components of at most these sizes."""
-    return math.hypot(*map(float, reach)) * WIDER_BY_A_STEP  # squares of small reaches would vanish
+    return math.hypot(*map(float, reach)) * WIDENED  # squares of small reaches would vanish

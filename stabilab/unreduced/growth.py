@@ -32,8 +32,7 @@ import numpy as np
 from ..errors import InputError
 from ..numbers.vectors import CYCLE
 from ..orbit.fate import OneFate, Reason
-from ..orbit.fate_arrays import FateResult, in_chunks, write_row
-from ..orbit.fate_arrays import at_rest as mark_rest
+from ..orbit.fate_arrays import FateResult, at_rest, in_chunks, write_row
 from ..orbit.one_state import in_range
 from ..orbit.result import Fate, Motion, judged, pairs
 from ..physics.coefficients import three_floats
@@ -229,6 +228,6 @@ def fates(scene, states, fast: bool | None = None) -> FateResult:
         with in_range():
             for index, state in enumerate(rows):
                 write_row(out, index, *unbounded(captured_fate(scene, state)))
-        mark_rest(scene, rows, out)
+        at_rest(scene, rows, out)
         return 0
     return in_chunks(label, states)

@@ -9,13 +9,10 @@ from ...errors import InputError
 from ...show import style
 from ...version import __version__
 from .. import table
-from . import cavity as figures_cavity
-from . import charged as figures_charged
-from . import major_axis, minor_axis
+from . import cavity, charged, top
 from . import major_axis as major
 from . import middle_axis as middle
 from . import minor_axis as minor
-from . import top as figures_top
 from .figure import POINTS, Figure, model_figure, words
 
 _LEVEL = "curves: level sets of the exact potential, in doubles"
@@ -58,8 +55,8 @@ FIGURES = (
     Figure(6, "Contour map of the separatrix surfaces",
            lambda: "The folds lie on two circles of different radius about (−a, 0), "
            "one on either side of the printed √2 about the origin; the curve (x1+a)(x1+b) = x2² parts stable "
-           f"from unstable equilibria, not the line x1 + x2 = 0. {minor_axis.fourth_departure()}",
-           minor_axis.contour_map, minor_axis.map_exactness),
+           f"from unstable equilibria, not the line x1 + x2 = 0. {minor.fourth_departure()}",
+           minor.contour_map, minor.map_exactness),
     Figure(7, "Typical stable motions, minor axis",
            lambda: "Periodic motions on arcs of circles about (−a, 0), 0.6 of the way up "
            "to the separatrix, and the paper's own start. The paper says that a motion on the separatrix "
@@ -99,22 +96,22 @@ FIGURES = (
            f"folds is unstable. {middle.level_departure()}", middle.projections,
            "closed forms; motions: level sets of the exact potential; fourth surface as printed: traced on a "
            f"grid of {POINTS} x {POINTS}"),
-    Figure(18, "Without a wheel: λ1 = 0 (not in the paper)", major_axis.words, major_axis.draw,
+    Figure(18, "Without a wheel: λ1 = 0 (not in the paper)", major.words, major.draw,
            f"{_LEVEL}; printed: its formulas", added=True),
 )
 NUMBERS = tuple(f.number for f in FIGURES)
 
 
 FIRST = "constant-torque"  # the paper that numbers without a name belong to
-PAPERS = {FIRST: table.PAPER, "charged": figures_charged.PAPER, "cavity": figures_cavity.PAPER,
-          "top": figures_top.PAPER}
+PAPERS = {FIRST: table.PAPER, "charged": charged.PAPER, "cavity": cavity.PAPER,
+          "top": top.PAPER}
 
 
 def of_paper(name: str) -> tuple[Figure, ...]:
     """All figures of a paper by its short name. Raises InputError for other names."""
     if name not in PAPERS:
         raise InputError(f"paper: there is no {name!r}; choose one of {', '.join(PAPERS)}")
-    others = {"charged": figures_charged, "cavity": figures_cavity, "top": figures_top}
+    others = {"charged": charged, "cavity": cavity, "top": top}
     return others[name].FIGURES if name in others else FIGURES
 
 

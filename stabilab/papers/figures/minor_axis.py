@@ -25,7 +25,7 @@ LEFT, RIGHT = style.MEANING["separatrix 2"], style.MEANING["separatrix"]
 COPY = RIGHT | {"linestyle": (0, (5, 2)), "linewidth": 1.1}
 LOOPS = [("left separatrix", LEFT), ("right separatrix", RIGHT), ("right separatrix, a turn earlier", COPY)]
 PRINTED_LINE = ("separatrices as printed: (26), (27)", PRINTED)
-POINT_STYLES = [("centre (stable)", style.MARKER["centre"]), ("saddle (unstable)", style.MARKER["saddle"])]
+EQUILIBRIA = [("centre (stable)", style.MARKER["centre"]), ("saddle (unstable)", style.MARKER["saddle"])]
 
 
 def _plane(lambda1):
@@ -52,7 +52,7 @@ def trajectories(plt):
     ax.set_title(rf"Torque on the minor axis, $\lambda_1=100$: the circle $A={radius:.4f}$ of the start")
     style.legend(figure,
                  [("this motion", style.MEANING["this motion"]), ("start", style.MARKER["start"]), *LOOPS,
-                     PRINTED_LINE, ("other energies", style.MEANING["level"]), *POINT_STYLES], columns=3)
+                     PRINTED_LINE, ("other energies", style.MEANING["level"]), *EQUILIBRIA], columns=3)
     return figure
 
 
@@ -145,7 +145,7 @@ def left_right(plt):
     ax.set_title(rf"Left and right separatrices, $\lambda_1=100$, $A={np.sqrt(plane.Q):.4f}$")
     style.legend(figure, [*LOOPS, ("periodic motions", style.MEANING["bounded"]),
                           ("spin-up", style.MEANING["spin-up"]),
-                     ("upright crossing", style.MARKER["turning"]), PRINTED_LINE, *POINT_STYLES], columns=3)
+                     ("upright crossing", style.MARKER["turning"]), PRINTED_LINE, *EQUILIBRIA], columns=3)
     return figure
 
 
@@ -166,7 +166,7 @@ def wheel_effect(plt):
         ax.set_title(
             rf"({letter}) $\lambda_1={lambda1}$: $c=b-a={lambda1 / 500:g}$, $A={np.sqrt(plane.Q):.4f}$")
     axes[-1].set_xlabel(r"$\alpha = 2\,\mathrm{atan2}(x_1+a,\ x_2)$")
-    style.legend(figure, [*LOOPS, *POINT_STYLES, ("upright crossing", style.MARKER["turning"]),
+    style.legend(figure, [*LOOPS, *EQUILIBRIA, ("upright crossing", style.MARKER["turning"]),
                           ("printed position", printed | {"markersize": 14})], columns=3)
     return figure
 

@@ -39,12 +39,10 @@ from ..axes import with_moments
 from ..report.tables import tiles
 from ..space import natural, seen
 from ..terminal import greek, lettered, written
-from ..text import headline as law
-from ..text.headline import headline, look
+from ..text.headline import headline, judged, look
 from ..text.motion import margins
 from ..units import SHORT, Units, but_for_rounding, units_of
-from . import parameters as controls
-from . import pictures
+from . import parameters, pictures
 from .parameters import changed
 from .pictures import Bag, line
 
@@ -118,7 +116,7 @@ class Session:
     def about(self) -> dict[str, Any]:
         """What a page must know before its first question."""
         return {"name": self.case.name, "title": written(self.case.heading),
-                "groups": controls.groups(self.case, self.units),
+                "groups": parameters.groups(self.case, self.units),
                 "axes": _named(self.units), "rates": self.units.rates[0], "scaled": self.units.scaled}
 
     def answer(self, asked: dict[str, Any], stopped: Callable[[], bool] = lambda: False) -> bytes:
@@ -148,7 +146,7 @@ class Session:
             case, note = changed(self.case, asked | {"start": clicked, "click": None}, self.units)
         found, words = self._motion(case, moving, stopped)
         if found is not None:
-            found = law.judged(case, found, brief=True)
+            found = judged(case, found, brief=True)
             if case.limits is not None and not moving and present("numpy"):
                 from ...answers.when import with_first
                 found = with_first(case, found, QUICK)

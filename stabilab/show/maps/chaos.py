@@ -15,7 +15,7 @@ from ...packages import demand
 from .. import endings, style
 from ..data import as_json, csv_lines
 from ..limiting import cell
-from ..plot import phase_plane as plane_section
+from ..plot import phase_plane
 from ..plot import subject as which
 from ..plot.subject import Measures, Subject, measures, subject
 from ..text import headline
@@ -42,7 +42,7 @@ def write(case: Any, found: Chaos, out: str | Path) -> Path:
             _over_time(ax, case, found)
             return style.save(figure, target)
         figure, (left, right) = plt.subplots(1, 2, figsize=SIZE, layout="constrained")
-        plane_section.section(one, ax=left, neighbours=NEIGHBOURS)
+        phase_plane.section(one, ax=left, neighbours=NEIGHBOURS)
         _map(figure, right, left, one, float(found.times[-1]) / SHORTER)
         return style.save(figure, target)
 
@@ -63,7 +63,7 @@ def _over_time(ax: Any, case: Any, found: Chaos) -> None:
 def _map(figure: Any, ax: Any, beside: Any, one: Subject, until: float) -> None:
     """MEGNO of the motions from the window of the section; those that spin up in a colour of their own."""
     scale: Measures = measures(one)
-    _, plane = plane_section.plane_of(one, which.certain_from(one))
+    _, plane = phase_plane.plane_of(one, which.certain_from(one))
     limits = beside.get_xlim(), beside.get_ylim()
     x, y = (np.linspace(low, high, 2 * GRID + 1)[1::2] for low, high in limits)
     states = np.full((GRID, GRID, 3), plane.level)

@@ -15,6 +15,7 @@ from ...errors import StabilabError
 from .. import style
 from ..space import (
     EVEN,
+    FLAT,
     SHAPE,
     VIEWS,
     WHOLE,
@@ -31,7 +32,6 @@ from ..space import (
     nearest,
     numbers,
 )
-from ..space import THIN as SHORT
 from ..space import space as drawn_in
 from . import canvas
 from . import subject as which
@@ -387,7 +387,7 @@ def _path(one: Subject) -> tuple[list[Any], str]:
         part = f"the first {shown} of {whole} are drawn"
         _, omega = path(one, low, t[end])
     spans = np.ptp(omega, axis=0)
-    size = np.where((spans < SHORT * spans.max()) & (spans > EVEN * spans.max()), spans, spans.max() or 1.0)
+    size = np.where((spans < FLAT * spans.max()) & (spans > EVEN * spans.max()), spans, spans.max() or 1.0)
     near = FINE  # of what an axis shows
     while len(line := thinned(omega / size, near)) > MOST:
         near *= 2

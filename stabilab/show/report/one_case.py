@@ -31,7 +31,7 @@ from ..plot.path import along
 from ..plot.subject import subject
 from ..space import data
 from ..terminal import greek, printed, some
-from ..text import classification as boxes
+from ..text.classification import open_fate, uncertain_text, what_changes
 from ..text.headline import headline, judged, lines_of, look
 from ..text.motion import constants, margins, shown, state
 from ..text.scene import fates, key_columns, latex, of_motions
@@ -142,10 +142,10 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     caveats = limiting.beside((one for one in case.caveats if one.kind != "uncertain"), units)
     page = {"name": case.name, "title": case.heading, "source": case.source,
             "path": case.path, "text": case.text,
-            "headline": printed("; ".join(filter(None, (answer, boxes.what_changes(box, units))))),
+            "headline": printed("; ".join(filter(None, (answer, what_changes(box, units))))),
             "law": printed(units.words(beyond)), "caveats": list(map(printed, caveats)),
-            "fate": "" if moved is None else "undecided" if boxes.open_fate(box) else moved.fate.word,
-            "look": "" if moved is None else "conditional" if boxes.open_fate(box) else look(moved),
+            "fate": "" if moved is None else "undecided" if open_fate(box) else moved.fate.word,
+            "look": "" if moved is None else "conditional" if open_fate(box) else look(moved),
             "tiles": [], "facts": [], "extremes": [], "over": "", "pictures": [], "sensitivity": None,
             "certificate": None,
             "equilibria": found and equilibrium_table(found, units),
@@ -162,7 +162,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
         absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
         page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(one, units))
     page["space"] = _tried(absent, "Space of the rates", lambda: space(one, found, units))
-    page["uncertain"] = greek(boxes.uncertain_text(box, units))
+    page["uncertain"] = greek(uncertain_text(box, units))
     if certify:
         page["certificate"] = _tried(absent, "Certificate", lambda: _certificate(case, folder, stem))
     return page | {"absent": [(what, printed(units.words(why))) for what, why in absent]}

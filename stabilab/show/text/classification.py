@@ -19,11 +19,9 @@ from .. import frame, limiting
 from ..axes import axes_of
 from ..terminal import lettered, written
 from ..units import DIGITS, SI, Units, number
-from ..units import number as told
-from . import motion as attitude
 from . import questions
 from .headline import verdict
-from .motion import followed, reason, row, state, table, tilt_lines, why
+from .motion import attitude_rows, followed, reason, row, state, table, tilt_lines, why
 
 FEW = 3  # curves that one line has room for
 WORDS = ("stable", "asymptotically stable", "unstable", "undecided")
@@ -36,7 +34,7 @@ def text(case, equilibria, motion, turning, units: Units, proofs: bool = False) 
               else verdict(case, motion, units))
     lines = [f"{case.name}: {answer}", *([written(case.title)] if case.title else [])]
     if motion is not None:
-        lines += [*table(case, motion, units), *(row(*fact) for fact in attitude.rows(turning, units)),
+        lines += [*table(case, motion, units), *(row(*fact) for fact in attitude_rows(turning, units)),
                   *tilt_lines(case, motion, units, proofs),
                   *why(case, motion, units, proofs)]
     lines += ["" if motion is None else f"equilibria: {resting(equilibria, units)}",
@@ -337,7 +335,7 @@ def bare_number(value: Fraction) -> str:
 def rounded(value: Fraction) -> str:
     """The same for a reader: rounded where the ratio is long (degrees bring digits of pi)."""
     exact = bare_number(value)
-    return exact if len(exact) <= LONG else told(float(value), DIGITS)
+    return exact if len(exact) <= LONG else number(float(value), DIGITS)
 
 
 def in_si(found, units: Units) -> str:
@@ -352,7 +350,7 @@ def uncertain_text(found, units: Units) -> str:
     numbers = []
     for u in found.numbers:  # the middle and half the width, with the unit
         unit, one = _of_file(units, unit_of_key(u.path))
-        in_unit = rounded if one == 1.0 else lambda v, one=one: told(float(v) * one, DIGITS)
+        in_unit = rounded if one == 1.0 else lambda v, one=one: number(float(v) * one, DIGITS)
         numbers.append(f"{key(u)} = {in_unit(u.middle)} ± {in_unit(u.half)} {unit}".rstrip())
     lines = [f"uncertain: {', '.join(numbers)}"]
     for name in SUBJECTS:
@@ -411,7 +409,7 @@ def _lines(subject, over, units) -> list[str]:
         known, numbers = UNITS | ({"state": "rad/s"} if "torque" in w.values else {}), []
         for name, values in w.values.items():
             unit, one = _of_file(units, known.get(name, ""))
-            row = ", ".join(told(float(v) * one, DIGITS) for v in values)
+            row = ", ".join(number(float(v) * one, DIGITS) for v in values)
             numbers.append(f"{name} = {row} {unit}".rstrip())
         lines.append(f"    {units.axes.sentence(w.verdict)} at {'; '.join(numbers)}")
     return lines
@@ -422,7 +420,7 @@ def open_fate(found) -> bool:
     return found is not None and found.fate is not None and found.fate.answer != "holds"
 
 
-def uncertain_undecided(found) -> bool:
+def open_in_box(found) -> bool:
     """Whether a verdict stays without a proof over the box."""
     return (found is not None and any(over is not None and over.answer in ("undecided", "sampled")
                                       for over in (found.equilibria, found.fate)))

@@ -14,7 +14,7 @@ from ...integrate.trajectory import SCIPY_METHODS
 from ...physics.scene import PARTS
 from ...processes import machine, versions
 from ...representation import values_of
-from ...theories.theory import lines as told
+from ...theories.theory import lines as theory_lines
 from .. import style
 from ..data import csv_lines
 from ..terminal import lettered, some, written
@@ -261,7 +261,7 @@ def _notes(found, units) -> list[str]:
         by_words.setdefault(f"no answer: {why}", []).append(name)
     notes = [f"{', '.join(names)}: {words}" for words, names in by_words.items()]
     beyond = [row for row in found.theory if row["words"] not in by_words]
-    return [lettered(units.words(note)) for note in (*notes, *told(beyond))]
+    return [lettered(units.words(note)) for note in (*notes, *theory_lines(beyond))]
 
 
 def _closest(found) -> str:

@@ -252,7 +252,7 @@ def attitude_text(case, found, units: Units) -> str:
     return limiting.noted(found.caveats, words, units)
 
 
-def rows(found, units: Units) -> list[tuple[str, str]]:
+def attitude_rows(found, units: Units) -> list[tuple[str, str]]:
     """(name, words) of the periods, for the lines of another answer; "found" None: nothing."""
     if found is None:
         return []
@@ -314,7 +314,7 @@ def _frame(case, one):
 def circular_orbit_text(case, found, units: Units) -> str:
     """The answer first, then each pair of equilibria, and why."""
     result = found.equilibria
-    lines = [f"{case.name}: {_headline_on_orbit(result)}",
+    lines = [f"{case.name}: {_orbit_headline(result)}",
              row("orbit", f"rate {units.rate(found.rate)}, period {units.time(found.period)}"),
              row("wheels", f"{units.vector(in_file(case, found.momentum), ('N m s', 1.0))}")]
     for number_, one in enumerate(result.points[::2]):
@@ -332,7 +332,7 @@ def circular_orbit_text(case, found, units: Units) -> str:
     return limiting.noted(found.caveats, "\n".join(lines), units)
 
 
-def _headline_on_orbit(result) -> str:
+def _orbit_headline(result) -> str:
     if result.kind == "all":
         return "EVERY ATTITUDE IS AN EQUILIBRIUM"
     stable = sum(one.verdict == "stable" for one in result.families)

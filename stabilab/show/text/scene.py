@@ -145,11 +145,11 @@ def filled(columns: Sequence[Column], answers: Sequence) -> tuple[list[tuple[str
     return [columns[n][:2] for n in kept], [[row[n] for n in kept] for row in rows]
 
 
-SHORT_RATIO = 12  # letters of a ratio that is told as such
+RATIO_LETTERS = 12  # up to which a ratio is printed as such, not as a decimal
 # parameters whose names are products
 PRODUCTS = {"Mgx": "M g x_c", "Mgy": "M g y_c", "Mgz": "M g z_c", "eHl2": "e H l^2",
             "kd": "k_d", "cd": "c_d", "kB2": "k B^2"}
-IN_WORDS = ("mass",)  # parameters whose names are words
+WORD_NAMES = ("mass",)  # parameters whose names are words
 
 
 def of_all(cases) -> str:
@@ -265,14 +265,14 @@ def _number(value) -> str:
 def _value(v) -> str:
     """Exact where that is short, with its decimal; else the decimal alone."""
     exact = str(v)
-    return (exact if "/" not in exact and len(exact) <= SHORT_RATIO
-            else f"{exact} = {_number(v)}" if len(exact) <= SHORT_RATIO else _number(v))
+    return (exact if "/" not in exact and len(exact) <= RATIO_LETTERS
+            else f"{exact} = {_number(v)}" if len(exact) <= RATIO_LETTERS else _number(v))
 
 
 def _short(expression) -> str:
     """The expression with rationals that are long rounded to six digits."""
     from sympy import Rational
-    long = {r: r.evalf(DIGITS) for r in expression.atoms(Rational) if len(str(r)) > SHORT_RATIO}
+    long = {r: r.evalf(DIGITS) for r in expression.atoms(Rational) if len(str(r)) > RATIO_LETTERS}
     return lettered(_products(str(expression.xreplace(long))))
 
 
@@ -320,9 +320,9 @@ def latex(equations: Equations) -> str:
 def tex(expression: Symbolic) -> str:
     """A formula in LaTeX: words upright, and names that stand for a product as that product."""
     from sympy import latex as of_sympy
-    names = {symbol: (rf"\mathrm{{{symbol.name}}}" if symbol.name in IN_WORDS
+    names = {symbol: (rf"\mathrm{{{symbol.name}}}" if symbol.name in WORD_NAMES
                       else f"{{{PRODUCTS[symbol.name]}}}")
-             for symbol in expression.free_symbols if symbol.name in PRODUCTS or symbol.name in IN_WORDS}
+             for symbol in expression.free_symbols if symbol.name in PRODUCTS or symbol.name in WORD_NAMES}
     made = of_sympy(expression, symbol_names=names)
     for product in PRODUCTS.values():  # a power is that of all its letters
         made = made.replace(f"{{{product}}}^", rf"\left({product}\right)^").replace(f"{{{product}}}", product)

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from ...numbers.numba_door import installed, wanted
-from ...orbit import one_state as law
+from ...orbit import one_state
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate
 from ...physics.coefficients import effective, three_floats
@@ -173,7 +173,7 @@ def kept_by_law(scene: AnyScene, state: tuple[float, ...], answer: SpinUp) -> Sp
     motion bounded, that."""
     if answer.fate != Fate.UNDECIDED or reduce(scene) is None:
         return answer
-    known = law.motion(scene, state, brief=True)
+    known = one_state.motion(scene, state, brief=True)
     if known.fate not in (Fate.BOUNDED, Fate.EQUILIBRIUM):
         return answer
     return replace(answer, fate=Fate.BOUNDED, level="exact",
