@@ -54,6 +54,7 @@ from .caveats import limited
 from .digits_asked import MOST_DECIMALS, checked_digits, digits_of
 from .motion import motion
 
+# --- A heavy symmetric top
 UPRIGHT = "the axis passes through the vertical, where it has no precession"
 
 
@@ -150,6 +151,7 @@ def _lean(cosine: Any) -> Any:
     return 2 * ((1 - cosine) / 2).sqrt().asin()
 
 
+# --- How a body turns
 def attitude(scene: Any, state: Any = None, digits: int | None = None) -> Attitude:
     """How the motion from `state` (three rates, rad/s; of a top followed by the vertical) turns in space.
 

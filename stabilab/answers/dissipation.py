@@ -51,6 +51,7 @@ from .caveats import of_law
 from .passage import MOVED, WIDER
 from .simulate import trajectory
 
+# --- The body, and its motion from one level of the energy to the next
 TAKE = ("viscous_damper", "liquid_cavity")  # energy, and keep the angular momentum
 TAKE_BOTH = ("resistance", "rate_damper", "eddy_currents")
 STEPS = 5_000_000  # of a run: some ten seconds
@@ -229,6 +230,7 @@ class Run:
         return self.t
 
 
+# --- The answer
 POSITIVE, NEGATIVE = "positive major axis", "negative major axis"
 ACROSS, UNDECIDED = "across the minor axis", "undecided"
 
@@ -304,6 +306,7 @@ class FlatSpin(Shown, Compared):
         return None if self.leaves is None or self.settles is None else self.settles.at - self.leaves.at
 
 
+# --- The question
 LEAST = math.radians(0.01)  # of `within`: below, the energy in doubles does not tell the angle any more
 DRAWN = 32  # motions from the box of uncertain numbers
 SECOND_RTOL = 1e-13  # tolerance of the second run

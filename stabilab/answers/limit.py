@@ -19,6 +19,7 @@ from ..numbers.vectors import Exact3, Float3, Number
 from ..physics.scene import AnyScene
 from ..unreduced.off_axis import Crossing, first_crossing
 
+# --- The limit
 AXES = tuple(tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3))
 COSINE_BITS = 1200  # of the cosine of a tilt: more than any run has
 SIGN = " (it is a size: give it without a sign)"
@@ -177,6 +178,7 @@ def _positive(value: Any, name: str) -> Fraction:
     return number
 
 
+# --- The first crossing of an enclosed motion
 FIRST_BITS, MOST_BITS = 112, 720
 KEPT = 58  # bits that the enclosure of the state is to keep
 MARGIN = KEPT + 18  # beyond the growth of the error, for the rounding of a longer series

@@ -48,6 +48,7 @@ from .limit import WORK, Limit, along_axes, asked, banded, enclosed
 from .motion import motion
 from .passage import MOVED, ROUNDING, Found, TimeTo, by_run, times_of
 
+# --- When a certified spin-up reaches it
 # the certificate is asked for again at these shares of the earliest time, where it is narrower
 LATER = (0.5, 0.97)
 LITTLE = 100_000  # steps that this may take: slow drifts pass many turns in few
@@ -112,6 +113,7 @@ def _times(found: Any, limit: Limit) -> Any:
     return (min(t for t, _ in times), min(t for _, t in times)) if times else None
 
 
+# --- That a limit is never reached, and a time before which it is not
 SLACK = 1e-9  # relative: extremes and periods are known to 1e-11
 REDUCED = ("orbit", "aligned", "free")
 LESS = 1 - Fraction(1, 1 << 60)  # the roots are known to 2^-240
@@ -183,6 +185,7 @@ def _share(terms: Sequence[Any], D: Sequence[Fraction]) -> Fraction:
     return max(shares) if apart else sum(shares, Fraction(0))
 
 
+# --- Past the end of an effect
 AFTER = "roots along a run in machine precision over the end of an effect"
 
 
@@ -221,6 +224,7 @@ def _blocks(equations: Equations, row: np.ndarray) -> dict[str, np.ndarray]:
     return {name: row[part] for name, part in slices(equations.blocks).items()}
 
 
+# --- The first time
 BEYOND = 1e-6  # of the time that a run finds: the enclosure goes on for so long after it
 
 

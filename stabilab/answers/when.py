@@ -28,6 +28,7 @@ from .simulate import denser, trajectory
 from .tilt import Spread, Tilt, cone_of, spread, tilt
 from .time_to import time_of_case, time_to
 
+# --- Zeros of functions along a motion
 SAMPLES = 16     # of a step of the run: between them a function is looked at for a change of its sign
 MOST = 400_000   # samples of a run
 
@@ -150,6 +151,7 @@ def _root(scene: AnyScene, run: Trajectory, n: int, values: np.ndarray,
     return float(run.t[n]) + after, state(after)
 
 
+# --- When a motion reaches a limit
 FASTEST = 1e150  # rad/s: beyond it squares come near the end of doubles, and no run holds the motion
 
 

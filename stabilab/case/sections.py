@@ -21,6 +21,7 @@ from ..physics.effects.base import Effect
 from ..physics.scene import ordered
 from .table import Table
 
+# --- The attitude at t = 0
 SLACK = 1e-6  # of a component: a direction given to six decimals is consistent
 
 
@@ -60,6 +61,7 @@ def _written(vector) -> str:
     return f"[{', '.join(f'{v + 0.0:.10g}' for v in vector)}]"
 
 
+# --- [circular_orbit]
 ORBIT_KEYS = ("rate", "period", "altitude", "radius")
 ATTRACTION = Fraction(398600441800000)  # of the Earth, m^3/s^2 (IERS Conventions 2010, in round numbers)
 EARTH = Fraction(6378137)  # its equatorial radius, m (WGS 84)
@@ -119,6 +121,7 @@ def rate_squared(table: Table) -> Fraction | None:
             else ATTRACTION / (value + (EARTH if key == "altitude" else 0))**3)
 
 
+# --- Burns
 BURN_KEYS = ("start", "stop", "period", "duty", "on_time", "propellant", "mass_flow")
 MOST = 10_000  # pulses: each is a run of its own
 BURN_ONLY = ("this thruster fires on a schedule, and this question takes a torque that never changes: ask "

@@ -49,6 +49,7 @@ from .circular_orbit_places import (
 )
 
 
+# --- The answer
 @dataclass(frozen=True)
 class OrbitEquilibrium:
     """An attitude at rest in the orbital frame.
@@ -111,6 +112,7 @@ def yaw_pitch_roll(velocity: Float3, normal: Float3, vertical: Float3) -> Float3
     return atan2(xy, xx), atan2(0.0 - xz, across), atan2(yz, zz)
 
 
+# --- All equilibria
 BITS = 256  # of the numbers behind the doubles of an answer, at first
 NOTHING, ENOUGH = 2.0**-150, 2.0**-100  # of a number of the size of 1; of a ball's width, relative
 ORDER = ("stable", "undecided", "unstable")
@@ -247,6 +249,7 @@ def _eigenvalues(squares: list[complex]) -> tuple[complex, ...]:
     return tuple(out)
 
 
+# --- Their number over the momentum of the wheels
 @dataclass(frozen=True)
 class MomentumSpan:
     """From `low` to `high`, in units of the satellite's own momentum: how many equilibria there are, and how
@@ -343,6 +346,7 @@ def _singular(factors: Iterable[fmpq_mpoly], variable: str) -> Iterator[fmpq_pol
         yield univariate(f.resultant(g, variable), -1)
 
 
+# --- Their branches over it, for pictures
 POINTS = 24  # of a span: close at its ends, where branches meet as square roots do
 BRANCH_BITS = 24  # of all numbers, far more than a picture shows: short ones are eliminated soon
 FINE = 1 << 16  # the share of a span, far above what `BITS` leave open, that momenta are whole numbers of

@@ -73,7 +73,10 @@ from ..numbers.balls import (
 from ..numbers.vectors import CYCLE, Exact3, Number, Triple, cross, dot
 from ..physics.circular_orbit import Satellite
 
+# --- Isolated attitudes at rest
 Matrix: TypeAlias = tuple[tuple[int, ...], ...]
+
+
 DIRECTIONS = 60  # of elimination that are tried
 
 
@@ -274,6 +277,7 @@ def _at(f: fmpq_mpoly, number: Algebraic, v: fmpq_poly) -> fmpq_poly:
     return total
 
 
+# --- Continuous families
 class Family(NamedTuple):
     """One for each real root of the line's polynomial, which stands for one attitude of it; axis: of the
     body, about which it turns, None of a curve that is no turn."""
@@ -348,6 +352,7 @@ def along_curve(satellite: Satellite, common: fmpq_mpoly, matrix: Matrix) -> Ite
                     yield Family(line, None, "one of a curve of equilibria that is no turn about an axis")
 
 
+# --- Stability
 LYAPUNOV = "the second variation of the dynamic potential is positive definite: the Jacobi integral is a " \
            "Lyapunov function"
 SPREAD = "the second variation of the dynamic potential is positive definite across the family: the Jacobi " \

@@ -42,6 +42,7 @@ from .liquid import balanced_equilibria, damped_equilibria, liquid_equilibria
 from .result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint, T
 from .stability import eigenvalues, ordered, sign_at
 
+# --- Eddy currents
 REASON = ("eddy currents take energy wherever omega is across the field: only rotations about a principal "
           "axis along the field, in either direction, and rest in every attitude are equilibria, and every "
           "motion tends to them (LaSalle)")
@@ -102,6 +103,7 @@ def _eddy_spectrum(parts: Content, at: tuple[float, ...]) -> tuple[complex, ...]
     return ordered(np.linalg.eigvals(J))
 
 
+# --- Medium and linear damper
 BITS = 256
 GLOBAL = "every motion tends to it: "
 REST = (GLOBAL + "T' = -2 c T without a torque, so the energy and with it every rate decays as exp(-c t)")

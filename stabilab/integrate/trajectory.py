@@ -25,6 +25,8 @@ from .to_heyoka import FEATHER, TAYLOR_TOLERANCE, borrowed_taylor, heyoka_availa
 if TYPE_CHECKING:
     from ..physics.law_limits import Validity
 
+
+# --- Past the end of an effect
 def through_the_end(scene: Any, state: Any, times: Any, follow: Callable[..., Any],
                     steps: list[float] | None) -> Any:
     """The run at times of which some are later than the end of an effect; None where there is no such effect
@@ -96,6 +98,7 @@ def roots_through_the_end(scene: Any, equations: Any, row: Any, t_end: float,
         steps=first.steps + later.steps)
 
 
+# --- The run
 SCIPY_METHODS = ("RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA")
 # SciPy's own default is 1e-3, too coarse to judge a motion by; 1e-10 is within reach of every method in the
 # list.

@@ -13,6 +13,7 @@ from .fate import as_double, scaled_double
 from .one_orbit import TIE_BITS, Orbit
 from .result import Fate, without_return
 
+# --- Extremes
 CERTAIN_BITS = 56  # the balls of the extremes are this much narrower than the component is large
 # A root's ball in units of the height's over the slope: y is exact, so its height may be much narrower than
 # its neighbours'.
@@ -263,6 +264,7 @@ def extremes_of(orbit: Orbit, label: Fate, k: int = 0) -> tuple:
                  v in zip(balls, here))
 
 
+# --- The period
 # two steps agree to so many; the rule doubles its digits with every halving, so the second is exact to a
 # double
 DIGITS = 14

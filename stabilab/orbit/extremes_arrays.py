@@ -27,6 +27,7 @@ from .reduction import reduce
 from .result import Fate, without_return
 from .rows_kernel import BOX, PERIOD
 
+# --- Rows by NumPy: at rest, round a circle without torque, spinning up
 # closer to the separatrix than this share of the energy terms, rounding costs extremes 1e-12
 EXTREMES_SHARE = 1e-7
 # the same for the least rate of a motion that just passes a barrier: the root of a difference
@@ -194,6 +195,7 @@ def _spinning_purely(land, place, w):
 SPINNING = {-1: _spinning_round, 1: _spinning_on_plane, 0: _spinning_purely}
 
 
+# --- Librations row by row, by the kernels
 # Functions without which loops call instead of adding
 INLINED = {"swing", "kinetic", "converged", "rounding_of"}
 INLINED_ON_PARABOLAS = {"quartic", "cubic", "bend", "terms_of", "blur_of_force", "place_at"}
@@ -307,6 +309,7 @@ def double_exponential_nodes(level):
     return np.where(t > 0, -near, near), 0.25 * np.pi * np.cosh(t) / np.cosh(u) ** 2
 
 
+# --- All rows in one pass
 def extremes_and_periods(scene, states, *, box=True, period=True, by_numba: bool | None = None):
     """(extremes (..., 3, 2), periods (...,)) in one go, each as the function of its name gives it; None for
     one that is not asked for. For scenes with a reduction only (InputError for others, and as `extremes`

@@ -41,6 +41,7 @@ from .reduction import reduce
 from .result import Fate
 from .separatrix.distance import separatrix_distance
 
+# --- The answer
 CHUNK = 32768  # states at a time: some thirty arrays of so many doubles stay in the processor's caches
 
 
@@ -165,6 +166,7 @@ def write_row(out, index, label, reason, margin, axis=0, sense=0) -> None:
     out["axis"][index], out["sense"][index] = axis * spin, sense * spin
 
 
+# --- Free bodies: the margin from the saddle on the momentum sphere
 SURE = 16  # times the estimate of rounding: so far from zero a margin's sign is certain
 # times that estimate a margin exceeds it, or many digits are asked: so it keeps nine of its own, near a
 # saddle too
@@ -331,6 +333,7 @@ def _margin(saddles, omega, t, residue):
     return -(np.sign(gap) * share * way * way).sum(axis=0), rounding + bend + LEAST
 
 
+# --- Fates of many states
 def fates(scene, states, fast=None) -> FateResult:
     """Fates and margins of states (n, 3) of a scene with an orbit, or of a free body: `answers.fate` for one
     shape; `fast` is not needed.

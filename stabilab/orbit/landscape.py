@@ -19,6 +19,7 @@ from .conic import Conic, conic_of
 from .potential import potential
 from .reduction import reduce
 
+# --- Places to 30 digits
 SURE = 1e-20  # of the terms: a sum that is smaller may be zero, which exact arithmetic decides
 
 

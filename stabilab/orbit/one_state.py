@@ -23,6 +23,7 @@ from .reduction import reduce
 from .result import Fate, Motion, finite, judged, repeats
 from .separatrix.distance import distance_of
 
+# --- The unit of rate in which numbers are of order one
 ORDINARY = 100  # rates of 2^-100 to 2^100: fourth powers of them, beside ratios of moments, are doubles
 BEYOND = "beyond the range of doubles"
 
@@ -140,6 +141,7 @@ def far_numbers(scene, state):
     return extremes_of(near, label, k), powered(precise_period(near, label), -k)
 
 
+# --- The motion
 def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     """See `answers.motion`; the scene has a reduction, and `span` is not needed."""
     state = three_floats(state)

@@ -22,6 +22,7 @@ from ..numbers.balls import Unclear
 from .one_orbit import TIE_BITS, Orbit
 from .one_state import BEYOND, powered
 
+# --- Hills and wells of one orbit
 SURE_BITS = 60  # relative accuracy of a ball that is rounded to a double
 FLOOR_BITS = 90  # a sum of terms whose ball is smaller than its terms by so many bits counts as zero
 EPS = float(np.finfo(float).eps)
@@ -301,6 +302,7 @@ SPOTS = {-1: (OnCircle, _circle), 1: (OnHyperbola, _hyperbola), 0: (OnParabola, 
 TOO_FINE = "the reduced form of this motion takes more digits than doubles have; take method taylor"
 
 
+# --- Motions that repeat
 class Motion:
     """at(t): (omega_1, omega_2, omega_3) at one time; follow(times): (states (n, 3), way of the coordinate
     since time 0 (n,)); period: inf where it does not repeat; evaluations: of the integrand, in all."""

@@ -43,6 +43,7 @@ from .figures import catalogue, panels
 from .figures.figure import words
 from .validation import comparison as validation
 
+# --- A paper's chapter
 FOLDER = "figures/"  # of a report
 
 
@@ -167,6 +168,7 @@ def _sensible(chapter, folder):
                    path=f"cases/{case.name}.toml")
 
 
+# --- The report
 TITLE = "Bounded motion and spin-up of a gyrostat under constant torque"
 FINEST = 5                   # number of the figure on the start page
 GROWING = "minor-axis-100"   # the case about which the growth of cost is measured

@@ -34,6 +34,7 @@ from ..physics.scene import Body, ScaledGyrostat, Scene
 from ..show import style
 from ..show.data import csv_lines
 
+# --- The data
 PAPER = "Amer et al. 2024, Sci. Rep."
 INERTIA = (2000, 1500, 1000)            # kg m^2
 LAMBDAS = (100, 300, 500)               # kg m^2/s, along axis 1
@@ -129,6 +130,7 @@ def name_space(ax, zoom=0.92, order=(1, 2, 3)):
     ax.set_box_aspect(None, zoom=zoom)
 
 
+# --- Extremes by the printed formulas
 STEP, FAR = 2e-3, 40.0  # of the walk along the curve
 
 
@@ -217,6 +219,7 @@ def _end(found: Printed, side: int) -> float | None:
         return None
 
 
+# --- Tables
 DECIMALS = 20  # of periods and extremes, from balls: the double next to each is the right one
 SHOWN_DIGITS = 6  # in the readable formats; the CSV holds every double in full
 

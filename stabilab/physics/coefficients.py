@@ -302,6 +302,7 @@ def three_floats(state: Any) -> Float3:
     return tuple(array.reshape(3).tolist())
 
 
+# --- Dimensionless variables
 @dataclass(frozen=True)
 class Scaling:
     """omega_j = rate[j] x_j and t = time tau; exact up to square roots kept to 240 bits."""

@@ -158,6 +158,7 @@ def _write(out, data):
     files.write_text(out / NAME, json.dumps(data, indent=1, allow_nan=False) + "\n")
 
 
+# --- Its repetition
 COMMANDS = (["report"], ["figures"], ["tables"], ["surface"])
 ENDED = (OK, NO_RENDERING)  # without a renderer everything but the pictures is written
 

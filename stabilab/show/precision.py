@@ -33,6 +33,7 @@ from .text.cost import (
     words,
 )
 
+# --- The picture
 LOOKS = {  # method -> how its line is drawn; the same in every picture
     "taylor": {"color": style.BLUE, "marker": "o"},
     "taylor-batch": {"color": style.SKY, "marker": "o", "linestyle": "--"},
@@ -148,6 +149,7 @@ def _clipped(error) -> float:
     return min(max(error, LEAST), WORST)
 
 
+# --- Text, JSON, CSV, files
 COLUMNS = ("case", "question", "method", "setting", "value", "error", "digits", "steps", "evaluations",
            "seconds", "slowest", "repeats", "compile_seconds", "lanes", "parts", "on_front")
 
@@ -250,6 +252,7 @@ def checked(path) -> Path:
     return path
 
 
+# --- The page of the report
 SHORT = {"reduced": "closed form", "reference": "many digits"}
 STATES = "precision/states.png"
 ONE = (7.0, 5.8)  # inches of a picture of the states alone

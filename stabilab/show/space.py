@@ -24,6 +24,7 @@ from ..physics.scene import AnyScene
 from . import style
 from .units import with_unit
 
+# --- The span of time
 NATURAL = 15.0  # units of the motion's own time, where the case gives no span
 PERIODS = 10  # of a motion that repeats, at most
 FEWEST = 2  # periods, at least
@@ -87,6 +88,7 @@ def spread(low: float, high: float, number: int) -> list[float]:
     return [*(-v for v in reversed(away)), *away]
 
 
+# --- The box, and what is drawn in it
 NEAR = 2.0     # times the motion's own size: a separatrix or an equilibrium so near is in the picture
 ROOM = 1.25    # of a box about the things in it
 SMALL = 0.22   # of a box: a motion that fills less gets a box of its own, a limit that does is not drawn

@@ -28,6 +28,7 @@ from .space import Space, across, look, numbers
 from .terminal import some
 
 
+# --- In words
 def text(summary: dict[str, Any], out: Path) -> str:
     """The answer in a line, a line a branch, and the files; why there is no surface where there is none.
     summary: of `summarise`."""
@@ -41,6 +42,7 @@ def text(summary: dict[str, Any], out: Path) -> str:
     return "\n".join([*lines, *(f"  {out / file}" for file in summary["files"])])
 
 
+# --- Meshes
 @dataclass(frozen=True)
 class Mesh:
     """Triangles of one branch: points (n, 3) doubles, triangles (t, 3) indices, residual (n,) at the points.
@@ -149,6 +151,7 @@ def _linear(colour: str) -> list[float]:
     return [round(v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4, 6) for v in parts] + [1.0]
 
 
+# --- The picture
 SIDE = 1000  # dots
 SIZE = (7.6, 8.0)  # inches of the whole picture
 AWAY, ANGLE = 9.0, 25.0  # of the eye, in halves of the box; deg of what it sees
@@ -257,6 +260,7 @@ def _label(ax: Any, found: Space) -> None:
                 rotation=(turn + 90) % 180 - 90 if axis < 2 else 90)
 
 
+# --- The files
 SCHEMA = "stabilab.surface/1"
 
 

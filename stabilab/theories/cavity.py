@@ -51,6 +51,7 @@ from ..physics.to_numpy import lambdified, to_numpy
 from .cavity_normal_form import NAMES, check, constants, normal_form
 from .printed.evaluate import printed_formulas
 
+# --- Averaged equations
 RTOL = 1e-10  # the equations themselves are true to eps^2 at best
 # Width of the band of slow turn in which phases are kept, as a share of (|d| |omega| + |Gamma|)/J0: in powers
 # of e it is of order one, as the second order needs; at twice the width from nu = 0 the kept part is
@@ -333,6 +334,7 @@ def polar(scene, state, times) -> dict[str, np.ndarray]:
     return {"amplitude": np.exp(run.y[0]), "spin": run.y[2], "phase": run.y[1]}
 
 
+# --- The polynomials as printed
 @dataclass(frozen=True)
 class PrintedMotion:
     """The printed solution at the asked-for times.

@@ -50,6 +50,7 @@ from ..numbers.double_double import divided_differences
 from .charged_modes import SMALL_ANGLE, ChargedBody, Modes, horizon, modes, spin_words
 from .printed.evaluate import printed_formulas
 
+# --- Closed forms
 LOPSIDED = 4.0  # a/b beyond which the even split loses less: w - a cancels against 1 by sqrt(a/b)
 
 
@@ -255,6 +256,7 @@ def verdict(tilt, t, until):
                     f"{promise}")
 
 
+# --- The formulas as printed
 PARTS = ("omega", "angles", "momentum", "velocity", "position")
 # equation of the paper: (what it gives, what is wrong in print, what `corrected` takes instead)
 MISPRINTS = {

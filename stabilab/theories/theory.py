@@ -21,6 +21,7 @@ from .follow import family, follow, models_of
 from .top import ORDER, state_of
 from .top_lindstedt import lindstedt
 
+# --- What the theory says beyond the motion
 GAMMA = (3, 4, 5)  # of the state of a top
 
 
@@ -177,6 +178,7 @@ def _exact_angles(case, end):
     return [*rows, _row("mean precession", f"psi {over} turns at {rate:.10g} rad/s on average", rate=rate)]
 
 
+# --- Each model beside the exact motion
 GRID = 801  # times over the span on which the error is looked at
 ZOOM = 65  # times between two of them, and again between two of those, to place a first error
 LEVELS = (0.01, 0.1)

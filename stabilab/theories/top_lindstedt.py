@@ -38,6 +38,7 @@ from ..numbers.exact import exact, mpmath_alone
 from ..numbers.vectors import Exact3
 from ..physics.states import numbers_in_a_row
 
+# --- The numbers of the top
 COVERED = ("gravity", "newtonian_field", "gyrostat")
 UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector
 
@@ -132,6 +133,7 @@ def _start(state):
     return omega, gamma
 
 
+# --- The expansion
 ROUNDED = 3  # digits lost to rounding: a forcing whose share of the largest one lies below the others is none
 # Where the weight's tilt sin(theta0) is below what the first orders add to it, the orders of nu are small
 # differences over the tilt: each order loses that ratio, so they are formed in many digits. A top that needs

@@ -36,6 +36,7 @@ from ..physics.equations import derive
 from ..physics.scene import ScaledGyrostat
 from ..physics.to_numpy import form, to_numpy
 
+# --- The law, the standard form and its certificates
 # A certificate counts when its inequality holds by this share of the terms in it: 100 times their rounding.
 CLEARANCE = 2e-14
 # Units of rounding by which a step of the run (a Taylor polynomial of 20 terms) may move the motion:
@@ -234,6 +235,7 @@ def turning_run(c):
     return run
 
 
+# --- Extremes
 # Steps after which the finite end of a spin-up is given over the span run, unproved beyond it.
 EXTREMES_BUDGET = 300_000
 FOREVER = "all time"

@@ -47,6 +47,7 @@ from .spin_up.certificate import natural
 from .spin_up.follow import LEVELS, SpinUps, spin_up, spin_up_many
 from .spin_up.result import SpinUp
 
+# --- When a limit is first reached, and ranges of the rates
 HALVINGS = 40  # of a step
 FAR = 2.0**24  # natural units of time: beyond what any number of steps reaches
 BLUR = 2.0**-40
@@ -171,7 +172,10 @@ def ranges_until(scene, state, t: float, steps: int | None = None) -> np.ndarray
     return out if course.status == enclosure_kernel.DONE else None
 
 
+# --- The motion, and many motions
 __all__ = ["extremes", "fates", "motion", "periods"]
+
+
 NO_BRANCHES = "not known: the torque is off the principal axes, and no separatrix is known there"
 PATIENCE = 600_000  # steps for which a motion is followed where nobody says how long: seconds
 AS_WRITTEN = 120  # times fewer steps where numba is not installed

@@ -28,6 +28,7 @@ from ..numbers.double_double import EPS
 from ..numbers.polynomial import bernstein, bernstein_halves, held_newton
 from ..numbers.vectors import CYCLE
 
+# --- Periodic motions
 ORDER, TOLERANCE = 20, 1e-17
 STEPS = 800      # from one passage to the next, at most
 PASSES = 15      # of Newton's method
@@ -220,6 +221,7 @@ def _root(row, low: float, high: float) -> float:
     return held_newton(look, low, high, 0.5, EPS)
 
 
+# --- The section of a motion
 LEAST = 5         # passages, for a plane to show anything
 ONE_PLACE = 1e-9  # relative size of a set of passages that is one place
 ASIDE = 0.05      # of the size of a state: how far the farthest neighbour of a single place is

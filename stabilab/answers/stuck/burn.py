@@ -63,6 +63,7 @@ from .chain import (
     weights_of_largest,
 )
 
+# --- The latest closing time
 LOOKS = 2000  # closing times looked at after the first that is too late
 WHEEL_LOOKS = 100  # with wheels, where each takes a run: before it
 SHARE = 1e-12  # of the limit, to which the largest rate of a run over one period is known
@@ -227,6 +228,7 @@ def _again(base: Scene, links: Sequence[Link], after: float, size: float) -> tup
     return tuple((group[0], group[-1]) for group in inside)
 
 
+# --- The burn
 @dataclass(frozen=True)
 class Switch:
     """time: s; firing: names of the thrusters that fire from then on; torque: theirs, N m; rates: rad/s;

@@ -27,6 +27,7 @@ from ..simulate import Simulation, in_matrices, quaternion_blocks, simulate, tra
 from ..time_to import down, of_one, up
 
 
+# --- The chain of motions
 class Piece(NamedTuple):
     """begin, length: s, exact; firing: names of the thrusters that fire; scene: with their torque."""
 
@@ -159,6 +160,7 @@ def _joined(runs: Sequence[Simulation]) -> Simulation:
         error=most([run.error for run in runs]), reason=f"{last.reason}; thrusters switch at exact times")
 
 
+# --- The first crossing of a limit along it
 RUN_STEPS = 1_000_000  # of one segment
 
 

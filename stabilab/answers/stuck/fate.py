@@ -118,6 +118,7 @@ def scenario_of(case: Any) -> Scenario:
     return Scenario(case, case.scene.body, axes, case.exact_state, base, case.scene.vector("gyrostat"), limit)
 
 
+# --- The fate and the time under one torque
 # steps of a run that looks for the largest rate, and of each of many that are compared
 BUDGET, SEARCHED = 100_000, 20_000
 LITTLE, FEW = 2_000_000, 3_000  # multiplications and compiled steps: some tenths of a second
@@ -249,8 +250,11 @@ def _direction(scene: Scene, motion: Motion) -> Float3 | None:
     return tuple(float(m) / size for m in torque)
 
 
+# --- Momenta of a wheel that keep the motion bounded
 Answer: TypeAlias = tuple[Intervals, str]  # and because
 Bracket: TypeAlias = tuple[float, float]
+
+
 RANGE = 2  # times the momentum that the wheel has now, either way; one at rest is tried up to the body's own
 PLACES, CLOSER = 41, 24  # momenta that are tried over the range, and nearer and nearer to the best of them
 SAME = 1e-6  # relative: a run that ends so much sooner than the limit has not come to it

@@ -25,6 +25,7 @@ from .fate import Outcome, Scenario, across, loose
 from .line import TRIES, Family, Line, candidates, change_between, family_of, nearest_change, pieces, rise
 
 
+# --- The answer
 class Principal(NamedTuple):
     """Moments (kg m^2) of the principal axes 1, 2, 3 of the case; axes: rows, unit vectors in the frame of
     the file, right-handed."""
@@ -143,6 +144,7 @@ class Stuck(Shown):
     ranked: bool = False
 
 
+# --- How little must change
 TURN = 2000  # places on the turn at which the rise of the potential is looked at, to find a direction
 MOST = 1000  # of the body's own momentum: changes of the wheel as great are not told
 # of a turn: directions beside that of a circle that is a point

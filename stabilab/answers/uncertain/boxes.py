@@ -43,6 +43,7 @@ from ...physics.coefficients import to_scaled, torque_from_mu
 from ...physics.effects import effect_class
 from ...physics.scene import AnyScene, Body, QuadraticForm, ScaledGyrostat, Scene, euler_form, scaled_form
 
+# --- The box
 TRACE = Fraction(1, 1 << 180)  # of the largest number: what axes good to 240 bits leave, there and back
 Point: TypeAlias = Any  # of a box: a number in [-1, 1] for each place, an array or a sequence
 Numbers: TypeAlias = dict[str, tuple[Number, ...]]  # "inertia", "momentum", "torque" ... -> its numbers
@@ -260,7 +261,10 @@ def present(value: Number) -> bool:
     return isinstance(value, Affine) or value != 0
 
 
+# --- The height of the potential over the energy ahead
 TURN = 2 * np.pi
+
+
 # angles a turn on which the highest place ahead is looked for: the potential has two maxima a turn at most
 GRID = 96
 POLISH = 7  # Newton steps from there
@@ -348,6 +352,7 @@ def highest_ahead(o: Orbit) -> tuple[np.ndarray, np.ndarray]:
     return y[:, 0], top[:, 0]
 
 
+# --- Branch and bound
 class Proof(NamedTuple):
     """holds: True (proved), False (`point` contradicts it) or None (not settled within the parts allowed).
     parts: how many were looked at. point: in the box's coordinates."""

@@ -70,6 +70,7 @@ from .result import (
 )
 
 
+# --- Equilibria
 class Condition(NamedTuple):
     """value: keeps its sign where nothing changes; what: what happens where it vanishes. passes: True where
     the answer is the same on both sides of that surface, and only on the surface itself another."""
@@ -276,6 +277,7 @@ def _proof(all_of: Callable[..., list[Condition]], box: Box, first: Any, signs: 
     return branch_and_bound(whole(box), judge, most)
 
 
+# --- The fate
 UNBOUNDED = "unbounded"
 
 

@@ -37,6 +37,7 @@ from .eliminated import Eliminated, at_rational
 from .equations import LEAF, Conics, Diagram, Event, Family, Piece, State, chosen
 from .plane import Plane, plane
 
+# --- Where separatrices connect
 BITS = 160
 NEAR = Fraction(1, 10**9)  # of a piece: so near to its ends, where a saddle is lost, nothing is looked for
 DEPTH = 48  # halvings of an interval
@@ -338,6 +339,7 @@ def _bisected(sign: Callable[[Fraction], int], low: Fraction, high: Fraction, fi
     return (low + high) / 2
 
 
+# --- The question
 def bifurcation(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]],
                 curve: bool = False) -> Diagram | Plane:
     """All equilibria of a case over the range of one number or of two, exactly: where they appear, vanish or

@@ -58,6 +58,8 @@ from .equations import (
 if TYPE_CHECKING:
     from flint import fmpq_poly
 
+
+# --- The diagram
 BORDER = ("border", "m = 0 on the curve of equilibria: stability changes here")
 SMALL = 1e-17  # radius of a ball over one plus its size
 CROSSES = ("undecided", "the curve that the motion stays on crosses itself here")
@@ -359,6 +361,7 @@ def _solved(diagram: Diagram, eliminated: Eliminated, value: Fraction, count: in
     return [state.at for state in states] if len(states) == count else None
 
 
+# --- Its certificate
 SCHEMA = "stabilab.diagram-certificate/1"
 BITS = 128  # of the bounds about an irrational value
 MOST = 64  # events that a certificate may hold

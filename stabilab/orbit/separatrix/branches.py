@@ -50,6 +50,7 @@ from .saddles import (
     why_parabolic,
 )
 
+# --- Grids of a given shape
 TRIAL = 17              # rows and columns of the trial grid
 FLOOR = 0.1             # of the mean density: no gap where a branch happens to be straight
 STRAIGHT = 1e-6         # of a branch's size: less sag between neighbours of the trial grid does not matter
@@ -184,6 +185,7 @@ def _stretched(land, branch, dense=DENSE):
     return np.log1p(way / start), s
 
 
+# --- Grids within an accuracy
 MIXTURES = np.array([0.7, 1.0, 1.5, 2.0])  # columns against rows, relative to where both alone stray equally
 # rows and columns grow by that much more than asked, by its square at the next attempt, and so on
 SAFETY = 1.05
@@ -423,6 +425,7 @@ def _steps_wanted(strays, straight):
     return out + (FLOOR * out.mean() + straight)
 
 
+# --- The separatrix
 SHAPE = (96, 129)  # fine enough for pictures
 
 

@@ -38,6 +38,7 @@ import numpy as np
 from ..potential import Parabola
 from .homoclinic import loop_end, others, settled
 
+# --- Loops whose orbits are centred far away
 FAR = 100.0   # times the size of a loop: from there canonical places lose two digits and more
 TURNED = 0.1  # of a radian, in which series of five terms end below rounding
 STEPS = 10    # of Newton's method with the slope of the parabola, which is off by a tenth of t at most
@@ -212,6 +213,7 @@ def residual_far(land, loops):
     return np.fmax(np.where(departure > 0, departure / np.maximum(terms, TINY), 0.0), beside)
 
 
+# --- Seams of a branch
 # of its length, by which a loop grows at least where a seam is; so near to it a smooth far end moves by less
 # than a millionth
 JUMP = 1e-3
@@ -349,6 +351,7 @@ def _barrier(pot, saddle, side):
     return next((t for t in others(pot, saddle, side) if pot.slope(pot.move(saddle, side * t)) > 0), None)
 
 
+# --- Loops of many saddles
 SHARPEST = 1e3  # bends tighter than the loop's length over this are not resolved
 
 

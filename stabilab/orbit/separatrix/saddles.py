@@ -21,6 +21,7 @@ from ..potential import potential
 from ..reduction import reduce
 from .homoclinic import loop_end, settled
 
+# --- Branches of saddles
 ON_PLANE = 1e-9  # of a branch's first invariant: below that its end lies on a plane Q = 0
 OPEN, FOLD, PLANE = "open", "fold", "plane"
 
@@ -157,6 +158,7 @@ def why_parabolic(reduction) -> str:
     return f"parabolic reduction ({reduction.geometry.where}): {told}; no branch bounds a spin-up"
 
 
+# --- A coarse surface in plain floats
 REACH = 4.0  # as of `branches.separatrix`
 
 

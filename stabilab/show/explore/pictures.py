@@ -241,6 +241,7 @@ def _limits(case: Case) -> list[Any]:
     return sorted({sign * v for v in case.limits.rates for sign in (1, -1)}) if as_given else []
 
 
+# --- The motion as a page draws it
 ORBIT_POINTS, MOST = 1200, 6000  # of a motion that is drawn: at least, at most
 FRAMES = 400  # of the body that turns
 CLOSE = 0.25  # rad of turn from one to the next, where so many are enough

@@ -198,6 +198,7 @@ def serve(case: Case, port: int = 0, browser: bool = True, tell: Callable[[str],
         server.serve_forever()
 
 
+# --- The page as a folder
 PYODIDE, FLINT = "314.0.7", "0.9.0"  # what the tests load
 ADDRESS = f"https://cdn.jsdelivr.net/pyodide/v{PYODIDE}/full/"
 NEEDED = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json")

@@ -137,6 +137,7 @@ def write(path, template: str, **values) -> Path:
     return write_text(path, anchored(render(template, **values)))
 
 
+# --- Formulas
 # symbols and digits or so of a sum that fit beside each other on a page; a longer one goes on in the next
 # line
 LINE = 46

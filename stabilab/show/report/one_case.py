@@ -41,6 +41,7 @@ from .html import picture
 from .tables import equilibrium_table, sensitivity, tiles
 
 
+# --- Pictures
 def space(one, at_rest, units) -> dict:
     """What the script draws of a subject, the legend, and words on the separatrix. at_rest: equilibria."""
     found = space_of(one, map(printed, one.scene.components), units.rates, at_rest, reaching=True)
@@ -115,6 +116,7 @@ def _later(one) -> str:
     return f" The spin-up begins later: the turn reverses for the last time at {told}."
 
 
+# --- A case
 EXPLAINED = {"margin, rate": ": the smallest change of the rates that reaches the separatrix",
              "margin, energy": ", the barrier ahead less the energy"}
 
@@ -238,6 +240,7 @@ def _certificate(case, folder: Path, stem: str) -> dict:
             "findings": certification.as_dict(found, {})["findings"]}
 
 
+# --- A sweep
 STYLES = ("-", "--", ":", "-.")
 WIDTHS = (1.0, 1.8, 2.6)
 POINTS = 801

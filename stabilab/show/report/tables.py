@@ -24,6 +24,7 @@ from ..units import DIGITS, SHORT, Units, number, vector
 from .html import css
 
 
+# --- The answer at a glance
 def tiles(motion: Motion, units: Units) -> list[tuple[str, str, str]]:
     """(what, its value, what belongs to it) of four: when a limit is reached first."""
     found = [("outcome", _outcome(motion, units)), ("when", _when(motion, units)),
@@ -89,6 +90,7 @@ def _distance(motion, units):
     return "not known", units.words(motion.velocity_because).removeprefix("not known: ")
 
 
+# --- Tables
 ROUNDING = 1e-12  # of a unit vector from the difference of two states in doubles
 ASK_TILT = "`stabilab fate CASE --tilt \"1 deg\"` says what a tilt does."
 

@@ -20,6 +20,7 @@ from ..data import csv_lines
 from ..terminal import lettered, some, written
 from ..units import SHORT, Units, number, units_of
 
+# --- Costs in words
 FORMULAS = ("linear", "corrected", "printed", "averaged1", "averaged2", "lindstedt")
 NAMES = {"taylor": "Taylor series (heyoka)",
          "taylor-batch": "Taylor series, four at once (heyoka)",
@@ -193,6 +194,7 @@ def methods(found, question) -> list[str]:
     return list(dict.fromkeys(p.method for p in found.of(question)))
 
 
+# --- Models beside the exact motion
 LOOKS = {"exact": {"color": style.BLACK, "linewidth": 2.2},
          "linear": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"},
          "corrected": {"color": style.PURPLE, "linewidth": 1.5, "linestyle": "-."},

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from ...case.read import Case
     from ...orbit.result import Motion
 
+
+# --- How far an approximate law holds
 MOST = 1e5  # rad of turn along which a law beside other answers is judged: seconds
 
 
@@ -175,6 +177,7 @@ def _of_alike(group, cases, units: Units = SI) -> str:
             f"combinations{farthest})")
 
 
+# --- The answer in one line
 # of an equilibrium: without a rate, and with one
 REST, STEADY = "AT REST", "STEADY ROTATION (relative equilibrium)"
 WORDS = {"bounded": "BOUNDED for ever", "spin-up": "SPINS UP", "separatrix": "ON THE SEPARATRIX",

@@ -13,6 +13,7 @@ from ..terminal import greek, lettered
 from ..units import DEG, DIGITS, SHORT, Units, but_for_rounding, number, vector
 from .headline import rate_margin, span_words
 
+# --- The numbers of a motion
 WIDE = 24  # columns of a name
 # Of invariants and of what a run showed: what it is called, and its unit in SI or what else it is.
 QUANTITIES = {
@@ -201,6 +202,7 @@ def followed(m) -> dict:
     return known
 
 
+# --- How it turns in space
 HEADS = {"long-axis": "LONG-AXIS MODE", "short-axis": "SHORT-AXIS MODE", "separatrix": "ON THE SEPARATRIX",
          "steady": "STEADY ROTATION", "heavy top": "HEAVY TOP"}
 
@@ -281,6 +283,7 @@ def _vector(case, along) -> str:
     return f"{vector(in_file(case, along))} {place}"
 
 
+# --- Equilibria on a circular orbit
 ASSUMED = ("a circular orbit about a sphere, wheels whose momentum relative to the body is constant, no "
            "other torque")
 
@@ -363,6 +366,7 @@ def _lines(case, found, one, units: Units, name: str, other=None):
                       f"{', '.join(number(f / found.rate, DIGITS) for f in one.frequencies)} per orbit")
 
 
+# --- What internal dissipation makes of a spin
 NAMES = {"phase": "phase", "nutation": "nutation angle", "damping": "strength of the damping"}
 
 

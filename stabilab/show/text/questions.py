@@ -18,6 +18,7 @@ from ..units import DIGITS, Units, bracket, number
 from .headline import cause, largest, outcome, rate_margin, verdict
 from .motion import bound_lines, energy_margin, extreme_lines, followed, reason, row, tilt_lines, why
 
+# --- When a limit is reached
 WORDS = {"yes": "reached by", "unknown": "NOT KNOWN of", "never": "NEVER by"}
 CSV = ("case", "quantity", "limit", "time_low", "time_high", "level", "caveats")
 
@@ -116,6 +117,7 @@ def tilt_dict(found) -> dict | None:
         } | values_of(found, "azimuth torque azimuths times untilted")
 
 
+# --- `fate`, `extremes` and `period`
 SHOWN = 12  # digits of a number that is not written out, where more than a table's were asked for
 
 

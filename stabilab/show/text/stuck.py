@@ -303,6 +303,7 @@ def means(row, units) -> list[str]:
     return wheels + [_helper(h, units) for h in row.helpers]
 
 
+# --- Burns
 SHOWN = 12  # switches in text; JSON has them all
 
 

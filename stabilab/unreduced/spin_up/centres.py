@@ -74,6 +74,7 @@ import numpy as np
 
 from .form import NormalForm, over_root
 
+# --- Elimination of what oscillates
 ROUNDING = 2.0**-32
 _A, _K, _J = 1 << 16, 1 << 32, 1 << 40
 _MIDDLE = (1 << 15) + (1 << 15) * _A
@@ -246,6 +247,7 @@ def corrected(algebra: Algebra, rate: Terms, order: int) -> Corrected:
         rate = gathered(rate[~now], algebra.rest_of_rate(parts[-1]).real())
 
 
+# --- The fixed and the moving centre
 class FixedCentre:
     """The normal form about its fixed centre: p = X, q = 1, and all powers are whole."""
 

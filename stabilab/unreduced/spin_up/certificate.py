@@ -71,6 +71,7 @@ from .form import forms_of
 from .result import WIDER, SpinUp, SteadyTrap
 
 
+# --- The kernels, compiled or as written
 def functions(kernel: ModuleType, fast: bool) -> dict[str, Any]:
     """A kernel's functions by name: compiled, or as they are written."""
     return compiled_functions(kernel) if fast else vars(kernel)
@@ -93,6 +94,7 @@ def stored() -> bool:
     return any(Path(__file__).with_name("__pycache__").glob("steps.advance*.nbi"))
 
 
+# --- Equal moments
 def axis_of_symmetry(D) -> int | None:
     """The index of the axis whose two others have equal moments; None for three different moments and for a
     sphere."""
@@ -218,6 +220,7 @@ def equatorial(scene) -> MovingCentre | None:
                         [[float(v) for v in row] for row in basis], s)
 
 
+# --- The certificate
 # Orders of energy and amplitude. About the fixed centre: tested always (what (0, 2) decides they decide as
 # well), and sparsely; the series is asymptotic, higher ones gain nothing. About the moving one: last, seldom.
 ORDERS, HIGH_ORDERS, HIGHEST_ORDERS = (4, 6), (12, 14), (16, 18)

@@ -40,6 +40,7 @@ import numpy as np
 from . import steps as kernel
 from .certificate import functions
 
+# --- Motions and a small change of each, step by step
 STEP_ERROR = 2.0**-52  # units of rounding by which a step may move a motion: a Taylor polynomial of 20 terms
 FAR = 2.0**-6    # changes beyond this share of the size, or delays of so many radians, tell no growth
 
@@ -182,6 +183,7 @@ def _size(states):
     return np.maximum(np.abs(states).max(axis=1, initial=0.0), 1.0)
 
 
+# --- Many revolutions at once
 # steps that a motion is followed plainly first: to find out that it would not leap takes half as many
 FROM = 20_000
 # revolutions of a window: fewer are hardly less work than step by step

@@ -43,6 +43,7 @@ from fractions import Fraction
 from ...equilibrium.gyrostat import gyrostat_equilibria
 from ...orbit.one_state import in_range
 
+# --- The normal form
 HALF_TURN = (-1, 1, -1)  # about axis 2: a rotation of the body, so every vector takes part
 
 
@@ -148,6 +149,7 @@ def forms_of(scene) -> list[NormalForm]:
     return [form for form in forms if form]
 
 
+# --- Why a motion is undecided, in words
 SMALL = 0.05  # a component of the torque below this share of it is called small
 PARKED = 0.3  # relative distance from the saddle-focus, in spin and in cone, that is called parked
 WIDE = 2.0    # transverse motion over spin beyond which the motion is not about the axis at all
