@@ -52,7 +52,7 @@ def cores() -> int:
 
 @contextmanager
 def helpers(module: str, place: Path, number: int, **streams: Any) -> Iterator[list[subprocess.Popen]]:
-    """While the block runs: `number` fresh interpreters that run a module, told the place where they work.
+    """While the block runs: `number` fresh interpreters that run a module, given the place where they work.
     They are killed at its end, however it ends.
 
     A fresh interpreter each, so that neither threads nor the caller's own script are copied into it. Each has

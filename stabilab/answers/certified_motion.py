@@ -24,7 +24,7 @@ from ..unreduced.enclosure import Course, allowed
 from ..unreduced.spin_up.certificate import closed, natural, tests_of
 from ..unreduced.spin_up.follow import spin_up
 
-# relative, of what is told of gain and size: another's rounding of the roots in them
+# relative, of what is claimed of gain and size: another's rounding of the roots in them
 ROOM = Fraction(1, 10**9)
 
 
@@ -49,7 +49,7 @@ MOVING_ORDERS = ((2, 4), (4, 6), (8, 10))
 LATER = (1.0, 1.0625, 1.25, 1.5, 2.0, 3.0, 5.0, 8.0)
 CHECKPOINTS = 4
 DIGITS = 9  # of the checkpoints' brackets, relative to the greatest rate; wider where the enclosure is
-# what is told of the gain is less by this: the inequality's own rounding
+# what is claimed of the gain is less by this: the inequality's own rounding
 SURE = Fraction(1 << 20, (1 << 20) + 1)
 
 

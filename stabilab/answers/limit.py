@@ -256,7 +256,7 @@ class _Attempt:
         self.proved = [Search(one) for one in self.thresholds]
 
     def run(self, work: int) -> Enclosed:
-        """Proved as far as the bits reach, then on, at its word, to where a proof would end."""
+        """Proved as far as the bits reach, then on, unproved, to where a proof would end."""
         until, lost, flow = Fraction(0), 0, self.flow
         searches, proving, length = self.proved, True, math.inf
         while True:

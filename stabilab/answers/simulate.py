@@ -1,6 +1,6 @@
-"""Trajectories of a scene: times and states, with the laws that they keep.
+"""Trajectories of a scene: times and states, with the laws that hold along them.
 
-The exact motion of a case is told block by block: its rates, the direction of the vertical, the angles of
+The exact motion of a case is given block by block: its rates, the direction of the vertical, the angles of
 the attitude, the momentum and the place.
 """
 from __future__ import annotations

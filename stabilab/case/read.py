@@ -346,8 +346,8 @@ def read_text(path, text: str) -> Case:
 
 
 def with_data(path, text: str, data: dict) -> Case:
-    """The case in TOML data that is the text's but for numbers that were put in; its faults are told as of
-    the text."""
+    """The case in TOML data that is the text's but for numbers that were put in; its faults are
+    reported as of the text."""
     return _built(path, text, data, Faults(key_lines(text)))
 
 

@@ -68,8 +68,8 @@ Order = Annotated[int | None, option("N", "Order of the lindstedt expansion.", m
 
 
 def opens(place: str, **fixed: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """The work of a command that declares its options: a function of `commands` ("maps.sweep"), which gets
-    them all by name, and what is fixed. Its file is read when the command is given."""
+    """The work of a command that declares its options: a function of `commands` ("pictures.sweep"), which
+    gets them all by name, and what is fixed. Its file is read when the command is given."""
     file, name = place.split(".")
 
     def answered_by(declared: Callable[..., None]) -> Callable[..., None]:

@@ -329,8 +329,7 @@ class _Excess:
         return int(min(ahead, 2.0) * SHORTER * self.one)
 
     def surely_beyond(self, s):
-        """A place from s on where g - err > 0, as near as can be told; None where there is none in the piece.
-        """
+        """A place from s on where g - err > 0, as near as can be found; None where the piece has none."""
         while s is not None:
             for places in range(SHORT - 2, WIDE, -1):
                 behind = min(s + (self.one >> places), self.one)

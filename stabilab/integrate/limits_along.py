@@ -89,7 +89,7 @@ class _State:
 
 
 def _largest(value_at, pieces) -> float | None:
-    """The largest value of a limit along the pieces; None where it hangs on a part of the state beside rates
+    """The largest value of a limit along the pieces; None where it needs a part of the state beside rates
     and direction."""
     best = -math.inf
     for h, series in pieces:

@@ -102,8 +102,8 @@ def steps(recursion, start, digits, budget, numbers, sense=1, swing=False):
     """Steps from the start at time 0, without end; raises Exhausted where the budget (a list of one count) is
     used up.
 
-    numbers: the kind (`balls.Digits`), to be taken while it is the working one. swing: the way back to the
-    start is looked for, so a step is no longer than what changes in it is told.
+    numbers: the kind (`balls.Digits`), to be taken while it is the working one. sense: -1 steps back in
+    time. swing: the return to the start is looked for, so a step is no longer than its changes are resolved.
     """
     order, rates = int(1.15 * digits) + 4, recursion.in_balls(numbers)
     x, now = [numbers.ball(v) for v in start], numbers.ball(0)

@@ -209,8 +209,7 @@ def _crawling(last, now, left, steps) -> str:
 
 
 class _Taylor:
-    """Runs of the Taylor series; counters add up over the runs. pace: of the times over those that are told.
-    """
+    """Runs of the Taylor series; counters add up over the runs. pace: of the times over those returned."""
 
     def __init__(self, system, rtol, laws=True, pace=1.0):
         self.forms, self.rtol = system.motion_and_laws if laws else system.rhs, rtol

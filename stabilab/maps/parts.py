@@ -185,8 +185,8 @@ def _chaos(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
 
 
 def _extremes_and_periods(case: Case, states: np.ndarray, box: bool, times: bool, out: np.ndarray) -> None:
-    """Whether numba serves hangs on the number of states alone, not on what this process did before: its last
-    digits are not those of plain Python."""
+    """Whether numba serves depends on the number of states alone, not on what this process did before: its
+    last digits are not those of plain Python."""
     kind = kind_of(effective(case.scene))
     if kind == "orbit":
         found, periods = extremes_and_periods(case.scene, states, box=box, period=times,

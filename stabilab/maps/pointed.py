@@ -16,7 +16,7 @@ symmetries of its three axes, and so have these cells. Reflections in the princi
 axes map cells onto cells, the planes are edges, and no middle of a cell lies on a principal axis or plane,
 where a verdict need not be that of its neighbours.
 
-A place on the octahedron |x| + |y| + |z| = 1 is told by its three coordinates; a cell by its level and its
+A place on the octahedron |x| + |y| + |z| = 1 is given by its three coordinates; a cell by its level and its
 number, the face and then a digit of base 4 for each cut: 0, 1, 2 for the part at that corner, 3 for the one
 in the middle.
 """

@@ -145,7 +145,7 @@ def _first_line(error: BaseException) -> str:
     return printable(lines[0])[:160] if lines else type(error).__name__
 
 
-# --- Processes on this machine that compute chunks: each is told a number, writes the part, and says that
+# --- Processes on this machine that compute chunks: each is given a number, writes the part, and says that
 # it did
 DONE, FAILED, WORK = "done", "failed", "work.json"
 

@@ -143,7 +143,7 @@ def _moments(m: Rows, polynomial: Poly, bits: int) -> tuple[Moment, Moment, Mome
 
 
 def _axes(m: Rows, moments: Sequence[Moment], bits: int) -> PrincipalAxes | None:
-    """Axes of these moments with the error they have; None where the moments are not told apart yet."""
+    """Axes of these moments with the error they have; None where the moments are not yet separated."""
     values = [value for value, _ in moments]
     if len(set(values)) == 3:
         directions = _three(m, moments, bits)

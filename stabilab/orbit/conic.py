@@ -185,8 +185,8 @@ class Conic:
         else:
             start = 0.5 * (lo + hi)
 
-        # told from the lower end by 1 and more: where log|h| itself is near 0, no step would ever be short
-        # against it
+        # measured from the lower end by 1 and more: where log|h| itself is near 0, no step would ever be
+        # short against it
         def fun(t, Q, lo):
             h = sign * lo * np.exp(t - 1)
             x, z = (K / h - c) / G, h - s

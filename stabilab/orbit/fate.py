@@ -143,8 +143,8 @@ def decide(orbit: Orbit, bits: int = START_BITS) -> Tie:
 
 
 def _ties(orbit, margin) -> bool:
-    """Whether a margin that cannot be told from zero is zero; where algebra denies it, the most bits settle
-    the matter."""
+    """Whether a margin that cannot be distinguished from zero is zero; where algebra denies it, the
+    most bits settle the matter."""
     if not any(0 in m for m in orbit.margins_to_tie(margin)):
         return False
     if orbit.numbers.bits < EXACT_BITS:

@@ -120,7 +120,7 @@ def _libration(ground: Relief, nodes):
 
 
 def _turn(hill, well, sense):
-    """(spot, offset) of the turning point beyond a well on one side, told from whichever equilibrium is
+    """(spot, offset) of the turning point beyond a well on one side, measured from whichever equilibrium is
     nearer in height."""
     reach = None if hill is None else abs(hill.at - well.at)
     near = hill if hill is not None and -hill.kinetic < well.kinetic else well

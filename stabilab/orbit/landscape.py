@@ -300,7 +300,7 @@ class ConicLandscape(Landscape):
 
 
 # --- Barriers and wells along the orbits of many states at once, on circles, hyperbolas and parabolas
-# share of a cubic's discriminant: two roots 1e-7 apart, hardly told in doubles, leave 1e-14 of it and more
+# share of a cubic's discriminant: two roots 1e-7 apart, hardly distinct in doubles, leave 1e-14 of it or more
 DOUBLE_ROOT = 1e-10
 # units of rounding allowed for in the error bound of a margin: some thirty operations, each counted twice
 ROUNDINGS = 64

@@ -44,7 +44,7 @@ def valley_margins(land: Landscape, states, critical=None):
     return margins, sure & (clear | np.isposinf(margins))
 
 
-# -- on hyperbolas: barriers by Newton's method, heights told from these
+# -- on hyperbolas: barriers by Newton's method, heights measured from these
 
 
 def _on_hyperbolas(land, states, critical):

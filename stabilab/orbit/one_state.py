@@ -63,8 +63,8 @@ def far_rows(scene, states):
     """(n,) True for the states (n, 3) that `far_exponent` has a unit for."""
     import numpy as np
     own = scene_exponent(scene)
-    # wheel or torque of ordinary size, and no larger rate: all of them are ordinary, told without a row's own
-    # size
+    # wheel or torque of ordinary size, and no larger rate: all of them are ordinary, known without a row's
+    # own size
     within = len(states) and max(states.max(), -states.min()) < 2.0**ORDINARY
     if own is not None and abs(own) <= ORDINARY and within:
         return np.zeros(len(states), bool)

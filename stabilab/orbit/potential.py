@@ -98,7 +98,7 @@ class Circle:
     kind = "elliptic"
     where = "the major or the minor axis"
     rank = 0  # of a scene's reductions the least is taken: a circle is compact
-    centred = True  # whether orbits have a common centre, and canonical variables told from it
+    centred = True  # whether orbits have a common centre, and canonical variables measured from it
     # whether the potential has walls on both sides of every orbit but for a set of measure zero
     walled = False
 

@@ -117,7 +117,7 @@ class Reduction:
 
     @cached_property
     def across(self) -> tuple[Fraction, Fraction]:
-        """rho and sigma of the rate of omega_i in components told from the centre."""
+        """rho and sigma of the rate of omega_i in components measured from the centre."""
         sj, sk = self.centre
         return self.rho - self.kappa * sj, self.sigma - self.kappa * sk
 

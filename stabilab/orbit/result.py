@@ -117,7 +117,7 @@ def without_return(label: int) -> float:
 
 
 def no_period(fate: Fate) -> str:
-    """Why a motion with this fate has no period told, in words."""
+    """Why a motion with this fate has no period, in words."""
     known = {Fate.UNDECIDED: "the period is not known: the fate is undecided",
              Fate.BOUNDED: "no period is known of this motion",
              Fate.EQUILIBRIUM: "the state is an equilibrium and has no period"}

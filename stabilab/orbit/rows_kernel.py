@@ -3,8 +3,8 @@ floats that numba compiles.
 
 Equilibria along a row's orbit by Newton's method in twofold numbers, ends of the motion from the equilibrium
 that is nearer in height, the period T = 2 int dtheta/sqrt(2 (E - V)) with theta = middle - half cos(phi),
-E - V told from the nearer end, or from equilibrium to equilibrium. What 32 digits do not settle is marked and
-left to balls. Every function is plain Python too.
+E - V measured from the nearer end, or from equilibrium to equilibrium. What 32 digits do not settle is marked
+and left to balls. Every function is plain Python too.
 """
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ HALVINGS, SERIES = 6, 12  # of a way, before its sine is summed; terms of the su
 # its slope, the energy and the offset may be off by
 OFFSET, OVER, BARRIER, AT_X, AT_Z, BEND, MODE_A, MODE_B, PULL, TILT, ERROR, ASTRAY = range(12)
 # an end of a motion: offset, force there, error of the offset; error of the energy and E - V at the
-# equilibrium that it is told from, or of the force over 1
+# equilibrium that it is measured from, or of the force over 1
 END, FORCE, BLUR, HAZE, LEVEL = range(5)
 # a stop of a motion, an end or an equilibrium that it passes: offset, E - V, force, and four numbers of the
 # potential about it
@@ -145,7 +145,7 @@ class Circle:
 
     @staticmethod
     def sizes_of_ways(x, z, u, v):
-        """Sizes of what `way_between` is told from, at a state and at a place of its orbit."""
+        """Sizes of what `way_between` is formed from, at a state and at a place of its orbit."""
         return np.sqrt(x * x + z * z), np.sqrt(u * u + v * v)
 
     @staticmethod
@@ -480,7 +480,7 @@ def sharpened_ends(fine, X, Z, turn, wide, ends, turns):
     """Fill turns with the ends after steps of Newton's method, E - V there a sum of twofold numbers and the
     force that of the place: where the force is small or the equilibrium far, doubles leave few digits.
 
-    They are told from the state. Next to a barrier the period needs the ends that are told from it."""
+    They are measured from the state. Next to a barrier the period needs ends measured from it."""
     G, c, d, mu = (fine[0], fine[1]), (fine[2], fine[3]), (fine[4], fine[5]), (fine[6], fine[7])
     kinetic = times((fine[16], fine[17]), times(turn, turn))
     for k in range(2):
@@ -663,7 +663,7 @@ def stops_of(conic, x, z, xi, eta, count, spots, ends, stops):
 
 def timed(conic, x, z, xi, eta, count, spots, ends, rules, stops):
     """(period, whether it has its digits) of a motion between two ends: by the trapezoidal rule over the
-    whole of it where E - V is told well enough from these, else piece by piece."""
+    whole of it where E - V is known well enough from these, else piece by piece."""
     nodes, near, weights, levels = rules
     mu, many = conic[3], stops_of(conic, x, z, xi, eta, count, spots, ends, stops)
     if many < 3:
@@ -686,7 +686,7 @@ def timed(conic, x, z, xi, eta, count, spots, ends, rules, stops):
 
 def summed(mu, left, right, rho, nodes):
     """The period by the trapezoidal rule over mirrored pairs of nodes, theta = middle - rho cos(phi), E - V
-    told from the nearer end; NaN where that does not settle."""
+    measured from the nearer end; NaN where that does not settle."""
     total, coarse, half, before, change, earlier, size, begin = 0.0, 0.0, 0.0, np.nan, np.nan, np.nan, 8, 0
     while begin < len(nodes):
         end = begin + size // 2 if begin else 5
@@ -717,7 +717,7 @@ def summed(mu, left, right, rho, nodes):
 
 def in_pieces(mu, many, stops, near, weights, levels):
     """(period, whether it has its digits): dtheta/W by the double-exponential rule from stop to stop, E - V
-    told from the nearer one."""
+    measured from the nearer one."""
     period = 0.0
     for i in range(many - 1):
         length = stops[i + 1, STOP] - stops[i, STOP]

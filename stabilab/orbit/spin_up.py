@@ -284,7 +284,7 @@ class Panels:
 
 SMOOTH = 12.0  # kinetic energy in units of a turn's work: beyond it `TERMS` of the sum below end at 1e-17
 TERMS = 9
-FROM_REST = 64  # turns behind a state that moves ahead, up to which its motion is told from its rest
+FROM_REST = 64  # turns behind a state that moves ahead, up to which its motion starts from its rest
 MOST_TURNS = 2.0**50
 CHUNK = 256
 # kinetic energies of a turn that differ by less than 2 FLAT turns' work: FEW points are right to 1e-17
@@ -315,8 +315,8 @@ def partial(a):
 
 
 class SpinUp(Motion):
-    """States of a spin-up. from_rest: told from where it came from rest (any time), else from the state (none
-    before)."""
+    """States of a spin-up. from_rest: reckoned from where it came from rest (any time), else from the state
+    (none before)."""
 
     period = math.inf
 
@@ -439,7 +439,7 @@ class SpinUp(Motion):
         while len(rows := rows[left[rows] >= self._turns_take(high[rows])]):
             low[rows], high[rows], step = high[rows], high[rows] + step, 2 * step
         middle = np.floor(0.5 * (low + high))
-        # beyond 2^53 turns neighbours are not told apart
+        # beyond 2^53 turns neighbours cannot be distinguished
         while len(rows := np.nonzero((low < middle) & (middle < high))[0]):
             past = left[rows] >= self._turns_take(middle[rows])
             low[rows], high[rows] = np.where(past, middle[rows],

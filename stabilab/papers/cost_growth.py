@@ -214,7 +214,7 @@ def nodes_needed(scene, state) -> int | None:
     while nodes <= MOST_NODES:
         phi = (np.arange(nodes // 2) + 0.5) * (np.pi / nodes)
         way, total = 2 * half * np.sin(0.5 * phi) ** 2, 0.0
-        for place, force, y in zip(places, forces, (way, -way)):  # E - V is told from the nearer end
+        for place, force, y in zip(places, forces, (way, -way)):  # E - V is measured from the nearer end
             twice = -2 * land.potential.rise(y, place, force)
             with np.errstate(invalid="ignore"):
                 total += 2 * float((half * np.sin(phi) / np.sqrt(twice)).sum()) * np.pi / nodes

@@ -143,7 +143,7 @@ def worst(*found: Validity | None) -> Validity | None:
 
 
 class Watch:
-    """The validity of a run that is told its states one by one (`note`), without keeping them."""
+    """The validity of a run that is given its states one by one (`note`), without keeping them."""
 
     def __init__(self, scene: AnyScene, blocks: Sequence[str]) -> None:
         self.scene, self.blocks = scene, blocks

@@ -9,11 +9,11 @@ MARK = "\0 endless "  # before such a number in the text until its quotes are ta
 
 
 class Endless(float):
-    """The end of an interval, told as infinite where it is, where null would stand for not known."""
+    """The end of an interval, written as infinite where it is, where null would stand for not known."""
 
 
 def endless(values: list) -> list:
-    """The values of a column, infinite ones told as such."""
+    """The values of a column, infinite ones written as such."""
     return [Endless(value) if isinstance(value, float) and math.isinf(value) else value for value in values]
 
 

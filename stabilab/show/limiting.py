@@ -14,7 +14,7 @@ from .axes import axes_of
 from .terminal import lettered
 from .units import SHORT, Units
 
-INSIDE = ("tilt", "limit", "law")  # told in the first line of an answer itself
+INSIDE = ("tilt", "limit", "law")  # stated in the first line of an answer itself
 
 
 def reached(caveats: Iterable[Caveat], units: Units) -> str:

@@ -33,7 +33,7 @@ class Units:
     """A system of units: `name` is a key of `SYSTEMS`, or "scaled" for dimensionless variables.
 
     `rates` and `angles` are units; `ladder` has the units of time, each with the number of seconds from which
-    it is used; `axes` names the axes of the case that is told.
+    it is used; `axes` names the axes of the case.
     The methods turn a value in SI (or in the variables of a scaled case) into text with its unit.
     """
 
@@ -114,7 +114,7 @@ class Units:
         return before + self.told(float(last), (name, one), digits)
 
     def of(self, unit: str) -> Unit:
-        """The unit in which numbers of this SI unit are told; those of a scaled case have none."""
+        """The unit in which numbers of this SI unit are printed; those of a scaled case have none."""
         name, one = self.rates
         turns = {"rad/s": self.rates, "rad": self.angles,
                  "(rad/s)^2": (f"({name})^2" if name else "", one * one)}

@@ -4,7 +4,7 @@ and one return to the first extreme gives the period and every extreme.
 Squares of rates beyond some 1e150 are no doubles. Such a motion is followed in its own unit 2^k of rate,
 where its numbers are of order one: with rates and gyrostatic moment over u the motion is the same in a time
 that runs u times as fast, and for a power of two the change is exact. What is no double in the scene's own
-units in the end is NaN in arrays, and told in words of one motion.
+units in the end is NaN in arrays, and said in words of one motion.
 """
 from __future__ import annotations
 

@@ -284,7 +284,7 @@ class Orbit:
 
     def spots(self, left, right) -> list:
         """The places between two, balls, where the force changes sign, rising; the state's own is none of
-        them. Raises Open where one is not told from an end."""
+        them. Raises Open where one cannot be distinguished from an end."""
         found = _spots(self, ctx.prec)
         if self.kind < 0:
             first, last = (int(end // below(self.turn)) for end in (below(left), above(right)))

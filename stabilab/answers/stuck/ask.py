@@ -40,7 +40,7 @@ from .margins import Helper, Principal, Row, Stuck, WheelAnswer, margins
 NO_TORQUE = Fraction(1, 10**9)  # of the torque: what is left of it counts as none
 WORTH = Fraction(999, 1000)  # of the torque: a helper that leaves more is none
 Duty: TypeAlias = tuple[Fraction, ...]  # the share of the time that each fires
-MOST = 12  # helpers that are told
+MOST = 12  # helpers that are listed
 TRIED = 6  # thrusters, and pairs, whose times are compared: those that leave the least torque
 SHARES = (Fraction(1), Fraction(3, 4), Fraction(1, 2), Fraction(1, 4))  # of the duty that leaves the least
 

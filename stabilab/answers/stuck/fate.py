@@ -229,7 +229,7 @@ def _unsure(when: Found) -> str:
 
 
 def _largest(scenario: Scenario, scene: Scene, when: Found, otherwise: float | None) -> float | None:
-    """|omega| at the most until the limit is reached, or until another time (None: not told)."""
+    """|omega| at the most until the limit is reached, or until another time (None: not given)."""
     if when.time is not None and isinstance(scenario.limit, float) and when.time[1] > 0:
         return scenario.limit
     until = when.time[1] if when.time is not None else otherwise

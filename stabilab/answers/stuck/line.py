@@ -1,5 +1,5 @@
-"""Along a line of starts or of wheel momenta, told by s: every s at which the fate may change, by roots, and
-those at which it does.
+"""Along a line of starts or of wheel momenta, numbered by s: every s at which the fate may change, by roots,
+and those at which it does.
 
 On a circle (torque on the major or minor axis, `orbit.reduction`) the motion is bounded exactly if the
 potential somewhere within one turn ahead rises over the start by more than its energy, R(y, s) > E(s). The

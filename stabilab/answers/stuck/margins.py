@@ -146,7 +146,7 @@ class Stuck(Shown):
 
 # --- How little must change
 TURN = 2000  # places on the turn at which the rise of the potential is looked at, to find a direction
-MOST = 1000  # of the body's own momentum: changes of the wheel as great are not told
+MOST = 1000  # of the body's own momentum: changes of the wheel as great are not given
 # of a turn: directions beside that of a circle that is a point
 BESIDE = 2 * math.pi * np.geomspace(1e-4, 1e-2, 5)
 FEW = 5  # nearest places that are looked at in exact numbers

@@ -102,7 +102,7 @@ def conditions(box: Box, numbers: Numbers) -> list[Condition]:
 
 
 def known(found: list[Condition]) -> list[Condition]:
-    """Those whose value hangs on uncertain numbers."""
+    """Those whose value depends on uncertain numbers."""
     return [c for c in found if isinstance(c.value, Affine)]
 
 

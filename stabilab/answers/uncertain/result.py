@@ -251,7 +251,7 @@ def _sides(box: Box, answer: Answer, point: Point) -> tuple[Witness, ...]:
 
 
 def by_trial(box: Box, here: Any, look: Look, because: str) -> Over:
-    """Where no proof is at hand: what single points of the box say, by the ordinary code, and where these
+    """Where there is no proof: what single points of the box say, by the ordinary code, and where these
     agree, samples."""
     n = len(box.places)
     answer: Answer = lambda point: look(point)[0]
@@ -269,7 +269,7 @@ def by_trial(box: Box, here: Any, look: Look, because: str) -> Over:
 
 
 def by_sample(box: Box, here: Any, look: Look, because: str) -> Over:
-    """Where no proof is at hand: what points of the box drawn at random say, by the ordinary code. look:
+    """Where there is no proof: what points of the box drawn at random say, by the ordinary code. look:
     point -> (verdict or None, margin in energy or NaN)."""
     counts: dict[str, int] = {}
     places: dict[str, Point] = {}

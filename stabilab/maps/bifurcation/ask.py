@@ -66,7 +66,7 @@ def with_connections(found: Diagram) -> Diagram:
 
 
 def connections(family: Family, system: Any, pieces: tuple[Piece, ...]) -> list[Event]:
-    """All of them in the range of one number, rising; none where the motion keeps to no circle."""
+    """All of them in the range of one number, rising; none where the motion is on no circle."""
     if not isinstance(system, Conics):
         return []
     eliminated, found, budget = Eliminated(family, system), [], [MOST]
@@ -79,7 +79,7 @@ def connections(family: Family, system: Any, pieces: tuple[Piece, ...]) -> list[
 
 def _of_piece(family: Family, eliminated: Eliminated, axis: int, piece: Piece,
               budget: list[int]) -> list[Event]:
-    """Those of a piece: inside each part of it where the motion keeps to a circle, and at each seam between
+    """Those of a piece: inside each part of it where the motion is on a circle, and at each seam between
     two such parts."""
     width = Fraction(piece.high) - Fraction(piece.low)
     # the ends are rounded to doubles
@@ -325,8 +325,8 @@ def _divided(rise: _Rise, low: Fraction, high: Fraction) -> Fraction:
 
 
 def _bisected(sign: Callable[[Fraction], int], low: Fraction, high: Fraction, first: int) -> Fraction:
-    """The zero between two values, to the last bit of a double; a short number that cannot be told from it is
-    taken for it."""
+    """The zero between two values, to the last bit of a double; a short number that
+    cannot be distinguished from it is taken for it."""
     for _ in range(60):
         middle = Fraction(float((low + high) / 2))
         if not low < middle < high:

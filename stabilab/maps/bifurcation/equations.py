@@ -263,7 +263,7 @@ def on_line(family: Family) -> OnLine:
 
 
 def across(family: Family, axis: int, kind: str) -> Conics:
-    """The equilibria on the curve that the motion keeps to (LEAF), or where stability changes along the conic
+    """The equilibria on the curve that the motion stays on (LEAF), or where stability changes along the conic
     (BORDERS)."""
     n = family.numbers
     j, k = CYCLE[axis]

@@ -384,7 +384,7 @@ class Loops:
     saddle, centre: places (2, k, n); end: (k, n) offsets of the far ends; found: (k, n) whether there is a
     loop; shared: (k, n) whether the far end is a saddle too; offset, w: (k, n, m) offsets and W; points: (k,
     n, m, 3). saddle_state, centre_state: (k, n, 3) the same as states; ways: (k, n, 2) those of
-    `Orbits` where states and points are told from them, and not from places; else nan.
+    `Orbits` where states and points are measured from them, and not from places; else nan.
     """
 
     saddle: np.ndarray

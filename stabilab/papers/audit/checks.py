@@ -271,7 +271,7 @@ SYMBOLIC_SIZE = 250  # operations up to which symbols are tried
 
 @dataclass(frozen=True)
 class Decision:
-    """holds: True, False, or None where it could not be told; residual: largest relative difference seen;
+    """holds: True, False, or None where it could not be decided; residual: largest relative difference seen;
     method: words."""
 
     holds: bool | None
@@ -357,7 +357,7 @@ def _apart(left, right, setting, chosen):
 
 
 def _same_in_symbols(left, right, setting, chosen):
-    """Whether symbols show it; chosen: points at which expressions that differ plainly are told apart before
+    """Whether symbols show it; chosen: points at which expressions that differ plainly are separated before
     their terms are multiplied out."""
     import sympy as sp
 

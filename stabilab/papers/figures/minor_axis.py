@@ -205,7 +205,7 @@ def printed_loops() -> dict:
 
 
 def _printed_loop(radius, b, turn):
-    """The loop that hangs on alpha = turn - asin(2/F^2)."""
+    """The loop of alpha = turn - asin(2/F^2)."""
     from scipy.optimize import brentq
     level = table.height(radius, b)
     saddle = table.saddle(radius, turn)

@@ -1,6 +1,6 @@
 """What an effect is: a part of the physics that contributes nothing unless it says so.
 
-A sixth effect is one new file with a subclass, one row in `effects/__init__.py`, one law in the law test, one
+A new effect is one file with a subclass, one row in `effects/__init__.py`, one law in the law test, one
 case. The formulas use arithmetic only, so the same lines serve SymPy symbols, floats, arrays and exact
 fractions.
 """

@@ -68,14 +68,14 @@ class Charge(Effect):
         return isinstance(self.angle, str) and self.angle == "attitude"
 
     @property
-    # a constant of the other effects, here told by the values
+    # a constant of the other effects, here found by the values
     def approximate(self) -> bool:  # type: ignore[override]
         """A constant angle is an assumption about the motion."""
         return not self.follows_attitude
 
     def limits(self, scene: Any) -> tuple[Limit, ...]:
         """How far cos sigma of the motion, e3 . (axis 3 of space, the field's), is from the constant one;
-        told where the attitude is known, or gamma, which is axis 3 of space in the body."""
+        given where the attitude is known, or gamma, which is axis 3 of space in the body."""
         if self.follows_attitude:
             return ()
         constant = float(precise("cos", exact(self.angle)))
@@ -91,7 +91,7 @@ class Charge(Effect):
                       "Galal et al., charged body: eq. (3) ff.", "the attitude"),)
 
     @property
-    # a constant of the other effects, here told by the values
+    # a constant of the other effects, here found by the values
     def needs(self) -> tuple[str, ...]:  # type: ignore[override]
         return ("gamma",) if self.follows_attitude else ()
 

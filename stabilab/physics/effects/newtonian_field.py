@@ -59,7 +59,7 @@ class NewtonianField(Effect):
         return None if value is None else cls(value, distance)
 
     @property
-    # a constant of the other effects, here told by the values
+    # a constant of the other effects, here found by the values
     def approximate(self) -> bool:  # type: ignore[override]
         """Whether its distance is known."""
         return self.distance is not None

@@ -1,1 +1,1 @@
-"""A case held in the hand: a page with sliders, whose verdict, surface and curves follow while one drags."""
+"""The explorer: a page with sliders, whose verdict, surface and curves follow while one drags."""

@@ -324,7 +324,7 @@ def at_rest(scene: AnyScene) -> Equilibria | None:
 
 
 def line(case: Case, form: QuadraticForm | None, until: float, moving: bool) -> Path:
-    """(times, rates) of the motion from t = 0 on. form: its rates, where they are quadratic. moving: a hand
+    """(times, rates) of the motion from t = 0 on. form: its rates, where they are quadratic. moving: a slider
     that does not wait is shown the part of which floats are sure; so is a page without NumPy."""
     if form is None:
         return path(case, until)

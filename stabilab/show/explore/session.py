@@ -1,8 +1,8 @@
 """One session of the explorer: what a page asks of a case, and what it is answered: the verdict of the
 changed case, and everything that the page draws.
 
-An answer for a moving hand is brief (no search for the nearest point of the separatrix, no run of a motion
-off the axes, a coarser surface); one for a resting hand is whole. All of it does without NumPy (then the
+An answer for a moving slider is brief (no search for the nearest point of the separatrix, no run of a motion
+off the axes, a coarser surface); one for a resting slider is whole. All of it does without NumPy (then the
 surfaces are coarser, and no motion is followed off the axes), so that it also runs in a browser.
 """
 from __future__ import annotations
@@ -85,7 +85,7 @@ def equilibrium_rows(found: Equilibria, units: Units) -> dict[str, Any]:
             "rows": told[:MOST] + ([[f"and {more} more", ""]] if more > 0 else [])}
 
 
-PLAIN = (18, 17)  # rows of a branch, and columns of half of it, while the hand moves
+PLAIN = (18, 17)  # rows of a branch, and columns of half of it, while a slider moves
 # of a piece of a curve of equilibria: to find what is in the box, and to draw it
 POINTS = {True: (16, 40), False: space.PLACES}
 TURNS = {True: 240.0, False: 2400.0}  # rad of turn at most that are drawn
@@ -96,7 +96,7 @@ SWEPT = (
     "The file has a [sweep]: the page is about the numbers in its body; stabilab fate and report answer "
     "every combination.")
 QUICK = 2_000_000  # multiplications for the proof of a time at a limit: some tenths of a second
-PATIENCE = 0.12  # s: a motion whose kind took longer the last time waits until the hand rests
+PATIENCE = 0.12  # s: a motion whose kind took longer the last time waits until the slider rests
 
 
 class Stopped(Exception):
@@ -123,7 +123,7 @@ class Session:
         """The answer to a request as a framed message (`bag`). asked: as of `changed`, with moving (whether a
         hand still moves), box (that of the last answer, or None) and click (turn and rate of a point of the
         phase plane to start from, or None). stopped: asked on the way; Stopped is raised once it holds. What
-        cannot be answered is told under "error"."""
+        cannot be answered is reported under "error"."""
         bag = Bag()
         try:
             return bag.framed(self._answer(asked, bag, stopped))
@@ -206,7 +206,7 @@ class Session:
                 else gyrostat_scene(content(case.scene)))
 
     def _at_rest(self, case: Case, twin: AnyScene | None, moving: bool) -> Equilibria | None:
-        """The equilibria; None where they wait until the hand rests, for they take long, or are not known."""
+        """The equilibria; None where they wait until the slider rests, or are not known."""
         if twin is not None:
             return self._once("equilibria", twin, lambda: equilibria(twin))
         slow = self._cost.get("equilibria", math.inf) > PATIENCE

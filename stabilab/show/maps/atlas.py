@@ -107,7 +107,7 @@ def direction_words(vector: Any) -> str:
 
 # --- What an atlas says in words, the answer first, and as CSV and JSON of every cell
 SCHEMA = "stabilab.atlas/1"
-ROWS = 12  # wheel momenta that are told one by one
+ROWS = 12  # wheel momenta that are listed one by one
 
 
 def text(atlas: Atlas, units: Units) -> str:

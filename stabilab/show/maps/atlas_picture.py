@@ -29,7 +29,7 @@ ACROSS, UP = 2 * np.sqrt(2), np.sqrt(2)  # half the width and half the height of
 MIDDLE = np.pi / 4  # longitude, from axis 1 towards axis 2, of the map's middle
 
 
-def on_sheet(directions: np.ndarray) -> np.ndarray:
+def on_map(directions: np.ndarray) -> np.ndarray:
     """(n, 2): where directions (n, 3) lie on the map."""
     directions = np.asarray(directions, float)
     size = np.linalg.norm(directions, axis=1)
@@ -41,7 +41,7 @@ def on_sheet(directions: np.ndarray) -> np.ndarray:
     return np.stack([ACROSS * cosine * np.sin(turn / 2) / root, UP * sine / root], axis=1)
 
 
-def off_sheet(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def off_map(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """((n, 3) directions of places on the map, (n,) whether they lie on it)."""
     inside = (x / ACROSS) ** 2 + (y / UP) ** 2 <= 1
     root = np.sqrt(np.maximum(1 - (x / 4) ** 2 - (y / 2) ** 2, 0.5))
@@ -53,7 +53,7 @@ def off_sheet(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def pieces(directions: np.ndarray) -> list[np.ndarray]:
     """A line of directions on the map, cut where it leaves over the rim."""
-    at = on_sheet(directions)
+    at = on_map(directions)
     breaks = np.flatnonzero(np.abs(np.diff(at[:, 0])) > ACROSS) + 1
     return np.split(at, breaks)
 
@@ -134,7 +134,7 @@ def _wheels(atlas: Atlas, most: int) -> list[int]:
 def _map(ax: Any, atlas: Atlas, wheel: int, kind: str, times: Any, plain: bool) -> None:
     x, y = np.meshgrid((np.arange(PIXELS) + 0.5) / PIXELS * 2 - 1,
                        (np.arange(PIXELS // 2) + 0.5) / (PIXELS // 2) * 2 - 1)
-    directions, inside = off_sheet(x.ravel() * ACROSS, y.ravel() * UP)
+    directions, inside = off_map(x.ravel() * ACROSS, y.ravel() * UP)
     image = np.ones((len(inside), 4))
     image[~inside, 3] = 0
     image[inside, :3] = colours(atlas, kind,
@@ -159,10 +159,10 @@ def _points(ax: Any, atlas: Atlas, wheel: int, plain: bool) -> None:
     halo = [withStroke(linewidth=2.4, foreground="white")]
     here = [n for n, point in enumerate(atlas.named) if point.wheel == wheel]
     size, taken = 8 if plain else 9, []
-    # points of a unit of the sheet, roughly
+    # points of a unit of the map, roughly
     scale = (ax.figure.get_figwidth() * 72 * 0.9
              / (ax.get_subplotspec().get_gridspec().ncols * 2.08 * ACROSS))
-    for n, place in zip(here, on_sheet(atlas.named_directions[here])):
+    for n, place in zip(here, on_map(atlas.named_directions[here])):
         point = atlas.named[n]
         on_axis = point.level == AXES
         ax.plot(*place, marker="o" if on_axis else "*", markersize=4 if on_axis else 10, color="white",

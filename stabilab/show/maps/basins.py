@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     import xarray
 
 SCHEMA = "stabilab.basin/1"
-SMOOTH = 0.1  # of the dimension: less than this above 1 is told as smooth where the uncertainty allows
+SMOOTH = 0.1  # of the dimension: less than this above 1 is called smooth where the uncertainty allows
 
 
 def basin_name(found: Basins, label: int) -> str:

@@ -405,7 +405,7 @@ def write(path: str | Path, out: str | Path, kind: str | None = None, size: tupl
 
 
 def in_units(data: xarray.Dataset, units: Units) -> xarray.Dataset:
-    """The same with the columns of rates and times in what people are told."""
+    """The same with the columns of rates and times in the units that people read."""
     of = {name: str(data[name].attrs.get("units", "1")) for name in map(str, data.data_vars)}
     told = {name: units.of(unit) for name, unit in of.items()}
     for names in (("period",), ("when_low", "when_high")):

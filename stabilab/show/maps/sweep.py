@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 SCHEMA = "stabilab.sweep/1"
 ROWS = 40  # points of a table
-FEW = 100  # points that are counted; of more their share is told
+FEW = 100  # points that are counted; of more their share is given
 # what points do, what one point does
 DOES = {Fate.BOUNDED: ("stay bounded", "stays bounded"), Fate.SPIN_UP: ("spin up", "spins up"),
         Fate.SEPARATRIX: ("lie on the separatrix", "lies on the separatrix"),
@@ -101,7 +101,7 @@ def _share(count: int, of: int) -> str:
 
 
 def per_cent(share: float) -> str:
-    """A share that is not told as 100 % where it is less."""
+    """A share that is not given as 100 % where it is less."""
     percent = 100 * share
     if percent > 99 and share < 1 - 1e-12:
         return f"{min(percent, 99.99):.2f} %"
@@ -135,7 +135,7 @@ def _listed(values: np.ndarray, words: Any) -> str:
 
 
 def _unit(plan: Plan, column: Column) -> Unit:
-    """In what people are told the numbers of a column: rates in the units of the case."""
+    """The unit in which people read the numbers of a column: rates in the units of the case."""
     of = unit(plan, column)
     if of == "1":
         return ("τ" if column.unit == TIME else "", 1.0)

@@ -278,7 +278,7 @@ FINE, MOST = 1e-3, 6000  # of the picture: how near a line with fewer points sta
 # the first
 CLOSE, SOLID, FIRST = 60, MOST // 5, 48
 SLIM = {"linewidth": 0.9}
-FACETS = (96, 129)  # rows and columns of a branch: those that are in front are told by their middles
+FACETS = (96, 129)  # rows and columns of a branch: those that are in front are found by their middles
 
 
 def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None, units: str | None = None,

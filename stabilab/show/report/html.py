@@ -141,7 +141,7 @@ def write(path, template: str, **values) -> Path:
 # symbols and digits or so of a sum that fit beside each other on a page; a longer one goes on in the next
 # line
 LINE = 46
-LONG = 40  # operations: a law of more is told in words alone
+LONG = 40  # operations: a law of more is stated in words alone
 
 
 def equations_of_motion(equations: Equations) -> list:

@@ -155,7 +155,7 @@ def _piece(curve, pair, units):
 
 
 def _between(name, pair, unit, one):
-    """Both ends of a piece with as many digits as tell them apart; an end that is none is not told."""
+    """Both ends of a piece with as many digits as distinguish them; an end that is none is left out."""
     low, high = next(ends for digits in (DIGITS, 8, 10, 17)
                      if (ends := [number(t * one, digits) for t in pair])[0] != ends[1] or digits == 17)
     if math.isinf(pair[0]):

@@ -217,7 +217,7 @@ WORDS = {"exact": "exact motion", "printed": "as printed", "linear": "linear mod
          "corrected": "corrected integrals",
          "averaged1": "averaged, first order", "averaged2": "averaged, second order",
          "lindstedt": "corrected expansion"}
-TIMES = 10  # the share of a motion's size from which on an error is told as so many times that size
+TIMES = 10  # the share of a motion's size from which on an error is given as so many times that size
 # inches of a figure of letters of full size, below which there is no room for numbers on each panel
 BRIEF = 8.0
 ROUNDING = 1e-12  # of the largest component, a range of a panel that is rounding

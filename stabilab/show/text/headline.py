@@ -96,7 +96,7 @@ def of_case(case, span=None, brief=False):
 
 
 def judged(case, motion, brief=False):
-    """The motion with its law judged along the case's own run, where that hangs on the attitude and the case
+    """The motion with its law judged along the case's own run, where that needs the attitude and the case
     gives one, and with the caveats of the case. brief: of `of_case`, and without the time to the limit of the
     case."""
     if motion is None:
@@ -111,7 +111,7 @@ def judged(case, motion, brief=False):
 
 def until(case, found, end: float):
     """The validity `found`, or that along the case's own run up to a time `end` (its span where that is none)
-    where it hangs on the attitude and the case gives one."""
+    where it needs the attitude and the case gives one."""
     return of_case(case, (0.0, end) if 0 < end < math.inf else None) if _open(case, found) else found
 
 
@@ -133,9 +133,9 @@ def of_cases(cases) -> str:
 
 
 def lines_of(judged, units: Units = SI) -> list[str]:
-    """A line for every (case, validity) that has a law to be told, one for all combinations of a file that
+    """A line for every (case, validity) that has a law to be named, one for all combinations of a file that
     stand the same way to the same limit, and one for all cases that say the same; without a name where there
-    is one case. units: in which times are told."""
+    is one case. units: in which times are printed."""
     groups, cases = _alike([one for one in judged if one[1] is not None]), [case for case, _ in judged]
     if len(cases) == 1:
         return [_told(found, units) for group in groups for _, found in group]

@@ -122,7 +122,7 @@ def shown(value, one: float = 1.0, digits: int = DIGITS) -> str:
 
 
 def bound_lines(case, motion, units: Units) -> list[str]:
-    """The bounds of the rates for all times, where they are not the extremes told already."""
+    """The bounds of the rates for all times, where they are not the extremes given already."""
     if motion.bounds is None or motion.bounds == motion.extremes:
         return []
     return [*_head("bounds for all times"), *pair_lines(case, motion.bounds, units)]

@@ -50,7 +50,7 @@ def text(cases: Sequence, answer: str, columns: Sequence[tuple[str, str]],
 
 def swept_columns(cases: Sequence) -> list[tuple[str, str, list[str]]]:
     """(head, unit, a cell a case) of every swept key; of a vector the components that vary. A value with a
-    unit of its own is told as written."""
+    unit of its own is printed as written."""
     return [column for place in range(len(cases[0].swept)) for column in key_columns(cases, place)]
 
 

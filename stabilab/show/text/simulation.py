@@ -25,7 +25,7 @@ GAP = 2
 
 def text(case, run, units: Units, known: int | None = None, width: int | None = None) -> str:
     """The lines for one run. known: digits that a check vouches for, where more than a table's were asked
-    for; width: of a terminal, where the columns are told part by part if they do not fit."""
+    for; width: of a terminal, where the columns are printed part by part if they do not fit."""
     digits = DIGITS if known is None else min(ALL, known)
     names, rows = columns(run)
     measures = [units.of(unit) for unit in _units(run)]
@@ -47,7 +47,7 @@ def text(case, run, units: Units, known: int | None = None, width: int | None = 
 
 
 def zero_within(error: float) -> str:
-    """What stands for a number that is no more than its error, which is told by one digit, rounded up."""
+    """What stands for a number that is no more than its error, which is given by one digit, rounded up."""
     with localcontext() as context:
         context.prec, context.rounding = 1, ROUND_CEILING
         return f"0 within {float(+Decimal(error)):.0e}"

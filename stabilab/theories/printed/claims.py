@@ -91,7 +91,7 @@ def _near(name, symbols):
             else " (declare it under [symbols])")
 
 
-# --- What papers print, as data: a TOML file a paper, a row a claim. The format is told in docs/audit.md
+# --- What papers print, as data: a TOML file a paper, a row a claim. The format is in docs/audit.md
 KINDS = {  # kind -> keys that a row of it needs besides `equation` and `printed`
     "holds": (),  # left = right along every motion of the system
     "solves": ("variable",),  # the printed functions of `variable` are a motion

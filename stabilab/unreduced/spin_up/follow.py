@@ -4,7 +4,7 @@ state and many.
 Beside each motion a small change tells by how much the way magnifies it (`drift`), and with it how far the
 run's rounding may have carried the motion from the true one: a certificate counts when it holds for the whole
 ball of that radius about the state. What rounding does along the motion is a delay: it alters the time at
-which the inequality holds, told as the blur of the clock, and nothing else.
+which the inequality holds, given as the blur of the clock, and nothing else.
 """
 from __future__ import annotations
 

@@ -83,14 +83,14 @@ def test_python_gives_the_data_set(tmp_path):
 def test_the_map_keeps_areas_and_comes_back():
     turn, up = np.meshgrid(np.linspace(-3, 3, 41), np.linspace(-1.4, 1.4, 31))
     d = np.stack([np.cos(up) * np.cos(turn), np.cos(up) * np.sin(turn), np.sin(up)], axis=-1).reshape(-1, 3)
-    at = atlas_picture.on_sheet(d)
-    back, inside = atlas_picture.off_sheet(*at.T)
+    at = atlas_picture.on_map(d)
+    back, inside = atlas_picture.off_map(*at.T)
     assert inside.all() and back == pytest.approx(d, abs=1e-12)
     step = 1e-5  # quadrature of one small square: the area of its image is that of the square on the sphere
     for one in d[::97]:
         east = np.cross([0, 0, 1], one) / np.linalg.norm(np.cross([0, 0, 1], one))
         north = np.cross(one, east)
-        ends = atlas_picture.on_sheet(np.stack([one + step * east, one - step * east, one + step * north,
+        ends = atlas_picture.on_map(np.stack([one + step * east, one - step * east, one + step * north,
                                        one - step * north]))
         a, b = (ends[0] - ends[1]) / (2 * step), (ends[2] - ends[3]) / (2 * step)
         assert abs(a[0] * b[1] - a[1] * b[0]) == pytest.approx(1, rel=1e-6)
