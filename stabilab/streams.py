@@ -1,5 +1,5 @@
 """The standard streams, which may be closed, full or without a reader: what is lost there, and how that is
-told; and a sign on stderr of a long silence."""
+reported; and a sign on stderr of a long silence."""
 from __future__ import annotations
 
 import _thread

@@ -153,7 +153,7 @@ def simulate(scene: Any, omega: Any = None, times: ArrayLike | None = None,
     scene; its own start holds where none is given, and the two ends of its span where no times are.
 
     blocks: the rest of the state at time 0 ("gamma", "velocity", "position": three numbers, "attitude": psi,
-    phi, theta, rad, or a quaternion from body to space, scalar last, which is then told in place of angles);
+    phi, theta, rad, or a quaternion from body to space, scalar last, which then stands in place of angles);
     those that the scene needs and blocks leaves out start at gamma = e3, zero angles, rest. attitude:
     "quaternion" or "matrix" has the attitude of any body beside the rates, from where `blocks` say (or their
     vertical, or no turn at all). method: None

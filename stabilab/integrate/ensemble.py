@@ -50,7 +50,7 @@ class Ensemble(Shown, Compared):
 
     @property
     def validity(self):
-        """Of an approximate law (`stabilab.physics.law_limits`) at the times told, value and holds (n,); None
+        """Of an approximate law (`stabilab.physics.law_limits`): value and holds (n,) at the times; None
         where all laws are exact."""
         limits = limits_of(self.scene)
         if limits is None:

@@ -52,8 +52,8 @@ def turning_points(orbit):
 def turning_point(orbit, side, tie=False):
     """Offset of the turning point on one side (-1, +1); None where every barrier of a circle is lower.
 
-    tie: the motion is on the separatrix, so that a barrier that cannot be told from the energy is where it
-    ends.
+    tie: the motion is on the separatrix, so that a barrier that cannot be distinguished from the energy is
+    where it ends.
     """
     zero = orbit.energy * 0
     if orbit.energy.is_zero() and (orbit.force_here > 0) - (orbit.force_here < 0) == -side * orbit.flip:
@@ -374,7 +374,7 @@ def power_of_error(first, middle, last) -> float:
     nodes were doubled.
 
     The error is C r^n for n nodes, but its sign goes round, and two sums may agree by chance. So the rate is
-    told by either ratio of changes, the size by its own change or by the one before, and the largest error
+    given by either ratio of changes, the size by its own change or by the one before, and the largest error
     counts; as `converged` in `rows_kernel`, which needs NumPy.
     """
     a, b, c = first, middle, last

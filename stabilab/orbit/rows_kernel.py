@@ -629,9 +629,9 @@ def converged(now, last, middle, first):
 
     Doubling squares the error of the trapezoidal rule, C r^n for n nodes, and of the double-exponential one,
     so a last change of `ALIKE` leaves nothing. But the sign of an error goes round, and it may be next to
-    nothing by chance. So the rate r^n is told by either ratio of changes too, and a size by its own change or
-    by the one before; the larger counts each time, and what these leave must be `CONVERGED`: four products,
-    asked without a division.
+    nothing by chance. So the rate r^n is given by either ratio of changes too, and a size by its own change
+    or by the one before; the larger counts each time, and what these leave must be `CONVERGED`: four
+    products, no division.
     """
     c, b, a = last / now, middle / now + FLOOR, first / now + FLOOR
     a2, b2 = a * a, b * b

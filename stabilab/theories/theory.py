@@ -34,7 +34,7 @@ def theory(case: Any, order: int | None = None, model: str | None = None,
     applies or the case gives no motion. order: of the top's expansion; model: "printed" adds the misprints of
     the charged body's paper; end: time in s up to which the exact motion of a top is looked at (None: the end
     of the case's span). Where the theory refuses the case's numbers the one row says why: the InputError is
-    told and not raised.
+    reported and not raised.
     """
     module = family(checked_case(case).scene)
     if module is None or case.state is None:

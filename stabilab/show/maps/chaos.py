@@ -16,7 +16,7 @@ from .. import endings, style
 from ..data import as_json, csv_lines
 from ..limiting import cell
 from ..plot import phase_plane
-from ..plot import subject as which
+from ..plot import subject as subjects
 from ..plot.subject import Measures, Subject, measures, subject
 from ..text import headline
 from ..units import number
@@ -37,7 +37,7 @@ def write(case: Any, found: Chaos, out: str | Path) -> Path:
     demand(*style.PACKAGES)
     target, one = endings.file(out, endings.PICTURES), subject(case)
     with style.drawing() as plt:
-        if which.why_not("section", one):
+        if subjects.why_not("section", one):
             figure, ax = plt.subplots(figsize=(7.6, 4.8), layout="constrained")
             _over_time(ax, case, found)
             return style.save(figure, target)
@@ -63,7 +63,7 @@ def _over_time(ax: Any, case: Any, found: Chaos) -> None:
 def _map(figure: Any, ax: Any, beside: Any, one: Subject, until: float) -> None:
     """MEGNO of the motions from the window of the section; those that spin up in a colour of their own."""
     scale: Measures = measures(one)
-    _, plane = phase_plane.plane_of(one, which.certain_from(one))
+    _, plane = phase_plane.plane_of(one, subjects.certain_from(one))
     limits = beside.get_xlim(), beside.get_ylim()
     x, y = (np.linspace(low, high, 2 * GRID + 1)[1::2] for low, high in limits)
     states = np.full((GRID, GRID, 3), plane.level)

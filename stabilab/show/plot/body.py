@@ -10,7 +10,7 @@ import numpy as np
 from .. import style
 from ..axes import PLAIN
 from . import canvas
-from . import subject as which
+from . import subject as subjects
 from .subject import Subject, measures, subject
 
 if TYPE_CHECKING:
@@ -37,9 +37,9 @@ def body(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
     variables.
     """
     one = subject(case, state)
-    which.check("body", one)
+    subjects.check("body", one)
     from matplotlib.patheffects import withStroke
-    scene = which.bodily(one)
+    scene = subjects.bodily(one)
     sides = box_sides(scene.body.inertia)
     with canvas.on(ax, size or SIZE, space=True) as target:
         target.computed_zorder = False
@@ -178,7 +178,7 @@ def _vector_of(attribute: str, length: float, label: str, colour: str, words: st
 
 def _charge(ax, one, effect, sides):
     """The charge on axis 3, at its arm where the mass tells the size of the box, and lines of the field."""
-    body = which.bodily(one).body
+    body = subjects.bodily(one).body
     mass, D = body.mass, np.array(body.inertia)
     longest = np.sqrt(6 * (D.sum() - 2 * D).max() / mass) if mass else 2 * effect.arm / sides[2]
     place = np.array([0.0, 0.0, effect.arm / longest])
@@ -221,7 +221,7 @@ def _against(one: Subject, ax: Any, matrix: Any, label: str) -> dict[str, Any]:
 
 
 def _resistance(ax, one, effect, sides):
-    look = _against(one, ax, np.diag(which.bodily(one).body.inertia), r"resistance $-cD\omega$")
+    look = _against(one, ax, np.diag(subjects.bodily(one).body.inertia), r"resistance $-cD\omega$")
     return f"resistance −c Dω, c = {effect.coefficient:g} 1/s, at the start", look
 
 

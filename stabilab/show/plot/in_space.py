@@ -34,7 +34,7 @@ from ..space import (
 )
 from ..space import space as drawn_in
 from . import canvas
-from . import subject as which
+from . import subject as subjects
 from .path import path, thinned, turning
 from .subject import Measures, Subject, measures, subject
 
@@ -294,7 +294,7 @@ def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None
     as of `time`.
     """
     one = subject(case, state, span)
-    which.check("space", one)
+    subjects.check("space", one)
     scale = measures(one, units)
     found = space_of(one, scale.names, scale.rate, shape=FACETS)
     with canvas.on(ax, size, space=True) as target:

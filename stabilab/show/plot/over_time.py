@@ -26,7 +26,7 @@ from ..text.headline import headline
 from ..text.stuck import answer_line, row_name
 from ..units import SHORT, Units, number, with_unit
 from . import canvas
-from . import subject as which
+from . import subject as subjects
 from .path import SOLID, band, path, turning
 from .subject import Subject, measures, subject
 
@@ -67,7 +67,7 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
     the case's own, at most ten periods, and past the time at which a limit is reached.
     """
     one = subject(case, state, span)
-    which.check("time", one)
+    subjects.check("time", one)
     scale = measures(one, units)
     low, high = one.seen
     t, omega = path(one, low, high)
@@ -299,7 +299,7 @@ def states(case: Any, start: Any = None, span: Any = None, size: tuple[float, fl
     import matplotlib
     from matplotlib import pyplot as plt
     one = subject(case, start, span)
-    which.check("state", one)
+    subjects.check("state", one)
     scale = measures(one, units)
     begin, end = one.asked or (one.seen[0], max(*one.seen, *(one.span or ())))  # slow parts need all
     runs, _ = side_by_side(one, np.linspace(begin, end, POINTS))
@@ -352,7 +352,7 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
     motion. Raises InputError where no constant torque acts, or nothing is to be reached.
     """
     one = subject(case, state)
-    which.check("tilt", one)
+    subjects.check("tilt", one)
     scale, given = measures(one, units), one.case
     scene: Any = one.scene  # physical: `which` refuses the others
     found = by_angle(scene, one.state, ANGLES, given,
@@ -409,7 +409,7 @@ def wheel(case: Any, ax: Axes | None = None, units: str | None = None,
     Raises InputError where the case has no wheel, or its motion does not reach a limit.
     """
     one = subject(case)
-    which.check("wheel", one)
+    subjects.check("wheel", one)
     scale, scenario, row = measures(one, units), scenario_of(one.case), one.stuck
     torque, first = scenario.torque([t for t in scenario.case.thrusters if t.stuck]), one.motion.first[1]
     time = float(first.low), float(first.high)

@@ -13,7 +13,7 @@ from ...errors import InputError
 from .. import style
 from ..precision import meanings, panel, picture
 from . import canvas
-from . import subject as which
+from . import subject as subjects
 from .subject import Subject, subject
 
 if TYPE_CHECKING:
@@ -140,7 +140,7 @@ def budget(case: Any, state: Any = None, ax: Axes | None = None, span: Any = Non
 def measured(case: Any, state: Any = None, span: Any = None, effort: str = "quick") -> Precision:
     """The measurement that a plot shows."""
     one = subject(case, state, span)
-    which.check("budget", one)
+    subjects.check("budget", one)
     if effort not in EFFORTS:
         raise InputError(f"effort: expected one of {', '.join(EFFORTS)}, got {effort!r:.40}")
     return precision(one, effort)

@@ -26,7 +26,7 @@ from ...unreduced.periodic import (
 from .. import style
 from ..units import SHORT, number, with_unit
 from . import canvas
-from . import subject as which
+from . import subject as subjects
 from .in_space import levels as level_lines
 from .subject import Measures, Subject, measures, subject
 
@@ -46,7 +46,7 @@ def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str | Non
     InputError where the motion has no such plane; it names the kinds of plot that there are.
     """
     one = subject(case, state)
-    which.check("phase", one)
+    subjects.check("phase", one)
     scale, plane = measures(one, units), phase_plane(one.twin, one.state)
     i = plane.reduction.axis
     with canvas.on(ax, size) as target:
@@ -195,11 +195,11 @@ def section(case: Any, states: Any = None, ax: Axes | None = None, units: str | 
     rest, and one that spins up before it has passed any plane often enough.
     """
     one, rest = _motions(case, states)
-    which.check("section", one)
+    subjects.check("section", one)
     fan = next((n for n in (neighbours, one.neighbours) if n is not None), USUAL)
     _check("neighbours", fan, 0, FAN)
     _check("passages", PASSAGES if passages is None else passages, 1, MOST)
-    scale, until = measures(one, units), which.certain_from(one)
+    scale, until = measures(one, units), subjects.certain_from(one)
     orbit, plane = plane_of(one, until)
     count, followed = passages or _round(PASSAGES, orbit), _round(BESIDE, orbit)
     times, places = returns(one.twin, one.state, plane, count, until)
@@ -233,7 +233,7 @@ def _check(name: str, value: Any, least: int, most: int) -> None:
 
 def _all_repeat(one: Subject) -> bool:
     """Whether every bounded motion off a separatrix is periodic: one degree of freedom, or no torque."""
-    return reduce(one.twin) is not None or which.free(one)
+    return reduce(one.twin) is not None or subjects.free(one)
 
 
 def plane_of(one: Subject, until: float) -> tuple[Periodic | None, Section]:
@@ -345,7 +345,7 @@ def potential(case: Any, state: Any = None, ax: Axes | None = None, units: str |
     InputError where the motion does not reduce.
     """
     one = subject(case, state)
-    which.check("potential", one)
+    subjects.check("potential", one)
     scale, plane = measures(one, units), phase_plane(one.twin, one.state)
     across, up = plane.unit * scale.angle[1], float(plane.reduction.energy_unit)
     low, high = window(plane)

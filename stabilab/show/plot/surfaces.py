@@ -12,7 +12,7 @@ from .. import style
 from ..space import Box, spread
 from ..units import with_unit
 from . import canvas, in_space
-from . import subject as which
+from . import subject as subjects
 from .in_space import (
     CURVES,
     POINTS,
@@ -218,8 +218,8 @@ def sphere(case: Any, state: Any = None, ax: Axes | None = None, units: str | No
     plot that there are.
     """
     one = subject(case, state)
-    which.check("sphere", one)
-    found = momentum_sphere(one) if one.physical and which.free(one) else cylinder(one, units)
+    subjects.check("sphere", one)
+    found = momentum_sphere(one) if one.physical and subjects.free(one) else cylinder(one, units)
     with canvas.on(ax, size, space=True) as target:
         in_space.facets(target, [(found.surface, style.GREY)], pale_by=0.22)
         for points, look, front in found.lines:

@@ -9,7 +9,7 @@ from typing import Any
 from ...errors import InputError
 from ...packages import demand
 from .. import endings, style
-from . import subject as which
+from . import subject as subjects
 from .body import body
 from .equilibria import equilibria
 from .in_space import space
@@ -94,8 +94,8 @@ def narrowed(figure: Any) -> Any:
 def checked(path: str | Path, one: Subject, kind: str | None) -> str:
     """The kind of a plot, if it can be drawn and written to such a path: before anything is computed."""
     moving = endings.ending(path) in ENDINGS
-    chosen = kind or ("attitude" if moving else which.default(one))
-    which.check(chosen, one)
+    chosen = kind or ("attitude" if moving else subjects.default(one))
+    subjects.check(chosen, one)
     endings.file(path, ENDINGS if chosen == "attitude" else endings.PICTURES)
     return chosen
 

@@ -19,7 +19,7 @@ from .. import endings, style
 from ..report import html
 from ..units import SHORT, Unit, Units
 from . import canvas, in_space
-from . import subject as which
+from . import subject as subjects
 from .body import CORNERS, FACES, box_sides
 from .subject import Subject, measures, subject
 
@@ -190,7 +190,7 @@ def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, fra
     """
     from matplotlib.animation import FuncAnimation
     one = subject(case, state, span)
-    which.check("attitude", one)
+    subjects.check("attitude", one)
     found, scale = turn(one, frames), measures(one, units)
     with canvas.on(ax, size or SIZE, space=True) as target:
         draw = _stage(target, found, one, scale)

@@ -23,7 +23,7 @@ from ...theories.follow import models_of
 from ...verify import verify_file
 from .. import certification, frame, limiting, style
 from ..axes import axes_of
-from ..plot import subject as which
+from ..plot import subject as subjects
 from ..plot import to_file
 from ..plot.in_space import space_of
 from ..plot.over_time import file_axes
@@ -80,14 +80,14 @@ def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg", at_re
     """Draw every plot of a subject (`plot.subject`) that a page shows; file, size in pixels, title and
     caption of each, in order. deep: all kinds, not only those of the motion itself. at_rest: its
     equilibria."""
-    found, offered = [], [kind for kind in SHOWN if not which.why_not(kind, one)]
+    found, offered = [], [kind for kind in SHOWN if not subjects.why_not(kind, one)]
     # what another part of the page has: table and space the single points, the plane what is wrapped round a
     # surface
-    case, bodily = one.case, which.bodily(one)
+    case, bodily = one.case, subjects.bodily(one)
     # a sketch of the body shows more than its moments: effects, or axes that the file has not
     acted_on = (bodily and bodily.effects) or case.thrusters or case.frame and not case.frame.as_given
     spared = {"equilibria": at_rest is not None and not at_rest.curves, "body": not acted_on,
-              "sphere": "phase" in offered and not which.free(one), "state": which.rates_alone(one)}
+              "sphere": "phase" in offered and not subjects.free(one), "state": subjects.rates_alone(one)}
     exact_alone = models_of(one.scene) == ("exact",)
     for kind, (title, caption) in SHOWN.items():
         if kind in offered and (deep or kind in BRIEF) and not spared.get(kind):
@@ -160,7 +160,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
                                                     "deg" if units.scaled else units.name, found)) or [])
         missing: dict[str, list[str]] = {}  # titles by their reason
         for kind, (title, _) in SHOWN.items():
-            missing.setdefault(which.why_not(kind, one), []).append(title)
+            missing.setdefault(subjects.why_not(kind, one), []).append(title)
         absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
         page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(one, units))
     page["space"] = _tried(absent, "Space of the rates", lambda: space(one, found, units))
