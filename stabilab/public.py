@@ -70,6 +70,7 @@ def _with_motion(bound: BoundArguments, case: Case, name: str) -> None:
 
 
 def _start(case: Case, name: str) -> Any:
+    """The start of a case in the form that the function of this name takes."""
     from .answers.chaos import row_of
     from .physics.states import start_of
     if name == "spin_up":

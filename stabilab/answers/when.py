@@ -1,6 +1,7 @@
-"""When the motion of a case reaches a limit, stated as on a command line ("30 deg/s", "z = 30 deg/s"), and
-what a tilt of its torque makes of that; the zeros of a component, or of any function of the state, as
-`events` of SciPy's `solve_ivp`."""
+"""When the motion of a case reaches a limit, and when functions of its state vanish.
+
+A limit is stated as on a command line ("30 deg/s", "z = 30 deg/s"); a tilt of the torque may change the
+answer. Zeros are those of a component, or of any function, given as `events` of SciPy's `solve_ivp`."""
 from __future__ import annotations
 
 import math

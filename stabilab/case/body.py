@@ -213,6 +213,7 @@ def wheels_of(top: Table) -> tuple[Wheel, ...]:
 
 
 def limits_of(top: Table) -> Limits | None:
+    """The table [limits] of a case file; None where there is none."""
     table = top.table("limits")
     if table is None:
         return None

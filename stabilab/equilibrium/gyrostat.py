@@ -1,6 +1,7 @@
-"""All equilibria of a body with a gyrostatic moment under a constant torque, in closed form. Source: derived
-here (docs/mathematics/equilibria.md, docs/mathematics/stability.md); Amer et al. 2024 treats lambda along
-axis 1 and torques on one axis.
+"""All equilibria of a body with a gyrostatic moment under a constant torque, in closed form.
+
+Source: derived here (docs/mathematics/equilibria.md, docs/mathematics/stability.md); Amer et al. 2024
+treats lambda along axis 1 and torques on one axis.
 
 At an equilibrium (D y + lambda) x y + M = 0; dotting with y and with D y + lambda gives M.y = 0 and M.(D y +
 lambda) = 0, two linear conditions, and what is left is at most one quadratic. Existence (parallel vectors,
@@ -23,8 +24,7 @@ principal axis.
 Without a torque: momentum parallel to rotation, D y + lambda = s y: the curve y(s) = lambda/(s - D) between
 its poles and, for each D_i with lambda_i = 0, a line y_i arbitrary at s = D_i. With s = D_p + 1/t for one
 axis p that carries lambda the curve is rational and whole. lambda = 0: the principal axes, planes for equal
-moments, everything for a sphere.
-"""
+moments, everything for a sphere."""
 from __future__ import annotations
 
 from fractions import Fraction

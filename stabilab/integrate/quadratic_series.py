@@ -7,7 +7,7 @@ equations with a gyrostatic moment, a constant torque and a resisting medium are
 and t = s/u, y obeys them with moment/u, torque/u^2 and resistance/u. For u a power of two the change is
 exact. So is a unit of mass, which leaves the motion as it is, but not the squares in its laws.
 
-Power series in plain floats are for pictures that follow a hand, where neither NumPy nor a compiled step is
+Power series in plain floats are for pictures that follow a slider, where neither NumPy nor a compiled step is
 loaded. The rates are x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i, so the coefficients of the
 series follow from one another by products of series. A picture needs no last digit: a step leaves SHARE of
 the state's size at most.

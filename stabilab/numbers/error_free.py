@@ -1,8 +1,9 @@
-"""Sums and products without error: what rounding leaves behind, as a second double. Twofold numbers, pairs of
-a high and a low part, for kernels that numba compiles (`numba_door`) and for arrays (`double_double`).
+"""Sums and products without error: what rounding leaves behind, as a second double.
 
-Error-free sum of Knuth and product of Dekker, as in Shewchuk (1997) and in Hida, Li and Bailey (2001).
-"""
+Twofold numbers, pairs of a high and a low part, serve kernels that numba compiles (`numba_door`) and arrays
+(`double_double`).
+
+Error-free sum of Knuth and product of Dekker, as in Shewchuk (1997) and in Hida, Li and Bailey (2001)."""
 from __future__ import annotations
 
 from .vectors import Number

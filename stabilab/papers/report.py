@@ -1,9 +1,10 @@
-"""The report: one folder of pages, read from disk without a network, on cases of one's own, or on
-everything: a start page, the papers, all cases in groups, the audit, other tools' numbers and what answers
-cost.
+"""The report: one folder of pages, read from disk without a network, on one's own cases or on everything.
 
-A paper's chapter has its data, its figures, when its models leave the exact motion, and a variant that
-makes sense. Every number in it is computed while the report is written."""
+Everything is a start page, the papers, all cases in groups, the audit, other tools' numbers and what
+answers cost.
+
+A paper's chapter has its data, its figures, the time at which its models depart from the exact motion, and
+a variant that makes sense. Every number in it is computed while the report is written."""
 from __future__ import annotations
 
 import os

@@ -341,6 +341,7 @@ CONSERVED = {
 
 
 def conserved(equations: Equations) -> Iterator[Balance]:
+    """The laws whose quantity is constant and not zero throughout, with the reason in words."""
     for law in equations.balances:
         if equations.numeric(law.rate) == 0 and (quantity := equations.numeric(law.quantity)) != 0:
             words = CONSERVED.get(law.name, f"no torque acts in it: the {law.name} is constant")

@@ -191,6 +191,7 @@ def equilibrium_mask(scene: AnyScene, states: np.ndarray) -> np.ndarray:
 
 
 def checked_starts(equations: Equations, states: Any) -> np.ndarray:
+    """Rows of whole states as an array (n, m); InputError where they are not finite rows of m numbers."""
     wanted = len(equations.state)
     array = float_array(states, "states", f"rows of {wanted} numbers")
     if array.ndim != 2 or array.shape[1] != wanted or not len(array):

@@ -81,6 +81,7 @@ def certificates(incomplete: str) -> list[str]:
 
 
 def _paths(begun: str, endings) -> list[str]:
+    """Folders, and files with these endings, whose paths begin so; hidden ones where a dot was typed."""
     folder, name = os.path.split(begun)
     try:
         with os.scandir(folder or ".") as found:

@@ -1,6 +1,7 @@
-"""The separatrix as files: watertight meshes of every branch (.glb and .stl without any GL), a summary in
-words, and a picture by VTK in the space of rates that every view draws, with title and legend by
-Matplotlib."""
+"""The separatrix as files: watertight meshes of every branch, a summary in words, and a picture.
+
+Meshes are .vtp (where vtk is installed), .glb and .stl, and need no GL. The picture is drawn by VTK, in the
+space of rates that every view draws, with title and legend by Matplotlib."""
 from __future__ import annotations
 
 import json

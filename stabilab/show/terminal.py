@@ -1,6 +1,8 @@
-"""Text for people on stdout and stderr: wrapped to a terminal and coloured there, tables in columns, plain
-lines anywhere else; names such as omega1 and lambda3 as people write them, and back where an encoding has
-no such letters."""
+"""Text for people on stdout and stderr: width, colour, columns, and letters such as ω.
+
+It is wrapped to a terminal and coloured there, with tables in columns, and plain lines anywhere else. Names
+such as omega1 and lambda3 are printed as people write them, and plain where an encoding has no such
+letters."""
 from __future__ import annotations
 
 import os

@@ -1,5 +1,5 @@
 """The averaged equations of a nearly spherical body with a liquid, derived from the scene's equations as a
-normal form of the slow turn; and where they end: their steady states, who attracts, and how fast.
+normal form of the slow turn; and where they end: their steady states, which attract, and how fast.
 
 With D1 = J0 + e d + e^2 h, D2 = J0 + e d - e^2 h, D3 = J0, Gamma = e g, kappa = e kappa, resistance e^2 zeta,
 torque e^2 M (e only counts orders: every answer is written in the physical numbers, e = 1) and Z = p - i q =

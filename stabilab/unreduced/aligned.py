@@ -1,7 +1,7 @@
 """A torque in the plane of two equal moments: the body turned so that the torque lies on an axis has an
 orbit, or grows by law.
 
-The twin's answers are those of the scene, told in the body's own axes; extremes of body components are roots
+The twin's answers are those of the scene, given in the body's own axes; extremes of body components are roots
 of their own rates.
 """
 from __future__ import annotations

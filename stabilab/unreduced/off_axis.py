@@ -13,10 +13,10 @@ positive sums of those of its powers.
 
 First crossing. During each step the quantity lies within a radius of a polynomial, and so within that of
 Bernstein coefficients. A step that stays below the limit is passed; the first that may reach it is halved,
-left half first, until a piece too short to halve cannot be told from one that reaches it: there the time
-begins. It ends at the first of some points beyond at which the limit is surely reached. Halving takes means
-of coefficients (de Casteljau), so what rounding adds in all is less than HALVINGS (2 N + 1) 2^-53 < 2^-40 of
-the greatest of them.
+left half first, until a piece too short to halve cannot be distinguished from one that reaches it: there
+the time begins. It ends at the first of some points beyond at which the limit is surely reached. Halving
+takes means of coefficients (de Casteljau), so what rounding adds in all is less than HALVINGS (2 N + 1)
+2^-53 < 2^-40 of the greatest of them.
 
 Ranges. Each step is cut into PIECES of equal length; a coefficient formed in doubles errs by less than 2^-44
 of the sum of sizes."""

@@ -181,6 +181,7 @@ class Link:
 
 
 def links_of(chain: Chain, pieces: Sequence[Piece] | None = None) -> Iterator[Link]:
+    """The motions of the chain in turn, each with a second run from a start moved in its last place."""
     given = chain.case.exact_state
     state = np.array(chain.case.state, float)
     second = moved_row(state, MOVED) if state.any() else state
@@ -192,6 +193,7 @@ def links_of(chain: Chain, pieces: Sequence[Piece] | None = None) -> Iterator[Li
 
 
 def end_of(scene: Scene, state: np.ndarray, length: Fraction) -> np.ndarray:
+    """The state after a time; InputError where no run gets there."""
     if not length:
         return np.asarray(state, float)
     run = trajectory(scene, state, (0.0, float(length)), laws=False)

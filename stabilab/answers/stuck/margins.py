@@ -1,6 +1,7 @@
-"""What is found of a stuck thruster, as frozen rows that say how well they are known, and how little must
-change for its fate to change: rate, wheel momentum, torque, each with its direction, where a separatrix is
-there."""
+"""What is found of a stuck thruster, and how little must change for its fate to change.
+
+Rows are frozen and say how well they are known. A change is one of the rate, of the wheel's momentum or of
+the torque, each with its direction, where a separatrix is there."""
 from __future__ import annotations
 
 import math

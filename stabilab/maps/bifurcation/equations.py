@@ -10,7 +10,7 @@ The equations have one or two unknowns, with polynomial coefficients in the numb
 
 Off the principal axes they are isolated: on the line where the two linear conditions meet, y = (P + x v)/w,
 one quadratic remains (`equilibrium.gyrostat`). A torque on principal axis i, with no wheel along it, has a
-whole conic of them, and a motion keeps to its own curve across that axis, W = const: the equilibria on this
+whole conic of them, and a motion stays on its own curve across that axis, W = const: the equilibria on this
 curve are where two conics meet. Without a motion the points of the conic where stability changes are counted,
 m = 0, another two conics. All unknowns are components of y (`equilibrium.stability.Pencil`)."""
 from __future__ import annotations

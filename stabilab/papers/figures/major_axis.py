@@ -1,5 +1,7 @@
-"""Figures 8-15 of Amer et al. 2024: torque on the major axis, along the momentum wheel, where no motion is
-bounded; and a figure that they do not have, their formulas without a wheel, where these hold."""
+"""Figures 8-15 of Amer et al. 2024: torque on the major axis, along the momentum wheel; no motion is
+bounded.
+
+One figure more than they have: their formulas without a wheel, where these hold."""
 from __future__ import annotations
 
 from functools import lru_cache

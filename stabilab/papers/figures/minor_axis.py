@@ -1,5 +1,6 @@
-"""Figures 2 to 7 of Amer et al. 2024: constant torque on the minor axis, drawn from the equations; figure
-6 is the separatrix surfaces from above, with the equilibria and the curves between these."""
+"""Figures 2-7 of Amer et al. 2024: constant torque on the minor axis, drawn from the equations.
+
+Figure 6 has the separatrix surfaces from above, with the equilibria and the curves between these."""
 from __future__ import annotations
 
 from functools import lru_cache

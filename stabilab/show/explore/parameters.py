@@ -1,7 +1,7 @@
 """The sliders of the explorer, and the case that they changed, as the text of a case file.
 
 What the page shows is always the answer for that very text, so a case that is saved is the one that was seen.
-Numbers that no hand touched stay as the file has them. Sliders count along principal axes; where the file's
+Numbers that no slider changed stay as the file has them. Sliders count along principal axes; where the file's
 tensor is not diagonal, the new text stands along these.
 """
 from __future__ import annotations

@@ -132,6 +132,7 @@ def _wheels(atlas: Atlas, most: int) -> list[int]:
 
 
 def _map(ax: Any, atlas: Atlas, wheel: int, kind: str, times: Any, plain: bool) -> None:
+    """One map on its axes: colours by kind, principal planes, rim, and the marked directions."""
     x, y = np.meshgrid((np.arange(PIXELS) + 0.5) / PIXELS * 2 - 1,
                        (np.arange(PIXELS // 2) + 0.5) / (PIXELS // 2) * 2 - 1)
     directions, inside = off_map(x.ravel() * ACROSS, y.ravel() * UP)

@@ -1,6 +1,7 @@
-"""Basins in words, as CSV and JSON: what share of the plane each has, how far its boundary was followed and
-how rough it is; as a data set of xarray with the states asked, the cells and the boundary; and the public
-question."""
+"""Basins in words, as CSV, JSON and a data set of xarray; and the public question.
+
+It says what share of the plane each has, how far its boundary was followed and how rough it is. The data
+set has the states asked, the cells and the boundary."""
 from __future__ import annotations
 
 import math

@@ -1,5 +1,6 @@
-"""Pictures of equilibria over one number, over two, and, on a circular orbit, over the momentum of the
-wheels; above a panel over one number, how many equilibria there are and where that changes."""
+"""Pictures of equilibria over one number, over two, and, on a circular orbit, over the wheels' momentum.
+
+Above a panel over one number stands how many equilibria there are, and where that changes."""
 from __future__ import annotations
 
 import math

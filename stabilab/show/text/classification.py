@@ -1,6 +1,7 @@
-"""What `stabilab classify` prints: the answer, the motion's numbers, the equilibria, why; proofs and
-algebra on request; the same as JSON; curves of equilibria with their numbers in the unit of rates; and
-what uncertain numbers do to the verdicts."""
+"""What `stabilab classify` prints, as text and as JSON.
+
+Text has the answer, the motion's numbers, the equilibria, and why; proofs and algebra on request; curves of
+equilibria with their numbers in the unit of rates; and what uncertain numbers do to the verdicts."""
 from __future__ import annotations
 
 import math

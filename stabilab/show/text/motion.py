@@ -1,6 +1,7 @@
-"""Motions in words: where one starts, how far its rates go, its margins and period, and why, every number
-with its unit; as text and as JSON also how it turns in space, the equilibria on a circular orbit, and what
-internal dissipation makes of a spin."""
+"""Motions in words: the numbers of one, its attitude, rest on a circular orbit, dissipation.
+
+A motion's lines say where it starts, how far its rates go, its margins and period, and why, every number
+with its unit. Attitude, circular orbit and dissipation have JSON here as well."""
 from __future__ import annotations
 
 import math

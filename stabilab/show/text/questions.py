@@ -1,6 +1,6 @@
-"""The answer to one question in words, JSON and CSV: what `fate`, `extremes` and `period` print, with how
-many digits were checked; and when a limit is reached, with what a tilt of the torque does to a bounded
-motion."""
+"""The answer to one question (`when`, `fate`, `extremes`, `period`) in words, JSON and CSV.
+
+With how many digits were checked, or, for a limit, what a tilt of the torque does to a bounded motion."""
 from __future__ import annotations
 
 import math

@@ -1,5 +1,6 @@
-"""A scene in words: what its file states, its equations of motion, and the laws that hold for it; and all
-combinations of a [sweep] as one table, a column a key that varies, then the answer's numbers."""
+"""A scene in words, its equations and laws; and all combinations of a [sweep] as one table.
+
+The table has a column for each key that varies, then the answer's numbers."""
 from __future__ import annotations
 
 import math

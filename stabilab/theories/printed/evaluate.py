@@ -1,5 +1,5 @@
 """Printed formulas evaluated: at points, with derivatives and to any number of digits, for the audit, and as
-functions of NumPy arrays, so that what `model = "printed"` draws is what the audit holds against the
+functions of NumPy arrays, so that what `model = "printed"` draws is what the audit compares with the
 equations of motion."""
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 """A certificate of spin-up: an inequality between numbers of one state that, once true, stays true for
-ever; and bodies with equal moments: what is exact, and the second fate, spin-up in the equatorial plane.
+ever.
 
 Theorem (proof: docs/mathematics/spin-up.md). Let x be the spin of a form, D1 x' = V(x) + what oscillates,
 zeta its amplitude, Om(x) > 0 increasing (the rate of the phase up to a constant), V >= drive from z on, and
@@ -30,9 +30,10 @@ of themselves, and every comparison leaves SLACK = 2^-30 of the sum of the sizes
 
 A and z are searched from the smallest that could do, by `kernel`: compiled, or as it is written.
 
-Equal moments: axis 1 the axis of symmetry, D2 = D3 = D, d = D1 - D, no transverse wheel (l2 = l3 = 0): D1
-omega1' = M1 exactly, and with X = omega1 + l1/d, xi = omega2 + i omega3, mu = (M2 + i M3)/D the other two
-are xi' = i (d/D) X xi + mu.
+Bodies with equal moments: what is exact, and the second fate, spin-up in the equatorial plane. Axis 1 the
+axis of symmetry, D2 = D3 = D, d = D1 - D, no transverse wheel (l2 = l3 = 0): D1 omega1' = M1 exactly, and
+with X = omega1 + l1/d, xi = omega2 + i omega3, mu = (M2 + i M3)/D the other two are xi' = i (d/D) X xi +
+mu.
 
 * M1 != 0: every state spins up about the axis, in the direction of M1; nothing is integrated, and
   |xi(t)| <= |xi(0)| + 8 |mu|/sqrt(|d| |M1|/(D D1)).
@@ -152,6 +153,7 @@ def _sphere(D, l, M, x):
 
 
 def _symmetric(i, D, l, M, x):
+    """`Closed` of a body whose axis of symmetry is i, without a transverse wheel."""
     j, law, flat = (i + 1) % 3, "axis of symmetry", [v * (n != i) for n, v in enumerate(M)]
     push, cone = _size(flat) / D[j], _size([v * (n != i) for n, v in enumerate(x)])
     if M[i]:

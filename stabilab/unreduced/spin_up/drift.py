@@ -5,7 +5,7 @@ They are followed by Taylor steps (`steps`).
 
 A change along a motion is a mere delay. It alters nothing in what the motion comes to, but it grows (the
 faster of two turns round ever farther ahead), and a large delay would be taken for a change across. So the
-two are told apart: what lies across the motion is followed from advance to advance, and gives the growth; the
+two are separated: what lies across the motion is followed from advance to advance, and gives the growth; the
 delay is a blur of the time. Where a motion hardly moves, all is across. Over steps the change obeys the
 linear equation beside the motion; over a window of many revolutions (`drift`) a twin runs from close by.
 

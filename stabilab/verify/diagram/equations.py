@@ -16,7 +16,7 @@ how many are positive (Descartes' rule is exact then).
 The equations are rates, the law that holds along a motion, and where stability changes: flint's polynomials
 in t and the three unknowns. A body's rates stand times its moments, w_i x_i' = kappa_i x_j x_k + rho_i x_k
 + sigma_i x_j + m_i with w = D (1 for the scaled system). Equilibria satisfy two linear conditions besides
-(`numbers.Rates`), which are sums of the rates."""
+(`verify.numbers.Rates`), which are sums of the rates."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
