@@ -45,9 +45,6 @@ from ..show.maps import (
 from ..show.maps import (
     to_file as map_files,
 )
-from ..show.maps import (
-    to_file as map_to_file,
-)
 from ..show.plot import to_file
 from ..show.surface import text as surface_text
 from ..show.surface import write_all
@@ -195,10 +192,10 @@ def bifurcation(case, vary, curve, out, certify, csv, json):
 
 def basin(case, vary, depth, out, workers, scheduler, follow, csv, json, strict):
     """Show which initial states of a plane spin up, and how rough the boundary is."""
-    targets = map_to_file.checked(out or [])
+    targets = map_files.checked(out or [])
     with basins(case, split_keys(vary or [], "KEY=FROM:TO or KEY=FROM:TO:N"), depth,
-                map_to_file.data_of(targets), workers, scheduler, follow) as found:
-        files = [map_to_file.write_basins(found, path) for path in targets]
+                map_files.data_of(targets), workers, scheduler, follow) as found:
+        files = [map_files.write_basins(found, path) for path in targets]
     write_answer(basins_shown, found, json, csv)
     say_written(files)
     leave_undecided(strict, strict and (basins_shown.undecided(found) or unphysical([found.plan.case])))
@@ -208,9 +205,9 @@ def atlas(case, torque, wheel, level, refine, certify, follow, no_time, out, wor
           json, strict, **limits):
     """Map all directions of a torque. limits: what is to be reached, by the names of the options."""
     plan = asked(case, torque, wheel, level, refine, certify, follow, not no_time, **limits)
-    system, targets = units_of(plan.case, units), map_to_file.checked(out or [], map_to_file.PAGES)
+    system, targets = units_of(plan.case, units), map_files.checked(out or [], map_files.PAGES)
     with drawn(plan, targets[0] if targets else None, workers, scheduler) as found:
-        files = [map_to_file.write_atlas(found, target, system) for target in targets]
+        files = [map_files.write_atlas(found, target, system) for target in targets]
     write_answer(atlas_shown, found, json, csv, system)
     say_written(files)
     leave_undecided(strict, strict and (atlas_shown.undecided(found) or unphysical([plan.case])))

@@ -29,9 +29,8 @@ from ..show.data import as_json
 from ..show.maps import bifurcation_picture
 from ..show.progress import told
 from ..show.text import headline, questions
-from ..show.text import motion as in_words
-from ..show.text import stuck as burns
 from ..show.text import stuck as shown
+from ..show.text.motion import circular_orbit_dict, circular_orbit_text, flat_spin_dict, flat_spin_text
 from .common import (
     answers_of,
     either,
@@ -83,7 +82,7 @@ def burn(case, stop, below, units, json, strict):
              for name, text, dimension in (("stop", stop, TIME), ("below", below, RATE)) if text is not None}
     with blamed_on(craft):
         found = left_by(burning, **asked)
-    either(json, lambda: burns.burn_dict(craft, found), lambda: burns.burn_text(craft, found, system))
+    either(json, lambda: shown.burn_dict(craft, found), lambda: shown.burn_text(craft, found, system))
     open_ = found.latest is not None and found.latest.level == "undecided"
     leave_undecided(strict, open_ or found.closed.motion.fate.word == "undecided")
 
@@ -122,10 +121,10 @@ def flat_spin(case, within, units, json, strict):
     angle = in_si(within.strip(), ANGLE, "--within")
     answered = answers_of(loaded, lambda one: ask_flat_spin(one, angle))
     if json:
-        write_json(loaded, [in_words.flat_spin_dict(*one) for one in answered])
+        write_json(loaded, [flat_spin_dict(*one) for one in answered])
     else:
         tell_all([(replace(one, caveats=found.caveats), found) for one, found in answered], systems,
-                 in_words.flat_spin_text)
+                 flat_spin_text)
     leave_undecided(strict, any(found.outcome == "undecided" for _, found in answered))
     hold_laws(strict, (), loaded)
 
@@ -144,8 +143,8 @@ def orbit(case, up_to, out, units, json, strict):
     with blamed_on(craft):
         found = circular_orbit(orbiting, most)
         drawn = [bifurcation_picture.write_orbit(craft, found, out, system)] if out else []
-    either(json, lambda: in_words.circular_orbit_dict(craft, found),
-           lambda: in_words.circular_orbit_text(craft, found, system))
+    either(json, lambda: circular_orbit_dict(craft, found),
+           lambda: circular_orbit_text(craft, found, system))
     say_written(drawn)
     every = (*found.equilibria.points, *found.equilibria.families)
     leave_undecided(strict, any(one.verdict == "undecided" for one in every))

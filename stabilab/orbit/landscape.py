@@ -299,7 +299,7 @@ class ConicLandscape(Landscape):
         return 0.5 * w * w + abs(pot.mu) + np.abs(pot.G) * size**2 + pot.slopes * size
 
 
-# --- Barriers and wells along the orbits of many states at once, on circles, hyperbolas and parabolas
+# --- The same on circles, hyperbolas and parabolas, one class each
 # share of a cubic's discriminant: two roots 1e-7 apart, hardly distinct in doubles, leave 1e-14 of it or more
 DOUBLE_ROOT = 1e-10
 # units of rounding allowed for in the error bound of a margin: some thirty operations, each counted twice
