@@ -4,7 +4,7 @@ function atlasView(canvas, data, say) {
   const pen = canvas.getContext("2d"), ROOT2 = Math.SQRT2, COS_G = Math.sqrt(2 / 3), TAN_G = Math.sqrt(1 / 2), PART = Math.PI / 12;
   const state = {wheel: 0, kind: "fate", globe: false, turn: [0.6, 0.45], at: null};
 
-  // the place on the octahedron of a direction, as maps/atlas/cells.py has it
+  // the place on the octahedron of a direction, as maps/pointed.py has it
   function placeOf(d) {
     const size = Math.hypot(...d), u = d.map(v => Math.abs(v) / size);
     let k = 0; for (const n of [1, 2]) if (u[n] < u[k]) k = n;
