@@ -1,5 +1,7 @@
-"""A limit of a motion (of the rate, of a component, of the kinetic energy, of the angle by which a body
-axis has turned), and the time at which an enclosed motion first reaches it.
+"""A limit of a motion, and the time at which an enclosed motion first reaches it.
+
+A limit is one of the rate, of a component, of the kinetic energy, or of the angle by which a body axis has
+turned.
 
 The motion is enclosed in integers, of as many bits as are needed, as far as the work allowed reaches;
 beyond that by compiled steps, for rates along principal axes alone."""

@@ -1,5 +1,6 @@
-"""When a motion reaches a limit: the result; a run's roots in machine precision; and how long a small
-torque across the axis leaves a bounded motion below a rate.
+"""When a motion reaches a limit: results, and roots along a run in machine precision.
+
+How long a small torque across the axis leaves a bounded motion below a rate is here as well.
 
 The error of a run's roots is shown by a second run from a start moved in its last place (`by_run`).
 

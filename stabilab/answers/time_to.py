@@ -1,5 +1,6 @@
-"""When a motion first reaches a limit: of the rate, of a component, of the energy, or of the angle by
-which a body axis has turned; also where an effect stops acting before.
+"""When a motion first reaches a limit: of a rate, of the energy, or of the turn of a body axis.
+
+An effect may stop acting before.
 
 Without a run it is known that a limit is never reached, where rest, extremes, a bound or one whole period
 show it; when a certified spin-up reaches it, by its clock; and a time before which the torque cannot.

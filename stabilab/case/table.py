@@ -1,5 +1,7 @@
-"""One table of a case file: reads values by key, each with its line, its unit and its uncertainty, and
-notes every fault with its line; the table of what a case expects.
+"""One table of a case file, and the table of what a case expects.
+
+Values are read by key, each with its line, its unit and its uncertainty; every fault is noted with its
+line.
 
 Written by hand rather than with pydantic, whose import alone takes longer than the whole of `stabilab
 classify`."""

@@ -1,5 +1,6 @@
-"""What commands share: the cases that they are given, their motions, and how answers are written: data and
-answers to stdout, messages to stderr, an exit code where an answer falls short."""
+"""What commands share: the cases that they are given, their motions, and how answers are written.
+
+Data and answers go to stdout, messages to stderr; an exit code says where an answer falls short."""
 from __future__ import annotations
 
 import sys

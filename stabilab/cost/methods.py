@@ -1,5 +1,6 @@
-"""The ways to follow a motion that are compared: each a name, a ladder of settings, and how to make a run;
-and those that find period, extremes and fate.
+"""The ways to follow a motion that are compared, and those to find period, extremes and fate.
+
+Each has a name, a ladder of settings, and how to make a run.
 
 `prepare(problem, setting)` returns a callable run(times) -> Answer; what is done once for all runs of a scene
 (compiling, series) happens in it. The counters of an Answer are exact.

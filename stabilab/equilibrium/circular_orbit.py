@@ -1,5 +1,4 @@
-"""All equilibria of a satellite on a circular orbit, with their stability, as data; and how they change
-with the momentum of the wheels.
+"""All equilibria of a satellite on a circular orbit, and how they change with the wheels' momentum.
 
 Their number as the momentum of the wheels grows along one direction changes at isolated momenta only.
 

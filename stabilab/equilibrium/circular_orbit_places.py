@@ -1,5 +1,4 @@
-"""The attitudes at rest on a circular orbit: isolated ones, continuous families, and the stability of
-each.
+"""The attitudes at rest on a circular orbit: isolated ones, families, and the stability of each.
 
 The isolated ones are algebraic numbers, by one polynomial of degree 12.
 

@@ -1,5 +1,6 @@
-"""One motion in time, by Taylor series or SciPy: the state at given times, and how far the run departs
-from the laws of the motion; past the end of an effect too.
+"""One motion in time, by Taylor series or SciPy, past the end of an effect too.
+
+A run has the state at given times, and says how far it departs from the laws of the motion.
 
 The laws are checked against the integrals of their rates, which ride along in the same run without steering
 its steps (feathered, see `to_heyoka`), so a law with a non-zero rate is as good a witness as a constant.

@@ -1,5 +1,6 @@
-"""A sweep before it is run: a case, the numbers of it that vary (over ranges, lists or random samples),
-what is asked at each point, and how the points fall into chunks.
+"""A sweep before it is run: what is asked, at which points, and how these fall into chunks.
+
+Points are of a case over ranges, lists or random samples of its numbers.
 
 Scenes run in the outer order and states of one scene in the inner one, so that a chunk is one call of a
 kernel wherever one serves. The order in which the user named the axes is restored when the parts are put

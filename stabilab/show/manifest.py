@@ -1,5 +1,6 @@
-"""The manifest of an output folder: what it was made from (inputs, versions, command, processor, and the
-hash of every file), as manifest.json; and its repetition.
+"""The manifest of an output folder, manifest.json: what it was made from; and its repetition.
+
+It has inputs, versions, command, processor, and the hash of every file.
 
 It is written last and describes every command whose files are in the folder; a command that is not in it did
 not end.

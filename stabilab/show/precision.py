@@ -1,5 +1,6 @@
-"""What accuracy costs: as a table, in words, as CSV and JSON, as the work-precision picture (time against
-error, a line a method, the front marked), and as a page of the report."""
+"""What accuracy costs: as text, CSV and JSON, as a picture, and as a page of the report.
+
+The work-precision picture has time against error, a line a method, the front marked."""
 from __future__ import annotations
 
 import math

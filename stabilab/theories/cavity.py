@@ -1,5 +1,7 @@
-"""Models of a nearly spherical body with a viscous liquid: slow amplitude, spin and phase by the averaged
-equations, exactly, and by the paper's Taylor polynomials as printed.
+"""Models of a nearly spherical body with a viscous liquid.
+
+They give its slow amplitude, spin and phase: by the averaged equations, exactly, and by the paper's Taylor
+polynomials as printed.
 
 p = A cos phi, q = -A sin phi, r: A and r change slowly while phi turns at about nu = (d r - Gamma)/J0. The
 averaged equations come from `cavity_normal_form`; they are integrated in W = A exp(i (phi - psi)), r, psi,

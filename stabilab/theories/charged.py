@@ -1,5 +1,6 @@
-"""Models of the charged, nearly axisymmetric body under constant body-fixed torque and force: closed
-forms, and the paper's formulas as they stand in print, misprints and all.
+"""Models of the charged, nearly axisymmetric body under constant body-fixed torque and force.
+
+They are closed forms, and the paper's formulas as they stand in print, misprints and all.
 
 The linear model of `charged_modes`, solved with both of its rates a and b; how far to believe it:
 `charged_modes.horizon`. Every quantity is a sum of divided differences D of the exponential, regular at every

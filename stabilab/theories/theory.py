@@ -1,5 +1,6 @@
-"""What the theory behind a case's analytic models says of its motion, in words and numbers; and each model
-beside the exact motion: how far off it is, and from when on."""
+"""What the theory behind a case's models says of its motion, and each model beside the exact motion.
+
+It is said in words and numbers; of a model, how far off it is, and from when on."""
 from __future__ import annotations
 
 from dataclasses import dataclass

@@ -1,5 +1,6 @@
-"""The separatrix as surfaces: for each value of the invariant the homoclinic loop of each saddle, an exact
-curve, on grids that follow the surface within an accuracy.
+"""The separatrix as surfaces, on grids that follow it within an accuracy.
+
+For each value of the invariant it is the homoclinic loop of each saddle, an exact curve.
 
 A branch of the separatrix sweeps one curve of saddles
 outward from its fold, where the loop shrinks to a point. On a circle the loop runs from its saddle against

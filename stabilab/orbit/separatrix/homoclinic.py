@@ -1,5 +1,6 @@
-"""One homoclinic loop in floats: the equilibria on a saddle's orbit and where the motion that leaves the
-saddle turns back; the results about surfaces and distances, as frozen classes.
+"""One homoclinic loop in floats, and the results about surfaces and distances as frozen classes.
+
+The loop has the equilibria on a saddle's orbit and where the motion that leaves the saddle turns back.
 
 The saddle is one equilibrium of its orbit; divided out, a cubic is left for the others: in tan(y/2) on a
 circle, in exp(y) on a hyperbola. `homoclinic_arrays.loops` uses this too, row by row."""

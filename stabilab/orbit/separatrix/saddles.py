@@ -1,8 +1,7 @@
-"""The saddles of a separatrix as branches, each from its fold outward, why a scene has none; and a coarse
-surface in plain floats.
+"""The saddles of a separatrix as branches, why a scene has none, and a coarse surface in plain floats.
 
-A branch gives its places for floats and arrays alike. The coarse surface is for a slider that moves, and
-for a browser without NumPy.
+Each branch runs from its fold outward, and gives its places for floats and arrays alike. The coarse surface
+is for a slider that moves, and for a browser without NumPy.
 
 Saddles, loops and heights are those of `branches`, which grades its rows and columns by the bend; here rows
 are dense towards the fold and columns towards both ends of a loop."""

@@ -1,5 +1,7 @@
-"""Rates and whole states over time, the rates after thrusters that are stuck, and the time to a limit
-against what changes it: the tilt of the torque, the momentum of a wheel."""
+"""Rates and whole states over time, and the time to a limit against what changes it.
+
+Rates are also those after thrusters that are stuck. What changes the time is the tilt of the torque, or the
+momentum of a wheel."""
 from __future__ import annotations
 
 import math

@@ -1,5 +1,7 @@
-"""The answer of a page at a glance (outcome, time, largest rate, distance from another outcome), and its
-tables: equilibria with their verdicts, and what change gives the motion another fate."""
+"""The answer of a page at a glance, and its tables.
+
+At a glance: outcome, time, largest rate, distance from another outcome. The tables have equilibria with
+their verdicts, and what change gives the motion another fate."""
 from __future__ import annotations
 
 import math
