@@ -197,7 +197,8 @@ SPINNING = {-1: _spinning_round, 1: _spinning_on_plane, 0: _spinning_purely}
 
 # --- Librations row by row, by the kernels
 # Functions without which loops call instead of adding
-INLINED = {"swing", "kinetic", "converged", "rounding_of"}
+INLINED = {"swing", "lag", "sinc_cos", "sinc_minus_cos", "sinhc_and_rest", "way_of_cosine", "converged",
+           "rounding_of"}
 INLINED_ON_PARABOLAS = {"quartic", "cubic", "bend", "terms_of", "blur_of_force", "place_at"}
 # Loading the code from disk costs some 0.3 s of a processor, compiling it once per machine some ten for each
 # geometry;

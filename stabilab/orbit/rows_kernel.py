@@ -2,9 +2,9 @@
 floats that numba compiles.
 
 Equilibria along a row's orbit by Newton's method in twofold numbers, ends of the motion from the equilibrium
-that is nearer in height, the period T = 2 int dtheta/sqrt(2 (E - V)) with theta = middle - half cos(phi),
-E - V measured from the nearer end, or from equilibrium to equilibrium. What 32 digits do not settle is marked
-and left to balls. Every function is plain Python too.
+that is nearer in height, the period T = 2 int_0^pi dphi/sqrt(2 H) with theta = middle - half cos(phi), where
+H = (E - V)/((theta - l)(r - theta)) is the second divided difference of V at (l, r, theta), formed by
+products. What 32 digits do not settle is marked and left to balls. Every function is plain Python too.
 """
 from __future__ import annotations
 
@@ -30,9 +30,12 @@ TWOFOLD, SURE = 2.0**-100, 1e-20  # of the terms: rounding of a twofold sum; a s
 ROUNDED, LAG = 8.0, 0.3
 CLEAR = 64.0  # times its error, so far a height is from the energy where the barrier's side is certain
 DIGITS, PERIOD_DIGITS = 1e-12, 1e-11  # promised, relative: rounding that leaves less leaves a row open
+# of the energy terms: nearer to a barrier an energy in doubles leaves the period no eleven digits
+PERIOD_SHARE = 1e-4
 ROOT = 1e-9  # relative, the last step to a turning point, which leaves its square
 # relative, of sums over nodes: the last change, the error by estimate, a change that is nothing but rounding
 ALIKE, CONVERGED, FLOOR = 1e-9, 1e-13, 1e-15
+NARROW = 0.5  # half-widths below it take series where closed forms cancel
 # of the terms of an energy in twofold numbers: a dozen sums and a series of twenty terms, with room to spare
 FINE = 2.0**-92
 # relative, of E - V at a stop and half-way between two; the period's promise is `PERIOD_DIGITS`
@@ -44,12 +47,11 @@ HALVINGS, SERIES = 6, 12  # of a way, before its sine is summed; terms of the su
 # modes (A, B) about it; what its force,
 # its slope, the energy and the offset may be off by
 OFFSET, OVER, BARRIER, AT_X, AT_Z, BEND, MODE_A, MODE_B, PULL, TILT, ERROR, ASTRAY = range(12)
-# an end of a motion: offset, force there, error of the offset; error of the energy and E - V at the
-# equilibrium that it is measured from, or of the force over 1
-END, FORCE, BLUR, HAZE, LEVEL = range(5)
-# a stop of a motion, an end or an equilibrium that it passes: offset, E - V, force, and four numbers of the
-# potential about it
-STOP, STOP_OVER, STOP_FORCE, SHAPE = range(4)
+# an end of a motion: offset, force there, error of the offset, error of the energy; E - V at the equilibrium
+# that it is told from; dF/dtheta and modes there
+END, FORCE, BLUR, HAZE, LEVEL, END_BEND, END_A, END_B = range(8)
+# a stop of a motion, an end or an equilibrium that it passes: offset, E - V, force, dF/dtheta, modes
+STOP, STOP_OVER, STOP_FORCE, STOP_BEND, STOP_A, STOP_B = range(6)
 
 
 def _parts(values):
@@ -145,7 +147,7 @@ class Circle:
 
     @staticmethod
     def sizes_of_ways(x, z, u, v):
-        """Sizes of what `way_between` is formed from, at a state and at a place of its orbit."""
+        """Sizes of what `way_between` is told from, at a state and at a place of its orbit."""
         return np.sqrt(x * x + z * z), np.sqrt(u * u + v * v)
 
     @staticmethod
@@ -170,28 +172,58 @@ class Circle:
                                                          + abs(x) * down), 4 * (abs(z) * down + abs(x * s))
 
     @staticmethod
-    def shaped(conic, x, z, xi, eta, stop):
-        """Fill what `kinetic` takes of a stop: dF/dtheta and modes there."""
-        s, c = np.sin(stop[STOP]), np.cos(stop[STOP])
-        u, v = x * c + z * s, z * c - x * s
-        stop[SHAPE] = conic[2] * (v - u) * (v + u) - conic[0] * u + conic[1] * v
-        stop[SHAPE + 1], stop[SHAPE + 2] = conic[2] * u * v, 0.5 * conic[2] * (v - u) * (v + u)
-
-    @staticmethod
-    def kinetic(mu, stop, y):
-        """W^2/2 = E - V at the way y from a stop."""
-        s, h, behind = swing(y)
-        h2 = h * h
-        return (stop[STOP_OVER] + stop[STOP_FORCE] * s + 2 * stop[SHAPE] * h2 + mu * behind
-                - 2 * h2 * (stop[SHAPE + 1] * s + 2 * stop[SHAPE + 2] * h2))
-
-    @staticmethod
     def stationary(row, x, z, xi, eta, left):
         """The first offset beyond the left end where X (row 0) or Z (1) is stationary; it is so again half a
         turn later."""
         first = np.arctan(z / x if row == 0 else -x / z)
         at = first + PI * np.ceil((left - first) / PI)
         return at if at > left else at + PI
+
+    @staticmethod
+    def size_of_terms(conic, x, z, xi, eta):
+        """Of the potential, but for its tilt."""
+        q = x * x + z * z
+        return abs(conic[2]) * q + (abs(conic[0]) + abs(conic[1])) * np.sqrt(q)
+
+    @staticmethod
+    def middle_modes(conic, x, z, xi, eta, y, data):
+        """Modes about a place y away from a state, then sizes of what these are sums of."""
+        c, d, G = conic[0], conic[1], conic[2]
+        dx, dz, _, _ = change(x, z, xi, eta, y)
+        x, z = x + dx, z + dz
+        data[0], data[1], data[2], data[3] = -c * x + d * z, -c * z - d * x, -0.25 * G * (x - z) * (
+            x + z), -0.5 * G * x * z
+        data[4], data[5] = abs(c * x) + abs(d * z), abs(c * z) + abs(d * x)
+        data[6], data[7] = abs(data[2]), abs(data[3])
+
+    @staticmethod
+    def whole(rho):
+        """What `modes_pair` needs of an interval whatever the node."""
+        return np.sin(rho), np.cos(rho)
+
+    @staticmethod
+    def modes_pair(data, rho, whole_s, whole_c, share):
+        """(even, odd) of modes about the middle, as `pair`."""
+        p1, q1, p2, q2 = data[0], data[1], data[2], data[3]
+        u = rho * share
+        v = rho - u
+        fu, cu = sinc_cos(u)
+        su = u * fu
+        sv, cv = whole_s * cu - whole_c * su, whole_c * cu + whole_s * su
+        fv = sv / v
+        even = -0.5 * fu * fv * (p1 + 4 * p2 * cu * cv)
+        if rho < NARROW:
+            gu, gv, wu, wv = sinc_minus_cos(u
+                                            * u), sinc_minus_cos(v * v), sinc_minus_cos(
+                                                4 * u * u), sinc_minus_cos(4 * v * v)
+            return even, (0.5 * q1 * (fu * gv - fv * gu) + q2 * (fu * cu * wv - fv * cv * wu)) / rho
+        return even, (0.5 * q1 * (cu * fv - fu * cv)
+                      + q2 * ((cu * cu - su * su) * fv * cv - fu * cu * (cv * cv - sv * sv))) / rho
+
+    @staticmethod
+    def modes_terms(data, first, rho, whole_s, whole_c, left):
+        """Size of what H is the sum of at a share of the interval, by the sizes that begin at `first`."""
+        return abs(data[first]) + abs(data[first + 1]) + 4 * (abs(data[first + 2]) + abs(data[first + 3]))
 
 
 class Hyperbola:
@@ -266,29 +298,38 @@ class Hyperbola:
         return 0.5 * (grown + decayed), 0.5 * (grown - decayed), off, off
 
     @staticmethod
-    def shaped(conic, x, z, xi, eta, stop):
-        # factors of exp(y), exp(-y), exp(2 y), exp(-2 y) in V, of the state's coordinates, which keep digits
-        xi, eta = xi * np.exp(stop[STOP]), eta * np.exp(-stop[STOP])
-        stop[SHAPE], stop[SHAPE + 1] = -0.5 * (conic[0] + conic[1]) * xi, 0.5 * (conic[1] - conic[0]) * eta
-        stop[SHAPE + 2], stop[SHAPE + 3] = -0.125 * conic[2] * xi * xi, -0.125 * conic[2] * eta * eta
-
-    @staticmethod
-    def kinetic(mu, stop, y):
-        grown = np.expm1(y)
-        decayed = -grown / (1 + grown)
-        up, down = grown - y, decayed + y
-        if abs(y) < LAG:
-            _, h, behind = swing(y)
-            up, down = 2 * h * h - behind, 2 * h * h + behind
-        return (stop[STOP_OVER] + stop[STOP_FORCE] * y - stop[SHAPE] * up - stop[SHAPE + 1] * down
-                - stop[SHAPE + 2] * (grown * grown + 2 * up)
-                - stop[SHAPE + 3] * (decayed * decayed + 2 * down))
-
-    @staticmethod
     def stationary(row, x, z, xi, eta, left):
         near, far = (-z / x, eta / xi) if row == 0 else (-x / z, -eta / xi)
         at = np.arctanh(near) if abs(near) < 0.5 else (0.5 * np.log(far) if far > 0 else INFINITY)
         return at if at > left else INFINITY
+
+    @staticmethod
+    def size_of_terms(conic, x, z, xi, eta):
+        q = xi * xi + eta * eta
+        return abs(conic[2]) * q + 0.5 * (abs(conic[0] + conic[1]) + abs(conic[1] - conic[0])) * np.sqrt(q)
+
+    @staticmethod
+    def middle_modes(conic, x, z, xi, eta, y, data):
+        c, d, G = conic[0], conic[1], conic[2]
+        xi, eta = xi * np.exp(y), eta * np.exp(-y)
+        data[0], data[1] = -0.5 * (c + d) * xi, 0.5 * (d - c) * eta
+        data[2], data[3] = -0.125 * G * xi * xi, -0.125 * G * eta * eta
+        for k in range(4):
+            data[4 + k] = abs(data[k])
+
+    @staticmethod
+    def whole(rho):
+        return np.exp(rho), 0.0
+
+    @staticmethod
+    def modes_pair(data, rho, whole_s, whole_c, share):
+        return sides_of_exponentials(data[0], data[1], data[2], data[3], rho, whole_s, share)
+
+    @staticmethod
+    def modes_terms(data, first, rho, whole_s, whole_c, left):
+        even, odd = sides_of_exponentials(abs(data[first]), abs(data[first + 1]), abs(data[first + 2]),
+                                          abs(data[first + 3]), rho, whole_s, min(left, 1 - left))
+        return even + odd if left <= 0.5 else even - odd
 
 
 def guessed(piece, conic, Q, xi, eta, radius):
@@ -387,6 +428,16 @@ def rise_and_force(mu, y, slope, a, b):
     return one + two + three + four, force, abs(one) + abs(two) + abs(three) + abs(four), s, h
 
 
+def end_of_modes(mu, slope, a, b, s, h, end):
+    """dF/dtheta and modes where sin y and sin(y/2) from an equilibrium are s and h: derivatives of what
+    `rise_and_force` says."""
+    h2 = h * h
+    q = 1 + 2 * E * h2
+    end[END_BEND] = slope * q + E * (0.5 * s * (6 * a - 2 * mu + 4 * b * s) + 4 * b * h2 * q) + 8 * a * h2 * s
+    end[END_A], end[END_B] = a * (q * q
+                                  + E * s * s) + 2 * b * s * q, b * (q * q + E * s * s) + 2 * E * a * s * q
+
+
 def rounding_of(y, terms, s, h, pull, tilt):
     """Size of the error of a rise: of its terms, which grow like an exponential of y, and of what the
     equilibrium's force and slope are off by."""
@@ -480,7 +531,7 @@ def sharpened_ends(fine, X, Z, turn, wide, ends, turns):
     """Fill turns with the ends after steps of Newton's method, E - V there a sum of twofold numbers and the
     force that of the place: where the force is small or the equilibrium far, doubles leave few digits.
 
-    They are measured from the state. Next to a barrier the period needs ends measured from it."""
+    They are told from the state. Next to a barrier the period needs the ends that are told from it."""
     G, c, d, mu = (fine[0], fine[1]), (fine[2], fine[3]), (fine[4], fine[5]), (fine[6], fine[7])
     kinetic = times((fine[16], fine[17]), times(turn, turn))
     for k in range(2):
@@ -493,17 +544,25 @@ def sharpened_ends(fine, X, Z, turn, wide, ends, turns):
             over = value(add(add(kinetic, scaled(mu, end[END])), rise))
             across = add(times(G, u), c)
             end[FORCE] = value(add(add(times(v, across), mu), times(d, u)))
-            step, steep = -over / end[FORCE], abs(slope_of(G, d, u, v, across) / end[FORCE])
+            end[END_BEND] = slope_of(G, d, u, v, across)
+            step, steep = -over / end[FORCE], abs(end[END_BEND] / end[FORCE])
             if not abs(step) * steep <= NEAR:
                 turns[k] = ends[k]
                 break
             end[END] += step
             far = abs(u[0]) + abs(v[0]) + wide
             terms = kinetic[0] + mu[0] * (1 + abs(end[END])) + (abs(G[0]) * far + abs(c[0]) + abs(d[0])) * far
-            end[BLUR] = FINE * terms / abs(end[FORCE]) + step * step * steep + EPS * abs(end[END])
-            end[HAZE], end[LEVEL] = end[BLUR] * steep, 1.0
+            end[HAZE] = FINE * terms
+            end[BLUR] = end[HAZE] / abs(end[FORCE]) + step * step * steep + EPS * abs(end[END])
             if abs(step) <= EPS * abs(end[END]):
                 break
+
+
+def way_of_cosine(psi, near, far):
+    """First guess of a turning point between a barrier and a well, as a share of the way: there V is nearly a
+    cosine, and in its angle psi (0 to 1) the way is a cubic with the slopes near, far that the curvatures at
+    both ends give."""
+    return psi * (near * (1 - psi) * (1 - psi) + psi * (3 - 2 * psi) - far * psi * (1 - psi))
 
 
 def turned(mu, count, spots, side, end):
@@ -531,6 +590,13 @@ def turned(mu, count, spots, side, end):
             break
         reach = min(2 * reach, reach + 64)
     t = min(np.sqrt(2 * abs(level) / max(abs(slope), 1e-300)), 0.5 * reach)
+    if b >= 0 and has_well:
+        other = spots[well] if at_barrier else spots[b]
+        whole = spots[well, OVER] - spots[b, OVER]
+        psi = 2 / PI * np.arcsin(np.sqrt(min(abs(level) / whole, 1.0)))
+        guess = (reach * way_of_cosine(psi, PI * np.sqrt(0.5 * whole / abs(slope)) / reach,
+                                       PI * np.sqrt(0.5 * whole / abs(other[BEND])) / reach))
+        t = guess if 0 < guess < reach else 0.5 * reach
     low, high, found, before = 0.0, reach, level == 0, INFINITY
     if found:
         t = 0.0 * t
@@ -552,22 +618,25 @@ def turned(mu, count, spots, side, end):
     y = t * towards
     _, force, terms, s, h = rise_and_force(mu, y, slope, mode_a, mode_b)
     haze = rounding_of(y, terms, s, h, spot[PULL], spot[TILT])
-    end[END], end[FORCE], end[HAZE] = spot[OFFSET] + y, force, haze + spot[ERROR]
+    end[END], end[FORCE], end[HAZE] = spot[OFFSET] + y, force, haze
     end[BLUR] = haze / abs(force) + EPS * abs(spot[OFFSET])
     end[LEVEL] = spot[OVER]
+    end_of_modes(mu, slope, mode_a, mode_b, s, h, end)
     return found and abs(end[END]) < INFINITY
 
 
 def spanned(mu, w, count, spots, ends):
-    """(whether the motion's two ends are known, fastest W^2/2, its error)."""
+    """(whether the motion's two ends are known, fastest W^2/2, its error, nearest barrier's distance in
+    energy)."""
     if count == 0 or not (turned(mu, count, spots, -1, ends[0]) and turned(mu, count, spots, 1, ends[1])):
-        return False, 0.0, 0.0
+        return False, 0.0, 0.0, 0.0
     ends[0, END], ends[1, END] = min(ends[0, END], 0.0), max(ends[1, END], 0.0)
     left, right = ends[0, END], ends[1, END]
-    fastest, clear, barred = 0.5 * w * w, True, False
+    fastest, closest, clear, barred = 0.5 * w * w, INFINITY, True, False
     for i in range(count):
         spot = spots[i]
         if spot[BARRIER] > 0:
+            closest = min(closest, abs(spot[OVER]))
             clear = clear and abs(spot[OVER]) > CLEAR * spot[ERROR]
             barred = barred or (spot[OVER] <= 0 and spot[OFFSET] > 0)
         elif left <= spot[OFFSET] <= right:
@@ -583,7 +652,7 @@ def spanned(mu, w, count, spots, ends):
         ends[k, BLUR] += off / abs(ends[k, FORCE]) + astray
         # no number is not: the largest of some would pass over it
         clear = clear and ends[k, BLUR] < INFINITY and ends[k, HAZE] < INFINITY
-    return clear and (barred or WALLED), fastest, off + EPS * fastest
+    return clear and (barred or WALLED), fastest, off + EPS * fastest, closest
 
 
 def boxed(form, axes, state, x, z, xi, eta, ends, fastest, haze, box):
@@ -623,15 +692,69 @@ def boxed(form, axes, state, x, z, xi, eta, ends, fastest, haze, box):
     return good and haze <= DIGITS * 2 * fastest and whole < INFINITY
 
 
+def sinc_cos(u):
+    """sin(u)/u and cos u for 0 <= u <= pi/2."""
+    t = u * u
+    s = 1 - t * (1 / 6) * (1 - t * (1 / 20) * (1 - t * (1 / 42) * (1 - t * (1 / 72) * (1 - t * (1 / 110) * (
+        1 - t * (1 / 156)
+        * (1 - t * (1 / 210) * (1 - t * (1 / 272) * (1 - t * (1 / 342) * (1 - t * (1 / 420))))))))))
+    k = 1 - t * 0.5 * (1 - t * (1 / 12) * (1 - t * (1 / 30) * (1 - t * (1 / 56) * (1 - t * (1 / 90) * (
+        1 - t * (1 / 132)
+        * (1 - t * (1 / 182) * (1 - t * (1 / 240) * (1 - t * (1 / 306) * (1 - t * (1 / 380) * (
+            1 - t * (1 / 462)))))))))))
+    return s, k
+
+
+def sinc_minus_cos(t):
+    """sin(u)/u - cos u of t = u^2 <= 1, without cancellation."""
+    return t * (1 / 3) * (1 - t * (1 / 10) * (1 - t * (1 / 28) * (1 - t * (1 / 54) * (1 - t * (1 / 88) * (
+        1 - t * (1 / 130) * (1 - t * (1 / 180) * (1 - t * (1 / 238) * (1 - t * (1 / 304)))))))))
+
+
+def sinhc_and_rest(t):
+    """sinh(u)/u and cosh u less it, of t = u^2 <= 1."""
+    f = 1 + t * (1 / 6) * (1
+                           + t * (1 / 20) * (1 + t * (1 / 42)
+                                             * (1 + t * (1 / 72) * (1 + t * (1 / 110) * (1 + t * (1 / 156) * (
+        1 + t * (1 / 210) * (1 + t * (1 / 272))))))))
+    g = 1 + t * (1 / 10) * (1
+                            + t * (1 / 28)
+                            * (1 + t * (1 / 54)
+                               * (1 + t * (1 / 88) * (1 + t * (1 / 130) * (1 + t * (1 / 180) * (
+        1 + t * (1 / 238) * (1 + t * (1 / 304))))))))
+    return f, t * (1 / 3) * g
+
+
+def sides_of_exponentials(p1, q1, p2, q2, rho, grown, share):
+    """(even, odd) of a sum of exp(y), exp(-y), exp(2 y), exp(-2 y) about the middle, grown: exp(rho)."""
+    u = rho * share
+    v = rho - u
+    if rho < NARROW:
+        fu, gu = sinhc_and_rest(u * u)
+        fv, gv = sinhc_and_rest(v * v)
+        wu, wv = sinhc_and_rest(4 * u * u)[1], sinhc_and_rest(4 * v * v)[1]
+        cu, cv = fu + gu, fv + gv
+        odd1, odd2 = gu * fv - fu * gv, wu * fv * cv - fu * cu * wv
+    else:
+        down = np.expm1(u)
+        eu = 1 + down
+        cu, su = 0.5 * (eu + 1 / eu), 0.5 * (down + down / eu)
+        cv, sv = 0.5 * (grown / eu + eu / grown), 0.5 * (grown / eu - eu / grown)
+        fu, fv = su / u if share > 0 else 1.0, sv / v
+        odd1, odd2 = cu * fv - fu * cv, (1 + 2 * su * su) * fv * cv - fu * cu * (1 + 2 * sv * sv)
+    return fu * fv * (0.5 * (p1 + q1)
+                      + 2 * (p2 + q2) * cu * cv), (0.5 * (p1 - q1) * odd1 + (p2 - q2) * odd2) / rho
+
+
 def converged(now, last, middle, first):
     """Whether a sum over nodes is its integral, given what it changed by as its nodes were doubled: the last,
     the middle and the first of three such changes; any numbers.
 
     Doubling squares the error of the trapezoidal rule, C r^n for n nodes, and of the double-exponential one,
     so a last change of `ALIKE` leaves nothing. But the sign of an error goes round, and it may be next to
-    nothing by chance. So the rate r^n is given by either ratio of changes too, and a size by its own change
-    or by the one before; the larger counts each time, and what these leave must be `CONVERGED`: four
-    products, no division.
+    nothing by chance. So the rate r^n is told by either ratio of changes too, and a size by its own change or
+    by the one before; the larger counts each time, and what these leave must be `CONVERGED`: four products,
+    asked without a division.
     """
     c, b, a = last / now, middle / now + FLOOR, first / now + FLOOR
     a2, b2 = a * a, b * b
@@ -640,73 +763,24 @@ def converged(now, last, middle, first):
         b2 * b2 * b2 * b <= CONVERGED * a2 * a2 * a2)
 
 
-def stops_of(conic, x, z, xi, eta, count, spots, ends, stops):
-    """Fill the stops of a motion in their order; how many there are, 0 where E - V is not known well at one
-    of them."""
-    many, sure = 1, True
-    for i in range(count):
-        spot = spots[i]
-        if ends[0, END] < spot[OFFSET] < ends[1, END]:
-            stop = stops[many]
-            stop[STOP], stop[STOP_OVER], stop[STOP_FORCE] = spot[OFFSET], spot[OVER], 0.0
-            shaped(conic, x, z, xi, eta, stop)
-            sure = (sure and spot[ERROR] <= PIECE_DIGITS * spot[OVER]
-                    and spot[TILT] <= PIECE_DIGITS * abs(spot[BEND]))
-            many += 1
-    for k in range(2):
-        stop, end = stops[k * many], ends[k]
-        stop[STOP], stop[STOP_OVER], stop[STOP_FORCE] = end[END], 0.0, end[FORCE]
-        shaped(conic, x, z, xi, eta, stop)
-        sure = sure and end[HAZE] <= PIECE_DIGITS * abs(end[LEVEL])
-    return many + 1 if sure else 0
-
-
-def timed(conic, x, z, xi, eta, count, spots, ends, rules, stops):
-    """(period, whether it has its digits) of a motion between two ends: by the trapezoidal rule over the
-    whole of it where E - V is known well enough from these, else piece by piece."""
-    nodes, near, weights, levels = rules
-    mu, many = conic[3], stops_of(conic, x, z, xi, eta, count, spots, ends, stops)
-    if many < 3:
-        return np.nan, False
-    left, right = stops[0], stops[many - 1]
-    rho = 0.5 * (right[STOP] - left[STOP])
-    middle, other = kinetic(mu, left, rho), kinetic(mu, right, -rho)
-    # E - V over the product of the ways to both ends
-    first, inner, last = 0.5 * left[STOP_FORCE] / rho, middle / (rho * rho), -0.5 * right[STOP_FORCE] / rho
-    most, least = max(first, inner, last), min(first, inner, last)
-    sharp = (rho > 0 and abs(middle - other) <= PIECE_DIGITS * middle
-             and (ends[0, BLUR] + ends[1, BLUR]) * (most - least) <= PERIOD_DIGITS * rho * least)
-    for i in range(1, many - 1):
-        way, back = stops[i, STOP] - left[STOP], stops[i, STOP] - right[STOP]
-        over = kinetic(mu, left, way) if way <= -back else kinetic(mu, right, back)
-        sharp = sharp and abs(over - stops[i, STOP_OVER]) <= PIECE_DIGITS * over
-    period = summed(mu, left, right, rho, nodes) if sharp else np.nan
-    return (period, True) if period < INFINITY else in_pieces(mu, many, stops, near, weights, levels)
-
-
-def summed(mu, left, right, rho, nodes):
-    """The period by the trapezoidal rule over mirrored pairs of nodes, theta = middle - rho cos(phi), E - V
-    measured from the nearer end; NaN where that does not settle."""
-    total, coarse, half, before, change, earlier, size, begin = 0.0, 0.0, 0.0, np.nan, np.nan, np.nan, 8, 0
-    while begin < len(nodes):
-        end = begin + size // 2 if begin else 5
-        for n in range(begin, end):
-            share = nodes[n]
-            if n == 0:
-                term = 0.5 * (np.sqrt(rho / left[STOP_FORCE]) + np.sqrt(-rho / right[STOP_FORCE]))
-            else:
-                y, weight = 2 * rho * share, 0.5 if n == 4 else 1.0
-                term = weight * 2 * rho * np.sqrt(share * (1 - share)) * (
-                    1 / np.sqrt(2 * kinetic(mu, left, y)) + 1 / np.sqrt(2 * kinetic(mu, right, -y)))
+def summed(data, rho, whole_s, whole_c, nodes):
+    """The period by the trapezoidal rule over mirrored pairs of nodes; NaN where that does not settle."""
+    total, coarse, half, before, change, earlier, size, first = 0.0, 0.0, 0.0, np.nan, np.nan, np.nan, 8, 0
+    while first < len(nodes):
+        last = first + size // 2 if first else 5
+        for n in range(first, last):
+            even, odd = modes_pair(data, rho, whole_s, whole_c, nodes[n])
+            weight = 0.5 if n == 0 or n == 4 else 1.0
+            term = weight * (1 / np.sqrt(2 * (even + odd)) + 1 / np.sqrt(2 * (even - odd)))
             total += term
             if n == 0 or n == 4:
                 half += term
             elif n == 2:
                 coarse = term
-        if not begin:
+        if not first:
             before = (coarse + half) * (TURN / 4)
             change = abs(before - half * (TURN / 2))
-        size, begin = size * 2 if begin else size, end
+        size, first = size * 2 if first else size, last
         now = total * (TURN / size)
         new = abs(now - before)
         if converged(now, new, change, earlier):
@@ -715,13 +789,76 @@ def summed(mu, left, right, rho, nodes):
     return np.nan
 
 
-def in_pieces(mu, many, stops, near, weights, levels):
+def timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, data):
+    """(period, whether it has its digits) of a motion between two ends, by modes about the middle; not where
+    these cancel."""
+    mu, left, right = conic[3], ends[0, END], ends[1, END]
+    rho = 0.5 * (right - left)
+    if not (0 < rho < 0.5 * ROUND
+            and closest > PERIOD_SHARE * (0.5 * w * w + mu + size_of_terms(conic, x, z, xi, eta))):
+        return np.nan, False
+    whole_s, whole_c = whole(rho)
+    middle_modes(conic, x, z, xi, eta, 0.5 * (left + right), data)
+    blur = ends[0, BLUR] + ends[1, BLUR]
+    share, dip, lowest = 0.5, INFINITY, INFINITY
+    for i in range(count):
+        if spots[i, BARRIER] > 0 and left < spots[i, OFFSET] < right and spots[i, OVER] < lowest:
+            lowest = spots[i, OVER]
+            share = (spots[i, OFFSET] - left) / (2 * rho)
+            dip = lowest / (4 * rho * rho * share * (1 - share))
+    even, odd = modes_pair(data, rho, whole_s, whole_c, 0.0)
+    first, last, inner = even + odd, even - odd, modes_pair(data, rho, whole_s, whole_c, 0.5)[0]
+    # on a long hyperbola H over a barrier may be far less than at both ends and in the middle
+    sharp = EPS * modes_terms(data, 4, rho, whole_s, whole_c, share) <= PERIOD_DIGITS * dip
+    for sizes in range(0, 8, 4):
+        sharp = (sharp and EPS * modes_terms(data, sizes, rho, whole_s, whole_c, 0.0) <= PERIOD_DIGITS * first
+                 and EPS * modes_terms(data, sizes, rho, whole_s, whole_c, 0.5) <= PERIOD_DIGITS * inner
+                 and EPS * modes_terms(data, sizes, rho, whole_s, whole_c, 1.0) <= PERIOD_DIGITS * last)
+    most, lowest = max(first, inner, last), min(first, inner, last)
+    if not (sharp and blur * (most - lowest) <= PERIOD_DIGITS * rho * lowest):
+        return np.nan, False
+    period = summed(data, rho, whole_s, whole_c, nodes)
+    return period, period < INFINITY
+
+
+def kinetic_near(mu, stop, y):
+    """W^2/2 = E - V at the way y from a stop."""
+    s, h, behind = swing(y)
+    h2 = h * h
+    return (stop[STOP_OVER] + stop[STOP_FORCE] * s + 2 * stop[STOP_BEND] * h2 + mu * behind
+            + 2 * E * h2 * (stop[STOP_A] * s + 2 * stop[STOP_B] * h2))
+
+
+def stops_of(count, spots, ends, stops):
+    """Fill the stops of a motion in their order; how many there are, 0 where E - V is not known well at one
+    of them."""
+    many, sure = 1, True
+    for i in range(count):
+        spot = spots[i]
+        if ends[0, END] < spot[OFFSET] < ends[1, END]:
+            stop = stops[many]
+            stop[STOP], stop[STOP_OVER], stop[STOP_FORCE] = spot[OFFSET], spot[OVER], 0.0
+            stop[STOP_BEND], stop[STOP_A], stop[STOP_B] = spot[BEND], spot[MODE_A], spot[MODE_B]
+            sure = (sure and spot[ERROR] <= PIECE_DIGITS * spot[OVER]
+                    and spot[TILT] <= PIECE_DIGITS * abs(spot[BEND]))
+            many += 1
+    for k in range(2):
+        stop, end = stops[k * many], ends[k]
+        stop[STOP], stop[STOP_OVER], stop[STOP_FORCE] = end[END], 0.0, end[FORCE]
+        stop[STOP_BEND], stop[STOP_A], stop[STOP_B] = end[END_BEND], end[END_A], end[END_B]
+        sure = sure and end[HAZE] <= PIECE_DIGITS * abs(end[LEVEL])
+    return many + 1 if sure else 0
+
+
+def in_pieces(mu, count, spots, ends, near, weights, levels, stops):
     """(period, whether it has its digits): dtheta/W by the double-exponential rule from stop to stop, E - V
-    measured from the nearer one."""
-    period = 0.0
+    told from the nearer one."""
+    many, period = stops_of(count, spots, ends, stops), 0.0
+    if many < 3:
+        return np.nan, False
     for i in range(many - 1):
         length = stops[i + 1, STOP] - stops[i, STOP]
-        here, there = kinetic(mu, stops[i], 0.5 * length), kinetic(mu, stops[i + 1], -0.5 * length)
+        here, there = kinetic_near(mu, stops[i], 0.5 * length), kinetic_near(mu, stops[i + 1], -0.5 * length)
         if not (length > 0 and abs(here - there) <= PIECE_DIGITS * here):
             return np.nan, False
         total, before, change, earlier, found = 0.0, np.nan, np.nan, np.nan, False
@@ -736,8 +873,8 @@ def in_pieces(mu, many, stops, near, weights, levels):
                                     2 * share) if at_turn else (share * (2 - share), 2 * (1 - share))
                 y = length * share
                 total += (weights[n] * scale
-                          / np.sqrt(2 * (kinetic(mu, stops[i + 1], -y) if far
-                                         else kinetic(mu, stops[i], y))))
+                          / np.sqrt(2 * (kinetic_near(mu, stops[i + 1], -y) if far
+                                         else kinetic_near(mu, stops[i], y))))
             now = length * total * 2.0**-level
             new = abs(now - before)
             if converged(now, new, change, earlier):
@@ -757,11 +894,13 @@ def rows(states, open_rows, fine, form, axes, conic, pieces, lines, folds, rules
     flip/n, shift s of the third component and what its double leaves, the invariant up to which the lines
     serve; conic: c, d, G, mu, K, shift, and how near a hyperbola's centre no row is settled.
     """
+    nodes, near, weights, levels = rules
     j, k, i = axes
     most = max(len(pieces), len(lines))
     spots, box = np.empty((2 * most + 1, ASTRAY + 1)), np.empty((3, 2))
-    ends, turns = np.empty((2, LEVEL + 1)), np.empty((2, LEVEL + 1))
-    stops = np.empty((2 * most + 3, SHAPE + 4))
+    ends, turns = np.empty((2, END_B + 1)), np.empty((2, END_B + 1))
+    stops = np.empty((2 * most + 3, STOP_B + 1))
+    data = np.empty(8)
     extra = abs(fine[8] * fine[12]) + abs(fine[10] * fine[14])
     for row in open_rows:
         asked, state = int(left_open[row]), states[row]
@@ -785,7 +924,7 @@ def rows(states, open_rows, fine, form, axes, conic, pieces, lines, folds, rules
         for sharp in range(2):
             if sharp:
                 sharpened(fine, conic, X, Z, exact_sum(turn, rest + form[4]), wide, count, spots)
-            known, fastest, haze = spanned(conic[3], w, count, spots, ends)
+            known, fastest, haze, closest = spanned(conic[3], w, count, spots, ends)
             if not known:
                 continue
             if sharp:
@@ -795,10 +934,10 @@ def rows(states, open_rows, fine, form, axes, conic, pieces, lines, folds, rules
                 boxes[row] = box
                 asked -= BOX
             if asked & PERIOD:
-                period, good = timed(conic, x, z, xi, eta, count, spots, turns if sharp else ends, rules,
-                                     stops)
+                period, good = timed(conic, x, z, xi, eta, w, count, spots, turns if sharp else ends, closest,
+                                     nodes, data)
                 if sharp and not good:
-                    period, good = timed(conic, x, z, xi, eta, count, spots, ends, rules, stops)
+                    period, good = in_pieces(conic[3], count, spots, ends, near, weights, levels, stops)
                 if good:
                     periods[row] = period
                     asked -= PERIOD
@@ -817,5 +956,6 @@ E, ROUND, WALLED = Circle.E, Circle.ROUND, Circle.WALLED
 invariant, lost, onto, way_between, whole_way, moved, swing, bent, sizes_of_ways = (
     Circle.invariant, Circle.lost, Circle.onto, Circle.way_between, Circle.whole_way, Circle.moved,
     Circle.swing, Circle.bent, Circle.sizes_of_ways)
-repeated, change, stationary, shaped, kinetic = (
-    Circle.repeated, Circle.change, Circle.stationary, Circle.shaped, Circle.kinetic)
+repeated, change, stationary, size_of_terms, middle_modes, whole, modes_pair, modes_terms = (
+    Circle.repeated, Circle.change, Circle.stationary, Circle.size_of_terms, Circle.middle_modes,
+    Circle.whole, Circle.modes_pair, Circle.modes_terms)
