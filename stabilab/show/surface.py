@@ -200,7 +200,7 @@ def plotter(found: Space) -> Any:
 
     def tube(points, radius, colour):
         for inside, run in groupby(points, lambda at: bool(np.abs(at).max() <= 1)):
-            if inside and len(places := np.array(list(run))) > 1:
+            if inside and np.ptp(places := np.array(list(run)), axis=0).any():  # a body at rest has no path
                 stage.add_mesh(pyvista.lines_from_points(places).tube(radius=radius), color=colour)
     for n, (colour, branch) in enumerate(found.branches):
         grid = np.moveaxis(share(branch.points).reshape(branch.rows, branch.columns, 3), 2, 0)

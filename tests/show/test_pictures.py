@@ -282,6 +282,16 @@ def test_a_surface_picture_names_the_axes_of_its_case(tmp_path):
 
 
 @pytest.mark.slow
+def test_a_surface_is_drawn_with_a_body_at_rest(tmp_path):
+    """Its path has no length, of which no tube can be made."""
+    if not render_probe.probe().available:
+        pytest.skip(render_probe.probe().words)
+    path = tmp_path / "rest.toml"
+    path.write_text("[body]\ninertia = [3, 2, 1.5]\n[motion]\nangular_velocity = [0, 0, 0]\n")
+    drawing.plotter(drawing.of(subject(load(path)))).close()
+
+
+@pytest.mark.slow
 def test_in_a_surface_picture_everything_is_drawn_and_the_box_holds_the_surface():
     if not render_probe.probe().available:
         pytest.skip(render_probe.probe().words)
