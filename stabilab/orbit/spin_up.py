@@ -32,7 +32,7 @@ from ..numbers.polynomial import held_newton
 from .profile import EPS, TOO_FINE, TURN, Motion
 
 POINTS = 16
-FIXED = TURN / 8  # longest panel
+FIXED, MOST_PARTS = TURN / 8, 64  # longest panel of an angle; most of one way before any is cut
 SETTLED = 4e-15  # last coefficients against the first: some ten times what rounding leaves of them mostly
 ROUNDED = 1e-12  # the most that rounding may leave of them
 DEEPEST = 80  # halvings of a passage; 1e-12 from a separatrix takes 20
@@ -163,8 +163,10 @@ def rule(points):
 
 
 def _edges(cuts):
-    """The cuts and what divides the ways between them into parts no longer than `FIXED`."""
-    parts = [np.linspace(a, b, math.ceil((b - a) / FIXED) + 1)[:-1] for a, b in zip(cuts, cuts[1:])]
+    """The cuts and what divides the ways between them into parts no longer than `FIXED`, or `MOST_PARTS`: the
+    coordinate of a parabola is no angle, and may run over any length."""
+    parts = [np.linspace(a, b, min(math.ceil((b - a) / FIXED), MOST_PARTS) + 1)[:-1]
+             for a, b in zip(cuts, cuts[1:])]
     return np.concatenate([*parts, cuts[-1:]])
 
 

@@ -281,3 +281,13 @@ def test_a_libration_of_which_doubles_lose_the_turning_point_is_told_otherwise_o
     state = exactly("-0x1.29b952f4ec612p-19", "0x1.b12f3aa1229d7p+15", "-0x1.0de749c175e0ep-2")
     size, words = DISAGREEMENTS["methods"](scene, problem, state)
     assert size <= 1, words
+
+
+def test_a_way_of_any_length_on_a_parabola_is_cut_into_few_panels():
+    """Its coordinate is no angle: from rates of 1e-9 under a torque it ran over 1e9 of them, each in parts of an
+    eighth of a turn, until memory was full. Oracle: Taylor series."""
+    scene = Scene(Body((12, 5, 5)), ConstantTorque((0, 0, 0.02)))
+    state, times = (1e-9, 2e-9, 3e-9), np.array([0.5, 1.0])
+    assert reduced_motion(scene, state, 8).evaluations < 10_000
+    run, steps = (trajectory(scene, state, times, method).states[:, 2] for method in ("reduced", "taylor"))
+    np.testing.assert_allclose(run, steps, rtol=1e-12)  # of the rate that the torque drives
