@@ -219,7 +219,8 @@ def _curve(field, number, branch, cuts) -> EquilibriumCurve:
         samples += [_at(field, branch, t) for t in _chosen(lo, hi, size, cuts)]
         if run is not runs[-1]:
             changes.append(_at(field, branch, hi - step_at(cuts, hi)).at)
-    circle = rotations_at(field, values_inside(*branch[0][:2], size))[branch[0][2]].circle  # type: ignore[call-arg]
+    inside = values_inside(*branch[0][:2], size)  # type: ignore[call-arg]
+    circle = rotations_at(field, inside)[branch[0][2]].circle
     name = f"branch {number}" + (f", a circle about axis {6 - sum(i + 1 for i in circle)}" if circle else "")
     first, last = segments[0].t[0], segments[-1].t[1]
     return EquilibriumCurve(

@@ -242,7 +242,8 @@ def _judge(values: list[float]) -> None:
         raise InputError("expected at least one point, got none")
     seen: set[float] = set()
     # add gives None
-    again = next((value for value in values if value in seen or seen.add(value)), None)  # type: ignore[func-returns-value]
+    again = next((value for value in values
+                  if value in seen or seen.add(value)), None)  # type: ignore[func-returns-value]
     if again is not None:
         raise InputError(f"the value {again!r} comes twice: give each once (a range of fewer points, where "
                          "doubles cannot tell them apart)")

@@ -247,7 +247,8 @@ def proved(scene, state, found: SpinUp, steps: int | None = None, fast: bool = F
         constants = test.constants(middle / unit, near / unit * WIDENED, fast)
         if constants:
             # six constants
-            trap = Trap(before.field, before.form, before.orders, *constants, unit, way.t)  # type: ignore[call-arg]
+            trap = Trap(before.field, before.form, before.orders,  # type: ignore[call-arg]
+                        *constants, unit, way.t)
             words = (found.cause.replace("is certified", "is proved")
                      + f"; the motion up to there is enclosed, within {near:.2g}{rates} at t = {way.t:.6g}")
             return replace(found, level="proved", trap=trap, t=way.t, state=tuple(middle.tolist()),

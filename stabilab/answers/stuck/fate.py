@@ -220,7 +220,8 @@ def _when(scenario: Scenario, scene: Scene, t_max: float | None, *work: Any, spu
         return Found(t_max or 0.0, math.nan, "run", "")
     end = None if t_max is None else Fraction(t_max)
     # work is no more than two
-    return of_one(scene, scenario.start, scenario.state, scenario.exact_limit, end, *work, spun=spun)  # type: ignore[misc]
+    return of_one(scene, scenario.start, scenario.state, scenario.exact_limit,  # type: ignore[misc]
+                  end, *work, spun=spun)
 
 
 def _unsure(when: Found) -> str:

@@ -415,7 +415,8 @@ def number(paper: Paper, row: Row) -> tuple:
     try:
         text = row.printed[0].replace("\u2212", "-")
         # finite, so its exponent is a number
-        printed, step = Decimal(text), Decimal(1).scaleb(Decimal(text).as_tuple().exponent)  # type: ignore[arg-type]
+        printed = Decimal(text)
+        step = Decimal(1).scaleb(printed.as_tuple().exponent)  # type: ignore[arg-type]
     except (InvalidOperation, IndexError):
         raise InputError(f"{row.place}: expected a printed number, got {row.printed}") from None
     error = abs(float(value.real) - float(printed))

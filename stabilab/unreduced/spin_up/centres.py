@@ -403,4 +403,5 @@ def moving_centre(form, scene) -> MovingCentre | None:
                for v in (scene.vector("gyrostat"), scene.vector("constant_torque"))]
     D = tuple(scene.body.exact[n] for n in form.order)
     basis = [[t * (n == m) for m in range(3)] for t, n in zip(form.turn, form.order)]
-    return MovingCentre(D, *vectors, basis, 1 if D[0] > D[1] else -1, form.axis, form.sense)  # type: ignore[call-arg]
+    return MovingCentre(D, *vectors, basis, 1 if D[0] > D[1] else -1,  # type: ignore[call-arg]
+                        form.axis, form.sense)

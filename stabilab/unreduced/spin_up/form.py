@@ -142,7 +142,8 @@ def forms_of(scene) -> list[NormalForm]:
     torque."""
     with in_range("scene"):
         if scene.variables == "scaled":
-            forms = [scaled_normal_form(*scene.exact_ab, scene.exact_mu, i) for i in range(3)]  # type: ignore[call-arg]
+            forms = [scaled_normal_form(*scene.exact_ab, scene.exact_mu, i)  # type: ignore[call-arg]
+                     for i in range(3)]
         else:
             forms = [normal_form(scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque"),
                                  i) for i in range(3)]
