@@ -1,5 +1,4 @@
 """Pages, help and answers use the field's words (`docs/glossary.md`), none of our own."""
-import gzip
 import html
 import json
 import re
@@ -11,6 +10,7 @@ from stabilab import load
 from stabilab.show.explore import serve
 from stabilab.show.explore.pictures import unframed
 from stabilab.show.explore.session import Session
+from tests.recorded.answers import ALL, recorded
 
 ROOT = Path(__file__).resolve().parents[2]
 # words that stood for: reported, page or part, the user's pointer, exactly as written, compared with, direction
@@ -24,8 +24,7 @@ SAID = re.compile(OURS.pattern + r"|\b(sense|the way there|its way|keeps? to|kep
 MADE = ("commands.md", "changelog.md", "readme.md", "contributing.md", "results.md")  # of other files
 PAGES = [ROOT / "README.md", *(page for page in sorted((ROOT / "docs").glob("*.md")) if page.name not in MADE)]
 # what every command says of all cases, which test_recorded compares with what it says now
-RECORDS = sorted(path for path in (ROOT / "tests/recorded").glob("*.json.gz")
-                 if path.name not in ("audit.json.gz", "certificates.json.gz"))  # of papers; keys of a format
+RECORDS = sorted(set(ALL) - {"audit", "certificates"})  # of papers; keys of a format
 NAME = re.compile(r"middle-axis-?[\w-]*")  # of a case
 
 
@@ -66,9 +65,9 @@ def texts(said):
             yield from texts(one)
 
 
-@pytest.mark.parametrize("record", RECORDS, ids=[path.name.split(".")[0] for path in RECORDS])
+@pytest.mark.parametrize("record", RECORDS)
 def test_the_answers_about_all_cases_have_none_of_our_own_words(record):
-    for command, said in json.loads(gzip.decompress(record.read_bytes())).items():
+    for command, said in recorded(record).items():
         assert ours("\n".join(texts(said)), SAID) == [], command
 
 

@@ -1,8 +1,8 @@
 """Records what the commands say of all cases, or says where they say something else now.
 
 python -m tests.recorded [RECORD ...]: what differs from each record; exit code 1 where anything does.
-python -m tests.recorded --write [RECORD ...]: records anew; `git diff` says nothing of packed files, so look
-at the differences first.
+python -m tests.recorded --write [RECORD ...]: records anew what differs by more than its tolerance; `git diff`
+is then what users see of a change.
 """
 import sys
 import tempfile
@@ -18,7 +18,7 @@ def main(arguments: list[str]) -> int:
         with tempfile.TemporaryDirectory() as folder:
             found = now(name, Path(folder))
         if write:
-            record(name, found)
+            print(f"{name}: {len(record(name, found))} files written")
             continue
         lines = differences(recorded(name), found, RELATIVE.get(name, USUAL))
         differ += len(lines)

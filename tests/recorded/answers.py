@@ -1,8 +1,10 @@
-"""What is recorded of every command, how it is run, and when two answers are the same."""
+"""What is recorded of every command, how it is run, and when two answers are the same.
+
+A record is a folder with one text file a case: the command, its exit code, its messages ("! ..."), an empty
+line, its answer. A view that no command prints has a name in place of the command."""
 from __future__ import annotations
 
 import contextlib
-import gzip
 import io
 import json
 import math
@@ -22,7 +24,9 @@ ONE_CASE = {  # of every case
     "stuck": ["stuck", "--json"], "when": ["when", "--rate", "30 deg/s", "--json"],
     "simulate": ["simulate", "--at", "0,1,10", "--json"],
     "show": ["show"], "classify-text": ["classify"], "fate-text": ["fate", "--why"], "stuck-text": ["stuck"],
-    "period-text": ["period"],
+    "period-text": ["period"], "extremes-text": ["extremes"], "extremes-csv": ["extremes", "--csv"],
+    "when-text": ["when", "--rate", "30 deg/s"], "attitude": ["attitude", "--json"],
+    "attitude-text": ["attitude"], "flat-spin": ["flat-spin", "--json"], "flat-spin-text": ["flat-spin"],
 }
 SEVERAL = {  # from the repository's root
     "compare": [["compare", f"cases/{name}.toml", "--json"]
@@ -132,13 +136,68 @@ def _without(found: dict, folder: Path, *paths: Path) -> dict:
 
 
 def recorded(name: str) -> dict:
-    with gzip.open(HERE / f"{name}.json.gz", "rt", encoding="utf-8") as file:
-        return json.load(file)
+    """{case, or command line: what was said of it}."""
+    texts = (path.read_text(encoding="utf-8") for path in sorted((HERE / name).glob("*.txt")))
+    return dict(_read(name, text) for text in texts)
 
 
-def record(name: str, found: dict) -> None:
-    text = json.dumps(found, indent=0, sort_keys=True)
-    (HERE / f"{name}.json.gz").write_bytes(gzip.compress(text.encode(), mtime=0))
+def record(name: str, found: dict) -> list[str]:
+    """Writes the files of the answers that are not the recorded ones, and deletes those of answers that are
+    no more; numbers that differ by less than their tolerance change no file. Gives the names of the files."""
+    folder, before, changed = HERE / name, recorded(name), []
+    folder.mkdir(exist_ok=True)
+    files = {_file(key): key for key in found}
+    assert len(files) == len(found), "two answers with one file"
+    for file, key in files.items():
+        if key not in before or differences(before[key], found[key], RELATIVE.get(name, USUAL)):
+            (folder / file).write_text(_text(name, key, found[key]), encoding="utf-8")
+            changed.append(file)
+    for path in folder.glob("*.txt"):
+        if path.name not in files:
+            path.unlink()
+            changed.append(path.name)
+    return changed
+
+
+def _file(key: str) -> str:
+    return re.sub(r"[^\w.=+-]+", "-", key).strip("-") + ".txt"
+
+
+def _text(name: str, key: str, found: dict) -> str:
+    if name in VIEWS:
+        return f"{name}: {key}\n\n{_json(found)}\n"
+    message = "".join(f"! {line}\n" for line in found["message"].splitlines())
+    answer = found["answer"]
+    return (f"$ {_command(name, key)}\nexit {found['exit']}\n{message}\n"
+            f"{answer if isinstance(answer, str) else _json(answer)}\n")
+
+
+def _command(name: str, key: str) -> str:
+    return key if name in SEVERAL else " ".join([*ONE_CASE[name][:1], f"{key}.toml", *ONE_CASE[name][1:]])
+
+
+def _read(name: str, text: str) -> tuple[str, dict]:
+    head, _, answer = text.removesuffix("\n").partition("\n\n")
+    if name in VIEWS:
+        return head.partition(": ")[2], json.loads(answer)
+    command, end, *messages = head.split("\n")
+    key = command.removeprefix("$ ")
+    key = key if name in SEVERAL else key.split(" ")[1].removesuffix(".toml")
+    words = command.split(" ")
+    return key, {"exit": int(end.removeprefix("exit ")),
+                 "message": "".join(f"{line.removeprefix('! ')}\n" for line in messages),
+                 "answer": json.loads(answer) if "--json" in words and answer else answer}
+
+
+def _json(value: object, indent: str = "") -> str:
+    """JSON, of which what fits is one line."""
+    short, inner = json.dumps(value, sort_keys=True, ensure_ascii=False), indent + " "
+    if len(indent) + len(short) <= 110 or not value or not isinstance(value, (dict, list)):
+        return short
+    if isinstance(value, dict):
+        rows = [f"{inner}{json.dumps(key)}: {_json(value[key], inner)}" for key in sorted(value)]
+        return "{\n" + ",\n".join(rows) + f"\n{indent}}}"
+    return "[\n" + ",\n".join(inner + _json(one, inner) for one in value) + f"\n{indent}]"
 
 
 def differences(before, now, relative: float, where: str = "", size: float = 0.0) -> list[str]:

@@ -2,7 +2,8 @@
 to their tolerance."""
 import pytest
 
-from .answers import ALL, RELATIVE, USUAL, differences, now, recorded
+from . import answers
+from .answers import ALL, RELATIVE, USUAL, differences, now, record, recorded
 
 # The words of these are made from the JSON of the same command: long
 LONG = {"audit",  # which tests/papers/test_audit.py holds against the equations
@@ -28,3 +29,18 @@ def test_differences_are_seen_and_last_digits_are_not():
                        ("because", "reached after 13.5 s at 2 of 4")):
         assert len(differences(before, {**before, key: value}, USUAL)) == 1
     assert differences(before, {"fate": "bounded"}, USUAL)
+
+
+@pytest.mark.parametrize("name, key, found", [
+    ("fate", "a-case", {"exit": 0, "message": "", "answer": [{"fate": "bounded", "at": [0.1, 1e-300, None]}]}),
+    ("fate-text", "a-case", {"exit": 2, "message": "first: line\n  second\n", "answer": ""}),
+    ("show", "a-case", {"exit": 0, "message": "", "answer": "first\n\nω' = 2\n"}),
+    ("words", "when cases/a.toml --rate 2 rad/s", {"exit": 3, "message": "", "answer": "a: NEVER\n"}),
+    ("page", "a-case", {"headline": "x" * 200, "rows": [[1, "2"], []], "none": None})])
+def test_a_record_is_text_that_is_read_back_and_written_only_where_answers_differ(
+        monkeypatch, tmp_path, name, key, found):
+    monkeypatch.setattr(answers, "HERE", tmp_path)
+    assert len(record(name, {key: found})) == 1
+    assert recorded(name) == {key: found}
+    assert record(name, {key: found}) == []
+    assert len(record(name, {"another": found})) == 2  # one file more, one less
