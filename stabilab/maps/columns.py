@@ -9,7 +9,7 @@ import numpy as np
 from ..answers.caveats import HOLDS, UNPHYSICAL
 from ..answers.chaos import Order
 from ..errors import InputError, printable
-from ..orbit.fate import Reason
+from ..orbit.fate import Basis
 from ..orbit.result import Fate
 
 LEVELS = ("undecided", "certified", "exact", "proved")
@@ -45,7 +45,7 @@ ANSWERS: dict[str, tuple[Column, ...]] = {
                     note="0 where there is none, or it lies between equal moments")),
     "level": (Column("level", "i1", "", "how well the fate is known", LEVELS, note="-1: no case"),),
     "reason": (Column("reason", "i1", "", "why the fate is known",
-                      tuple(reason.name.lower() for reason in Reason),
+                      tuple(reason.name.lower() for reason in Basis),
                       note="-1 where a motion is answered by itself: stabilab fate tells why"),),
     "island": (Column("island", "i1", "", "whether bounded islands are suspected where the motion is",
                       ISLANDS,

@@ -361,7 +361,7 @@ class _Momenta:
 
 
 # --- Why a motion has the fate it has, in words; and whether a state is at rest, decided exactly
-class Reason(IntEnum):
+class Basis(IntEnum):
     """Why a label was given; `REASONS` has the words."""
 
     BELOW_BARRIER = 0
@@ -382,30 +382,30 @@ class Reason(IntEnum):
 
 
 REASONS = {
-    Reason.BELOW_BARRIER: "the energy is below the barrier of the reduced potential that stands ahead of it "
+    Basis.BELOW_BARRIER: "the energy is below the barrier of the reduced potential that stands ahead of it "
                           "in the direction of the torque",
-    Reason.ABOVE_BARRIER: "the energy exceeds every barrier of the reduced potential within one turn ahead, "
+    Basis.ABOVE_BARRIER: "the energy exceeds every barrier of the reduced potential within one turn ahead, "
                           "and each later turn is lower still",
-    Reason.NO_BARRIER: "the orbit's circle carries no equilibrium, so the reduced potential falls all the "
+    Basis.NO_BARRIER: "the orbit's circle carries no equilibrium, so the reduced potential falls all the "
                        "way in the direction of the torque",
-    Reason.WALLS: "the reduced potential grows without bound on both sides of the motion",
-    Reason.PLANE_CAPTURED: "on the invariant plane Q = 0, below the barrier that stands ahead",
-    Reason.PLANE_ESCAPES: "on the invariant plane Q = 0 that decays in the direction of the torque, above "
+    Basis.WALLS: "the reduced potential grows without bound on both sides of the motion",
+    Basis.PLANE_CAPTURED: "on the invariant plane Q = 0, below the barrier that stands ahead",
+    Basis.PLANE_ESCAPES: "on the invariant plane Q = 0 that decays in the direction of the torque, above "
                           "any barrier: a set of measure zero",
-    Reason.PURE_SPIN: "pure spin about the torque's axis: the other two rates stay where the torque does not "
+    Basis.PURE_SPIN: "pure spin about the torque's axis: the other two rates stay where the torque does not "
                       "see them",
-    Reason.TIE: "the energy equals the barrier's: the motion tends to the saddle equilibrium",
-    Reason.AT_REST: "every rate vanishes at the state, exactly",
-    Reason.TORQUE_FREE: "no torque: the kinetic energy is constant, and it is positive definite",
-    Reason.UNBOUNDED_LAW: "|H|^2/2 - D_i T grows steadily at the rate lambda_i M_i: no motion is bounded",
-    Reason.OFF_AXIS: "the torque is off the principal axes, where no integral of motion is known, and no "
+    Basis.TIE: "the energy equals the barrier's: the motion tends to the saddle equilibrium",
+    Basis.AT_REST: "every rate vanishes at the state, exactly",
+    Basis.TORQUE_FREE: "no torque: the kinetic energy is constant, and it is positive definite",
+    Basis.UNBOUNDED_LAW: "|H|^2/2 - D_i T grows steadily at the rate lambda_i M_i: no motion is bounded",
+    Basis.OFF_AXIS: "the torque is off the principal axes, where no integral of motion is known, and no "
                      "certificate of spin-up was met",
-    Reason.TURN_ROUNDS: "the energy is within 1e-36 of a barrier's, and the turn that puts the torque on an "
+    Basis.TURN_ROUNDS: "the energy is within 1e-36 of a barrier's, and the turn that puts the torque on an "
                         "axis has irrational numbers, "
                         "carried to 240 bits",
-    Reason.CERTIFIED: "the torque is off the principal axes, and the motion meets an inequality that stays "
+    Basis.CERTIFIED: "the torque is off the principal axes, and the motion meets an inequality that stays "
                       "true for ever",
-    Reason.CLOSED_FORM: "the torque is off the principal axes, and equal moments leave a closed solution",
+    Basis.CLOSED_FORM: "the torque is off the principal axes, and equal moments leave a closed solution",
 }
 
 
@@ -425,7 +425,7 @@ class OneFate(NamedTuple):
     """Fate of one state: as in `fate_arrays.FateResult`, the margin in the scene's energy."""
 
     label: Fate
-    reason: Reason
+    reason: Basis
     margin: float
     axis: int = 0
     sense: int = 0
@@ -453,13 +453,13 @@ def fate_of(scene, orbit: Orbit, near: Orbit | None = None) -> OneFate:
 
 def at_rest(scene, found: OneFate) -> OneFate:
     """The fate of an equilibrium, given what its energy alone says."""
-    return OneFate(Fate.EQUILIBRIUM, Reason.AT_REST, margin_at_rest(scene, found.margin))
+    return OneFate(Fate.EQUILIBRIUM, Basis.AT_REST, margin_at_rest(scene, found.margin))
 
 
 def free_fate(scene, state) -> OneFate:
     """The fate without a torque: bounded, whatever the margin, or on a separatrix of the momentum sphere."""
     margin = free_margin(scene, state, doubles=True)
-    return _tie() if margin.tie else OneFate(Fate.BOUNDED, Reason.TORQUE_FREE, margin.double)
+    return _tie() if margin.tie else OneFate(Fate.BOUNDED, Basis.TORQUE_FREE, margin.double)
 
 
 def _spin_up(r, reason, margin) -> OneFate:
@@ -467,7 +467,7 @@ def _spin_up(r, reason, margin) -> OneFate:
 
 
 def _tie() -> OneFate:
-    return OneFate(Fate.SEPARATRIX, Reason.TIE, 0.0)
+    return OneFate(Fate.SEPARATRIX, Basis.TIE, 0.0)
 
 
 def _on_circle(orbit) -> OneFate:
@@ -480,10 +480,10 @@ def _on_circle(orbit) -> OneFate:
             return _tie()
     margin = -INF if found is None else found.margin
     if r.sense == 0:
-        return OneFate(Fate.BOUNDED, Reason.TORQUE_FREE, margin)
+        return OneFate(Fate.BOUNDED, Basis.TORQUE_FREE, margin)
     if found is not None and found.sign > 0:
-        return OneFate(Fate.BOUNDED, Reason.BELOW_BARRIER, margin)
-    return _spin_up(r, Reason.NO_BARRIER if margin == -INF else Reason.ABOVE_BARRIER, margin)
+        return OneFate(Fate.BOUNDED, Basis.BELOW_BARRIER, margin)
+    return _spin_up(r, Basis.NO_BARRIER if margin == -INF else Basis.ABOVE_BARRIER, margin)
 
 
 def _shifted(orbit) -> tuple[Fraction, Fraction]:
@@ -498,7 +498,7 @@ def _valley(orbit) -> OneFate:
     tie = decide(orbit, FIRST_BITS)
     if tie.sign == 0:
         return _tie()
-    return OneFate(Fate.BOUNDED, Reason.WALLS, INF if tie.margin == -INF else tie.margin)
+    return OneFate(Fate.BOUNDED, Basis.WALLS, INF if tie.margin == -INF else tie.margin)
 
 
 def _on_hyperbola(orbit) -> OneFate:
@@ -506,19 +506,19 @@ def _on_hyperbola(orbit) -> OneFate:
     if v * v * abs(r.p) != u * u * abs(r.q):
         return _valley(orbit)
     if u == 0:
-        return _spin_up(r, Reason.PURE_SPIN, -INF)
+        return _spin_up(r, Basis.PURE_SPIN, -INF)
     if (u > 0) == (v > 0) and r.sense * r.p > 0 or (u > 0) != (v > 0) and r.sense * r.p < 0:
         # eta = 0: it grows ahead, and the torque's tilt rises behind
-        return OneFate(Fate.BOUNDED, Reason.WALLS, INF)
+        return OneFate(Fate.BOUNDED, Basis.WALLS, INF)
     tie = decide(orbit, FIRST_BITS)
     if tie.sign > 0:
-        return OneFate(Fate.BOUNDED, Reason.PLANE_CAPTURED, tie.margin)
-    return _tie() if tie.sign == 0 else _spin_up(r, Reason.PLANE_ESCAPES, tie.margin)
+        return OneFate(Fate.BOUNDED, Basis.PLANE_CAPTURED, tie.margin)
+    return _tie() if tie.sign == 0 else _spin_up(r, Basis.PLANE_ESCAPES, tie.margin)
 
 
 def _on_parabola(orbit) -> OneFate:
     if not any(orbit.settled(lambda found: found.taylor[1:], FIRST_BITS)):
-        return _spin_up(orbit.reduction, Reason.PURE_SPIN, -INF)  # the force is the same all along the orbit
+        return _spin_up(orbit.reduction, Basis.PURE_SPIN, -INF)  # the force is the same all along the orbit
     return _valley(orbit)
 
 

@@ -31,7 +31,7 @@ from ..physics.coefficients import limits_of
 from ..physics.scene import AnyScene
 from ..physics.states import equilibrium_mask
 from ..representation import Compared, Shown
-from .fate import REASONS, Reason, decide, fate_of, free_middle, is_free, margin_at_rest
+from .fate import REASONS, Basis, decide, fate_of, free_middle, is_free, margin_at_rest
 from .landscape import ROUNDINGS, ConicLandscape, Landscape, in_doubles, landscape
 from .margins import MARGIN_SHARE, valley_margins
 from .one_orbit import Orbit
@@ -57,7 +57,7 @@ class FateResult(Shown, Compared):
     the same momentum that is a saddle, of two the nearer in energy: 0 on a separatrix, > 0 with less energy
     than that (a body turning about its major axis), < 0 with more, whatever the axes are called
     (`free_gyrostat`; in scaled variables, which know no momentum, the reduction about axis 3 has the
-    barrier). axis: 1, 2, 3 of a spin-up, else 0; sense: its sign, else 0. reasons: (...,) `Reason` codes.
+    barrier). axis: 1, 2, 3 of a spin-up, else 0; sense: its sign, else 0. reasons: (...,) `Basis` codes.
     precise: how many states had to be decided in many digits. Iterating gives labels, margins.
     """
 
@@ -113,7 +113,7 @@ class FateResult(Shown, Compared):
         """The same as the places of these words in a row of them."""
         undecided, certified, exact, proved = map(words.index, ("undecided", "certified", "exact", "proved"))
         found = np.where(self.labels == Fate.UNDECIDED, np.int8(undecided),
-                         np.where(self.reasons == Reason.CERTIFIED, np.int8(certified), np.int8(exact)))
+                         np.where(self.reasons == Basis.CERTIFIED, np.int8(certified), np.int8(exact)))
         if self.followed is not None:
             found[self.followed.proved.reshape(found.shape)] = proved
         return found
@@ -134,9 +134,9 @@ def _cause(row) -> str:
 
 
 def _told(reason, label, margin) -> str:
-    known = (margin == margin or reason in (Reason.OFF_AXIS, Reason.TURN_ROUNDS, Reason.CERTIFIED,
-                                            Reason.CLOSED_FORM) or label == Fate.EQUILIBRIUM)
-    return REASONS[Reason(reason)] + ("" if known else f"; the margin in energy is {BEYOND}")
+    known = (margin == margin or reason in (Basis.OFF_AXIS, Basis.TURN_ROUNDS, Basis.CERTIFIED,
+                                            Basis.CLOSED_FORM) or label == Fate.EQUILIBRIUM)
+    return REASONS[Basis(reason)] + ("" if known else f"; the margin in energy is {BEYOND}")
 
 
 def empty_columns(n) -> dict[str, np.ndarray]:
@@ -391,22 +391,22 @@ def _label_chunk(scene, land, states, out):
     land: None of a free body."""
     out["axis"][:], out["sense"][:], out["labels"][:] = 0, 0, Fate.BOUNDED
     if land is None:
-        out["reasons"][:] = Reason.TORQUE_FREE
+        out["reasons"][:] = Basis.TORQUE_FREE
         out["margins"][:], doubtful = free_margins(scene, states)
         return doubtful
     place, w, size = land.start(states)
     margins, doubtful = _margins(land, place, w, size)
     np.multiply(margins, land.reduction.energy_unit, out=out["margins"])
-    out["reasons"][:] = Reason.WALLS if land.potential.walled else Reason.TORQUE_FREE
+    out["reasons"][:] = Basis.WALLS if land.potential.walled else Basis.TORQUE_FREE
     if land.sense and not land.potential.walled:
         spins = (margins <= 0).view(np.int8)
         out["labels"][:] = spins  # `Fate.BOUNDED` or `SPIN_UP`
-        # `Reason.BELOW_BARRIER`, `ABOVE_BARRIER` or `NO_BARRIER`
+        # `Basis.BELOW_BARRIER`, `ABOVE_BARRIER` or `NO_BARRIER`
         out["reasons"][:] = spins + np.isneginf(margins)
         out["axis"][:] = spins * np.int8(land.reduction.axis + 1)
         out["sense"][:] = spins * np.int8(land.sense)
     for index in np.nonzero(flat_mask(land, states, place))[0]:
-        write_row(out, index, Fate.SPIN_UP, Reason.PURE_SPIN, -np.inf, land.reduction.axis + 1, land.sense)
+        write_row(out, index, Fate.SPIN_UP, Basis.PURE_SPIN, -np.inf, land.reduction.axis + 1, land.sense)
         doubtful[index] = False
     return doubtful
 
@@ -442,7 +442,7 @@ def at_rest(scene, states, out):
     `margin_at_rest`."""
     found = equilibrium_mask(scene, states)
     if found.any():
-        out["labels"][found], out["reasons"][found] = Fate.EQUILIBRIUM, Reason.AT_REST
+        out["labels"][found], out["reasons"][found] = Fate.EQUILIBRIUM, Basis.AT_REST
         out["axis"][found] = out["sense"][found] = 0
         out["margins"][found] = [margin_at_rest(scene, margin) for margin in out["margins"][found]]
 

@@ -15,7 +15,7 @@ from ..errors import InputError
 from ..numbers.double_double import EPS
 from ..orbit import extremes_arrays
 from ..orbit.extremes import precise_period
-from ..orbit.fate import OneFate, Reason, fate_of
+from ..orbit.fate import Basis, OneFate, fate_of
 from ..orbit.fate import at_rest as rest_of
 from ..orbit.fate_arrays import FateResult, at_rest, in_chunks, write_row
 from ..orbit.fate_arrays import fates as fates_on_orbit
@@ -91,7 +91,7 @@ def turned_fate(turn, state, orbit) -> OneFate:
     scale = (max(map(float, turn.twin.body.exact)) * speed
              + max(abs(float(m)) for m in turn.twin.vector("constant_torque")))
     if not turn.exact and abs(found.margin) <= TURN_SHARE * scale:
-        return OneFate(Fate.UNDECIDED, Reason.TURN_ROUNDS, math.nan)
+        return OneFate(Fate.UNDECIDED, Basis.TURN_ROUNDS, math.nan)
     return found._replace(axis=0)  # the spin-up is about the torque's direction, not about a body axis
 
 

@@ -23,7 +23,7 @@ from ..equilibrium.dissipative import (
 from ..equilibrium.liquid import trap
 from ..numbers.exact import floats, sqrt_fraction
 from ..numbers.vectors import dot
-from ..orbit.fate import REASONS, Reason
+from ..orbit.fate import REASONS, Basis
 from ..orbit.result import Fate, Motion
 from ..physics.coefficients import Content, at_rest, content, relative, split, taken_up
 
@@ -56,7 +56,7 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     if any(parts.u):
         fields = {**seen, **_motor(parts, omega, gamma, wheel)}
     elif at_rest(parts, exact or omega, gamma) and not any(sigma):
-        fields = {"fate": Fate.EQUILIBRIUM, "because": REASONS[Reason.AT_REST],
+        fields = {"fate": Fate.EQUILIBRIUM, "because": REASONS[Basis.AT_REST],
                   "extremes": tuple((w, w) for w in omega)}
     else:
         fate, because, bounds = judged(parts, omega, gamma, sigma)

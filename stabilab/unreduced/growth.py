@@ -31,7 +31,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..numbers.vectors import CYCLE
-from ..orbit.fate import OneFate, Reason
+from ..orbit.fate import Basis, OneFate
 from ..orbit.fate_arrays import FateResult, at_rest, in_chunks, write_row
 from ..orbit.one_state import in_range
 from ..orbit.result import Fate, Motion, judged, pairs
@@ -219,7 +219,7 @@ def periods(scene, states, fast: bool | None = None):
 
 def unbounded(found) -> OneFate:
     """The fate that `captured_fate` found under the law: unbounded, about an axis that may be undecided."""
-    return OneFate(found.fate, Reason.UNBOUNDED_LAW, -math.inf, found.axis, found.sense)
+    return OneFate(found.fate, Basis.UNBOUNDED_LAW, -math.inf, found.axis, found.sense)
 
 
 def fates(scene, states, fast: bool | None = None) -> FateResult:

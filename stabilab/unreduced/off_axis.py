@@ -33,7 +33,7 @@ from ..errors import InputError
 from ..integrate.events import roots_of_rates
 from ..numbers.numba_door import installed
 from ..numbers.polynomial import bernstein, bernstein_halves
-from ..orbit.fate import OneFate, Reason, at_rest
+from ..orbit.fate import Basis, OneFate, at_rest
 from ..orbit.fate_arrays import FateResult, empty_columns
 from ..orbit.result import Fate, Motion, finite, judged, pairs, without_return
 from ..physics.coefficients import three_floats
@@ -181,8 +181,8 @@ PATIENCE = 600_000  # steps for which a motion is followed where nobody says how
 AS_WRITTEN = 120  # times fewer steps where numba is not installed
 ENDLESS = 10**9     # steps where the caller names a time
 BOUND_DIGITS = 10  # decimals of a bound for all times
-REASON = {"undecided": Reason.OFF_AXIS, "certified": Reason.CERTIFIED, "proved": Reason.CERTIFIED,
-          "exact": Reason.CLOSED_FORM}
+REASON = {"undecided": Basis.OFF_AXIS, "certified": Basis.CERTIFIED, "proved": Basis.CERTIFIED,
+          "exact": Basis.CLOSED_FORM}
 NO_SPAN = ("not known without a certificate of spin-up: give span=T ({unit}), or a span in the case's "
            "[motion], to search them over a time span, "
            "or follow=T to look for the certificate longer")
@@ -194,7 +194,7 @@ def motion(scene, state, span=None, exact=None, brief: bool = False, follow: flo
     spin-up is certified."""
     state = three_floats(state)
     if rests(scene.quadratic(), exact or state):
-        decided = at_rest(scene, OneFate(Fate.UNDECIDED, Reason.OFF_AXIS, math.nan))
+        decided = at_rest(scene, OneFate(Fate.UNDECIDED, Basis.OFF_AXIS, math.nan))
         return Motion(**judged(state, decided), margin_energy=finite(decided.margin),
                       extremes=tuple((v, v) for v in state), velocity_because=NO_BRANCHES)
     start = list(exact or state) if proof else state
@@ -320,7 +320,7 @@ def fates(scene, states, fast: bool | None = None, follow: float | None = None, 
     moving = np.flatnonzero(~rest)
     found = spin_up_many(scene, states[moving], **_limits(follow), tell=tell, fast=fast, proof=proof)
     out = empty_columns(len(states)) | {"margins": np.full(len(states), np.nan)}
-    out["labels"][:], out["reasons"][:] = Fate.EQUILIBRIUM, Reason.AT_REST
+    out["labels"][:], out["reasons"][:] = Fate.EQUILIBRIUM, Basis.AT_REST
     for name, values in (("labels", found.fate), ("axis", found.axis), ("sense", found.sense)):
         out[name][moving] = values
     out["reasons"][moving] = np.array([REASON[word] for word in LEVELS], np.int8)[found.level]
@@ -328,7 +328,7 @@ def fates(scene, states, fast: bool | None = None, follow: float | None = None, 
     place[moving] = np.arange(len(moving))
     blank = FateResult(**out, followed=Followed(found, place))  # type: ignore[arg-type]  # the columns alone
     if rest.any():
-        resting = at_rest(scene, OneFate(Fate.UNDECIDED, Reason.OFF_AXIS, math.nan))
+        resting = at_rest(scene, OneFate(Fate.UNDECIDED, Basis.OFF_AXIS, math.nan))
         blank = replace(blank, margins=np.where(rest, resting.margin, blank.margins))
     return blank
 

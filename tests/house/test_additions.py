@@ -17,7 +17,7 @@ KIND = '''"""A sphere without wheel and torque: whatever its rates are, they sta
 from __future__ import annotations
 
 from ..orbit.fate_arrays import in_chunks, write_row
-from ..orbit.fate import Reason
+from ..orbit.fate import Basis
 from ..orbit.result import Fate, Motion
 from ..physics.coefficients import three_floats
 
@@ -38,7 +38,7 @@ def fates(scene, states, fast=None):
     """Fates of states (n, 3)."""
     def label(rows, out):
         for n in range(len(rows)):
-            write_row(out, n, Fate.EQUILIBRIUM, Reason.AT_REST, float("inf"))
+            write_row(out, n, Fate.EQUILIBRIUM, Basis.AT_REST, float("inf"))
         return 0
     return in_chunks(label, states)
 

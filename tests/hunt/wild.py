@@ -13,7 +13,7 @@ import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.digits import ask
 from stabilab.orbit.extremes_arrays import extremes_and_periods
-from stabilab.orbit.fate import REASONS, Reason
+from stabilab.orbit.fate import REASONS, Basis
 from stabilab.orbit.landscape import landscape
 from tests.hunt.disagreements import between
 
@@ -172,7 +172,7 @@ def disagreements(scene, states, fast, with_digits):
 
 
 def _against_arrays(scene, state, one, many, n):
-    label, words = Fate(int(many.labels[n])), REASONS[Reason(int(many.reasons[n]))]
+    label, words = Fate(int(many.labels[n])), REASONS[Basis(int(many.reasons[n]))]
     if (one.fate, one.axis, one.sense) != (label, many.axis[n],
                                            many.sense[n]) or not one.because.startswith(words):
         yield (

@@ -12,7 +12,7 @@ import stabilab
 from stabilab import Body, ConstantTorque, Fate, Scene
 from stabilab.answers.fate import fate_grid
 from stabilab.errors import InputError
-from stabilab.orbit.fate import REASONS, Reason, fate_of
+from stabilab.orbit.fate import REASONS, Basis, fate_of
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.one_orbit import Orbit
 from stabilab.orbit.reduction import reduce
@@ -81,9 +81,9 @@ def test_motions_on_an_invariant_plane_tell_axis_sense_reason_margin_and_extreme
         assert (found.axis[n], found.sense[n]) == ((2, sign) if word == "spin-up" else (0, 0))
         height = energy.margin(problem, state, digits=60)
         if plane * sign > 0:
-            assert (found.margins[n], found.reasons[n]) == (np.inf, Reason.WALLS)
+            assert (found.margins[n], found.reasons[n]) == (np.inf, Basis.WALLS)
         else:
-            assert found.reasons[n] == (Reason.PLANE_CAPTURED if word == "bounded" else Reason.PLANE_ESCAPES)
+            assert found.reasons[n] == (Basis.PLANE_CAPTURED if word == "bounded" else Basis.PLANE_ESCAPES)
             assert found.margins[n] == pytest.approx(-np.inf if height is None else float(height), rel=1e-13)
 
 
@@ -91,10 +91,10 @@ def test_motions_on_an_invariant_plane_tell_axis_sense_reason_margin_and_extreme
 def test_pure_spin_about_the_middle_axis_grows_with_the_torque_and_rests_without(sign):
     found = stabilab.fate(scaled(0.25, 0.5, (0, sign, 0))[0], np.array([(-0.5, 0.75, 0.0)]))
     assert [list(found.labels), list(found.axis), list(found.sense), list(found.reasons)] == [
-        [Fate.SPIN_UP], [2], [sign], [Reason.PURE_SPIN]] and found.margins[0] == -np.inf
+        [Fate.SPIN_UP], [2], [sign], [Basis.PURE_SPIN]] and found.margins[0] == -np.inf
     # wheels balance the middle spin
     free = stabilab.fate(physical((6, 5, 3), (0.5, 0, 1))[0], np.array([-0.5, 0.75, 0.5]))
-    assert (free.labels, free.axis, free.sense, free.reasons) == (Fate.EQUILIBRIUM, 0, 0, Reason.AT_REST)
+    assert (free.labels, free.axis, free.sense, free.reasons) == (Fate.EQUILIBRIUM, 0, 0, Basis.AT_REST)
 
 
 families = pytest.mark.parametrize("name", FAMILIES)
@@ -120,13 +120,13 @@ def test_the_reason_is_whether_a_barrier_stands_ahead_and_how_high(name):
     found = stabilab.fate(scene, states)
     for state, reason, label in zip(states.tolist(), found.reasons, found.labels):
         margin = energy.margin(problem, state, digits=60)
-        expected = (Reason.WALLS if name not in ELLIPTIC else Reason.NO_BARRIER if margin is None
-                    else Reason.BELOW_BARRIER if margin > 0 else Reason.ABOVE_BARRIER)
+        expected = (Basis.WALLS if name not in ELLIPTIC else Basis.NO_BARRIER if margin is None
+                    else Basis.BELOW_BARRIER if margin > 0 else Basis.ABOVE_BARRIER)
         assert reason == expected and (label
-                                       == Fate.BOUNDED) == (expected in (Reason.WALLS, Reason.BELOW_BARRIER))
+                                       == Fate.BOUNDED) == (expected in (Basis.WALLS, Basis.BELOW_BARRIER))
     words = found.because
     assert words.shape == (30,)
-    assert words[3] == stabilab.fate(scene, states[3]).because == REASONS[Reason(int(found.reasons[3]))]
+    assert words[3] == stabilab.fate(scene, states[3]).because == REASONS[Basis(int(found.reasons[3]))]
 
 
 @pytest.mark.parametrize("state", [(0.3, -0.4, -1.0), (0.3, -0.4, 2.0), (0.0, 0.0, 0.5)])
@@ -139,7 +139,7 @@ def test_spin_about_a_torque_that_no_other_rate_disturbs_grows_for_ever(axis, mo
     scene = Scene(Body((2, 2, 1)), ConstantTorque(tuple(moment * (i == axis) for i in range(3))))
     sense = 1 if moment > 0 else -1
     found, box = stabilab.fate(scene, np.array(state)), stabilab.extremes(scene, np.array(state))
-    reason = Reason.PURE_SPIN if axis == 0 else Reason.NO_BARRIER
+    reason = Basis.PURE_SPIN if axis == 0 else Basis.NO_BARRIER
     assert (found.labels, found.axis, found.sense, found.reasons) == (Fate.SPIN_UP, axis + 1, sense, reason)
     assert found.margins == -np.inf
     assert box[axis].tolist() == ([state[axis], np.inf] if sense > 0 else [-np.inf, state[axis]])

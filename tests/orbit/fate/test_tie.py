@@ -6,7 +6,7 @@ import numpy as np
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Scene
 from stabilab.numbers.balls import working
-from stabilab.orbit.fate import Reason, exact_tie
+from stabilab.orbit.fate import Basis, exact_tie
 from stabilab.orbit.one_orbit import ball_orbit
 from stabilab.orbit.reduction import reduce
 from tests.oracles.pairs import physical
@@ -34,4 +34,4 @@ def test_free_motions_on_an_invariant_plane_tend_to_the_pure_spin_exactly_where_
     np.testing.assert_array_equal(found.labels, [Fate.SEPARATRIX if o >= 0 else Fate.BOUNDED for o in over])
     # what tends to the pure spin has its energy at its momentum: margin 0; the others keep off every saddle
     np.testing.assert_array_equal(found.margins == 0, [o >= 0 for o in over])
-    np.testing.assert_array_equal(found.reasons, [Reason.TIE if o >= 0 else Reason.TORQUE_FREE for o in over])
+    np.testing.assert_array_equal(found.reasons, [Basis.TIE if o >= 0 else Basis.TORQUE_FREE for o in over])
