@@ -8,28 +8,57 @@ A caveat belongs to the answer: every view of it (text, JSON, CSV, sweep, map, p
 words."""
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any
 
-KINDS = ("tilt", "limit", "law", "unphysical", "samples", "uncertain", "burn", "motor")
+from .reasons import Reason, old, quantities_of
+
+
+class Kind(StrEnum):
+    """What a caveat is about."""
+
+    TILT = "tilt"
+    LIMIT = "limit"
+    LAW = "law"
+    UNPHYSICAL = "unphysical"
+    SAMPLES = "samples"
+    UNCERTAIN = "uncertain"
+    BURN = "burn"
+    MOTOR = "motor"
+    THRUSTERS = "thrusters"
+    UNSTABLE = "unstable"
 
 
 @dataclass(frozen=True)
 class Caveat:
-    """kind: one of KINDS; words: a sentence on its own, in SI units, without a full stop."""
+    """kind: what it is about; reason: a sentence on its own, without a full stop."""
 
-    kind: str
-    words: str
+    kind: Kind
+    reason: Reason
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "kind", Kind(self.kind))
+        if isinstance(self.reason, str):
+            object.__setattr__(self, "reason", old(self.reason))
+
+    @property
+    def words(self) -> str:
+        """The sentence in SI units."""
+        return self.reason.text()
 
 
-def key(caveats: Iterable[Caveat]) -> dict[str, list[dict[str, str]]]:
-    """The key "caveats" of a JSON object: a list, empty where nothing limits the answer."""
-    return {"caveats": [{"kind": one.kind, "words": one.words} for one in caveats]}
+def key(caveats: Iterable[Caveat], fill: Callable[[Any], str] | None = None) -> dict[str, list[dict]]:
+    """The key "caveats" of a JSON object: a list, empty where nothing limits the answer. fill: as of
+    `Reason.text`."""
+    return {"caveats": [{"kind": str(one.kind), "words": one.reason.text(fill), "code": one.reason.code}
+                        | quantities_of(one.reason) for one in caveats]}
 
 
-def cell(caveats: Iterable[Caveat]) -> str:
+def cell(caveats: Iterable[Caveat], fill: Callable[[Any], str] | None = None) -> str:
     """The column "caveats" of a CSV: the words of all, empty where nothing limits the answer."""
-    return "; ".join(one.words for one in caveats)
+    return "; ".join(one.reason.text(fill) for one in caveats)
 
 
 OK, BUG, BAD_INPUT, UNDECIDED, NO_RENDERING, TOLERANCE_NOT_MET, INTERRUPTED = 0, 1, 2, 3, 4, 5, 130

@@ -8,26 +8,41 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
-from ..errors import Caveat
+from ..errors import Caveat, Kind
 from ..orbit.result import Fate, Motion
 from ..physics.coefficients import effective
 from ..physics.scene import AnyScene, aligned, torque_axis
+from ..reasons import DIGITS, Angle, Axis, Quantity, Rate, Reason, Sentence, Time, old
 
 STEADY = (Fate.BOUNDED, Fate.EQUILIBRIUM)
 IN_PLANE, THIS = 4, 5
-ONLY = "holds only while the torque is exactly"
-HOLDS = ("", f"{ONLY} along axis 1", f"{ONLY} along axis 2", f"{ONLY} along axis 3",
-         f"{ONLY} in the plane of the equal moments", f"{ONLY} this one")
-UNPHYSICAL = "no rigid body has these moments of inertia"
+HOLDS = Sentence("holds-only", "holds {condition}")
+ALONG = Sentence("torque-along-axis", "only while the torque is exactly along {axis}")
+CONDITIONS = (None, *(ALONG(axis=Axis(n)) for n in (1, 2, 3)),
+              Sentence("torque-in-plane",
+                       "only while the torque is exactly in the plane of the equal moments")(),
+              Sentence("torque-as-given", "only while the torque is exactly this one")())
+NO_SUCH_BODY = Sentence("no-such-body", "no rigid body has these moments of inertia")()
+UNSEEN = Sentence("tilt-not-looked-at",
+                  "a tilt of the torque, by the misalignment of {thrusters}, is not looked at here")
+REACHES = Sentence("reaches-limit", "reaches {limit} after {time} ({level})")
+AT_START = Sentence("limit-at-start", "reaches {limit} at the start already")
+IN_A_COMPONENT = Sentence("rate-of-a-component", "{rate} in a component")
+TILTED_TO = Sentence("tilted-reaches", "tilted by {angle} it reaches {limit} after {time} ({level})")
+TILTED_NOT_BEFORE = Sentence("tilted-not-before",
+                             "tilted by {angle} it does not reach {limit} before {time} (proved)")
+TILTED_NOT_FOUND = Sentence("tilted-not-found",
+                            "tilted by {angle} it was not found to reach {limit} within {time}")
 
 
-def caveats_of(scene: AnyScene, steady: bool = False, tilt: Any = None, first: tuple[str, Any] | None = None,
+def caveats_of(scene: AnyScene, steady: bool = False, tilt: Any = None,
+               first: tuple[Any, Any] | None = None,
                validity: Any = None, file: Iterable[Caveat] = ()) -> tuple[Caveat, ...]:
     """The caveats of one answer.
 
     steady: whether it says that the motion is bounded or an equilibrium, or that it never reaches a limit;
     tilt: a `Tilt` or a `Spread`, where that was asked;
-    first: (limit of the case in words, `TimeTo` of it), where that was asked; validity: of an approximate
+    first: (limit of the case as `stated`, `TimeTo` of it), where that was asked; validity: of an approximate
     law; file: the caveats of the case.
     """
     return (*file, *_reached(scene, first), *_tilted(scene, steady, tilt), *of_law(validity))
@@ -35,7 +50,7 @@ def caveats_of(scene: AnyScene, steady: bool = False, tilt: Any = None, first: t
 
 def of_law(validity: Any) -> tuple[Caveat, ...]:
     """That an approximate law does not hold, where it does not."""
-    return () if validity is None or validity.held else (Caveat("law", validity.words),)
+    return () if validity is None or validity.held else (Caveat(Kind.LAW, old(validity.words)),)
 
 
 def limited(motion: Motion, scene: AnyScene, case: Any = None) -> Motion:
@@ -53,52 +68,49 @@ def misaligned(case: Any) -> tuple[str, ...]:
 def unseen(case: Any) -> tuple[Caveat, ...]:
     """That a misalignment which the case states is left out of an answer."""
     names = misaligned(case)
-    return (Caveat("tilt",
-                   f"a tilt of the torque, by the misalignment of {' and '.join(names)}, is not looked at "
-                   "here"),) if names else ()
+    return (Caveat(Kind.TILT, UNSEEN(thrusters=names)),) if names else ()
 
 
 def condition(scene: AnyScene) -> int:
-    """On what a steady motion rests, a constant torque being one of many: an index of HOLDS; 0 without one,
-    and where liquid, medium or field bound the motion."""
+    """On what a steady motion rests, a constant torque being one of many: an index of CONDITIONS; 0 without
+    one, and where liquid, medium or field bound the motion."""
     twin = effective(scene)
     acting = sum(m != 0 for m in twin.quadratic().m) if twin.plain else 0
     return 0 if not acting else torque_axis(twin) if acting == 1 else IN_PLANE if aligned(twin) else THIS
 
 
-def stated(limits: Any) -> str:
-    """The limit of a case in words."""
+def stated(limits: Any) -> Quantity | Reason:
+    """The limit of a case."""
     if limits.rate is not None:
-        return f"{float(limits.rate):.6g} rad/s"
-    if len(set(limits.rates)) == 1:
-        return f"{float(limits.rates[0]):.6g} rad/s in a component"
-    return f"({', '.join(f'{float(rate):.6g}' for rate in limits.rates)}) rad/s in a component"
+        return Rate(float(limits.rate), digits=DIGITS)
+    rates = tuple(map(float, limits.rates))
+    return IN_A_COMPONENT(rate=Rate(rates[0] if len(set(rates)) == 1 else rates, digits=DIGITS))
 
 
-def _reached(scene: AnyScene, first: tuple[str, Any] | None) -> list[Caveat]:
+def _reached(scene: AnyScene, first: tuple[Any, Any] | None) -> list[Caveat]:
     """The time at which the limit of the case is reached, where it is."""
     if first is None or not math.isfinite(first[1].high):
         return []
     limit, found = first
-    when = (f"after {0.5 * float(found.low + found.high):.6g} {scene.time_unit} ({found.level})"
-            if found.high > 0 else "at the start already")
-    return [Caveat("limit", f"reaches {limit} {when}")]
+    after = Quantity(0.5 * float(found.low + found.high), scene.time_unit)
+    return [Caveat(Kind.LIMIT, REACHES(limit=limit, time=after, level=str(found.level)) if found.high > 0
+                   else AT_START(limit=limit))]
 
 
 def _tilted(scene: AnyScene, steady: bool, found: Any) -> list[Caveat]:
     """The condition of a steady motion, and what is known of a tilt."""
-    number = condition(scene) if steady else 0
-    words = HOLDS[number]
+    known = CONDITIONS[condition(scene)] if steady else None
+    holds = None if known is None else HOLDS(condition=known)
     if found is not None and found.ranges:
-        return [Caveat("tilt", one) for one in (words, found.words) if one]
-    if not number:
+        return [Caveat(Kind.TILT, one) for one in (holds, found.reason) if one]
+    if holds is None:
         return []
     if found is None or found.untilted:
-        return [Caveat("tilt", words)]
-    limit, by = f"{found.limit:.6g} rad/s", f"tilted by {found.angle:.6g} rad it"
+        return [Caveat(Kind.TILT, holds)]
+    by = {"angle": Angle(found.angle), "limit": Rate(found.limit, digits=DIGITS if found.stated else None)}
     if found.ends:
-        return [Caveat("tilt", f"{words}: {by} reaches {limit} after {found.low:.6g} s ({found.level})")]
+        reached = TILTED_TO(**by, time=Time(found.low), level=found.level)
+        return [Caveat(Kind.TILT, holds.then(reached, ": "))]
     if found.not_before >= found.followed:
-        return [Caveat("tilt",
-                       f"{words}; {by} does not reach {limit} before {found.not_before:.6g} s (proved)")]
-    return [Caveat("tilt", f"{words}; {by} was not found to reach {limit} within {found.followed:.6g} s")]
+        return [Caveat(Kind.TILT, holds.then(TILTED_NOT_BEFORE(**by, time=Time(found.not_before).lower)))]
+    return [Caveat(Kind.TILT, holds.then(TILTED_NOT_FOUND(**by, time=Time(found.followed))))]

@@ -17,14 +17,16 @@ from ..equilibrium.circular_orbit import (
     orbit_equilibria,
     spans,
 )
-from ..errors import Caveat, InputError
+from ..errors import Caveat, InputError, Kind
 from ..numbers.exact import sqrt_fraction
 from ..numbers.units import MOMENTUM, in_si
 from ..numbers.vectors import Float3, dot
 from ..physics.circular_orbit import Satellite
+from ..reasons import Sentence
 from ..validation import came
 
-MIDDLES = Caveat("uncertain", "of the middles of the uncertain numbers")
+MIDDLES = Caveat(Kind.UNCERTAIN,
+                 Sentence("of-the-middles-alone", "of the middles of the uncertain numbers")())
 MOST = Fraction(10)**50
 BITS = 64  # more than doubles have; of 240, as a case has them, elimination makes numbers of pages
 ROUNDED = "as some numbers are irrational ({}), all are taken to 64 bits"
@@ -81,7 +83,7 @@ def circular_orbit(orbiting: Any, up_to: Any = None) -> CircularOrbit:
     return CircularOrbit(rate, 2 * math.pi / rate, tuple(map(float, satellite.moments)),
                          tuple(map(float, satellite.momentum)), equilibria,
                          None if up_to is None else _varied(satellite, in_si(up_to, MOMENTUM, "up_to")),
-                         tuple(MIDDLES if one.kind == "uncertain" else one for one in case.caveats),
+                         tuple(MIDDLES if one.kind is Kind.UNCERTAIN else one for one in case.caveats),
                          satellite)
 
 

@@ -36,7 +36,7 @@ import numpy as np
 
 from ..case.read import with_data
 from ..case.source import parsed
-from ..errors import Caveat, InputError
+from ..errors import Caveat, InputError, Kind
 from ..integrate.trajectory import root_between
 from ..numbers.exact import sqrt_fraction
 from ..numbers.units import ANGLE, in_si
@@ -326,7 +326,7 @@ def flat_spin(case: Any, within: Any = "5 deg") -> FlatSpin:
         raise InputError('within: expected an angle from 0.01 deg to below 90 deg, such as "5 deg", got '
                          f"{math.degrees(angle):.6g} deg")
     found = _answered(Spinner.of(case), angle)
-    own = [one for one in case.caveats if one.kind != "uncertain"]
+    own = [one for one in case.caveats if one.kind is not Kind.UNCERTAIN]
     found = replace(found, caveats=(*own, *found.caveats))
     return _over_the_box(case, found) if case.uncertain and found.outcome in (POSITIVE, NEGATIVE) else found
 

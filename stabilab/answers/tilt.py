@@ -23,6 +23,7 @@ from ..numbers.vectors import Exact3
 from ..orbit.result import Fate
 from ..physics.coefficients import three_floats
 from ..physics.scene import AnyScene, Scene, torque_axis
+from ..reasons import Angle, Filling, Rate, Reason, Sentence, Time
 from ..validation import checked_scene
 from .caveats import STEADY
 from .fate import extremes, fate
@@ -40,6 +41,14 @@ HALVINGS, BEND = 3, 0.02  # of an interval of angles; relative: by so much a tim
 WORK = 8_000_000  # multiplications for a proof of the shortest time
 TWICE = 2.0  # times the largest rate of the bounded motion: the limit where none is stated
 UP = 1 + 1e-12  # more than the rounding of a few doubles
+NOT_LOOKED_AT = Sentence("cone-not-looked-at", "a tilt of the torque is not looked at {why}")
+BY_FATES = Sentence("cone-fates", "tilted by {angle} it {fates} of {directions} directions of the torque")
+NONE_REACHES = Sentence("cone-none-found", "tilted by {angle} it was not found to reach {limit} within "
+                        "{time} in any of {directions} directions of the torque")
+SOME_REACH = Sentence("cone-some-reach", "tilted by {angle} it reaches {limit} after {first} at the earliest "
+                      "of {directions} directions of the torque ({level}), in some of them not within {time}")
+ALL_REACH = Sentence("cone-all-reach", "tilted by {angle} it reaches {limit} after {first} at the earliest "
+                     "and after {last} at the latest of {directions} directions of the torque ({level})")
 Tried: TypeAlias = list[tuple[float, float]]  # a value and its azimuth
 VERBS = {Fate.BOUNDED: "stays bounded", Fate.SPIN_UP: "spins up", Fate.SEPARATRIX: "lies on a separatrix",
          Fate.EQUILIBRIUM: "stays as it is",
@@ -178,21 +187,20 @@ class Spread:
     because: str = ""
 
     @property
-    def words(self) -> str:
-        """What is found, in SI units."""
+    def reason(self) -> Reason:
+        """What is found."""
         if self.because:
-            return f"a tilt of the torque is not looked at {self.because}"
-        by, many = f"tilted by {self.angle:.6g} rad it", f"of {self.directions} directions of the torque"
+            return NOT_LOOKED_AT(why=self.because)
+        known: dict[str, Filling] = {"angle": Angle(self.angle), "directions": self.directions}
         if self.limit is None:
-            return f"{by} " + ", ".join(f"{word} in {count}" for word, count in self.fates) + f" {many}"
-        reaches = f"reaches {self.limit:.6g} rad/s"
+            return BY_FATES(**known, fates=", ".join(f"{word} in {count}" for word, count in self.fates))
+        known |= {"limit": Rate(self.limit)}
         if self.earliest is None:
-            return (f"{by} was not found to reach {self.limit:.6g} rad/s within {self.followed:.6g} s in any "
-                    f"{many}")
-        first = f"{by} {reaches} after {self.earliest[0]:.6g} s at the earliest"
+            return NONE_REACHES(**known, time=Time(self.followed))
+        known |= {"first": Time(self.earliest[0]).lower, "level": self.level}
         if self.latest is None:
-            return f"{first} {many} ({self.level}), in some of them not within {self.followed:.6g} s"
-        return f"{first} and after {self.latest[1]:.6g} s at the latest {many} ({self.level})"
+            return SOME_REACH(**known, time=Time(self.followed))
+        return ALL_REACH(**known, last=Time(self.latest[1]).upper)
 
 
 def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = None, case: Any = None,

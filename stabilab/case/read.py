@@ -10,7 +10,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..errors import CaseError, Caveat, InputError, printable
+from ..errors import CaseError, Caveat, InputError, Kind, printable
 from ..numbers.exact import floats, sqrt_fraction
 from ..numbers.principal import PrincipalAxes
 from ..numbers.vectors import Exact3, Float3, dot
@@ -18,6 +18,7 @@ from ..physics.coefficients import Scaling, to_scaled, torque_from_mu
 from ..physics.effects import REGISTRY, effect_class
 from ..physics.effects.base import effect_words
 from ..physics.scene import INSIDE, Body, ScaledGyrostat, Scene
+from ..reasons import Sentence
 from ..validation import came, checked_span
 from .body import (
     Limits,
@@ -59,8 +60,8 @@ STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
 BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position",
           "damper": "damper", "wheel": "wheel"}
 UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector and stays as it is
-MIDDLES = Caveat("uncertain",
-                 "of the middles of the uncertain numbers; stabilab fate says what their box does")
+MIDDLES = Caveat(Kind.UNCERTAIN, Sentence(
+    "of-the-middles", "of the middles of the uncertain numbers; stabilab fate says what their box does")())
 STAND_IN = Body((3, 2, 1))  # lets the faults of the effects show where the body itself is at fault
 
 

@@ -16,7 +16,7 @@ import typer
 from ..answers.motion import motion
 from ..case.limit_options import stated_tilt
 from ..case.read import Case, blamed_on, load_all
-from ..errors import UNDECIDED, InputError, ToleranceNotMet, printable
+from ..errors import UNDECIDED, InputError, Kind, ToleranceNotMet, printable
 from ..numbers.units import NONE, TIME, quantity, split
 from ..show import terminal
 from ..show.data import as_json
@@ -84,7 +84,7 @@ def hold_laws(strict: bool, validities, cases=()):
 
 def unphysical(cases) -> bool:
     """Whether no rigid body has the tensor of one of the cases."""
-    return any(one.kind == "unphysical" for case in cases for one in case.caveats)
+    return any(one.kind is Kind.UNPHYSICAL for case in cases for one in case.caveats)
 
 
 def all_reached(short):
@@ -252,7 +252,7 @@ def tell_all(answered, systems, text, swept=None, laws=None, boxes=None, between
             words = classification.first(boxes[first], text(*answered[first], units), units)
         # without that on uncertain numbers where the words on their box follow
         caveats = dict.fromkeys(one for n in of for one in cases[n].caveats
-                                if not below[n] or one.kind != "uncertain")
+                                if not below[n] or one.kind is not Kind.UNCERTAIN)
         parts.append(headline.first(headline.worst(*(laws[n] for n in of)), words, units, caveats)
                      + "".join(dict.fromkeys(below[n] for n in of)))
     terminal.tell(("\n\n" if tabled else between).join(parts))

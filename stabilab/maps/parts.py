@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from ..answers.caveats import HOLDS, STEADY, condition
+from ..answers.caveats import CONDITIONS, STEADY, condition
 from ..answers.chaos import chaos, long_enough, row_of
 from ..answers.equilibria import equilibria
 from ..answers.fate import extremes, fate, period
@@ -33,7 +33,7 @@ from ..case.lines import KeyLines
 from ..case.read import Case, blamed_on, with_data
 from ..case.table import Faults, Table, Written
 from ..equilibrium.gyrostat import number_of_equilibria
-from ..errors import CaseError, InputError, printable
+from ..errors import CaseError, InputError, Kind, printable
 from ..files import alone_in, whole_file
 from ..interrupt import undoing
 from ..numbers.numba_door import installed
@@ -147,8 +147,8 @@ def _caveats(case: Case, out: np.ndarray) -> np.ndarray:
     steady = np.isin(out["fate"], STEADY) if "fate" in out.dtype.names else np.zeros(len(out), bool)
     if "when_low" in out.dtype.names:
         steady |= np.isposinf(out["when_low"])
-    unphysical = any(one.kind == "unphysical" for one in case.caveats)
-    return np.where(steady, condition(case.scene), 0) + len(HOLDS) * unphysical
+    unphysical = any(one.kind is Kind.UNPHYSICAL for one in case.caveats)
+    return np.where(steady, condition(case.scene), 0) + len(CONDITIONS) * unphysical
 
 
 def _many(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:

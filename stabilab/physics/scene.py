@@ -18,11 +18,12 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
 
-from ..errors import Caveat, InputError
+from ..errors import Caveat, InputError, Kind
 from ..numbers.exact import exact, exact_vector, floats, sqrt_fraction
 from ..numbers.principal import PrincipalAxes, evened, principal_axes, without_trace
 from ..numbers.units import INERTIA, MASS, RATE, half_digit, in_si, vector_in_si
 from ..numbers.vectors import CYCLE, Exact3, Float3, Given, Number, Triple, cross, dot
+from ..reasons import Inertia, Quantity, Sentence
 from ..validation import Asked
 from .effects.base import Effect, effect_words
 
@@ -30,6 +31,10 @@ if TYPE_CHECKING:
     import numpy as np
 
 # --- The rigid body: three principal moments of inertia
+NO_BODY = Sentence("no-body-has-this-tensor",
+                   "no rigid body has this tensor: the largest principal moment, {largest}, exceeds the sum "
+                   "of the other two, {others}, by {excess} ({percent} % of it); Euler's equations are "
+                   "solved as they stand")
 ROUNDING = Fraction(1, 1 << 48)  # of the largest moment: what a routine of eigenvalues in doubles leaves
 
 
@@ -114,12 +119,9 @@ class Body(metaclass=Asked):
         largest, excess = max(self.exact), self.excess
         if excess <= max(exact(self.slack), ROUNDING * largest):
             return ()
-        return (Caveat("unphysical",
-                       f"no rigid body has this tensor: the largest principal moment, {float(largest):.12g} "
-                       f"kg m^2, exceeds "
-                       f"the sum of the other two, {float(largest - excess):.12g}, by {float(excess):.6g} "
-                       f"({float(100 * excess / largest):.2g} % of it); Euler's equations are solved as "
-                       f"they stand"),)
+        return (Caveat(Kind.UNPHYSICAL, NO_BODY(
+            largest=Inertia(largest, digits=12), others=Quantity(largest - excess, digits=12),
+            excess=Quantity(excess), percent=Quantity(100 * excess / largest, digits=2))),)
 
 
 # --- The blocks a state may consist of, in their order: the angular velocity always, the others when

@@ -2,42 +2,53 @@
 all else."""
 from __future__ import annotations
 
-import re
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from .. import errors
-from ..errors import Caveat, printable
+from ..answers.caveats import HOLDS
+from ..errors import Caveat, Kind
+from ..reasons import in_si, old
 from .axes import axes_of
-from .terminal import lettered
 from .units import SHORT, Units
 
-INSIDE = ("tilt", "limit", "law")  # stated in the first line of an answer itself
+INSIDE = (Kind.TILT, Kind.LIMIT, Kind.LAW)  # stated in the first line of an answer itself
 
 
 def reached(caveats: Iterable[Caveat], units: Units) -> str:
     """The limit that is reached, empty where none is."""
-    return _of("limit", caveats, units)
+    return "; ".join(words(one, units) for one in caveats if one.kind is Kind.LIMIT)
 
 
-def condition(caveats: Iterable[Caveat], units: Units) -> str:
-    """" only while ...", empty where a verdict rests on no condition."""
-    whole = [replace(one, words=units.axes.sentence(one.words, units.axes.whole)) for one in caveats]
-    return " " * bool(words := _of("tilt", whole, units, "holds ")) + words.removeprefix("holds ")
+def condition(caveats: Iterable[Caveat], units: Units, alone: bool = False) -> str:
+    """" only while ...", empty where a verdict rests on no condition. alone: without what a tilt does."""
+    found = [one.reason for one in caveats if one.kind is Kind.TILT and one.reason.sentence is HOLDS]
+    return "; ".join(" " + units.said(reason.quantities["condition"]
+                                      if alone else _unheld(reason), SHORT, whole=True) for reason in found)
+
+
+def _unheld(reason):
+    """What follows "holds", with its clauses."""
+    held = reason.quantities["condition"]
+    for joint, clause in reason.rest:
+        held = held.then(clause, joint)
+    return held
 
 
 def tilted(caveats: Iterable[Caveat], units: Units) -> str:
     """What the torques of a cone do, where no verdict rests on the torque's direction."""
-    return _of("tilt", caveats, units, "tilted by ") or _of("tilt", caveats, units, "a tilt ")
+    return "; ".join(words(one, units) for one in caveats
+                     if one.kind is Kind.TILT and one.reason.sentence is not HOLDS)
 
 
 def shared(answers: Sequence[Iterable[Caveat]], units: Units) -> str:
     """" only while ...", or of how many it is said, for several answers in one line, without tilts."""
-    told = Counter(re.split("[:;]", condition(caveats, units))[0] for caveats in answers)
-    return "".join(f"{words}" if count == len(answers) else f" ({count} of them{words})"
-                   for words, count in told.items() if words)
+    found = Counter(condition(caveats, units, alone=True) for caveats in answers)
+    return "".join(f"{one}" if count == len(answers) else f" ({count} of them{one})"
+                   for one, count in found.items() if one)
 
 
 def noted(caveats: Iterable[Caveat], text: str, units: Units) -> str:
@@ -58,24 +69,24 @@ def lines(caveats: Iterable[Caveat], units: Units) -> list[str]:
 
 def words(one: Caveat, units: Units) -> str:
     """The words in the units and letters of a text."""
-    return lettered(units.words(printable(one.words), SHORT))
+    return units.said(one.reason, SHORT)
 
 
-def key(case: Any, caveats: Iterable[Caveat]) -> dict[str, list[dict[str, str]]]:
+def key(case: Any, caveats: Iterable[Caveat]) -> dict[str, list[dict]]:
     """The key "caveats" of a JSON object, with the names of the axes of a case."""
-    return errors.key(_named(case, caveats))
+    return errors.key(_named(case, caveats), _filled(case))
 
 
 def cell(case: Any, caveats: Iterable[Caveat]) -> str:
     """The column "caveats" of a CSV, with the names of the axes of a case."""
-    return errors.cell(_named(case, caveats))
+    return errors.cell(_named(case, caveats), _filled(case))
 
 
 def _named(case: Any, caveats: Iterable[Caveat]) -> list[Caveat]:
     axes = axes_of(case)
-    return [replace(one, words=axes.sentence(one.words, axes.whole)) for one in caveats]
+    return [one if one.reason.code else replace(one, reason=old(axes.sentence(one.words, axes.whole)))
+            for one in caveats]
 
 
-def _of(kind: str, caveats: Iterable[Caveat], units: Units, begins: str = "") -> str:
-    return "; ".join(words(one, units) for one in caveats if one.kind == kind
-                     and one.words.startswith(begins))
+def _filled(case: Any) -> Callable[[Any], str]:
+    return partial(in_si, axis=axes_of(case).whole)

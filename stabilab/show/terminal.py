@@ -10,6 +10,8 @@ import re
 import sys
 from collections.abc import Sequence
 
+from ..reasons import ASCII
+
 GREEK = {"omega": "ω", "lambda": "λ", "Lambda": "Λ", "mu": "μ", "gamma": "γ", "alpha": "α", "sigma": "σ",
          "zeta": "ζ", "tau": "τ"}
 # What papers write in captions and formulas, where no key, path or option can stand: every Greek letter, with
@@ -17,11 +19,6 @@ GREEK = {"omega": "ω", "lambda": "λ", "Lambda": "Λ", "mu": "μ", "gamma": "γ
 ALPHABET = GREEK | {"beta": "β", "delta": "δ", "eps": "ε", "eta": "η", "theta": "θ", "kappa": "κ", "nu": "ν",
                     "Pi": "Π", "pi": "π", "phi": "φ",
                     "psi": "ψ", "rho": "ρ", "Gamma": "Γ", "Delta": "Δ", "Omega": "Ω"}
-PLAIN = {letter: name for name, letter in ALPHABET.items()} | {
-    "ᵢ": "_i", "ⱼ": "_j", "ₖ": "_k", "∞": "inf",
-    "²": "^2", "³": "^3", "⁴": "^4", "±": "+-", "∓": "-+", "−": "-", "–": "-", "≤": "<=", "≥": ">=",
-    "≠": "!=", "√": "sqrt", "×": "x",
-    "·": ".", "µ": "u", "°": " deg", "…": "..."}
 # A name with its number, between bars, or the time of a scaled case; not part of a path, a key or an option.
 NAMES = re.compile(r"(?<![\w./\\])(?<![\w-]-)(omega|lambda|Lambda|mu|gamma|alpha|sigma|zeta)"
                    r"(?=(?:[123]|_[ijk])\b(?!\\|/[A-Za-z]|\.\w))"
@@ -96,7 +93,7 @@ def greek(text: str) -> str:
 
 def plain(text: str) -> str:
     """The text in ASCII as far as its letters have names: ω1 becomes omega1."""
-    return "".join(PLAIN.get(letter, letter) for letter in text)
+    return "".join(ASCII.get(letter, letter) for letter in text)
 
 
 def encodable(text: str, encoding: str | None) -> str:

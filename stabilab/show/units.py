@@ -7,10 +7,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from ..errors import InputError
+from ..errors import InputError, printable
+from ..reasons import Axis, Quantity, Reason, listed, outward
 from .axes import PLAIN, Axes, axes_of
+from .terminal import lettered
 
 if TYPE_CHECKING:
     from ..case.read import Case
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
 DIGITS = 6  # of a number in a table
 SHORT = 4  # of a number within a sentence
 WHOLE = 1e6  # below it no power of ten: 15904 and not 1.59e+04
+OWN = ("rad", "rad/s", "s", "tau")  # units of quantities that have others for people
 Unit = tuple[str, float]  # its name, and how many of it make one in SI
 TURN = 180 / math.pi
 NUMBER = r"(-?\d+(?:\.\d+)?(?:e[-+]?\d+)?)"
@@ -83,10 +86,34 @@ class Units:
         # the last also of NaN
         return next((unit for least, unit in self.ladder if size >= least), self.ladder[-1][1])
 
-    def told(self, value: float, unit: Unit, digits: int = DIGITS) -> str:
-        """The number in the unit, with the unit's name."""
+    def told(self, value: float, unit: Unit, digits: int = DIGITS, side: int = 0) -> str:
+        """The number in the unit, with the unit's name. side: +1 of an upper bound, which is never printed
+        below itself; -1 of a lower one."""
         name, one = unit
-        return f"{number(value * one, digits)} {name}".rstrip()
+        return f"{number(_bound(value, one, digits, side), digits)} {name}".rstrip()
+
+    def said(self, reason: Reason, digits: int = DIGITS - 1, whole: bool = False) -> str:
+        """A sentence in these units, with letters. digits: of angles, rates and times. whole: whether axes
+        have their long names."""
+        if not reason.code:
+            return lettered(self.words(printable(reason.text()), digits))
+        return reason.text(partial(self.filled, digits=digits, whole=whole), letters=True)
+
+    def filled(self, value: Any, digits: int = SHORT, whole: bool = False) -> str:
+        """What fills a hole of a sentence, as text. digits, whole: as of `said`."""
+        if isinstance(value, Axis):
+            return (self.axes.whole if whole else self.axes.short)(value.number)
+        if isinstance(value, Reason):
+            return self.said(value, digits, whole)
+        if isinstance(value, tuple):
+            return listed(tuple(self.filled(one, digits, whole) for one in value))
+        if not isinstance(value, Quantity):
+            return f"{value:,}" if type(value) is int else printable(str(value))
+        digits = value.digits or (digits if value.unit in OWN else DIGITS)
+        if isinstance(value.value, tuple):
+            return self.vector(value.value, self.of(value.unit), digits)
+        unit = self.times(value.value) if value.unit in ("s", "tau") else self.of(value.unit)
+        return self.told(value.value, unit, digits, value.side)
 
     def span(self, unit: str, start: float, end: float) -> str:
         """A span of time, given in s, or in tau of a scaled case."""
@@ -172,6 +199,15 @@ def number(value: float, digits: int = SHORT) -> str:
         return "unbounded" if value > 0 else "-unbounded"
     told = f"{value + 0.0:.{digits}g}"
     return f"{value:.0f}" if "e+" in told and abs(value) < WHOLE else told
+
+
+def _bound(value: float, one: float, digits: int, side: int) -> float:
+    """The value in a unit of which `one` make one in SI, rounded outward; read back in SI it is no less than
+    an upper bound and no more than a lower one."""
+    found = outward(value * one, digits, side)
+    while side and math.isfinite(found) and side * (found / one - value) < 0:
+        found = outward(math.nextafter(found, side * math.inf), digits, side)
+    return found
 
 
 def but_for_rounding(pairs, tolerance: float | None):

@@ -16,7 +16,7 @@ PACKAGE = ROOT / "stabilab"
 PAGE = ROOT / "docs" / "house.md"
 ASIDE = ("case", "maps", "verify")  # drawn at the side of the others
 PICTURE = ROOT / "docs" / "static" / "rooms.svg"
-GROUND = {"errors", "files", "interrupt", "packages", "streams", "validation",
+GROUND = {"errors", "files", "interrupt", "packages", "reasons", "streams", "validation",
           "version", "representation", "processes"}
 # room -> rooms that it may import, besides itself and the ground; None: nothing, the ground included
 MAY: dict[str, str | None] = {

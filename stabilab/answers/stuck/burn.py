@@ -38,11 +38,12 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import Caveat, InputError
+from ...errors import Caveat, InputError, Kind
 from ...numbers.units import RATE, TIME, Dimension, in_si
 from ...numbers.vectors import Float3
 from ...orbit.result import Motion
 from ...physics.scene import Scene
+from ...reasons import Mass, Sentence, old
 from ..attitude import of_motion
 from ..attitude_result import Attitude
 from ..fate import period
@@ -62,6 +63,13 @@ from .chain import (
     links_of,
     weights_of_largest,
 )
+
+PROPELLANT = Sentence("mass-stays", "mass, inertia and centre of mass stay as the file gives them while "
+                      "{spent} leave the body")
+PROPELLANT_OF = Sentence("mass-stays-of", "mass, inertia and centre of mass stay as the file gives them "
+                         "while {spent} of {mass} leave the body")
+AS_STATED = Sentence("thrust-as-stated",
+                     "force and direction of {thrusters} count as stated, without misalignment and tolerance")
 
 # --- The latest closing time
 LOOKS = 2000  # closing times looked at after the first that is too late
@@ -343,15 +351,14 @@ def _granted(craft: Any, closed: Closed) -> Iterator[Caveat]:
     """What the answer takes for granted of the thrusters."""
     if spent := sum(used or 0.0 for used in closed.used):
         mass = craft.physical.body.mass
-        share = f" of {float(mass):.6g} kg" if mass else ""
-        yield Caveat("burn", f"mass, inertia and centre of mass stay as the file gives them while "
-                             f"{spent:.4g} kg{share} leave the body")
+        left = Mass(spent, digits=4)
+        yield Caveat(Kind.BURN, PROPELLANT_OF(spent=left, mass=Mass(mass)) if mass
+                     else PROPELLANT(spent=left))
     loose = [t.name for t in craft.thrusters if t.burn and (t.misalignment or t.force_tolerance)]
     if loose:
-        yield Caveat("burn", f"force and direction of {', '.join(loose)} count as stated, without "
-                             "misalignment and tolerance")
+        yield Caveat(Kind.BURN, AS_STATED(thrusters=tuple(loose)))
     for note in craft.notes:
-        yield Caveat("burn", note)
+        yield Caveat(Kind.BURN, old(note))
 
 
 def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = None) -> TimeTo:

@@ -28,7 +28,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...errors import Caveat, InputError
+from ...errors import Caveat, InputError, Kind
 from ...numbers.affine import Affine, lifted, sign_over, squared
 from ...numbers.vectors import CYCLE, Number, Triple, cross, dot
 from ...orbit.fate import REASONS, Basis, fate_of
@@ -37,6 +37,7 @@ from ...orbit.potential import derivatives_on_parabola
 from ...orbit.reduction import Reduction, reduce, reduction_about
 from ...orbit.result import Fate
 from ...physics.scene import QuadraticForm
+from ...reasons import Sentence, old
 from ..equilibria import equilibria
 from ..fate import fate
 from ..kinds import kind_of
@@ -469,6 +470,10 @@ def _under_law(box: Box, look: Look, numbers: Numbers, form: QuadraticForm, axis
                     "does not, there is no reduction to one degree of freedom, and no motion is bounded")
 
 
+BY_SAMPLES = Sentence("box-by-samples",
+                      "{question} over the uncertain numbers by samples, not by proof: {found}")
+
+
 @dataclass(frozen=True)
 class Uncertainty:
     """numbers: the uncertain numbers of the case; equilibria, fate: what they do to each, None where not
@@ -483,8 +488,7 @@ class Uncertainty:
     def caveats(self) -> tuple[Caveat, ...]:
         sampled = ((name, over.samples)
                    for name, over in (("equilibria", self.equilibria), ("fate", self.fate)) if over)
-        return tuple(Caveat("samples",
-                            f"{name} over the uncertain numbers by samples, not by proof: {found.words}")
+        return tuple(Caveat(Kind.SAMPLES, BY_SAMPLES(question=name, found=old(found.words)))
                      for name, found in sampled if found)
 
 

@@ -6,15 +6,17 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, ClassVar
 
-from ...errors import Caveat, InputError
+from ...errors import Caveat, InputError, Kind
 from ...numbers.exact import floats
 from ...numbers.principal import PrincipalAxes
 from ...numbers.units import TIME, TORQUE, in_si, vector_in_si
 from ...numbers.vectors import Exact3, Given, Number, cross, dot
+from ...reasons import Sentence
 from .base import Effect, Part
 
-ENDLESS = Caveat("motor", "the motor of the wheel runs without an end, and no wheel takes momentum for ever: "
-                          "give its duration in [effects.wheel_motor]")
+ENDLESS = Caveat(Kind.MOTOR, Sentence(
+    "motor-without-end", "the motor of the wheel runs without an end, and no wheel takes momentum for ever: "
+    "give its duration in [effects.wheel_motor]")())
 
 
 @dataclass(frozen=True)

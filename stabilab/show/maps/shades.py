@@ -8,17 +8,22 @@ from typing import Any
 
 import numpy as np
 
-from ...answers.caveats import HOLDS, UNPHYSICAL, stated, unseen
+from ...answers.caveats import CONDITIONS, HOLDS, NO_SUCH_BODY, stated, unseen
 from ...case.lines import KeyLines
 from ...case.table import Faults, Table
-from ...errors import Caveat
+from ...errors import Caveat, Kind
 from ...maps.axes import Key, Span, value_at
 from ...maps.columns import ENERGY, PACE, RATE, TIME, Column
 from ...maps.plan import Plan
 from ...numbers.units import unit_of
 from ...orbit.result import Fate
+from ...reasons import Sentence
 from .. import style
 from ..units import with_unit
+
+OF_POINTS = Sentence("of-points", "({count} of {points} points)")
+LIMIT_UNSEEN = Sentence("limit-not-looked-at", "the limit of the file, {limit}, is not looked at here")
+
 
 # --- What the dimensions and columns of a sweep are called, and their units
 SAMPLE = "sample"
@@ -77,15 +82,15 @@ def limits_of(case: Any, records: Any) -> list[Caveat]:
     not looked at."""
     found = [*case.caveats, *unseen(case)]
     numbers = records["caveats"].ravel().tolist() if "caveats" in records.dtype.names else []
-    told = Counter(number % len(HOLDS) for number in numbers)
-    parts = [("tilt", HOLDS[n], count) for n, count in sorted(told.items()) if n]
-    if all(one.kind != "unphysical" for one in found):
-        parts += [("unphysical", UNPHYSICAL, sum(number >= len(HOLDS) for number in numbers))]
-    for kind, words, count in parts:
-        part = f" ({count:,} of {len(numbers):,} points)" if count < len(numbers) else ""
-        found += [Caveat(kind, words + part)] if count else []
+    counts = Counter(number % len(CONDITIONS) for number in numbers)
+    parts = [(Kind.TILT, HOLDS(condition=CONDITIONS[n]), count) for n, count in sorted(counts.items()) if n]
+    if all(one.kind is not Kind.UNPHYSICAL for one in found):
+        parts += [(Kind.UNPHYSICAL, NO_SUCH_BODY, sum(number >= len(CONDITIONS) for number in numbers))]
+    for kind, reason, count in parts:
+        part = None if count == len(numbers) else OF_POINTS(count=count, points=len(numbers))
+        found += [Caveat(kind, reason.then(part, " "))] if count else []
     if case.limits is not None and "when_low" not in records.dtype.names:
-        found.append(Caveat("limit", f"the limit of the file, {stated(case.limits)}, is not looked at here"))
+        found.append(Caveat(Kind.LIMIT, LIMIT_UNSEEN(limit=stated(case.limits))))
     return found
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...case.read import Case
-from ...errors import printable
+from ...errors import Kind, printable
 from ...files import whole_file
 from ...maps.columns import CAVEATS, ENDLESS, NO_CASE, NONE, OPEN, TIME, VALID, Column, columns_of
 from ...maps.plan import Plan, planned
@@ -189,7 +189,8 @@ def rows(found: Swept) -> Iterator[list[Any]]:
 def csv(found: Swept) -> str:
     """Every point as a line, with what limits the answers of all points beside what limits its own."""
     case = found.plan.case
-    every = limiting.cell(case, [one for one in case.caveats if one.kind != "unphysical"])  # of a point
+    # that one is of each point
+    every = limiting.cell(case, [one for one in case.caveats if one.kind is not Kind.UNPHYSICAL])
     lines = rows(found)
     if every and CAVEATS in columns_of(found.plan.answers):
         lines = ([*row, "; ".join(filter(None, (every, own)))] for *row, own in lines)

@@ -17,7 +17,7 @@ from ...answers.equilibria import equilibria
 from ...answers.motion import motion
 from ...answers.uncertain.fate import uncertain
 from ...answers.when import with_tilt
-from ...errors import StabilabError
+from ...errors import Kind, StabilabError
 from ...physics.equations import derive, invariants
 from ...theories.follow import models_of
 from ...verify import verify_file
@@ -141,7 +141,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     answer = f"No motion is given. Equilibria: {found.kind if found else 'not known'}"
     answer = headline(case, moved, units) if moved else answer
     beyond = "" if moved is None or moved.validity is None or moved.validity.held else moved.validity.words
-    caveats = limiting.beside((one for one in case.caveats if one.kind != "uncertain"), units)
+    caveats = limiting.beside((one for one in case.caveats if one.kind is not Kind.UNCERTAIN), units)
     page = {"name": case.name, "title": case.heading, "source": case.source,
             "path": case.path, "text": case.text,
             "headline": printed("; ".join(filter(None, (answer, what_changes(box, units))))),

@@ -9,7 +9,7 @@ import re
 from typing import Any
 
 from ...case.limit_options import stated_limit
-from ...errors import InputError
+from ...errors import InputError, Kind
 from ...orbit.potential import potential
 from ...orbit.reduction import reduce
 from ...orbit.result import Motion
@@ -31,17 +31,17 @@ def tiles(motion: Motion, units: Units) -> list[tuple[str, str, str]]:
     """(what, its value, what belongs to it) of four: when a limit is reached first."""
     found = [("outcome", _outcome(motion, units)), ("when", _when(motion, units)),
              ("largest rate", _largest(motion, units)), ("to another outcome", _distance(motion, units))]
-    if any(one.kind == "limit" for one in motion.caveats):
+    if any(one.kind is Kind.LIMIT for one in motion.caveats):
         found[:2] = reversed(found[:2])
     return [(name, printed(value), printed(note)) for name, (value, note) in found]
 
 
 def _outcome(motion, units):
-    value, about, condition = fate_parts(motion, units)
+    value, about, condition = fate_parts(motion, units, tilt=False)  # what a tilt does stands beside it
     if motion.fate.word == "undecided":
         note = cause(motion, units)
     else:
-        note = f"{about}{condition.split(':')[0]}".strip()  # what a tilt does stands beside it
+        note = f"{about}{condition}".strip()
     return value.capitalize(), "; ".join(filter(None, ["by a law that does not hold"
                                                        * headline.beyond(motion.validity), note]))
 
@@ -49,7 +49,7 @@ def _outcome(motion, units):
 def _when(motion, units):
     """The limit of the case first, then what a tilt of the torque does, then a spin-up without a limit."""
     limit, found = motion.first or ("", None)
-    limit = f"the limit, {units.words(limit)},"
+    limit = f"the limit, {units.filled(limit)},"
     if found is not None and math.isfinite(found.high):
         middle = 0.5 * float(found.low + found.high)
         return units.time(middle, SHORT), f"until {limit} is reached ({found.level})"
@@ -218,7 +218,7 @@ def _of_motion(scene, motion, units):
 
 def _tilt(case, answer, units):
     """What a tilt of the torque does; answer: what was asked with it."""
-    told = [f"{limiting.words(one, units)}." for one in answer.caveats if one.kind == "tilt"]
+    told = [f"{limiting.words(one, units)}." for one in answer.caveats if one.kind is Kind.TILT]
     told = [("This " if one.startswith("holds") else "") + one for one in told]
     if answer.tilt is None:
         return [f"{one} {ASK_TILT}" for one in told]

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from ... import errors
 from ...answers.caveats import caveats_of, limited
 from ...case.sections import vertical_of
-from ...errors import printable
+from ...errors import Kind, printable
 from ...physics.coefficients import limits_of
 from .. import limiting
 from ..axes import PLAIN, axes_of, direction
@@ -216,15 +216,16 @@ def look(motion: Motion) -> str:
     if beyond(motion.validity) or motion.fate.word == "undecided":
         return "conditional"
     kinds = [one.kind for one in motion.caveats]
-    if motion.fate.word in ("spin-up", "separatrix") or "limit" in kinds:
+    if motion.fate.word in ("spin-up", "separatrix") or Kind.LIMIT in kinds:
         return "changes"
-    return "conditional" if "tilt" in kinds else "bounded"
+    return "conditional" if Kind.TILT in kinds else "bounded"
 
 
-def fate_parts(motion: Motion, units: Units) -> tuple[str, str, str]:
-    """(the fate; its axis and how well it is known; the condition that it rests on)."""
+def fate_parts(motion: Motion, units: Units, tilt: bool = True) -> tuple[str, str, str]:
+    """(the fate; its axis and how well it is known; the condition that it rests on). tilt: with what a tilt
+    of the torque does to that."""
     fate = motion.fate.word
-    words, where = WORDS[fate], limiting.condition(motion.caveats, units)
+    words, where = WORDS[fate], limiting.condition(motion.caveats, units, alone=not tilt)
     if where:
         words = words.removesuffix(" for ever")
     if fate == "equilibrium" and not any(motion.at[:3]):

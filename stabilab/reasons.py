@@ -1,0 +1,206 @@
+"""Sentences that carry quantities: why something is known, and what limits an answer.
+
+A `Sentence` stands beside the code that knows why, with a code and named holes; called with its quantities it
+gives a `Reason`. Digits, units, names of axes and letters are put in when it is rendered: in SI and ASCII by
+`str`, in the units of a case by `stabilab.show.units.Units.said`, as an object of JSON by `as_dict`."""
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
+from enum import StrEnum
+from functools import partial
+from string import Formatter
+from typing import Any, TypeAlias
+
+DIGITS = 6  # of a number in a sentence in SI
+# What stands for the letters of a sentence where there are none: in JSON, CSV, Python, on a plain terminal
+ASCII = {"ω": "omega", "λ": "lambda", "Λ": "Lambda", "μ": "mu", "γ": "gamma", "α": "alpha", "σ": "sigma",
+         "ζ": "zeta", "τ": "tau", "β": "beta", "δ": "delta", "ε": "eps", "η": "eta", "θ": "theta", "κ":
+         "kappa", "ν": "nu", "Π": "Pi", "π": "pi", "φ": "phi", "ψ": "psi", "ρ": "rho", "Γ": "Gamma", "Δ":
+         "Delta", "Ω": "Omega", "ᵢ": "_i", "ⱼ": "_j", "ₖ": "_k", "∞": "inf", "²": "^2", "³": "^3", "⁴": "^4",
+         "±": "+-", "∓": "-+", "−": "-", "–": "-", "≤": "<=", "≥": ">=", "≠": "!=", "√": "sqrt", "×": "x",
+         "·": ".", "µ": "u", "°": " deg", "…": "..."}
+_PLAIN = str.maketrans(ASCII)
+
+
+class Level(StrEnum):
+    """How well an answer is known, the best first; docs/glossary.md has a line on each."""
+
+    EXACT = "exact"
+    PROVED = "proved"
+    CERTIFIED = "certified"
+    RUN = "run"
+    SAMPLED = "sampled"
+    LAW = "approximate law"
+    UNDECIDED = "undecided"
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A number, or a vector, in SI. unit: its SI symbol, which is its dimension ("" of a number); digits:
+    None where the view decides how many of an angle, a rate or a time it has room for. side: of a bound, +1
+    (at most: never printed below itself) or -1 (at least: never printed above itself)."""
+
+    value: Any
+    unit: str = ""
+    digits: int | None = None
+    side: int = 0
+
+    @property
+    def upper(self) -> Quantity:
+        """As an upper bound: rounded up where it is printed."""
+        return replace(self, side=1)
+
+    @property
+    def lower(self) -> Quantity:
+        """As a lower bound: rounded down where it is printed."""
+        return replace(self, side=-1)
+
+
+Rate = partial(Quantity, unit="rad/s")
+Angle = partial(Quantity, unit="rad")
+Time = partial(Quantity, unit="s")
+Force = partial(Quantity, unit="N")
+Torque = partial(Quantity, unit="N m")
+Energy = partial(Quantity, unit="J")
+Momentum = partial(Quantity, unit="N m s")
+Mass = partial(Quantity, unit="kg")
+Length = partial(Quantity, unit="m")
+Inertia = partial(Quantity, unit="kg m^2")
+PerSecond = partial(Quantity, unit="1/s")
+
+
+@dataclass(frozen=True, slots=True)
+class Axis:
+    """A principal axis by its number, 1 to 3; the reader's view names it."""
+
+    number: int
+
+
+# str: a user's name, or a word without a number
+Filling: TypeAlias = "Quantity | Axis | Level | int | str | Reason | tuple[Filling, ...]"
+
+
+@dataclass(frozen=True)
+class Sentence:
+    """code: unique, for scripts; template: words with holes in braces, letters as people write them."""
+
+    code: str
+    template: str
+
+    def __call__(self, **quantities: Filling) -> Reason:
+        return Reason(self, tuple(quantities.items()))
+
+    @property
+    def holes(self) -> tuple[str, ...]:
+        """The names of its holes, each once."""
+        return tuple(dict.fromkeys(name for _, name, *_ in Formatter().parse(self.template) if name))
+
+
+@dataclass(frozen=True)
+class Reason:
+    """A sentence with its quantities, and the clauses that follow it, each behind its joint."""
+
+    sentence: Sentence
+    filled: tuple[tuple[str, Any], ...] = ()
+    rest: tuple[tuple[str, Reason], ...] = ()
+
+    @property
+    def code(self) -> str:
+        """Which sentence it is; empty of words that carry no quantities yet."""
+        return self.sentence.code
+
+    @property
+    def quantities(self) -> dict[str, Any]:
+        """What fills the holes, by name."""
+        return dict(self.filled)
+
+    @property
+    def alone(self) -> Reason:
+        """Without the clauses that follow."""
+        return replace(self, rest=())
+
+    def then(self, other: Reason | None, joint: str = "; ") -> Reason:
+        """With another clause behind it; as it is where there is none."""
+        return self if other is None else replace(self, rest=(*self.rest, (joint, other)))
+
+    def clauses(self) -> Iterator[tuple[str, Reason]]:
+        """(joint, clause) of all of it, the first behind no joint."""
+        yield "", self.alone
+        for joint, one in self.rest:
+            for inner, clause in one.clauses():
+                yield inner or joint, clause
+
+    def text(self, fill: Callable[[Any], str] | None = None, letters: bool = False) -> str:
+        """The words. fill: a filling as text, in SI without it; letters: whether it is printed with letters
+        such as ω, in ASCII otherwise."""
+        template = self.sentence.template if letters else self.sentence.template.translate(_PLAIN)
+        filled = in_si if fill is None else fill
+        own = (template.format_map({name: filled(value) for name, value in self.filled}) if self.code
+               else template)
+        return own + "".join(joint + one.text(fill, letters) for joint, one in self.rest)
+
+    def __str__(self) -> str:
+        return self.text()
+
+    def as_dict(self, fill: Callable[[Any], str] | None = None) -> dict[str, Any]:
+        """An object of JSON: "code", "text" and each quantity by its name in SI; "then": the clauses that
+        follow."""
+        found = {"code": self.code, "text": self.alone.text(fill)} | quantities_of(self)
+        return found | ({"then": [one.as_dict(fill) for _, one in self.rest]} if self.rest else {})
+
+
+def quantities_of(reason: Reason) -> dict[str, Any]:
+    """The quantities of a reason by their names as JSON holds them."""
+    return {name: plain(value) for name, value in reason.filled}
+
+
+def plain(value: Any) -> Any:
+    """A filling as JSON holds it."""
+    if isinstance(value, Quantity):
+        return [*map(float, value.value)] if isinstance(value.value, tuple) else float(value.value)
+    if isinstance(value, Axis):
+        return value.number
+    if isinstance(value, Reason):
+        return value.as_dict()
+    return [*map(plain, value)] if isinstance(value, tuple) else value
+
+
+def old(words: str) -> Reason:
+    """Words that still hold digits, units and axes: they are read again where they are printed."""
+    return Reason(Sentence("", words))
+
+
+def number(value: float, digits: int = DIGITS, side: int = 0) -> str:
+    """So many significant digits at most, rounded to nearest, up (side +1) or down (-1)."""
+    return f"{outward(float(value), digits, side) + 0.0:.{digits}g}"
+
+
+def outward(value: float, digits: int, side: int) -> float:
+    """The value rounded to so many significant digits, up (side +1) or down (-1); itself for side 0."""
+    if not side or value - value != 0:
+        return value
+    context = Context(prec=digits, rounding=ROUND_CEILING if side > 0 else ROUND_FLOOR)
+    return float(context.create_decimal(Decimal(value)))
+
+
+def in_si(value: Any, axis: Callable[[int], str] = "axis {}".format) -> str:
+    """A filling as text, in SI units. axis: the name of an axis by its number."""
+    if isinstance(value, Quantity):
+        many = value.value if isinstance(value.value, tuple) else (value.value,)
+        numbers = ", ".join(number(one, value.digits or DIGITS, value.side) for one in many)
+        return f"({numbers}) {value.unit}".rstrip() if isinstance(value.value, tuple) else (
+            f"{numbers} {value.unit}".rstrip())
+    if isinstance(value, Axis):
+        return axis(value.number)
+    if isinstance(value, Reason):
+        return value.text(partial(in_si, axis=axis))
+    if isinstance(value, tuple):
+        return listed(tuple(in_si(one, axis) for one in value))
+    return f"{value:,}" if type(value) is int else str(value)
+
+
+def listed(words: tuple[str, ...]) -> str:
+    """Words one after the other: "a", "a and b", "a, b and c"."""
+    return " and ".join(filter(None, (", ".join(words[:-1]), words[-1]))) if words else ""

@@ -1,0 +1,115 @@
+"""Sentences that carry quantities: every hole is filled, codes are unique, bounds are rounded outward, and
+what users wrote stays as they wrote it."""
+from __future__ import annotations
+
+import ast
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from stabilab.errors import Caveat, Kind, key
+from stabilab.reasons import Angle, Axis, Quantity, Rate, Sentence, Time, number, old
+from stabilab.show.axes import Axes
+from stabilab.show.units import SYSTEMS
+
+PACKAGE = Path(__file__).parents[1] / "stabilab"
+RESERVED = {"kind", "words", "code", "text", "then"}  # keys of JSON beside the quantities
+
+
+def trees():
+    for path in sorted(PACKAGE.rglob("*.py")):
+        yield path, ast.parse(path.read_text(encoding="utf-8"))
+
+
+def sentences():
+    """(module, name of the constant or None, the sentence) of every Sentence(...) in the package."""
+    for path, tree in trees():
+        if path.name == "reasons.py":  # the class itself
+            continue
+        names = {id(node.value): node.targets[0].id for node in ast.walk(tree)
+                 if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name)}
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "Sentence":
+                code, template = (ast.literal_eval(one) for one in node.args)
+                yield path, names.get(id(node)), Sentence(code, template)
+
+
+ALL = list(sentences())
+
+
+def test_every_code_is_one_sentence_and_no_hole_hides_a_key():
+    codes = [one.code for *_, one in ALL]
+    assert len(codes) == len(set(codes)) > 15
+    assert not [one.code for *_, one in ALL if RESERVED & set(one.holes)]
+
+
+def test_every_call_of_a_sentence_fills_its_holes_and_no_others():
+    named = {name: one for _, name, one in ALL if name}
+    called = 0
+    for path, tree in trees():
+        for node in ast.walk(tree):
+            if (isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in named
+                    and all(one.arg for one in node.keywords)):
+                given = {one.arg for one in node.keywords}
+                assert given == set(named[node.func.id].holes), (path, node.lineno)
+                called += 1
+    assert called > 10
+
+
+UNITS = replace(SYSTEMS["deg"], axes=Axes(("x", "y", "z"), ("major", "intermediate", "minor")))
+
+
+def test_digits_units_axes_and_letters_are_put_in_when_it_is_printed():
+    reason = Sentence("t", "about {axis}: |ω| ≤ {bound} after {time}, {angle} of {count} ({many})")(
+        axis=Axis(3), bound=Rate(1.5), time=Time(600.0), angle=Angle(0.1), count=1200,
+        many=(Axis(1), Axis(2)))
+    assert str(reason) == ("about axis 3: |omega| <= 1.5 rad/s after 600 s, 0.1 rad of 1,200 "
+                           "(axis 1 and axis 2)")
+    assert UNITS.said(reason) == ("about the z axis: |ω| ≤ 85.944 deg/s after 10 min, 5.7296 deg of 1,200 "
+                                  "(the x axis and the y axis)")
+    assert reason.as_dict() == {"code": "t", "text": str(reason), "axis": 3, "bound": 1.5, "time": 600.0,
+                                "angle": 0.1, "count": 1200, "many": [1, 2]}
+
+
+def test_clauses_follow_and_are_left_out_again():
+    first, last = Sentence("a", "first {n}")(n=1), Sentence("b", "last {n}")(n=2)
+    both = first.then(last, ": ")
+    assert str(both) == "first 1: last 2" and both.alone == first and first.then(None) == first
+    assert both.as_dict()["then"] == [{"code": "b", "text": "last 2", "n": 2}]
+
+
+@pytest.mark.parametrize("name", ["axis 3 after 200 s", "lambda 2", "t = 5 s", "omega1 rad/s", "{x}"])
+def test_names_of_users_stay_as_they_are(name):
+    reason = Sentence("named", "the tilt of {thruster}, {angle}")(thruster=name, angle=Angle(math.pi / 180))
+    assert UNITS.said(reason) == f"the tilt of {name}, 1 deg"
+
+
+@pytest.mark.parametrize("system", sorted(SYSTEMS))
+@pytest.mark.parametrize("unit", ["rad/s", "rad", "s", "J", "1/s"])
+def test_a_bound_that_is_read_back_is_never_beyond_the_number(system, unit):
+    units = SYSTEMS[system]
+    for value in 10.0 ** np.random.default_rng(5).uniform(-4, 4, 300):
+        value = float(value)
+        name, one = units.times(value) if unit == "s" else units.of(unit)
+        for side in (1, -1):
+            text = units.filled(Quantity(value, unit, side=side), 4)
+            read = float(text.removesuffix(f" {name}")) / one
+            assert side * (read - value) >= 0
+            assert abs(read - value) <= 2e-3 * value
+
+
+def test_rounding_outward_changes_nothing_that_is_printed_whole():
+    assert [number(v, 4, side) for v in (0.25, 12.0, -3.5) for side in (1, -1)] == [
+        "0.25", "0.25", "12", "12", "-3.5", "-3.5"]
+    assert number(0.457951, 4, 1) == "0.458" and number(0.457951, 4, -1) == "0.4579"
+    assert number(math.inf, 4, 1) == "inf"
+
+
+def test_a_caveat_has_its_code_and_quantities_in_json():
+    one = Caveat(Kind.TILT, Sentence("x", "tilted by {angle}")(angle=Angle(0.5)))
+    assert key([one]) == {"caveats": [{"kind": "tilt", "words": "tilted by 0.5 rad", "code": "x",
+                                       "angle": 0.5}]}
+    assert key([Caveat(Kind.LAW, old("beyond"))])["caveats"][0]["words"] == "beyond"
