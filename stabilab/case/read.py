@@ -62,6 +62,9 @@ BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "
 UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector and stays as it is
 MIDDLES = Caveat(Kind.UNCERTAIN, Sentence(
     "of-the-middles", "of the middles of the uncertain numbers; stabilab fate says what their box does")())
+SILENT = Sentence("no-thruster-fires",
+                  "no thruster fires: stuck = true in a table [[thrusters]] makes one act for ever "
+                  "({thrusters})")
 STAND_IN = Body((3, 2, 1))  # lets the faults of the effects show where the body itself is at fault
 
 
@@ -387,7 +390,14 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
                 units,
                 caveats=(*(physical.body.caveats if physical else ()),
                          *(one for effect in scene.effects for one in effect.caveats),
-                         *([MIDDLES] if faults.uncertain else [])))
+                         *_silent(craft.thrusters), *([MIDDLES] if faults.uncertain else [])))
+
+
+def _silent(thrusters: tuple[Thruster, ...]) -> tuple[Caveat, ...]:
+    """That there are thrusters and none of them acts: whoever describes them asks what they do."""
+    if not thrusters or any(one.stuck or one.burn for one in thrusters):
+        return ()
+    return (Caveat(Kind.THRUSTERS, SILENT(thrusters=", ".join(one.name for one in thrusters))),)
 
 
 def _units(output: Table | None) -> str:

@@ -16,6 +16,7 @@ from functools import partial
 from ..answers.caveats import of_law
 from ..answers.circular_orbit import circular_orbit
 from ..answers.dissipation import flat_spin as ask_flat_spin
+from ..answers.stuck.ask import each_firing
 from ..answers.stuck.ask import stuck as ask
 from ..answers.stuck.burn import burn as left_by
 from ..answers.stuck.burn import time_of_burn
@@ -50,6 +51,7 @@ from .common import (
 def stuck(case, all_thrusters, units, why, out, json, csv, strict):
     """Answer a case, every combination where it has a [sweep]."""
     loaded = load_cases([case], motion=True)
+    loaded = list(map(each_firing, loaded)) if all_thrusters else loaded
     systems = units_asked(loaded, units)
     if out:
         endings.file(out, endings.PICTURES)

@@ -4,7 +4,6 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-from ..errors import printable
 from .axes import IN_FILE, axes_of
 
 
@@ -72,19 +71,9 @@ def components(case, names=None) -> str:
 
 
 def note(case) -> list[str]:
-    """Which axes 1, 2, 3 are, where not those of the file; and whether thrusters do nothing. A line each."""
-    told = components(case)
-    return [*([f"  {told}"] if told else []), *silent(case)]
-
-
-def silent(case) -> list[str]:
-    """A line where there are thrusters and none of them acts: whoever described them asks what they do."""
-    thrusters = getattr(case, "thrusters", ())
-    if not thrusters or any(one.stuck or one.burn for one in thrusters):
-        return []
-    return [
-        f"  no thruster fires: stuck = true in a table [[thrusters]] makes one act for ever "
-        f"({', '.join(printable(one.name) for one in thrusters)})"]
+    """A line on which axes 1, 2, 3 are, where these are not those of the file."""
+    words = components(case)
+    return [f"  {words}"] if words else []
 
 
 def _turned(case):

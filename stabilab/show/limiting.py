@@ -17,6 +17,8 @@ from .units import SHORT, Units
 
 INSIDE = (Kind.TILT, Kind.LIMIT, Kind.LAW)  # stated in the first line of an answer itself
 
+AHEAD = {Kind.THRUSTERS: "no thruster fires"}  # what a first line says before the answer
+
 
 def reached(caveats: Iterable[Caveat], units: Units) -> str:
     """The limit that is reached, empty where none is."""
@@ -51,9 +53,20 @@ def shared(answers: Sequence[Iterable[Caveat]], units: Units) -> str:
                    for one, count in found.items() if one)
 
 
+def ahead(caveats: Iterable[Caveat], text: str, named: bool = True) -> str:
+    """A text with what its first line must not lack, before the answer and behind the name of the case.
+    named: whether that stands there."""
+    words = "; ".join(dict.fromkeys(AHEAD[one.kind] for one in caveats if one.kind in AHEAD))
+    if not words or words in text.partition("\n")[0]:
+        return text
+    name, colon, answer = text.partition(": ")
+    return f"{name}: {words}; {answer}" if named and colon and "\n" not in name else f"{words}; {text}"
+
+
 def noted(caveats: Iterable[Caveat], text: str, units: Units) -> str:
     """The text with a line below its first for every caveat that no first line has room for."""
-    first, *rest = text.split("\n")
+    caveats = list(caveats)
+    first, *rest = ahead(caveats, text).split("\n")
     return "\n".join([first, *lines([one for one in caveats if one.kind not in INSIDE], units), *rest])
 
 

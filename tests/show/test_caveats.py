@@ -31,9 +31,10 @@ CASES = {  # name: (the case file, words of the caveat)
     "off axis": (form(position=(0.1, 0, 0.05), misalignment="1 deg"), "tilt"),
     "unphysical": (form((8, 4, 0.4)), "no rigid body has "),
     "uncertain": (form(("100 +- 1", 90, 40)), "uncertain"),
+    "silent": (form().replace("stuck = true", ""), "no thruster fires: stuck = true "),
 }
-MOTION = ("axis", "limit", "off axis", "unphysical", "uncertain")
-FILE = ("unphysical", "uncertain")
+MOTION = ("axis", "limit", "off axis", "unphysical", "uncertain", "silent")
+FILE = ("unphysical", "uncertain", "silent")
 ATTITUDE = ("--rate", "50 deg/s")
 VIEWS = [  # (command and options, the cases whose caveat it has to show)
     (("classify",), MOTION), (("classify", "--json"), MOTION), (("fate",), MOTION),
@@ -43,9 +44,9 @@ VIEWS = [  # (command and options, the cases whose caveat it has to show)
     (("when", *ATTITUDE), ("axis", "off axis", *FILE)),
     (("when", *ATTITUDE, "--json"), ("axis", "off axis", *FILE)),
     (("when", *ATTITUDE, "--csv"), ("axis", "off axis", *FILE)),
-    (("stuck",), ("axis", "limit", "off axis")), (("stuck", "--json"), ("axis", "off axis", *FILE)),
-    (("stuck", "--csv"), ("axis", "off axis", *FILE)),
-    (("simulate", "--at", "1"), FILE), (("simulate", "--at", "1", "--json"), FILE), (("show",), FILE),
+    (("stuck",), ("axis", "limit", "off axis")), (("stuck", "--json"), ("axis", "off axis", *FILE[:2])),
+    (("stuck", "--csv"), ("axis", "off axis", *FILE[:2])),
+    (("simulate", "--at", "1"), FILE), (("simulate", "--at", "1", "--json"), FILE), (("show",), FILE), (("attitude",), FILE), (("attitude", "--json"), FILE), (("precision", "--quick"), FILE),
     (("chaos", "--until", "50 s"), FILE), (("chaos", "--until", "50 s", "--json"), FILE),
     (("chaos", "--until", "50 s", "--csv"), FILE),
     (("reference", "--at", "1", "--digits", "9", "--json"), FILE),
@@ -64,8 +65,8 @@ VIEWS = [  # (command and options, the cases whose caveat it has to show)
     (("bifurcation", "--vary", "wheels.W.momentum=3:4"), FILE),
     (("bifurcation", "--vary", "wheels.W.momentum=3:4", "--json"), FILE),
     (("bifurcation", "--vary", "wheels.W.momentum=3:4", "--csv"), FILE),
-    (("atlas", "--level", "0", "--refine", "0"), ("axis", "off axis", *FILE)),
-    (("atlas", "--level", "0", "--refine", "0", "--json"), ("axis", *FILE)),
+    (("atlas", "--level", "0", "--refine", "0"), ("axis", "off axis", *FILE[:2])),
+    (("atlas", "--level", "0", "--refine", "0", "--json"), ("axis", *FILE[:2])),
     (("atlas", "--level", "0", "--refine", "0", "--csv"), ("axis", "unphysical")),
 ]
 
@@ -94,12 +95,15 @@ def test_every_command_and_view_shows_what_limits_its_answer(stabilab, files, co
         code, out, err = stabilab(command[0], files[name], *command[1:])
         assert code == 0, (name, err)
         assert told(name, out), (name, out)
+        if name == "silent" and not {"--json", "--csv"} & set(command) and command[0] != "reference":  # the answer of a forgotten `stuck`
+            assert "no thruster fires; " in out.split("\n")[0], out
 
 
 @pytest.mark.parametrize("name", MOTION)
 def test_the_explorer_shows_what_limits_its_answer(files, name):
     answer = ask(Session(load(files[name])), moving=False)[0]
     assert told(name, f"{answer['headline']} {answer['note']}")
+    assert ("no thruster fires; " in answer["headline"]) == (name == "silent")
 
 
 @pytest.mark.slow
@@ -107,11 +111,13 @@ def test_the_explorer_shows_what_limits_its_answer(files, name):
 def test_a_page_shows_what_limits_its_answer(files, tmp_path, name):
     made = one_case.sections(load(files[name]), tmp_path, "case", deep=False)
     assert told(name, f"{made['headline']} {' '.join(made['caveats'])} {made['uncertain']}")
+    assert ("no thruster fires; " in made["headline"]) == (name == "silent")
 
 
 def test_a_caveat_is_a_key_of_every_object_and_empty_where_nothing_limits_the_answer(stabilab, files,
                                                                                      case_file):
-    free = case_file(form().replace("stuck = true", ""), "free")
+    free = case_file(form().replace("[[thrusters]]", "[output]").split("[output]")[0]
+                     + "[[wheels]]" + form().split("[[wheels]]")[1], "free")
     for command in (("classify",), ("fate",), ("extremes",), ("period",), ("when", *ATTITUDE)):
         found = json.loads(stabilab(command[0], free, *command[1:], "--json")[1])
         assert found[0]["caveats"] == [], command

@@ -15,7 +15,7 @@ from fractions import Fraction
 from itertools import combinations
 from typing import Any, TypeAlias, TypeGuard
 
-from ...errors import InputError
+from ...errors import InputError, Kind
 from ...numbers.exact import floats
 from ...numbers.principal import NOTHING, without_trace
 from ...numbers.vectors import CYCLE, Exact3, dot
@@ -221,6 +221,8 @@ def stuck(case: Any, all_thrusters: bool = False, progress: Callable[[str], Any]
     limit first in front. progress: called with words before every row. Raises InputError for a case without a
     motion or without a thruster that could be stuck, and for other effects than wheel and torque.
     """
+    if all_thrusters:
+        case = each_firing(case)
     scenario = scenario_of(case)
     rows = []
     for chosen in _chosen(case, scenario, all_thrusters):
@@ -234,6 +236,11 @@ def stuck(case: Any, all_thrusters: bool = False, progress: Callable[[str], Any]
     principal = Principal(floats(scenario.axes.moments),
                           tuple(tuple(float(v) + 0.0 for v in axis) for axis in scenario.axes.axes))
     return Stuck(case.name, tuple(rows), principal, all_thrusters)
+
+
+def each_firing(case: Any) -> Any:
+    """The case as one whose thrusters fire, one at a time: without the caveat that none does."""
+    return replace(case, caveats=tuple(one for one in case.caveats if one.kind is not Kind.THRUSTERS))
 
 
 def _chosen(case: Any, scenario: Scenario, all_thrusters: bool) -> list[tuple[Any, ...]]:

@@ -113,8 +113,9 @@ ROWS = 12  # wheel momenta that are listed one by one
 def text(atlas: Atlas, units: Units) -> str:
     """The answer in the first line; then what is behind it."""
     told = limiting.lines(limits_of(atlas.asked.case, _all(atlas)), units)
-    return "\n".join([f"{atlas.asked.case.name}: {answer(atlas, units)}", *told, *_wheels(atlas, units),
-                      *_details(atlas, units), *_named(atlas, units)])
+    return limiting.ahead(atlas.asked.case.caveats, "\n".join([
+        f"{atlas.asked.case.name}: {answer(atlas, units)}", *told, *_wheels(atlas, units),
+        *_details(atlas, units), *_named(atlas, units)]))
 
 
 def _all(atlas: Atlas) -> np.ndarray:

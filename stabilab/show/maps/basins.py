@@ -64,7 +64,7 @@ def text(found: Basins) -> str:
         lines.append(
             "  refinement ended before the depth asked for: more than the largest number of states would be "
             "needed; take a smaller depth or plane")
-    return "\n".join(lines)
+    return limiting.ahead(found.plan.case.caveats, "\n".join(lines))
 
 
 def _answer(found: Basins) -> str:

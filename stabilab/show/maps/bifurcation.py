@@ -24,11 +24,11 @@ def text(found: Diagram | Plane) -> str:
     """The answer first, then what is counted, notes, and a table: of pieces and events over one number, over
     two an example for each number of equilibria, and the cusps."""
     case, units = found.family.case, units_of(found.family.case)
-    return "\n".join([f"{case.name}: {answer(found).replace('<=', '≤')}",
-                      *(f"  {units.axes.sentence(words)}" for words in (found.what, *found.notes)),
-                      *limiting.lines(case.caveats, units),
-                      *(_table(found) if isinstance(found, Diagram) else _examples(found)),
-                      *frame.note(case)])
+    return limiting.ahead(case.caveats, "\n".join([
+        f"{case.name}: {answer(found).replace('<=', '≤')}",
+        *(f"  {units.axes.sentence(words)}" for words in (found.what, *found.notes)),
+        *limiting.lines(case.caveats, units),
+        *(_table(found) if isinstance(found, Diagram) else _examples(found)), *frame.note(case)]))
 
 
 def answer(found: Diagram | Plane) -> str:
@@ -39,10 +39,12 @@ def answer(found: Diagram | Plane) -> str:
 
 def csv(found: Diagram | Plane) -> str:
     """Over one number a line for each point of each branch, the events among them: value, piece, branch,
-    state, verdict; over two one for each point of each curve, then the cusps."""
+    state, verdict; over two one for each point of each curve, then the cusps. Caveats stand in every line, in
+    one of their own where there is no other."""
     head, rows = _line_rows(found) if isinstance(found, Diagram) else _plane_rows(found)
-    told = cell(found.family.case.caveats)
-    return csv_lines([[*head, "caveats"], *([*row, told] for row in rows)])
+    caveats = cell(found.family.case.caveats)
+    rows = list(rows) or [[None] * len(head)] * bool(caveats)
+    return csv_lines([[*head, "caveats"], *([*row, caveats] for row in rows)])
 
 
 def json(found: Diagram | Plane) -> str:

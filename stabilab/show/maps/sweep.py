@@ -61,7 +61,7 @@ def text(found: Swept) -> str:
         lines.append(f"  {told}: {printable(found.why)}")
     if found.records.size <= ROWS:
         lines += _table(found)
-    return "\n".join(lines)
+    return limiting.ahead(plan.case.caveats, "\n".join(lines))
 
 
 def _answer(found: Swept) -> str:

@@ -190,7 +190,7 @@ def headline(case: Case, motion: Motion, units: Units | None = None) -> str:
     """The line of every page, picture and explorer, without the name of the case: the verdict, behind a
     warning where it is that of an approximate law that does not hold. units: of the case where None; their
     names of axes, where they have any, go before those of the case."""
-    return warned(motion.validity, verdict(case, motion, units))
+    return warned(motion.validity, limiting.ahead(motion.caveats, verdict(case, motion, units), named=False))
 
 
 def verdict(case: Case, motion: Motion, units: Units | None = None) -> str:
