@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 from ..errors import Caveat, Kind
-from ..orbit.result import Fate, Motion
+from ..orbit.result import Fate, Motion, Stability
 from ..physics.coefficients import effective
 from ..physics.scene import AnyScene, aligned, torque_axis
 from ..reasons import DIGITS, Angle, Axis, Quantity, Rate, Reason, Sentence, Time, old
@@ -25,6 +25,12 @@ CONDITIONS = (None, *(ALONG(axis=Axis(n)) for n in (1, 2, 3)),
 NO_SUCH_BODY = Sentence("no-such-body", "no rigid body has these moments of inertia")()
 UNSEEN = Sentence("tilt-not-looked-at",
                   "a tilt of the torque, by the misalignment of {thrusters}, is not looked at here")
+UNSTABLE = Sentence("unstable-equilibrium", "unstable: a disturbance grows by the factor e in {time}")
+UNSTABLE_SLOWLY = Sentence("unstable-not-exponential",
+                           "unstable: a disturbance grows, though not exponentially at first")
+UNSTABLE_POINT = Sentence("unstable-equilibrium-of-a-point",
+                          "an equilibrium that is not known to be stable")()
+STABILITY_OPEN = Sentence("stability-open", "whether this equilibrium is stable is not known")
 REACHES = Sentence("reaches-limit", "reaches {limit} after {time} ({level})")
 AT_START = Sentence("limit-at-start", "reaches {limit} at the start already")
 IN_A_COMPONENT = Sentence("rate-of-a-component", "{rate} in a component")
@@ -36,16 +42,28 @@ TILTED_NOT_FOUND = Sentence("tilted-not-found",
 
 
 def caveats_of(scene: AnyScene, steady: bool = False, tilt: Any = None,
-               first: tuple[Any, Any] | None = None,
-               validity: Any = None, file: Iterable[Caveat] = ()) -> tuple[Caveat, ...]:
+               first: tuple[Any, Any] | None = None, validity: Any = None, file: Iterable[Caveat] = (),
+               stability: Stability | None = None) -> tuple[Caveat, ...]:
     """The caveats of one answer.
 
     steady: whether it says that the motion is bounded or an equilibrium, or that it never reaches a limit;
     tilt: a `Tilt` or a `Spread`, where that was asked;
     first: (limit of the case as `stated`, `TimeTo` of it), where that was asked; validity: of an approximate
-    law; file: the caveats of the case.
+    law; file: the caveats of the case; stability: of a state of equilibrium.
     """
-    return (*file, *_reached(scene, first), *_tilted(scene, steady, tilt), *of_law(validity))
+    return (*file, *of_equilibrium(scene, stability), *_reached(scene, first), *_tilted(scene, steady, tilt),
+            *of_law(validity))
+
+
+def of_equilibrium(scene: AnyScene, stability: Stability | None) -> tuple[Caveat, ...]:
+    """That a state of equilibrium is not known to be stable, where it is not."""
+    if stability is None or stability.verdict.endswith("stable") and not stability.unstable:
+        return ()
+    if not stability.unstable:
+        return (Caveat(Kind.UNSTABLE, STABILITY_OPEN()),)
+    if stability.growth is None:
+        return (Caveat(Kind.UNSTABLE, UNSTABLE_SLOWLY()),)
+    return (Caveat(Kind.UNSTABLE, UNSTABLE(time=Quantity(1 / stability.growth, scene.time_unit))),)
 
 
 def of_law(validity: Any) -> tuple[Caveat, ...]:
@@ -57,7 +75,7 @@ def limited(motion: Motion, scene: AnyScene, case: Any = None) -> Motion:
     """The motion with its caveats; case: whose motion it is."""
     file = () if case is None else (*case.caveats, *(unseen(case) if motion.tilt is None else ()))
     return replace(motion, caveats=caveats_of(scene, motion.fate in STEADY, motion.tilt, motion.first,
-                                              motion.validity, file))
+                                              motion.validity, file, motion.stability))
 
 
 def misaligned(case: Any) -> tuple[str, ...]:
@@ -107,7 +125,8 @@ def _tilted(scene: AnyScene, steady: bool, found: Any) -> list[Caveat]:
         return []
     if found is None or found.untilted:
         return [Caveat(Kind.TILT, holds)]
-    by = {"angle": Angle(found.angle), "limit": Rate(found.limit, digits=DIGITS if found.stated else None)}
+    limit = Rate(found.limit, digits=DIGITS) if found.stated else Rate(found.limit)
+    by = {"angle": Angle(found.angle), "limit": limit}
     if found.ends:
         reached = TILTED_TO(**by, time=Time(found.low), level=found.level)
         return [Caveat(Kind.TILT, holds.then(reached, ": "))]

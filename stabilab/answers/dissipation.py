@@ -45,6 +45,7 @@ from ..physics.effects.base import effect_words
 from ..physics.scene import Scene, slices
 from ..physics.states import body_momentum, equations_and_start, moved_row, start_of
 from ..physics.to_numpy import to_numpy
+from ..reasons import old
 from ..representation import Compared, Shown
 from ..validation import checked_case
 from .caveats import of_law
@@ -351,7 +352,7 @@ def _over_the_box(case: Any, found: FlatSpin) -> FlatSpin:
         return replace(found, outcome=UNDECIDED, level="undecided", rates=None,
                        because=f"the uncertain numbers leave it open: {told}")
     return replace(found, caveats=(*found.caveats, Caveat(
-        "uncertain", f"uncertain numbers: {told}; samples, no proof")))
+        Kind.UNCERTAIN, old(f"uncertain numbers: {told}; samples, no proof"))))
 
 
 def _answered(spinner: Spinner, angle: float) -> FlatSpin:

@@ -37,6 +37,9 @@ def motion(scene: Any, state: Any = None, span: Any = None, brief: bool = False,
         span, exact = case.span if span is None else span, case.exact_state
     scene, state = scene_and_state(scene, state)
     found = _found(scene, state, checked_span(span), brief, exact, follow, tell, proof)
+    if found.fate == Fate.EQUILIBRIUM:
+        from .at_equilibrium import with_stability
+        found = with_stability(scene, found, exact)
     limits = limits_of(scene)
     found = (replace(found, validity=limits.of_motion(scene, found)) if limits and found.validity is None
              else found)

@@ -24,6 +24,7 @@ from ..representation import Shown
 from .caveats import STEADY, caveats_of, limited, misaligned, stated
 from .kinds import kind_of
 from .limit import WORK, asked
+from .motion import motion
 from .passage import MOVED, WIDER, TimeTo
 from .simulate import denser, trajectory
 from .tilt import Spread, Tilt, cone_of, spread, tilt
@@ -212,8 +213,9 @@ def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None 
     misalignment, else by one degree."""
     found = time_of_case(case, ask, t_max)
     never = math.isinf(found.low)
-    return replace(found,
-                   caveats=caveats_of(case.scene, never, of_tilt(case, None, ask, never), file=case.caveats))
+    stability = motion(case, brief=True).stability if never else None
+    return replace(found, caveats=caveats_of(case.scene, never, of_tilt(case, None, ask, never),
+                                             file=case.caveats, stability=stability))
 
 
 def with_first(case: Any, motion: Motion, work: int = WORK) -> Motion:

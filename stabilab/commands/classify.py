@@ -5,7 +5,6 @@ motion.
 `attitude`: how it turns in space."""
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 
 from ..answers.attitude import attitude as turning
@@ -130,6 +129,5 @@ def attitude(cases, json, digits, strict, units):
     if json:
         write(as_json(attitude_dict(answered)))
     else:
-        bare = [(replace(case, caveats=()), found) for case, found in answered]  # the texts have them
-        tell_all(bare, systems, attitude_text)
+        tell_all(answered, systems, attitude_text)
     leave_undecided(strict, any(found.fate.word == "undecided" for _, found in answered))

@@ -250,12 +250,19 @@ def tell_all(answered, systems, text, swept=None, laws=None, boxes=None, between
             words = scene.text([cases[n] for n in of], *swept([answered[n] for n in of], units))
         else:
             words = classification.first(boxes[first], text(*answered[first], units), units)
-        # without that on uncertain numbers where the words on their box follow
-        caveats = dict.fromkeys(one for n in of for one in cases[n].caveats
-                                if not below[n] or one.kind is not Kind.UNCERTAIN)
+        # without those on uncertain numbers where the words on their box follow; of a table those of the file
+        caveats = dict.fromkeys(one for n in of for one in (cases[n].caveats if tabled and cases[n].variant
+                                                            else _caveats(answered[n]))
+                                if not below[n] or one.kind not in (Kind.UNCERTAIN, Kind.SAMPLES))
         parts.append(headline.first(headline.worst(*(laws[n] for n in of)), words, units, caveats)
                      + "".join(dict.fromkeys(below[n] for n in of)))
     terminal.tell(("\n\n" if tabled else between).join(parts))
+
+
+def _caveats(row):
+    """Those of what was found, and of the case where that has none."""
+    case, *found = row
+    return next((one.caveats for one in found if getattr(one, "caveats", None) is not None), case.caveats)
 
 
 def swept_motions(motions, units):

@@ -125,8 +125,7 @@ def flat_spin(case, within, units, json, strict):
     if json:
         write_json(loaded, [flat_spin_dict(*one) for one in answered])
     else:
-        tell_all([(replace(one, caveats=found.caveats), found) for one, found in answered], systems,
-                 flat_spin_text)
+        tell_all(answered, systems, flat_spin_text)
     leave_undecided(strict, any(found.outcome == "undecided" for _, found in answered))
     hold_laws(strict, (), loaded)
 

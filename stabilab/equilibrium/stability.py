@@ -98,7 +98,11 @@ def invariants(form: QuadraticForm, x: Sequence[Number], w: Number = 1) -> tuple
 
     form: QuadraticForm. x, w: rationals, or polynomials (a rational curve, w its denominator).
     """
-    J = form.jacobian(x, w)
+    return coefficients(form.jacobian(x, w))
+
+
+def coefficients(J: Sequence[Sequence[Number]]) -> tuple[Number, Number]:
+    """(m, n) of the characteristic polynomial z^3 + m z + n of a Jacobian without a diagonal."""
     return (-(J[0][1] * J[1][0] + J[0][2] * J[2][0] + J[1][2] * J[2][1]),
             -(J[0][1] * J[1][2] * J[2][0] + J[0][2] * J[1][0] * J[2][1]))
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..answers.caveats import CONDITIONS, HOLDS, NO_SUCH_BODY
+from ..answers.caveats import CONDITIONS, HOLDS, NO_SUCH_BODY, UNSTABLE_POINT
 from ..answers.chaos import Order
 from ..errors import InputError, printable
 from ..orbit.fate import Basis
@@ -83,8 +83,9 @@ ANSWERS: dict[str, tuple[Column, ...]] = {
 }
 CAVEATS = Column("caveats", "i1", "", "what limits the answer",
                  # those of a point, which its numbers make
-                 tuple("; ".join(str(one) for one in pair if one) for pair in product(
-                     (None, NO_SUCH_BODY), (one and HOLDS(condition=one) for one in CONDITIONS))))
+                 tuple("; ".join(str(one) for one in parts if one) for parts in product(
+                     (None, UNSTABLE_POINT), (None, NO_SUCH_BODY),
+                     [one and HOLDS(condition=one) for one in CONDITIONS])))
 DEFAULT = ("fate", "level", "margin")
 VALID = Column("valid", "i1", "", "whether the numbers make a case", ("no", "yes"))
 

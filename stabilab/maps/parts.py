@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from ..answers.caveats import CONDITIONS, STEADY, condition
+from ..answers.caveats import CONDITIONS, STEADY, condition, of_equilibrium
 from ..answers.chaos import chaos, long_enough, row_of
 from ..answers.equilibria import equilibria
 from ..answers.fate import extremes, fate, period
@@ -33,6 +33,7 @@ from ..case.lines import KeyLines
 from ..case.read import Case, blamed_on, with_data
 from ..case.table import Faults, Table, Written
 from ..equilibrium.gyrostat import number_of_equilibria
+from ..equilibrium.stability import coefficients as invariants_of
 from ..errors import CaseError, InputError, Kind, printable
 from ..files import alone_in, whole_file
 from ..interrupt import undoing
@@ -129,6 +130,7 @@ def _scene(plan: Plan, scene: int, chunk: Chunk, out: np.ndarray) -> None:
                 out[name] = NO_CASE_VALUES[name]
         return
     out["valid"] = 1
+    states = np.empty((0, 3))
     with blamed_on(case):
         if case.state is not None:
             states = states_of(plan, case, chunk.low, chunk.high)
@@ -139,16 +141,40 @@ def _scene(plan: Plan, scene: int, chunk: Chunk, out: np.ndarray) -> None:
         if "equilibria" in plan.answers or "verdict" in plan.answers:
             _equilibria(case, out)
     if "caveats" in out.dtype.names:
-        out["caveats"] = _caveats(case, out)
+        out["caveats"] = _caveats(case, states, out)
 
 
-def _caveats(case: Case, out: np.ndarray) -> np.ndarray:
+def _caveats(case: Case, states: np.ndarray, out: np.ndarray) -> np.ndarray:
     """Of each point, by its place in `columns.CAVEATS`."""
-    steady = np.isin(out["fate"], STEADY) if "fate" in out.dtype.names else np.zeros(len(out), bool)
+    count = len(CONDITIONS)
+    departs, steady = np.zeros((2, len(out)), bool)
+    if "fate" in out.dtype.names:
+        steady, rests = np.isin(out["fate"], STEADY), np.nonzero(out["fate"] == Fate.EQUILIBRIUM)[0]
+        if len(rests):
+            departs[rests] = _depart(case, states[rests])
     if "when_low" in out.dtype.names:
         steady |= np.isposinf(out["when_low"])
     unphysical = any(one.kind is Kind.UNPHYSICAL for one in case.caveats)
-    return np.where(steady, condition(case.scene), 0) + len(CONDITIONS) * unphysical
+    return np.where(steady, condition(case.scene), 0) + count * unphysical + 2 * count * departs
+
+
+def _depart(case: Case, states: np.ndarray) -> np.ndarray:
+    """Which states (n, 3) of equilibrium are not known to be stable. Of a gyrostat by the signs of m and n in
+    z^3 + m z + n, exactly where these are zero in doubles."""
+    twin = effective(case.scene)
+    open_ = np.ones(len(states), bool)
+    if twin.plain:
+        form, x = twin.quadratic(), states.T
+        J = form.jacobian([*x], np.ones(len(states)))
+        m, n = (np.asarray(v, float) for v in invariants_of(J))
+        open_, found = (m == 0) | (n == 0) & (m > 0) & (form.m != (0, 0, 0)), (n != 0) | (m < 0)
+    else:
+        found = open_.copy()
+    for row in np.nonzero(open_ & ~found if twin.plain else open_)[0].tolist():
+        here = replace(case, state=tuple(states[row].tolist()))
+        stability = motion(here.scene, here.start, brief=True).stability
+        found[row] = bool(of_equilibrium(case.scene, stability))
+    return found
 
 
 def _many(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:

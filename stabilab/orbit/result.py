@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import Caveat
 from ..numbers.vectors import Float3, Number
+from ..reasons import Quantity, Reason
 from ..representation import Shown
 
 if TYPE_CHECKING:  # a scene of exact laws does not load it
@@ -36,6 +37,22 @@ class Fate(IntEnum):
         return ("bounded", "spin-up", "separatrix", "equilibrium", "undecided")[self]
 
 
+@dataclass(frozen=True)
+class Stability:
+    """Of a state of equilibrium. verdict: "stable", "asymptotically stable", "unstable" or "undecided"
+    (Lyapunov, for the full nonlinear motion); because: its proof in words; growth: rate of the fastest
+    growing disturbance, 1/s (1/tau when scaled), None where none grows exponentially."""
+
+    verdict: str
+    because: str
+    growth: float | None = None
+
+    @property
+    def unstable(self) -> bool:
+        """Whether disturbances leave it."""
+        return self.verdict == "unstable"
+
+
 @dataclass(frozen=True, repr=False)
 class Motion(Shown):
     """Everything known about the motion from one state.
@@ -52,14 +69,14 @@ class Motion(Shown):
     +-inf where unbounded, None where unknown; extremes_over: "all time" or the span they were searched
     over. validity: of an approximate law (`stabilab.physics.law_limits`), with its largest value along
     the motion; None where all laws are exact. tilt: what a tilt of its torque off the axis does to a
-    bounded motion (`answers.tilt`), where that was asked; first: the limit of its case in words and its
+    bounded motion (`answers.tilt`), where that was asked; first: the limit of its case and its
     `TimeTo`, likewise; caveats: all that limits the answer (`answers.caveats`). largest: |omega| at the
     most, over all time, where a motion repeats or rests, to eight digits. energy_integral: the paper's
     G1, G2 or G3 (`orbit.reduction`), under a torque along a principal axis with no wheel along it.
     level: of the fate, "exact", "certified" (a theorem applied to a run of machine precision) or
     "undecided". Of motions that were followed until a certificate held, or as long as was asked: cause:
     what was found on the way, in words; bounds: ((low, high),) * 3 of the rates at all t >= 0, wider than
-    the extremes, +-inf where unbounded (None where not known).
+    the extremes, +-inf where unbounded (None where not known). stability: of an equilibrium.
     """
 
     at: Float3
@@ -83,10 +100,11 @@ class Motion(Shown):
     bounds: tuple[tuple[float, float], ...] | None = None
     validity: Validity | None = None
     tilt: object = None
-    first: tuple[str, Any] | None = None
+    first: tuple[Quantity | Reason, Any] | None = None
     largest: float | None = None
     energy_integral: EnergyIntegral | None = None
     caveats: tuple[Caveat, ...] = ()
+    stability: Stability | None = None
 
 
 def judged(state: Float3, decided: Any) -> dict[str, Any]:

@@ -15,8 +15,6 @@ from ..reasons import in_si, old
 from .axes import axes_of
 from .units import SHORT, Units
 
-INSIDE = (Kind.TILT, Kind.LIMIT, Kind.LAW)  # stated in the first line of an answer itself
-
 AHEAD = {Kind.THRUSTERS: "no thruster fires"}  # what a first line says before the answer
 
 
@@ -64,15 +62,27 @@ def ahead(caveats: Iterable[Caveat], text: str, named: bool = True) -> str:
 
 
 def noted(caveats: Iterable[Caveat], text: str, units: Units) -> str:
-    """The text with a line below its first for every caveat that no first line has room for."""
+    """The text with a line below its first for every caveat that the text itself does not state."""
     caveats = list(caveats)
     first, *rest = ahead(caveats, text).split("\n")
-    return "\n".join([first, *lines([one for one in caveats if one.kind not in INSIDE], units), *rest])
+    return "\n".join([first, *lines(unsaid(caveats, text, units), units), *rest])
 
 
-def beside(caveats: Iterable[Caveat], units: Units) -> list[str]:
-    """A sentence for every caveat that no first line has room for."""
-    return [f"{words(one, units)}." for one in caveats if one.kind not in INSIDE]
+def beside(caveats: Iterable[Caveat], units: Units, text: str = "") -> list[str]:
+    """A sentence for every caveat that a text does not state."""
+    return [f"{words(one, units)}." for one in unsaid(caveats, text, units)]
+
+
+def unsaid(caveats: Iterable[Caveat], text: str, units: Units) -> list[Caveat]:
+    """The caveats that a text does not state; that on an approximate law has a line of its own."""
+    return [one for one in dict.fromkeys(caveats) if one.kind is not Kind.LAW
+            and not any(form.removeprefix("holds ").lower() in text.lower() for form in _forms(one, units))]
+
+
+def _forms(one: Caveat, units: Units) -> list[str]:
+    """How a first line may have it: with long or short names of axes, with what a tilt does or without."""
+    return [form for whole in (True, False) for reason in (one.reason, one.reason.alone)
+            for form in [units.said(reason, SHORT, whole)]]
 
 
 def lines(caveats: Iterable[Caveat], units: Units) -> list[str]:
@@ -83,6 +93,11 @@ def lines(caveats: Iterable[Caveat], units: Units) -> list[str]:
 def words(one: Caveat, units: Units) -> str:
     """The words in the units and letters of a text."""
     return units.said(one.reason, SHORT)
+
+
+def unstable(caveats: Iterable[Caveat], units: Units) -> str:
+    """How an equilibrium is unstable, or that its stability is open; empty where it is neither."""
+    return "; ".join(words(one, units) for one in caveats if one.kind is Kind.UNSTABLE)
 
 
 def key(case: Any, caveats: Iterable[Caveat]) -> dict[str, list[dict]]:

@@ -36,4 +36,4 @@ def test_an_equilibrium_of_a_turning_body_is_a_steady_rotation(stabilab, case_fi
     case = case_file("[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, "
                      "0.03]\n[motion]\nangular_velocity = [0.1, -0.1, 0]\n", "steady")
     for command in ("stuck", "fate", "classify"):
-        assert stabilab(command, case)[1].startswith("steady: STEADY ROTATION (relative equilibrium)")
+        assert stabilab(command, case)[1].startswith("steady: STEADY ROTATION")

@@ -19,7 +19,9 @@ from ...errors import InputError, Kind
 from ...numbers.exact import floats
 from ...numbers.principal import NOTHING, without_trace
 from ...numbers.vectors import CYCLE, Exact3, dot
+from ...orbit.result import Fate
 from ...physics.scene import Scene
+from ..at_equilibrium import of_gyrostat
 from ..caveats import STEADY, caveats_of
 from ..tilt import Spread, Tilt
 from ..when import limit_of, of_tilt
@@ -264,7 +266,10 @@ def _row(scenario: Scenario, thrusters: Sequence[Any]) -> Row:
     others = [t for t in scenario.case.thrusters if t not in thrusters]
     scene = scenario.scene(torque)
     off = _tilted(scenario, thrusters, scene, seen)
-    caveats = caveats_of(scene, seen.fate in STEADY or seen.when.never, off, file=scenario.case.caveats)
+    stability = (of_gyrostat(scene, scenario.state) if seen.fate == Fate.EQUILIBRIUM and scene.plain
+                 else None)
+    caveats = caveats_of(scene, seen.fate in STEADY or seen.when.never, off, file=scenario.case.caveats,
+                         stability=stability)
     return Row(
         tuple(t.name for t in thrusters), torque=scenario.torque_in_file(thrusters),
         torque_principal=tuple(float(v) + 0.0 for v in torque),

@@ -163,7 +163,7 @@ class Session:
         turns = not self.units.scaled and present("numpy") and (case.scene.plain or not moving)
         holds = None if found is None else found.validity  # of an approximate law
         notes = [note, self._swept, cut, holds and lettered(units.words(holds.words)),
-                 *limiting.beside(case.caveats, units)]
+                 *limiting.beside((case if found is None else found).caveats, units, words)]
         made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word,
                 "look": "conditional" if found is None else look(found),
                 "moving": moving, "start": clicked,

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ...answers.caveats import CONDITIONS, HOLDS, NO_SUCH_BODY, stated, unseen
+from ...answers.caveats import CONDITIONS, HOLDS, NO_SUCH_BODY, UNSTABLE_POINT, stated, unseen
 from ...case.lines import KeyLines
 from ...case.table import Faults, Table
 from ...errors import Caveat, Kind
@@ -84,8 +84,10 @@ def limits_of(case: Any, records: Any) -> list[Caveat]:
     numbers = records["caveats"].ravel().tolist() if "caveats" in records.dtype.names else []
     counts = Counter(number % len(CONDITIONS) for number in numbers)
     parts = [(Kind.TILT, HOLDS(condition=CONDITIONS[n]), count) for n, count in sorted(counts.items()) if n]
+    whole = [number // len(CONDITIONS) for number in numbers]
     if all(one.kind is not Kind.UNPHYSICAL for one in found):
-        parts += [(Kind.UNPHYSICAL, NO_SUCH_BODY, sum(number >= len(CONDITIONS) for number in numbers))]
+        parts += [(Kind.UNPHYSICAL, NO_SUCH_BODY, sum(number % 2 for number in whole))]
+    parts += [(Kind.UNSTABLE, UNSTABLE_POINT, sum(number >= 2 for number in whole))]
     for kind, reason, count in parts:
         part = None if count == len(numbers) else OF_POINTS(count=count, points=len(numbers))
         found += [Caveat(kind, reason.then(part, " "))] if count else []

@@ -141,7 +141,8 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     answer = f"No motion is given. Equilibria: {found.kind if found else 'not known'}"
     answer = headline(case, moved, units) if moved else answer
     beyond = "" if moved is None or moved.validity is None or moved.validity.held else moved.validity.words
-    caveats = limiting.beside((one for one in case.caveats if one.kind is not Kind.UNCERTAIN), units)
+    caveats = limiting.beside((one for one in (case if moved is None else moved).caveats
+                               if one.kind is not Kind.UNCERTAIN), units, answer)
     page = {"name": case.name, "title": case.heading, "source": case.source,
             "path": case.path, "text": case.text,
             "headline": printed("; ".join(filter(None, (answer, what_changes(box, units))))),

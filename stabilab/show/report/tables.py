@@ -41,7 +41,7 @@ def _outcome(motion, units):
     if motion.fate.word == "undecided":
         note = cause(motion, units)
     else:
-        note = f"{about}{condition}".strip()
+        note = limiting.unstable(motion.caveats, units) or f"{about}{condition}".strip()
     return value.capitalize(), "; ".join(filter(None, ["by a law that does not hold"
                                                        * headline.beyond(motion.validity), note]))
 

@@ -179,7 +179,7 @@ def _of_alike(group, cases, units: Units = SI) -> str:
 
 # --- The answer in one line
 # of an equilibrium: without a rate, and with one
-REST, STEADY = "AT REST", "STEADY ROTATION (relative equilibrium)"
+REST, STEADY = "AT REST", "STEADY ROTATION"
 WORDS = {"bounded": "BOUNDED for ever", "spin-up": "SPINS UP", "separatrix": "ON THE SEPARATRIX",
          "equilibrium": STEADY, "undecided": "UNDECIDED"}
 LEVELS = {"run": "by a run alone"}
@@ -205,7 +205,10 @@ def verdict(case: Case, motion: Motion, units: Units | None = None) -> str:
 
 def outcome(motion: Motion, units: Units) -> list[str]:
     """What becomes of the motion, when its limit is reached, what a tilt does; each may be empty."""
-    return ["".join(fate_parts(motion, units)), limiting.reached(motion.caveats, units),
+    departs = limiting.unstable(motion.caveats, units)
+    departs = departs and (departs.removeprefix("unstable") if departs.startswith("unstable")
+                           else f"; {departs}")
+    return ["".join(fate_parts(motion, units)) + departs, limiting.reached(motion.caveats, units),
             limiting.tilted(motion.caveats, units)]
 
 
@@ -216,7 +219,7 @@ def look(motion: Motion) -> str:
     if beyond(motion.validity) or motion.fate.word == "undecided":
         return "conditional"
     kinds = [one.kind for one in motion.caveats]
-    if motion.fate.word in ("spin-up", "separatrix") or Kind.LIMIT in kinds:
+    if motion.fate.word in ("spin-up", "separatrix") or {Kind.LIMIT, Kind.UNSTABLE} & set(kinds):
         return "changes"
     return "conditional" if Kind.TILT in kinds else "bounded"
 
@@ -228,10 +231,16 @@ def fate_parts(motion: Motion, units: Units, tilt: bool = True) -> tuple[str, st
     words, where = WORDS[fate], limiting.condition(motion.caveats, units, alone=not tilt)
     if where:
         words = words.removesuffix(" for ever")
-    if fate == "equilibrium" and not any(motion.at[:3]):
-        words = REST
+    if fate == "equilibrium":
+        words = f"{STEADY if any(motion.at[:3]) else REST}{stable_word(motion)}"
     about = f" about {units.axes.whole(motion.axis)}, {direction(motion.sense)}" if motion.axis else ""
     return words, about + known_as(motion), where
+
+
+def stable_word(motion: Motion) -> str:
+    """Behind the fate of an equilibrium: its stability, where that is known."""
+    word = "" if motion.stability is None else motion.stability.verdict
+    return {"": "", "unstable": ", UNSTABLE", "undecided": ""}.get(word, f", {word}")
 
 
 def known_as(motion: Motion) -> str:
@@ -249,8 +258,9 @@ def cause(motion: Motion, units: Units) -> str:
                  and len(words) > CLAUSE else words.split("; ")[0])
         words = lettered(units.words(words))
         return words if len(words) <= CLAUSE else words[:CLAUSE].rsplit(" ", 1)[0] + " ..."
+    stays = "" if limiting.unstable(motion.caveats, units) else "every rate stays as it is"
     return {"separatrix": "the smallest change decides what becomes of it",
-            "equilibrium": "every rate stays as it is"}.get(fate, "")
+            "equilibrium": stays}.get(fate, "")
 
 
 def largest(motion: Motion, units: Units) -> str:

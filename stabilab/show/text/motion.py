@@ -196,8 +196,10 @@ def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
 
 def followed(m) -> dict:
     """How well a fate is known; of a motion that was followed also when its certificate held (null: it did
-    not), what was seen on the way, and the bounds of the rates for all times (null in them: unbounded)."""
-    known = {"level": m.level}
+    not), what was seen on the way, and the bounds of the rates for all times (null in them: unbounded); of
+    an equilibrium its stability."""
+    known = {"level": m.level} | ({} if m.stability is None else {"stability": values_of(
+        m.stability, "verdict because growth")})
     if m.cause:
         known |= {"t": m.evidence.get("t_certificate"), "cause": m.cause, "bounds": m.bounds}
     return known
@@ -232,7 +234,9 @@ def in_file(case, along):
 def attitude_text(case, found, units: Units) -> str:
     """The answer first, then the numbers and why."""
     condition = limiting.condition(found.caveats, units)
-    lines = [f"{case.name}: {', '.join(_answer(found, units))}{',' * bool(condition)}{condition}"]
+    departs = limiting.unstable(found.caveats, units)
+    lines = [f"{case.name}: {', '.join(_answer(found, units))}{',' * bool(condition)}{condition}"
+             + f"; {departs}" * bool(departs)]
     if found.momentum_direction is not None:
         lines.append(row("angular momentum", f"{number(found.momentum, DIGITS)} N m s along "
                                              f"{_vector(case, found.momentum_direction)}"))
@@ -251,8 +255,7 @@ def attitude_text(case, found, units: Units) -> str:
         lines.append(row(name.replace("_", " "), f"{digits} s"))
     if found.error is not None and found.decimals is None:
         lines.append(row("relative error", f"at most {found.error:.0e}"))
-    words = "\n".join([*lines, f"why: {reason(found.because, units)}", *frame.note(case)])
-    return limiting.noted(found.caveats, words, units)
+    return "\n".join([*lines, f"why: {reason(found.because, units)}", *frame.note(case)])
 
 
 def attitude_rows(found, units: Units) -> list[tuple[str, str]]:

@@ -80,8 +80,9 @@ def reached(low, high):
 def _answer(limit, found, low, high, units):
     aim = asked(limit, units)
     if math.isinf(low):
-        holds = limiting.condition(found.caveats, units)
-        return f"NEVER reaches {aim} ({found.level}){',' * bool(holds)}{holds}"
+        holds, departs = limiting.condition(found.caveats, units), limiting.unstable(found.caveats, units)
+        return f"{departs}; undisturbed it " * bool(departs) + (
+            f"NEVER reaches {aim} ({found.level}){',' * bool(holds)}{holds}")
     if math.isnan(high):
         return f"NOT KNOWN when it reaches {aim}: not before {units.time(low)} ({found.level})"
     if high == 0:
@@ -183,7 +184,8 @@ def period(case, motion, told, units: Units, all_digits: bool, say: bool, proofs
     else:
         value = f"period {units.time(told.values)}"
     holds = limiting.condition(motion.caveats, units)
-    parts = [value + (holds and f",{holds}"), limiting.reached(motion.caveats, units),
+    parts = [value + (holds and f",{holds}"), limiting.unstable(motion.caveats, units),
+             limiting.reached(motion.caveats, units),
              limiting.tilted(motion.caveats, units)]
     lines = [f"{case.name}: {'; '.join(filter(None, parts))}",
              *(why(case, motion, units, proofs) if proofs else ())]

@@ -136,7 +136,8 @@ def _answer(row, units):
                 else f"UNDECIDED: not at {_limit(row.limit, units)} before {until} ({row.time_level})")
     words = FATES[row.fate]
     if row.fate == "equilibrium":
-        words = f"{words if row.largest_rate else REST}: every rate stays as it is"
+        departs = limiting.unstable(row.caveats, units)
+        words = f"{words if row.largest_rate else REST}: {departs or 'every rate stays as it is'}"
     while_ = limiting.condition(row.caveats, units)
     if when:
         return f"{words}{while_}, but {when}{known}"

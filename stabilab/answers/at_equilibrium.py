@@ -1,0 +1,139 @@
+"""Whether a state of equilibrium is stable, and how fast a disturbance of it grows.
+
+Of a gyrostat under a constant torque the signs of m and n in z^3 + m z + n are exact
+(`equilibrium.stability`); what they leave open, and all other scenes, is looked up among the scene's
+equilibria, whose verdicts have their proofs. The growth of other scenes is that of the Jacobian of the full
+equations, in doubles."""
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+from ..equilibrium.result import Equilibria, EquilibriumCurve, EquilibriumPoint
+from ..equilibrium.stability import POSITIVE_EIGENVALUE, eigenvalues, invariants, isolated_verdict, pencil
+from ..errors import InputError
+from ..numbers.vectors import Number
+from ..orbit.result import Motion, Stability
+from ..physics.coefficients import effective
+from ..physics.scene import AnyScene
+from .equilibria import equilibria
+
+NEAR = 1e-9  # of the size of a state: an equilibrium that is found in doubles is the same as the state
+ON_CURVE = 1e-7  # the same for a curve, along which the nearest place is searched
+LOOKS, HALVINGS = 400, 60  # along a piece of a curve of equilibria; of the interval round the nearest look
+GROWS = 1e-7  # of the size of the Jacobian: a real part below it may be rounding
+NOT_FOUND = ("undecided", "the state was not found among the equilibria that are known of this scene")
+
+
+def with_stability(scene: AnyScene, found: Motion, exact: Sequence[Number] | None = None) -> Motion:
+    """The motion of an equilibrium with its stability. exact: the three rates exactly."""
+    twin = effective(scene)
+    stability = (of_gyrostat(twin, exact or tuple(map(Fraction, found.at[:3]))) if twin.plain
+                 else of_scene(scene, found.at))
+    return replace(found, stability=stability)
+
+
+def of_gyrostat(scene: AnyScene, x: Sequence[Number]) -> Stability:
+    """Of an exact state x of equilibrium of a gyrostat under a constant torque."""
+    p = pencil(scene)
+    m, n = (Fraction(v) for v in invariants(p.form, tuple(map(Fraction, x))))
+    if n or m < 0:
+        _, because = isolated_verdict((m > 0) - (m < 0), (n > 0) - (n < 0)) if n else POSITIVE_EIGENVALUE
+        try:
+            growth = max(z.real for z in eigenvalues(m, n))
+        except OverflowError:
+            growth = math.inf
+        return Stability("unstable", because, growth)
+    found = equilibria(scene)
+    if found.kind == "all":
+        return Stability("stable", found.reason)
+    if m:
+        pieces = [one for curve in found.curves for one in curve.segments if one.linear == "stable"]
+        verdict = ((pieces[0].verdict, pieces[0].because) if pieces and not found.points
+                   else isolated_verdict(1, 0))
+        return Stability(*verdict)
+    return Stability(*_degenerate(found, tuple(map(float, x))))
+
+
+def of_scene(scene: AnyScene, at: Sequence[float]) -> Stability:
+    """Of a state of equilibrium, its blocks in a row, whatever acts."""
+    verdict = _looked_up(equilibria(scene), at)
+    if verdict[0] in ("stable", "asymptotically stable"):
+        return Stability(*verdict)
+    growth = _growth(scene, at)
+    if verdict[0] == "undecided" and growth is not None:
+        verdict = "unstable", "an eigenvalue of the Jacobian of the full equations has a positive real part"
+    return Stability(*verdict, growth)
+
+
+def _growth(scene: AnyScene, at: Sequence[float]) -> float | None:
+    """The largest real part of the eigenvalues of the full equations, where it is more than rounding."""
+    import numpy as np
+
+    from ..physics.to_numpy import to_numpy
+    try:
+        jacobian = to_numpy(scene).jacobian(np.array(at, float))
+    except (InputError, ValueError):
+        return None
+    if not np.isfinite(jacobian).all():
+        return None
+    largest = float(np.linalg.eigvals(jacobian).real.max())
+    return largest if largest > GROWS * float(np.abs(jacobian).max()) else None
+
+
+def _degenerate(found: Equilibria, at: Sequence[float]) -> tuple[str, str]:
+    """The verdict where m and n vanish: of a fold or a crossing, or of a plane of equilibria."""
+    near = _nearest((one for curve in found.curves for one in curve.samples
+                     if one.linear == "degenerate"), at)
+    if near is not None:
+        return near.verdict, near.because
+    pieces = [one for curve in found.curves for one in curve.segments if one.linear == "degenerate"]
+    return (pieces[0].verdict, pieces[0].because) if pieces else NOT_FOUND
+
+
+def _looked_up(found: Equilibria, at: Sequence[float]) -> tuple[str, str]:
+    """The verdict on the equilibrium that is at the state."""
+    if found.kind == "all":
+        return "stable", found.reason
+    samples = [*found.points, *(one for curve in found.curves for one in curve.samples)]
+    near = _nearest(samples, at)
+    if near is not None:
+        return near.verdict, near.because
+    pieces = [(_beside(curve, piece.t, at), n, piece) for curve in found.curves
+              for n, piece in enumerate(curve.segments)]
+    apart, _, piece = min(pieces, default=(math.inf, 0, None))
+    if piece is not None and apart <= ON_CURVE:
+        return piece.verdict, piece.because
+    return ("undecided", found.reason) if found.kind == "undecided" else NOT_FOUND
+
+
+def _apart(one: Sequence[float], at: Sequence[float]) -> float:
+    """The distance of a state from the first components of another, in units of its size."""
+    here = at[:len(one)]
+    return math.dist(one, here) / (math.hypot(*here) or 1.0) if len(one) <= len(at) else math.inf
+
+
+def _nearest(samples: Any, at: Sequence[float]) -> EquilibriumPoint | None:
+    near = min(samples, key=lambda one: _apart(one.at, at), default=None)
+    return near if near is not None and _apart(near.at, at) <= NEAR else None
+
+
+def _beside(curve: EquilibriumCurve, piece: tuple[float, float], at: Sequence[float]) -> float:
+    """How near a piece of a curve comes to the state."""
+    low, high = (math.atan(end) for end in piece)
+
+    def apart(u: float) -> float:
+        try:
+            return _apart(curve.point(math.tan(u)), at)
+        except InputError:  # an end of the piece
+            return math.inf
+    looks = [low + (high - low) * (n + 0.5) / LOOKS for n in range(LOOKS)]
+    best = min(looks, key=apart)
+    step = (high - low) / LOOKS
+    for _ in range(HALVINGS):
+        best = min((best - step, best, best + step), key=lambda u: apart(min(max(u, low), high)))
+        best, step = min(max(best, low), high), step / 2
+    return apart(best)
