@@ -13,6 +13,7 @@ from ..numbers.vectors import Exact3, cross, dot
 from ..physics.effects import effect_class
 from ..physics.scene import INSIDE, ROUNDING, Body, along_principal_axes, slack_of
 from . import sections
+from .aliases import shown
 from .table import Faults, Table, Written, described, plus_minus, states_uncertainty
 
 # --- [body] of a case file: moments, a full tensor, or moments beside products of inertia; mass and centre
@@ -236,21 +237,24 @@ def judge_limits(top: Table, limits: Limits | None, state: Exact3 | None):
     """Note a limit that the motion has passed before it starts. state: rad/s, input frame."""
     if limits is None or state is None:
         return
+    given = top.data["motion"]["angular_velocity"]
+    plain = [shown(value) for value in given if not isinstance(value, str) or isinstance(value, Written)]
+    hint = (f'; a number alone is in rad/s, of degrees write "{plain[0]} deg/s"' if plain else "")
     table, degrees = Table(("limits",), top.data["limits"], top.faults), 180 / pi()
     if limits.rate is not None and dot(state, state) > limits.rate**2:
-        _too_low(table, "", limits.rate, sqrt_fraction(dot(state, state)), degrees, "rate")
+        _too_low(table, "", limits.rate, sqrt_fraction(dot(state, state)), degrees, hint, "rate")
     for index, (most, now) in enumerate(zip(limits.rates or (), state)):
         if abs(now) > most:
-            _too_low(table, f"number {index + 1}: ", most, abs(now), degrees, "rate", index)
+            _too_low(table, f"number {index + 1}: ", most, abs(now), degrees, hint, "rate", index)
 
 
-def _too_low(table: Table, which: str, limit, now, degrees, *place):
+def _too_low(table: Table, which: str, limit, now, degrees, hint: str, *place):
     digits = 6 if f"{float(limit):.6g}" != f"{float(now):.6g}" else 17
     told = [f"{float(rate):.{digits}g} rad/s ({float(rate * degrees):.{digits}g} deg/s)"
             for rate in (limit, now)]
     table.fault(
         f"{which}the limit, {told[0]}, is below the rate that the motion starts with, {told[1]}: raise it or "
-        f"start slower", *place)
+        f"start slower{hint}", *place)
 
 
 def _told_apart(tables: list[Table], key: str, allowed):

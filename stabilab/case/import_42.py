@@ -131,11 +131,6 @@ class Entry(NamedTuple):
     line: int
 
 
-def is_one(text: str) -> bool:
-    """Whether a text is such a file."""
-    return "42:" in text[:200] and "!" in text
-
-
 def spacecraft(text: str, path, body: int | None = None) -> Craft:
     """What the file says of all its bodies as one, or of one of them alone, in that body's frame. Raises
     InputError where it says no inertia."""

@@ -20,6 +20,7 @@ from ..physics.effects.base import effect_words
 from ..physics.scene import INSIDE, Body, ScaledGyrostat, Scene
 from ..reasons import Sentence
 from ..validation import came, checked_span
+from .aliases import cure_of_key
 from .body import (
     Limits,
     Thruster,
@@ -479,8 +480,9 @@ def _effects(top: Table, body: Body | None) -> list:
     made = []
     for name in effects.data:
         if name not in REGISTRY:
-            hint = did_you_mean(name, REGISTRY)
-            known = f" Known effects: {', '.join(REGISTRY)}" if "did you mean" in hint else ""
+            cure = cure_of_key(effects.path, name, effects.data, REGISTRY)
+            hint = f"; {cure}" if cure else did_you_mean(name, REGISTRY)
+            known = f" Known effects: {', '.join(REGISTRY)}" if cure or "did you mean" in hint else ""
             effects.fault(f"unknown effect{hint}{known}", name)
             continue
         table = effects.table(name)

@@ -11,6 +11,7 @@ from __future__ import annotations
 from functools import partial
 
 from ..case import import_42, import_basilisk
+from ..case.formats import is_42
 from ..case.imported import case_text, faults_of
 from ..case.read import blamed_on
 from ..case.source import EXAMPLES, command_of, source_text
@@ -61,7 +62,7 @@ def example(name):
 def import_(file, out, stuck, body=None):
     """Write the case, name what has no counterpart, and refuse what has faults yet."""
     given = source_text(file)
-    if import_42.is_one(given):
+    if is_42(given):
         craft = import_42.spacecraft(given, file, body)
     elif body is None:
         craft = import_basilisk.spacecraft(given, file)
