@@ -205,6 +205,9 @@ UNIFORM = {"omega": "angular_velocity", "ω": "angular_velocity", "angularveloci
 LETTERS = str.maketrans("Ω₁₂₃", "ω123")
 
 
+RATES = ("rate", "angular_velocity", "speed", "damper")  # keys of angular velocities
+
+
 def bare(name: str) -> str:
     """A name in small letters, without blanks, underscores and signs."""
     return re.sub(r"[^a-z0-9ω]", "", name.lower().translate(LETTERS))
@@ -237,13 +240,34 @@ def cure_of_key(path: tuple[Any, ...], key: str, data: dict[str, Any], allowed: 
         return _rates(data)
     found = _key(table, name, allowed)
     if found:
-        return _line(found, value, "")
+        return _line(found, value, "rpm" if name == "rpm" else "")
     for suffix, unit in sorted(UNITS.items(), key=lambda pair: -len(pair[0])):
         found = _key(table, name.removesuffix(suffix),
                      allowed) if name.endswith(suffix) and name != suffix else ""
         if found:
-            return _line(found, value, unit)
+            return _line(found, value, f"{unit}/s" if found in RATES and unit in ("deg", "rad") else unit)
     return ""
+
+
+def misnamed(path: tuple[Any, ...], key: str, data: dict[str, Any], *wanted: str) -> bool:
+    """Whether a key that is not known stands for one of these, which are missing."""
+    name, table = bare(key), ".".join(p for p in path if isinstance(p, str))
+    wanted = tuple(one for one in wanted if one not in data)
+    if not wanted or key in wanted:
+        return False
+    if not table:
+        titled = isinstance(data[key], dict) or _rows(data[key])
+        return (titled and SECTIONS.get(name) in wanted and key not in SECTIONS.values()
+                or not titled and "body" in wanted and name in ("inertia", *_INERTIA))
+    if table == "body" and "inertia" in wanted and name in ENTRIES and not isinstance(data[key], (list,
+                                                                                                  dict)):
+        return True
+    if table == "limits" and (table, name) in SAY_ELSE:
+        return True
+    from difflib import get_close_matches
+    if get_close_matches(key.lower()[:60], wanted, n=1, cutoff=0.6):
+        return True
+    return cure_of_key(path, key, data, wanted).startswith(tuple(f"write {one} =" for one in wanted))
 
 
 def _key(table: str, name: str, allowed: Any) -> str:
@@ -254,11 +278,11 @@ def _key(table: str, name: str, allowed: Any) -> str:
 
 def _cure_of_table(key: str, name: str, value: Any) -> str:
     """Of a table or key at the top of a file."""
-    if isinstance(value, (dict, list)) and name in SECTIONS:
+    titled = isinstance(value, dict) or _rows(value)
+    if titled and name in SECTIONS:
         came, title = f"[[{key}]]" if _rows(value) else f"[{key}]", f"[{SECTIONS[name]}]"
         title = f"[{title}]" if SECTIONS[name] in LISTS else title
-        titled = isinstance(value, dict) or _rows(value)
-        return f"it is written in {title}: write that in place of {came}" if titled else ""
+        return f"it is written in {title}: write that in place of {came}"
     if name in EFFECTS and " " not in EFFECTS[name] and isinstance(value, dict):
         first = next(iter(value.values()), None)
         inside = (f": torque = {shown(first)}" if EFFECTS[name] == "constant_torque" and isinstance(first,
@@ -359,8 +383,12 @@ def cure_of_numbers(path: tuple[Any, ...], key: str, value: Any, count: int) -> 
     if isinstance(value, dict):
         return _of_table(key, value, count)
     if not isinstance(value, list):
-        if isinstance(value, bool) or isinstance(value, str) and type(value) is str:
-            return ""
+        axis = _axis(value) if key in ("axis", "direction", "vertical") else ""
+        if axis:
+            return f"write {key} = {axis}"
+        if isinstance(value, bool) or type(value) is str and not re.fullmatch(r"\s*[-+]?[\d.][^,;]*",
+                                                                                      value):
+            return f"write {key} = [x, y, z] with numbers" if count == 3 else ""
         if count == 2:
             return f"write {key} = [0, {shown(value)}]"
         if key == "inertia":
@@ -385,13 +413,38 @@ def cure_of_numbers(path: tuple[Any, ...], key: str, value: Any, count: int) -> 
         return f"where commas were meant as points of decimals write {key} = [{pairs}]"
     if len(flat) == 4 and count == 3 and key == "attitude":
         return ATTITUDE
+    if len(flat) == count + 1 and type(flat[-1]) is str and not re.search(r"\d", flat[-1].partition("^")[0]):
+        return f"write {key} = [{', '.join(_united(one, flat[-1]) for one in flat[:-1])}]"
     if len(flat) == 1 and count == 2:
         return f"write {key} = [0, {shown(flat[0])}]"
     if count == 2 and len(flat) > 2:
         return f"write the begin and the end alone, {key} = [{shown(flat[0])}, {shown(flat[-1])}]"
+    if key == "rate":
+        return f"write one, of the size of the rates, {key} = {shown(flat[0])}, or three" if flat else ""
     if len(flat) == 2 and count == 3:
         return f"write all three, such as {key} = [{shown(flat[0])}, {shown(flat[1])}, 0]"
     return ""
+
+
+def _axis(value: Any) -> str:
+    """The vector of an axis that is given by its letter or number."""
+    found = re.fullmatch(r"\s*([-+]?)\s*([xyzXYZ123])\s*(?:-?axis)?\s*", str(value))
+    if not found or isinstance(value, bool):
+        return ""
+    at = "xyz123".index(found[2].lower()) % 3
+    return str([(-1 if found[1] == "-" else 1) * (n == at) for n in range(3)])
+
+
+def _united(value: Any, unit: str) -> str:
+    return f'"{value} {unit}"'
+
+
+def cure_of_units(word: str) -> str:
+    """Of [output] units: "; ..." with the word that is known."""
+    known = {"degree": "deg", "degrees": "deg", "deg per s": "deg/s", "rad": "si", "rad/s": "si",
+             "radian": "si",
+             "radians": "si", "metric": "si", "rev/min": "rpm", "rps": "rev/s", "hz": "rev/s", "mks": "si"}
+    return f'; write units = "{known[word]}"' if word in known else ""
 
 
 def _of_table(key: str, value: dict[str, Any], count: int) -> str:

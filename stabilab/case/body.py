@@ -31,7 +31,8 @@ def body_of(top: Table) -> tuple[Body | None, PrincipalAxes | None]:
     table = top.table("body")
     if table is None:
         if "body" not in top:
-            top.fault("expected a table [body] with inertia (kg m^2), or [scaled] with a, b and mu")
+            top.fault("expected a table [body] with inertia (kg m^2), or [scaled] with a, b and mu",
+                      instead_of=("body",))
         return None, None
     table.known(KEYS)
     mass = table.positive("mass")
@@ -374,7 +375,7 @@ def _momentum(table: Table) -> Fraction | None:
         said = f"{halves[0]} alone is not enough: " if halves else ""
         table.fault(
             f"{said}expected momentum (N m s), or inertia (kg m^2, about the axis) and speed (rad/s, "
-            f"relative to the body)", *halves)
+            f"relative to the body)", *halves, instead_of=("momentum", "inertia", "speed"))
         return None
     if len(halves) < 2 or inertia is None or speed is None:
         return momentum

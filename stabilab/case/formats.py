@@ -47,7 +47,8 @@ def seems(text: str) -> str:
         return "a table of values (CSV)"
     pairs = sum(bool(_PAIR.match(line)) for line in lines)
     yaml = sum(bool(_YAML.fullmatch(line)) and not _PAIR.match(line) for line in lines)
-    return "YAML" if yaml and yaml > pairs and yaml >= 0.3 * len(lines) else ""
+    titles = any(line.rstrip().endswith(":") for line in lines)
+    return "YAML" if yaml > 1 - titles and yaml > pairs and yaml >= 0.3 * len(lines) else ""
 
 
 def is_42(text: str) -> bool:

@@ -20,7 +20,7 @@ from ..physics.effects.base import effect_words
 from ..physics.scene import INSIDE, Body, ScaledGyrostat, Scene
 from ..reasons import Sentence
 from ..validation import came, checked_span
-from .aliases import cure_of_key
+from .aliases import cure_of_key, cure_of_units
 from .body import (
     Limits,
     Thruster,
@@ -382,7 +382,7 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
     _judge_burns(top, burning)
     judge_orbit(top, physical.effects if physical else (), orbiting)
     if faults.problems:
-        raise CaseError(path, sorted(faults.problems, key=lambda p: p.line or 0))
+        raise CaseError(path, faults.ordered())
     return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect,
                 motion.blocks, text,
                 variant, tuple(faults.uncertain.values()), mu, motion.exact, frame if physical else None,
@@ -409,7 +409,8 @@ def _units(output: Table | None) -> str:
     wanted = output.text("units").lower()
     if wanted and wanted not in SYSTEMS:
         output.fault(
-            f"expected {', '.join(SYSTEMS)} (deg/s and min, or rad/s and s), got {described(wanted)}",
+            f"expected {', '.join(SYSTEMS)} (deg/s and min, or rad/s and s), got {described(wanted)}"
+            f"{cure_of_units(wanted)}",
             "units")
     return wanted
 
@@ -482,7 +483,7 @@ def _effects(top: Table, body: Body | None) -> list:
         if name not in REGISTRY:
             cure = cure_of_key(effects.path, name, effects.data, REGISTRY)
             hint = f"; {cure}" if cure else did_you_mean(name, REGISTRY)
-            known = f" Known effects: {', '.join(REGISTRY)}" if cure or "did you mean" in hint else ""
+            known = f" Known effects: {', '.join(REGISTRY)}" if "did you mean" in hint else ""
             effects.fault(f"unknown effect{hint}{known}", name)
             continue
         table = effects.table(name)
@@ -531,7 +532,8 @@ def _motion(top: Table) -> _Motion:
     states, spans = {k: table.vector(k) for k in STATES}, {k: table.numbers(k, 2) for k in SPANS}
     state, span = states.get(state_key), spans.get(span_key)
     if span and not float(span[0]) < float(span[1]):
-        table.fault(f"expected two increasing numbers, got {float(span[0])!r} and {float(span[1])!r}",
+        table.fault(f"expected two increasing numbers, got {float(span[0])!r} and {float(span[1])!r}: write "
+                    "the start of the motion first, such as [0, 100]",
                     span_key)
         span = None
     if "scaled" in top:

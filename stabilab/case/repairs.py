@@ -13,6 +13,7 @@ LONGEST = 200  # letters of a line that is repaired, and of one that is shown
 TRUTHS = dict.fromkeys(("yes", "on", "true", "y", "t"), "true") | dict.fromkeys(("no", "off", "false", "n",
                                                                                  "f"),
                                                                          "false")
+MAKERS = ("diag", "vector", "vec", "vec3", "vector3", "array", "list", "tuple")  # of lists, elsewhere
 NOTHING = ("none", "null", "nil", "undefined", "~", "n/a", "tbd")
 DECLARED = ("let", "const", "var", "double", "float", "int", "set", "auto", "local", "real")
 PRINT = {"\u201c": '"', "\u201d": '"', "\u201e": '"', "\u00ab": '"', "\u00bb": '"', "\u2018": "'",
@@ -56,15 +57,27 @@ def repair(text: str, line: int) -> Repair | None:
     number = min(line, len(lines))
     first = next((n for n in range(number, max(number - 40, 0), -1)
                   if _opens(lines[n - 1]) and not _closed(lines[n - 1:number])), number)
-    for at in dict.fromkeys((number, first)):
-        if at < 1 or len(lines[at - 1]) > LONGEST:
+    before = range(max(number - 400, 1), number)  # a quote that is not closed is missed far below it
+    for at in dict.fromkeys((first, number, *before)):
+        if at < 1:
             continue
-        found = _line(lines[at - 1])
+        whole = _whole(lines, at) if at == first else lines[at - 1]
+        found = _line(whole) if len(whole) <= LONGEST else None
         if found:
             key, write, why = found
-            return Repair(at, ".".join(part for part in (_table(lines[:at - 1]), key) if part),
-                          lines[at - 1].strip(), write, why)
+            titled = write.startswith("[") and not key
+            table = write.strip("[]") if titled else "" if write.startswith("#") else _table(lines[:at - 1])
+            return Repair(at, ".".join(part for part in (table, key) if part), whole.strip(), write, why)
     return None
+
+
+def _whole(lines: list[str], at: int) -> str:
+    """The line, with those that follow until its brackets are closed, where they are."""
+    for end in range(at, min(at + 12, len(lines)) + 1):
+        if _closed(lines[at - 1:end]):
+            rows = [re.sub(r"\s+#.*", "", line).strip() for line in lines[at - 1:end]]
+            return lines[at - 1] if end == at else " ".join(rows)
+    return lines[at - 1]
 
 
 def _table(lines: list[str]) -> str:
@@ -148,6 +161,9 @@ def _statement(line: str, reasons: list[str]) -> tuple[str, str] | None:
     value, comment = _comment(value, reasons)
     if not value:
         raise _Hopeless(f"the value of {key} is missing")
+    if key == "stuck" and not _taken(value) and value.lower() not in TRUTHS:
+        reasons.append("it is true or false")
+        return key, f"{key} = true{comment}"
     two = _NEXT.fullmatch(value)
     if two and not re.search(r"[\[{(\"']", two["first"]):
         reasons.append("one key a line")
@@ -159,7 +175,11 @@ def _statement(line: str, reasons: list[str]) -> tuple[str, str] | None:
 def _without_mark(line: str, reasons: list[str]) -> tuple[str, str] | None:
     found = re.fullmatch(r"\s*([A-Za-z_]\w*)\s+([\[\"'\d.+-].*)", line)
     if not found:
-        return None
+        alone = re.fullmatch(r"\s*([A-Za-z_]\w*)\s*", line)
+        if alone and alone[1] != "stuck":
+            raise _Hopeless(f"the value of {alone[1]} is missing, or the brackets of a title")
+        reasons.append("a key has a value")
+        return ("stuck", "stuck = true") if alone else None
     reasons.append("a key and its value are joined by =")
     value, comment = _comment(found[2], reasons)
     return found[1], f"{named(found[1])} = {_value(value, reasons)}{comment}"
@@ -221,10 +241,17 @@ def _value(value: str, reasons: list[str]) -> str:
     if value.endswith(",") and value[:-1].strip() and _balance(value) <= 0:
         reasons.append("no comma stands at the end")
         value = value[:-1].rstrip()
-    called = re.fullmatch(r"[A-Za-z_][\w.]*\(\s*([\[(].*[\])])\s*\)", value)
-    if called:
+    called = re.fullmatch(r"(?:[A-Za-z_]\w*\.)*([A-Za-z_]\w*)\(\s*(.*?)\s*\)", value)
+    if called and (called[2][:1] in ("[", "(") or called[1].lower() in MAKERS):
         reasons.append("a list stands in square brackets alone")
-        value = called[1]
+        value = called[2] if called[2][:1] in ("[", "(") else f"[{called[2]}]"
+    elif called and called[1] == "dict":
+        reasons.append("a table stands in braces, or below its title in square brackets")
+        value = f"{{{called[2]}}}"
+    numbers = re.split(r"\s*[,;]\s*", value)
+    if len(numbers) > 1 and all(_QUANTITY.fullmatch(one) for one in numbers) and not _COMMA.fullmatch(value):
+        reasons.append("a list stands in square brackets")
+        value = f"[{', '.join(numbers)}]"
     value, behind = _behind(value)
     if behind:
         return _each(value, behind, reasons)
@@ -283,6 +310,8 @@ def _list(value: str, reasons: list[str]) -> str:
     elif value[-1] in "])":
         reasons.append("the bracket at its beginning is missing")
         inner = value[:-1]
+    if re.search(r",\s*,", inner):
+        reasons.append("one comma parts two numbers")
     if inner == value:
         return _scalar(value, reasons)
     while _balance(inner) < 0 and inner.rstrip()[-1:] in ("]", ")"):
@@ -309,6 +338,9 @@ def _split(inner: str, reasons: list[str]) -> list[str]:
                 and any(re.fullmatch(r"0\d+", one) for one in digits[1::2])):
             reasons.append("decimals stand behind a point")
             return [f"{a}.{b}" for a, b in zip(digits[::2], digits[1::2])]
+        if ";" in inner and re.search(r"[\d.][,\s]\s*[-+\d.]", inner):
+            reasons.append("every row has brackets of its own")
+            return [f"[{row}]" for row in re.split(r"\s*;\s*", inner.strip(" ;")) if row]
         if ";" in inner:
             reasons.append("commas part the numbers of a list")
             return [one for one in re.split(r"\s*;\s*", inner.strip(" ;")) if one]
@@ -345,6 +377,11 @@ def _scalar(value: str, reasons: list[str]) -> str:
     if bare != value:
         reasons.append("a text begins and ends with the same quote")
         return f'"{_unquoted(bare)}"'
+    if re.fullmatch(r"[-+]?[xyzXYZ]", value):
+        reasons.append("a direction is three numbers")
+        return str([(-1 if value[0] == "-" else 1) * (c == value[-1].lower()) for c in "xyz"])
+    if value[:1] in tuple("{[(<\\") or value[-1:] in tuple("]})"):
+        raise _Hopeless("brackets that do not fit each other")
     lower = value.lower()
     if lower in TRUTHS:
         reasons.append("truth values are true and false, in small letters")
@@ -365,6 +402,10 @@ def _scalar(value: str, reasons: list[str]) -> str:
     if thousands:
         reasons.append("digits stand side by side")
         return re.sub(r"[ ']", "", value)
+    ends = re.fullmatch(rf"({_NUMBER})\s*(?::|\.\.\.?)\s*({_NUMBER})", value)
+    if ends:
+        reasons.append("a list stands in square brackets")
+        return f"[{ends[1]}, {ends[2]}]"
     percent = re.fullmatch(rf"({_NUMBER})\s*%", value)
     if _QUANTITY.fullmatch(value) or percent:
         reasons.append("a number with its unit stands in quotes" if not re.search(r"±|\+/?-", value)

@@ -9,6 +9,7 @@ import tomllib
 from itertools import product
 
 from ..errors import CaseError, InputError, Problem, printable
+from .aliases import LISTS
 from .formats import BY_HAND, READ, seems
 from .lines import KeyLines, key_lines
 from .repairs import repair
@@ -94,6 +95,7 @@ def command_of(name: str) -> str:
 def parsed(path, text: str) -> tuple[dict, Faults]:
     """The TOML data and an empty list of faults that knows the lines. Raises CaseError where the text is not
     TOML."""
+    text = text.removeprefix("\ufeff")
     lines = key_lines(text)
     try:
         if lines.too_deep:
@@ -115,9 +117,14 @@ def _syntax_problems(message: str, text: str, lines: KeyLines) -> list[Problem]:
     line = int(place[1]) if place and place[1] else text.count("\n") + 1 if place else None
     message = message[:place.start() if place else None][:200]
     if message.startswith(("Cannot", "Duplicate")) and lines.again:
-        return [Problem(dotted(key), f"written a second time; the first is in line {lines.line[key]}", again)
+        return [Problem(dotted(key), f"written a second time; the first is in line {lines.line[key]}"
+                                     f"{_double(key)}", again)
                 for key, again in lines.again.items()]
     return [_not_toml(message, text, line)]
+
+
+def _double(key: tuple) -> str:
+    return f"; write [[{key[0]}]], in double brackets, above each of them" if key[0] in LISTS else ""
 
 
 def _not_toml(message: str, text: str, line: int | None) -> Problem:

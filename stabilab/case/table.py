@@ -8,6 +8,7 @@ classify`."""
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from datetime import date, time
 from fractions import Fraction
 from typing import NamedTuple
@@ -18,7 +19,15 @@ from ..numbers.exact import exact
 from ..numbers.miswritten import typed
 from ..numbers.units import NONE, Dimension, dimension_of, in_dimension, quantity, split, unit_of_key
 from ..numbers.vectors import Exact3
-from .aliases import cure_of_key, cure_of_number, cure_of_numbers, cure_of_title, cure_of_truth, shown
+from .aliases import (
+    cure_of_key,
+    cure_of_number,
+    cure_of_numbers,
+    cure_of_title,
+    cure_of_truth,
+    misnamed,
+    shown,
+)
 from .lines import KeyLines
 
 # --- Uncertain numbers as a case file writes them: "2000 +- 20", "12.0 +- 3 %", "12 +- 0.5 N"
@@ -122,11 +131,22 @@ class Faults:
         self.problems: list[Problem] = []
         self.uncertain: dict[tuple, Uncertain] = {}
         self.inexact: set[tuple] = set()
+        self.unknown: set[tuple] = set()
+        self.missing: dict[Problem, set[tuple]] = {}
 
-    def add(self, path: tuple, message: str):
+    def add(self, path: tuple, message: str, unless: Iterable[tuple] = ()):
+        """unless: paths of keys that may be meant by what this fault misses; where one of these is a fault as
+        an unknown key, that one says it all."""
         source = next((there for here, there in self.moved.items() if path[:len(here)] == here), path)
         note = message if source is path else f"{message} (a value of [sweep])"
         self.problems.append(Problem(dotted(path), note, self.lines.of(source)))
+        if unless:
+            self.missing[self.problems[-1]] = set(unless)
+
+    def ordered(self) -> list[Problem]:
+        """All that is to be said, in the order of the file."""
+        return sorted((one for one in self.problems if not self.missing.get(one, set()) & self.unknown),
+                      key=lambda problem: problem.line or 0)
 
 
 class Table:
@@ -139,15 +159,23 @@ class Table:
     def __contains__(self, key: str) -> bool:
         return key in self.data
 
-    def fault(self, message: str, *keys):
-        """Note a fault of this table, or of the key (and list index) below it."""
-        self.faults.add(self.path + keys, message)
+    def fault(self, message: str, *keys, instead_of: tuple[str, ...] = ()):
+        """Note a fault of this table, or of the key (and list index) below it. instead_of: keys that it
+        misses, for which another name may stand in the table."""
+        meant = [self.path + (key,) for key in self.data if misnamed(self.path, key, self.data, *instead_of)
+                 ] if instead_of else []
+        self.faults.add(self.path + keys, message, meant)
 
     def known(self, allowed, what: str = "key"):
         """Note every key that is not in `allowed`."""
+        said: set[str] = set()
         for key in self.data:
             if key not in allowed:
                 cure = cure_of_key(self.path, key, self.data, allowed)
+                if cure in said:  # of several keys that are one here, such as Ixx, Iyy, Izz
+                    continue
+                said |= {cure} if cure else set()
+                self.faults.unknown.add(self.path + (key,))
                 self.fault(f"unknown {what}{_then(cure) or did_you_mean(key, allowed)}", key)
 
     def one_of(self, *keys: str) -> str | None:
@@ -229,7 +257,9 @@ class Table:
             cure = cure_of_numbers(self.path, key, value, count)
             self.fault(f"expected {words} numbers, got {_counted(value)}{_then(cure)}", key)
             return None
-        read = [self._exact(item, key, index) for index, item in enumerate(value)]
+        cure = (cure_of_numbers(self.path, key, value, count)
+                if any(isinstance(item, list) for item in value) else "")
+        read = [self._exact(item, key, index, cure=cure) for index, item in enumerate(value)]
         return None if None in read else tuple(read)
 
     def matrix(self, key: str) -> tuple[tuple[Fraction, ...], ...] | None:
@@ -252,7 +282,8 @@ class Table:
         missing = [key for key in keys if key not in self.data]
         for key in missing:
             unit = unit_of_key(self.path + (key,))
-            self.fault(f"{key} is missing: {cures.get(key) or ('add it, in ' + unit if unit else 'add it')}")
+            self.fault(f"{key} is missing: {cures.get(key) or ('add it, in ' + unit if unit else 'add it')}",
+                       instead_of=(key,))
         return not missing
 
     def _exact(self, value, *keys, cure: str = "") -> Fraction | None:
@@ -349,7 +380,8 @@ def _in_brackets(value, count: int) -> str:
     if not isinstance(value, str) or isinstance(value, Written) or len(value) > 200:
         return ""
     parts = [re.fullmatch(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\d\s].*)?", part.strip())
-             for part in value.strip("()[] ").split(",")]
+             for part in re.split(r"[,;]" if re.search("[,;]", value) else r"\s+(?=[-+.\d])",
+                                  re.sub(r"[()\[\]{}]", " ", value).strip())]
     if None in parts or len(parts) != count and (len(parts), count) != (1, 2):
         return ""
     units = [part[2] for part in parts]

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 from ..errors import InputError
 from .exact import exact, exact_vector, half_unit, precise
-from .miswritten import INSTEAD, instead, meant, typed
+from .miswritten import INSTEAD, SUPERS, instead, meant, typed
 from .vectors import Exact3
 
 Dimension: TypeAlias = tuple[int, ...]  # exponents of m, kg, s, A, rad
@@ -115,8 +115,7 @@ DIMENSIONS: dict[str, Dimension] = {
 
 # compiled where a unit is read
 _NUMBER = r"(?as)\s*([+-]?(?:\d[\d_]*(?:\.[\d_]*)?|\.\d[\d_]*)(?:[eE][+-]?\d+)?(?:\s*/\s*\d+)?)\s*(.*)"
-_FACTOR = re.compile(r"\s*([*·/.\-]|)\s*(1|[A-Za-zµμ°]+)(?:(?:\^|\*\*)?([+-]?\d{1,2})|([²³]))?\s*")
-_SUPER = {"²": 2, "³": 3}
+_FACTOR = re.compile(r"\s*([*·/.\-]|)\s*(1|[A-Za-zµμ°]+)(?:\^|\*\*)?([+-]?\d{1,2})?\s*")
 # a mass and a length written as one word: squared it is a moment of inertia, kgm2, and nothing else
 _GLUED = re.compile(r"(kg|g|t|slug|lb)(m|cm|mm|in|ft)")
 
@@ -138,7 +137,10 @@ def quantity(text: str, wanted: Dimension) -> tuple[Fraction, bool]:
     value = exact(parts[0])
     try:
         unit = in_dimension(parts[1], wanted, text)
-    except UnknownUnit as error:
+    except InputError as error:
+        if not isinstance(error, UnknownUnit):
+            parts_of_time = re.search(r"\d\s*[a-z]+\s*\d+\s*[a-z]", text) and instead(text, False)
+            raise InputError(f"{error}; {parts_of_time}" if parts_of_time else str(error)) from None
         cure = instead(text, wanted == NONE)
         if cure:
             also = "" if wanted == NONE else ", alone or with a unit"
@@ -199,6 +201,7 @@ def unit_of(words: str) -> Unit:
     """The unit that a product of units makes. Raises InputError for a word that is none, with those that are
     accepted."""
     words = re.sub(r"\bper\b", "/", typed(words))
+    words = re.sub("[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+", lambda power: f"^{power[0].translate(SUPERS)}", words)
     size, is_exact, at, divided = Fraction(1), True, 0, False
     dimension: Dimension = NONE
     while at < len(words):
@@ -209,7 +212,7 @@ def unit_of(words: str) -> Unit:
             raise InputError(
                 f'"{words[:60]}" divides twice: write what is divided by in powers, such as m s^-2')
         divided = divided or found[1] == "/"
-        power = int(found[3] or _SUPER.get(found[4], 1)) * (-1 if divided else 1)
+        power = int(found[3] or 1) * (-1 if divided else 1)
         glued = _GLUED.fullmatch(found[2]) if abs(power) == 2 else None
         for word, times in ((glued[1], power // 2), (glued[2], power)) if glued else ((found[2], power),):
             one = _single(word, words)
