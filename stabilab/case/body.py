@@ -2,16 +2,19 @@
 against the principal axes."""
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from ..errors import InputError
+from ..errors import Caveat, InputError, Kind
 from ..numbers.exact import exact, floats, half_unit, sqrt_fraction
 from ..numbers.principal import IDENTITY, PrincipalAxes, evened, fault_of, principal_axes
 from ..numbers.units import FORCE, INERTIA, half_digit, pi
 from ..numbers.vectors import Exact3, cross, dot
 from ..physics.effects import effect_class
 from ..physics.scene import INSIDE, ROUNDING, Body, along_principal_axes, slack_of
+from ..reasons import Length, Sentence
 from . import sections
 from .aliases import shown
 from .table import Faults, Table, Written, described, plus_minus, states_uncertainty
@@ -212,6 +215,27 @@ def wheels_of(top: Table) -> tuple[Wheel, ...]:
     found = [_wheel(table, f"wheel {i}") for i, table in enumerate(tables, 1)]
     _told_apart(tables, "wheels", WHEEL)
     return tuple(one for one in found if one)
+
+
+_APART = ("the radius of gyration is {radius} and the farthest thruster stands {reach} from the centre of mass, "
+          "beyond all reason for one craft: ")
+WIDE = Sentence("size-beyond-thrusters",
+                _APART + "is the tensor in kg mm^2 or another unit that the file leaves out")
+FAR = Sentence("thrusters-beyond-size",
+               _APART + "is the position in mm, or the tensor in another unit that the file leaves out")
+FARTHEST = 50  # times: a twentieth of the mass in booms that reach so far makes them 390 times as long
+
+
+def far_off(body: Body | None, thrusters: Iterable[Thruster]) -> tuple[Caveat, ...]:
+    """That the thrusters and the mass do not belong to one craft: of moments I a thruster with its mount at
+    the distance d has at most I/(m d^2) of the mass, and a radius of gyration is no larger than the craft."""
+    reach = max((math.sqrt(float(dot(one.arm, one.arm))) for one in thrusters), default=0.0)
+    if body is None or body.gyration is None or not reach or any(one.kind is Kind.SIZE for one in body.caveats):
+        return ()
+    sizes = {"radius": Length(body.gyration, digits=4), "reach": Length(reach, digits=4)}
+    if body.gyration > FARTHEST * reach:
+        return (Caveat(Kind.SIZE, WIDE(**sizes)),)
+    return (Caveat(Kind.SIZE, FAR(**sizes)),) if reach > FARTHEST * body.gyration else ()
 
 
 def limits_of(top: Table) -> Limits | None:

@@ -28,6 +28,7 @@ from .body import (
     added,
     body_of,
     centre_of_mass,
+    far_off,
     judge_limits,
     judge_oblique,
     limits_of,
@@ -53,7 +54,8 @@ from .table import Faults, Table, Uncertain, described, did_you_mean, dotted, ex
 from .write import data_of_scene, plain, text_of
 
 # --- A case file: a body, its effects and one motion, read from TOML; every fault with file, line and key
-TABLES = ("title", "source", "body", "effects", "thrusters", "wheels", "limits", "circular_orbit", "scaled",
+TABLES = ("title", "source", "caveats", "body", "effects", "thrusters", "wheels", "limits", "circular_orbit",
+          "scaled",
           "motion", "output", "expect", "sweep")
 SYSTEMS = ("deg", "deg/day", "rpm", "rev/s", "si")  # of units in which text is printed
 STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
@@ -63,6 +65,7 @@ BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "
 UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector and stays as it is
 MIDDLES = Caveat(Kind.UNCERTAIN, Sentence(
     "of-the-middles", "of the middles of the uncertain numbers; stabilab fate says what their box does")())
+STATED = Sentence("stated-by-the-file", "{words}")
 SILENT = Sentence("no-thruster-fires",
                   "no thruster fires: stuck = true in a table [[thrusters]] makes one act for ever "
                   "({thrusters})")
@@ -366,7 +369,7 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
     top = Table((), data, faults)
     top.known(TABLES, "table or key")
     swept(top)  # notes the faults of [sweep]
-    title, source = top.text("title"), top.text("source")
+    title, source, stated = top.text("title"), top.text("source"), top.texts("caveats")
     craft = _craft(top)
     physical, mu, frame = _physical(top, craft)
     scaled = _scaled(top)
@@ -389,7 +392,9 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
                 craft.thrusters, craft.wheels,
                 craft.limits, tuple(dict.fromkeys(map(dotted, sorted(faults.inexact, key=str)))), craft.notes,
                 units,
-                caveats=(*(physical.body.caveats if physical else ()),
+                caveats=(*(Caveat(Kind.STATED, STATED(words=words)) for words in stated),
+                         *(physical.body.caveats if physical else ()),
+                         *(far_off(physical.body, craft.thrusters) if physical else ()),
                          *(one for effect in scene.effects for one in effect.caveats),
                          *_silent(craft.thrusters), *([MIDDLES] if faults.uncertain else [])))
 

@@ -225,6 +225,13 @@ class Table:
             self.fault(f"character U+{ord(strange):04X} cannot be shown: remove it", key)
         return value
 
+    def texts(self, key: str) -> list[str]:
+        """A list of texts, or one; those without a fault."""
+        value = self.data.get(key, [])
+        listed = value if isinstance(value, list) else [value]
+        tables = [Table(self.path, {key: one}, self.faults) for one in listed]
+        return [words for table in tables if (words := table.text(key))]
+
     def number(self, key: str) -> Fraction | None:
         """One exact number."""
         if key not in self.data:

@@ -302,3 +302,18 @@ def test_the_line_that_is_offered_makes_the_case_that_was_meant(old, new, line):
     assert read_text("my.toml", "\n".join(rows)).scene.body.mass
     if offered in BASE.split("\n"):
         assert "\n".join(rows).replace("# kg\n", "") == BASE
+
+
+@pytest.mark.parametrize("option, text, words", [
+    ("--component", "y = 0 deg/s", 'when(events=["omega2"], until="10 min")'),
+    ("--component", "y = -3 deg/s", 'write "y = 3 deg/s"'), ("--rate", "-6 deg/s", 'write "6 deg/s"'),
+    ("--component", "x 30 deg/s", 'write "x = 30 deg/s"'), ("--component", "|wz| < 3 deg/s",
+                                                            'write "z = 3 deg/s"'),
+    ("--component", "30 deg/s", 'write "x = 30 deg/s" or "y = 30 deg/s" or "z = 30 deg/s"'),
+    ("--tilt", "20deg", 'as in "z = 20 deg"'), ("--rate", "10 deg",
+                                                "an angular velocity is in deg/s or rad/s"),
+    ("--rate", "10,5 deg/s", 'write "10.5 deg/s"'), ("--until", "10 m", "min is a minute")])
+def test_a_limit_on_the_command_line_that_is_none_names_what_to_write(stabilab, case_file, option, text,
+                                                                      words):
+    code, out, err = stabilab("when", case_file(BASE, "my"), option, text)
+    assert code == 2 and not out and err.startswith(f"{option}: ") and words in err
