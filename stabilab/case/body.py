@@ -217,8 +217,8 @@ def wheels_of(top: Table) -> tuple[Wheel, ...]:
     return tuple(one for one in found if one)
 
 
-_APART = ("the radius of gyration is {radius} and the farthest thruster stands {reach} from the centre of mass, "
-          "beyond all reason for one craft: ")
+_APART = ("the radius of gyration is {radius} and the farthest thruster stands {reach} from the centre of "
+          "mass, beyond all reason for one craft: ")
 WIDE = Sentence("size-beyond-thrusters",
                 _APART + "is the tensor in kg mm^2 or another unit that the file leaves out")
 FAR = Sentence("thrusters-beyond-size",
@@ -230,7 +230,8 @@ def far_off(body: Body | None, thrusters: Iterable[Thruster]) -> tuple[Caveat, .
     """That the thrusters and the mass do not belong to one craft: of moments I a thruster with its mount at
     the distance d has at most I/(m d^2) of the mass, and a radius of gyration is no larger than the craft."""
     reach = max((math.sqrt(float(dot(one.arm, one.arm))) for one in thrusters), default=0.0)
-    if body is None or body.gyration is None or not reach or any(one.kind is Kind.SIZE for one in body.caveats):
+    if (body is None or body.gyration is None or not reach
+            or any(one.kind is Kind.SIZE for one in body.caveats)):
         return ()
     sizes = {"radius": Length(body.gyration, digits=4), "reach": Length(reach, digits=4)}
     if body.gyration > FARTHEST * reach:

@@ -33,13 +33,13 @@ if TYPE_CHECKING:
 
 # --- The rigid body: three principal moments of inertia
 TOO_THIN = Sentence("size-too-thin",
-                    "the radius of gyration is {radius} beside a mass of {mass}, beyond all reason: less than 1 g "
-                    "to a cubic metre of that size; is the tensor in kg mm^2 or another unit that the file leaves "
-                    "out")
+                    "the radius of gyration is {radius} beside a mass of {mass}, beyond all reason: less "
+                    "than 1 g to a cubic metre of that size; is the tensor in kg mm^2 or another unit that "
+                    "the file leaves out")
 TOO_DENSE = Sentence("size-too-dense",
-                     "the radius of gyration is {radius} beside a mass of {mass}, beyond all reason: matter so "
-                     "dense there is none (a ball of osmium has a trace of the tensor of {trace}); is the mass in "
-                     "g, or the tensor in another unit that the file leaves out")
+                     "the radius of gyration is {radius} beside a mass of {mass}, beyond all reason: matter "
+                     "so dense there is none (a ball of osmium has a trace of the tensor of {trace}); is the "
+                     "mass in g, or the tensor in another unit that the file leaves out")
 NO_BODY = Sentence("no-body-has-this-tensor",
                    "no rigid body has this tensor: the largest principal moment, {largest}, exceeds the sum "
                    "of the other two, {others}, by {excess} ({percent} % of it); Euler's equations are "
