@@ -1,8 +1,8 @@
 """Errors of a user with the exit codes that announce them, and the caveats of an answer.
 
 Caveats are what limits an answer: a tilt that it leaves out, a limit that comes first, a law that does not
-hold, a tensor that no rigid body has, samples in place of a proof, numbers that are the middles of
-uncertain ones, what a burn or a motor takes for granted.
+hold, a tensor that no rigid body has, a size beyond all reason, what a file says of itself, samples in place
+of a proof, numbers that are the middles of uncertain ones, what a burn or a motor takes for granted.
 
 A caveat belongs to the answer: every view of it (text, JSON, CSV, sweep, map, page, explorer) shows its
 words."""
@@ -23,6 +23,8 @@ class Kind(StrEnum):
     LIMIT = "limit"
     LAW = "law"
     UNPHYSICAL = "unphysical"
+    SIZE = "size"
+    STATED = "stated"
     SAMPLES = "samples"
     UNCERTAIN = "uncertain"
     BURN = "burn"

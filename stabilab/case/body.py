@@ -2,17 +2,21 @@
 against the principal axes."""
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from ..errors import InputError
+from ..errors import Caveat, InputError, Kind
 from ..numbers.exact import exact, floats, half_unit, sqrt_fraction
 from ..numbers.principal import IDENTITY, PrincipalAxes, evened, fault_of, principal_axes
 from ..numbers.units import FORCE, INERTIA, half_digit, pi
 from ..numbers.vectors import Exact3, cross, dot
 from ..physics.effects import effect_class
 from ..physics.scene import INSIDE, ROUNDING, Body, along_principal_axes, slack_of
+from ..reasons import Length, Sentence
 from . import sections
+from .aliases import shown
 from .table import Faults, Table, Written, described, plus_minus, states_uncertainty
 
 # --- [body] of a case file: moments, a full tensor, or moments beside products of inertia; mass and centre
@@ -30,7 +34,8 @@ def body_of(top: Table) -> tuple[Body | None, PrincipalAxes | None]:
     table = top.table("body")
     if table is None:
         if "body" not in top:
-            top.fault("expected a table [body] with inertia (kg m^2), or [scaled] with a, b and mu")
+            top.fault("expected a table [body] with inertia (kg m^2), or [scaled] with a, b and mu",
+                      instead_of=("body",))
         return None, None
     table.known(KEYS)
     mass = table.positive("mass")
@@ -212,6 +217,28 @@ def wheels_of(top: Table) -> tuple[Wheel, ...]:
     return tuple(one for one in found if one)
 
 
+_APART = ("the radius of gyration is {radius} and the farthest thruster stands {reach} from the centre of "
+          "mass, beyond all reason for one craft: ")
+WIDE = Sentence("size-beyond-thrusters",
+                _APART + "is the tensor in kg mm^2 or another unit that the file leaves out")
+FAR = Sentence("thrusters-beyond-size",
+               _APART + "is the position in mm, or the tensor in another unit that the file leaves out")
+FARTHEST = 50  # times: a twentieth of the mass in booms that reach so far makes them 390 times as long
+
+
+def far_off(body: Body | None, thrusters: Iterable[Thruster]) -> tuple[Caveat, ...]:
+    """That the thrusters and the mass do not belong to one craft: of moments I a thruster with its mount at
+    the distance d has at most I/(m d^2) of the mass, and a radius of gyration is no larger than the craft."""
+    reach = max((math.sqrt(float(dot(one.arm, one.arm))) for one in thrusters), default=0.0)
+    if (body is None or body.gyration is None or not reach
+            or any(one.kind is Kind.SIZE for one in body.caveats)):
+        return ()
+    sizes = {"radius": Length(body.gyration, digits=4), "reach": Length(reach, digits=4)}
+    if body.gyration > FARTHEST * reach:
+        return (Caveat(Kind.SIZE, WIDE(**sizes)),)
+    return (Caveat(Kind.SIZE, FAR(**sizes)),) if reach > FARTHEST * body.gyration else ()
+
+
 def limits_of(top: Table) -> Limits | None:
     """The table [limits] of a case file; None where there is none."""
     table = top.table("limits")
@@ -236,21 +263,24 @@ def judge_limits(top: Table, limits: Limits | None, state: Exact3 | None):
     """Note a limit that the motion has passed before it starts. state: rad/s, input frame."""
     if limits is None or state is None:
         return
+    given = top.data["motion"]["angular_velocity"]
+    plain = [shown(value) for value in given if not isinstance(value, str) or isinstance(value, Written)]
+    hint = (f'; a number alone is in rad/s, of degrees write "{plain[0]} deg/s"' if plain else "")
     table, degrees = Table(("limits",), top.data["limits"], top.faults), 180 / pi()
     if limits.rate is not None and dot(state, state) > limits.rate**2:
-        _too_low(table, "", limits.rate, sqrt_fraction(dot(state, state)), degrees, "rate")
+        _too_low(table, "", limits.rate, sqrt_fraction(dot(state, state)), degrees, hint, "rate")
     for index, (most, now) in enumerate(zip(limits.rates or (), state)):
         if abs(now) > most:
-            _too_low(table, f"number {index + 1}: ", most, abs(now), degrees, "rate", index)
+            _too_low(table, f"number {index + 1}: ", most, abs(now), degrees, hint, "rate", index)
 
 
-def _too_low(table: Table, which: str, limit, now, degrees, *place):
+def _too_low(table: Table, which: str, limit, now, degrees, hint: str, *place):
     digits = 6 if f"{float(limit):.6g}" != f"{float(now):.6g}" else 17
     told = [f"{float(rate):.{digits}g} rad/s ({float(rate * degrees):.{digits}g} deg/s)"
             for rate in (limit, now)]
     table.fault(
         f"{which}the limit, {told[0]}, is below the rate that the motion starts with, {told[1]}: raise it or "
-        f"start slower", *place)
+        f"start slower{hint}", *place)
 
 
 def _told_apart(tables: list[Table], key: str, allowed):
@@ -370,7 +400,7 @@ def _momentum(table: Table) -> Fraction | None:
         said = f"{halves[0]} alone is not enough: " if halves else ""
         table.fault(
             f"{said}expected momentum (N m s), or inertia (kg m^2, about the axis) and speed (rad/s, "
-            f"relative to the body)", *halves)
+            f"relative to the body)", *halves, instead_of=("momentum", "inertia", "speed"))
         return None
     if len(halves) < 2 or inertia is None or speed is None:
         return momentum

@@ -24,6 +24,7 @@ import numpy as np
 from ..errors import InputError
 from ..numbers.exact import precise
 from .imported import Craft
+from .orbit_42 import Unknown, add_orbit, from_quaternion
 
 # Matrices (3, 3) and vectors (3,) are arrays of Fractions: products of these are exact.
 ONE = np.array([[Fraction(i == j) for j in range(3)] for i in range(3)])
@@ -117,7 +118,9 @@ _TITLE = re.compile(r"\s*([*=<]{3,})\s*(.*?)\s*[*=>]*\s*")
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 USED = {"mass", "moments of inertia", "products of inertia", "location of mass center",
         "constant embedded momentum", "initial momentum",
-        "wheel axis", "thrust force", "thrust axis", "ang vel (", "description", "label", "body"}
+        "wheel axis", "thrust force", "thrust axis", "ang vel ", "quaternion", "angles (", "description",
+        "label",
+        "body"}
 PLACED = {"inner, outer", "rotdof, seq", "trndof, seq", "initial angles", "initial displacements", "bi to gi",
           "go to bo", "position wrt"}
 WORDS = {1: "a number", 2: "two numbers", 3: "three numbers", 4: "three angles and a sequence"}
@@ -129,11 +132,6 @@ class Entry(NamedTuple):
     value: str
     label: str
     line: int
-
-
-def is_one(text: str) -> bool:
-    """Whether a text is such a file."""
-    return "42:" in text[:200] and "!" in text
 
 
 def spacecraft(text: str, path, body: int | None = None) -> Craft:
@@ -167,7 +165,8 @@ def spacecraft(text: str, path, body: int | None = None) -> Craft:
         on = _on(rows, len(bodies), path)
         if whole or on == (body or 0):
             _thruster(craft, block, rows, where[on] if whole else None, path)
-    craft.omitted += _warnings(entries) + _left(entries)
+    _relative(craft, entries, where[body or 0], path)
+    craft.omitted += _left(entries)
     return craft
 
 
@@ -371,14 +370,25 @@ def _acting(vector):
     return vector if vector and any(float(v) for v in vector) else None
 
 
-def _warnings(entries) -> list[str]:
-    notes = []
-    frame = _value(entries, "", "ang vel wrt")
-    if frame and not frame.upper().startswith("N"):
-        notes.append(
-            "the angular velocity is relative to the orbit frame (Ang Vel wrt L): it is taken as relative to "
+def _relative(craft: Craft, entries, place, path) -> None:
+    """Rates relative to the orbit frame as those relative to inertial space; where these are not known the
+    craft has no motion and every answer says why. place: of the body of the case, from body 0."""
+    frames = (_value(entries, "", "ang vel wrt") or "").strip().upper()
+    if not craft.rate or not frames or frames.startswith("N"):
+        return
+    try:
+        if len(frames) < 3 or frames[2] != "L":
+            raise Unknown(f"its attitude is not relative to the orbit frame ({frames})")
+        attitude = (from_quaternion(_numbers(entries, "quaternion", 4, path) or ("0", "0", "0", "1"))
+                    if frames[1] == "Q" else _static(entries, "angles", path))
+        add_orbit(craft, path, place[0] @ attitude)
+    except Unknown as error:
+        craft.caveats.append(
+            f"no motion: the imported file gives an angular velocity of [{', '.join(craft.rate)}] deg/s "
+            "relative "
+            f"to the orbit frame (Ang Vel wrt L), and {error}; write [motion] angular_velocity relative to "
             "inertial space")
-    return notes
+        craft.rate = None
 
 
 def _left(entries) -> list[str]:

@@ -7,23 +7,22 @@ from __future__ import annotations
 
 import ast
 import json
+import re
 from decimal import Decimal
+from typing import Any
 
 from ..errors import InputError
+from .formats import BY_HAND, READ, seems
 from .imported import Craft
 
 HUB = {"mass": ("mHub", "mass"), "centre": ("r_BcB_B",), "inertia": ("IHubPntBc_B", "inertia"),
-       "rate": ("omega_BN_BInit", "omega_BN_B")}
+       "rate": ("omega_BN_BInit", "omega_BN_B", "angular_velocity", "omega")}
 THRUSTERS = ("thrusters", "thruster", "thrs")
 WHEELS = ("reactionWheels", "reaction_wheels", "wheels", "RWs", "rws", "RW")
 THRUSTER = {"name": ("label", "name"), "position": ("thrLoc_B", "location"),
             "direction": ("thrDir_B", "direction"), "force": ("MaxThrust", "maxThrust")}
+MOTION = re.compile("omega|rate|angvel|velocity|spin|motion", re.IGNORECASE)  # of names that state one
 WHEEL = {"name": ("label", "name"), "axis": ("gsHat_B",), "inertia": ("Js",), "speed": ("Omega",)}
-
-
-def spacecraft(text: str, path) -> Craft:
-    """What the file says. Raises InputError where it is neither, or says no inertia."""
-    return from_dictionary(_dictionary(text, path), path)
 
 
 def from_dictionary(data: dict, path="the dictionary") -> Craft:
@@ -54,7 +53,13 @@ def from_dictionary(data: dict, path="the dictionary") -> Craft:
         craft.omitted.append(
             "the wheels' own mass and inertia: the tensor is that of the hub alone, so add them to it where "
             "they matter")
-    craft.omitted += [name for name in flat if name not in used and name not in ("ModelTag", "name", "title")]
+    left = [name for name in flat if name not in used and name not in ("ModelTag", "name", "title")]
+    craft.omitted += left
+    turning = [] if rate else [name for name in left if MOTION.search(name)]
+    if turning:
+        craft.caveats.append(f"the motion that the imported file states ({', '.join(turning)}) is not read: "
+                             "its "
+                             "name or its unit is not known; write it as [motion] angular_velocity")
     return craft
 
 
@@ -77,7 +82,16 @@ def _part(craft, parts, otherwise, keys, item, path):
                       if key not in {pair[0] for pair in pairs.values() if pair}]
 
 
-def _dictionary(text: str, path):
+def dictionary(text: str, path) -> Any:
+    """The dictionary of a text in JSON or Python. Raises InputError, with what the text seems to be, where it
+    is neither."""
+    format = seems(text)
+    if format not in ("", "JSON", "Python", "a text of keywords"):
+        raise InputError(f"{path}: this seems to be {format}, which is not read: {READ}; {BY_HAND}")
+    if re.search(r"^\[\[?\w+(\.\w+)*\]\]?\s*$", text, re.M) and re.search(r"^\w+ *=", text, re.M):
+        raise InputError(f"{path}: this seems to be a case already, or TOML: ask it as it is, `stabilab fate "
+                         "FILE`; "
+                         f"{READ}")
     try:
         return json.loads(text, parse_float=Decimal)
     except ValueError as error:
@@ -94,7 +108,7 @@ def _dictionary(text: str, path):
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         raise InputError(
             f"{path}: neither JSON ({json_words}) nor a dictionary of plain numbers in Python "
-            f"({error})") from None
+            f"({error}); {READ}") from None
     raise InputError(
         f"{path}: expected a NASA 42 spacecraft file (SC_*.txt), or JSON or a Python dictionary with "
         f"Basilisk's names; JSON says: {json_words}")

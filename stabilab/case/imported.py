@@ -3,10 +3,18 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
 from ..errors import InputError, printable
-from .read import read_text
+from .read import load_orbiting, read_text
+from .write import plain, text_of
+
+# names of another program: a dictionary that has one of them is its own
+ELSEWHERE = {"mHub", "r_BcB_B", "IHubPntBc_B", "omega_BN_BInit", "omega_BN_B", "thrLoc_B", "thrDir_B",
+             "MaxThrust",
+             "maxThrust", "gsHat_B", "Omega", "ModelTag"}
 
 
 @dataclass
@@ -14,7 +22,8 @@ class Craft:
     """What a file says of a spacecraft, every number as it is written there.
 
     inertia: three texts, or three rows of three; products: texts xy, xz, yz whose integrals are positive, or
-    None; thrusters and wheels: {key of the case: text or three texts}; omitted: what has no counterpart in a
+    None; thrusters and wheels: {key of the case: text or three texts}; altitude: of a circular orbit about
+    the Earth, km; caveats: what limits every answer, in words; omitted: what has no counterpart in a
     case, in words; said: what was done with the rest.
     """
 
@@ -28,6 +37,8 @@ class Craft:
     wheels: list = field(default_factory=list)
     rate: list | None = None
     rate_unit: str = ""
+    altitude: str | None = None
+    caveats: list = field(default_factory=list)
     omitted: list = field(default_factory=list)
     said: list = field(default_factory=list)
 
@@ -41,7 +52,9 @@ def case_text(craft: Craft, path, stuck=()) -> str:
                 f"--stuck {printable(name)}: no such thruster; the file has "
                 f"{', '.join(map(printable, names)) or 'none that can be used'}")
     lines = [f"title = {_text(craft.title)}",
-             f"source = {_text('imported from ' + os.path.basename(os.fspath(path)))}", "", "[body]"]
+             f"source = {_text('imported from ' + os.path.basename(os.fspath(path)))}"]
+    lines += [f"caveats = {_list(map(_text, craft.caveats))}"] if craft.caveats else []
+    lines += ["", "[body]"]
     rows = [_list(row) for row in craft.inertia] if isinstance(craft.inertia[0], list) else None
     lines.append(f"inertia = [{', '.join(rows)}]" if rows else f"inertia = {_list(craft.inertia)}")
     if craft.products:
@@ -55,16 +68,41 @@ def case_text(craft: Craft, path, stuck=()) -> str:
                   *(["stuck = true"] if thruster["name"] in stuck else [])]
     for wheel in craft.wheels:
         lines += ["", "[[wheels]]", *_pairs(wheel)]
+    lines += ["", "[circular_orbit]", f'altitude = "{craft.altitude} km"'] if craft.altitude else []
     if craft.rate:
         rate = [_text(f"{v} {craft.rate_unit}") for v in craft.rate] if craft.rate_unit else craft.rate
         lines += ["", "[motion]", f"angular_velocity = {_list(rate)}"]
     return "\n".join(lines) + "\n"
 
 
+def case_of_tables(data: Any, path) -> str | None:
+    """The case as TOML where data are the tables of one, None where they are something else."""
+    if not isinstance(data, dict):
+        return None
+    body = data.get("body")
+    if not ("scaled" in data or isinstance(body, dict) and "inertia" in body):
+        return None
+    names = {str(key) for key in _keys(data)}
+    return None if names & ELSEWHERE else text_of(plain(data, printable(str(path))))
+
+
+def _keys(data: Any) -> Iterator[Any]:
+    if isinstance(data, dict):
+        for key, value in data.items():
+            yield key
+            yield from _keys(value)
+    elif isinstance(data, list):
+        for value in data:
+            yield from _keys(value)
+
+
 def faults_of(text: str, path) -> list[str]:
     """What a reader of the case would refuse."""
     try:
-        read_text(path, text)
+        if "\n[circular_orbit]" in text:
+            load_orbiting(text)
+        else:
+            read_text(path, text)
     except InputError as error:
         return str(error).split("\n")
     return []

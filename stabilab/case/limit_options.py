@@ -3,6 +3,7 @@ numbers in SI, along the scene's axes."""
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -98,10 +99,21 @@ def _pair(text, dimension, option):
     axis, equals, rest = text.partition("=")
     axis = axis.strip().lower()
     if not equals or axis not in (*FILE_AXES, "1", "2", "3"):
-        raise InputError(f'--{option}: expected an axis and its limit, as in "z = 30 deg/s" (x, y, z of the '
+        example = "30 deg/s" if option == "component" else "20 deg"
+        raise InputError(f'--{option}: expected an axis and its limit, as in "z = {example}" (x, y, z of the '
                          f'file, or 1, 2, 3, the principal axes), '
-                         f'got "{text[:60]}"')
-    return axis, _number(rest, dimension, option)
+                         f'got "{text[:60]}"{_meant(text)}')
+    return axis, _number(rest, dimension, option, axis)
+
+
+def _meant(text: str) -> str:
+    """"; ..." with the pair that a text means by other words."""
+    found = re.fullmatch(r"\W*(?:omega|rate|w|ω|axis)?[\W_]*(?:([xyz123])(?![\d.]))?\|?\s*[<>=:]*\s*"
+                         r"(\d.*|\.\d.*)", text.strip(), re.I)
+    if not found:
+        return ""
+    names = (found[1].lower(),) if found[1] else tuple(FILE_AXES)
+    return "; write " + " or ".join(f'"{name} = {found[2]}"' for name in names)
 
 
 def _along(case, axis):
@@ -114,11 +126,26 @@ def _along(case, axis):
     return case.frame.turned([Fraction(int(n == number)) for n in range(3)])
 
 
-def _number(text, dimension, option) -> Fraction:
+def _no_limit(value: Fraction, text: str, option: str, axis: str) -> str:
+    """"; ..." with what to ask in place of a limit that is no size."""
+    if option not in ("rate", "component", "energy", "tilt"):
+        return ""
+    if value:
+        pair = f"{axis} = " if axis else ""
+        return f'; a limit is that of a size, of either sign: write "{pair}{text.lstrip("-−")}"'
+    if option != "component":
+        return ": a size is zero where the motion rests alone"
+    number = axis if axis in "123" else str(FILE_AXES.index(axis) + 1)
+    return (f'; for the times at which it passes through zero ask from Python, stabilab.load(FILE).when('
+            f'events=["omega{number}"], until="10 min"), the rate about principal axis {number}')
+
+
+def _number(text, dimension, option, axis="") -> Fraction:
     try:
         value, _ = quantity(text.strip(), dimension)
     except InputError as error:
         raise InputError(f"--{option}: {error}") from None
     if value <= 0:
-        raise InputError(f"--{option}: expected a positive number, got {text[:60]}")
+        raise InputError(f"--{option}: expected a positive number, got {text.strip()[:60]}"
+                         f"{_no_limit(value, text.strip(), option, axis)}")
     return value

@@ -20,6 +20,7 @@ from ..physics.effects.base import effect_words
 from ..physics.scene import INSIDE, Body, ScaledGyrostat, Scene
 from ..reasons import Sentence
 from ..validation import came, checked_span
+from .aliases import cure_of_key, cure_of_units
 from .body import (
     Limits,
     Thruster,
@@ -27,6 +28,7 @@ from .body import (
     added,
     body_of,
     centre_of_mass,
+    far_off,
     judge_limits,
     judge_oblique,
     limits_of,
@@ -52,7 +54,8 @@ from .table import Faults, Table, Uncertain, described, did_you_mean, dotted, ex
 from .write import data_of_scene, plain, text_of
 
 # --- A case file: a body, its effects and one motion, read from TOML; every fault with file, line and key
-TABLES = ("title", "source", "body", "effects", "thrusters", "wheels", "limits", "circular_orbit", "scaled",
+TABLES = ("title", "source", "caveats", "body", "effects", "thrusters", "wheels", "limits", "circular_orbit",
+          "scaled",
           "motion", "output", "expect", "sweep")
 SYSTEMS = ("deg", "deg/day", "rpm", "rev/s", "si")  # of units in which text is printed
 STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
@@ -62,6 +65,7 @@ BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "
 UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector and stays as it is
 MIDDLES = Caveat(Kind.UNCERTAIN, Sentence(
     "of-the-middles", "of the middles of the uncertain numbers; stabilab fate says what their box does")())
+STATED = Sentence("stated-by-the-file", "{words}")
 SILENT = Sentence("no-thruster-fires",
                   "no thruster fires: stuck = true in a table [[thrusters]] makes one act for ever "
                   "({thrusters})")
@@ -365,7 +369,7 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
     top = Table((), data, faults)
     top.known(TABLES, "table or key")
     swept(top)  # notes the faults of [sweep]
-    title, source = top.text("title"), top.text("source")
+    title, source, stated = top.text("title"), top.text("source"), top.texts("caveats")
     craft = _craft(top)
     physical, mu, frame = _physical(top, craft)
     scaled = _scaled(top)
@@ -381,14 +385,16 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
     _judge_burns(top, burning)
     judge_orbit(top, physical.effects if physical else (), orbiting)
     if faults.problems:
-        raise CaseError(path, sorted(faults.problems, key=lambda p: p.line or 0))
+        raise CaseError(path, faults.ordered())
     return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect,
                 motion.blocks, text,
                 variant, tuple(faults.uncertain.values()), mu, motion.exact, frame if physical else None,
                 craft.thrusters, craft.wheels,
                 craft.limits, tuple(dict.fromkeys(map(dotted, sorted(faults.inexact, key=str)))), craft.notes,
                 units,
-                caveats=(*(physical.body.caveats if physical else ()),
+                caveats=(*(Caveat(Kind.STATED, STATED(words=words)) for words in stated),
+                         *(physical.body.caveats if physical else ()),
+                         *(far_off(physical.body, craft.thrusters) if physical else ()),
                          *(one for effect in scene.effects for one in effect.caveats),
                          *_silent(craft.thrusters), *([MIDDLES] if faults.uncertain else [])))
 
@@ -408,7 +414,8 @@ def _units(output: Table | None) -> str:
     wanted = output.text("units").lower()
     if wanted and wanted not in SYSTEMS:
         output.fault(
-            f"expected {', '.join(SYSTEMS)} (deg/s and min, or rad/s and s), got {described(wanted)}",
+            f"expected {', '.join(SYSTEMS)} (deg/s and min, or rad/s and s), got {described(wanted)}"
+            f"{cure_of_units(wanted)}",
             "units")
     return wanted
 
@@ -479,7 +486,8 @@ def _effects(top: Table, body: Body | None) -> list:
     made = []
     for name in effects.data:
         if name not in REGISTRY:
-            hint = did_you_mean(name, REGISTRY)
+            cure = cure_of_key(effects.path, name, effects.data, REGISTRY)
+            hint = f"; {cure}" if cure else did_you_mean(name, REGISTRY)
             known = f" Known effects: {', '.join(REGISTRY)}" if "did you mean" in hint else ""
             effects.fault(f"unknown effect{hint}{known}", name)
             continue
@@ -529,7 +537,8 @@ def _motion(top: Table) -> _Motion:
     states, spans = {k: table.vector(k) for k in STATES}, {k: table.numbers(k, 2) for k in SPANS}
     state, span = states.get(state_key), spans.get(span_key)
     if span and not float(span[0]) < float(span[1]):
-        table.fault(f"expected two increasing numbers, got {float(span[0])!r} and {float(span[1])!r}",
+        table.fault(f"expected two increasing numbers, got {float(span[0])!r} and {float(span[1])!r}: write "
+                    "the start of the motion first, such as [0, 100]",
                     span_key)
         span = None
     if "scaled" in top:

@@ -9,7 +9,10 @@ import tomllib
 from itertools import product
 
 from ..errors import CaseError, InputError, Problem, printable
+from .aliases import LISTS
+from .formats import BY_HAND, READ, seems
 from .lines import KeyLines, key_lines
+from .repairs import repair
 from .table import Faults, Table, Written, described, did_you_mean, dotted
 
 # --- The text of a case file and its TOML data; whatever is no such file is refused with the line where it
@@ -92,6 +95,7 @@ def command_of(name: str) -> str:
 def parsed(path, text: str) -> tuple[dict, Faults]:
     """The TOML data and an empty list of faults that knows the lines. Raises CaseError where the text is not
     TOML."""
+    text = text.removeprefix("\ufeff")
     lines = key_lines(text)
     try:
         if lines.too_deep:
@@ -111,11 +115,35 @@ def _syntax_problems(message: str, text: str, lines: KeyLines) -> list[Problem]:
         return [Problem("", "an integer of more than 4000 digits is no number for a case", line)]
     place = re.search(r" \(at (?:line (\d+), column \d+|end of document)\)$", message)
     line = int(place[1]) if place and place[1] else text.count("\n") + 1 if place else None
-    message = message[:place.start() if place else None]
+    message = message[:place.start() if place else None][:200]
     if message.startswith(("Cannot", "Duplicate")) and lines.again:
-        return [Problem(dotted(key), f"written a second time; the first is in line {lines.line[key]}", again)
+        return [Problem(dotted(key), f"written a second time; the first is in line {lines.line[key]}"
+                                     f"{_double(key)}", again)
                 for key, again in lines.again.items()]
-    return [Problem("", f"not TOML: {message[:200]}", line)]
+    return [_not_toml(message, text, line)]
+
+
+def _double(key: tuple) -> str:
+    return f"; write [[{key[0]}]], in double brackets, above each of them" if key[0] in LISTS else ""
+
+
+def _not_toml(message: str, text: str, line: int | None) -> Problem:
+    """What a text that is no TOML seems to be, or how its line was meant."""
+    format = seems(text)
+    if format == "JSON" or "42" in format:
+        return Problem("", f"not TOML ({message}): this seems to be {format}; `stabilab import FILE --out "
+                           "case.toml` writes it as a case", line)
+    if format not in ("", "YAML"):
+        return Problem("", f"not TOML ({message}): this seems to be {format}; a case is a text in TOML "
+                           f"(`stabilab example phone` prints one): {BY_HAND}. {READ}", line)
+    found = repair(text, line) if line else None
+    of = f", this seems to be {format}" if format else ""
+    if found is None:
+        shown = text.split("\n")[line - 1].strip()[:80] if line and line <= text.count("\n") + 1 else ""
+        return Problem("", f"not TOML{of}: {message}" + (f'; got: {shown}' if shown else ""), line)
+    write_ = f"; write: {found.write}" if found.write else ""
+    return Problem(found.key, f"not TOML{of} ({message}); got: {found.came}{write_} ({found.why})",
+                   found.line)
 
 
 # --- [sweep] of a case file: keys that take several values, every combination of them one case

@@ -8,6 +8,7 @@ classify`."""
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from datetime import date, time
 from fractions import Fraction
 from typing import NamedTuple
@@ -15,8 +16,18 @@ from unicodedata import category
 
 from ..errors import InputError, Problem, printable
 from ..numbers.exact import exact
-from ..numbers.units import NONE, Dimension, dimension_of, in_dimension, quantity, split
+from ..numbers.miswritten import typed
+from ..numbers.units import NONE, Dimension, dimension_of, in_dimension, quantity, split, unit_of_key
 from ..numbers.vectors import Exact3
+from .aliases import (
+    cure_of_key,
+    cure_of_number,
+    cure_of_numbers,
+    cure_of_title,
+    cure_of_truth,
+    misnamed,
+    shown,
+)
 from .lines import KeyLines
 
 # --- Uncertain numbers as a case file writes them: "2000 +- 20", "12.0 +- 3 %", "12 +- 0.5 N"
@@ -26,12 +37,13 @@ _BRACKETS = re.compile(r"\s*\(([^()]*)\)\s*([^()]*)")
 
 def states_uncertainty(text: str) -> bool:
     """Whether a text is meant as a number with an uncertainty, well formed or not."""
-    return "±" in text or "+-" in text
+    return "±" in text or "+-" in text or "+/-" in text
 
 
 def plus_minus(text: str, wanted: Dimension = NONE) -> tuple[Fraction, Fraction, bool]:
     """(middle, half-width, whether both are exact) in SI units, of "2000 +- 20", "1500 ± 1 %" (per cent of
     the middle) or "12 +- 0.5 N". A unit at the end is that of both. Raises InputError."""
+    text = typed(text).replace("+/-", "+-")
     if len(text) > 400 or text.count("±") + text.count("+-") != 1:
         raise InputError(f'{_example(wanted)}, got "{text[:60]}"')
     bracketed = _BRACKETS.fullmatch(text)
@@ -82,14 +94,21 @@ UNCERTAIN = {("body", "inertia"), ("effects", "gyrostat", "momentum"),
 
 
 HOMES = {word: home for home, words in {
-    "[motion]": ("angular_velocity", "omega", "span", "vertical", "attitude", "start", "initial", "state"),
+    "[motion]": ("angular_velocity", "omega", "span", "vertical", "attitude", "start", "initial", "state",
+                 "x",
+                 "tau", "velocity", "damper"),
     "[body]": ("inertia", "moments", "products", "mass", "centre_of_mass"),
     "[limits]": ("rate", "limit"),
     "[circular_orbit]": ("altitude", "radius", "period", "orbit"),
     "[output]": ("units",),
     "[[wheels]], or as [effects.gyrostat]": ("momentum", "wheel", "gyrostat"),
     "[effects.constant_torque]": ("torque", "constant_torque"),
-    "[[thrusters]]": ("force", "position", "direction", "thruster"),
+    "[[thrusters]]": ("force", "position", "direction", "thruster", "stuck", "misalignment",
+                      "force_tolerance", "stop", "duty", "on_time", "propellant", "mass_flow"),
+    "[[wheels]]": ("axis", "speed"),
+    "[effects.gravity]": ("weight",),
+    "[effects] of its own, such as [effects.resistance]": ("coefficient",),
+    "[effects.liquid_cavity]": ("density", "viscosity"),
 }.items() for word in words}  # where the words stand that a reader most often writes in another place
 
 
@@ -112,11 +131,22 @@ class Faults:
         self.problems: list[Problem] = []
         self.uncertain: dict[tuple, Uncertain] = {}
         self.inexact: set[tuple] = set()
+        self.unknown: set[tuple] = set()
+        self.missing: dict[Problem, set[tuple]] = {}
 
-    def add(self, path: tuple, message: str):
+    def add(self, path: tuple, message: str, unless: Iterable[tuple] = ()):
+        """unless: paths of keys that may be meant by what this fault misses; where one of these is a fault as
+        an unknown key, that one says it all."""
         source = next((there for here, there in self.moved.items() if path[:len(here)] == here), path)
         note = message if source is path else f"{message} (a value of [sweep])"
         self.problems.append(Problem(dotted(path), note, self.lines.of(source)))
+        if unless:
+            self.missing[self.problems[-1]] = set(unless)
+
+    def ordered(self) -> list[Problem]:
+        """All that is to be said, in the order of the file."""
+        return sorted((one for one in self.problems if not self.missing.get(one, set()) & self.unknown),
+                      key=lambda problem: problem.line or 0)
 
 
 class Table:
@@ -129,15 +159,24 @@ class Table:
     def __contains__(self, key: str) -> bool:
         return key in self.data
 
-    def fault(self, message: str, *keys):
-        """Note a fault of this table, or of the key (and list index) below it."""
-        self.faults.add(self.path + keys, message)
+    def fault(self, message: str, *keys, instead_of: tuple[str, ...] = ()):
+        """Note a fault of this table, or of the key (and list index) below it. instead_of: keys that it
+        misses, for which another name may stand in the table."""
+        meant = [self.path + (key,) for key in self.data if misnamed(self.path, key, self.data, *instead_of)
+                 ] if instead_of else []
+        self.faults.add(self.path + keys, message, meant)
 
     def known(self, allowed, what: str = "key"):
         """Note every key that is not in `allowed`."""
+        said: set[str] = set()
         for key in self.data:
             if key not in allowed:
-                self.fault(f"unknown {what}{did_you_mean(key, allowed)}", key)
+                cure = cure_of_key(self.path, key, self.data, allowed)
+                if cure in said:  # of several keys that are one here, such as Ixx, Iyy, Izz
+                    continue
+                said |= {cure} if cure else set()
+                self.faults.unknown.add(self.path + (key,))
+                self.fault(f"unknown {what}{_then(cure) or did_you_mean(key, allowed)}", key)
 
     def one_of(self, *keys: str) -> str | None:
         """The one key of `keys` that is present; a fault where two are."""
@@ -153,7 +192,8 @@ class Table:
         if value is None:
             return None
         if not isinstance(value, dict):
-            self.fault(f"expected a table [{dotted(self.path + (key,))}], got {described(value)}", key)
+            self.fault(f"expected a table [{dotted(self.path + (key,))}], got {described(value)}"
+                       f"{_then(cure_of_title(self.path, key, value))}", key)
             return None
         return Table(self.path + (key,), value, self.faults)
 
@@ -162,29 +202,42 @@ class Table:
         value = self.data.get(key, [])
         if isinstance(value, list) and all(isinstance(item, dict) for item in value):
             return [Table(self.path + (key, index), item, self.faults) for index, item in enumerate(value)]
-        self.fault(f"expected tables [[{key}]], one for each, got {described(value)}", key)
+        self.fault(f"expected tables [[{key}]], one for each, got {described(value)}; write the title "
+                   f"[[{key}]] "
+                   f"in double brackets, and its keys below it", key)
         return []
 
     def truth(self, key: str) -> bool:
         """true or false; false where the key is absent."""
         value = self.data.get(key, False)
         if not isinstance(value, bool):
-            self.fault(f"expected true or false, got {described(value)}", key)
+            self.fault(f"expected true or false, got {described(value)}; {cure_of_truth(key, value)}", key)
         return value is True
 
     def text(self, key: str, default: str = "") -> str:
         value = self.data.get(key, default)
         if not isinstance(value, str) or isinstance(value, Written):
-            self.fault(f'expected a text in quotes, got {described(value)}', key)
+            cure = f'write {key} = "{shown(value)}"' if isinstance(value, (str, int)) else ""
+            self.fault(f"expected a text in quotes, got {described(value)}{_then(cure)}", key)
             return default
         strange = next((c for c in value if c not in "\n\t" and category(c) in UNSEEN), None)
         if strange:  # these texts go to terminals and pages
             self.fault(f"character U+{ord(strange):04X} cannot be shown: remove it", key)
         return value
 
+    def texts(self, key: str) -> list[str]:
+        """A list of texts, or one; those without a fault."""
+        value = self.data.get(key, [])
+        listed = value if isinstance(value, list) else [value]
+        tables = [Table(self.path, {key: one}, self.faults) for one in listed]
+        return [words for table in tables if (words := table.text(key))]
+
     def number(self, key: str) -> Fraction | None:
         """One exact number."""
-        return self._exact(self.data[key], key) if key in self.data else None
+        if key not in self.data:
+            return None
+        cure = cure_of_number(self.path, key, self.data[key])
+        return self._exact(self.data[key], key, cure=cure)
 
     def positive(self, key: str, zero: bool = False) -> Fraction | None:
         """One exact number above zero (or zero, where that is allowed)."""
@@ -204,19 +257,25 @@ class Table:
         if not isinstance(value, list):
             self.fault(
                 f"expected {words} numbers in square brackets, got "
-                f"{described(value)}{_in_brackets(value, count)}", key)
+                f"{described(value)}"
+                f"{_in_brackets(value, count) or _then(cure_of_numbers(self.path, key, value, count))}", key)
             return None
-        if len(value) != count:
-            self.fault(f"expected {words} numbers, got {len(value)}", key)
+        if len(value) != count or all(isinstance(item, list) for item in value):
+            cure = cure_of_numbers(self.path, key, value, count)
+            self.fault(f"expected {words} numbers, got {_counted(value)}{_then(cure)}", key)
             return None
-        read = [self._exact(item, key, index) for index, item in enumerate(value)]
+        cure = (cure_of_numbers(self.path, key, value, count)
+                if any(isinstance(item, list) for item in value) else "")
+        read = [self._exact(item, key, index, cure=cure) for index, item in enumerate(value)]
         return None if None in read else tuple(read)
 
     def matrix(self, key: str) -> tuple[tuple[Fraction, ...], ...] | None:
         """Three rows of three exact numbers, all of their faults noted."""
         value = self.data[key]
         if len(value) != 3 or not all(isinstance(row, list) and len(row) == 3 for row in value):
-            self.fault("expected three numbers, or three rows of three numbers", key)
+            cure = cure_of_numbers(self.path, key, value, 3)
+            self.fault(f"expected three numbers, or three rows of three numbers, got {_counted(value)}"
+                       f"{_then(cure)}", key)
             return None
         read = [[self._exact(item, key, i, j) for j, item in enumerate(row)] for i, row in enumerate(value)]
         return None if any(None in row for row in read) else tuple(map(tuple, read))
@@ -229,10 +288,12 @@ class Table:
         """Note every key that is missing, with what to add where `cures` tells; True where none is."""
         missing = [key for key in keys if key not in self.data]
         for key in missing:
-            self.fault(f"{key} is missing" + (f": {cures[key]}" if key in cures else ""))
+            unit = unit_of_key(self.path + (key,))
+            self.fault(f"{key} is missing: {cures.get(key) or ('add it, in ' + unit if unit else 'add it')}",
+                       instead_of=(key,))
         return not missing
 
-    def _exact(self, value, *keys) -> Fraction | None:
+    def _exact(self, value, *keys, cure: str = "") -> Fraction | None:
         try:
             if isinstance(value, str) and not isinstance(value, Written) and states_uncertainty(value):
                 return self._middle(value, keys)
@@ -240,7 +301,7 @@ class Table:
         except InputError as error:
             row = f"row {keys[1] + 1}, " if len(keys) > 2 else ""
             number = f"number {keys[-1] + 1}: " if len(keys) > 1 else ""
-            self.fault(row + number + str(error), *keys)
+            self.fault(row + number + str(error) + _then(cure), *keys)
             return None
 
     def _middle(self, text: str, keys) -> Fraction:
@@ -263,6 +324,19 @@ class Table:
         if not sharp:
             self.faults.inexact.add(self.path + keys)
         return number
+
+
+def _then(cure: str) -> str:
+    return f"; {cure}" if cure else ""
+
+
+def _counted(value: list) -> str:
+    """How many a list has, with the length of its rows where it has rows."""
+    rows = [len(row) for row in value if isinstance(row, list)]
+    if not rows:
+        return str(len(value))
+    lengths = " and ".join(map(str, sorted(set(rows))))
+    return f"{len(value)} row{'s' * (len(value) > 1)} of {lengths}"
 
 
 def _number(value) -> Fraction:
@@ -313,7 +387,8 @@ def _in_brackets(value, count: int) -> str:
     if not isinstance(value, str) or isinstance(value, Written) or len(value) > 200:
         return ""
     parts = [re.fullmatch(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\d\s].*)?", part.strip())
-             for part in value.strip("()[] ").split(",")]
+             for part in re.split(r"[,;]" if re.search("[,;]", value) else r"\s+(?=[-+.\d])",
+                                  re.sub(r"[()\[\]{}]", " ", value).strip())]
     if None in parts or len(parts) != count and (len(parts), count) != (1, 2):
         return ""
     units = [part[2] for part in parts]
@@ -329,7 +404,7 @@ def did_you_mean(word: str, allowed) -> str:
     from difflib import get_close_matches
     home = (f"; it is written in {HOMES[word.lower()]}" if word.lower() in HOMES
             and word.lower() not in allowed else "")
-    near = get_close_matches(word.lower()[:60], list(allowed), n=1, cutoff=0.6)
+    near = not home and get_close_matches(word.lower()[:60], list(allowed), n=1, cutoff=0.6)
     return f"; did you mean {near[0]}?" if near else f"{home}; here may stand {', '.join(allowed)}"
 
 

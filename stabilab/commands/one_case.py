@@ -11,7 +11,8 @@ from __future__ import annotations
 from functools import partial
 
 from ..case import import_42, import_basilisk
-from ..case.imported import case_text, faults_of
+from ..case.formats import is_42
+from ..case.imported import case_of_tables, case_text, faults_of
 from ..case.read import blamed_on
 from ..case.source import EXAMPLES, command_of, source_text
 from ..case.source import example as text_of
@@ -61,21 +62,34 @@ def example(name):
 def import_(file, out, stuck, body=None):
     """Write the case, name what has no counterpart, and refuse what has faults yet."""
     given = source_text(file)
-    if import_42.is_one(given):
+    if is_42(given):
         craft = import_42.spacecraft(given, file, body)
     elif body is None:
-        craft = import_basilisk.spacecraft(given, file)
+        data = import_basilisk.dictionary(given, printable(str(file)))
+        own = case_of_tables(data, file)
+        if own is not None:
+            _written(own, file, out, stuck)
+            return
+        craft = import_basilisk.from_dictionary(data, file)
     else:
         raise InputError(
             f"--body counts the bodies of a NASA 42 spacecraft file, and {printable(str(file))} is none")
     text = case_text(craft, file, stuck or ())
+    _written(text, file, out, (), (*craft.caveats, *craft.said), craft.omitted)
+
+
+def _written(text, file, out, stuck, said=(), omitted=()):
+    """Write the case, then say what was done with the rest, and what its reader refuses."""
+    if stuck:
+        raise InputError(
+            f"--stuck: {printable(str(file))} has the tables of a case: write stuck = true there")
     if out:
         say(f"written: {write_text(out, text)}")
     else:
         write(text)
-    for words in craft.said:
+    for words in said:
         say(f"{printable(str(file))}: {printable(words)}")
-    for words in craft.omitted:
+    for words in omitted:
         say(f"{printable(str(file))}: no counterpart: {printable(words)}")
     faults = faults_of(text, out or file)
     if faults:

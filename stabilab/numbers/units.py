@@ -16,6 +16,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 from ..errors import InputError
 from .exact import exact, exact_vector, half_unit, precise
+from .miswritten import INSTEAD, SUPERS, instead, meant, typed
 from .vectors import Exact3
 
 Dimension: TypeAlias = tuple[int, ...]  # exponents of m, kg, s, A, rad
@@ -43,7 +44,7 @@ TURNS = {"deg": 360, "°": 360, "arcmin": 21600, "arcsec": 1296000, "rev": 1}  #
 OTHERS = {"min": ("60", "s"), "h": ("3600", "s"), "day": ("86400", "s"), "week": ("604800", "s"),
           "lb": ("453.59237", "g"), "t": ("1000000", "g"),
           "in": ("0.0254", "m"), "ft": ("0.3048", "m"), "lbf": ("4.4482216152605", "N"),
-          "slug": ("44482216152605/3048000000", "g")}
+          "slug": ("44482216152605/3048000000", "g"), "Nmm": ("0.001", "Nm"), "Ncm": ("0.01", "Nm")}
 WORDS = {name: symbol for symbol, names in {
     "s": "second sec", "min": "minute min", "h": "hour hr", "day": "day", "week": "week", "m": "metre meter",
     "g": "gram", "kg": "kilogram kg",
@@ -56,7 +57,7 @@ WORDS = {name: symbol for symbol, names in {
 # alone they mean no other unit, as in DEG/S and KG M^2; N M S is three words, NM would be nm
 CAPITALS = {"S": "s", "M": "m"}
 ACCEPTED = ("m, kg, g, s, A, rad, N, J, W, Pa, C, V, T with the prefixes n u m c d k M G; deg, arcmin, "
-            "arcsec, rev, rpm; min, h, day, week; t; in, ft, lb, lbf, slug; their English names such as "
+            "arcsec, rev, rpm, dps; min, h, day, week; t; in, ft, lb, lbf, slug; their English names such as "
             "hours, degrees, newtons, in small or capital letters; and products, powers and quotients of "
             "these such as N m s, kg m^2, deg/s")
 NONE, LENGTH, MASS, TIME, ANGLE = (0,) * 5, (1, 0, 0, 0, 0), (0, 1, 0, 0, 0), (0, 0, 1, 0, 0), (0, 0, 0, 0, 1)
@@ -114,13 +115,14 @@ DIMENSIONS: dict[str, Dimension] = {
 
 # compiled where a unit is read
 _NUMBER = r"(?as)\s*([+-]?(?:\d[\d_]*(?:\.[\d_]*)?|\.\d[\d_]*)(?:[eE][+-]?\d+)?(?:\s*/\s*\d+)?)\s*(.*)"
-_FACTOR = re.compile(r"\s*([*·/.\-]|)\s*(1|[A-Za-zµμ°]+)(?:(?:\^|\*\*)?([+-]?\d{1,2})|([²³]))?\s*")
-_SUPER = {"²": 2, "³": 3}
+_FACTOR = re.compile(r"\s*([*·/.\-]|)\s*(1|[A-Za-zµμ°]+)(?:\^|\*\*)?([+-]?\d{1,2})?\s*")
+# a mass and a length written as one word: squared it is a moment of inertia, kgm2, and nothing else
+_GLUED = re.compile(r"(kg|g|t|slug|lb)(m|cm|mm|in|ft)")
 
 
 def split(text: str) -> tuple[str, str] | None:
     """("22", "N") of "22 N"; None where the text does not begin with a number."""
-    found = re.fullmatch(_NUMBER, text) if len(text) <= 400 else None
+    found = re.fullmatch(_NUMBER, typed(text)) if len(text) <= 400 else None
     return (found[1], found[2].strip()) if found else None
 
 
@@ -129,17 +131,35 @@ def quantity(text: str, wanted: Dimension) -> tuple[Fraction, bool]:
     Raises InputError."""
     parts = split(text)
     if parts is None:
-        return exact(text), True  # which says what is wrong
+        return _plain(text, wanted), True
     if not parts[1]:
         return exact(parts[0]), True
     value = exact(parts[0])
     try:
         unit = in_dimension(parts[1], wanted, text)
-    except UnknownUnit as error:
+    except InputError as error:
+        if not isinstance(error, UnknownUnit):
+            parts_of_time = re.search(r"\d\s*[a-z]+\s*\d+\s*[a-z]", text) and instead(text, False)
+            raise InputError(f"{error}; {parts_of_time}" if parts_of_time else str(error)) from None
+        cure = instead(text, wanted == NONE)
+        if cure:
+            also = "" if wanted == NONE else ", alone or with a unit"
+            raise InputError(f'expected a decimal or a ratio such as "0.1" or "2/3"{also}, got '
+                             f'"{text[:60]}"; '
+                             f'{cure}') from None
         raise InputError(f'expected a decimal or a ratio such as "0.1" or '
                          f'"2/3"{"" if wanted == NONE else ", alone or with a unit"}, '
                          f'got "{text[:60]}"{"" if wanted == NONE else f": {error}"}') from None
     return exact(value * unit.size), unit.exact or not value  # refuses what no double can hold
+
+
+def _plain(text: str, wanted: Dimension) -> Fraction:
+    """A text that does not begin with a number: one after all, or an error with what to write."""
+    try:
+        return exact(text)
+    except InputError as error:
+        cure = instead(text, wanted == NONE)
+        raise InputError(f"{error}; {cure}" if cure else str(error)) from None
 
 
 def in_si(value: object, wanted: Dimension, name: str = "") -> Fraction:
@@ -172,14 +192,16 @@ def in_dimension(words: str, wanted: Dimension, text: str = "") -> Unit:
             raise InputError(f'expected {named(wanted)}, got {named(unit.dimension)}: "{came[:60]}"')
         also = " or energy (J)" if wanted == ENERGY else ""
         raise InputError(
-            f'expected {named(wanted)}{also}, got {named(unit.dimension)}: "{came[:60]}"; a number alone is '
-            f'in SI units')
+            f'expected {named(wanted)}{also}, got {named(unit.dimension)}: "{came[:60]}"'
+            f'{meant(named(wanted), named(unit.dimension))}; a number alone is in SI units')
     return unit
 
 
 def unit_of(words: str) -> Unit:
     """The unit that a product of units makes. Raises InputError for a word that is none, with those that are
     accepted."""
+    words = re.sub(r"\bper\b", "/", typed(words))
+    words = re.sub("[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+", lambda power: f"^{power[0].translate(SUPERS)}", words)
     size, is_exact, at, divided = Fraction(1), True, 0, False
     dimension: Dimension = NONE
     while at < len(words):
@@ -190,11 +212,14 @@ def unit_of(words: str) -> Unit:
             raise InputError(
                 f'"{words[:60]}" divides twice: write what is divided by in powers, such as m s^-2')
         divided = divided or found[1] == "/"
-        one = _single(found[2], words)
-        power = int(found[3] or _SUPER.get(found[4], 1)) * (-1 if divided else 1)
-        size *= one.size ** power
-        dimension = tuple(d + power * e for d, e in zip(dimension, one.dimension))
-        is_exact, at = is_exact and one.exact, found.end()
+        power = int(found[3] or 1) * (-1 if divided else 1)
+        glued = _GLUED.fullmatch(found[2]) if abs(power) == 2 else None
+        for word, times in ((glued[1], power // 2), (glued[2], power)) if glued else ((found[2], power),):
+            one = _single(word, words)
+            size *= one.size ** times
+            dimension = tuple(d + times * e for d, e in zip(dimension, one.dimension))
+            is_exact = is_exact and one.exact
+        at = found.end()
     return Unit(size, dimension, is_exact)
 
 
@@ -218,6 +243,8 @@ def named(dimension: Dimension) -> str:
 def _single(word: str, words: str) -> Unit:
     if word == "1":
         return Unit(Fraction(1), NONE)
+    if word == "dps":
+        return Unit(2 * pi() / 360, RATE, False)
     if word == "rpm":
         return Unit(2 * pi() / 60, RATE, False)
     if word in TURNS:
@@ -237,7 +264,8 @@ def _single(word: str, words: str) -> Unit:
         return _single(known, words)
     if lower == "hz":
         raise InputError(f'"{word}" may mean rad/s or turns a second: write rad/s, rev/s or 1/s')
-    raise UnknownUnit(f'unknown unit "{word[:60]}"{_near(word)}; accepted are {ACCEPTED}')
+    cure = f"; write {INSTEAD[word]}" if word in INSTEAD else _near(word)
+    raise UnknownUnit(f'unknown unit "{word[:60]}"{cure}; accepted are {ACCEPTED}')
 
 
 def _near(word: str) -> str:

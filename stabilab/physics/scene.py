@@ -12,6 +12,7 @@ Where two moments are equal every axis in their plane is principal, and the body
 torque lies along one. Of effects that stop acting it is known when, and which scene is left."""
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -23,7 +24,7 @@ from ..numbers.exact import exact, exact_vector, floats, sqrt_fraction
 from ..numbers.principal import PrincipalAxes, evened, principal_axes, without_trace
 from ..numbers.units import INERTIA, MASS, RATE, half_digit, in_si, vector_in_si
 from ..numbers.vectors import CYCLE, Exact3, Float3, Given, Number, Triple, cross, dot
-from ..reasons import Inertia, Quantity, Sentence
+from ..reasons import Inertia, Length, Mass, Quantity, Sentence
 from ..validation import Asked
 from .effects.base import Effect, effect_words
 
@@ -31,11 +32,25 @@ if TYPE_CHECKING:
     import numpy as np
 
 # --- The rigid body: three principal moments of inertia
+TOO_THIN = Sentence("size-too-thin",
+                    "the radius of gyration is {radius} beside a mass of {mass}, beyond all reason: less "
+                    "than 1 g to a cubic metre of that size; is the tensor in kg mm^2 or another unit that "
+                    "the file leaves out")
+TOO_DENSE = Sentence("size-too-dense",
+                     "the radius of gyration is {radius} beside a mass of {mass}, beyond all reason: matter "
+                     "so dense there is none (a ball of osmium has a trace of the tensor of {trace}); is the "
+                     "mass in g, or the tensor in another unit that the file leaves out")
 NO_BODY = Sentence("no-body-has-this-tensor",
                    "no rigid body has this tensor: the largest principal moment, {largest}, exceeds the sum "
                    "of the other two, {others}, by {excess} ({percent} % of it); Euler's equations are "
                    "solved as they stand")
 ROUNDING = Fraction(1, 1 << 48)  # of the largest moment: what a routine of eigenvalues in doubles leaves
+
+
+# kg to the cube of the largest radius of gyration in m: a solar sail of 10 g/m^2 and 100 m has 1.5e-3, the
+# space station 40, a CubeSat 6000; a tensor in kg mm^2 that is taken for kg m^2 makes all of these 1e-9 of it
+THINNEST = 1e-3
+DENSEST = 22_600.0  # kg/m^3, of osmium
 
 
 def slack_of(halves: Sequence[Sequence[Fraction]]) -> Fraction:
@@ -115,7 +130,32 @@ class Body(metaclass=Asked):
 
     @property
     def caveats(self) -> tuple[Caveat, ...]:
-        """That no rigid body has these moments, where their digits do not allow for one; else nothing."""
+        """That no rigid body has these moments, where their digits do not allow for one, and that its mass
+        and its moments do not belong together."""
+        return (*self._no_body, *self._no_size)
+
+    @property
+    def gyration(self) -> float | None:
+        """The largest radius of gyration, m; None without a mass."""
+        return None if self.mass is None else math.sqrt(float(max(self.exact)) / float(self.mass))
+
+    @property
+    def _no_size(self) -> tuple[Caveat, ...]:
+        """Of a body too thin or too dense for anything built or found. Its least extent follows from the
+        moments: of all bodies of a mass and a density a ball has the least trace, 6/5 m R^2."""
+        radius = self.gyration
+        if radius is None or self.mass is None:
+            return ()
+        mass, moments = float(self.mass), {"radius": Length(radius, digits=4), "mass": Mass(self.mass)}
+        if mass < THINNEST * radius * radius * radius:
+            return (Caveat(Kind.SIZE, TOO_THIN(**moments)),)
+        ball = 1.2 * mass * (3 * mass / (4 * math.pi * DENSEST)) ** (2 / 3)
+        if float(sum(self.exact)) < ball:
+            return (Caveat(Kind.SIZE, TOO_DENSE(**moments, trace=Inertia(ball, digits=4))),)
+        return ()
+
+    @property
+    def _no_body(self) -> tuple[Caveat, ...]:
         largest, excess = max(self.exact), self.excess
         if excess <= max(exact(self.slack), ROUNDING * largest):
             return ()

@@ -100,7 +100,7 @@ def test_words_plurals_and_capitals_are_units_too(text, dimension, value):
 
 @pytest.mark.parametrize("word, same", [("RPM", "rpm"), ("Rpm", "rpm"), ("DEG/S", "deg/s"),
                                         ("degrees/second", "deg/s"), ("degs/sec", "deg/s"),
-                                        ("Rad/s", "rad/s"), ("revolutions per minute", None), ("NM", None),
+                                        ("Rad/s", "rad/s"), ("revolutions per minute", "rev/min"), ("NM", None),
                                         ("REV/MIN", "rev/min")])
 def test_turns_in_other_words(word, same):
     if same:

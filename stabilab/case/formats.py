@@ -1,0 +1,65 @@
+"""What a text seems to be that is no case file: named by how it begins, so that an error can say it."""
+from __future__ import annotations
+
+import re
+
+READ = ("`stabilab import` reads a spacecraft file of NASA 42 (SC_*.txt), and JSON or a Python dictionary "
+        "with "
+        "Basilisk's names or with the tables of a case")
+# Of which the numbers go over by hand: what they are called there, and where they go.
+BY_HAND = ("write its moments as [body] inertia = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]] in kg m^2, "
+           "about "
+           "the centre of mass, and its rates as [motion] angular_velocity = [x, y, z]")
+XML = {"robot": "a robot description (URDF, XML)", "sdf": "a simulation description (SDF, XML)",
+       "mujoco": "a model of MuJoCo (MJCF, XML)", "ndm": "a CCSDS navigation data message (XML)",
+       "apm": "a CCSDS attitude parameter message (APM, XML)", "aem": "a CCSDS attitude ephemeris (AEM, XML)",
+       "html": "a page (HTML)", "svg": "a picture (SVG)", "collada": "a mesh (COLLADA, XML)"}
+CCSDS = {"APM": "attitude parameter message", "AEM": "attitude ephemeris message",
+         "ACM": "attitude comprehensive message", "OPM": "orbit parameter message",
+         "OEM": "orbit ephemeris message", "OMM": "orbit mean-elements message",
+         "OCM": "orbit comprehensive message", "TDM": "tracking data message"}
+FIRST = (("ISO-10303-21", "a CAD model (STEP)"), ("solid ", "a mesh (STL)"), ("#usda", "a scene (USD)"),
+         ("%PDF", "a document (PDF)"), ("%YAML", "YAML"), ("---", "YAML"), ("import ", "Python"),
+         ("from ", "Python"), ("def ", "Python"), ("#!/usr/bin/env python", "Python"),
+         ("function ", "MATLAB"), ("clear", "MATLAB"), ("#include", "C"), ("begin_", "a text of keywords"))
+_YAML = re.compile(r"\s*(?:- +)?[\w .\"'/-]+:(?:\s.*)?")
+_PAIR = re.compile(r"\s*[\w .\"'-]+=")
+
+
+def seems(text: str) -> str:
+    """What the text seems to be, in words; "" where nothing speaks for anything."""
+    head = text.lstrip("\ufeff \t\r\n")
+    if head.startswith("<"):
+        tags = re.findall(r"<([A-Za-z][\w.-]*)", head[:4000])
+        return next((XML[tag.lower()] for tag in tags if tag.lower() in XML), "XML")
+    ccsds = re.match(r"(?:COMMENT.*\n\s*)*CCSDS_([A-Z]{3})_VERS", head)
+    if ccsds:
+        return f"a CCSDS {CCSDS.get(ccsds[1], 'message')} ({ccsds[1]})"
+    if is_42(text):
+        return "a spacecraft file of NASA 42"
+    if re.match(r"\{\s*[\"}]|\[\s*\{", head):
+        return "JSON"
+    known = next((name for words, name in FIRST if head.startswith(words)), "")
+    if known:
+        return known
+    lines = [line for line in head.splitlines() if line.strip() and not line.lstrip().startswith(("#", "//"))]
+    if _columns(lines):
+        return "a table of values (CSV)"
+    pairs = sum(bool(_PAIR.match(line)) for line in lines)
+    yaml = sum(bool(_YAML.fullmatch(line)) and not _PAIR.match(line) for line in lines)
+    titles = any(line.rstrip().endswith(":") for line in lines)
+    return "YAML" if yaml > 1 - titles and yaml > pairs and yaml >= 0.3 * len(lines) else ""
+
+
+def is_42(text: str) -> bool:
+    """Whether a text is a file of NASA's simulator 42."""
+    return "42:" in text[:200] and "!" in text
+
+
+def _columns(lines: list[str]) -> bool:
+    """Whether the first lines have the same number of columns, two at least, and none is a key with its
+    value."""
+    if len(lines) < 2 or any("=" in line or "[" in line or "{" in line for line in lines[:5]):
+        return False
+    counts = [{line.count(mark) for line in lines[:5]} for mark in (",", ";", "\t")]
+    return any(len(count) == 1 and min(count) > 1 for count in counts)
