@@ -252,12 +252,26 @@ class _Taylor:
                 outcome, _, _, steps, *_, out = ta.propagate_grid(way, max_steps=REPORT, **note)
             self.counters["steps"] += steps
             rows.append(out.reshape(-1, size)[1:])
-            if outcome.name != "step_limit":
+            # the clock has two doubles: where the first is the next time and the second not zero, a grid from
+            # here to that time would be refused
+            if outcome.name == "step_limit":
+                rows.append(_of_the_last_step(ta, grid[done + len(rows[-1]):]))
+            if outcome.name != "step_limit" or sum(map(len, rows)) == grid.size:
                 found = rows[0] if len(rows) == 1 else np.concatenate(rows)
                 return found, OUTCOMES.get(outcome.name, outcome.name)
             left = steps_left(ta.time - last, grid[-1] - ta.time)
             if self.counters["steps"] - begun >= STEP_LIMIT or left > PATIENCE * STEP_LIMIT:
                 return np.concatenate(rows), _crawling(last / self.pace, ta.time / self.pace, left, REPORT)
+
+
+def _of_the_last_step(ta, ahead) -> np.ndarray:
+    """The states at those of the times ahead, in a row away from 0, that the last step of a Taylor series has
+    reached."""
+    states = []
+    for t in ahead[:np.count_nonzero(np.abs(ahead) <= abs(ta.time))]:
+        ta.update_d_output(t)
+        states.append(ta.d_output.copy())
+    return np.array(states).reshape(-1, len(ta.state))
 
 
 class _SciPy:
