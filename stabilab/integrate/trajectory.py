@@ -35,7 +35,7 @@ def through_the_end(scene: Any, state: Any, times: Any, follow: Callable[..., An
     equations, row = equations_and_start(scene, state)
     parts, times = slices(equations.blocks), checked_times(times)
     start = {name: row[part] for name, part in parts.items()}
-    left = time_left(scene, start)
+    left = time_left(scene)
     if left is None or not times.max() > left:
         return None
     rising = np.sort(times)
@@ -76,7 +76,7 @@ def roots_through_the_end(scene: Any, equations: Any, row: Any, t_end: float,
     they jump there. None where there is no such effect or time. search(scene, state, t_end): while all act.
     """
     parts = slices(equations.blocks)
-    left = time_left(scene, {name: row[part] for name, part in parts.items()})
+    left = time_left(scene)
     if left is None or not t_end > left:
         return None
     first = search(scene, row, left)

@@ -21,11 +21,12 @@ from ..equilibrium.dissipative import (
     resisted_equilibria,
 )
 from ..equilibrium.liquid import trap
-from ..numbers.exact import floats, sqrt_fraction
+from ..numbers.exact import sqrt_fraction
 from ..numbers.vectors import dot
 from ..orbit.fate import REASONS, Basis
 from ..orbit.result import Fate, Motion
 from ..physics.coefficients import Content, at_rest, content, relative, split, taken_up
+from ..physics.scene import judge_start
 
 BESIDE = ("undecided: of a wheel motor nothing is proved beside a damper inside, a liquid, a field, a medium "
           "that leaves some axis free, or an outer torque ")
@@ -45,6 +46,7 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
         scene.quadratic()  # says which effect it is
     omega, gamma = split(parts, state)
     sigma, wheel = relative(parts, state), taken_up(parts, state)
+    judge_start(scene, {"wheel": wheel})
     at = omega + (gamma or ()) + (sigma if parts.inside else ()) + (wheel if any(parts.u) else ())
     seen = {}
     if span is not None:
@@ -131,7 +133,7 @@ def _motor(parts: Content, omega, gamma, wheel) -> dict[str, Any]:
     start = tuple(float(l) + h for l, h in zip(parts.Lambda, wheel))
     H = hypot(*(float(d) * w + h for d, w, h in zip(parts.D, omega, start)))
     if parts.duration is not None:
-        left = max(0.0, float(parts.duration) - dot(floats(parts.u), wheel) / motor**2)
+        left = float(parts.duration)
         most = max(hypot(*start), hypot(*(h + float(u) * left for h, u in zip(start, parts.u))))
         known = "|D omega + Lambda + h| stays", (H + most) / least
         pull = sqrt(sum(float(u) ** 2 / float(d) for d, u in zip(parts.D, parts.u)))
