@@ -29,6 +29,11 @@ STOPPED = ("of the body once the motor has stopped, where its wheel had the mome
 STARTED = "of the body once the motor has stopped, from the momentum of its wheel in [motion] on"
 
 
+def once_stopped(found: Equilibria) -> str:
+    """Of which body they are, where a motor stops; else nothing."""
+    return next((words for words in (STOPPED, STARTED) if found.reason.endswith(words)), "")
+
+
 def equilibria(scene: Any) -> Equilibria:
     """Every equilibrium of a Scene (body, gyrostat, constant torque), a ScaledGyrostat or a case, each with
     its stability.
