@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...answers.equilibria import once_stopped
 from ...answers.equilibria import equilibria as all_of
+from ...answers.equilibria import once_stopped
 from ...equilibrium.result import Equilibria
 from ...errors import InputError
 from .. import style

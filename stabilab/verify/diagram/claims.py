@@ -8,7 +8,21 @@ from typing import Any
 
 from flint import fmpq_poly
 
-from ..numbers import MOST, Malformed, bracket, brief, entries, field, number, numbers, q, quoted, shown, whole, word
+from ..numbers import (
+    MOST,
+    Malformed,
+    bracket,
+    brief,
+    entries,
+    field,
+    number,
+    numbers,
+    q,
+    quoted,
+    shown,
+    whole,
+    word,
+)
 
 SCHEMA = "stabilab.diagram-certificate/1"
 COUNTED = ("isolated", "motion", "borders")
