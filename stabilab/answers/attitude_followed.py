@@ -14,12 +14,16 @@ from typing import Any
 
 import numpy as np
 
+from ..numbers.exact import sqrt_fraction
 from ..orbit.result import Motion
 from ..physics.scene import Scene
 from .attitude_result import LONG, SHORT, Attitude, turned
 from .simulate import simulate, trajectory
 
 SUM_ERROR, RUN_ERROR = 1e-11, 1e-10  # relative: of a sum over a run, of a run's end
+OTHERS = 1.0 - np.eye(3)  # rows: the two axes beside each one
+UNDERFLOW = "undecided: the angular momentum is so near an axis that doubles do not tell how it goes round it"
+NUTATION = 1e-11  # squares of angles up to which the motion is linear
 FEWEST, MOST = 64, 1 << 17  # times of the sum
 
 
@@ -39,12 +43,18 @@ def _of_gyrostat(scene: Scene, base: Attitude, found: Motion, period: float) -> 
         omega = np.vstack([found.at, states])
         h = D * omega + wheel
         h /= np.linalg.norm(h, axis=1)[:, None]
-        across = 1 - h * h  # of each axis, the square of the sine of its angle from H
+        # of each axis, the square of the sine of its angle from H; 1 - h^2 would cancel near an axis
+        across = (h * h) @ OTHERS
         # the long or the short axis where H goes round it alone; else the axis that H keeps farthest from
         encircled = [i for i in names if _winding(h, i)]
         e = encircled[0] if len(encircled) == 1 else int(across.min(axis=0).argmax())
-        rates = (np.einsum("ij,ij->i", omega, h) - omega[:, e] * h[:, e]) / across[:, e]
-        mean = float(rates.mean())
+        if (small := _small_nutation(scene, found, e, float(across[:, e].max()))) is not None:
+            mean, before = small
+            break
+        with np.errstate(all="ignore"):
+            mean = float(((omega * h) @ OTHERS[e] / across[:, e]).mean())
+        if not math.isfinite(mean) or not mean:
+            return replace(base, rotation_period=period, because=UNDERFLOW)
         if abs(mean - before) <= SUM_ERROR * abs(mean) or count >= MOST:
             break
         before, count = mean, 2 * count
@@ -61,6 +71,30 @@ def _of_gyrostat(scene: Scene, base: Attitude, found: Motion, period: float) -> 
     return turned(replace(base, mode=mode, rotation_period=period, cone=cone, error=error, because=words,
                            precession_period=2 * math.pi / abs(mean) if mode else None),
                    mean * period / (2 * math.pi))
+
+
+def _small_nutation(scene: Scene, found: Motion, e: int, across: float) -> tuple[float, float] | None:
+    """(mean rate of precession about axis e, another as far from it as it may be wrong) of the linear motion,
+    where H keeps so near the axis that a run loses the digits of the small rates; else None. across: the
+    square of the sine of their largest angle.
+
+    With w, H about the axis and i, j beside it D_i w_i' = -(H - D_j w) w_j, D_j w_j' = (H - D_i w) w_i: H
+    goes round the axis in the body at W, W^2 the product of both brackets over D_i D_j, in the direction of
+    their sign, and the axis precesses at w + W. What is left out is of the second order in the angle over a
+    bracket."""
+    D, wheel = scene.body.exact, scene.vector("gyrostat")
+    w = Fraction(found.at[e])
+    i, j = (n for n in range(3) if n != e)
+    H = D[e] * w + wheel[e]
+    brackets = [H - D[n] * w for n in (i, j)]
+    if not H or brackets[0] * brackets[1] <= 0:
+        return None
+    left = across * float(H / min(brackets, key=abs)) ** 2
+    if not left <= NUTATION:
+        return None
+    W = math.copysign(float(sqrt_fraction(brackets[0] * brackets[1] / (D[i] * D[j]))), brackets[0])
+    mean = float(w) + W
+    return (mean, mean * (1 + 10 * left)) if mean else None
 
 
 def _winding(h: Any, i: int) -> int:

@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import InputError
 from ..orbit.result import Fate
 from ..physics.coefficients import effective
-from ..physics.scene import AnyScene, hold_on, slices
+from ..physics.scene import AnyScene, hold_on, judge_starts, slices
 from ..physics.states import REST, checked_starts, float_array, start_of
 from ..physics.to_numpy import equations_of
 from ..representation import Shown
@@ -118,7 +118,8 @@ def chaos(scene: AnyScene, states: ArrayLike, until: float | None = None,
         scene, rows = effective(scene), rows[:, :3].copy()
     turn = turn_of(scene, rows)
     end = TURNS * turn if until is None else float(until)
-    hold_on(scene, equations.blocks, rows, end, "chaos")
+    hold_on(scene, end, "chaos")
+    judge_starts(scene, equations.blocks, rows)
     fates = _fates(scene, rows, end)
     leaving = fates == Fate.SPIN_UP
     found = growth(scene, rows[~leaving], end, turn, tell) if not leaving.all() else None

@@ -28,7 +28,7 @@ from ..orbit.reduction import reduce
 from ..orbit.result import Fate, Motion, no_period
 from ..physics.coefficients import effective
 from ..physics.equations import Equations
-from ..physics.scene import AnyScene, QuadraticForm, Scene, aligned, stops_before
+from ..physics.scene import AnyScene, QuadraticForm, Scene, aligned, time_left
 from ..physics.states import checked_states, equations_and_start, moved_row
 from ..unreduced.growth_certificate import law_extremes
 from ..unreduced.near_rest import beside_rest, small_loop
@@ -268,7 +268,8 @@ def _over_span(scene: AnyScene, state: Any, span: Any, known: Motion, digits: in
                f"place differs by {error / CAUTION:.1e}")
     if digits <= MOST and error <= 10.0 ** (slack - digits):
         return Told("extremes", values, digits, digits_of(error), "run", because)
-    one_law = stops_before(scene, equations.blocks, [start], length) is None
+    left = time_left(scene)
+    one_law = left is None or left >= length
     found = (_many_digits(equations, [*(exact or start[:3]), *start[3:]], length, digits)
              if one_law else None)
     return (_unbounded_again(found, values) if found

@@ -19,7 +19,7 @@ from ..integrate.trajectory import FALLBACK_RTOL
 from ..orbit.flow import reduced_motion
 from ..physics.coefficients import limits_of
 from ..physics.equations import derive
-from ..physics.scene import AnyScene, stops_before
+from ..physics.scene import AnyScene, time_left
 from ..physics.states import (
     angles,
     as_quaternion,
@@ -231,8 +231,8 @@ def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
     scaled = case.scene.variables == "scaled"
     equations, start = equations_and_start(case.scene, case.state if scaled
                                            else start_of(case.scene, case.state, case.blocks))
-    if (times.min() < 0 < times.max()
-            or stops_before(case.scene, equations.blocks, [start], times.max()) is not None):
+    left = time_left(case.scene)
+    if times.min() < 0 < times.max() or (left is not None and left < times.max()):
         return None
     written = [*(case.exact_state or start[:3]), *start[3:]]  # the decimals
     order = np.argsort(np.abs(times), kind="stable")

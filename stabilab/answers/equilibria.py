@@ -2,13 +2,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 from importlib import import_module
 from typing import Any
 
 from ..equilibrium.gyrostat import gyrostat_equilibria
 from ..equilibrium.result import Equilibria
 from ..physics.coefficients import content, limits_of
-from ..physics.scene import AnyScene
+from ..physics.effects import effect_class
+from ..physics.scene import AnyScene, Scene
 from ..validation import checked_scene, is_case
 
 # kind of a scene's torques -> (module of `equilibrium`, its function of their coefficients); one that no
@@ -24,6 +26,12 @@ BY_KIND = {
 
 STOPPED = ("of the body once the motor has stopped, where its wheel had the momentum of the gyrostat when it "
            "started")
+STARTED = "of the body once the motor has stopped, from the momentum of its wheel in [motion] on"
+
+
+def once_stopped(found: Equilibria) -> str:
+    """Of which body they are, where a motor stops; else nothing."""
+    return next((words for words in (STOPPED, STARTED) if found.reason.endswith(words)), "")
 
 
 def equilibria(scene: Any) -> Equilibria:
@@ -38,10 +46,21 @@ def equilibria(scene: Any) -> Equilibria:
     and kind "undecided" says that not all equilibria are known. Raises InputError for effects this analysis
     does not cover.
     """
-    scene = checked_scene(scene.scene if is_case(scene) else scene)
+    case = scene if is_case(scene) else None
+    scene = checked_scene(scene if case is None else scene.scene)
+    if case is not None and scene.ending and any(given := case.blocks.get("wheel", ())):
+        found = equilibria(_with_wheel(scene, given))
+        return replace(found, reason=found.reason.replace(STOPPED, STARTED))
     found = (None if scene.plain else other_equilibria(scene)) or gyrostat_equilibria(scene)
     limits = limits_of(scene)
     return replace(found, validity=limits.at_equilibria(scene, found)) if limits else found
+
+
+def _with_wheel(scene: Any, momentum: Any) -> Scene:
+    """The scene whose wheels have so much more momentum, N m s, at the start."""
+    total = tuple(a + Fraction(b) for a, b in zip(scene.vector("gyrostat"), momentum))
+    return Scene(scene.body, effect_class("gyrostat")(total),
+                 *(one for one in scene.effects if one.name != "gyrostat"))
 
 
 def other_equilibria(scene: AnyScene) -> Equilibria | None:

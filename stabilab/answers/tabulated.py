@@ -240,7 +240,7 @@ def _twice(scene: AnyScene, start: Any, exact: Any, times: Sequence[Fraction], d
            work: int) -> Tabulated:
     """By two runs of different precision, as far as they agree."""
     equations, row = equations_and_start(scene, start)
-    hold_on(scene, equations.blocks, [row], float(times[-1]), "reference")
+    hold_on(scene, float(times[-1]), "reference")
     begin = [*exact, *map(float, row[3:])]
     recursion, budget = Recursion(equations), [work]
     runs = [one_run(recursion, begin, times, digits + more, budget)[0]

@@ -193,7 +193,7 @@ AFTER = "roots along a run in machine precision over the end of an effect"
 def past_the_end(scene: AnyScene, state: Any, limit: Limit, last: float) -> Found:
     """The first crossing by `last` along runs, the second of them from the end of the effect on."""
     start, direction = _blocks(*equations_and_start(scene, state)), limit.direction
-    left = time_left(scene, start)
+    left = time_left(scene)
     if left is None or last <= left:
         return by_run(scene, start, limit, last)
     attitude = start.get("attitude", np.array(REST["attitude"]))

@@ -18,7 +18,7 @@ from ..integrate.trajectory import Trajectory
 from ..numbers.double_double import EPS
 from ..numbers.units import NONE, TIME, in_si
 from ..orbit.result import Motion
-from ..physics.scene import BLOCKS, AnyScene, slices, torque_axis
+from ..physics.scene import BLOCKS, AnyScene, later, slices, torque_axis
 from ..physics.states import equations_and_start, moved_row, start_of
 from ..representation import Shown
 from .caveats import STEADY, caveats_of, limited, misaligned, stated
@@ -144,9 +144,10 @@ def _root(scene: AnyScene, run: Trajectory, n: int, values: np.ndarray,
     if values[n + 1] == 0:
         return float(run.t[n + 1]), run.states[n + 1]
     start = {name: run.states[n, part] for name, part in run.blocks.items()}
+    left = later(scene, float(run.t[n]))
 
     def state(after: float) -> np.ndarray:
-        return run.states[n] if after == 0 else trajectory(scene, start, [after], laws=False).states[0]
+        return run.states[n] if after == 0 else trajectory(left, start, [after], laws=False).states[0]
     step = float(run.t[n + 1] - run.t[n])
     value = lambda s: values[n + 1] if s == step else _value(event, float(run.t[n]) + s, state(s))
     after = float(brentq(value, 0.0, step, xtol=4 * EPS * step, rtol=4 * EPS))

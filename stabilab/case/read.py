@@ -578,6 +578,9 @@ def _judge_blocks(motion: _Motion, scene):
     if "wheel" in given and scene is not None and "wheel" not in scene.blocks:
         table.fault("no motor turns a wheel in this body: give [effects.wheel_motor]; the momentum of a "
                     "wheel that runs by itself is that of [effects.gyrostat]", "wheel")
+    if "wheel" in given and (words := next((said for one in getattr(scene, "effects", ())
+                                            if (said := one.refuses({"wheel": given["wheel"]}))), "")):
+        table.fault(words.removeprefix("wheel: "), "wheel")
     if motion.state is not None and scene is not None and "gamma" in scene.blocks and "gamma" not in given:
         angles = given.get("attitude")
         told = (f"; the attitude given has [{', '.join(f'{v:.10g}' for v in vertical_of(*angles))}]" if angles

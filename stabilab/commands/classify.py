@@ -40,7 +40,7 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
     if certify:
         from . import certificates
         certificates.checked(out, cases)
-    rests = answers_of(loaded, lambda case: equilibria(case.scene))
+    rests = answers_of(loaded, equilibria)
     motions = [tilted(case, motion_of(case, follow=follow, proof=certify), tilt) if case.state else None
                for case in one_by_one(loaded)]
     boxes, motions = over_boxes(loaded, motions, "equilibria", "fate")

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError
 from ..physics.coefficients import limits_of
-from ..physics.scene import AnyScene, slices, stops_before
+from ..physics.scene import AnyScene, judge_starts, slices, time_left
 from ..physics.states import checked_rtol, checked_starts, checked_times
 from ..physics.to_numpy import equations_of, to_numpy
 from ..representation import Compared, Shown
@@ -76,8 +76,9 @@ def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float |
     """
     equations, times, rtol = equations_of(scene), checked_times(times), checked_rtol(rtol)
     starts = checked_starts(equations, states)
-    workers = _workers(workers)
-    if not heyoka_available() or stops_before(scene, equations.blocks, starts, times.max()) is not None:
+    judge_starts(scene, equations.blocks, starts)
+    workers, left = _workers(workers), time_left(scene)
+    if not heyoka_available() or (left is not None and left < times.max()):
         return _one_by_one(scene, starts, times, rtol)
     rtol = TAYLOR_TOLERANCE if rtol is None else max(rtol, TAYLOR_TOLERANCE)
     out, steps, stopped = np.empty((len(starts), times.size, starts.shape[1])), 0, {}

@@ -307,7 +307,7 @@ def reference(scene, start, times, blocks=(), orbit=False, work: int = WORK) -> 
     """
     equations = derive(scene, blocks)
     recursion, times, budget = Recursion(equations), np.asarray(times, float), [work]
-    hold_on(scene, equations.blocks, [start], times.max(), "reference")
+    hold_on(scene, times.max(), "reference")
     parts, before, best = slices(equations.blocks), None, None
     orbit = orbit and not (times < 0).any()
     empty = np.empty((0, recursion.size))

@@ -35,7 +35,7 @@ def through_the_end(scene: Any, state: Any, times: Any, follow: Callable[..., An
     equations, row = equations_and_start(scene, state)
     parts, times = slices(equations.blocks), checked_times(times)
     start = {name: row[part] for name, part in parts.items()}
-    left = time_left(scene, start)
+    left = time_left(scene)
     if left is None or not times.max() > left:
         return None
     rising = np.sort(times)
@@ -76,7 +76,7 @@ def roots_through_the_end(scene: Any, equations: Any, row: Any, t_end: float,
     they jump there. None where there is no such effect or time. search(scene, state, t_end): while all act.
     """
     parts = slices(equations.blocks)
-    left = time_left(scene, {name: row[part] for name, part in parts.items()})
+    left = time_left(scene)
     if left is None or not t_end > left:
         return None
     first = search(scene, row, left)
@@ -252,12 +252,26 @@ class _Taylor:
                 outcome, _, _, steps, *_, out = ta.propagate_grid(way, max_steps=REPORT, **note)
             self.counters["steps"] += steps
             rows.append(out.reshape(-1, size)[1:])
-            if outcome.name != "step_limit":
+            # the clock has two doubles: where the first is the next time and the second not zero, a grid from
+            # here to that time would be refused
+            if outcome.name == "step_limit":
+                rows.append(_of_the_last_step(ta, grid[done + len(rows[-1]):]))
+            if outcome.name != "step_limit" or sum(map(len, rows)) == grid.size:
                 found = rows[0] if len(rows) == 1 else np.concatenate(rows)
                 return found, OUTCOMES.get(outcome.name, outcome.name)
             left = steps_left(ta.time - last, grid[-1] - ta.time)
             if self.counters["steps"] - begun >= STEP_LIMIT or left > PATIENCE * STEP_LIMIT:
                 return np.concatenate(rows), _crawling(last / self.pace, ta.time / self.pace, left, REPORT)
+
+
+def _of_the_last_step(ta, ahead) -> np.ndarray:
+    """The states at those of the times ahead, in a row away from 0, that the last step of a Taylor series has
+    reached."""
+    states = []
+    for t in ahead[:np.count_nonzero(np.abs(ahead) <= abs(ta.time))]:
+        ta.update_d_output(t)
+        states.append(ta.d_output.copy())
+    return np.array(states).reshape(-1, len(ta.state))
 
 
 class _SciPy:

@@ -265,7 +265,7 @@ def _equilibria(case: Case, out: np.ndarray) -> None:
     if "stable" not in out.dtype.names and (number := number_of_equilibria(case.scene)) is not None:
         out["equilibria"] = number
         return
-    found = equilibria(case.scene)
+    found = equilibria(case)
     verdicts = ([point.verdict for point in found.points]
                 + [piece.verdict for curve in found.curves for piece in curve.segments])
     number = {"none": 0, "points": len(found.points), "undecided": OPEN}.get(found.kind, ENDLESS)

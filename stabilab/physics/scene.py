@@ -363,7 +363,7 @@ class Scene(metaclass=Asked):
     @cached_property
     def ending(self) -> tuple[Effect, ...]:
         """Its effects that stop acting some time."""
-        return tuple(effect for effect in self.effects if effect.stops_after({}) is not None)
+        return tuple(effect for effect in self.effects if effect.stops_after() is not None)
 
     @cached_property
     def plain(self) -> bool:
@@ -507,26 +507,17 @@ def torque_axis(scene: AnyScene) -> int:
     return acting[0] if len(acting) == 1 else 0
 
 
-def time_left(scene: AnyScene, state: Mapping[str, Any]) -> float | None:
-    """For how long all effects of a scene still act, s, from a state in blocks on; None where they do for
+def time_left(scene: AnyScene) -> float | None:
+    """For how long all effects of a scene act, s, from the start of a motion on; None where they do for
     ever."""
-    found = [effect.stops_after(state) for effect in scene.ending]
+    found = [effect.stops_after() for effect in getattr(scene, "ending", ())]  # equations may stand for it
     return min((max(left, 0.0) for left in found if left is not None), default=None)
 
 
-def stops_before(scene: AnyScene, blocks: Sequence[str], rows: Any, end: float) -> float | None:
-    """The time after which an effect stops acting on one of the motions from rows of these blocks, where
-    that is before `end`; None where there is none."""
-    parts = slices(blocks)
-    found = [time_left(scene, {name: row[part] for name, part in parts.items()})
-             for row in (rows if scene.ending else ())]
-    return min((left for left in found if left is not None and left < end), default=None)
-
-
-def hold_on(scene: AnyScene, blocks: Sequence[str], rows: Any, end: float, question: str) -> None:
-    """Raise InputError where an effect stops acting on one of these motions before `end`: the question takes
-    one that acts all the time."""
-    if (left := stops_before(scene, blocks, rows, end)) is not None:
+def hold_on(scene: AnyScene, end: float, question: str) -> None:
+    """Raise InputError where an effect stops acting before `end`: the question takes one that acts all the
+    time."""
+    if (left := time_left(scene)) is not None and left < end:
         raise InputError(f"{question}: an effect stops acting after {left:.10g} s: ask up to then, and "
                          "beyond from the state there, of the scene that is left")
 
@@ -534,7 +525,29 @@ def hold_on(scene: AnyScene, blocks: Sequence[str], rows: Any, end: float, quest
 def stopped(scene: AnyScene, state: Mapping[str, Any]) -> tuple[Scene, dict[str, tuple[float, ...]]]:
     """(the scene without the effect that stops acting first, its blocks), from the state where it stops on.
     """
-    ends = [(left, one) for one in scene.ending if (left := one.stops_after(state)) is not None]
+    ends = [(left, one) for one in scene.ending if (left := one.stops_after()) is not None]
     effect = min(ends, key=lambda end: end[0])[1]
     kept = {name: tuple(map(float, row)) for name, row in state.items() if name not in effect.needs}
     return effect.stopped(scene, state), kept
+
+
+def later(scene: AnyScene, t: float) -> AnyScene:
+    """The scene for a motion that is taken up at a time t, s, after its start: its effects stop so much
+    sooner."""
+    if not scene.ending:
+        return scene
+    return Scene(scene.body, *(effect.later(t) for effect in scene.effects))  # type: ignore[union-attr]
+
+
+def judge_start(scene: AnyScene, state: Mapping[str, Any]) -> None:
+    """Raise InputError where an effect cannot begin with these blocks."""
+    for effect in getattr(scene, "effects", ()):
+        if words := effect.refuses(state):
+            raise InputError(f"state: {words}")
+
+
+def judge_starts(scene: AnyScene, blocks: Sequence[str], rows: Any) -> None:
+    """The same of many motions from rows of these blocks."""
+    parts = slices(blocks)
+    for row in rows if any(name in INSIDE for name in blocks) else ():
+        judge_start(scene, {name: row[part] for name, part in parts.items()})

@@ -17,7 +17,7 @@ from ..errors import InputError, told
 from ..numbers.double_double import EPS
 from ..validation import real
 from .equations import Equations, derive, rotation
-from .scene import BLOCKS, INSIDE, ORDER, AnyScene, Scene, ordered, rests
+from .scene import BLOCKS, INSIDE, ORDER, AnyScene, Scene, judge_start, judge_starts, ordered, rests
 from .to_numpy import equations_of
 
 if TYPE_CHECKING:
@@ -121,6 +121,7 @@ def equations_and_start(scene: AnyScene, state: Any) -> tuple[Equations, np.ndar
             words = ("three numbers" if wanted == 3
                      else f"{wanted} numbers ({', '.join(map(str, equations.state))})")
             raise InputError(f"state: expected {words}, got {array.size} of them")
+        judge_starts(scene, equations.blocks, [array])
         return equations, array
     unknown = [name for name in state if name not in BLOCKS]
     if unknown or "omega" not in state:
@@ -134,6 +135,7 @@ def equations_and_start(scene: AnyScene, state: Any) -> tuple[Equations, np.ndar
         if row.size != len(BLOCKS[name].components):
             raise InputError(f"state: {name} has {len(BLOCKS[name].components)} components, got {row.size}")
         rows.append(row)
+    judge_start(scene, dict(zip(equations.blocks, rows)))
     return equations, np.concatenate(rows)
 
 

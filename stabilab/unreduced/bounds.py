@@ -21,11 +21,12 @@ from ..equilibrium.dissipative import (
     resisted_equilibria,
 )
 from ..equilibrium.liquid import trap
-from ..numbers.exact import floats, sqrt_fraction
+from ..numbers.exact import sqrt_fraction
 from ..numbers.vectors import dot
 from ..orbit.fate import REASONS, Basis
 from ..orbit.result import Fate, Motion
 from ..physics.coefficients import Content, at_rest, content, relative, split, taken_up
+from ..physics.scene import judge_start
 
 BESIDE = ("undecided: of a wheel motor nothing is proved beside a damper inside, a liquid, a field, a medium "
           "that leaves some axis free, or an outer torque ")
@@ -45,6 +46,7 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
         scene.quadratic()  # says which effect it is
     omega, gamma = split(parts, state)
     sigma, wheel = relative(parts, state), taken_up(parts, state)
+    judge_start(scene, {"wheel": wheel})
     at = omega + (gamma or ()) + (sigma if parts.inside else ()) + (wheel if any(parts.u) else ())
     seen = {}
     if span is not None:
@@ -59,21 +61,29 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
         fields = {"fate": Fate.EQUILIBRIUM, "because": REASONS[Basis.AT_REST],
                   "extremes": tuple((w, w) for w in omega)}
     else:
-        fate, because, bounds = judged(parts, omega, gamma, sigma)
+        fate, because, bounds = judged(parts, omega, gamma, sigma, _end(seen))
         fields = {**seen, "fate": fate, "because": because, "invariants": bounds}
     because = f"{fields['because']}; {parts.note}" if parts.note else fields["because"]
     level = "undecided" if fields["fate"] == Fate.UNDECIDED else "exact"
     return Motion(at=at, **{**fields, "because": because, "level": level})
 
 
-def judged(parts: Content, omega, gamma, sigma=(0.0,) * 3) -> tuple[Fate, str, dict]:
-    """(fate, proof in words, the numbers in it); sigma: rates of a damper relative to the body."""
+def _end(seen: dict[str, Any]) -> tuple[float, ...]:
+    """omega and gamma at the end of a run over the span; empty where there was none."""
+    shown = seen.get("evidence", {})
+    return (*shown["rate_end"], *shown["vertical_end"]) if "vertical_end" in shown else ()
+
+
+def judged(parts: Content, omega, gamma, sigma=(0.0,) * 3,
+           end: tuple[float, ...] = ()) -> tuple[Fate, str, dict]:
+    """(fate, proof in words, the numbers in it); sigma: rates of a damper relative to the body; end: omega
+    and gamma at the end of a run."""
     if parts.inside:
         return _damped(parts, omega, sigma)
     if parts.unproved_loss:
         return Fate.UNDECIDED, parts.unproved_loss, {}
     if gamma:
-        return _directed(parts, omega, gamma)
+        return _directed(parts, omega, gamma, end)
     T0, x0 = _energy(parts, omega)
     if parts.kappa and any(parts.Lambda) and not parts.printed:
         return _wheel_and_liquid(parts, T0, x0)
@@ -123,7 +133,7 @@ def _motor(parts: Content, omega, gamma, wheel) -> dict[str, Any]:
     start = tuple(float(l) + h for l, h in zip(parts.Lambda, wheel))
     H = hypot(*(float(d) * w + h for d, w, h in zip(parts.D, omega, start)))
     if parts.duration is not None:
-        left = max(0.0, float(parts.duration) - dot(floats(parts.u), wheel) / motor**2)
+        left = float(parts.duration)
         most = max(hypot(*start), hypot(*(h + float(u) * left for h, u in zip(start, parts.u))))
         known = "|D omega + Lambda + h| stays", (H + most) / least
         pull = sqrt(sum(float(u) ** 2 / float(d) for d, u in zip(parts.D, parts.u)))
@@ -246,7 +256,7 @@ def _permanent(parts: Content, H, twice, what: str) -> tuple[Fate, str, dict]:
         return (Fate.BOUNDED,
                 f"{words}; its energy is below that of rotation about axis {second + 1} at this |H|, so it "
                 f"stays on its side and tends to "
-                f"rotation about axis {first + 1}, the axis of the largest moment: ({place})", bounds)
+                f"rotation about axis {first + 1}, the axis of the largest moment: ({place}) rad/s", bounds)
     return (Fate.BOUNDED,
             f"{words} and tends to a permanent rotation of its |H|: about axis {first + 1} (largest moment) "
             f"but for a set of measure zero; "
@@ -276,7 +286,7 @@ def _wheel_and_liquid(parts: Content, T0, x0) -> tuple[Fate, str, dict]:
                                        "late_rate_bound": x1 / least}
 
 
-def _directed(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
+def _directed(parts: Content, omega, gamma, end) -> tuple[Fate, str, dict]:
     T0, x0 = _energy(parts, omega)
     s, N = tuple(map(float, parts.s)), float(parts.N)
     V0 = -dot(s, gamma) + N / 2 * sum(float(d) * g * g for d, g in zip(parts.D, gamma))
@@ -295,12 +305,12 @@ def _directed(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
         kept = ("falls (the medium takes 2 c T)" if parts.c else
                 "falls (the damper takes omega . C omega)" if parts.damped else
                 "falls (eddy currents take k B^2 |omega x gamma|^2)" if parts.eddy else "is constant")
-        end = "; it tends to rest (LaSalle)" if decay(parts) else ""
-        if parts.eddy and floor == 0 and not (end or parts.damped or any(parts.Lambda)):
-            end = _about_the_field(parts, omega, gamma)
+        where = "; it tends to rest (LaSalle)" if decay(parts) else ""
+        if parts.eddy and floor == 0 and not (where or parts.damped or any(parts.Lambda)):
+            where = _about_the_field(parts, omega, gamma, end)
         return (Fate.BOUNDED,
                 f"|gamma| = 1 bounds the potential energy from below and the sum of kinetic and potential "
-                f"energy {kept}: T {at_most}, so |omega| <= {rate:.6g} rad/s{end}",
+                f"energy {kept}: T {at_most}, so |omega| <= {rate:.6g} rad/s{where}",
                 {"energy": T0 + V0, "rate_bound": rate} | ({"late_rate_bound": 0.0} if decay(parts) else {}))
     if slowest := float(decay(parts)):
         torque = hypot(*map(float, parts.M)) + hypot(*s) + abs(N) * (most - least) / 2
@@ -316,10 +326,51 @@ def _directed(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
             {"energy": T0 + V0})
 
 
-def _about_the_field(parts: Content, omega, gamma) -> str:
-    """Where a body tends that eddy currents alone act on: see `equilibrium.dissipative`."""
-    p = float(dot([d * Fraction(w) for d, w in zip(parts.D, omega)], list(map(Fraction, gamma))))
-    axis = max(range(3), key=lambda i: parts.D[i])
-    return (f"; H . gamma = {p:.6g} N m s stays, and the motion tends to rotation about the field, at "
-            f"{p / float(parts.D[axis]):.6g} rad/s about axis {axis + 1}, the axis of the largest moment, "
-            "but for a set of measure zero (LaSalle)")
+def _about_the_field(parts: Content, omega, gamma, end=()) -> str:
+    """Where a body tends that eddy currents alone act on: see `equilibrium.dissipative`. end: omega and gamma
+    at the end of a run, if there was one.
+
+    The rate along the field has the sign of p = H . gamma. That about the axis of the largest moment D1 has
+    it where that axis comes to point along the field, and the other where against it. As p^2 <= 2 T gamma .
+    D gamma, 2 T D2 < p^2 keeps gamma . D gamma above the next moment D2 for ever: gamma1 keeps its sign, and
+    rotation about no other axis has so little energy."""
+    p = _along(parts, omega, gamma)
+    if not p:
+        return "; H . gamma = 0 stays, and the motion tends to rest (LaSalle)"
+    first, second = sorted(range(3), key=lambda i: -parts.D[i])[:2]
+    rate, name = float(p / parts.D[first]), f"axis {first + 1}, the axis of the largest moment"
+    words = (f"; H . gamma = {float(p):.6g} N m s stays, and the motion tends to rotation about the field, "
+             f"at {rate:.6g} rad/s along `vertical`")
+    if parts.D[first] == parts.D[second]:
+        return words + (
+            " (LaSalle); with all moments equal, about whichever axis then points along it"
+            if len(set(parts.D)) == 1 else f", about an axis in the plane of axes {first + 1} and "
+            f"{second + 1}, the two largest moments, but for a set of measure zero (LaSalle)")
+    if _on_its_side(parts, omega, gamma, second):
+        return words + (f": at {_about(rate, gamma[first])} rad/s about {name}: its energy is below "
+                        f"that of rotation about axis {second + 1} at this H . gamma, so it stays on its "
+                        "side (LaSalle)")
+    words += (f", about {name}, but for a set of measure zero (LaSalle); whether that axis then points along "
+              "the field or against it is not proved, since its energy is not below that of rotation about "
+              "the next axis")
+    if end and _on_its_side(parts, end[:3], end[3:], second):
+        words += (f"; by a run over the span it ends at {_about(rate, end[3 + first])} rad/s about axis "
+                  f"{first + 1}")
+    return words
+
+
+def _along(parts: Content, omega, gamma) -> Fraction:
+    """H . gamma, exact."""
+    return dot([d * Fraction(w) for d, w in zip(parts.D, omega)], list(map(Fraction, gamma)))
+
+
+def _on_its_side(parts: Content, omega, gamma, second: int) -> bool:
+    """Whether eddy currents let the axis of the largest moment point no other way: see `_about_the_field`."""
+    twice = sum((d * Fraction(w) ** 2 for d, w in zip(parts.D, omega)), Fraction(0))
+    g = tuple(map(Fraction, gamma))
+    return twice * parts.D[second] * dot(g, g) < _along(parts, omega, gamma) ** 2
+
+
+def _about(rate: float, side: float) -> str:
+    """A rate along the field as one about an axis that points along it (side > 0) or against it."""
+    return f"{rate if side > 0 else -rate:+.6g}"

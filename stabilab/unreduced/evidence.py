@@ -156,7 +156,9 @@ def seen_of_blocks(scene, start, span) -> dict:
             "extremes_over": over,
             **_validity(turning, found, over),
             "evidence": {"span": found.t_reached, "energy_change": float(ends[1] - ends[0]),
-                         "rate_end": [float(v) for v in found.end[:3]], "steps": found.steps}}
+                         "rate_end": [float(v) for v in found.end[:3]], "steps": found.steps,
+                         **({"vertical_end": [float(v) for v in found.end[3:6]]}
+                            if "gamma" in equations.blocks else {})}}
 
 
 def _validity(scene, found, over) -> dict:

@@ -4,7 +4,7 @@ from __future__ import annotations
 import json
 
 from .diagram import claims as diagram
-from .numbers import Malformed, field, number, shown
+from .numbers import Malformed, field, number, quoted, shown
 
 # --- The form of a certificate's file: JSON of bounded size whose keys stand once, and the keys that have a
 # meaning
@@ -86,7 +86,7 @@ def _strangers(value, known, where):
     elif isinstance(known, dict) and isinstance(value, dict):
         for key, entry in value.items():
             if key not in known:
-                yield f"{where and where + '.'}{shown(key)}"
+                yield f"{quoted(key)}{where and ' in ' + where}"
             else:
                 yield from _strangers(entry, known[key], f"{where and where + '.'}{key}")
 
@@ -113,7 +113,7 @@ def about(certificate: dict) -> dict:
 
 def line(told: dict) -> str:
     """The line that `stabilab verify` prints first."""
-    if "number" in told:
+    if "range" in told:
         return diagram.line(told)
     units = UNITS if told.get("variables") == "physical" else {}
     parts = [f"{WORDS.get(key, key)} {_short(value)} {units.get(key, '')}".rstrip()
@@ -124,7 +124,7 @@ def line(told: dict) -> str:
 def differences(told: dict, case: dict) -> list[str]:
     """What a certificate is about that a case is not: both as `about` tells it, numbers compared exactly. A
     certificate without a motion says nothing of a state, so the case's may be any."""
-    if "number" in told:
+    if "range" in told:
         return diagram.differences(told, case)
     keys = [*told, *(key for key in case if key not in told and key != "state")]
     return [f"{WORDS.get(key, key)}: the certificate's {_short(told.get(key))}, the case's "

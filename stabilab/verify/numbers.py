@@ -41,6 +41,13 @@ def shown(value) -> str:
         return type(value).__name__
 
 
+def quoted(words) -> str:
+    """Words of the file that nothing here checks, marked as its own: as one quotation, whose marks cannot be
+    closed from within, without control characters."""
+    plain = "".join(c for c in words if c.isprintable())
+    return f"named in the file: {plain[:80]!r}"
+
+
 def number(text, where: str) -> Fraction:
     """The exact value of "p/q", an integer or a decimal, in plain digits."""
     if not isinstance(text, str):

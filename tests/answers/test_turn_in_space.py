@@ -280,3 +280,22 @@ def test_digits_that_a_followed_motion_does_not_have_are_missed_by_exit_5(stabil
     assert code == 2 and "1 to 50" in err
     with pytest.raises(ToleranceNotMet):
         attitude(scene_of((3, 2, 1), (0.1, 0, 0.2)), (0.3, 0.2, 0.1), digits=20)
+
+
+@pytest.mark.parametrize("axis, sign", [(1, 1), (1, -1), (3, 1), (3, -1)])
+@pytest.mark.parametrize("nutation", [1e-4, 1e-9, 1e-25, 1e-120])
+def test_with_a_wheel_the_precession_of_a_small_nutation_is_that_of_the_linear_motion(nutation, axis, sign):
+    """By hand, in the angles of Euler: about the axis phi' = w - psi', and from D_i w_i' = (H - D_j w) w_j and its
+    like H goes round the axis in the body at phi', phi'^2 = (H - D_i w)(H - D_j w)/(D_i D_j); about the major
+    axis psi' > w, about the minor one psi' < w (a free body's is H/D transverse)."""
+    D, wheel, w, e = (3.0, 2.0, 1.0), sign * 0.5, sign * 1.0, axis - 1
+    i, j = (n for n in range(3) if n != e)
+    wheel = wheel if axis == 1 else 0.1 * wheel
+    H = D[e] * w + wheel
+    W = math.sqrt((H - D[i] * w) * (H - D[j] * w) / (D[i] * D[j]))
+    omega, momentum = [0.0] * 3, [0.0] * 3
+    omega[e], omega[i], momentum[e] = w, nutation, wheel
+    found = attitude(stabilab.Scene(stabilab.Body(D), stabilab.Gyrostat(momentum)), omega)
+    precession = abs(w) + (W if axis == 1 else -W)
+    assert found.precession_period == pytest.approx(2 * math.pi / abs(precession), rel=10 * nutation**2 + 1e-10)
+    assert found.rotation_period == pytest.approx(2 * math.pi / W, rel=10 * nutation**2 + 1e-10)

@@ -190,6 +190,22 @@ def test_a_run_cut_into_stretches_is_the_run_in_one(monkeypatch):
     assert max(cut.invariant_drift.values()) < 1e-14
 
 
+def test_a_report_that_comes_where_the_last_time_is_met_but_for_its_last_place(monkeypatch):
+    """The clock of the series has two doubles: after n steps the first of them may be the last time that was
+    asked for, and the second one not zero. What is reported there is the state of the run in one."""
+    from stabilab.integrate import trajectory as trajectories
+    scene, start = Scene(Body((12, 9, 5)), Gyrostat(("0.8", 0, 0)),
+                         ConstantTorque((0, 0, "0.02"))), (0.1, 0.05, 0.02)
+    ends: list[float] = []
+    trajectory(scene, start, [300.0], steps=ends)
+    whole = trajectory(scene, start, ends[:40])
+    for n in range(1, 41):
+        monkeypatch.setattr(trajectories, "REPORT", n)
+        cut = trajectory(scene, start, ends[:n])
+        assert cut.status == "reached" and cut.t.tolist() == ends[:n]
+        np.testing.assert_allclose(cut.states, whole.states[:n], rtol=0, atol=1e-14)
+
+
 def test_a_run_that_would_crawl_for_ever_stops_and_says_what_is_left(monkeypatch):
     """Backwards in time the resistance spins the body up by e^20 a second, and the liquid's time shrinks as
     its square."""

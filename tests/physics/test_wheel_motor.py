@@ -20,6 +20,7 @@ from stabilab import (
     ViscousDamper,
     WheelMotor,
     derive,
+    ensemble,
     equilibria,
     load,
     motion,
@@ -229,7 +230,7 @@ torque = ["20 mN m", 0, "0.01 N m"]
 duration = "1 min"
 [motion]
 angular_velocity = [0.1, 0.05, 0.02]
-wheel = ["1 N m s", 0, 0]
+wheel = ["1 N m s", 0, "0.5 N m s"]
 span = [0, 100]
 """
 
@@ -239,11 +240,11 @@ def test_vectors_of_a_tensor_in_another_frame_are_turned_together():
     turned = np.array([case.frame.turned(tuple(map(Fraction, row))) for row in np.eye(3).astype(int).tolist()]).astype(float)
     motor = case.scene.effect("wheel_motor")
     assert np.array(motor.motor) @ turned.T == pytest.approx([0.02, 0, 0.01], abs=1e-15)
-    assert np.array(case.blocks["wheel"]) @ turned.T == pytest.approx([1, 0, 0], abs=1e-15)
+    assert np.array(case.blocks["wheel"]) @ turned.T == pytest.approx([1, 0, 0.5], abs=1e-15)
     run = case.simulate([0, 5, 100], attitude="quaternion")
     assert run.state["momentum"] == pytest.approx(run.state["momentum"][[0] * 3], abs=1e-13)
-    # it had run for h . u/|u|^2 = 40 s already, in the frame of the file
-    assert run.state["wheel"][-1] @ turned.T == pytest.approx([1 + 20 * 0.02, 0, 20 * 0.01], abs=1e-13)
+    # it runs for a minute from the start, in the frame of the file
+    assert run.state["wheel"][-1] @ turned.T == pytest.approx([1 + 60 * 0.02, 0, 0.5 + 60 * 0.01], abs=1e-13)
 
 
 @pytest.mark.parametrize("line, words", [
@@ -269,8 +270,8 @@ def test_a_wheel_s_momentum_without_a_motor_is_told_where_it_belongs():
 def test_constructor_faults_and_what_is_written():
     with pytest.raises(InputError, match="duration: expected a positive number, got -1"):
         WheelMotor((0, 0, 1), -1)
-    case = load(Scene(Body(D), WheelMotor(("1/3", 0, 0), "2 min")), {"omega": START, "wheel": (1, 2, 3)}, 10)
-    assert load(case.text).scene == case.scene and load(case.text).blocks["wheel"] == (1, 2, 3)
+    case = load(Scene(Body(D), WheelMotor(("1/3", 0, 0), "2 min")), {"omega": START, "wheel": (3, 0, 0)}, 10)
+    assert load(case.text).scene == case.scene and load(case.text).blocks["wheel"] == (3, 0, 0)
     assert case.scene.effect("wheel_motor").duration == 120
 
 
@@ -306,13 +307,75 @@ def test_an_end_is_no_limit_of_a_law():
     assert motion(Scene(Body(D), WheelMotor((0, "0.2", 0), 5)), START, span=20).validity is None
 
 
-def test_a_motor_that_had_stopped_already_is_left_out():
-    """The scene that is left, asked by itself."""
-    stopped = Scene(Body(D), WheelMotor(("0.05", 0, 0), 8))
-    plain = Scene(Body(D), Gyrostat(("0.5", 0, 0)))
-    for ask in ({"tilt": (1, 0.3)}, {"component": (3, 0.03)}):
-        low, high = time_to(stopped, {"omega": START, "wheel": (0.5, 0, 0)}, **ask, t_max=50)
-        assert (low, high) == pytest.approx(tuple(time_to(plain, START, **ask, t_max=50)), rel=1e-12)
+TURNING = """[body]
+inertia = [118, 96, 152]
+[effects.wheel_motor]
+torque = [0, 1, 0]
+duration = "10 s"
+[motion]
+angular_velocity = [0, 0, 0.3]
+wheel = [0, {}, 0]
+span = [0, 60]
+"""
+
+
+def turned_by(h, times):
+    """Rates by SciPy over the end of a motor of 1 N m about y, which runs for 10 s from h on; with h = None the
+    wheel starts with nothing."""
+    D, u = np.array([118.0, 96.0, 152.0]), np.array([0, 1.0, 0])
+
+    def rates(on):
+        return lambda t, w: (np.cross(D * w + [0, h + min(t, 10.0), 0], w) - on * u) / D
+    first, last = times[times <= 10], times[times > 10]
+    run = solve_ivp(rates(1), (0, 10), (0, 0, 0.3), "DOP853", np.unique([*first, 10.0]), rtol=1e-12, atol=1e-14)
+    after = solve_ivp(rates(0), (10, times[-1]), run.y[:, -1], "DOP853", last, rtol=1e-12, atol=1e-14)
+    return np.concatenate([run.y.T[:first.size], after.y.T])
+
+
+@pytest.mark.parametrize("h", [-20, 5, 40])
+def test_a_motor_runs_for_its_duration_from_the_start_whatever_its_wheel_has(h):
+    case, times = load(TURNING.format(h)), np.linspace(0, 60, 6001)
+    rates = turned_by(h, times)
+    start = {"omega": (0, 0, 0.3), "wheel": (0, h, 0)}
+    for run in (case.simulate(times[::100]), simulate(case.scene, (0, 0, 0.3), times[::100], {"wheel": (0, h, 0)})):
+        assert run.state["omega"] == pytest.approx(rates[::100], abs=1e-9)
+        assert run.state["wheel"][-1] == pytest.approx([0, h + 10, 0], abs=1e-12)
+    for found in (case.motion(), motion(case.scene, start, (0, 60))):
+        assert np.array(found.extremes) == pytest.approx(np.stack([rates.min(axis=0), rates.max(axis=0)], axis=1), abs=2e-6)
+        assert np.linalg.norm(rates, axis=1).max() <= found.invariants["rate_bound"] and "after 10 s" in found.because
+    many = ensemble(case.scene, [[0, 0, 0.3, 0, h, 0]] * 2, times[::100])
+    assert many.states[1, :, :3] == pytest.approx(rates[::100], abs=1e-9)
+    most = 0.9 * np.abs(rates[:, 0]).max()
+    at = times[np.argmax(np.abs(rates[:, 0]) > most)]
+    low, high = case.when(component=f"x = {most} rad/s")
+    assert at - 0.01 <= low <= high <= at + 1e-9
+    zeros = case.when(events="omega1").t[0]
+    signs = times[1:-1][np.diff(np.sign(rates[1:, 0])) != 0]
+    assert len(zeros) == len(signs) and zeros == pytest.approx(signs, abs=0.011)
+
+
+def test_equilibria_of_a_case_are_those_of_the_wheel_as_the_motor_leaves_it():
+    found = load(TURNING.format(-20)).equilibria()
+    plain = equilibria(Scene(Body((118, 96, 152)), Gyrostat((0, -10, 0))))
+    assert [p.at for c in found.curves for p in c.samples] == [p.at for c in plain.curves for p in c.samples]
+    assert "from the momentum of its wheel in [motion] on" in found.reason
+
+
+def test_a_wheel_across_the_line_of_its_motor_is_refused_with_what_to_do():
+    text = TURNING.replace("[0, {}, 0]", "[1, -20, 0]")
+    with pytest.raises(InputError, match=r"text:8: motion.wheel: .* does not: give here the part along "
+                                         r"effects.wheel_motor.torque, and to effects.gyrostat.momentum"):
+        load(text)
+    scene = load(TURNING.format(0)).scene
+    for state in ({"omega": (0, 0, 0.3), "wheel": (1, -20, 0)}, [0, 0, 0.3, 1, -20, 0]):
+        for ask in (lambda: motion(scene, state), lambda: trajectory(scene, state, [1.0]),
+                    lambda: time_to(scene, state, rate=1)):
+            with pytest.raises(InputError, match="lies along the motor's line"):
+                ask()
+    with pytest.raises(InputError, match="lies along the motor's line"):
+        load(scene, {"omega": (0, 0, 0.3), "wheel": (1, -20, 0)})
+    with pytest.raises(InputError, match="lies along the motor's line"):
+        ensemble(scene, [[0, 0, 0.3, 0, 1, 0], [0, 0, 0.3, 1, -20, 0]], [1.0])
 
 
 def test_beside_resistance_alone_the_motion_tends_to_rest():

@@ -120,9 +120,17 @@ class Effect(metaclass=Asked):
         """Why it cannot act on this body, and what to do; empty where it can."""
         return ""
 
-    def stops_after(self, state: Mapping[str, Sequence[float]]) -> float | None:
-        """For how long it still acts, s, from a state in blocks on; None where it acts for ever."""
+    def stops_after(self) -> float | None:
+        """For how long it acts from the start of a motion, s; None where it acts for ever."""
         return None
+
+    def later(self, t: float) -> Effect:
+        """The same for a motion that is taken up at a time t, s, after its start."""
+        return self
+
+    def refuses(self, state: Mapping[str, Sequence[float]]) -> str:
+        """Why a state in blocks cannot be one with this effect, and what to do; empty where it can."""
+        return ""
 
     def stopped(self, scene: Any, state: Mapping[str, Sequence[float]]) -> Any:
         """The scene from a state in blocks on, at which it has stopped."""

@@ -1,8 +1,9 @@
 """A motor that spins a wheel up or brakes it: momentum goes from the body into the wheel, none is lost."""
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, ClassVar
 
@@ -17,6 +18,8 @@ from .base import Effect, Part
 ENDLESS = Caveat(Kind.MOTOR, Sentence(
     "motor-without-end", "the motor of the wheel runs without an end, and no wheel takes momentum for ever: "
     "give its duration in [effects.wheel_motor]")())
+ACROSS = 1e-9  # the sine of an angle that is none: runs and turned frames round their vectors
+MOVED = 2.0**-48  # of the state: a start that is moved in its last places is one all the same
 
 
 @dataclass(frozen=True)
@@ -31,8 +34,9 @@ class WheelMotor(Effect):
         D omega' = (D omega + lambda + h) x omega - u + M,    h' = u,    H = D omega + lambda + h,
 
     so that the motor keeps H in space, and T' = omega . (M - u), T of the body alone. lambda + h holds the
-    wheel's whole momentum along its line, with its share in omega. duration: s, for which the motor runs: it
-    has run for h . u/|u|^2; None: without an end.
+    wheel's whole momentum along its line, with its share in omega. duration: s, for which the motor runs from
+    the start of a motion, whatever h is then; None: without an end. ran: s, for which it has run where the
+    motion is taken up.
     """
 
     name: ClassVar[str] = "wheel_motor"
@@ -43,6 +47,7 @@ class WheelMotor(Effect):
 
     motor: Sequence[Given]
     duration: Given | None = None
+    ran: float = field(default=0.0, repr=False)
     exact: Exact3 = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -69,14 +74,20 @@ class WheelMotor(Effect):
     def caveats(self) -> tuple[Caveat, ...]:
         return (ENDLESS,) if self.duration is None else ()
 
-    def _run(self, wheel: Sequence[Number]) -> Number:
-        """For how long the motor has run, s."""
-        return dot(floats(u / dot(self.exact, self.exact) for u in self.exact), wheel)
+    def stops_after(self) -> float | None:
+        return None if self.duration is None else float(self.duration) - self.ran
 
-    def stops_after(self, state: Mapping[str, Sequence[float]]) -> float | None:
-        if self.duration is None:
-            return None
-        return float(self.duration) - self._run(state.get("wheel", (0.0,) * 3))
+    def later(self, t: float) -> WheelMotor:
+        return replace(self, ran=self.ran + t)
+
+    def refuses(self, state: Mapping[str, Sequence[float]]) -> str:
+        u, h = self.motor, tuple(map(float, state.get("wheel", (0.0,) * 3)))
+        most = max((abs(float(v)) for row in state.values() for v in row), default=0.0)
+        if math.hypot(*cross(u, h)) <= math.hypot(*u) * (ACROSS * math.hypot(*h) + MOVED * most):
+            return ""
+        return ("wheel: the momentum that the motor has given its wheel lies along the motor's line, and "
+                "this one does not: give here the part along effects.wheel_motor.torque, and to "
+                "effects.gyrostat.momentum what the wheel had before or other wheels have")
 
     def stopped(self, scene: Any, state: Mapping[str, Sequence[float]]) -> Any:
         """With the wheel's momentum as it is then."""
@@ -86,7 +97,7 @@ class WheelMotor(Effect):
                            *(one for one in scene.effects if one.name not in (self.name, "gyrostat")))
 
     def turned(self, frame: PrincipalAxes) -> WheelMotor:
-        return WheelMotor(frame.turned(self.exact), self.duration)
+        return WheelMotor(frame.turned(self.exact), self.duration, self.ran)
 
     def part(self, motion: Any, p: Mapping[str, Number]) -> Part:
         u, h = tuple(p[name] for name in self.symbols), motion.wheel

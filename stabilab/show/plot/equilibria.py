@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...answers.equilibria import STOPPED
 from ...answers.equilibria import equilibria as all_of
+from ...answers.equilibria import once_stopped
 from ...equilibrium.result import Equilibria
 from ...errors import InputError
 from .. import style
@@ -41,7 +41,7 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
     of the permanent rotations are drawn. Raises InputError where there is none.
     """
     one = subject(case, state)
-    found = all_of(one.scene)
+    found = all_of(one.case or one.scene)
     if not found.points and not found.curves:
         raise InputError(f"plot equilibria: there is nothing to draw: {found.reason}")
     scale, per = measures(one, units), measures(one, units).rate[1]
@@ -76,8 +76,7 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
                  else "start of the motion, seen along the axis"] = style.MARKER["start"]
         constant = ("" if flat is None else f"all have {scale.plain(flat)} = "
                  f"{drawn.curves[0][1][0][flat] * per + 0.0:.4g} {scale.rate[0]}".rstrip())
-        after = STOPPED if found.reason.endswith(STOPPED) else ""
-        words = "; ".join(filter(None, (constant, after)))
+        words = "; ".join(filter(None, (constant, once_stopped(found))))
         return canvas.explained(target, list(rows.items()) if legend else [], ax is None, one.heading, words)
 
 

@@ -129,7 +129,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     analysis cannot answer stands under "absent" with its reason; nothing of it raises.
     """
     units, absent, one = units_of(case), [], subject(case)
-    found = _tried(absent, "Equilibria", lambda: equilibria(case.scene))
+    found = _tried(absent, "Equilibria", lambda: equilibria(case))
     moved = None if case.state is None else _tried(absent, "Motion", lambda: one.motion)
     if deep and moved is not None:
         moved = _tried(absent, "Tilt of the torque", lambda: with_tilt(case, moved)) or moved
@@ -295,7 +295,7 @@ def _places(case):
 
 def _equations(case):
     try:
-        return equations(case) | {"kind": equilibria(case.scene).kind}
+        return equations(case) | {"kind": equilibria(case).kind}
     except StabilabError:
         return None
 

@@ -12,7 +12,7 @@ from fractions import Fraction
 from itertools import groupby
 from typing import NamedTuple
 
-from ...answers.equilibria import STOPPED
+from ...answers.equilibria import once_stopped
 from ...numbers.units import unit_of_key
 from ...numbers.vectors import CYCLE
 from ...representation import values_of
@@ -79,8 +79,8 @@ def _ordered(verdicts):
 
 def _equilibria(case, equilibria, units, proofs):
     lines = [f"  {reason(equilibria.reason, units)}"] if proofs or equilibria.kind == "undecided" else []
-    if not lines and equilibria.reason.endswith(STOPPED):
-        lines.append(f"  {STOPPED}")
+    if not lines and (stopped := once_stopped(equilibria)):
+        lines.append(f"  {stopped}")
     if case.scene.plain and equilibria.kind != "none" and (units.scaled or units.name == SI.name):
         lines.append(_jacobian(case, units))  # its entries are 1/s for rates in rad/s alone
     for point in equilibria.points:

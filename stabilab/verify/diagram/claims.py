@@ -8,7 +8,21 @@ from typing import Any
 
 from flint import fmpq_poly
 
-from ..numbers import MOST, Malformed, bracket, brief, entries, field, number, numbers, q, shown, whole, word
+from ..numbers import (
+    MOST,
+    Malformed,
+    bracket,
+    brief,
+    entries,
+    field,
+    number,
+    numbers,
+    q,
+    quoted,
+    shown,
+    whole,
+    word,
+)
 
 SCHEMA = "stabilab.diagram-certificate/1"
 COUNTED = ("isolated", "motion", "borders")
@@ -129,12 +143,12 @@ def is_one(certificate: dict) -> bool:
 
 
 def about(certificate: dict) -> dict[str, Any]:
-    """Its number, range, scene and start, as they stand in it, for one that `verify` has read without
-    complaint."""
+    """Its range, scene and start, as they stand in it, and the name that it gives to what varies, its own
+    word; for one that `verify` has read without complaint."""
     scene = certificate["scene"]
     rows = {key: scene[key] for key, _ in PLACES[scene["variables"]]}
     name = certificate.get("number")
-    return {"number": name if isinstance(name, str) else "t", "range": certificate["range"],
+    return {**({"named_in_the_file": name} if isinstance(name, str) else {}), "range": certificate["range"],
             "variables": scene["variables"], **rows,
             **({"state": certificate["start"]} if certificate.get("start") else {})}
 
@@ -144,12 +158,14 @@ def line(told: dict) -> str:
     low, high = (brief(number(end, "range")) for end in told["range"])
     keys = [key for key, _ in PLACES[told["variables"]]] + (["state"] if "state" in told else [])
     varying = [key for key in keys if any(len(row) > 1 for row in told[key])]
-    return (f"about: {', '.join(varying) or 'nothing'} as {_plain(told['number'])} goes from {low} to "
+    return (f"about: {', '.join(varying) or 'nothing'} as {_varying(told)} goes from {low} to "
             f"{high}; {_fixed(told, keys)}")
 
 
-def _plain(name: str) -> str:
-    return "".join(c for c in name if c.isprintable())[:80]
+def _varying(told: dict) -> str:
+    """What varies: a number of which the scene alone says what it is."""
+    name = told.get("named_in_the_file")
+    return "a number t" + (f" ({quoted(name)})" if name is not None else "")
 
 
 def _fixed(told: dict, keys: list[str]) -> str:
@@ -174,7 +190,7 @@ def differences(told: dict, case: dict) -> list[str]:
             elif apart != 0:
                 common = apart if common is None else common.gcd(apart)
     if not out and common is not None and not any(factor.degree() == 1 for factor, _ in common.factor()[1]):
-        out.append(f"{told['number']}: no value of it gives all the case's numbers")
+        out.append(f"{_varying(told)}: no value of it gives all the case's numbers")
     return out
 
 

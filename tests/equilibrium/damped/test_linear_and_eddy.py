@@ -3,6 +3,8 @@
 Independent means: Newton's method from many starts, NumPy's eigenvalues of central differences of the rates
 written here, SciPy's runs of these.
 """
+import re
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -158,6 +160,65 @@ def test_a_body_in_a_field_ends_about_the_field_as_it_says():
     assert np.abs(np.cross(last[:3], last[3:])).max() < 1e-6
     assert (abs(last[3]), last[0] * last[3]) == pytest.approx((1, p / 3), abs=1e-6)
     assert np.linalg.norm(start[:3]) <= found.invariants["rate_bound"]
+
+
+def turning_in_a_field(seed):
+    """(moments, start) of one that soon is on the side where it ends, or that tumbles first."""
+    rng = np.random.default_rng(seed)
+    a = rng.uniform(0.1, 1, 3)
+    moments = np.round([a[1] + a[2], a[0] + a[2], a[0] + a[1]], 3)
+    omega, gamma = rng.normal(size=3), rng.normal(size=3)
+    if seed % 2:
+        gamma *= 0.3
+        gamma[moments.argmax()] += rng.choice((-2.0, 2.0))
+        omega = 0.2 * omega + rng.choice((-2.0, 2.0)) * gamma / np.linalg.norm(gamma)
+    return moments, np.concatenate([omega, gamma / np.linalg.norm(gamma)])
+
+
+def signs_as_in_a_run(seed):
+    """Whether the rates along the field and about the axis have the signs of SciPy's run; which of them are
+    said; None where that run has not settled. A side that is proved is so without a run."""
+    moments, start = turning_in_a_field(seed)
+    rates, until, i = eddy(2.0, moments), 120.0, int(moments.argmax())
+    last = end(rates, start, until)
+    if np.linalg.norm(np.cross(last[:3], last[3:])) > 1e-3 * abs(last[:3] @ last[3:]) or abs(last[3 + i]) < 0.99:
+        return None
+    scene = Scene(Body(tuple(moments)), EddyCurrents(2, 1))
+    said = set()
+    for words in (motion(scene, start).because, motion(scene, start, (0, until)).because):
+        along = re.search(r"at (\S+) rad/s along `vertical`", words)
+        assert float(along[1]) == pytest.approx(last[:3] @ last[3:], rel=2e-3)
+        about = re.search(r"(?:: at|it ends at) ([-+]\S+) rad/s about axis (\d)", words)
+        if about:
+            assert (int(about[2]), float(about[1])) == (i + 1, pytest.approx(last[i], rel=2e-3))
+        said.add("open" if not about else "run" if "by a run" in words else "proved")
+    return said
+
+
+def test_eddy_currents_name_the_rate_along_the_field_and_the_one_about_the_axis():
+    assert {word for seed in range(6) for word in signs_as_in_a_run(seed) or ()} == {"open", "run", "proved"}
+
+
+@pytest.mark.slow
+def test_eddy_currents_name_both_rates_of_two_hundred_settled_scenes():
+    found = [said for seed in range(6, 290) if (said := signs_as_in_a_run(seed))]
+    assert len(found) >= 200 and sum(said == {"proved"} for said in found) > 50
+
+
+def test_eddy_currents_without_momentum_along_the_field_bring_to_rest():
+    # H . gamma = -2 * 0.25 + 1 * 1.0 * 0.5 = 0, by hand
+    found = motion(Scene(Body((3, 2, 1)), EddyCurrents(1, 1)), (0.5, 0.25, 1.0, 0.0, -1.0, 0.5))
+    assert found.because.endswith("H . gamma = 0 stays, and the motion tends to rest (LaSalle)")
+
+
+@pytest.mark.parametrize("moments, words", [((2, 2, 1), "in the plane of axes 1 and 2"),
+                                            ((2, 2, 2), "whichever axis then points along it")])
+def test_eddy_currents_name_no_axis_of_the_largest_moment_where_there_are_several(moments, words):
+    start = np.array([0.3, -0.2, 1.0, 0.6, 0.0, 0.8])
+    found = motion(Scene(Body(moments), EddyCurrents(1, 1)), start)
+    last = end(eddy(1.0, np.array(moments, float)), start, 300)
+    along = float(re.search(r"at (\S+) rad/s along `vertical`", found.because)[1])
+    assert words in found.because and along == pytest.approx(last[:3] @ last[3:], rel=1e-5)
 
 
 @pytest.mark.parametrize("others", [(ConstantTorque((1, 0, 0)),), (Gravity(1, (0, 0, 1)),), (Gyrostat((1, 0, 0)),),
