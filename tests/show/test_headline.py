@@ -65,7 +65,7 @@ def test_the_margin_as_a_rate_is_where_the_fate_of_a_run_changes(own):
 def test_an_equilibrium_with_a_rate_is_a_steady_rotation_and_one_without_is_rest(own):
     # omega3 = 0 and (omega1 + 4/15) omega2 = -0.02/3: at omega1 = -1/15, omega2 = -1/30, by hand
     case = own(("-1/15", "-1/30", "0"))
-    steady = ("STEADY ROTATION only while the torque is exactly along z (minor axis); "
+    steady = ("STEADY ROTATION (stable) only while the torque is exactly along z (minor axis); "
               "every rate stays as it is; rates (-3.82, -1.91, 0) deg/s")
     assert headline(case, told(case)) == steady
     # without a torque and a rate nothing changes: D omega' = 0, by hand

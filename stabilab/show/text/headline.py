@@ -240,7 +240,7 @@ def fate_parts(motion: Motion, units: Units, tilt: bool = True) -> tuple[str, st
 def stable_word(motion: Motion) -> str:
     """Behind the fate of an equilibrium: its stability, where that is known."""
     word = "" if motion.stability is None else motion.stability.verdict
-    return {"": "", "unstable": ", UNSTABLE", "undecided": ""}.get(word, f", {word}")
+    return {"": "", "unstable": ", UNSTABLE", "undecided": ""}.get(word, f" ({word})")
 
 
 def known_as(motion: Motion) -> str:
