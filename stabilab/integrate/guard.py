@@ -1,0 +1,62 @@
+"""How far a motion is followed in time: one budget of steps and memory, and the words of what it gives up.
+
+Whatever steps along a motion looks here: the Taylor series and SciPy (`trajectory`, `ensemble`), the search
+for zeros (`events`), many digits (`reference`, `answers.tabulated`), the spin-up off the axes.
+
+A run that cannot come to its end is given up early, not when its budget is spent. Of N steps allowed, n are
+passed: at their pace the rest of the way takes L. A motion that slows down, as t^(-1/2) where a loss is cubic
+in the rates, has longer steps later, and comes in n steps as far as n^2: so the run is given up where L n^2 >
+PATIENCE N S^2, from S steps on where L > PATIENCE N.
+"""
+from __future__ import annotations
+
+import math
+
+PATIENCE = 5
+FIRST = 400  # steps before the first look
+BYTES = 2**28  # of memory that one run may fill with what it meets on the way: 256 MB
+# radians or so of a motion's turn beyond which it is followed by itself, not in step with others
+FARTHEST = 1e9
+
+
+class Guard:
+    """The budget of one run: how many steps are allowed, and how many of them show a motion's pace.
+
+    end: the time that the run is to come to, of either sign; patience: as of the module."""
+
+    def __init__(self, end: float, steps: int, settled: int, patience: float = PATIENCE):
+        self.end, self.steps, self.settled, self.patience = end, steps, settled, patience
+        self.passed, self.time = 0, 0.0  # at the last look
+
+    def ahead(self, steps: int, time: float) -> float:
+        """How many more steps the time ahead takes at the pace of those since the last look."""
+        return (steps - self.passed) * float(abs(self.end - time) / (abs(time - self.time) or 1e-300))
+
+    def look(self, steps: int, time: float) -> str:
+        """Why a run that came to a time in so many steps is given up; empty where it goes on."""
+        left = self.ahead(steps, time)
+        self.passed, self.time = steps, time
+        return (words(steps, left, self.steps)
+                if too_far(steps, left, self.steps, self.settled, self.patience) else "")
+
+    def next(self, steps: int) -> int:
+        """How many steps to take before the next look, after so many."""
+        return max(FIRST, min(steps, self.settled - steps if steps < self.settled else self.settled))
+
+
+def too_far(steps: float, left: float, allowed: float, settled: float, patience: float = PATIENCE) -> bool:
+    """Whether a run is given up after so many steps, at whose pace the rest takes `left` more."""
+    return left * min(steps / settled, 1.0) ** 2 > patience * allowed
+
+
+def words(steps: float, left: float, allowed: float) -> str:
+    """Why a run is given up after so many steps, at whose pace the rest takes `left` more."""
+    return (f"given up after {steps:.0f} steps: at their pace the rest takes some "
+            f"{left:.1g}, more than the {allowed:.1g} allowed" if math.isfinite(left)
+            else f"given up after {steps:.0f} steps: at their pace the rest has no end")
+
+
+def full(noted: int, numbers: int) -> str:
+    """Why a run stops that has noted so many rows of so many numbers; empty where there is room."""
+    return (f"{noted} of its places fill the memory allowed ({BYTES // 2**20} MB)"
+            if 8 * noted * numbers > BYTES else "")
