@@ -119,7 +119,8 @@ def _known(found: Reached) -> Reached:
         return found
     first = min(run.t[~held], key=abs)
     others = len(run.t) - int(held.sum()) - 1
-    reason = f"no digit of the state is known at t = {first:.6g}" + f", nor at {others} other times" * (others > 0)
+    reason = (f"no digit of the state is known at t = {first:.6g}"
+              + f", nor at {others} other times" * (others > 0))
     state = {name: values[held] for name, values in run.state.items()}
     return replace(found, run=replace(run, t=run.t[held], state=state, status="stopped",
                                       reason=f"{reason}: {found.because}"), gaps=gaps[held])

@@ -104,8 +104,9 @@ def _by_quadrature(scene: AnyScene, equations: Equations, state: np.ndarray, tim
                                 "coordinate, inverted")
     if not known.all():
         first = min(times[~known], key=abs)
-        status, words = "stopped", (f"no digit of the state is known at t = {first:.6g}: after so many periods "
-                                    f"of {motion.period:.6g} a start in doubles leaves the phase open")
+        status = "stopped"
+        words = (f"no digit of the state is known at t = {first:.6g}: after so many periods of "
+                 f"{motion.period:.6g} a start in doubles leaves the phase open")
     return Trajectory(times[known], states[known], REDUCED, None, drift, {"evaluations": motion.evaluations},
                       status, words, validity=watch and watch.result())
 
