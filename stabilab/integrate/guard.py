@@ -36,7 +36,7 @@ class Guard:
         """Why a run that came to a time in so many steps is given up; empty where it goes on."""
         left = self.ahead(steps, time)
         self.passed, self.time = steps, time
-        return (words(steps, left, self.steps)
+        return (why_given_up(steps, left, self.steps)
                 if too_far(steps, left, self.steps, self.settled, self.patience) else "")
 
     def next(self, steps: int) -> int:
@@ -49,7 +49,7 @@ def too_far(steps: float, left: float, allowed: float, settled: float, patience:
     return left * min(steps / settled, 1.0) ** 2 > patience * allowed
 
 
-def words(steps: float, left: float, allowed: float) -> str:
+def why_given_up(steps: float, left: float, allowed: float) -> str:
     """Why a run is given up after so many steps, at whose pace the rest takes `left` more."""
     return (f"given up after {steps:.0f} steps: at their pace the rest takes some "
             f"{left:.1g}, more than the {allowed:.1g} allowed" if math.isfinite(left)
