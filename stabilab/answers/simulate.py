@@ -254,7 +254,10 @@ def _chosen(scene: AnyScene, start: Mapping[str, Sequence[float]], times: np.nda
     if method is not None or not any(not e.keeps_volume for e in scene.effects):
         return "taylor" if method is None else method, rtol, ""
     equations, state = equations_and_start(scene, start)
-    slopes = to_numpy(equations).jacobian(state)
+    with np.errstate(all="ignore"):
+        slopes = to_numpy(equations).jacobian(state)
+    if not np.isfinite(slopes).all():
+        return "taylor", rtol, ""
     # Euler's own terms keep volume: a pair of rates that they part and bring together is no decay
     fastest = min(float(np.max(-np.linalg.eigvals(slopes).real, initial=0.0)),
                   max(-float(np.trace(slopes)), 0.0))

@@ -4,9 +4,10 @@ Whatever steps along a motion looks here: the Taylor series and SciPy (`trajecto
 for zeros (`events`), many digits (`reference`, `answers.tabulated`), the spin-up off the axes.
 
 A run that cannot come to its end is given up early, not when its budget is spent. Of N steps allowed, n are
-passed: at their pace the rest of the way takes L. A motion that slows down, as t^(-1/2) where a loss is cubic
-in the rates, has longer steps later, and comes in n steps as far as n^2: so the run is given up where L n^2 >
-PATIENCE N S^2, from S steps on where L > PATIENCE N.
+passed: at their pace the rest of the way takes L. From S steps on the run is given up where L > PATIENCE N.
+A motion that slows down has longer steps later: where it comes in n steps as far as n^p, L is (n/S)^(p - 1)
+times as large after S of them. A loss cubic in the rates makes these fall as t^(-1/2), and p = 2; p = 3 is
+allowed for: before S steps the run is given up where L (n/S)^2 > PATIENCE N.
 """
 from __future__ import annotations
 
