@@ -90,7 +90,7 @@ def _by_taylor(forms, state, t_end, steps, tolerance, first, whole, longest) -> 
             noted += len(met)
             if outcome.name != "step_limit" or done >= steps or (first and parts):
                 break
-            why = (whole and guard.look(done, float(integrator.time))) or full(noted, size + 2)
+            why = (whole and guard.look_in_time(done, float(integrator.time))) or full(noted, size + 2)
             if why:
                 break
         now, end = float(integrator.time), integrator.state.copy()
@@ -132,8 +132,7 @@ def _by_scipy(forms, state, t_end, steps, tolerance, first, whole) -> Passed:
             return _passed(zeros, begin, before, done, "stopped: the numbers overflowed")
         done += 1
         zeros += sorted(_zeros_of_step(behind, solver, before, run), key=lambda zero: abs(zero[0]))
-        look = whole and done % TOGETHER == 0
-        why = (look and guard.look(done, float(solver.t))) or full(len(zeros), n + 30)
+        why = (whole and guard.look_in_time(done, float(solver.t))) or full(len(zeros), n + 30)
         if why:
             return _passed(zeros, float(solver.t), solver.y, done, f"stopped: {why}")
     reason = "" if solver.status == "finished" else f"stopped: {steps} steps were not enough"

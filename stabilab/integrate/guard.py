@@ -40,6 +40,10 @@ class Guard:
         return (why_given_up(steps, left, self.steps)
                 if too_far(steps, left, self.steps, self.settled, self.patience) else "")
 
+    def look_in_time(self, steps: int, time: float) -> str:
+        """`look`, where it is time for the next: the pace is that of the later half of a run."""
+        return self.look(steps, time) if steps - self.passed >= self.next(self.passed) else ""
+
     def next(self, steps: int) -> int:
         """How many steps to take before the next look, after so many."""
         return max(FIRST, min(steps, self.settled - steps if steps < self.settled else self.settled))
