@@ -16,7 +16,18 @@ from typing import Any
 import numpy as np
 
 from ..integrate.events import roots_of_rates
-from ..integrate.reference import DIGITS, GUARD, SEARCH, WORK, Exhausted, Recursion, reference, steps, widen
+from ..integrate.reference import (
+    DIGITS,
+    GUARD,
+    SEARCH,
+    WORK,
+    Exhausted,
+    Recursion,
+    hopeless,
+    reference,
+    steps,
+    widen,
+)
 from ..integrate.to_heyoka import TAYLOR_TOLERANCE
 from ..numbers.balls import DOUBLE_BITS, Digits, working
 from ..numbers.vectors import Exact3, Number
@@ -323,10 +334,13 @@ def _balls_apart(now: Any, before: Any) -> float:
 def _series_extremes(recursion: Recursion, start: Sequence[Number], length: float, digits: int,
                      budget: list[int], numbers: Digits) -> list[list[Any]]:
     pairs, left = [[numbers.ball(v)] * 2 for v in start[:3]], numbers.ball(length)
+    taken, begun = 0, budget[0]
     for step in steps(recursion, start, digits, budget, numbers):
-        budget[0] -= SEARCH * len(pairs) * len(step.rows[0])
-        widen(pairs, step, min(step.length, left))
-        left = (left - step.length).mid()
+        work = widen(pairs, step, min(step.length, left))
+        budget[0] -= max(SEARCH * len(pairs) * len(step.rows[0]), work)
+        left, taken = (left - step.length).mid(), taken + 1
         if left <= 0:
             break
+        if hopeless(left, step.length, taken, begun, budget[0]):
+            raise Exhausted
     return pairs

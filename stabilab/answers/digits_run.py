@@ -7,7 +7,7 @@ short is done again in another way, at last in many digits, rounded once.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -32,7 +32,7 @@ from ..physics.states import (
 )
 from ..physics.to_numpy import to_numpy
 from .digits_asked import CAUTION, DEFAULT, MOST, NEAR, checked_digits, digits_of
-from .simulate import STIFF_METHOD, Simulation, errors_of, in_quaternions, simulate
+from .simulate import LOST, STIFF_METHOD, Simulation, errors_of, in_quaternions, simulate
 
 # --- The reduced form as one of the ways to follow a motion: `reduced_motion` at a given resolution
 POINTS = (2, 4, 6, 8, 12, 16)  # of Gauss's rule on each panel
@@ -62,12 +62,15 @@ COUNTED = 1.0  # rad: angles this near to those of a run in doubles have the sam
 
 @dataclass(frozen=True)
 class Reached:
-    """A motion, with the errors that the check showed, and its digits. because: how they were checked."""
+    """A motion, with the errors that the check showed, and its digits. because: how they were checked. gaps:
+    (n,) what the check differs by at each time, relative to the size of each part; None where it did not come
+    so far."""
 
     run: Simulation
     asked: int
     digits: float
     because: str
+    gaps: np.ndarray | None = field(default=None, repr=False, compare=False)
 
     @property
     def enough(self) -> bool:
@@ -105,7 +108,22 @@ def best_reached(case: Any, times: np.ndarray, digits: int = DEFAULT, aim: bool 
         if found.run.status == "reached" and found.digits >= digits - NEAR * aim:
             return found
         best = max(best or found, found, key=lambda one: (one.run.status == "reached", one.digits))
-    return best
+    return best if best.digits >= 1 or best.run.status != "reached" else _known(best)
+
+
+def _known(found: Reached) -> Reached:
+    """A motion without the times at which not one digit of its state is known: such a state is none."""
+    run, gaps = found.run, np.full(len(found.run.t), math.inf) if found.gaps is None else found.gaps
+    held = gaps <= LOST
+    if held.all():
+        return found
+    first = min(run.t[~held], key=abs)
+    others = len(run.t) - int(held.sum()) - 1
+    reason = (f"no digit of the state is known at t = {first:.6g}"
+              + f", nor at {others} other times" * (others > 0))
+    state = {name: values[held] for name, values in run.state.items()}
+    return replace(found, run=replace(run, t=run.t[held], state=state, status="stopped",
+                                      reason=f"{reason}: {found.because}"), gaps=gaps[held])
 
 
 def _hopeless(method: str, best: Reached, far: bool) -> bool:
@@ -158,17 +176,18 @@ def _checked(case: Any, times: np.ndarray, method: str, value: Any, asked: int) 
     other = _integrated(_moved(case), times, method, other_value) if run.status == "reached" else run
     if other.status != "reached":
         return Reached(run, asked, 0.0, f"the check of {method} stopped early")
-    gap = _distance(run, other)
+    gaps = _distances(run, other)
+    gap = float(gaps.max())
     return _told(run, asked, CAUTION * gap,
                  f"{method} with rtol {other_value:.2g} from a start moved in its last place differs by "
-                 f"{gap:.1e}")
+                 f"{gap:.1e}", CAUTION * gaps)
 
 
-def _told(run: Simulation, asked: int, error: float, because: str) -> Reached:
-    """A run whose parts are off by so much of their size."""
+def _told(run: Simulation, asked: int, error: float, because: str, gaps: np.ndarray | None = None) -> Reached:
+    """A run whose parts are off by so much of their size; gaps: at each time."""
     digits = digits_of(error)
     known = replace(run, error=errors_of(run.state, 10.0**-digits)) if digits >= 1 else run
-    return Reached(known, asked, digits, because)
+    return Reached(known, asked, digits, because, gaps)
 
 
 def _checked_reduced(case: Any, times: np.ndarray, run: Simulation, nodes: float,
@@ -180,12 +199,14 @@ def _checked_reduced(case: Any, times: np.ndarray, run: Simulation, nodes: float
         finer, moved = (_reduced(one, times, "reduced", 2 * nodes) for one in (case, _moved(case, SHIFT)))
     except InputError:
         return None
-    own, far = _distance(run, finer), _distance(finer, moved)
+    apart, away = _distances(run, finer), _distances(finer, moved)
+    own, far = float(apart.max()), float(away.max())
     gap = max(own, far / SHIFT) if far < STRAIGHT else 1.0
     return _told(run, asked, CAUTION * gap,
                  f"reduced with {2 * nodes:g} nodes differs by {own:.1e}, and a start moved in its last "
                  f"place by {far / SHIFT:.1e}" if far < STRAIGHT
-                 else "the motion goes too far for its start in doubles")
+                 else "the motion goes too far for its start in doubles",
+                 CAUTION * np.where(away < STRAIGHT, np.maximum(apart, away / SHIFT), 1.0))
 
 
 def _other(method: str, value: float) -> float:
@@ -202,12 +223,14 @@ def _moved(case: Any, places: float = 1.0) -> Any:
                            for name, row in case.blocks.items()})
 
 
-def _distance(one: Any, two: Any) -> float:
-    worst = 0.0
+def _distances(one: Any, two: Any) -> np.ndarray:
+    """(n,) how far two runs are apart at each time, relative to the largest size of each part."""
+    worst = np.zeros(len(one.t))
     for name, values in one.state.items():
         size = np.abs(values).max() or 1.0
-        worst = max(worst, float(np.abs(values - two.state[name]).max() / size))
-    return worst if math.isfinite(worst) else math.inf
+        apart = np.abs(values - two.state[name]).reshape(len(values), -1)
+        worst = np.maximum(worst, apart.max(axis=1) / size)
+    return np.where(np.isfinite(worst), worst, math.inf)
 
 
 def _integrated(case: Any, times: np.ndarray, method: str | None, rtol: float | None) -> Simulation:

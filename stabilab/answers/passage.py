@@ -279,7 +279,7 @@ def largest_rate(scene: AnyScene, state: Sequence[float], until: float, budget: 
     own, unit, start = _in_own_unit(scene, state)
     rates = own.quadratic().rate(start.tolist())
     run = zeros_passed(_quadratic(own), start, rates, until * unit, budget)
-    sizes = [float(np.linalg.norm(one)) for one in (start, run.state, *(at for _, _, at in run.zeros))]
+    sizes = [float(np.linalg.norm(one)) for one in (start, run.state, *run.states)]
     return max(sizes) * unit, run.t / unit
 
 

@@ -96,12 +96,19 @@ def _by_quadrature(scene: AnyScene, equations: Equations, state: np.ndarray, tim
     # affine in that rate
     integrals = [row[0] * times + (row[1] - row[0]) * turned for row in system.law_rates(unit).values()]
     drift = departures(system, state, np.column_stack([states, *integrals]))
+    known = np.abs(times) * ROUNDING <= LOST * (motion.period or np.inf)
     watch = watcher(scene, equations, state)
-    for row in states if watch else ():
+    for row in states[known] if watch else ():
         watch.note(row)
-    return Trajectory(times, states, REDUCED, None, drift, {"evaluations": motion.evaluations}, "reached",
-                      "all times reached, without steps: time as an integral over the reduced coordinate, "
-                      "inverted", validity=watch and watch.result())
+    status, words = "reached", ("all times reached, without steps: time as an integral over the reduced "
+                                "coordinate, inverted")
+    if not known.all():
+        first = min(times[~known], key=abs)
+        status = "stopped"
+        words = (f"no digit of the state is known at t = {first:.6g}: after so many periods of "
+                 f"{motion.period:.6g} a start in doubles leaves the phase open")
+    return Trajectory(times[known], states[known], REDUCED, None, drift, {"evaluations": motion.evaluations},
+                      status, words, validity=watch and watch.result())
 
 
 STIFF = 1e6  # fastest decay times duration beyond which an explicit method would only shorten its steps
@@ -111,6 +118,7 @@ STIFF_METHOD, STIFF_RTOL = "Radau", 1e-10
 SHORT_WAY = 1.5  # rad: a step of phi or theta below half a turn by this margin cannot hide a whole one
 ROUNDS, POINTS = 12, 400_000  # of refining the times between the asked-for ones for unwrapping
 ROUNDING = 2.0**-53
+LOST = 0.1  # of a period, or of the size of a state: what is farther off has no digit
 INSIDE = 5  # points a step: a Taylor step to the last digit turns the body by up to three radians
 
 
@@ -246,7 +254,10 @@ def _chosen(scene: AnyScene, start: Mapping[str, Sequence[float]], times: np.nda
     if method is not None or not any(not e.keeps_volume for e in scene.effects):
         return "taylor" if method is None else method, rtol, ""
     equations, state = equations_and_start(scene, start)
-    slopes = to_numpy(equations).jacobian(state)
+    with np.errstate(all="ignore"):
+        slopes = to_numpy(equations).jacobian(state)
+    if not np.isfinite(slopes).all():
+        return "taylor", rtol, ""
     # Euler's own terms keep volume: a pair of rates that they part and bring together is no decay
     fastest = min(float(np.max(-np.linalg.eigvals(slopes).real, initial=0.0)),
                   max(-float(np.trace(slopes)), 0.0))

@@ -13,6 +13,7 @@ from fractions import Fraction
 from typing import Any
 
 from ..errors import InputError
+from ..integrate.guard import too_far
 from ..integrate.reference import GUARD, Recursion, one_run
 from ..numbers.balls import narrowed, working
 from ..numbers.vectors import dot
@@ -66,6 +67,7 @@ NOTHING = 25
 # bits beyond the digits; most of a run, for its bound of the error is formed in doubles
 SPARE, MOST_BITS = 12, 900
 WORK = 40_000_000  # multiplications of a run
+SETTLED = 20  # the share of it that shows a motion's pace
 MORE_DIGITS = 14  # of the second run of two
 
 
@@ -163,9 +165,13 @@ def tabulated(scene: Any, start: Sequence[Any], exact: Sequence[Fraction], times
     if not times or times[0] < 0:
         raise InputError("times: expected times from 0 on, at least one")
     twin = effective(scene)
-    if twin.plain:
-        return _enclosed(twin, list(map(Fraction, exact)), times, digits, work, events)
-    return _twice(scene, start, exact, times, digits, work)
+    if not twin.plain:
+        return _twice(scene, start, exact, times, digits, work)
+    found = _enclosed(twin, list(map(Fraction, exact)), times, digits, work, events)
+    if found.t:
+        return found
+    again = _twice(twin, list(map(float, exact)), exact, times, digits, work)
+    return again if again.t else found
 
 
 def _enclosed(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: int, work: int,
@@ -176,7 +182,7 @@ def _enclosed(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: in
     while True:
         now = _attempt(scene, start, times, digits, bits, work)
         best = now if best is None or now[0] >= best[0] else best
-        if now[0] == len(times) or bits >= MOST_BITS or now[3] == "work":
+        if now[0] == len(times) or bits >= MOST_BITS or now[3] not in ("", "bits"):
             break
         bits = min(MOST_BITS, max(bits + 60, now[4] + need))
     count, states, pieces, why, _ = best
@@ -186,8 +192,8 @@ def _enclosed(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: in
                          else ((), "not asked for"))
     because = "Taylor series in integers with a proved bound of their error" if reached else (
         f"proved up to {float(times[count - 1]) if count else 0:.6g} {scene.time_unit}: "
-        + ("the work allowed goes no further" if why == "work"
-           else f"beyond, the motion is too sensitive for {MOST_BITS} bits"))
+        + (f"beyond, the motion is too sensitive for {MOST_BITS} bits" if why == "bits"
+           else "the work allowed goes no further" if why == "work" else f"beyond, {why}"))
     return Tabulated(tuple(times[:count]), tuple(states[:count]), tuple(scene.components), digits, PROVED,
                      because, reached, events, words)
 
@@ -205,7 +211,11 @@ def _attempt(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: int
     with working(bits + 64) as numbers:
         small = arb(10) ** -digits
         while len(states) < len(times) and not why:
-            piece = flow.step()
+            try:
+                piece = flow.step()
+            except OverflowError as error:
+                why = str(error)
+                break
             row = Polynomials(piece, unit, numbers)
             pieces.append(row)
             while len(states) < len(times) and times[len(states)] * unit <= flow.now:
@@ -215,9 +225,16 @@ def _attempt(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: int
                     why = "bits"
                     break
                 states.append(tuple(values))
-            why = (why or ("work" if flow.work > work else "bits" if flow.error.bit_length() > bits - 8
-                           else ""))
+            ahead = times[len(states)] * unit - flow.now if len(states) < len(times) else Fraction(0)
+            done = flow.work > work or _too_far(flow.work, work, len(pieces), ahead / piece.length)
+            why = why or ("work" if done else "bits" if flow.error.bit_length() > bits - 8 else "")
     return len(states), states, pieces, why, flow.error.bit_length()
+
+
+def _too_far(done: int, work: int, steps: int, left: Fraction) -> bool:
+    """Whether the next time, so many steps ahead, is farther than the work allowed comes by far."""
+    allowed = work * steps / done
+    return too_far(steps, float(min(left, Fraction(10) ** 30)), allowed, allowed / SETTLED)
 
 
 class Polynomials:

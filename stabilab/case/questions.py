@@ -6,6 +6,8 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from .far import in_doubles
+
 if TYPE_CHECKING:
     from pathlib import Path
 
@@ -13,7 +15,8 @@ if TYPE_CHECKING:
 def _asked(name: str, words: str) -> Callable[..., Any]:
     """A question as a method."""
     def ask(self: Any, *given: Any, **named: Any) -> Any:
-        return _public(name)(self, *given, **named)
+        with in_doubles(self, f"{self.place}: "):
+            return _public(name)(self, *given, **named)
     ask.__name__, ask.__doc__ = name, f"{words}: see `stabilab.{name}`."
     return ask
 

@@ -37,6 +37,7 @@ from .body import (
     turned_motion,
     wheels_of,
 )
+from .far import in_doubles
 from .lines import KeyLines, key_lines
 from .questions import BurningQuestions, Questions
 from .sections import (
@@ -165,9 +166,10 @@ class Case(Questions):
 @contextmanager
 def blamed_on(case: Case):
     """What the analysis cannot use becomes an error of the case's file, with the line of the key it speaks
-    of."""
+    of; so does what leaves the range of doubles."""
     try:
-        yield
+        with in_doubles(case):
+            yield
     except CaseError:
         raise
     except InputError as error:

@@ -20,6 +20,7 @@ from ..physics.scene import AnyScene, judge_starts, slices, time_left
 from ..physics.states import checked_rtol, checked_starts, checked_times
 from ..physics.to_numpy import equations_of, to_numpy
 from ..representation import Compared, Shown
+from .guard import FARTHEST
 from .own_units import Units, are_ordinary, in_units, scale_of, units_of
 from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 from .trajectory import REPORT, integrated
@@ -85,6 +86,8 @@ def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float |
     for units, numbers in _by_units(equations, starts):
         run = _Rows(scene, equations, units, rtol, starts[numbers], times)
         groups = _groups(to_numpy(equations), starts[numbers])
+        turned = _turned(to_numpy(equations), starts[numbers], times)
+        run.far.update(np.flatnonzero(turned > FARTHEST).tolist())
         threads = min(workers, len(groups))  # more would have nothing to do
         with ThreadPoolExecutor(threads) if threads > 1 else nullcontext() as pool:
             steps += sum((pool.map if pool else map)(run, (groups[i::threads] for i in range(threads))))
@@ -122,6 +125,13 @@ def _groups(system, starts):
     return order.reshape(-1, LANES)
 
 
+def _turned(system, starts, times):
+    """(n,) radians or so that motions turn through, by their rates or the roots of these rates' changes."""
+    with np.errstate(all="ignore"):
+        rates, changes = np.abs(starts[:, :3]).max(axis=1), np.abs(system(starts)[:, :3]).max(axis=1)
+        return np.maximum(rates, np.sqrt(changes)) * np.abs(times).max()
+
+
 class _Rows:
     """Called with rows of LANES numbers of motions, it puts their states into `out` and answers the steps
     they took."""
@@ -132,6 +142,7 @@ class _Rows:
         self.forms = to_numpy(in_units(equations, units)).rhs
         self.out = np.empty((len(starts), times.size, starts.shape[1]))
         self.out[:, times == 0] = starts[:, None]
+        self.far = set()  # numbers of motions that turn too often to be followed in step with others
         self.alone = {}  # number of a motion that its lane did not finish -> (why it stopped or "", steps)
         self.grids = []  # (which of the times, the way there lane by lane)
         for chosen, sense in ((times < 0, -1), (times > 0, 1)):
@@ -147,6 +158,8 @@ class _Rows:
     def _row(self, ta, lanes, way, grid) -> int:
         """A row of motions one way. One that overflows, or takes more than REPORT steps, is followed alone,
         and the others start again; a lane that is left over repeats one of them."""
+        for number in self.far.intersection(map(int, lanes)).difference(self.alone):
+            self._follow_alone(number)
         while (lanes := self._together(lanes)).size:
             points, steps = self._propagated(ta, lanes, grid)
             unfinished = {int(number) for lane, number in enumerate(lanes)

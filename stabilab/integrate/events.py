@@ -13,6 +13,7 @@ import numpy as np
 
 from ..physics.states import equations_and_start
 from ..physics.to_numpy import Form, evaluate, to_numpy
+from .guard import Guard, full
 from .own_units import in_units, scale_of, units_of
 from .to_heyoka import TAYLOR_TOLERANCE, heyoka_available, taylor_events
 from .trajectory import FALLBACK_RTOL, floor, root_between, sign_changes, stand_in
@@ -20,6 +21,7 @@ from .trajectory import FALLBACK_RTOL, floor, root_between, sign_changes, stand_
 SUBSAMPLES = 16
 STEP_LIMIT = 1_000_000  # each of which costs ten times one of a run, for its roots are searched
 TOGETHER = 400  # steps between looks at what was found
+SETTLED, PATIENCE = 100_000, 2  # of `guard`: a search that does not come to its end shows little
 # natural times a step may take: a motion that is a polynomial of time has steps without end, whose powers
 # overflow
 LONGEST = 1e6
@@ -27,10 +29,14 @@ LONGEST = 1e6
 
 @dataclass(frozen=True)
 class Passed:
-    """A run and the zeros on its way. zeros: (time, which of the expressions, state (N,)), in the order of
-    the run; t, state: where it ended; steps: taken; reason: why it ended before its time, else empty."""
+    """A run and the zeros on its way, in the order of the run.
 
-    zeros: list[tuple[float, int, np.ndarray]]
+    times: (m,) theirs; which: (m,) of the expressions; states: (m, N) there; t, state: where it ended; steps:
+    taken; reason: why it ended before its time, else empty."""
+
+    times: np.ndarray
+    which: np.ndarray
+    states: np.ndarray
     t: float
     state: np.ndarray
     steps: int
@@ -39,25 +45,38 @@ class Passed:
     @property
     def first(self) -> float | None:
         """The time of the first of them."""
-        return self.zeros[0][0] if self.zeros else None
+        return float(self.times[0]) if len(self.times) else None
+
+
+def _passed(zeros, t, state, steps, reason) -> Passed:
+    """zeros: (time, which of the expressions, state) each."""
+    return Passed(*_columns(zeros, len(state)), t, state, steps, reason)
+
+
+def _columns(zeros, n) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(times, which, states) of (time, which, state)s: numbers in rows take a tenth of the memory."""
+    times, which, states = zip(*zeros) if zeros else ((), (), ())
+    return np.array(times, float), np.array(which, int), np.array(states, float).reshape(-1, n)
 
 
 def zeros_passed(forms: Form, state, rates, t_end: float, steps: int,
-                 tolerance: float = TAYLOR_TOLERANCE, first: bool = False) -> Passed:
+                 tolerance: float = TAYLOR_TOLERANCE, first: bool = False, whole: bool = False) -> Passed:
     """The motion from `state` (N,) at t = 0 to t_end, of either sign, and the zeros on its way of those
     expressions of a form that stand behind its N rates; those of the start itself do not count.
 
     rates: (N,) near the start; steps: after so many the run is given up; first: it ends soon after the first
-    zero.
+    zero; whole: it is given up as soon as it shows that it will not come to t_end (`guard`).
     """
     with np.errstate(all="ignore"):
         if heyoka_available():
-            return _by_taylor(forms, state, float(t_end), steps, tolerance, first, _longest(rates, state))
-        return _by_scipy(forms, state, float(t_end), steps, tolerance, first)
+            return _by_taylor(forms, state, float(t_end), steps, tolerance, first, whole,
+                              _longest(rates, state))
+        return _by_scipy(forms, state, float(t_end), steps, tolerance, first, whole)
 
 
-def _by_taylor(forms, state, t_end, steps, tolerance, first, longest) -> Passed:
-    zeros, done = [], 0
+def _by_taylor(forms, state, t_end, steps, tolerance, first, whole, longest) -> Passed:
+    parts, done, noted, why, size = [], 0, 0, "", len(forms.state)
+    guard = Guard(t_end, steps, SETTLED, PATIENCE)
     with taylor_events(forms, tolerance) as (integrator, found):
         integrator.time = 0.0
         integrator.state[:] = state
@@ -65,17 +84,25 @@ def _by_taylor(forms, state, t_end, steps, tolerance, first, longest) -> Passed:
             outcome, _, _, taken, *_ = integrator.propagate_until(
                 t_end, max_steps=min(TOGETHER, steps - done), max_delta_t=longest)
             done += taken
-            zeros += [zero for zero in found if zero[0] != 0 and np.isfinite(zero[2]).all()]
+            met = [zero for zero in found if zero[0] != 0 and np.isfinite(zero[2]).all()]
             found.clear()
-            if outcome.name != "step_limit" or done >= steps or (first and zeros):
+            parts += [_columns(met, size)] if met else []
+            noted += len(met)
+            if outcome.name != "step_limit" or done >= steps or (first and parts):
+                break
+            why = (whole and guard.look_in_time(done, float(integrator.time))) or full(noted, size + 2)
+            if why:
                 break
         now, end = float(integrator.time), integrator.state.copy()
-    zeros.sort(key=lambda zero: abs(zero[0]))
+    times, which, states = map(np.concatenate, zip(*parts)) if parts else _columns((), size)
+    order = np.argsort(np.abs(times), kind="stable")
+    times, which, states = times[order], which[order], states[order]
     if not np.isfinite(end).all():
-        now, _, end = zeros[-1] if zeros else (0.0, 0, state)
-    reason = ("" if outcome.name == "time_limit" else f"stopped: {steps} steps were not enough"
+        now, end = (float(times[-1]), states[-1]) if len(times) else (0.0, state)
+    reason = ("" if outcome.name == "time_limit" else f"stopped: {why}" if why
+              else f"stopped: {steps} steps were not enough"
               if outcome.name == "step_limit" else f"stopped: {outcome.name}")
-    return Passed(zeros, now, end, done, reason)
+    return Passed(times, which, states, now, end, done, reason)
 
 
 def _longest(rates, state) -> float:
@@ -86,7 +113,7 @@ def _longest(rates, state) -> float:
     return LONGEST / size if size > 0 else math.inf
 
 
-def _by_scipy(forms, state, t_end, steps, tolerance, first) -> Passed:
+def _by_scipy(forms, state, t_end, steps, tolerance, first, whole) -> Passed:
     n, rtol = len(forms.state), max(tolerance, FALLBACK_RTOL)
     atol = floor(state, rtol)
     moving, behind = (Form(forms.state, part, forms.symbols, forms.numbers)
@@ -96,17 +123,20 @@ def _by_scipy(forms, state, t_end, steps, tolerance, first) -> Passed:
         return stand_in(lambda x: moving.function(*x, *moving.numbers), y, end, t, rtol, atol)
 
     if t_end == 0:
-        return Passed([], 0.0, state, 0, "")
-    solver, zeros, done = run(0.0, state, t_end), [], 0
+        return _passed([], 0.0, state, 0, "")
+    solver, zeros, done, guard = run(0.0, state, t_end), [], 0, Guard(t_end, steps, SETTLED, PATIENCE)
     while solver.status == "running" and done < steps and not (first and zeros):
         begin, before = solver.t, solver.y.copy()
         solver.step()
         if solver.status == "failed" or not np.isfinite(solver.y).all():
-            return Passed(zeros, begin, before, done, "stopped: the numbers overflowed")
+            return _passed(zeros, begin, before, done, "stopped: the numbers overflowed")
         done += 1
         zeros += sorted(_zeros_of_step(behind, solver, before, run), key=lambda zero: abs(zero[0]))
+        why = (whole and guard.look_in_time(done, float(solver.t))) or full(len(zeros), n + 30)
+        if why:
+            return _passed(zeros, float(solver.t), solver.y, done, f"stopped: {why}")
     reason = "" if solver.status == "finished" else f"stopped: {steps} steps were not enough"
-    return Passed(zeros, float(solver.t), solver.y, done, reason)
+    return _passed(zeros, float(solver.t), solver.y, done, reason)
 
 
 def _zeros_of_step(behind, solver, before, run):
@@ -178,18 +208,16 @@ def roots_of_rates(scene, state, t_end: float, tolerance: float = TAYLOR_TOLERAN
     with np.errstate(all="ignore"):
         rates = to_numpy(equations)(state)
     if not np.isfinite(rates).all():
-        return _roots(Passed([], 0.0, state, 0, "stopped: the rates overflow at the start"), state, "none")
+        return _roots(_passed([], 0.0, state, 0, "stopped: the rates overflow at the start"), state, "none")
     units = units_of(equations, state)
     scale, system = scale_of(equations, units), to_numpy(in_units(equations, units))
     passed = zeros_passed(system.motion_and_rates, state / scale, rates / scale / units.pace,
-                          float(units.times(float(t_end))), STEP_LIMIT, tolerance)
-    zeros = [(t / units.pace, n, at * scale) for t, n, at in passed.zeros]
-    passed = replace(passed, zeros=zeros, t=passed.t / units.pace, state=np.array(passed.state) * scale)
+                          float(units.times(float(t_end))), STEP_LIMIT, tolerance, whole=True)
+    passed = replace(passed, times=passed.times / units.pace, states=passed.states * scale,
+                     t=passed.t / units.pace, state=np.array(passed.state) * scale)
     return _roots(passed, state, "taylor" if heyoka_available() else "DOP853")
 
 
 def _roots(passed: Passed, start, method: str) -> RateRoots:
-    times, components, states = zip(*passed.zeros) if passed.zeros else ((), (), ())
-    return RateRoots(np.array(times, float), np.array(components, int),
-                     np.array(states).reshape(-1, len(start)), np.array(start), np.array(passed.state),
+    return RateRoots(passed.times, passed.which, passed.states, np.array(start), np.array(passed.state),
                      passed.t, method, passed.steps, passed.reason)

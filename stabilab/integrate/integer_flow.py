@@ -37,6 +37,9 @@ SLACK = 16  # bits by which the last coefficient of a step may exceed the last p
 FIRST = 2.0**-5  # first step times the size of the start
 LONGER = 1.5  # most by which a step may exceed the one before
 MORE = 1.0 + 2.0**-40  # more than the rounding of a few doubles
+# Beside rates of 1 the numbers of an ordinary motion are below 2^STIFF; those above 2^STIFFEST would need
+# steps shorter than the clock's. LEAST: of the weights beside the largest, whose roots stay doubles
+STIFF, STIFFEST, LEAST = 20, CLOCK - 6, 2.0**-900
 
 
 @dataclass(frozen=True)
@@ -70,8 +73,13 @@ class IntegerFlow:
         self.kappa, self.rho, self.sigma, self.m = (_rounded(row, bits, by) for row, by in (
             (form.kappa, 1), (form.rho, unit), (form.sigma, unit), (form.m, unit * unit)))
         self.x = _rounded(start, bits, unit) + _rounded(direction or (), bits)
+        self.now, self.error, self.turned = Fraction(0), 0, 0
+        self.stiff = max(abs(v).bit_length() for v in (*self.kappa, *self.rho, *self.sigma, *self.m)) - bits
         largest = max(weights)
         q = [Fraction(w) / largest for w in weights]
+        self.apart = self.stiff > STIFFEST or min(q) < LEAST
+        if self.apart:
+            return
         if sum(w * k for w, k in zip(q, form.kappa)):
             raise ValueError("the weights do not make the cubic terms cancel")
         self.q = [float(w) for w in q]
@@ -80,14 +88,19 @@ class IntegerFlow:
         self.error = math.ceil(math.sqrt(sum(self.q)) * MORE)  # the start is within half a last place
         self.turned = 2
         self.turns = math.sqrt(sum(float(v) ** 2 for v in direction)) * MORE if direction else 0.0
-        self.now, self.h = Fraction(0), FIRST / max(1.0, max(abs(v) for v in self.x[:3]) / (1 << bits))
+        self.h = FIRST / max(1.0, max(abs(v) for v in self.x[:3]) / (1 << bits))
+        if self.stiff > STIFF:
+            self.h *= 2.0**-self.stiff
 
     def turn_on(self, form):
         """From here on the constant torque of this form acts, of the same body and wheels."""
         self.m = _rounded(form.m, self.bits, self.unit * self.unit)
 
     def step(self, until: Fraction | None = None) -> Piece:
-        """The next piece; until: the own time, exact, beyond which it does not go."""
+        """The next piece; until: the own time, exact, beyond which it does not go. Raises OverflowError where
+        the motion's numbers are too far apart, or its error leaves the range of doubles."""
+        if self.apart:
+            raise OverflowError("the numbers of the motion are too far apart for its steps")
         while True:
             ticks = max(1, int(self.h * (1 << CLOCK)))
             length = Fraction(ticks, 1 << CLOCK)

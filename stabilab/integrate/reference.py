@@ -19,6 +19,7 @@ from ..numbers.balls import DOUBLE_BITS, working
 from ..numbers.vectors import Number
 from ..physics.equations import derive
 from ..physics.scene import hold_on, slices
+from .guard import too_far
 
 RETURNED = 1e-12  # a passage through the starting plane within this share of the orbit's size is a return
 PIECES = 6  # of a step, each searched for one root
@@ -171,30 +172,35 @@ class Loop:
 
 def widen(pairs, step, end):
     """Let the least and greatest values of the first components take in a step as far as `end` after its
-    start."""
+    start. The multiplications that this took."""
+    work = 0
     for row, pair in zip(step.rows, pairs):
-        slopes = [n * c for n, c in enumerate(row)][1:]
-        for s in [*_roots(slopes, step.length), end]:
+        slopes, tried = [n * c for n, c in enumerate(row)][1:], [0]
+        for s in [*_roots(slopes, step.length, tried), end]:
             if abs(s) <= abs(end):
                 v = value(row, s)
                 pair[0], pair[1] = min(pair[0], v), max(pair[1], v)
+        work += (PIECES + 2 + 2 * tried[0]) * len(row)
+    return work
 
 
-def _roots(row, length):
-    """Simple roots of a series inside (0, length]: bracketed by pieces, closed in on by Newton's method."""
+def _roots(row, length, tried=None):
+    """Simple roots of a series inside (0, length]: bracketed by pieces, closed in on by Newton's method.
+    tried: a list whose one number counts the steps of that."""
     ends = [length * k / PIECES for k in range(PIECES + 1)]
     values = [value(row, s) for s in ends]
     found = []
     for a, b, fa, fb in zip(ends, ends[1:], values, values[1:]):
         if (fa < 0) != (fb < 0) or fb == 0:
-            found.append(_root(row, a.mid(), b.mid(), fa))
+            found.append(_root(row, a.mid(), b.mid(), fa, tried or [0]))
     return found
 
 
-def _root(row, a, b, fa):
+def _root(row, a, b, fa, tried):
     """The root between a and b: Newton's method, held in the bracket, until it moves no more."""
     s = ((a + b) / 2).mid()
     for _ in range(400):
+        tried[0] += 1
         f = value(row, s)
         if f == 0:
             break
@@ -223,6 +229,7 @@ DIGITS = (30, 42, 84, 168, 336)  # of successive runs; each is checked by the on
 # two runs agree where they differ by less than this share of the state: far below a double's 1e-16
 AGREEMENT = 1e-19
 WORK = 60_000_000  # multiplications of all runs together, some ten seconds
+SETTLED = 20  # the share of a run's work that shows a motion's pace
 SEARCH = 20  # evaluations of a series that the search for its roots takes in a step
 GUARD = 8  # digits that the roundings of a run may use up
 
@@ -258,7 +265,7 @@ def one_run(recursion, start, times, digits, budget, orbit=False):
     times: of one sign, moving away from 0. orbit: the motion is known to repeat: its return is found, and
     later times are folded by the period, so that they cost nothing.
     """
-    found, passed, loop = [], [], Loop() if orbit else None
+    found, passed, loop, taken, begun = [], [], Loop() if orbit else None, 0, budget[0]
     with working(int((digits + GUARD) * 3.33)) as numbers:
         wanted = [numbers.ball(t) for t in times]
         try:
@@ -274,9 +281,20 @@ def one_run(recursion, start, times, digits, budget, orbit=False):
                         found += [_folded(passed, t, loop.period) for t in wanted[len(found):]]
                 if len(found) == len(wanted) and (loop is None or loop.closed):
                     break
+                taken += 1
+                left = wanted[len(found)] - step.start - step.length if len(found) < len(wanted) else 0
+                if loop is None and hopeless(left, step.length, taken, begun, budget[0]):
+                    break
         except Exhausted:
             pass
         return found, (loop.period, loop.extremes) if loop and loop.closed else None
+
+
+def hopeless(left, length, taken, begun, budget) -> bool:
+    """Whether the time left, a ball, at steps of the length of the last, is farther than what is left of the
+    budget comes by far. taken, begun: steps so far, and the budget before them."""
+    cost = max(1, begun - budget) / taken
+    return too_far(taken, float(abs(left / length)), budget / cost, begun / cost / SETTLED)
 
 
 def _folded(passed, time, period):

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,6 +21,7 @@ from ..physics.scene import slices, stopped, time_left
 from ..physics.states import checked_rtol, checked_times, equations_and_start
 from ..physics.to_numpy import to_numpy
 from ..representation import Compared, Shown
+from .guard import PATIENCE, Guard, full
 from .own_units import Units, in_units, scale_of, units_of
 from .to_heyoka import FEATHER, TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 
@@ -111,7 +113,8 @@ FALLBACK_RTOL = 1e-13
 ATOL_SHARE = 1e-3
 STEP_LIMIT = 20_000_000
 # steps after which the rest is forecast; forecast over STEP_LIMIT that ends the run
-REPORT, PATIENCE = 1_000_000, 5
+REPORT = 1_000_000
+NOTED = 4  # numbers that the end of a step, in a list, takes the memory of
 # of SciPy's methods, whose steps take a hundred times as long; an implicit one has a system to solve in each
 SCIPY_REPORT, IMPLICIT_LIMIT = 10_000, 200_000
 OUTCOMES = {"err_nf_state": "the numbers overflowed"}
@@ -231,15 +234,37 @@ class _Taylor:
             note = {"callback": seen}
         with borrowed_taylor(self.forms, self.rtol) as ta:
             self.counters["order"] = ta.order
-            ta.time = 0.0
-            ta.state[:] = 0.0
-            ta.state[:state.size] = state
-            out, failure = self._passed(ta, grid, note)
+            begin = partial(_put, ta, state)
+            far, within = self._given_up(ta, begin, grid)
+            begin()
+            out, failure = self._passed(ta, grid[:within], note) if within else (ta.state[None][:0], None)
+            failure = far if far and len(out) == within else failure
         if out.shape[1] > state.size:
             out[:, state.size:] /= FEATHER
         if not np.isfinite(out).all():
             out = out[:np.argmin(np.isfinite(out).all(axis=1))]
         return out, None if len(out) == len(grid) else _stopped(out, grid / self.pace, failure)
+
+    def _given_up(self, ta, begin, grid):
+        """(why a run over the grid is given up or "", how many of its times are worth REPORT steps all the
+        same): where the first step is too short by far, a trial run shows the motion's pace."""
+        begin()
+        ta.propagate_until(grid[-1], max_steps=1)
+        end, limit = abs(grid[-1]), PATIENCE * STEP_LIMIT
+        if not np.isfinite(ta.state).all() or end <= limit * abs(ta.time):
+            return "", len(grid)
+        begin()
+        guard, done = Guard(grid[-1], STEP_LIMIT, REPORT), 0
+        while done < REPORT:
+            last, taken = ta.time, ta.propagate_until(grid[-1], max_steps=guard.next(done))[3]
+            done += taken
+            left = guard.ahead(done, ta.time)
+            if not taken or left <= limit or not np.isfinite(ta.state).all():
+                break
+            if guard.look(done, ta.time):
+                why = _crawling(last / self.pace, ta.time / self.pace, left, taken)
+                return why, int(np.count_nonzero(np.abs(grid) <= abs(ta.time) * (REPORT / done)))
+        return "", len(grid)
 
     def _passed(self, ta, grid, note):
         """(states at the times of `grid` that were reached, why not all or None)."""
@@ -259,6 +284,8 @@ class _Taylor:
             if outcome.name != "step_limit" or sum(map(len, rows)) == grid.size:
                 found = rows[0] if len(rows) == 1 else np.concatenate(rows)
                 return found, OUTCOMES.get(outcome.name, outcome.name)
+            if note and (why := full(self.counters["steps"] - begun, NOTED)):
+                return np.concatenate(rows), why
             left = steps_left(ta.time - last, grid[-1] - ta.time)
             if self.counters["steps"] - begun >= STEP_LIMIT or left > PATIENCE * STEP_LIMIT:
                 return np.concatenate(rows), _crawling(last / self.pace, ta.time / self.pace, left, REPORT)
@@ -272,6 +299,13 @@ def _of_the_last_step(ta, ahead) -> np.ndarray:
         ta.update_d_output(t)
         states.append(ta.d_output.copy())
     return np.array(states).reshape(-1, len(ta.state))
+
+
+def _put(ta, state):
+    """Set an integrator to the start of a motion."""
+    ta.time = 0.0
+    ta.state[:] = 0.0
+    ta.state[:state.size] = state
 
 
 class _SciPy:

@@ -164,7 +164,7 @@ def shortened(value: Fraction) -> Fraction:
     if excess <= 32:
         return value
     shift = 96 + value.denominator.bit_length() - value.numerator.bit_length()
-    return Fraction(round(value * 2**shift), 2**shift)
+    return round(value * Fraction(2)**shift) / Fraction(2)**shift
 
 
 @dataclass(frozen=True)

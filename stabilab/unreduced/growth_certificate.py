@@ -202,7 +202,7 @@ def search_certificate(c, y, t_max):
     while t < t_max and steps < budget:
         end = min(t_max, t + max(1.0 / (1 + abs(c) + max(map(abs, y))), 0.2 * t))
         passed = run(y, end - t, budget - steps)
-        last = t + passed.zeros[-1][0] if passed.zeros else last
+        last = t + float(passed.times[-1]) if len(passed.times) else last
         t = t + passed.t if passed.reason else end
         y, steps = tuple(passed.state.tolist()), steps + passed.steps
         if found := certificate(c, y):

@@ -43,8 +43,8 @@ def pace(scene: Any, state: Mapping[str, Sequence[Number]], without: Effect) -> 
                 slope[i][j] = slope[i][j] + slope_j[i] - first[i]
     H = [d * w + h for d, w, h in zip(D, omega, carried)]
     turn, spin = cross_matrix(H), cross_matrix(omega)  # of H x omega
-    squares = sum(((slope[i][j] + turn[i][j] - spin[i][j] * D[j]) / D[i]) ** 2
-                  for i in range(3) for j in range(3))
+    entries = [(slope[i][j] + turn[i][j] - spin[i][j] * D[j]) / D[i] for i in range(3) for j in range(3)]
+    squares = sum(entry * entry for entry in entries)  # beyond 1e154 infinite, where ** 2 is an error
     return dot(omega, omega) ** 0.5 + squares ** 0.5 + (dot(still, still) ** 0.5 / min(D)) ** 0.5
 
 

@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from ...integrate.guard import too_far, why_given_up
 from ...numbers.numba_door import installed, wanted
 from ...orbit import one_state
 from ...orbit.reduction import reduce
@@ -30,6 +31,8 @@ from .form import island_words, recurs, seen
 from .result import SpinUp, Trap
 
 NATURAL_TIMES, BUDGET = 1e9, 600_000
+# steps that show the pace of a motion, where it is followed to a time that somebody names
+SETTLED = 1_000_000
 FARTHEST = 1e150  # natural units: a run in doubles holds no squares of larger rates
 # Steps, states and questions of a process that take as long as loading compiled code; compiling takes so many
 # times as long
@@ -48,7 +51,7 @@ class Chased:
     """Columns (n,): which test fired (-1 none) as index into `tests.asked`, time, steps, condition, state
     there; constants (6, n) of it; largest and least (n, 48) size of the state during each doubling of the
     steps; passed: steps that the way takes one by one; blur: of the time; reach: how far from the state the
-    rounding may have carried the true one."""
+    rounding may have carried the true one; given_up: row -> why it was not followed to its time."""
 
     tests: Tests
     fired: np.ndarray
@@ -62,6 +65,7 @@ class Chased:
     passed: np.ndarray
     blur: np.ndarray
     reach: np.ndarray
+    given_up: dict[int, str] = field(default_factory=dict)
 
 
 def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float = 0.0, tell=None,
@@ -87,7 +91,7 @@ def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float =
             if rows.size:
                 _ask(out, rows, getattr(tests, asked), runs.fast)
         open_ = open_[out.fired[open_] < 0]
-        ended = runs.over(open_, t_max, budget)
+        ended = runs.over(open_, t_max, budget) | _hopeless(out, open_, t_max, budget)
         if ended.any():  # the last word is that of all tests that so much work is worth
             asked = tests.last if runs.steps_done >= LAST else tests.all
             _ask(out, open_[ended & (out.t[open_] >= after)], asked, runs.fast)
@@ -104,6 +108,18 @@ def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float =
                 tell(float(out.t[open_].min()), runs.steps_done, open_.size)
         stage += 1
     return out
+
+
+def _hopeless(out, rows, t_max: float, budget: int):
+    """(m,) which of rows cannot come to a time that somebody names, for which many steps are allowed."""
+    found = np.zeros(len(rows), bool)
+    for n, row in enumerate(rows.tolist() if budget > BUDGET else ()):
+        steps, t = int(out.steps[row]), float(out.t[row])
+        left = steps * (t_max - t) / t if t > 0 else 0.0
+        found[n] = steps >= SETTLED and too_far(steps, left, budget, SETTLED)
+        if found[n]:
+            out.given_up[row] = why_given_up(steps, left, budget)
+    return found
 
 
 def _ask(out, rows, which, fast):
@@ -200,6 +216,8 @@ def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
         words = (f"{seen(scene, state, island_words(scene, t) if recurrent else '')}; followed for {t:.6g} "
                  f"{scene.time_unit}, {steps} steps, over which a "
                  f"small change grew {condition:.3g} times")
+        if row in found.given_up:
+            words += f"; {found.given_up[row]}"
         if not condition * (1 + passed) * 2.0**-52 < 1 / 16:
             words += ": more than a run in doubles can tell"
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, words, condition,

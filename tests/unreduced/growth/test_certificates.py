@@ -96,7 +96,7 @@ def test_the_last_reversal_of_the_turn_is_the_same_by_both_steppers(state, turns
         monkeypatch.setattr("stabilab.integrate.events.heyoka_available", lambda: available)
         passed = turning_run(0.3)(state, 6.0, 10**6)
         assert passed.t == 6 and passed.steps > 0 and not passed.reason
-        found.append((passed.zeros[-1][0] if passed.zeros else None, passed.state))
+        found.append((passed.times[-1] if len(passed.times) else None, passed.state))
     assert (found[0][0] is not None) == (found[1][0] is not None) == turns
     if turns:
         assert found[0][0] == pytest.approx(found[1][0], rel=1e-9)
