@@ -368,12 +368,16 @@ def _lines(case, found, one, units: Units, name: str, other=None):
 
 
 # --- What internal dissipation makes of a spin
-NAMES = {"phase": "phase", "nutation": "nutation angle", "damping": "strength of the damping"}
+NAMES = {"phase": "phase", "nutation": "nutation angle", "coefficient": "the damper's coefficient alone",
+         "inertia": "the sphere's moment of inertia alone, the moments of the whole as they are",
+         "damping": "the damper's coefficient and its sphere's inertia together",
+         "liquid": "the liquid's torque (density P0/viscosity)"}
 
 
 def flat_spin_dict(case, found) -> dict:
     """The object of `stabilab flat-spin --json`: SI units, vectors in the frame of the file. Times: [s, error
-    in s], null where past at the start or not reached; changes: null where none was found."""
+    in s], null where past at the start or not reached; changes: null where none was found; phase_about: the
+    positive direction of the minor axis, about which the phase is measured."""
     times = {name: one and [one.at, one.error]
              for name, one in values_of(found, "leaves crosses settles").items()}
     return {"schema": "stabilab.flat_spin/1", "case": case.name, **values_of(found, "outcome level because"),
@@ -382,6 +386,7 @@ def flat_spin_dict(case, found) -> dict:
             **values_of(found, "energy final_energy"), "energy_lost": found.lost, "within": found.within,
             **times, "passage": found.passage, "growth_time": found.growth, "decay_time": found.decay,
             "changes": {one.name: [one.down, one.up] for one in found.spans},
+            "phase_about": in_file(case, tuple(float(n == found.minor - 1) for n in range(3))),
             "steps": found.steps} | axes_of(case).key(found.axis) | limiting.key(case, found.caveats)
 
 
@@ -406,8 +411,10 @@ def flat_spin_text(case, found, units: Units) -> str:
         size = ((lambda v: units.angle(v, 3)) if one.name == "phase"
                 else lambda v: f"{number(100 * v, 3)} %")
         ends = [f"{sign}{size(v)}" for sign, v in (("-", one.down), ("+", one.up)) if math.isfinite(v)]
-        lines.append(row("outcome changes at", f"{' and '.join(ends)} of {NAMES[one.name]}" if ends else
-                         f"no change of {NAMES[one.name]} that was looked at"))
+        about = (f" about the positive direction of {axes_of(case).whole(found.minor)}" if one.name == "phase"
+                 else "")
+        lines.append(row("outcome changes at", f"{' and '.join(ends)} of {NAMES[one.name]}{about}"
+                         if ends else f"no change of {NAMES[one.name]} that was looked at"))
     if found.steps:
         lines.append(row("cost", f"{found.steps} steps"))
     return "\n".join([*lines, f"why: {reason(found.because, units)}"])
