@@ -15,7 +15,7 @@ from functools import partial
 
 from ..answers.caveats import of_law
 from ..answers.circular_orbit import circular_orbit
-from ..answers.dissipation import flat_spin as ask_flat_spin
+from ..answers.dissipation.flat_spin import flat_spin as ask_flat_spin
 from ..answers.stuck.ask import each_firing
 from ..answers.stuck.ask import stuck as ask
 from ..answers.stuck.burn import burn as left_by

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from stabilab import Body, Scene, ViscousDamper, flat_spin, load
-from stabilab.answers import spin_changes
-from stabilab.answers.spinner import Spinner, after_the_separatrix
+from stabilab.answers.dissipation import changes as spin_changes
+from stabilab.answers.dissipation.spinner import Spinner, after_the_separatrix
 
 from .test_flat_spin import brute, drawn
 

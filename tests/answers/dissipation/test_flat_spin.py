@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from stabilab import Body, ConstantTorque, InputError, LiquidCavity, Scene, ViscousDamper, flat_spin, load
-from stabilab.answers import dissipation
+from stabilab.answers.dissipation import flat_spin as dissipation
 
 RAHN_BARBA = """[body]
 inertia = [2000, 1500, 1000]

@@ -15,7 +15,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from ..physics.scene import Scene, slices
+from ...physics.scene import Scene, slices
 from .spinner import Spinner, after_the_separatrix
 
 HALVINGS = 10  # of an interval with one change of the outcome: three digits of its end

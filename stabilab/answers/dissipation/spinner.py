@@ -1,5 +1,5 @@
 """A free body that something inside takes energy from, exact at its start, and its motion from one level of
-its energy to the next. The theory is in the text of `answers.dissipation`."""
+its energy to the next. The theory is in the text of `answers.dissipation.flat_spin`."""
 from __future__ import annotations
 
 import math
@@ -10,15 +10,15 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError
-from ..integrate.trajectory import root_between
-from ..numbers.exact import sqrt_fraction
-from ..numbers.vectors import CYCLE, dot
-from ..physics.effects.base import effect_words
-from ..physics.scene import Scene, slices
-from ..physics.states import body_momentum, equations_and_start, start_of
-from ..physics.to_numpy import to_numpy
-from .simulate import trajectory
+from ...errors import InputError
+from ...integrate.trajectory import root_between
+from ...numbers.exact import sqrt_fraction
+from ...numbers.vectors import CYCLE, dot
+from ...physics.effects.base import effect_words
+from ...physics.scene import Scene, slices
+from ...physics.states import body_momentum, equations_and_start, start_of
+from ...physics.to_numpy import to_numpy
+from ..simulate import trajectory
 
 TAKE = ("viscous_damper", "liquid_cavity")  # energy, and keep the angular momentum
 TAKE_BOTH = ("resistance", "rate_damper", "eddy_currents")

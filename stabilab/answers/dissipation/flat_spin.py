@@ -33,17 +33,17 @@ from typing import Any
 
 import numpy as np
 
-from ..case.read import with_data
-from ..case.source import parsed
-from ..errors import Caveat, InputError, Kind
-from ..numbers.units import ANGLE, in_si
-from ..numbers.vectors import Float3, cross, dot
-from ..physics.states import moved_row
-from ..representation import Compared, Shown
-from ..validation import checked_case
-from .caveats import of_law
-from .passage import MOVED, WIDER
-from .spin_changes import Span, spans_of
+from ...case.read import with_data
+from ...case.source import parsed
+from ...errors import Caveat, InputError, Kind
+from ...numbers.units import ANGLE, in_si
+from ...numbers.vectors import Float3, cross, dot
+from ...physics.states import moved_row
+from ...representation import Compared, Shown
+from ...validation import checked_case
+from ..caveats import of_law
+from ..passage import MOVED, WIDER
+from .changes import Span, spans_of
 from .spinner import Run, Spinner, after_the_separatrix
 
 # --- The answer
