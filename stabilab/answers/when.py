@@ -18,12 +18,15 @@ from ..integrate.trajectory import Trajectory
 from ..numbers.double_double import EPS
 from ..numbers.units import NONE, TIME, in_si
 from ..orbit.result import Motion
+from ..physics.coefficients import loses
 from ..physics.scene import BLOCKS, AnyScene, slices, torque_axis
 from ..physics.states import equations_and_start, moved_row, start_of
 from ..representation import Shown
 from .caveats import STEADY, caveats_of, limited, misaligned, stated
+from .dissipation.ending import ending
 from .kinds import kind_of
 from .limit import WORK, asked
+from .motion import motion
 from .passage import MOVED, WIDER, TimeTo
 from .simulate import denser, trajectory
 from .tilt import Spread, Tilt, cone_of, spread, tilt
@@ -213,7 +216,14 @@ def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None 
     found = time_of_case(case, ask, t_max)
     never = math.isinf(found.low)
     return replace(found,
-                   caveats=caveats_of(case.scene, never, of_tilt(case, None, ask, never), file=case.caveats))
+                   caveats=caveats_of(case.scene, never, of_tilt(case, None, ask, never), file=case.caveats),
+                   ending=_ending(case))
+
+
+def _ending(case: Any) -> Any:
+    """How the motion of a case ends that loses energy."""
+    return (ending(case, motion(case.scene, case.start, brief=True, exact=case.exact_state))
+            if loses(case.scene) else None)
 
 
 def with_first(case: Any, motion: Motion, work: int = WORK) -> Motion:

@@ -31,7 +31,8 @@ from ..show.maps import bifurcation_picture
 from ..show.progress import told
 from ..show.text import headline, questions
 from ..show.text import stuck as shown
-from ..show.text.motion import circular_orbit_dict, circular_orbit_text, flat_spin_dict, flat_spin_text
+from ..show.text.flat_spin import flat_spin_dict, flat_spin_text
+from ..show.text.motion import circular_orbit_dict, circular_orbit_text
 from .common import (
     answers_of,
     either,

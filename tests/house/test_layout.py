@@ -45,6 +45,7 @@ DOORS = {
     ("stabilab.physics.effects.wheel_motor",
      "stabilab.physics.effects.gyrostat"): "an effect is loaded where a scene names it, or a motor stops",
     ("stabilab.answers.attitude", "stabilab.answers.attitude_followed"): "loads numpy",
+    ("stabilab.answers.motion", "stabilab.answers.dissipation.ending"): "loads numpy",
     ("stabilab.answers.certificate", "stabilab.answers.certified_motion"): "loads numpy",
     ("stabilab.commands.classify", "stabilab.commands.certificates"): "loaded for --certify alone",
     ("stabilab.commands.common",

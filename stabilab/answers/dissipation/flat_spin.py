@@ -75,7 +75,9 @@ class FlatSpin(Shown, Compared):
     the free motion of the same T and |H|. leaves: when it exceeds `within`, rad, from the minor axis;
     crosses: when the separatrix is crossed, 2 T D2 = |H|^2, D2 the intermediate moment; settles: when it is
     at most `within` from the major axis, which it then stays. Each None where it is past at the start, or not
-    reached. growth, decay: s, time constants of the nutation near the minor and the major axis, by
+    reached. Where the start turns about the major axis (two greatest moments equal: across the minor one)
+    and its nutation dies out: nutation, rad, then, and tenth: when it is a tenth of that, which it then
+    stays; else None. growth, decay: s, time constants of the nutation near the minor and the major axis, by
     eigenvalues, None where there are none. spans: by how much the start may change. steps: of the first run.
     """
 
@@ -93,6 +95,8 @@ class FlatSpin(Shown, Compared):
     leaves: Time | None = None
     crosses: Time | None = None
     settles: Time | None = None
+    nutation: float | None = None
+    tenth: Time | None = None
     growth: float | None = None
     decay: float | None = None
     spans: tuple[Span, ...] = ()
@@ -126,12 +130,16 @@ def flat_spin(case: Any, within: Any = "5 deg") -> FlatSpin:
     nutation angle, rad or text with a unit, from which the tumble is counted and to which it settles. Raises
     InputError for other scenes, a body at rest, equal moments, and an angle that is none.
     """
-    case = checked_case(case)
     angle = float(in_si(within, ANGLE, "within"))
     if not LEAST <= angle < math.pi / 2:
         raise InputError('within: expected an angle from 0.01 deg to below 90 deg, such as "5 deg", got '
                          f"{math.degrees(angle):.6g} deg")
-    found = _answered(Spinner.of(case), angle)
+    return of_case(checked_case(case), angle)
+
+
+def of_case(case: Any, angle: float, spans: bool = True) -> FlatSpin:
+    """The same of a case and an angle in rad; spans: also look for changes of the outcome."""
+    found = _answered(Spinner.of(case), angle, spans)
     own = [one for one in case.caveats if one.kind is not Kind.UNCERTAIN]
     found = replace(found, caveats=(*own, *found.caveats))
     return _over_the_box(case, found) if case.uncertain and found.outcome in (POSITIVE, NEGATIVE) else found
@@ -160,7 +168,7 @@ def _over_the_box(case: Any, found: FlatSpin) -> FlatSpin:
         "uncertain", f"uncertain numbers: {told}; samples, no proof")))
 
 
-def _answered(spinner: Spinner, angle: float, spans: bool = True) -> FlatSpin:
+def _answered(spinner: Spinner, angle: float, spans: bool) -> FlatSpin:
     """The answer of one start: exactly where it rests or is past the separatrix, else by runs."""
     D1, D2, _ = spinner.moments
     size, axis = spinner.size, spinner.order[0]
@@ -202,10 +210,25 @@ def _at_rest(spinner: Spinner, found: FlatSpin) -> FlatSpin:
         "angle"))
 
 
+def _dying(spinner: Spinner, settled: float) -> float | None:
+    """The nutation angle of a start from which it only dies out; None where the body turns over first.
+    settled: the level of 2 T/|H|^2 below which it is small."""
+    D1, D2, _ = spinner.moments
+    if not (spinner.ratio * D2 < 1 and D1 > D2) and float(spinner.ratio) >= settled:
+        return None
+    one, two, three = spinner.inverses
+    share = float(spinner.ratio - 1 / D1) / ((two if two > one else three) - one)
+    return math.asin(math.sqrt(min(1.0, max(0.0, share))))
+
+
 def _timed(spinner: Spinner, found: FlatSpin, angle: float, spans: bool) -> FlatSpin:
     """The times of a motion that goes on, by two runs."""
     D1, D2, _ = spinner.moments
-    ahead = {name: level for name, level in spinner.levels(angle).items() if float(spinner.ratio) >= level}
+    levels = spinner.levels(angle)
+    nutation = _dying(spinner, levels["settles"])
+    if nutation is not None and nutation / 10 >= LEAST:
+        levels["tenth"] = spinner.levels(nutation / 10)["settles"]
+    ahead = {name: level for name, level in levels.items() if float(spinner.ratio) >= level}
     runs = [Run(spinner, spinner.start, None, STEPS),
             Run(spinner, moved_row(spinner.start, MOVED), SECOND_RTOL, STEPS)]
     seen: list[dict[str, float]] = [{}, {}]
@@ -220,7 +243,7 @@ def _timed(spinner: Spinner, found: FlatSpin, angle: float, spans: bool) -> Flat
     first = runs[0]
     times: dict[str, Any] = {name: Time(t, WIDER * abs(t - seen[1][name]) + 1e-15 * t)
                              for name, t in seen[0].items() if name in seen[1]}
-    found = replace(found, steps=first.steps, caveats=of_law(first.validity), **times)
+    found = replace(found, steps=first.steps, nutation=nutation, caveats=of_law(first.validity), **times)
     if found.outcome != UNDECIDED:
         return found
     why = first.why or runs[1].why

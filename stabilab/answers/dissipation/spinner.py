@@ -14,14 +14,13 @@ from ...errors import InputError
 from ...integrate.trajectory import root_between
 from ...numbers.exact import sqrt_fraction
 from ...numbers.vectors import CYCLE, dot
+from ...physics.coefficients import TAKE, TAKE_BOTH
 from ...physics.effects.base import effect_words
 from ...physics.scene import Scene, slices
 from ...physics.states import body_momentum, equations_and_start, start_of
 from ...physics.to_numpy import to_numpy
 from ..simulate import trajectory
 
-TAKE = ("viscous_damper", "liquid_cavity")  # energy, and keep the angular momentum
-TAKE_BOTH = ("resistance", "rate_damper", "eddy_currents")
 STEPS = 5_000_000  # of a run: some ten seconds
 PATIENCE = 4  # times STEPS: a forecast beyond that ends a run
 POINTS = 200  # of a part of a run
@@ -58,15 +57,22 @@ class Spinner:
         if 2 * max(D) > sum(D) and scene.effect("liquid_cavity"):
             raise InputError("flat-spin: a liquid takes energy for the moments of a rigid body alone, and no "
                              "rigid body has these")
-        own = {name: value for name, value in case.blocks.items() if name in scene.blocks}
-        start = equations_and_start(scene, start_of(scene, case.state, own))[1]
-        sigma = case.blocks.get("damper", (0.0,) * 3) if "damper" in scene.blocks else (0.0,) * 3
-        found = cls(scene, start, tuple(case.exact_state), tuple(map(Fraction, sigma)),
-                    tuple(sorted(range(3), key=lambda i: -D[i])))  # type: ignore[arg-type]
+        found = cls.made(case)
         if not any(found.momentum):
             raise InputError("state: the angular momentum is zero, so that the body comes to rest; give an "
                              "angular_velocity")
         return found
+
+    @classmethod
+    def made(cls, case: Any) -> Spinner:
+        """Of a case that is known to be asked for."""
+        scene = case.scene
+        D = scene.body.exact
+        own = {name: value for name, value in case.blocks.items() if name in scene.blocks}
+        start = equations_and_start(scene, start_of(scene, case.state, own))[1]
+        sigma = case.blocks.get("damper", (0.0,) * 3) if "damper" in scene.blocks else (0.0,) * 3
+        return cls(scene, start, tuple(case.exact_state), tuple(map(Fraction, sigma)),
+                   tuple(sorted(range(3), key=lambda i: -D[i])))  # type: ignore[arg-type]
 
     @property
     def right_handed(self) -> bool:
