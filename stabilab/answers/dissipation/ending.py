@@ -93,7 +93,8 @@ class Ending(Shown, Compared):
 
 
 def with_end(case: Any, motion: Motion) -> Motion:
-    """The motion of a case with how it ends, and without saying that a direction is open which a run shows."""
+    """The motion of a case with how it ends; its reason no longer says that a direction is open which a run
+    shows."""
     found = ending(case, motion)
     known = found is not None and found.sense
     because = motion.because.replace(OPEN_DIRECTION, "") if known else motion.because
