@@ -1,6 +1,7 @@
 """How a motion that loses energy ends, and when, in text and JSON."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from .frame import back
@@ -71,9 +72,14 @@ def _times(one: Ending, units: Units) -> list[str]:
 COLUMNS = ("ending", "ending_time")  # of a CSV
 
 
-def cells(one: Ending | None) -> tuple[str | None, float | None]:
-    """Its columns: how it ends, and by when, s; empty where nothing is lost or it is not known."""
-    return (None, None) if one is None else (one.kind, one.until)
+def beside(rows: Sequence[Sequence[Any]], ends: Sequence[Ending | None]) -> list[tuple[Any, ...]]:
+    """The rows of a CSV, below a head, with two columns more where something loses energy: how a motion ends,
+    and by when, s; empty where it loses nothing or it is not known."""
+    head, *others = rows
+    if not any(ends):
+        return [tuple(row) for row in rows]
+    cells = [(None, None) if one is None else (one.kind, one.until) for one in ends]
+    return [(*head, *COLUMNS), *((*row, *more) for row, more in zip(others, cells))]
 
 
 def line(one: Ending | None, units: Units) -> str:

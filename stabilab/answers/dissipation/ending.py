@@ -39,7 +39,7 @@ from .spinner import Spinner
 WITHIN = math.radians(5)  # of the nutation angle
 NEAR = 0.01  # of the rates, or of the departure from the end
 STEPS = 2_000_000  # of a run of a body that something outside acts on
-FEWER = 200_000  # of one that is followed until its rates stay, whatever they do
+FEWER = 100_000  # of one that is followed until its rates stay, whatever they do
 POLISHED = 5  # steps of Newton to the equilibrium by which they stay
 ENOUGH = 20_000  # steps, by which a pace is known
 FORECAST = 4  # times STEPS: a run that would need more is given up at once
@@ -232,7 +232,7 @@ def _falls(scene: Any, state: np.ndarray, share: Callable[[np.ndarray], np.ndarr
     """(the time at which the share is NEAR^2, the state then); (an estimate or None, None) where that takes
     too many steps."""
     level, t, steps, here, ahead = NEAR * NEAR, 0.0, 0, 1.0, math.inf
-    length = 30 / max(float(np.linalg.norm(state[:3])), 1e-300)
+    length = _quick(to_numpy(scene).jacobian(state), state)
     over = lambda y, times: trajectory(scene, y, times, rtol=rtol, laws=False)
     while steps < STEPS:
         times = np.linspace(0.0, length, POINTS + 1)
@@ -269,7 +269,7 @@ def _settled(scene: Any, start: np.ndarray, rests: bool) -> Ending:
     """Where the rates of a run stay, and from when on they are near that."""
     form, state = to_numpy(scene), start
     first = largest = float(np.linalg.norm(start[:3]))
-    length, t, steps = 100 / max(first, 1e-300), 0.0, 0
+    length, t, steps = _quick(form.jacobian(start), start), 0.0, 0
     times, rates = np.zeros(1), start[None, :3]
     while steps < FEWER:
         run = trajectory(scene, state, np.linspace(0.0, length, POINTS + 1)[1:], laws=False)
@@ -316,6 +316,12 @@ def _polished(form: Any, state: np.ndarray, small: float) -> np.ndarray:
         at = at - np.linalg.lstsq(form.jacobian(at), form(at), rcond=1e-9)[0]
     end = at[:3] if np.linalg.norm(at[:3] - state[:3]) < 10 * small else state[:3]
     return np.where(np.abs(end) < 1e-9 * np.linalg.norm(end), 0.0, end)
+
+
+def _quick(jacobian: np.ndarray, state: np.ndarray) -> float:
+    """Some of the motion's own time, s: so many units of the fastest eigenvalue, or of the rates."""
+    fastest = max(float(np.abs(np.linalg.eigvals(jacobian)).max()), float(np.linalg.norm(state[:3])))
+    return 100 / max(fastest, 1e-300)
 
 
 def _attracts(jacobian: np.ndarray, length: float) -> bool:

@@ -20,7 +20,7 @@ from .motion import bound_lines, energy_margin, extreme_lines, followed, reason,
 
 # --- When a limit is reached
 WORDS = {"yes": "reached by", "unknown": "NOT KNOWN of", "never": "NEVER by"}
-CSV = ("case", "quantity", "limit", "time_low", "time_high", "level", "caveats", *ending.COLUMNS)
+CSV = ("case", "quantity", "limit", "time_low", "time_high", "level", "caveats")
 
 
 def as_dict(case, limit, found) -> dict:
@@ -39,9 +39,9 @@ def csv(answers) -> str:
     """A line a case, SI units; inf: never reached, an empty upper end: not known."""
     rows = [(case.name, "/".join(limit.names), "/".join(map(repr, limit.limits)),
              *(None if math.isnan(v) else float(v) for v in (found.low, found.high)),
-             str(found.level), limiting.cell(case, found.caveats), *ending.cells(found.ending))
+             str(found.level), limiting.cell(case, found.caveats))
             for case, limit, found in answers]
-    return csv_lines([CSV, *rows])[:-1]
+    return csv_lines(ending.beside([CSV, *rows], [found.ending for *_, found in answers]))[:-1]
 
 
 def text(case, limit, found, units: Units) -> str:
@@ -234,8 +234,8 @@ def period_dict(case, motion, told) -> dict:
 
 def extremes_csv(answered) -> str:
     """A line a component of (case, motion, digits), every digit asked for; inf: unbounded, empty: unknown."""
-    rows = [(case.name, name, *pair, moved.extremes_over, limiting.cell(case, moved.caveats),
-             *ending.cells(moved.ending))
+    rows = [((case.name, name, *pair, moved.extremes_over, limiting.cell(case, moved.caveats)), moved.ending)
             for case, moved, told in answered for pairs in [told.decimals or _with(moved, told).extremes]
             for name, pair in zip(case.scene.components, pairs or ((None, None),) * 3)]
-    return csv_lines([("case", "component", "min", "max", "over", "caveats", *ending.COLUMNS), *rows])[:-1]
+    head = ("case", "component", "min", "max", "over", "caveats")
+    return csv_lines(ending.beside([head, *(row for row, _ in rows)], [one for _, one in rows]))[:-1]
