@@ -33,6 +33,7 @@ def motion(scene: Any, state: Any = None, span: Any = None, brief: bool = False,
     is followed, so that its fate is proved where it can be. Raises InputError as `fate` does.
     """
     case = scene if is_case(scene) else None
+    own = case if state is None else None
     if case is not None and state is None:
         span, exact = case.span if span is None else span, case.exact_state
     scene, state = scene_and_state(scene, state)
@@ -44,7 +45,7 @@ def motion(scene: Any, state: Any = None, span: Any = None, brief: bool = False,
     integral = (None if brief or not twin.plain
                 else energy_integral(twin, exact or found.at[:3], found.margin_energy))
     found = limited(replace(found, largest=_largest(twin, found), energy_integral=integral), scene, case)
-    return found if case is None or brief else with_ending(case, found)
+    return found if own is None or brief else with_ending(own, found)
 
 
 def with_ending(case: Any, found: Motion) -> Motion:

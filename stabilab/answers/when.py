@@ -27,7 +27,7 @@ from .dissipation.ending import ending
 from .kinds import kind_of
 from .limit import WORK, asked
 from .motion import motion
-from .passage import MOVED, WIDER, TimeTo, by_run
+from .passage import MOVED, WIDER, TimeTo, by_run, times_of
 from .simulate import denser, trajectory
 from .tilt import Spread, Tilt, cone_of, spread, tilt
 from .time_to import time_of_case, time_to
@@ -236,8 +236,7 @@ def _to_the_end(case: Any, ask: dict[str, Any], found: TimeTo, until: float,
                    LONGER)
     if float(again.low) <= float(found.low):
         return found
-    return replace(found, low=np.float64(again.low), high=np.float64(again.high), level=again.level,
-                   words=again.words)
+    return times_of([again], (), found.quantity, case.scene, np.asarray(found.states), found.caveats)
 
 
 def with_first(case: Any, motion: Motion, work: int = WORK) -> Motion:

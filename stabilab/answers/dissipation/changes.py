@@ -12,6 +12,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
@@ -114,7 +115,7 @@ def _moved(spinner: Spinner, angle: float, share: float) -> np.ndarray:
 
 def _damped(scene: Scene, inertia: Fraction | int, coefficient: Fraction | int) -> Scene:
     """The scene with the numbers of its damper multiplied by these."""
-    damper = scene.effect("viscous_damper")
+    damper: Any = scene.effect("viscous_damper")
     k, c = damper.exact
     return Scene(scene.body, *(type(damper)(k * inertia, c * coefficient) if one is damper else one
                                for one in scene.effects))
@@ -122,7 +123,7 @@ def _damped(scene: Scene, inertia: Fraction | int, coefficient: Fraction | int) 
 
 def _filled(scene: Scene, times: Fraction) -> Scene:
     """The scene with the torque of its liquid multiplied by this."""
-    liquid = scene.effect("liquid_cavity")
+    liquid: Any = scene.effect("liquid_cavity")
     return Scene(scene.body, *(replace(liquid, P0=Fraction(liquid.P0) * times) if one is liquid else one
                                for one in scene.effects))
 

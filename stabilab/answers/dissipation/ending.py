@@ -179,7 +179,7 @@ def _drawn(parts: Content) -> Float3 | None:
     if parts.inside or parts.kappa or parts.directed or any(parts.u) or not decay(parts):
         return None
     points = [one for one in resisted_equilibria(parts).points if GLOBAL in one.because]
-    return tuple(map(float, points[0].at[:3])) if points else None  # type: ignore[return-value]
+    return tuple(map(float, points[0].at[:3])) if points else None
 
 
 def _field_alone(parts: Content) -> bool:
@@ -194,7 +194,7 @@ def _about_the_field(scene: Any, parts: Content, start: np.ndarray, energy: Call
                      first: float) -> Ending:
     """The end under eddy currents: rotation about the field, whose direction along the axis a run shows."""
     gamma = start[slices(scene.blocks)["gamma"]]
-    p = float(dot([float(d) * w for d, w in zip(parts.D, start[:3])], gamma))
+    p = float(dot([float(d) * w for d, w in zip(parts.D, start[:3])], gamma.tolist()))
     axis = max(range(3), key=lambda i: parts.D[i])
     most = float(parts.D[axis])
     lowest, rate = p * p / (2 * most), abs(p) / most
@@ -268,7 +268,7 @@ def _root(state: np.ndarray, length: float, over: Callable[[np.ndarray, np.ndarr
 def _settled(scene: Any, start: np.ndarray, rests: bool) -> Ending:
     """Where the rates of a run stay, and from when on they are near that."""
     form, state = to_numpy(scene), start
-    first = largest = float(np.linalg.norm(start[:3]))
+    largest = float(np.linalg.norm(start[:3]))
     length, t, steps = _quick(form.jacobian(start), start), 0.0, 0
     times, rates = np.zeros(1), start[None, :3]
     while steps < FEWER:

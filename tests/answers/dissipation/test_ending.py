@@ -269,3 +269,25 @@ def test_the_tiles_of_a_page_say_when(tumbling):
     found = {name: (value, note) for name, value, note in tiles(one.motion(), units_of(one))}
     assert found["when"][0] == "15.43 min" and "separatrix crossed" in found["when"][1]
     assert found["outcome"][0] == "Flat spin" and "at 85.94 deg/s" in found["outcome"][1]
+
+
+def test_another_start_than_that_of_the_case_has_no_end_of_the_case(tumbling):
+    assert motion(load(tumbling), (0.1, 0.2, 0.3)).ending is None
+
+
+def test_a_limit_beyond_the_steps_of_a_first_run_is_followed_to_the_end(monkeypatch):
+    """2 T/|H|^2 falls slowly: the component along the major axis passes 1.4 rad/s on the last turns alone; that
+    time by DOP853."""
+    from stabilab.answers import passage, time_to
+    one = case((2000, 1500, 1000), (0.1224, 0, 2.99), viscous_damper={"inertia": 18, "coefficient": 30})
+    D, k, c = np.array([2000.0, 1500, 1000]), 18.0, 30.0
+
+    def rates(t, y):
+        w, s = y[:3], y[3:]
+        turn = (euler(D, w) + c * s) / (D - k)
+        return np.concatenate([turn, -c * s / k - np.cross(w, s) - turn])
+    run = followed(rates, [0.1224, 0, 2.99, 0, 0, 0], 1200, lambda t, y: 1.4 - abs(y[0]))
+    monkeypatch.setattr(time_to, "by_run", lambda scene, state, limit, last: passage.by_run(
+        scene, state, limit, last, 1000))
+    found = when(one, component="x = 1.4 rad/s")
+    assert 0.5 * (found.low + found.high) == pytest.approx(run.t_events[0][0], rel=1e-7)
