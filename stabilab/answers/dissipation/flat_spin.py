@@ -165,7 +165,7 @@ def _over_the_box(case: Any, found: FlatSpin) -> FlatSpin:
         return replace(found, outcome=UNDECIDED, level="undecided", rates=None,
                        because=f"the uncertain numbers leave it open: {told}")
     return replace(found, caveats=(*found.caveats, Caveat(
-        "uncertain", f"uncertain numbers: {told}; samples, no proof")))
+        Kind.UNCERTAIN, f"uncertain numbers: {told}; samples, no proof")))
 
 
 def _answered(spinner: Spinner, angle: float, spans: bool) -> FlatSpin:

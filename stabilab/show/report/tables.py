@@ -50,7 +50,7 @@ def _when(motion, units):
     """The limit of the case first, then what a tilt of the torque does, then a spin-up without a limit."""
     if motion.ending is not None and not (motion.first and math.isfinite(motion.first[1].high)):
         value, note = ending.first(motion.ending, units)
-        unreached = motion.first and (f"; the limit, {units.words(motion.first[0])}, is "
+        unreached = motion.first and (f"; the limit, {units.filled(motion.first[0])}, is "
                                       f"{'never' if math.isinf(motion.first[1].low) else 'not known to be'} "
                                       f"reached ({motion.first[1].level})")
         return value, f"{note}{unreached or ''}"

@@ -291,3 +291,14 @@ def test_a_limit_beyond_the_steps_of_a_first_run_is_followed_to_the_end(monkeypa
         scene, state, limit, last, 1000))
     found = when(one, component="x = 1.4 rad/s")
     assert 0.5 * (found.low + found.high) == pytest.approx(run.t_events[0][0], rel=1e-7)
+
+
+def test_a_tile_has_the_end_and_the_limit_that_is_not_reached(tmp_path):
+    from stabilab.show.report.tables import tiles
+    from stabilab.show.text.headline import judged
+    from stabilab.show.units import units_of
+    one = load(CASE.format(D=[2000, 1500, 1000], omega=[0.1224, 0, 2.99],
+                           more='[limits]\nrate = "200 deg/s"',
+                           effects="[effects.viscous_damper]\ninertia = 18\ncoefficient = 30"))
+    found = {name: (value, note) for name, value, note in tiles(judged(one, one.motion()), units_of(one))}
+    assert found["when"][0] == "15.43 min" and "the limit, 200 deg/s, is never reached (exact)" in found["when"][1]
