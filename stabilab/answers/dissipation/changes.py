@@ -117,15 +117,15 @@ def _damped(scene: Scene, inertia: Fraction | int, coefficient: Fraction | int) 
     """The scene with the numbers of its damper multiplied by these."""
     damper: Any = scene.effect("viscous_damper")
     k, c = damper.exact
-    return Scene(scene.body, *(type(damper)(k * inertia, c * coefficient) if one is damper else one
-                               for one in scene.effects))
+    changed = type(damper)(k * inertia, c * coefficient)
+    return Scene(scene.body, *(changed if one.name == "viscous_damper" else one for one in scene.effects))
 
 
 def _filled(scene: Scene, times: Fraction) -> Scene:
     """The scene with the torque of its liquid multiplied by this."""
     liquid: Any = scene.effect("liquid_cavity")
-    return Scene(scene.body, *(replace(liquid, P0=Fraction(liquid.P0) * times) if one is liquid else one
-                               for one in scene.effects))
+    changed = replace(liquid, P0=Fraction(liquid.P0) * times)
+    return Scene(scene.body, *(changed if one.name == "liquid_cavity" else one for one in scene.effects))
 
 
 def _edge(flips: Callable[[float], bool], first: float, most: float) -> float:

@@ -39,6 +39,7 @@ from ...errors import Caveat, InputError, Kind
 from ...numbers.units import ANGLE, in_si
 from ...numbers.vectors import Float3, cross, dot
 from ...physics.states import moved_row
+from ...reasons import old
 from ...representation import Compared, Shown
 from ...validation import checked_case
 from ..caveats import of_law
@@ -165,7 +166,7 @@ def _over_the_box(case: Any, found: FlatSpin) -> FlatSpin:
         return replace(found, outcome=UNDECIDED, level="undecided", rates=None,
                        because=f"the uncertain numbers leave it open: {told}")
     return replace(found, caveats=(*found.caveats, Caveat(
-        Kind.UNCERTAIN, f"uncertain numbers: {told}; samples, no proof")))
+        Kind.UNCERTAIN, old(f"uncertain numbers: {told}; samples, no proof"))))
 
 
 def _answered(spinner: Spinner, angle: float, spans: bool) -> FlatSpin:
