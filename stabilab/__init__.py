@@ -11,7 +11,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .answers.attitude import attitude as attitude
     from .answers.chaos import chaos as chaos
     from .answers.circular_orbit import circular_orbit as circular_orbit
-    from .answers.dissipation import flat_spin as flat_spin
+    from .answers.dissipation.flat_spin import flat_spin as flat_spin
     from .answers.equilibria import equilibria as equilibria
     from .answers.fate import extremes as extremes
     from .answers.fate import fate as fate
@@ -66,7 +66,7 @@ _HOME = {
     "load": "case.read", "example": "case.source", "Case": "case.read",
     "load_burning": "case.read", "burn": "answers.stuck.burn",
     "load_orbiting": "case.read", "circular_orbit": "answers.circular_orbit",
-    "flat_spin": "answers.dissipation",
+    "flat_spin": "answers.dissipation.flat_spin",
     "Body": "physics.scene", "Scene": "physics.scene", "ScaledGyrostat": "physics.scene",
     "Gyrostat": "physics.effects.gyrostat", "ConstantTorque": "physics.effects.constant_torque",
     "Fate": "orbit.result",

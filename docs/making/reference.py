@@ -40,8 +40,9 @@ ANSWERS = {"FateResult": "stabilab.orbit.fate_arrays", "Motion": "stabilab.orbit
            "OrbitEquilibria": "stabilab.equilibrium.circular_orbit",
            "OrbitEquilibrium": "stabilab.equilibrium.circular_orbit",
            "MomentumSpan": "stabilab.equilibrium.circular_orbit",
-           "FlatSpin": "stabilab.answers.dissipation",
-           "Span": "stabilab.answers.dissipation",
+           "FlatSpin": "stabilab.answers.dissipation.flat_spin",
+           "Span": "stabilab.answers.dissipation.changes",
+           "Ending": "stabilab.answers.dissipation.ending",
            "Comparison": "stabilab.theories.theory"}
 
 

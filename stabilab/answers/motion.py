@@ -11,7 +11,7 @@ from ..integrate.quadratic_series import largest
 from ..orbit.one_state import in_range
 from ..orbit.reduction import energy_integral
 from ..orbit.result import Fate, Motion
-from ..physics.coefficients import content, effective, gyrostat_scene, limits_of, split
+from ..physics.coefficients import content, effective, gyrostat_scene, limits_of, loses, split
 from ..physics.scene import AnyScene
 from ..validation import checked_span, is_case, scene_and_state
 from .caveats import limited
@@ -33,6 +33,7 @@ def motion(scene: Any, state: Any = None, span: Any = None, brief: bool = False,
     is followed, so that its fate is proved where it can be. Raises InputError as `fate` does.
     """
     case = scene if is_case(scene) else None
+    own = case if state is None else None
     if case is not None and state is None:
         span, exact = case.span if span is None else span, case.exact_state
     scene, state = scene_and_state(scene, state)
@@ -46,7 +47,16 @@ def motion(scene: Any, state: Any = None, span: Any = None, brief: bool = False,
     twin = effective(scene)
     integral = (None if brief or not twin.plain
                 else energy_integral(twin, exact or found.at[:3], found.margin_energy))
-    return limited(replace(found, largest=_largest(twin, found), energy_integral=integral), scene, case)
+    found = limited(replace(found, largest=_largest(twin, found), energy_integral=integral), scene, case)
+    return found if own is None or brief else with_ending(own, found)
+
+
+def with_ending(case: Any, found: Motion) -> Motion:
+    """The motion of a case with how it ends and when, where something takes energy from it."""
+    if found.ending is not None or not loses(case.scene):
+        return found
+    from .dissipation.ending import with_end
+    return with_end(case, found)
 
 
 def _largest(twin: AnyScene, found: Motion) -> float | None:

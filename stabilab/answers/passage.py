@@ -62,7 +62,8 @@ class TimeTo(Shown, Compared):
     "exact" (a law, or all extremes), "proved" (the motion enclosed by a proof), "certified" (the theorem of
     spin-up, applied to a run of machine precision), "run" (roots along a run of machine precision, wider by
     what a second run shows), "undecided". words (...,): how it is known. quantity: what was asked, in words.
-    caveats: what limits the answers (`answers.caveats`).
+    caveats: what limits the answers (`answers.caveats`); ending: how the motion of a case ends that loses
+    energy (`answers.dissipation.ending`), where it does.
     """
 
     low: np.ndarray
@@ -73,6 +74,7 @@ class TimeTo(Shown, Compared):
     scene: Any = field(default=None, repr=False, compare=False)
     states: np.ndarray | None = field(default=None, repr=False, compare=False)
     caveats: tuple[Caveat, ...] = ()
+    ending: Any = field(default=None, compare=False)
 
     @cached_property
     def validity(self) -> Validity | None:

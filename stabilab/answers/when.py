@@ -18,14 +18,16 @@ from ..integrate.trajectory import Trajectory
 from ..numbers.double_double import EPS
 from ..numbers.units import NONE, TIME, in_si
 from ..orbit.result import Motion
+from ..physics.coefficients import loses
 from ..physics.scene import BLOCKS, AnyScene, later, slices, torque_axis
 from ..physics.states import equations_and_start, moved_row, start_of
 from ..representation import Shown
 from .caveats import STEADY, caveats_of, limited, misaligned, stated
+from .dissipation.ending import ending
 from .kinds import kind_of
 from .limit import WORK, asked
 from .motion import motion
-from .passage import MOVED, WIDER, TimeTo
+from .passage import MOVED, WIDER, TimeTo, by_run, times_of
 from .simulate import denser, trajectory
 from .tilt import Spread, Tilt, cone_of, spread, tilt
 from .time_to import time_of_case, time_to
@@ -155,6 +157,8 @@ def _root(scene: AnyScene, run: Trajectory, n: int, values: np.ndarray,
 
 
 # --- When a motion reaches a limit
+PAST = 1.25  # times the end of a motion that loses energy, up to which it is followed
+LONGER = 3_000_000  # steps of that run
 FASTEST = 1e150  # rad/s: beyond it squares come near the end of doubles, and no run holds the motion
 
 
@@ -213,10 +217,29 @@ def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None 
     """As `time_of_case`; where it is never, with what a tilt of the torque does, by what the case states as
     misalignment, else by one degree."""
     found = time_of_case(case, ask, t_max)
+    end = (ending(case, motion(case.scene, case.start, brief=True, exact=case.exact_state))
+           if loses(case.scene) else None)
+    if end is not None and end.until is not None:
+        found = _to_the_end(case, ask, found, PAST * end.until, t_max)
     never = math.isinf(found.low)
     stability = motion(case, brief=True).stability if never else None
-    return replace(found, caveats=caveats_of(case.scene, never, of_tilt(case, None, ask, never),
-                                             file=case.caveats, stability=stability))
+    return replace(found, ending=end,
+                   caveats=caveats_of(case.scene, never, of_tilt(case, None, ask, never), file=case.caveats,
+                                      stability=stability))
+
+
+def _to_the_end(case: Any, ask: dict[str, Any], found: TimeTo, until: float,
+                t_max: float | Fraction | None) -> TimeTo:
+    """What is found, by a longer run where the first one broke off before the motion of a case had ended.
+    until: s, when that is."""
+    last = until if t_max is None else min(until, float(t_max))
+    if not math.isnan(found.high) or float(found.low) >= last or case.scene.ending:
+        return found
+    again = by_run(case.scene, start_of(case.scene, case.state, case.blocks), asked(case.scene, **ask), last,
+                   LONGER)
+    if float(again.low) <= float(found.low):
+        return found
+    return times_of([again], (), found.quantity, case.scene, np.asarray(found.states), found.caveats)
 
 
 def with_first(case: Any, motion: Motion, work: int = WORK) -> Motion:

@@ -15,7 +15,7 @@ from functools import partial
 
 from ..answers.caveats import of_law
 from ..answers.circular_orbit import circular_orbit
-from ..answers.dissipation import flat_spin as ask_flat_spin
+from ..answers.dissipation.flat_spin import flat_spin as ask_flat_spin
 from ..answers.stuck.ask import each_firing
 from ..answers.stuck.ask import stuck as ask
 from ..answers.stuck.burn import burn as left_by
@@ -31,7 +31,8 @@ from ..show.maps import bifurcation_picture
 from ..show.progress import told
 from ..show.text import headline, questions
 from ..show.text import stuck as shown
-from ..show.text.motion import circular_orbit_dict, circular_orbit_text, flat_spin_dict, flat_spin_text
+from ..show.text.flat_spin import flat_spin_dict, flat_spin_text
+from ..show.text.motion import circular_orbit_dict, circular_orbit_text
 from .common import (
     answers_of,
     either,

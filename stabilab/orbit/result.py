@@ -73,6 +73,7 @@ class Motion(Shown):
     `TimeTo`, likewise; caveats: all that limits the answer (`answers.caveats`). largest: |omega| at the
     most, over all time, where a motion repeats or rests, to eight digits. energy_integral: the paper's
     G1, G2 or G3 (`orbit.reduction`), under a torque along a principal axis with no wheel along it.
+    ending: how a motion that loses energy ends, and when (`answers.dissipation.ending`), where it does.
     level: of the fate, "exact", "certified" (a theorem applied to a run of machine precision) or
     "undecided". Of motions that were followed until a certificate held, or as long as was asked: cause:
     what was found on the way, in words; bounds: ((low, high),) * 3 of the rates at all t >= 0, wider than
@@ -105,6 +106,7 @@ class Motion(Shown):
     energy_integral: EnergyIntegral | None = None
     caveats: tuple[Caveat, ...] = ()
     stability: Stability | None = None
+    ending: Any = None
 
 
 def judged(state: Float3, decided: Any) -> dict[str, Any]:

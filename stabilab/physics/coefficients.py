@@ -39,7 +39,14 @@ from .scene import ZERO3, AnyScene, Body, ScaledGyrostat, Scene
 
 KNOWN = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity", "newtonian_field", "gravity",
          "body_force", "viscous_damper", "rate_damper", "eddy_currents", "wheel_motor"}
+TAKE = ("viscous_damper", "liquid_cavity")  # energy, and keep the angular momentum
+TAKE_BOTH = ("resistance", "rate_damper", "eddy_currents")
 ZERO = Fraction(0)
+
+
+def loses(scene: AnyScene) -> bool:
+    """Whether something in a scene takes energy."""
+    return any(one.name in TAKE + TAKE_BOTH for one in scene.effects)
 
 
 @dataclass(frozen=True)

@@ -225,6 +225,37 @@ def _motion(m):
     return Variables(("axis",), values, AXIS, _known(notes))
 
 
+def _ending_words(found):
+    turn = f" about {'+' if found.sense > 0 else '-'}axis {found.axis}" if found.sense else ""
+    return "; ".join(filter(None, (found.kind + turn, _named("rate", found.rate),
+                                   *(f"{name} at {time.at:.6g}" for name, time in found.times), found.level)))
+
+
+def _ending(found):
+    values = {"rates": _along_axes(found.rates, units="rad/s", long_name="rates in the end")}
+    notes = {name: time.at for name, time in found.times}
+    return Variables(("axis",), values, AXIS, _known(notes | values_of(
+        found, "kind level because sense rate within nutation growth decay at_the_latest estimate")
+        | {"spin_axis": found.axis}))
+
+
+def _flat_spin_words(found):
+    times = ((name, getattr(found, name)) for name in ("leaves", "crosses", "settles", "tenth"))
+    told = [f"{name} at {time.at:.6g}" for name, time in times if time]
+    return "; ".join([found.outcome, *told, found.level])
+
+
+def _flat_spin(found):
+    values = {"down": _numbers(("span",), (one.down for one in found.spans)),
+              "up": _numbers(("span",), (one.up for one in found.spans)),
+              "name": _texts(("span",), (one.name for one in found.spans))}
+    notes = {name: time.at for name in ("leaves", "crosses", "settles", "tenth")
+             if (time := getattr(found, name)) is not None}
+    return Variables(("span",), values, {}, _known(notes | values_of(
+        found, "outcome level because axis minor momentum final_rate energy final_energy within nutation "
+               "growth decay steps")))
+
+
 def _separatrix_words(found):
     return ("; ".join(f"{s.name}, {s.points.shape[0]} x {s.points.shape[1]} points" for s in found.branches)
             or f"no branches: {found.reason}")
@@ -419,7 +450,8 @@ KINDS: dict[str, tuple[Callable[[Any], str], Callable[[Any], Variables]]] = {
     "Chaos": (_chaos_words, _chaos), "Ensemble": (_ensemble_words, _ensemble),
     "Diagram": (_diagram_words, _diagram), "Plane": (_plane_words, _plane),
     "Separatrix": (_separatrix_words, _separatrix), "Comparison": (_comparison_words, _comparison),
-    "Stuck": (_stuck_words, _stuck), "SpinUp": (_spin_up_words, _spin_up)}
+    "Stuck": (_stuck_words, _stuck), "SpinUp": (_spin_up_words, _spin_up),
+    "FlatSpin": (_flat_spin_words, _flat_spin), "Ending": (_ending_words, _ending)}
 
 
 # --- Any kind: as a data set, a table, a page

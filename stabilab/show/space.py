@@ -45,13 +45,16 @@ def natural(scene: Any, state: Any) -> float:
 
 
 def seen(span: tuple[float, ...] | None, motion: Motion, alone: float) -> tuple[float, float]:
-    """(from, to) in the scene's time: past the limit of the case, past the beginning of a spin-up, some
-    periods of a motion that repeats; otherwise the span of the case, and where it gives none, `alone`."""
+    """(from, to) in the scene's time: past the limit of the case, past the beginning of a spin-up, past the
+    end of a motion that loses energy, some periods of one that repeats; otherwise the span of the case, and
+    where it gives none, `alone`."""
     low, high = span or (0.0, alone)
     if high < low:  # followed backwards, where nothing of the headline lies
         return low, high
     if (limit := limit_time(motion)) is not None:
         return min(low, 0.0), max(BEYOND * limit, min(high, LATEST * limit))
+    if motion.ending is not None and motion.ending.until is not None:
+        return low, max(high if span else low, BEYOND * motion.ending.until)
     if motion.period:
         wanted = min(high, low + PERIODS * motion.period) if span else low + ALONE * motion.period
         return low, max(wanted, low + FEWEST * motion.period)

@@ -33,6 +33,8 @@ BESIDE = ("undecided: of a wheel motor nothing is proved beside a damper inside,
 AFTER = ("that goes on after it; ask of the motion from the state when it stops, the wheel's momentum then "
          "as [effects.gyrostat]")
 ENDLESS = "as large as its own"
+OPEN_DIRECTION = ("; the direction is undecided, since its energy is not below that of rotation about the "
+                  "next axis")
 SMALL = 1e-290  # below it a square of doubles has lost digits
 
 
@@ -259,8 +261,7 @@ def _permanent(parts: Content, H, twice, what: str) -> tuple[Fate, str, dict]:
                 f"rotation about axis {first + 1}, the axis of the largest moment: ({place}) rad/s", bounds)
     return (Fate.BOUNDED,
             f"{words} and tends to a permanent rotation of its |H|: about axis {first + 1} (largest moment) "
-            f"but for a set of measure zero; "
-            "the direction is undecided, since its energy is not below that of rotation about the next axis",
+            f"but for a set of measure zero{OPEN_DIRECTION}",
             bounds)
 
 

@@ -47,6 +47,7 @@ DOORS = {
     ("stabilab.answers.attitude", "stabilab.answers.attitude_followed"): "loads numpy",
     ("stabilab.answers.motion", "stabilab.answers.at_equilibrium"): "loaded for states of equilibrium alone",
     ("stabilab.answers.at_equilibrium", "stabilab.physics.to_numpy"): "loads numpy",
+    ("stabilab.answers.motion", "stabilab.answers.dissipation.ending"): "loads numpy",
     ("stabilab.answers.certificate", "stabilab.answers.certified_motion"): "loads numpy",
     ("stabilab.commands.classify", "stabilab.commands.certificates"): "loaded for --certify alone",
     ("stabilab.commands.common",

@@ -15,6 +15,8 @@ STATES = [[0.1, 0.05, 0.02], [0.1, 0.05, 0.9]]
 TIMES = [0.0, 10.0, 20.0]
 OFF = stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.Gyrostat(("0.8", 0, 0)),
                      stabilab.ConstantTorque(("0.01", "0.3", "0.02")))
+DAMPED = stabilab.load(
+    stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.ViscousDamper("0.5", 2)), (0.3, 0.1, 2))
 RESULTS = {
     "Motion": lambda: stabilab.motion(SCENE, STATES[0]), "Equilibria": lambda: stabilab.equilibria(SCENE),
     "FateResult": lambda: stabilab.fate(SCENE, STATES),
@@ -32,6 +34,7 @@ RESULTS = {
     "Chaos": lambda: stabilab.chaos(SCENE, STATES, until=40.0),
     "Attitude": lambda: stabilab.attitude(SCENE, STATES[0]),
     "Crossings": lambda: stabilab.when(SCENE, state=STATES[0], until=40, events=["omega1", lambda t, y: t - 1]),
+    "FlatSpin": lambda: stabilab.flat_spin(DAMPED), "Ending": lambda: stabilab.motion(DAMPED).ending,
     "Ensemble": lambda: stabilab.ensemble(SCENE, STATES, TIMES)}
 
 

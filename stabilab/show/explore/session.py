@@ -17,7 +17,7 @@ from typing import Any
 
 from ...answers.equilibria import equilibria
 from ...answers.kinds import KINDS, kind_of
-from ...answers.motion import motion
+from ...answers.motion import motion, with_ending
 from ...case.read import Case
 from ...case.write import data_of
 from ...equilibrium.result import Equilibria
@@ -147,6 +147,8 @@ class Session:
         found, words = self._motion(case, moving, stopped)
         if found is not None:
             found = judged(case, found, brief=True)
+            if not moving and present("numpy"):
+                found = with_ending(case, found)
             if case.limits is not None and not moving and present("numpy"):
                 from ...answers.when import with_first
                 found = with_first(case, found, QUICK)
@@ -158,6 +160,10 @@ class Session:
         until, cut = _length(case, found, form, moving)
         times, path = self._once("line", (case.scene, case.state, until, moving),
                                  lambda: line(case, form, until, moving))
+        whole = times, path
+        if found is not None and found.ending is not None and found.ending.until is not None:
+            end = seen(case.span, found, until)[1]  # past it, though its turns are too many for the space
+            whole = self._once("whole", (case.scene, case.state, end), lambda: pictures.path(case, end))
         picture = self._space(bag, case, twin, found, at_rest, times, path, asked.get("box"), moving)
         about_axes = frame.components(self.case, units.axes)  # of the file, where they are others
         turns = not self.units.scaled and present("numpy") and (case.scene.plain or not moving)
@@ -172,7 +178,7 @@ class Session:
                 "rows": [*([["axes", lettered(about_axes)]] if about_axes else []),
                          *([] if found is None else rows(case, found, units))],
                 "plane": None if twin is None else pictures.drawn_planes(bag, twin, case.state, units),
-                "time": pictures.over_time(bag, case, found, times, path, units),
+                "time": pictures.over_time(bag, case, found, *whole, units),
                 "film": pictures.film(case, times[-1], bag, units) if turns else None}
         made["equilibria"] = equilibrium_rows(at_rest, units) if at_rest else pictures.NOT_YET
         return made | {"analysis": 1e3 * (settled - began), "work": 1e3 * (time.process_time() - began)}
@@ -269,7 +275,8 @@ def _length(case: Case, found: Motion | None, form: QuadraticForm | None, moving
     if wanted <= most or moving:
         return min(wanted, most), ""
     units = units_of(case)
-    return most, f"Its first {units.time(most, SHORT)} of {units.time(wanted, SHORT)} are drawn."
+    where = " in the space of the rates" if found is not None and found.ending is not None else ""
+    return most, f"Its first {units.time(most, SHORT)} of {units.time(wanted, SHORT)} are drawn{where}."
 
 
 def _without_tilt(scene: AnyScene) -> tuple[AnyScene, bool]:

@@ -14,7 +14,7 @@ from ...orbit.potential import potential
 from ...orbit.reduction import reduce
 from ...orbit.result import Motion
 from ...physics.coefficients import effective
-from .. import limiting
+from .. import ending, limiting
 from ..terminal import listed, printed
 from ..text import headline
 from ..text.classification import in_units
@@ -48,6 +48,12 @@ def _outcome(motion, units):
 
 def _when(motion, units):
     """The limit of the case first, then what a tilt of the torque does, then a spin-up without a limit."""
+    if motion.ending is not None and not (motion.first and math.isfinite(motion.first[1].high)):
+        value, note = ending.first(motion.ending, units)
+        unreached = motion.first and (f"; the limit, {units.filled(motion.first[0])}, is "
+                                      f"{'never' if math.isinf(motion.first[1].low) else 'not known to be'} "
+                                      f"reached ({motion.first[1].level})")
+        return value, f"{note}{unreached or ''}"
     limit, found = motion.first or ("", None)
     limit = f"the limit, {units.filled(limit)},"
     if found is not None and math.isfinite(found.high):

@@ -16,7 +16,7 @@ from ...answers.equilibria import once_stopped
 from ...numbers.units import unit_of_key
 from ...numbers.vectors import CYCLE
 from ...representation import values_of
-from .. import frame, limiting
+from .. import ending, frame, limiting
 from ..axes import axes_of
 from ..terminal import lettered, written
 from ..units import DIGITS, SI, Units, number
@@ -230,7 +230,7 @@ def _motion_dict(case, m) -> dict:
             **values_of(m, "period extremes invariants"),
             "energy_integral": None if m.energy_integral is None else asdict(m.energy_integral),
             "sense": m.sense or None, **values_of(m, "extremes_over evidence"),
-            "tilt": questions.tilt_dict(m.tilt)} | followed(m)
+            "tilt": questions.tilt_dict(m.tilt)} | followed(m) | ending.key(case, m.ending)
 
 
 def undecided(equilibria, motion) -> bool:

@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING
 
 from ... import errors
 from ...answers.caveats import caveats_of, limited
+from ...answers.motion import with_ending
 from ...case.sections import vertical_of
 from ...errors import Kind, printable
 from ...physics.coefficients import limits_of
-from .. import limiting
+from .. import ending, limiting
 from ..axes import PLAIN, axes_of, direction
 from ..terminal import lettered
 from ..units import SHORT, SI, SPAN, Units, number, units_of
@@ -103,6 +104,7 @@ def judged(case, motion, brief=False):
         return motion
     found = of_case(case, brief=brief) if _open(case, motion.validity) else None
     motion = limited(motion if found is None else replace(motion, validity=found), case.scene, case)
+    motion = motion if brief else with_ending(case, motion)
     if case.limits is None or brief:
         return motion
     from ...answers.when import with_first
@@ -208,7 +210,8 @@ def outcome(motion: Motion, units: Units) -> list[str]:
     departs = limiting.unstable(motion.caveats, units)
     departs = departs and (departs.removeprefix("unstable") if departs.startswith("unstable")
                            else f"; {departs}")
-    return ["".join(fate_parts(motion, units)) + departs, limiting.reached(motion.caveats, units),
+    became = "".join(fate_parts(motion, units)) + departs, ending.when(motion.ending, units)
+    return ["; ".join(filter(None, became)), limiting.reached(motion.caveats, units),
             limiting.tilted(motion.caveats, units)]
 
 
@@ -219,7 +222,9 @@ def look(motion: Motion) -> str:
     if beyond(motion.validity) or motion.fate.word == "undecided":
         return "conditional"
     kinds = [one.kind for one in motion.caveats]
-    if motion.fate.word in ("spin-up", "separatrix") or {Kind.LIMIT, Kind.UNSTABLE} & set(kinds):
+    turns_over = motion.ending is not None and motion.ending.kind == "flat spin"
+    if (motion.fate.word in ("spin-up", "separatrix") or {Kind.LIMIT, Kind.UNSTABLE} & set(kinds)
+            or turns_over):
         return "changes"
     return "conditional" if Kind.TILT in kinds else "bounded"
 
@@ -233,6 +238,8 @@ def fate_parts(motion: Motion, units: Units, tilt: bool = True) -> tuple[str, st
         words = words.removesuffix(" for ever")
     if fate == "equilibrium":
         words = f"{STEADY if any(motion.at[:3]) else REST}{stable_word(motion)}"
+    if ended := ending.words(motion.ending, units):
+        return *ended, where
     about = f" about {units.axes.whole(motion.axis)}, {direction(motion.sense)}" if motion.axis else ""
     return words, about + known_as(motion), where
 

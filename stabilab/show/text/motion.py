@@ -1,7 +1,7 @@
-"""Motions in words: the numbers of one, its attitude, rest on a circular orbit, dissipation.
+"""Motions in words: the numbers of one, its attitude, rest on a circular orbit.
 
 A motion's lines say where it starts, how far its rates go, its margins and period, and why, every number
-with its unit. Attitude, circular orbit and dissipation have JSON here as well."""
+with its unit. Attitude and circular orbit have JSON here as well."""
 from __future__ import annotations
 
 import math
@@ -9,7 +9,6 @@ import math
 from ...equilibrium.circular_orbit import yaw_pitch_roll
 from ...representation import values_of
 from .. import frame, limiting
-from ..axes import Axes, axes_of
 from ..terminal import greek, lettered
 from ..units import DEG, DIGITS, SHORT, Units, but_for_rounding, number, vector
 from .headline import rate_margin, span_words
@@ -132,6 +131,8 @@ def bound_lines(case, motion, units: Units) -> list[str]:
 def why(case, motion, units: Units, proofs: bool) -> list[str]:
     """The reason; with `proofs` also what is not known of the margin, invariants, and what a run showed."""
     lines = [f"why: {reason(motion.because, units)}"]
+    if motion.ending is not None:
+        lines.append(f"  its end: {reason(motion.ending.because, units)}")
     if proofs and motion.velocity_because:
         rate = "" if motion.velocity_bounds else "margin, rate: "
         lines.append(f"  {rate}{reason(motion.velocity_because, units)}")
@@ -368,63 +369,3 @@ def _lines(case, found, one, units: Units, name: str, other=None):
     if one.frequencies:
         yield row("", f"librations {units.vector(one.frequencies, units.rates)[1:].replace(')', '')}, "
                       f"{', '.join(number(f / found.rate, DIGITS) for f in one.frequencies)} per orbit")
-
-
-# --- What internal dissipation makes of a spin
-NAMES = {"phase": "phase", "nutation": "nutation angle", "damping": "strength of the damping"}
-
-
-def flat_spin_dict(case, found) -> dict:
-    """The object of `stabilab flat-spin --json`: SI units, vectors in the frame of the file. Times: [s, error
-    in s], null where past at the start or not reached; changes: null where none was found."""
-    times = {name: one and [one.at, one.error]
-             for name, one in values_of(found, "leaves crosses settles").items()}
-    return {"schema": "stabilab.flat_spin/1", "case": case.name, **values_of(found, "outcome level because"),
-            "minor_axis": found.minor, **values_of(found, "momentum final_rate"),
-            "final_rates": found.rates and in_file(case, found.rates),
-            **values_of(found, "energy final_energy"), "energy_lost": found.lost, "within": found.within,
-            **times, "passage": found.passage, "growth_time": found.growth, "decay_time": found.decay,
-            "changes": {one.name: [one.down, one.up] for one in found.spans},
-            "steps": found.steps} | axes_of(case).key(found.axis) | limiting.key(case, found.caveats)
-
-
-def flat_spin_text(case, found, units: Units) -> str:
-    """The answer first, then when, the numbers, what changes the outcome and why; without its caveats."""
-    within = units.angle(found.within, 4)
-    lines = [f"{case.name}: {_headline(found, axes_of(case), units)}"]
-    rates = "" if found.rates is None else f": {units.vector(in_file(case, found.rates), units.rates)}"
-    lines.append(row("final rate", f"{units.rate(found.final_rate)}{rates}"))
-    lines.append(row("energy", f"{units.energy(found.energy)}, of which {number(found.lost, DIGITS)} J are "
-                               f"lost in the end"))
-    for name, one in ((f"nutation over {within}", found.leaves), ("separatrix crossed", found.crosses),
-                      (f"within {within}", found.settles)):
-        if one is not None:
-            lines.append(row(name, f"t = {units.time(one.at)}, known to {units.time(one.error, 1)}"))
-    if found.passage is not None:
-        lines.append(row("passage", units.time(found.passage)))
-    for name, one in (("growth", found.growth), ("decay", found.decay)):
-        if one is not None:
-            lines.append(row(f"nutation {name}", f"time constant {units.time(one)}, by eigenvalues"))
-    for one in found.spans:
-        size = ((lambda v: units.angle(v, 3)) if one.name == "phase"
-                else lambda v: f"{number(100 * v, 3)} %")
-        ends = [f"{sign}{size(v)}" for sign, v in (("-", one.down), ("+", one.up)) if math.isfinite(v)]
-        lines.append(row("outcome changes at", f"{' and '.join(ends)} of {NAMES[one.name]}" if ends else
-                         f"no change of {NAMES[one.name]} that was looked at"))
-    if found.steps:
-        lines.append(row("cost", f"{found.steps} steps"))
-    return "\n".join([*lines, f"why: {reason(found.because, units)}"])
-
-
-def _headline(found, axes: Axes, units: Units) -> str:
-    name = axes.name(found.axis)
-    if found.outcome == "undecided":
-        one = found.crosses
-        when = "" if one is None else f", separatrix crossed at {units.moment(one.at)}"
-        return f"UNDECIDED: +{name} or -{name}{when}"
-    if found.outcome.startswith("across"):
-        return f"FLAT SPIN about an axis across {axes.name(found.minor)}"
-    sign = "+" if found.outcome.startswith("positive") else "-"
-    when = ("the separatrix is past at the start" if found.crosses is None
-            else f"separatrix crossed at {units.moment(found.crosses.at)}")
-    return f"FLAT SPIN about {sign}{name}, {when}"

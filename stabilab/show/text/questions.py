@@ -10,7 +10,7 @@ from dataclasses import replace
 from ...errors import printable
 from ...orbit.result import Fate, no_period
 from ...representation import values_of
-from .. import frame, limiting
+from .. import ending, frame, limiting
 from ..axes import axes_of
 from ..data import csv_lines
 from ..terminal import greek, lettered, listed
@@ -32,15 +32,16 @@ def as_dict(case, limit, found) -> dict:
             "quantities": limit.names, "limits": limit.limits, "reached": reached(low, high),
             "time": [low, high] if math.isfinite(high) else None, "not_before": low,
             "level": str(found.level), "because": str(found.words)
-            } | limiting.key(case, found.caveats) | frame.key(case)
+            } | ending.key(case, found.ending) | limiting.key(case, found.caveats) | frame.key(case)
 
 
 def csv(answers) -> str:
     """A line a case, SI units; inf: never reached, an empty upper end: not known."""
     rows = [(case.name, "/".join(limit.names), "/".join(map(repr, limit.limits)),
              *(None if math.isnan(v) else float(v) for v in (found.low, found.high)),
-             str(found.level), limiting.cell(case, found.caveats)) for case, limit, found in answers]
-    return csv_lines([CSV, *rows])[:-1]
+             str(found.level), limiting.cell(case, found.caveats))
+            for case, limit, found in answers]
+    return csv_lines(ending.beside([CSV, *rows], [found.ending for *_, found in answers]))[:-1]
 
 
 def text(case, limit, found, units: Units) -> str:
@@ -49,7 +50,9 @@ def text(case, limit, found, units: Units) -> str:
     parts = [_answer(limit, found, low, high, units), limiting.tilted(found.caveats, units)]
     # the limit stands above, in the units asked for
     reason = re.sub(r"^[^:]* = [^:]*: ", "", str(found.words))
-    return f"{printable(case.name)}: {'; '.join(filter(None, parts))}\n  {lettered(units.words(reason))}"
+    told = f"{printable(case.name)}: {'; '.join(filter(None, parts))}\n  {lettered(units.words(reason))}"
+    end = ending.line(found.ending, units)
+    return f"{told}\n  in the end: {lettered(end)}" if end else told
 
 
 def swept(answers, units: Units):
@@ -208,7 +211,7 @@ def extremes_dict(case, motion, told) -> dict:
     motion = _with(motion, told)
     return _object("extremes", case, motion, told, {
         "components": case.scene.components, "extremes": motion.extremes, "over": motion.extremes_over,
-        **followed(motion)})
+        **followed(motion), **ending.key(case, motion.ending)})
 
 
 def _with(motion, told):
@@ -221,7 +224,8 @@ def fate_dict(case, motion, told) -> dict:
     margin = motion.margin_energy if told.values is None else told.values
     return _object("fate", case, motion, told, {
         **axes_of(case).key(motion.axis), "sense": motion.sense or None, "because": motion.because,
-        "margin": margin, "tilt": tilt_dict(motion.tilt), **followed(motion)})
+        "margin": margin, "tilt": tilt_dict(motion.tilt), **followed(motion),
+        **ending.key(case, motion.ending)})
 
 
 def period_dict(case, motion, told) -> dict:
@@ -232,7 +236,8 @@ def period_dict(case, motion, told) -> dict:
 
 def extremes_csv(answered) -> str:
     """A line a component of (case, motion, digits), every digit asked for; inf: unbounded, empty: unknown."""
-    rows = [(case.name, name, *pair, moved.extremes_over, limiting.cell(case, moved.caveats))
+    rows = [((case.name, name, *pair, moved.extremes_over, limiting.cell(case, moved.caveats)), moved.ending)
             for case, moved, told in answered for pairs in [told.decimals or _with(moved, told).extremes]
             for name, pair in zip(case.scene.components, pairs or ((None, None),) * 3)]
-    return csv_lines([("case", "component", "min", "max", "over", "caveats"), *rows])[:-1]
+    head = ("case", "component", "min", "max", "over", "caveats")
+    return csv_lines(ending.beside([head, *(row for row, _ in rows)], [one for _, one in rows]))[:-1]

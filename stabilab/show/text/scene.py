@@ -15,7 +15,7 @@ from ...numbers.units import DIMENSIONS, NAMES
 from ...physics.coefficients import shape_factors, to_scaled
 from ...physics.effects.base import effect_words
 from ...physics.equations import Equations, Symbolic, derive, invariants
-from .. import frame, limiting, terminal
+from .. import ending, frame, limiting, terminal
 from ..axes import axes_of
 from ..terminal import greek, lettered, listed, some, table, width, written
 from ..units import DEG, DIGITS, SHORT, Units, but_for_rounding, number, parameter_unit, units_of
@@ -92,12 +92,19 @@ def counted(answers: Sequence[tuple], words: Mapping[str, str], units: Units, be
 
 def fates(motions: Sequence, units: Units) -> str:
     """How many motions have which fate, and the range of their largest rates."""
-    words = counted([(motion.fate.word, motion.caveats) for motion in motions], WORDS, units, ", ")
+    words = counted([(_became(motion), motion.caveats) for motion in motions], WORDS | ending.WORDS, units,
+                    ", ")
     sizes = [size for size in map(_largest, motions) if size is not None]
     if not sizes:
         return words
     low, high = number(min(sizes) * units.rates[1]), units.rate(max(sizes), SHORT)
     return f"{words}; largest rate " + (high if high.split()[0] == low else f"{low} to {high}")
+
+
+def _became(motion) -> str:
+    """Its fate, or how it ends where it loses energy."""
+    one = motion.ending
+    return motion.fate.word if one is None or one.kind == "undecided" else one.kind
 
 
 def _largest(motion):
@@ -114,9 +121,15 @@ def of_motions(motions: Sequence, units: Units) -> tuple[list[tuple[str, str]], 
     name, one = units.rates
     longest = max((m.period for m in motions if m.period is not None), default=0.0)
     time, per_time = units.times(longest)
+    over = max((m.ending.until for m in motions if m.ending is not None and m.ending.until), default=0.0)
+    hour, per_hour = units.times(over)
     columns = [("limit", "", lambda m: limiting.reached(m.caveats, units)),
-               ("fate", "", lambda m: m.fate.word + known_as(m)),
-             ("axis", "", lambda m: units.axes.signed(m.axis, m.sense)),
+               ("fate", "", lambda m: _became(m) + known_as(m)),
+             ("axis", "", lambda m: units.axes.signed(m.axis or (m.ending.axis if m.ending and m.ending.sense
+                                                                 else 0),
+                                                      m.sense or (m.ending.sense if m.ending else 0))),
+             ("ends after", hour, lambda m: number(m.ending.until * per_hour, 6) if m.ending is not None
+              and m.ending.until else ""),
              ("largest rate", name, lambda m: "" if _largest(m) is None else number(_largest(m) * one, 6)),
              ("margin", name, lambda m: rate_margin(m, units, 6).removesuffix(f" {name}") if name
               else rate_margin(m, units, 6)),

@@ -1,0 +1,1 @@
+"""What becomes of a body that something takes energy from."""

@@ -1,0 +1,331 @@
+"""How a motion that loses energy ends, and when: one answer for every view.
+
+Inside a free body something takes energy and keeps the angular momentum: `flat_spin` has the end and its
+times. From outside a torque takes both. Then a function that only falls along the motion tells when it is
+near its end, so that each time is the one root of a monotone function:
+
+    T/T(0), where it tends to rest,
+    (T - E)/(T(0) - E), E = (H . gamma)^2/(2 D1), under eddy currents alone (`equilibrium.dissipative`),
+    V/V(0), V = delta . D delta/2, where one equilibrium draws every motion, delta the departure from it.
+
+The body is within a share s of its end once that function is s^2. Elsewhere a run is followed until its rates
+stay: at a state whose eigenvalues are zero or on the left, and each of those fast against the time for which
+the rates were seen to stay."""
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ...equilibrium.dissipative import GLOBAL, decay, resisted_equilibria
+from ...errors import InputError, Kind
+from ...integrate.trajectory import root_between
+from ...numbers.vectors import Float3, dot
+from ...orbit.result import Fate, Motion
+from ...physics.coefficients import Content, content, loses
+from ...physics.scene import slices
+from ...physics.states import equations_and_start, moved_row, start_of
+from ...physics.to_numpy import to_numpy
+from ...representation import Compared, Shown
+from ...unreduced.bounds import OPEN_DIRECTION
+from ..passage import MOVED, WIDER
+from ..simulate import trajectory
+from .flat_spin import ACROSS, POSITIVE, SECOND_RTOL, UNDECIDED, FlatSpin, Time, of_case
+from .spinner import Spinner
+
+WITHIN = math.radians(5)  # of the nutation angle
+NEAR = 0.01  # of the rates, or of the departure from the end
+STEPS = 2_000_000  # of a run of a body that something outside acts on
+FEWER = 100_000  # of one that is followed until its rates stay, whatever they do
+POLISHED = 5  # steps of Newton to the equilibrium by which they stay
+ENOUGH = 20_000  # steps, by which a pace is known
+FORECAST = 4  # times STEPS: a run that would need more is given up at once
+POINTS = 400  # of a part of a run
+STAYS = 1e-4  # of the largest rate: what is left of a change
+STILL = 1e-9  # of the fastest eigenvalue: one that is zero
+FADED = 8.0  # time constants for which the rates stay
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Ending(Shown, Compared):
+    """How a motion ends that loses energy, and when.
+
+    kind: "flat spin", "nutation dies out", "rest", "rotation about the field", "steady rotation" or
+    "undecided". level: of the kind and the rates, "exact", "run" or "undecided"; because: how it is known.
+    axis: 1 to 3, about which it ends turning, 0 across all or at rest; minor: the axis of the least moment of
+    a free body, else 0; sense: +1 or -1 of the turn, 0 where undecided. rate: |omega| in the end, rad/s;
+    rates: along the principal axes, None where undecided. within: how near "settles" is: rad of nutation of a
+    free body, else a share of its rates or of its departure from the end. times: (name, `Time`) in their
+    order, of those that lie ahead: "leaves" (the nutation exceeds `within` from the minor axis), "crosses"
+    (the separatrix), "settles" (it is within `within` of its end, where it stays), "tenth" (the nutation is a
+    tenth of that at the start, where it stays). nutation: rad, at the start, where it dies out; growth,
+    decay: s, time constants of the nutation. at_the_latest: s, proved, by when it has settled; estimate: s,
+    where a run to "settles" would take too many steps: at the pace that it goes at first.
+    """
+
+    kind: str
+    level: str
+    because: str
+    axis: int = 0
+    minor: int = 0
+    sense: int = 0
+    rate: float | None = None
+    rates: Float3 | None = None
+    within: float = NEAR
+    times: tuple[tuple[str, Time], ...] = ()
+    nutation: float | None = None
+    growth: float | None = None
+    decay: float | None = None
+    at_the_latest: float | None = None
+    estimate: float | None = None
+
+    def time(self, name: str) -> float | None:
+        """One of its times, s."""
+        return dict(self.times)[name].at if name in dict(self.times) else None
+
+    @property
+    def until(self) -> float | None:
+        """By when all is over that the times tell of, s."""
+        return max((one.at for _, one in self.times), default=None)
+
+
+def with_end(case: Any, motion: Motion) -> Motion:
+    """The motion of a case with how it ends; its reason no longer says that a direction is open which a run
+    shows."""
+    found = ending(case, motion)
+    known = found is not None and found.sense
+    because = motion.because.replace(OPEN_DIRECTION, "") if known else motion.because
+    return replace(motion, ending=found, because=because)
+
+
+def ending(case: Any, motion: Motion) -> Ending | None:
+    """How the bounded motion of a case ends, at times counted from its start; None where nothing takes energy
+    from it, or it is an equilibrium. motion: what else is known of it."""
+    scene = case.scene
+    if motion.fate != Fate.BOUNDED or case.variables != "physical" or not loses(scene):
+        return None
+    parts = content(scene)
+    if parts is None or not parts.dissipative:
+        return None
+    if _free(parts):
+        return _inside(case)
+    start = equations_and_start(scene, start_of(scene, case.state, case.blocks))[1]
+    return _outside(scene, parts, start, motion)
+
+
+def _free(parts: Content) -> bool:
+    """Whether a body alone carries what takes its energy, with an angular momentum that it keeps."""
+    outside = (any(parts.M) or any(parts.Lambda) or any(parts.u) or parts.c or parts.damped or parts.directed)
+    return not outside and len(set(parts.D)) > 1
+
+
+# --- Inside a free body
+def _inside(case: Any) -> Ending:
+    if not any(Spinner.made(case).momentum):
+        words = "the angular momentum is zero and stays, and the energy falls until all is at rest"
+        return Ending("rest", "exact", words, rate=0.0, rates=(0.0,) * 3)
+    try:
+        return of_spin(of_case(case, WITHIN, spans=False))
+    except InputError as error:  # a liquid in moments that no rigid body has
+        return Ending("undecided", "undecided", str(error))
+
+
+def of_spin(found: FlatSpin) -> Ending:
+    """The same of a free body whose angular momentum stays."""
+    names = ("leaves", "crosses", "settles", "tenth")
+    ahead = [(name, one) for name in names if (one := getattr(found, name)) is not None]
+    sense = 0 if found.outcome in (UNDECIDED, ACROSS) else 1 if found.outcome == POSITIVE else -1
+    drawn = [one.words for one in found.caveats if one.kind is Kind.UNCERTAIN]
+    kind = "flat spin" if found.nutation is None else "nutation dies out"
+    axis = 0 if found.outcome == ACROSS else found.axis
+    times = tuple(sorted(ahead, key=lambda one: one[1].at))
+    return Ending(kind, found.level, "; ".join([found.because, *drawn]), axis, found.minor, sense,
+                  found.final_rate, found.rates, found.within, times, found.nutation, found.growth,
+                  found.decay)
+
+
+
+# --- From outside
+def _outside(scene: Any, parts: Content, start: np.ndarray, motion: Motion) -> Ending:
+    """By a function that only falls where one is known, else by a run until the rates stay."""
+    D = [float(d) for d in parts.D]
+    energy = lambda states: states[:, :3] ** 2 @ np.array(D) / 2
+    first = float(energy(start[None])[0])
+    rests = motion.invariants.get("late_rate_bound") == 0.0
+    if rests and not parts.directed and not parts.inside and first > 0:
+        words = "the kinetic energy only falls, and the motion tends to rest"
+        found = Ending("rest", "exact", words, rate=0.0, rates=(0.0,) * 3)
+        slowest = float(decay(parts))
+        latest = math.log(1 / NEAR) / slowest if slowest and not any(parts.M) else None
+        return _timed(replace(found, at_the_latest=latest), scene, start, lambda y: energy(y) / first)[0]
+    if _field_alone(parts):
+        return _about_the_field(scene, parts, start, energy, first)
+    drawn = _drawn(parts)
+    if drawn is not None:
+        end = np.array(drawn)
+        apart = lambda y: (y[:, :3] - end) ** 2 @ np.array(D) / 2
+        begun = float(apart(start[None])[0])
+        found = Ending("steady rotation", "exact", "one equilibrium draws every motion",
+                       rate=math.hypot(*drawn), rates=drawn)
+        return _timed(found, scene, start, lambda y: apart(y) / begun)[0] if begun > 0 else found
+    return _settled(scene, start, rests)
+
+
+def _drawn(parts: Content) -> Float3 | None:
+    """The equilibrium that draws every motion under resistance and a torque; None where none is proved to."""
+    if parts.inside or parts.kappa or parts.directed or any(parts.u) or not decay(parts):
+        return None
+    points = [one for one in resisted_equilibria(parts).points if GLOBAL in one.because]
+    return tuple(map(float, points[0].at[:3])) if points else None
+
+
+def _field_alone(parts: Content) -> bool:
+    """Whether eddy currents alone act on a body with one axis of the largest moment."""
+    D = sorted(parts.D)
+    return bool(parts.eddy) and D[1] < D[2] and not (
+        any(parts.M) or any(parts.Lambda) or any(parts.u) or any(parts.s) or parts.N or parts.E or parts.c
+        or parts.damped or parts.kappa or parts.inside)
+
+
+def _about_the_field(scene: Any, parts: Content, start: np.ndarray, energy: Callable[..., np.ndarray],
+                     first: float) -> Ending:
+    """The end under eddy currents: rotation about the field, whose direction along the axis a run shows."""
+    gamma = start[slices(scene.blocks)["gamma"]]
+    p = float(dot([float(d) * w for d, w in zip(parts.D, start[:3])], gamma.tolist()))
+    axis = max(range(3), key=lambda i: parts.D[i])
+    most = float(parts.D[axis])
+    lowest, rate = p * p / (2 * most), abs(p) / most
+    words = (f"H . gamma = {p:.6g} N m s stays and the energy falls to the least at it, of rotation about "
+             f"the field and axis {axis + 1}, that of the largest moment, but for a set of measure zero "
+             "(LaSalle)")
+    found = Ending("rotation about the field", "exact", words, axis + 1, rate=rate)
+    if first <= lowest * (1 + 1e-12) or not p:
+        return replace(found, kind="rotation about the field" if p else "rest",
+                       rates=None if p else (0.0,) * 3)
+    found, late = _timed(found, scene, start, lambda y: (energy(y) - lowest) / (first - lowest))
+    if late is None:
+        return found
+    sense = 1 if late[axis] > 0 else -1
+    rates = tuple(sense * rate if i == axis else 0.0 for i in range(3))
+    return replace(found, level="run", sense=sense, rates=rates,
+                   because=f"{words}; a run ends turning in its {'positive' if sense > 0 else 'negative'} "
+                           "direction")
+
+
+def _timed(found: Ending, scene: Any, start: np.ndarray, share: Callable[[np.ndarray], np.ndarray]
+           ) -> tuple[Ending, np.ndarray | None]:
+    """With the time at which a share that only falls is NEAR^2, by two runs, and the state there."""
+    t, late = _falls(scene, start, share, None)
+    if late is None:
+        return replace(found, estimate=t), None
+    again, other = _falls(scene, moved_row(start, MOVED), share, SECOND_RTOL)
+    if other is None or again is None or t is None:
+        return found, None
+    return replace(found, times=(("settles", Time(t, WIDER * abs(t - again) + 1e-15 * t)),)), late
+
+
+def _falls(scene: Any, state: np.ndarray, share: Callable[[np.ndarray], np.ndarray], rtol: float | None
+           ) -> tuple[float | None, np.ndarray | None]:
+    """(the time at which the share is NEAR^2, the state then); (an estimate or None, None) where that takes
+    too many steps."""
+    level, t, steps, here, ahead = NEAR * NEAR, 0.0, 0, 1.0, math.inf
+    length = _quick(to_numpy(scene).jacobian(state), state)
+    over = lambda y, times: trajectory(scene, y, times, rtol=rtol, laws=False)
+    while steps < STEPS:
+        times = np.linspace(0.0, length, POINTS + 1)
+        run = over(state, times)
+        if run.status != "reached":
+            return None, None
+        shares = share(run.states)
+        below = np.nonzero(shares < level)[0]
+        if below.size:
+            at = max(0, int(below[0]) - 1)
+            more, late = _root(run.states[at], float(times[at + 1] - times[at]), over,
+                               lambda y: float(share(y[None])[0]) - level)
+            return t + float(times[at]) + more, late
+        taken = max(1, run.counters["steps"])
+        t, steps, state, before, here = t + length, steps + taken, run.states[-1], here, float(shares[-1])
+        parts = math.log(here / level) / math.log(before / here) if here < before else math.inf
+        ahead = t + length * parts
+        if steps > ENOUGH and parts * taken > FORECAST * STEPS:
+            break
+        length *= 2.0
+    return (ahead if math.isfinite(ahead) else None), None
+
+
+def _root(state: np.ndarray, length: float, over: Callable[[np.ndarray, np.ndarray], Any],
+          height: Callable[[np.ndarray], float]) -> tuple[float, np.ndarray]:
+    """(the time within this length at which the height is zero, the state then)."""
+    def then(s: float) -> np.ndarray:
+        return over(state, np.array([s])).states[-1] if s else state
+    t = root_between(height, then, 0.0, length) if height(state) > 0 else 0.0
+    return t, then(t)
+
+
+def _settled(scene: Any, start: np.ndarray, rests: bool) -> Ending:
+    """Where the rates of a run stay, and from when on they are near that."""
+    form, state = to_numpy(scene), start
+    largest = float(np.linalg.norm(start[:3]))
+    length, t, steps = _quick(form.jacobian(start), start), 0.0, 0
+    times, rates = np.zeros(1), start[None, :3]
+    while steps < FEWER:
+        run = trajectory(scene, state, np.linspace(0.0, length, POINTS + 1)[1:], laws=False)
+        if run.status != "reached":
+            break
+        steps, state, new = steps + max(1, run.counters["steps"]), run.states[-1], run.states[:, :3]
+        largest = max(largest, float(np.linalg.norm(new, axis=1).max()))
+        times, rates = np.append(times, t + np.asarray(run.t)), np.concatenate([rates, new])
+        t += length
+        end = np.zeros(3) if rests else new[-1]
+        if float(np.abs(new - end).max()) < STAYS * largest and _attracts(form.jacobian(state), length):
+            end = end if rests else _polished(form, state, STAYS * largest)
+            return _stays(times, rates, end, STAYS * largest, rests)
+        length = t  # as long again
+    if rests:
+        words = "it tends to rest; a run did not come near it"
+        return Ending("rest", "exact", words, rate=0.0, rates=(0.0,) * 3)
+    return Ending("undecided", "undecided",
+                  f"where it tends is not proved, and the rates of a run of {steps} steps do not stay")
+
+
+def _stays(times: np.ndarray, rates: np.ndarray, end: np.ndarray, small: float, rests: bool) -> Ending:
+    """The answer of rates (n, 3) that stay at an end; small: what is left of a change, rad/s."""
+    size = float(np.linalg.norm(end))
+    away = np.linalg.norm(rates - end, axis=1) > NEAR * max(float(np.linalg.norm(rates[0])), size)
+    found: tuple[tuple[str, Time], ...] = ()
+    if away.any():
+        last = int(np.nonzero(away)[0][-1])
+        low, high = times[last].item(), times[last + 1].item()
+        found = (("settles", Time((low + high) / 2, (high - low) / 2)),)
+    if rests or size <= small:
+        known = ("exact", "it tends to rest; a run says when it is near") if rests else (
+            "run", "a run comes to rest")
+        return Ending("rest", *known, rate=0.0, rates=(0.0,) * 3, times=found)
+    return Ending("steady rotation", "run",
+                  "a run comes to rates that stay, next to which no eigenvalue is on the right",
+                  rate=size, rates=tuple(end.tolist()), times=found)
+
+
+def _polished(form: Any, state: np.ndarray, small: float) -> np.ndarray:
+    """The rates of the equilibrium next to a state, by Newton's method; its own where that goes elsewhere."""
+    at = state
+    for _ in range(POLISHED):
+        at = at - np.linalg.lstsq(form.jacobian(at), form(at), rcond=1e-9)[0]
+    end = at[:3] if np.linalg.norm(at[:3] - state[:3]) < 10 * small else state[:3]
+    return np.where(np.abs(end) < 1e-9 * np.linalg.norm(end), 0.0, end)
+
+
+def _quick(jacobian: np.ndarray, state: np.ndarray) -> float:
+    """Some of the motion's own time, s: so many units of the fastest eigenvalue, or of the rates."""
+    fastest = max(float(np.abs(np.linalg.eigvals(jacobian)).max()), float(np.linalg.norm(state[:3])))
+    return 100 / max(fastest, 1e-300)
+
+
+def _attracts(jacobian: np.ndarray, length: float) -> bool:
+    """Whether eigenvalues are zero or on the left, and these have faded over this time."""
+    values = np.linalg.eigvals(jacobian)
+    largest = float(np.abs(values).max())
+    return all(abs(z) <= STILL * largest or z.real * length < -FADED for z in values)

@@ -1,0 +1,270 @@
+"""What internal dissipation makes of a spin: when a body tumbles from its minor axis, and about which
+direction of the major axis it ends.
+
+The body is free but for what takes energy from it. It is exact at its start, and followed from one level of
+its energy to the next.
+
+A damper or a liquid keeps the angular momentum H and takes kinetic energy T. With D1 > D2 > D3 the principal
+moments of the whole,
+
+    |H|^2/(2 D1) <= H . D^-1 H/2 <= T,
+
+since T is least, at given H, where nothing turns relative to the body. So once 2 T D2 < |H|^2 (past the
+separatrix) H . D^-1 H < |H|^2/D2 for ever: H stays in the cone about +axis 1 or in that about -axis 1, and as
+T falls at every motion but the permanent rotations it tends to that axis (LaSalle). T crosses any level once:
+each of the times below is the one root of a monotone function. The polhode of the same T and |H| goes from
+an axis at most by the angle theta,
+
+    sin^2 theta = (2T/|H|^2 - 1/D1)/(1/D2 - 1/D1)  from the major axis,
+                  (1/D3 - 2T/|H|^2)/(1/D3 - 1/D2)  from the minor axis: the nutation angle of an energy sink.
+
+Which cone it is depends on the phase: while H circles the minor axis its component along axis 1 changes sign
+every half turn, and the separatrix is crossed within one of them. Turned by pi about the minor axis a motion
+ends in the other direction (the equations are symmetric), so that the two directions share the phases in
+equal parts; in the nutation angle, or in the strength of the damper, the bands shrink with the damping."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import reduce
+from operator import getitem
+from typing import Any
+
+import numpy as np
+
+from ...case.read import with_data
+from ...case.source import parsed
+from ...errors import Caveat, InputError, Kind
+from ...numbers.units import ANGLE, in_si
+from ...numbers.vectors import Float3, cross, dot
+from ...physics.states import moved_row
+from ...reasons import old
+from ...representation import Compared, Shown
+from ...validation import checked_case
+from ..caveats import of_law
+from ..passage import MOVED, WIDER
+from .changes import Span, spans_of
+from .spinner import Run, Spinner, after_the_separatrix
+
+# --- The answer
+POSITIVE, NEGATIVE = "positive major axis", "negative major axis"
+ACROSS, UNDECIDED = "across the minor axis", "undecided"
+
+
+@dataclass(frozen=True)
+class Time:
+    """A time, s, known to `error`, s: what a second run from a start moved in its last places, with a coarser
+    tolerance, differs by."""
+
+    at: float
+    error: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FlatSpin(Shown, Compared):
+    """What internal dissipation makes of a spin.
+
+    outcome: "positive major axis", "negative major axis", "across the minor axis" (two greatest moments are
+    equal: about some axis in their plane) or "undecided"; because: how it is known, or why it is not; level:
+    "exact", "run" (a run and a second one agree) or "undecided". axis: of the greatest moment, 1 to 3, and
+    minor: of the least; momentum: |H|, N m s; final_rate: |H|/(greatest moment), rad/s; rates: rad/s, along
+    the principal axes, at the end, None where it is undecided or across. energy, final_energy: J, now and at
+    the end.
+
+    The nutation angle is that of the polhode: the largest angle between the angular momentum and an axis in
+    the free motion of the same T and |H|. leaves: when it exceeds `within`, rad, from the minor axis;
+    crosses: when the separatrix is crossed, 2 T D2 = |H|^2, D2 the intermediate moment; settles: when it is
+    at most `within` from the major axis, which it then stays. Each None where it is past at the start, or not
+    reached. Where the start turns about the major axis (two greatest moments equal: across the minor one)
+    and its nutation dies out: nutation, rad, then, and tenth: when it is a tenth of that, which it then
+    stays; else None. growth, decay: s, time constants of the nutation near the minor and the major axis, by
+    eigenvalues, None where there are none. spans: by how much the start may change. steps: of the first run.
+    """
+
+    outcome: str
+    because: str
+    level: str
+    axis: int
+    minor: int
+    momentum: float
+    final_rate: float
+    rates: Float3 | None
+    energy: float
+    final_energy: float
+    within: float
+    leaves: Time | None = None
+    crosses: Time | None = None
+    settles: Time | None = None
+    nutation: float | None = None
+    tenth: Time | None = None
+    growth: float | None = None
+    decay: float | None = None
+    spans: tuple[Span, ...] = ()
+    steps: int = 0
+    caveats: tuple[Caveat, ...] = field(default=(), repr=False)
+
+    @property
+    def lost(self) -> float:
+        """The energy that is lost in all, J."""
+        return self.energy - self.final_energy
+
+    @property
+    def passage(self) -> float | None:
+        """From leaving the minor axis to settling at the major one, s."""
+        return None if self.leaves is None or self.settles is None else self.settles.at - self.leaves.at
+
+
+# --- The question
+LEAST = math.radians(0.01)  # of `within`: below, the energy in doubles does not tell the angle any more
+DRAWN = 32  # motions from the box of uncertain numbers
+SECOND_RTOL = 1e-13  # tolerance of the second run
+STEPS = 5_000_000  # of a run: some ten seconds
+SPAN_STEPS = 6_000_000  # of all runs that look for changes of the outcome by one number
+
+
+def flat_spin(case: Any, within: Any = "5 deg") -> FlatSpin:
+    """What becomes of a free body with a damper or a liquid: the direction of the major axis about which it
+    ends, when it tumbles, and by how much its start decides that.
+
+    case: with a viscous damper or a liquid cavity and nothing else that acts, and a start. within: the
+    nutation angle, rad or text with a unit, from which the tumble is counted and to which it settles. Raises
+    InputError for other scenes, a body at rest, equal moments, and an angle that is none.
+    """
+    angle = float(in_si(within, ANGLE, "within"))
+    if not LEAST <= angle < math.pi / 2:
+        raise InputError('within: expected an angle from 0.01 deg to below 90 deg, such as "5 deg", got '
+                         f"{math.degrees(angle):.6g} deg")
+    return of_case(checked_case(case), angle)
+
+
+def of_case(case: Any, angle: float, spans: bool = True) -> FlatSpin:
+    """The same of a case and an angle in rad; spans: also look for changes of the outcome."""
+    found = _answered(Spinner.of(case), angle, spans)
+    own = [one for one in case.caveats if one.kind is not Kind.UNCERTAIN]
+    found = replace(found, caveats=(*own, *found.caveats))
+    return _over_the_box(case, found) if case.uncertain and found.outcome in (POSITIVE, NEGATIVE) else found
+
+
+def _over_the_box(case: Any, found: FlatSpin) -> FlatSpin:
+    """With what uncertain numbers do: undecided where motions drawn from their box end in both directions."""
+    draws, ends = np.random.default_rng(1), {POSITIVE: 0, NEGATIVE: 0}
+    drawn = max(4, min(DRAWN, SPAN_STEPS // max(1, found.steps)))
+    for _ in range(drawn):
+        data = parsed(case.path, case.text)[0]
+        for one in case.uncertain:
+            *tables, last = one.path
+            share = Fraction(draws.uniform(-1, 1))
+            reduce(getitem, tables, data)[last] = str(one.middle + one.half * share)
+        spinner = Spinner.of(with_data(case.path, case.text, data))
+        side = (spinner.momentum[found.axis - 1] if found.crosses is None
+                else after_the_separatrix(spinner, spinner.start, found.crosses.at)[0])
+        ends[POSITIVE if side > 0 else NEGATIVE] += 1
+    told = (f"of {drawn} motions drawn from their box {ends[POSITIVE]} end about the positive and "
+            f"{ends[NEGATIVE]} about the negative side of axis {found.axis}")
+    if all(ends.values()):
+        return replace(found, outcome=UNDECIDED, level="undecided", rates=None,
+                       because=f"the uncertain numbers leave it open: {told}")
+    return replace(found, caveats=(*found.caveats, Caveat(
+        Kind.UNCERTAIN, old(f"uncertain numbers: {told}; samples, no proof"))))
+
+
+def _answered(spinner: Spinner, angle: float, spans: bool) -> FlatSpin:
+    """The answer of one start: exactly where it rests or is past the separatrix, else by runs."""
+    D1, D2, _ = spinner.moments
+    size, axis = spinner.size, spinner.order[0]
+    growth, decay = spinner.constants
+    found = FlatSpin(
+        UNDECIDED, "", "undecided", axis + 1, spinner.order[2] + 1, size, size / float(D1), None,
+        float(spinner.energy), float(dot(spinner.momentum, spinner.momentum) / (2 * D1)), angle,
+        growth=growth, decay=decay)
+    if not any(spinner.sigma) and not any(cross(spinner.momentum, spinner.omega)):  # nothing changes
+        return _at_rest(spinner, found)
+    if spinner.ratio * D2 < 1 and D1 > D2:
+        found = _ended(found, spinner.momentum[axis], "exact",
+                       "2 T D2 < |H|^2 at the start: the separatrix is crossed already, with the angular "
+                       "momentum on the {} side of axis {}, where it stays and tends to that axis")
+    return _timed(spinner, found, angle, spans)
+
+
+def _ended(found: FlatSpin, direction: Fraction | int, level: str, words: str) -> FlatSpin:
+    """With the rates at the end; words: why, with places for the side and the number of the axis."""
+    sign, side = (1, "positive") if direction > 0 else (-1, "negative")
+    rates = tuple(sign * found.final_rate if i == found.axis - 1 else 0.0 for i in range(3))
+    return replace(found, outcome=POSITIVE if sign > 0 else NEGATIVE, rates=rates, level=level,
+                   because=words.format(side, found.axis))
+
+
+def _at_rest(spinner: Spinner, found: FlatSpin) -> FlatSpin:
+    """A permanent rotation: of the greatest moment it stays for ever; any other is unstable."""
+    D1, D2, _ = spinner.moments
+    if spinner.ratio * D1 == 1:
+        words = "the start is a permanent rotation about the greatest moment, the one with the least energy"
+        if D1 == D2:
+            return replace(found, outcome=ACROSS, level="exact", because=words,
+                           rates=tuple(map(float, spinner.omega)))
+        return _ended(found, spinner.momentum[spinner.order[0]], "exact", words)
+    name = "minor" if spinner.ratio * spinner.moments[2] == 1 else "intermediate"
+    return replace(found, because=(
+        f"the start is exactly the rotation about the {name} axis, an equilibrium that is unstable: either "
+        "direction of the major axis follows from a disturbance, however small; give a start with a nutation "
+        "angle"))
+
+
+def _dying(spinner: Spinner, settled: float) -> float | None:
+    """The nutation angle of a start from which it only dies out; None where the body turns over first.
+    settled: the level of 2 T/|H|^2 below which it is small."""
+    D1, D2, _ = spinner.moments
+    if not (spinner.ratio * D2 < 1 and D1 > D2) and float(spinner.ratio) >= settled:
+        return None
+    one, two, three = spinner.inverses
+    share = float(spinner.ratio - 1 / D1) / ((two if two > one else three) - one)
+    return math.asin(math.sqrt(min(1.0, max(0.0, share))))
+
+
+def _timed(spinner: Spinner, found: FlatSpin, angle: float, spans: bool) -> FlatSpin:
+    """The times of a motion that goes on, by two runs."""
+    D1, D2, _ = spinner.moments
+    levels = spinner.levels(angle)
+    nutation = _dying(spinner, levels["settles"])
+    if nutation is not None and nutation / 10 >= LEAST:
+        levels["tenth"] = spinner.levels(nutation / 10)["settles"]
+    ahead = {name: level for name, level in levels.items() if float(spinner.ratio) >= level}
+    runs = [Run(spinner, spinner.start, None, STEPS),
+            Run(spinner, moved_row(spinner.start, MOVED), SECOND_RTOL, STEPS)]
+    seen: list[dict[str, float]] = [{}, {}]
+    directions = [0, 0]
+    for n, run in enumerate(runs):
+        for name in sorted(ahead, key=lambda name: -ahead[name]):
+            if (t := run.falls(ahead[name])) is None:
+                break
+            seen[n][name] = t
+            if name == "crosses":
+                directions[n] = spinner.direction(run.state)
+    first = runs[0]
+    times: dict[str, Any] = {name: Time(t, WIDER * abs(t - seen[1][name]) + 1e-15 * t)
+                             for name, t in seen[0].items() if name in seen[1]}
+    found = replace(found, steps=first.steps, nutation=nutation, caveats=of_law(first.validity), **times)
+    if found.outcome != UNDECIDED:
+        return found
+    why = first.why or runs[1].why
+    if D1 == D2:
+        return found if "settles" not in seen[0] else replace(
+            found, outcome=ACROSS, level="run",
+            because="two greatest moments are equal: the energy falls to that of rotation about an axis in "
+                    "their plane, and which one hangs on the phase alone: the start turned about the minor "
+                    "axis by an angle ends at an axis turned by that angle")
+    if "crosses" not in seen[0] or "crosses" not in seen[1]:
+        return replace(found, because=f"the separatrix is not crossed by the end of the run: {why}")
+    if directions[0] != directions[1]:
+        return replace(found, because=(
+            "the start is within rounding of the boundary between the two directions: a run and a second "
+            f"one, from a start moved by {MOVED:.0f} in its last place with tolerance {SECOND_RTOL:.0e}, end "
+            "at opposite directions of the major axis"))
+    words = ("2 T D2 falls below |H|^2 with the angular momentum on the {} side of axis {}; from then on it "
+             "cannot cross, and tends to that axis; a second run, from a start moved by "
+             f"{MOVED:.0f} in its last place with tolerance {SECOND_RTOL:.0e}, agrees")
+    found = _ended(found, directions[0], "run", words)
+    if found.crosses is None or not spans:
+        return found
+    return replace(found, spans=spans_of(spinner, found.crosses.at, found.steps, SPAN_STEPS))
