@@ -13,6 +13,7 @@ from ..orbit.reduction import energy_integral
 from ..orbit.result import Fate, Motion
 from ..physics.coefficients import content, effective, gyrostat_scene, limits_of, split
 from ..physics.scene import AnyScene
+from ..unreduced.flips import flips_of
 from ..validation import checked_span, is_case, scene_and_state
 from .caveats import limited
 from .kinds import following, one
@@ -46,7 +47,9 @@ def motion(scene: Any, state: Any = None, span: Any = None, brief: bool = False,
     twin = effective(scene)
     integral = (None if brief or not twin.plain
                 else energy_integral(twin, exact or found.at[:3], found.margin_energy))
-    return limited(replace(found, largest=_largest(twin, found), energy_integral=integral), scene, case)
+    found = replace(found, largest=_largest(twin, found), flips=flips_of(scene, found),
+                    energy_integral=integral)
+    return limited(found, scene, case)
 
 
 def _largest(twin: AnyScene, found: Motion) -> float | None:

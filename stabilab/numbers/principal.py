@@ -283,12 +283,12 @@ def _axes(m: Rows, moments: Sequence[Moment], bits: int) -> PrincipalAxes | None
     """Axes of these moments with the error they have; None where the moments are not yet separated."""
     values = [value for value, _ in moments]
     if len(set(values)) == 3:
-        directions, alone = _three(m, moments, bits), (0, 1, 2)
+        directions, alone = _three(m, moments, bits), [0, 1, 2]
     else:
-        alone = (2,) if values[0] == values[1] else (0,)
+        alone = [2] if values[0] == values[1] else [0]
         direction = _column(m, values[alone[0]])
         first, second, third = _with_plane(direction if moments[alone[0]][1] else _rounded(direction, bits))
-        directions = [second, third, first] if alone == (2,) else [first, second, third]
+        directions = [second, third, first] if alone == [2] else [first, second, third]
     if directions is None:
         return None
     axes = _oriented([_unit(direction, bits) for direction in directions])
