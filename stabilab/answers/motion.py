@@ -13,6 +13,7 @@ from ..orbit.reduction import energy_integral
 from ..orbit.result import Fate, Motion
 from ..physics.coefficients import content, effective, gyrostat_scene, limits_of, loses, split
 from ..physics.scene import AnyScene
+from ..unreduced.flips import flips_of
 from ..validation import checked_span, is_case, scene_and_state
 from .caveats import limited
 from .kinds import following, one
@@ -47,7 +48,9 @@ def motion(scene: Any, state: Any = None, span: Any = None, brief: bool = False,
     twin = effective(scene)
     integral = (None if brief or not twin.plain
                 else energy_integral(twin, exact or found.at[:3], found.margin_energy))
-    found = limited(replace(found, largest=_largest(twin, found), energy_integral=integral), scene, case)
+    found = replace(found, largest=_largest(twin, found), flips=flips_of(scene, found),
+                    energy_integral=integral)
+    found = limited(found, scene, case)
     return found if own is None or brief else with_ending(own, found)
 
 

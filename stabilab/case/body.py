@@ -9,9 +9,20 @@ from fractions import Fraction
 
 from ..errors import Caveat, InputError, Kind
 from ..numbers.exact import exact, floats, half_unit, sqrt_fraction
-from ..numbers.principal import IDENTITY, PrincipalAxes, evened, fault_of, principal_axes
+from ..numbers.principal import (
+    IDENTITY,
+    PrincipalAxes,
+    crossed,
+    entries,
+    evened,
+    fault_of,
+    principal_axes,
+    rounding,
+    settled,
+    summed,
+)
 from ..numbers.units import FORCE, INERTIA, half_digit, pi
-from ..numbers.vectors import Exact3, cross, dot
+from ..numbers.vectors import Exact3, dot
 from ..physics.effects import effect_class
 from ..physics.scene import INSIDE, ROUNDING, Body, along_principal_axes, slack_of
 from ..reasons import Length, Sentence
@@ -66,20 +77,21 @@ def _frame(table: Table) -> PrincipalAxes | None:
     if not nested and "products" not in table:
         moments = table.vector("inertia")
         return PrincipalAxes(moments, IDENTITY, True) if moments and _good(table, moments) else None
-    rows = _tensor(table) if nested else _with_products(table)
+    rows, off = _tensor(table) if nested else (_with_products(table), Fraction(0))
     wrong = rows and fault_of(rows)
     if wrong:
         table.fault(wrong, "inertia")
-    return None if wrong or rows is None else principal_axes(rows)
+    return None if wrong or rows is None else principal_axes(rows, off)
 
 
 def _tensor(table: Table):
-    """The 3 x 3 tensor as it is written, the mean of two entries that differ by the rounding of doubles."""
+    """(the 3 x 3 tensor, the mean of two entries that differ by the rounding of doubles; what its digits
+    leave open), None where it is at fault."""
     if "products" in table:
         table.fault("a full tensor has the products of inertia in it: keep one of them", "products")
-        return None
+        return None, Fraction(0)
     rows = table.matrix("inertia")
-    return None if rows is None else evened(rows, ROUNDING)
+    return (None, Fraction(0)) if rows is None else (evened(rows, ROUNDING), rounding(entries(rows)))
 
 
 def _with_products(table: Table):
@@ -321,7 +333,7 @@ def _thruster(table: Table, otherwise: str, centre: Exact3) -> Thruster | None:
         return None
     raw, length = direction
     arm = tuple(p - c for p, c in zip(position, centre))
-    torque = tuple(force * t / length for t in cross(arm, raw))
+    torque = tuple(force * t / length for t in crossed(arm, raw))
     return Thruster(name, position, tuple(v / length for v in raw), force, angle, tolerance, stuck, torque,
                     arm, burn)
 
@@ -377,6 +389,7 @@ def _direction(table: Table, key: str):
     if not any(vector):
         table.fault("expected a direction, got zero: give a vector of any length but that", key)
         return None
+    vector = settled(vector)
     return vector, sqrt_fraction(dot(vector, vector))
 
 
@@ -425,28 +438,33 @@ REFUSED = {"x": f"{OBLIQUE} x counts along principal axes: give angular_velocity
 
 def added(effects: list, thrusters, wheels) -> list:
     """The effects with the torques of stuck thrusters and the momenta of wheels, all in the input frame."""
-    torque = _sum([t.torque for t in thrusters if t.stuck])
-    momentum = _sum([w.vector for w in wheels])
-    return _with(_with(effects, "gyrostat", momentum), "constant_torque", torque)
+    torques, momenta = [t.torque for t in thrusters if t.stuck], [w.vector for w in wheels]
+    return _with(_with(effects, "gyrostat", momenta), "constant_torque", torques)
 
 
-def _sum(vectors):
-    return tuple(map(sum, zip(*vectors))) if vectors else None
-
-
-def _with(effects, name, vector):
-    if vector is None:
+def _with(effects, name, vectors):
+    if not vectors:
         return effects
     given = next((e for e in effects if e.name == name), None)
     if given is None:
-        return [*effects, effect_class(name)(vector)]
-    whole = effect_class(name)(tuple(a + b for a, b in zip(given.exact, vector)))
+        return [*effects, effect_class(name)(summed(vectors))]
+    whole = effect_class(name)(summed([given.exact, *vectors]))
     return [whole if e is given else e for e in effects]
+
+
+def fitted(frame: PrincipalAxes | None, effects: list, motion) -> PrincipalAxes | None:
+    """The axes of a tensor that is not diagonal, chosen where moments are equal by the directions of torque,
+    wheels, weight, motion and vertical."""
+    if frame is None or frame.as_given:
+        return frame
+    known = {effect.name: effect.exact for effect in effects if effect}
+    vectors = [known.get(name) for name in ("constant_torque", "gyrostat", "gravity")]
+    return frame.fitted([v for v in (*vectors, motion.exact, motion.exact_vertical) if v])
 
 
 def turned_effects(top: Table, effects: list, frame: PrincipalAxes | None) -> list:
     """The effects along principal axes; a fault for each that cannot be turned."""
-    if frame is None or frame.as_given:
+    if frame is None:
         return effects
     turned = along_principal_axes(effects, frame)
     for effect, found in zip(effects, turned):

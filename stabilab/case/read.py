@@ -29,6 +29,7 @@ from .body import (
     body_of,
     centre_of_mass,
     far_off,
+    fitted,
     judge_limits,
     judge_oblique,
     limits_of,
@@ -373,9 +374,9 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
     swept(top)  # notes the faults of [sweep]
     title, source, stated = top.text("title"), top.text("source"), top.texts("caveats")
     craft = _craft(top)
-    physical, mu, frame = _physical(top, craft)
-    scaled = _scaled(top)
     motion = _motion(top)
+    physical, mu, frame = _physical(top, craft, motion)
+    scaled = _scaled(top)
     judge_oblique(top, frame)
     judge_limits(top, craft.limits, motion.exact if motion.state_key == "angular_velocity" else None)
     motion = turned_motion(motion, frame)
@@ -451,7 +452,8 @@ class _Context(NamedTuple):
         return torque_from_mu(self.body, mu)
 
 
-def _physical(top: Table, craft: _Craft) -> tuple[Scene | None, tuple | None, PrincipalAxes | None]:
+def _physical(top: Table, craft: _Craft,
+              motion: _Motion) -> tuple[Scene | None, tuple | None, PrincipalAxes | None]:
     """The scene of [body], [effects] and hardware along principal axes, the dimensionless torque where the
     file gives it, the axes."""
     if "scaled" in top:
@@ -464,7 +466,9 @@ def _physical(top: Table, craft: _Craft) -> tuple[Scene | None, tuple | None, Pr
     if body is None or None in made:
         return None, None, frame
     try:
-        whole = turned_effects(top, added(made, craft.thrusters, craft.wheels), frame)
+        whole = added(made, craft.thrusters, craft.wheels)
+        frame = fitted(frame, whole, motion)
+        whole = turned_effects(top, whole, frame)
     except InputError as error:  # numbers that are good one by one, but not added up or turned
         top.fault(f"added up along principal axes, {error}",
                   next(key for key in ("thrusters", "wheels", "effects") if key in top))

@@ -260,8 +260,8 @@ def _verdict(p0, hurwitz, side, P, t):
     if p0 and hurwitz:
         return "stable", "asymptotically stable", ALL_LEFT
     if not hurwitz:
-        return ("degenerate", "undecided",
-                "a pair of eigenvalues on the imaginary axis: the next order decides")
+        which = "a pair of eigenvalues on the imaginary axis" if p0 else "a double zero eigenvalue"
+        return "degenerate", "undecided", f"{which}: the next order decides"
     order, slope = _crossing(P, t)
     words = f"fold: eigenvalue 0, the others on the left; on the centre manifold z' = a z^{order} + ... "
     if order % 2 == 0:
@@ -387,7 +387,7 @@ def _rest(parts, field, rotation) -> EquilibriumPoint:
         word, verdict = "degenerate", CONTINUUM if trace > 0 else NO_MINIMUM if trace < 0 else OPEN
     elif determinant > 0 and trace > 0:
         word, verdict = "stable", MINIMUM
-    elif determinant < 0 or (determinant > 0 and trace < 0):
+    elif determinant < 0 or trace < 0:
         word, verdict = "unstable", NO_MINIMUM
     else:
         word, verdict = "degenerate", OPEN

@@ -14,13 +14,15 @@ a = -tr(J^2)/2 and b = I det K/(D1 D2 D3).
 Written for any scalars, with gamma as a ratio gamma/q, so that the same lines serve balls and polynomials.
 
 All rotations at one Omega are roots mu of one polynomial, and signs of certified balls give the verdict on
-each. The rates at which that changes are real roots of the polynomial's discriminant in mu, and of its
-resultants with b and with a^2 - 4 b: polynomials in Omega with exact coefficients, whose real roots
-python-flint isolates. """
+each. The rates at which that changes are real roots of the discriminants of the polynomial's irreducible
+factors in mu, and of their resultants with b, with a^2 - 4 b, and with a where one of these vanishes all
+along a branch (as a^2 - 4 b does where D3 = 2 D1): polynomials in Omega with exact coefficients, whose real
+roots python-flint isolates. A sleeping top is decided by Lagrange's cubic besides, whatever vanishes."""
 from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import combinations
 from typing import Any
 
 from flint import Ordering, acb, arb, fmpq, fmpq_mpoly_ctx, fmpq_poly
@@ -198,33 +200,43 @@ MINIMUM = ("stable",
 SADDLE = ("unstable", "det K < 0: b < 0 in z^4 + a z^2 + b, a positive eigenvalue")
 SPIRAL = ("unstable", "a^2 < 4 b in z^4 + a z^2 + b: four eigenvalues off the imaginary axis")
 REAL = ("unstable", "a < 0 < b, a^2 > 4 b in z^4 + a z^2 + b: two positive eigenvalues")
+NEGATIVE = ("unstable", "a < 0 in z^4 + a z^2 + b: the squares of its roots sum to -2 a, so not all of "
+                        "them are imaginary")
 GYROSCOPIC = ("undecided",
               "K is negative definite and all eigenvalues are imaginary: the gyroscopic terms stabilise the "
               "linear motion, and the energy, a saddle here, does not decide for the full one")
 SLEEPING = ("stable",
             "sleeping top: the spin about the axis of symmetry is a third integral; with distinct "
             "frequencies a combination of the three integrals is definite (Chetaev)")
+TURNS_BACK = ("stable",
+              "sleeping top: u'^2 = (1 - u)^2 G(u) by its three integrals, u the cosine of its lean; G < 0 "
+              "for all u below and near 1, which bounds the lean of its neighbours too (Lagrange)")
+LEANS = ("unstable",
+         "sleeping top: u'^2 = (1 - u)^2 G(u) by its three integrals, u the cosine of its lean; G >= 0 for "
+         "all u below and near 1, so motions from nearby lean further (Lagrange)")
 CIRCLE = ("unstable",
           "one of a circle of rotations about the axis of symmetry: with any small change of the spin about "
           "it gamma drifts round the circle, so neighbours leave this point")
 OPEN = ("undecided", "a coefficient of the spectrum vanishes here: the next order decides")
 SHELL = ("undecided",
-         "a continuum of rotations at one Omega: its second variation vanishes along it, and a term of "
+         "a continuum of rotations at one Omega, and a coefficient of the spectrum vanishes here: a term of "
          "higher order decides")
 
 
-def judged(field: Field, Omega: Fraction, rotation) -> EquilibriumPoint:
-    """Spectrum and verdict of a `Rotation` at Omega; at = (omega, gamma)."""
-    O = rational(Omega)
+def judged(field: Field, Omega: Fraction | arb, rotation) -> EquilibriumPoint:
+    """Spectrum and verdict of a `Rotation` at Omega, exact or a ball; at = (omega, gamma)."""
+    O = rational(Omega) if isinstance(Omega, Fraction) else Omega
     gamma, one = rotation.gamma, fmpq(1)
     a, b = coefficients(field, O, rotation.mu, gamma, one)
     determinant, trace = second_variation(field, O, rotation.mu, gamma, one)
     at = tuple(float(v.mid()) for v in (*(O * g for g in gamma), *gamma))
-    if rotation.circle:
-        axis = 3 - sum(rotation.circle)
-        reason = CIRCLE if len(rotation.circle) == 2 and _symmetric(field, axis) else SHELL
-        return EquilibriumPoint(at, spectrum(a, 0 * b), "degenerate", *reason)
-    linear, reason = _verdict(field, gamma, a, b, determinant, trace)
+    if len(rotation.circle) == 2 and _symmetric(field, 3 - sum(rotation.circle)):
+        return EquilibriumPoint(at, spectrum(a, 0 * b), "unstable" if a < 0 else "degenerate", *CIRCLE)
+    linear, reason = _verdict(a, b, determinant, trace)
+    if reason in (GYROSCOPIC, OPEN) and (lean := _lean_of_sleeping(field, O, gamma)) is not None:
+        reason = LEANS if lean >= 0 else SLEEPING if reason is GYROSCOPIC else TURNS_BACK
+    if rotation.circle and reason is OPEN:
+        reason = SHELL
     return EquilibriumPoint(at, spectrum(a, b), linear, *reason)
 
 
@@ -235,15 +247,46 @@ def _symmetric(field: Field, k: int) -> bool:
         v != 0 for n in (i, j) for v in (field.s[n], field.Lambda[n]))
 
 
-def _sleeps(field: Field, gamma) -> bool:
-    """Whether gamma lies along an axis of symmetry (for three equal moments: along the weight and the wheel).
+def _lean_of_sleeping(field: Field, Omega, gamma) -> int | None:
+    """Sign of G(u) next to u = 1 for gamma along an axis of symmetry (for three equal moments: along the
+    weight and the wheel), 0 where it vanishes at every u; None for any other gamma, and where balls leave it
+    open.
+
+    With sigma = +-1 along axis k, D_i = D_j = A, D_k = C, L = C Omega + sigma Lambda_k and w = 1 + u the
+    energy, the area integral and omega_k give
+
+        A^2 G = N (C - A) A w^2 - 2 A sigma s_k w - (L - E w/2)^2.
     """
     if field.E == 0 and field.D[0] == field.D[1] == field.D[2]:
-        return not any(v != 0 for v in cross(field.s, field.Lambda))
-    return any(_symmetric(field, k) and all(gamma[n] == 0 for n in range(3) if n != k) for k in range(3))
+        if any(v != 0 for v in cross(field.s, field.Lambda)):
+            return None
+        A = C = field.D[0]
+        wheel, weight, E = dot(field.Lambda, gamma), dot(field.s, gamma), field.E
+    else:
+        k = next((k for k in range(3) if _symmetric(field, k)
+                  and all(gamma[n] == 0 for n in range(3) if n != k)), None)
+        if k is None:
+            return None
+        A, C, side = field.D[k - 1], field.D[k], 1 if gamma[k] > 0 else -1
+        wheel, weight, E = side * field.Lambda[k], side * field.s[k], field.E if k == 2 else fmpq(0)
+    L = C * Omega + wheel
+    value = leaning(field, A, C, L, weight, E)
+    slope = 4 * A * field.N * (C - A) - 2 * A * weight + E * (L - E)
+    bend = 2 * A * field.N * (C - A) - E * E / 2
+    for term in (value, -slope, bend):  # G at u = 1 - d is value - slope d + bend d^2/2, times A^2
+        if arb(term) > 0 or arb(term) < 0:
+            return 1 if arb(term) > 0 else -1
+        if term != 0 or isinstance(term, arb) and not term.is_exact():
+            return None
+    return 0
 
 
-def _verdict(field, gamma, a, b, determinant, trace):
+def leaning(field: Field, A, C, L, weight, E):
+    """A^2 G at u = 1: see `_lean_of_sleeping`; a sleeping top is unstable where it is positive."""
+    return 4 * A * (field.N * (C - A) - weight) - (L - E) * (L - E)
+
+
+def _verdict(a, b, determinant, trace):
     gap = a * a - 4 * b
     if b < 0:
         return "unstable", SADDLE
@@ -251,11 +294,9 @@ def _verdict(field, gamma, a, b, determinant, trace):
         return ("stable" if gap > 0 else "degenerate"), MINIMUM
     if gap < 0:
         return "unstable", SPIRAL
-    if b > 0 and gap > 0:
-        if a < 0:
-            return "unstable", REAL
-        return "stable", SLEEPING if _sleeps(field, gamma) else GYROSCOPIC
-    return "degenerate", OPEN
+    if a < 0:
+        return "unstable", REAL if b > 0 and gap > 0 else NEGATIVE
+    return ("stable", GYROSCOPIC) if b > 0 and gap > 0 else ("degenerate", OPEN)
 
 
 def spectrum(a, b) -> tuple[complex, ...]:
@@ -291,14 +332,12 @@ def cuts_of(field: Field) -> list[Fraction]:
     S, b = [one * v for v in field.stiffness(O)], [one * v for v in field.pull(O)]
     parted = groups_at(S, b)
     acting = [axes for axes, idle in parted if not idle]
-    critical = []
+    critical = _of_sleeping(field, O)
     if acting:
         n = {i: S[i] - mu for axes in acting for i in axes}
         q, gamma = _homogeneous(acting, n, b, one)
-        P = secular(acting, n, b, one)
-        critical.append(P.discriminant("mu"))
         a, c = coefficients(field, O, mu, gamma, q)
-        critical += [P.resultant(divmod(f, P)[1], "mu") for f in (c, a * a - 4 * c)]
+        critical += changes(secular(acting, n, b, one), (c, a * a - 4 * c), (a,), "mu")
     for axes, idle in parted:
         if idle:
             n = {i: S[i] - S[axes[0]] for other in acting for i in other}
@@ -306,8 +345,39 @@ def cuts_of(field: Field) -> list[Fraction]:
             square = q * q - sum((g * g for g in gamma), one * 0)
             gamma[axes[0]] = r
             a, c = coefficients(field, O, S[axes[0]], gamma, q)
-            critical += [square, q] + [_even(f, r, square) for f in (c, a * a - 4 * c)]
-    return [root for f in critical for root in _real_roots(f)]
+            critical += [square, q, *changes(r * r - square, (c, a * a - 4 * c), (a,), "r")]
+    return [root for f in critical for root in roots_in(f, 2)]
+
+
+def changes(P, deciding, otherwise, name: str):
+    """Polynomials without the variable `name`: one of them vanishes wherever the number of the real roots of
+    P in it may change (but for zeros of P's leading coefficient), or a sign of `deciding` at one of them.
+
+    Each irreducible factor of P is a branch of its own. Where a polynomial of `deciding` vanishes all along
+    one and its sign decides nothing, those of `otherwise` join the others.
+    """
+    branches = [f for f, _ in P.factor()[1] if _degree(f, name) > 0]
+    found = [f.resultant(g, name) for f, g in combinations(branches, 2)]
+    for branch in branches:
+        if _degree(branch, name) > 1:
+            found.append(branch.discriminant(name))
+        signs = [divmod(f, branch)[1] for f in deciding]
+        if any(f == 0 for f in signs):
+            signs += [divmod(f, branch)[1] for f in otherwise]
+        found += [branch.resultant(f, name) if _degree(f, name) > 0 else f for f in signs if f != 0]
+    return found
+
+
+def _degree(f, name: str) -> int:
+    """Its degree in one of its variables."""
+    return f.degrees()[f.context().names().index(name)]
+
+
+def _of_sleeping(field: Field, O):
+    """Where a sleeping top gains or loses its stability: see `_lean_of_sleeping`."""
+    return [leaning(field, field.D[k - 1], field.D[k], field.D[k] * O + side * field.Lambda[k],
+                    side * field.s[k], field.E if k == 2 else fmpq(0))
+            for k in range(3) if _symmetric(field, k) for side in (1, -1)]
 
 
 def _homogeneous(acting, n, b, one):
@@ -325,15 +395,10 @@ def _homogeneous(acting, n, b, one):
     return q, gamma
 
 
-def _even(f, r, square):
-    """f with r^2 = square, times its mirror image in r: the same zeros, no r."""
-    return f.resultant(r * r - square, "r") if f.degrees()[1] > 0 else f
-
-
-def _real_roots(f):
-    """Real roots of a polynomial in Omega alone as fractions, rational ones exact; none for a constant or
-    zero."""
-    polynomial = univariate(f, 2)
+def roots_in(f, index: int) -> list[Fraction]:
+    """Real roots of a polynomial in one of its variables alone as fractions, rational ones exact; none for a
+    constant or zero."""
+    polynomial = univariate(f, index)
     return real_roots(Poly.of(polynomial), MANY_BITS) if polynomial.degree() > 0 else []
 
 

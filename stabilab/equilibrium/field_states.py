@@ -23,17 +23,18 @@ Omega:
 So the steady states are two closed curves over t, real where the discriminant, a polynomial in tau =
 tan(t/2), is not negative. Linear motion: z^2 (z^4 + e2 z^2 - e3 z + e4), for |gamma| is kept, the state lies
 on a curve of others, and the flow keeps volume (no z^3 term). The four roots sum to zero, so any root off the
-imaginary axis brings one with positive real part.
+imaginary axis brings one with positive real part. The verdict changes along them
+only at zeros in tau of resultants with e3, e4 and e2^2 - 4 e4 (e2 where one of these vanishes all along).
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import combinations
-from math import cos, sin, tan
+from itertools import combinations, pairwise
+from math import atan, cos, inf, pi, sin, tan
 from typing import Any
 
-from flint import arb, arb_mat
+from flint import Ordering, arb, arb_mat, arb_poly, fmpq_mpoly_ctx
 
 from ..errors import InputError
 from ..numbers.balls import MANY_BITS, fraction, rational, working
@@ -46,8 +47,11 @@ from .field_balance import (
     Field,
     Rotation,
     blocks,
+    changes,
+    coefficients,
     cuts_of,
     judged,
+    roots_in,
     rotations_at,
     rounded_gamma,
     separated,
@@ -121,12 +125,51 @@ def _symbolic_groups(parts: Content):
 
 
 def _isolated(field, Omega: Fraction, rotation: Rotation) -> EquilibriumCurve:
-    """A circle or sphere of permanent rotations at one Omega."""
+    """A circle or sphere of permanent rotations at one Omega, cut where the verdict may change."""
     equation, parametrisation, point = around(Omega, rotation)
-    sample = judged(field, Omega, rotation)
-    segment = CurveSegment((float("-inf"), float("inf")), sample.linear, sample.verdict, sample.because)
+    O, S0 = (v + arb(0, abs(float(v)) * float(NEXT_TO))  # Omega may be irrational, rounded
+             for v in (arb(rational(Omega)), arb(rotation.mu).mid()))
+    ends, segments, samples = _cuts_round(field, O, replace(rotation, mu=S0)), [], []
+    for lo, hi in pairwise(ends):
+        middle = GENERIC if lo == -inf else (lo + hi) / 2
+        samples.append(judged(field, O, _turned(replace(rotation, mu=S0), middle)))
+        segments.append(CurveSegment((lo, hi), *_words(samples[-1])))
     name = f"{'sphere' if len(rotation.circle) == 3 else 'circle'} at Omega = {float(Omega):.12g}"
-    return EquilibriumCurve(name, equation, parametrisation, point, (segment,), (), (sample,))
+    return EquilibriumCurve(name, equation, parametrisation, point, tuple(segments),
+                            tuple(point(t) for t in ends[1:-1]), tuple(samples))
+
+
+def _cuts_round(field, Omega: arb, rotation: Rotation) -> list[float]:
+    """Angles of `around`, rising, between which a, b and a^2 - 4 b of the spectrum keep their signs: -inf and
+    inf alone where they do all round."""
+    i, j = rotation.circle[:2]
+    radius, q = rotation.gamma[i], arb_poly([1, 0, 1])
+    gamma = [q * g for g in rotation.gamma]
+    gamma[i], gamma[j] = radius * arb_poly([1, 0, -1]), radius * arb_poly([0, 2])
+    for axis in rotation.circle[2:]:
+        gamma[axis] = arb_poly([])
+    a, b = coefficients(field, Omega, rotation.mu, gamma, q)
+    found = sorted(t for f in (a, b, a * a - 4 * b) for t in _zeros(f))
+    apart = [t for n, t in enumerate(found) if not n or t - found[n - 1] > SAME]
+    return [-pi, *apart, pi] if apart else [-inf, inf]
+
+
+def _zeros(f: arb_poly) -> list[float]:
+    """The angles 2 atan(tau) of the zeros of a polynomial in tau; none of one that is zero as far as balls
+    tell."""
+    import numpy as np
+    while f.degree() >= 0 and f[f.degree()].contains(0):  # a degree that only rounding has
+        f = arb_poly(f.coeffs()[:-1])
+    found = np.roots([float(v.mid()) for v in reversed(f.coeffs())])  # pairs next to the line may be double
+    return [2 * atan(z.real) for z in found.tolist() if abs(z.imag) <= NEAR * (1 + abs(z.real))]
+
+
+def _turned(rotation: Rotation, t: float) -> Rotation:
+    """Another of its circle, at the angle t of `around`."""
+    i, j = rotation.circle[:2]
+    gamma = list(rotation.gamma)
+    gamma[i], gamma[j] = rotation.gamma[i] * arb(t).cos(), rotation.gamma[i] * arb(t).sin()
+    return replace(rotation, gamma=tuple(gamma))
 
 
 def around(Omega: Fraction, rotation: Rotation):
@@ -146,6 +189,8 @@ def around(Omega: Fraction, rotation: Rotation):
 # far above the 2**-45 by which a branch differs on the two sides of a cut, far below the distance of two
 # branches
 SAME = 2.0**-30
+NEAR = 1e-6    # of a zero of a polynomial: how far from the real line doubles may put a double one
+GENERIC = 0.7  # rad: an angle on a circle that nothing singles out
 REASON = ("omega = Omega gamma, and (S - mu) gamma = -b with S = (Omega^2 - N) D - Omega E e3 e3^T, b = "
           "Omega Lambda + s: for each Omega one "
           "polynomial in mu; its discriminant and all its real roots are certified")
@@ -271,8 +316,8 @@ SKEW = ("unstable",
         "e3 != 0 in z^4 + e2 z^2 - e3 z + e4: the four roots sum to zero and are not all imaginary, so one "
         "has positive real part")
 PAIR = ("unstable",
-        "e4 < 0, or e2 < 0 < e4, or e2^2 < 4 e4 in z^4 + e2 z^2 + e4: roots off the imaginary axis, whose "
-        "sum is zero")
+        "e4 < 0, e2 < 0 or e2^2 < 4 e4 in z^4 + e2 z^2 - e3 z + e4: roots off the imaginary axis, whose sum "
+        "is zero")
 CENTRE = ("undecided",
           "all eigenvalues are imaginary, and with a torque that does work no integral is known that would "
           "decide the full motion")
@@ -307,7 +352,9 @@ def steady_states(parts: Content) -> Equilibria:
     if len(acting) > 1 or parts.s[i] or parts.Lambda[i]:
         return Equilibria("undecided", OFF_AXIS)
     plane = _plane(parts, i)
-    curves = tuple(_steady_curve(parts, plane, lo, hi, side) for lo, hi in _pieces(plane) for side in (-1, 1))
+    cuts, sides = _changes(parts, plane), (-1, 1) if plane.square else (-1,)
+    curves = tuple(_steady_curve(parts, plane, lo, hi, side, cuts) for lo, hi in _pieces(plane)
+                   for side in sides)
     reason = (f"torque . gamma = 0 puts gamma across axis {i + 1}, and one quadratic in Omega remains; the "
               "intervals where it is real are those of a polynomial in tan(t/2) with exact coefficients")
     return (Equilibria("curves", reason, curves=curves) if curves
@@ -326,9 +373,8 @@ def _plane(parts: Content, i: int) -> Plane:
 def _pieces(plane: Plane):
     """Intervals of tau on which the quadratic has two real roots (one where D_j = D_k)."""
     cuts = {t for p in (plane.discriminant, plane.square, plane.linear if not plane.square else Poly(()))
-            if p.degree > 0 for t in real_roots(p)}
-    cuts |= {Fraction(0)}
-    ends = [None, *sorted(cuts), None]
+            if p.degree > 0 for t in real_roots(p, MANY_BITS)}
+    ends = [None, *separated({*cuts, Fraction(0)}), None]
     for lo, hi in zip(ends, ends[1:]):
         middle = values_inside(lo, hi, Fraction(1))
         if plane.discriminant(middle) > 0:
@@ -336,10 +382,10 @@ def _pieces(plane: Plane):
 
 
 def _omega(plane: Plane, tau: Fraction, side: int):
-    """The root Omega at tau as a ball; None where the quadratic is linear and this side has none."""
+    """The root Omega at tau, where there is one, as a ball."""
     a, b, c = (rational(p(tau)) for p in (plane.square, plane.linear, plane.constant))
     if a == 0:
-        return arb(-c / b) if side < 0 and b != 0 else None
+        return arb(-c / b)
     root = arb(b * b - 4 * a * c).sqrt()
     # the root without cancellation is near/a, the other c/near
     near = -(b + root) / 2 if b >= 0 else (root - b) / 2
@@ -356,18 +402,17 @@ def _state(plane: Plane, tau: Fraction, side: int):
     return _omega(plane, tau, side), tuple(gamma)
 
 
-def _point(parts: Content, plane: Plane, tau: Fraction, side: int) -> EquilibriumPoint | None:
+def _point(parts: Content, plane: Plane, tau: Fraction, side: int) -> EquilibriumPoint:
     Omega, gamma = _state(plane, tau, side)
-    if Omega is None:
-        return None
     _, _, e4, e3, e2, *_ = arb_mat(_jacobian(Field.of(parts), Omega, gamma)).charpoly().coeffs()
     e3 = -e3
     at = tuple(float(v.mid()) for v in (*(Omega * g for g in gamma), *gamma))
     return EquilibriumPoint(at, _eigenvalues(e2, e3, e4), *_verdict(e2, e3, e4))
 
 
-def _jacobian(field: Field, Omega, gamma):
-    A, B = blocks(field, Omega, gamma)
+def _jacobian(field: Field, Omega, gamma, q=1):
+    """Rows of q times the derivative of the rates of (omega, gamma) at gamma/q."""
+    A, B = blocks(field, Omega, gamma, q)
     return ([[*a, *b] for a, b in zip(A, B)]
             + [[*row, *(-Omega * v for v in row)] for row in cross_matrix(gamma)])
 
@@ -375,7 +420,7 @@ def _jacobian(field: Field, Omega, gamma):
 def _verdict(e2, e3, e4):
     if e3 != 0:  # a ball without 0
         return "unstable", *SKEW
-    if e4 < 0 or e2 * e2 < 4 * e4 or (e2 < 0 and e4 > 0):
+    if e4 < 0 or e2 < 0 or e2 * e2 < 4 * e4:
         return "unstable", *PAIR
     if e4 > 0 and e2 > 0 and e2 * e2 > 4 * e4:
         return "stable", *CENTRE
@@ -388,33 +433,56 @@ def _eigenvalues(e2, e3, e4):
     return (0j, 0j, *ordered(roots))
 
 
-def _steady_curve(parts, plane: Plane, lo, hi, side) -> EquilibriumCurve:
-    """One side of the quadratic over one interval of tau."""
+def _changes(parts: Content, plane: Plane) -> list[Fraction]:
+    """The tau at which the verdict on a root Omega of the quadratic may change: zeros of resultants of
+    its irreducible factors with e3, e4, e2^2 - 4 e4, and with e2 where one of these vanishes all along."""
+    O, tau = fmpq_mpoly_ctx.get(("O", "tau"), Ordering.lex).gens()
+    of = lambda p: sum((rational(c) * tau**n for n, c in enumerate(p.c)), 0 * tau)
+    (j, k), q, gamma = CYCLE[plane.i], of(ONE), [0 * tau] * 3
+    gamma[j], gamma[k] = of(COS), of(SIN)
+    J = _jacobian(Field.of(parts), O, gamma, q)
+    J2 = [[sum((J[i][n] * J[n][m] for n in range(6)), 0 * tau) for m in range(6)] for i in range(6)]
+    # traces of its powers; that of J itself is 0
+    second, third, fourth = (sum((first[i][n] * rows[n][i] for i in range(6) for n in range(6)), 0 * tau)
+                             for first, rows in ((J, J), (J2, J), (J2, J2)))
+    e2, e3, e4 = -second / 2, third / 3, second * second / 8 - fourth / 4
+    found = changes(of(plane.square) * O * O + of(plane.linear) * O + of(plane.constant),
+                    (e4, e2 * e2 - 4 * e4, e3), (e2,), "O")
+    return [root for f in found for root in roots_in(f, 1)]
+
+
+def _steady_curve(parts, plane: Plane, lo, hi, side, cuts) -> EquilibriumCurve:
+    """One side of the quadratic over one interval of tau, in segments of one verdict."""
     j, k = CYCLE[plane.i]
-    ends = _angle(lo, -1), _angle(hi, 1)
+    fixed = [t for t in (lo, hi) if t is not None]
+    inner = [t for t in separated([*cuts, *fixed]) if (lo is None or t > lo) and (hi is None or t < hi)
+             and len(separated([t, *fixed])) > len(fixed)]
+    segments, samples = [], []
     with working(MANY_BITS):
-        found = [_point(parts, plane, tau, side) for tau in _steady_samples(lo, hi)]
-    samples = tuple(s for s in found if s is not None)
-    words = {(s.linear, s.verdict, s.because) for s in samples}
-    shared = words.pop() if len(words) == 1 else (
-        "degenerate", "undecided",
-        "the verdict changes along this piece, or was decided at the samples only: see them")
-    if shared[1] == "unstable":
-        shared = (shared[0], "undecided",
-                  "unstable at every sample; between them the signs were not followed")
+        for low, high in pairwise([lo, *inner, hi]):
+            found = [_point(parts, plane, tau, side) for tau in _steady_samples(low, high)]
+            words = _words(_point(parts, plane, values_inside(low, high, Fraction(1)), side))
+            segments.append(CurveSegment((_angle(low, -1), _angle(high, 1)), *words))
+            samples += found
+        changed = tuple(_at_tau(plane, tau, side) for tau in inner)
+    ends = _angle(lo, -1), _angle(hi, 1)
 
     def point(t: float):
         if not ends[0] < t < ends[1]:
             raise InputError(f"t = {t!r} lies at an end of this curve of steady states or outside it")
         with working(MANY_BITS):
-            Omega, gamma = _state(plane, Fraction(tan(t / 2)), side)
-            return tuple(float(v.mid()) for v in (*(Omega * g for g in gamma), *gamma))
+            return _at_tau(plane, Fraction(tan(t / 2)), side)
     which = "lesser" if side < 0 else "greater"
     return EquilibriumCurve(
         f"{which} Omega for t in ({ends[0]:.6g}, {ends[1]:.6g})",
         f"gamma{plane.i + 1} = 0, A (Omega^2 - N) + B Omega + C = 0",
         f"gamma{j + 1} = cos t, gamma{k + 1} = sin t, omega = Omega gamma with the {which} root Omega", point,
-        (CurveSegment(ends, *shared),), (), samples)
+        tuple(segments), changed, tuple(samples))
+
+
+def _at_tau(plane: Plane, tau: Fraction, side: int):
+    Omega, gamma = _state(plane, tau, side)
+    return tuple(float(v.mid()) for v in (*(Omega * g for g in gamma), *gamma))
 
 
 def _angle(tau, otherwise) -> float:

@@ -5,11 +5,15 @@ roots of its characteristic polynomial: rational ones are exact, the others are 
 rational moment is exact, and the other two are exactly across it, so a torque along it has no component
 across it. A length that is irrational has the same error. `error` bounds what is left, proved by the residual
 and the gaps (Davis and Kahan 1970).
+
+Numbers that were computed before they were written, by a rotation in doubles say, carry its rounding: they
+show it by their many digits (`rounding`). Within it moments are equal, and a vector has no component along
+an axis. Numbers of a few digits, and ratios, mean exactly what they say.
 """
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations
 from typing import TypeAlias
@@ -24,11 +28,64 @@ Rows: TypeAlias = Sequence[Sequence[Fraction]]  # of a 3 x 3 matrix
 Moment: TypeAlias = tuple[Fraction, bool]  # and whether it is exact
 BITS = 240  # of the numbers that cannot be rational
 IDENTITY = tuple(tuple(Fraction(i == j) for j in range(3)) for i in range(3))
+TURNED = (IDENTITY[1], IDENTITY[2], IDENTITY[0])  # as good as any of a sphere that is not diagonal
 NAMES = "xyz"
 # of a vector: a component as small is what irrational axes, good to BITS, leave of zero
 NOTHING = Fraction(1, 1 << 200)
 # of the largest entry of a matrix that was turned and written again: what counts as zero
 SLACK = Fraction(1, 1 << 100)
+MANY_DIGITS, MANY_BITS = 12, 46  # of a decimal and of a double: so many are of a number that was computed
+LONG = 230  # bits of a denominator that only a rounded root has
+EPS = Fraction(1, 1 << 52)
+DOUBLES = Fraction(1, 1 << 48)  # of the largest number: what a rotation in doubles leaves
+MOST = Fraction(1, 1 << 26)  # of a vector: a component that is as large is not made zero
+
+
+def rounding(values: Iterable[Number]) -> Fraction:
+    """How far each of the numbers of one tensor or vector may be off for having been computed and rounded, by
+    the digits that they show; 0 where none has many."""
+    numbers = [Fraction(v) for v in values if v]
+    units = [unit for unit in map(_last_digit, numbers) if unit]
+    return max(units) + DOUBLES * max(map(abs, numbers)) if units else Fraction(0)
+
+
+def _last_digit(value: Fraction) -> Fraction:
+    """The unit of the last digit of a decimal, a double or a root of many digits; 0 of any other number."""
+    bottom, powers = value.denominator, [0, 0]
+    for n, prime in enumerate((2, 5)):
+        while bottom % prime == 0:
+            bottom, powers[n] = bottom // prime, powers[n] + 1
+    if bottom > 1:  # a ratio, as it is meant or as roots make them
+        return abs(value) * EPS if value.denominator.bit_length() > LONG else Fraction(0)
+    if powers[0] and not powers[1] and abs(value.numerator).bit_length() >= MANY_BITS:
+        return abs(value) * EPS
+    places = max(powers)
+    digits = len(str(abs(value.numerator) * 10**places // value.denominator).rstrip("0"))
+    return Fraction(0) if digits < MANY_DIGITS else max(Fraction(1, 10**places), abs(value) * EPS)
+
+
+def settled(vector: Exact3) -> Exact3:
+    """A direction without the components that are within its rounding, as cosines of right angles are."""
+    slack = rounding(vector)
+    return tuple(Fraction(0) if abs(v) <= slack else v for v in vector)
+
+
+def crossed(first: Exact3, second: Exact3) -> Exact3:
+    """Their cross product, without components that are within what their roundings leave."""
+    off, large = (rounding(first), rounding(second)), (max(map(abs, first)), max(map(abs, second)))
+    slack = 2 * (off[0] * large[1] + off[1] * large[0])
+    return tuple(Fraction(0) if abs(v) <= slack <= MOST * large[0] * large[1] else v
+                 for v in cross(first, second))
+
+
+def summed(vectors: Sequence[Exact3]) -> Exact3:
+    """Their sum, without a component that only their roundings leave where terms of it cancel."""
+    found = []
+    for column in zip(*vectors):
+        total, terms = sum(column, Fraction(0)), [v for v in column if v]
+        slack = sum(map(rounding, vectors), Fraction(0)) if total and len(terms) > 1 else 0
+        found.append(Fraction(0) if abs(total) <= slack <= MOST * max(map(abs, terms), default=0) else total)
+    return tuple(found)
 
 
 @dataclass(frozen=True)
@@ -38,13 +95,15 @@ class PrincipalAxes:
 
     exact: whether both are without error; else error bounds that of every moment relative to the largest and,
     as an angle in rad, that of every axis. A tensor that is diagonal keeps its order; else the moments
-    descend.
+    descend. rounding: in the tensor's unit, by how much a moment may be off for the rounding that its numbers
+    show; equal ones are equal within it.
     """
 
     moments: Exact3
     axes: tuple[Exact3, ...]
     exact: bool
     error: Fraction = Fraction(0)
+    rounding: Fraction = Fraction(0)
 
     @property
     def as_given(self) -> bool:
@@ -52,9 +111,53 @@ class PrincipalAxes:
         return self.axes == IDENTITY
 
     def turned(self, vector: Sequence[Number]) -> Triple:
-        """The components along the principal axes of a vector of the input frame."""
-        return (tuple(vector) if self.as_given
-                else tuple(sum(a * v for a, v in zip(axis, vector)) for axis in self.axes))
+        """The components along the principal axes of a vector of the input frame, zero where they are within
+        what the roundings of tensor and vector leave of zero."""
+        if self.as_given:
+            return tuple(vector)
+        found = tuple(sum(a * v for a, v in zip(axis, vector)) for axis in self.axes)
+        if not all(isinstance(v, (int, Fraction)) for v in vector) or not any(found):
+            return found
+        own, largest = 2 * rounding(vector), max(map(abs, found))
+        return tuple(v * 0 if v and abs(v) <= own + self._leak(i, found) <= MOST * largest else v
+                     for i, v in enumerate(found))
+
+    def _leak(self, i: int, vector: Triple) -> Fraction:
+        """The most that axis i, being off, shows of the other components of a vector: by an angle of at most
+        2 rounding/gap towards an axis of another moment, and by its own error."""
+        gaps = [abs(self.moments[i] - moment) for moment in self.moments]
+        return sum((abs(v) * (2 * self.error + (2 * self.rounding / gap if gap else 0))
+                    for v, gap in zip(vector, gaps)), Fraction(0))
+
+    def fitted(self, vectors: Iterable[Sequence[Fraction]]) -> PrincipalAxes:
+        """Where moments are equal, of all the axes that are principal there those along which the first of
+        the vectors (input frame) lies that has a component across the others, then the second; else itself.
+        What lies along it, or across it, then has as many zeros as it can."""
+        free = [i for i in range(3) if self.moments.count(self.moments[i]) > 1]
+        found = self
+        for vector in vectors:
+            parts = found.turned(vector)
+            along = [i for i in free if parts[i]]
+            if len(along) > 1:
+                found = found._led(free, parts)
+            if along:
+                free.remove(along[0] if len(along) == 1 else free[0])
+            if len(free) < 2:
+                break
+        return found
+
+    def _led(self, free: Sequence[int], parts: Triple) -> PrincipalAxes:
+        """With the first of the free axes along a vector of these components."""
+        axes, bits = list(self.axes), BITS + 32
+        mixed = lambda *shares: tuple(sum(share * axes[i][n] for share, i in zip(shares, free))
+                                      for n in range(3))
+        new = ([mixed(parts[free[0]], parts[free[1]]), mixed(-parts[free[1]], parts[free[0]])]
+               if len(free) == 2 else _with_plane(mixed(*parts)))
+        for i, direction in zip(free, new):
+            axes[i] = _unit(direction if self.exact else _rounded(direction, bits), bits)
+        exact = self.exact and all(dot(axis, axis) == 1 for axis in axes)
+        return replace(self, axes=tuple(axes), exact=exact,
+                       error=self.error if exact else max(self.error, Fraction(1, 1 << BITS)))
 
     def back(self, vector: Sequence[Number]) -> Triple:
         """The components in the input frame of a vector given along the principal axes."""
@@ -63,30 +166,64 @@ class PrincipalAxes:
 
 
 def without_trace(vector: Exact3, other: Exact3) -> Exact3:
-    """A vector that was turned to principal axes, without the trace along another one that irrational axes
-    leave where the two are at right angles."""
+    """A vector without the trace along another one that roundings leave where the two are at right angles:
+    those of irrational axes, and those that the digits of the two show."""
     level, size = dot(vector, other), dot(other, other)
-    if not level or level * level > NOTHING * NOTHING * size * dot(vector, vector):
+    if not level:
+        return vector
+    least = NOTHING * NOTHING * size * dot(vector, vector)
+    terms = sum(abs(v * o) for v, o in zip(vector, other))
+    open_ = sum(abs(v) for v in vector) * rounding(other) + sum(abs(v) for v in other) * rounding(vector)
+    if level * level > least and not abs(level) <= open_ <= MOST * terms:
         return vector
     return tuple(v - level / size * o for v, o in zip(vector, other))
 
 
-def principal_axes(tensor: Sequence[Sequence[Number]]) -> PrincipalAxes:
-    """The principal moments and axes of an inertia tensor: 3 x 3 exact numbers. Raises InputError where it is
-    not symmetric or a moment is not positive; that the largest exceeds the sum of the others, as of no rigid
-    body, is for `Body` to say."""
+def principal_axes(tensor: Sequence[Sequence[Number]], off: Fraction = Fraction(0)) -> PrincipalAxes:
+    """The principal moments and axes of an inertia tensor: 3 x 3 exact numbers, each of which may be `off` by
+    so much, or as much as its digits show. Raises InputError where it is not symmetric or a moment is not
+    positive; that the largest exceeds the sum of the others, as of no rigid body, is for `Body` to say."""
     rows = tuple(tuple(Fraction(v) for v in row) for row in tensor)
     wrong = fault_of(rows)
     if wrong:
         raise InputError(wrong)
+    # of the tensor's norm, and so of every moment
+    slack = 3 * max(off, rounding(entries(rows)))
     if not any(rows[i][j] for i in range(3) for j in range(3) if i != j):
-        return PrincipalAxes(tuple(rows[i][i] for i in range(3)), IDENTITY, True)
+        given = tuple(rows[i][i] for i in range(3))
+        order = sorted(range(3), key=lambda i: -given[i])
+        alike = _made_equal([(given[i], True) for i in order], slack)
+        return PrincipalAxes(tuple(alike[order.index(i)][0] for i in range(3)), IDENTITY, True, Fraction(0),
+                             slack)
     polynomial, bits = _characteristic(rows), BITS + 32
     while True:
-        found = _axes(rows, _moments(rows, polynomial, bits), bits)
+        moments = _made_equal(_moments(rows, polynomial, bits), slack)
+        if len({value for value, _ in moments}) == 1:  # a sphere, to its last digit: any axes do
+            return PrincipalAxes(tuple(value for value, _ in moments), TURNED, True, Fraction(0), slack)
+        found = _axes(rows, moments, bits)
         if found and found.error < Fraction(1, 1 << BITS):
-            return found
+            return replace(found, rounding=slack)
         bits *= 2
+
+
+def _made_equal(moments: Sequence[Moment], slack: Fraction) -> tuple[Moment, ...]:
+    """Three moments, descending; those within what rounding leaves of each other with the value that keeps
+    their sum."""
+    (first, _), (second, _), (third, _) = moments
+    if first - third <= 2 * slack:
+        mean = (first + second + third) / 3
+        return tuple((mean, mean == value) for value, _ in moments)
+    upper, lower = first - second, second - third
+    if 0 < upper <= min(2 * slack, lower):
+        return ((first + second) / 2, False), ((first + second) / 2, False), moments[2]
+    if 0 < lower <= 2 * slack:
+        return moments[0], ((second + third) / 2, False), ((second + third) / 2, False)
+    return tuple(moments)
+
+
+def entries(rows: Rows) -> list[Number]:
+    """Those of a matrix in one list."""
+    return [v for row in rows for v in row]
 
 
 def evened(rows: Rows, share: Fraction) -> Rows:
@@ -146,16 +283,16 @@ def _axes(m: Rows, moments: Sequence[Moment], bits: int) -> PrincipalAxes | None
     """Axes of these moments with the error they have; None where the moments are not yet separated."""
     values = [value for value, _ in moments]
     if len(set(values)) == 3:
-        directions = _three(m, moments, bits)
-    elif values[0] == values[1]:
-        first, second, third = _with_plane(_column(m, values[2]))
-        directions = [second, third, first]
+        directions, alone = _three(m, moments, bits), [0, 1, 2]
     else:
-        directions = list(_with_plane(_column(m, values[0])))
+        alone = [2] if values[0] == values[1] else [0]
+        direction = _column(m, values[alone[0]])
+        first, second, third = _with_plane(direction if moments[alone[0]][1] else _rounded(direction, bits))
+        directions = [second, third, first] if alone == [2] else [first, second, third]
     if directions is None:
         return None
     axes = _oriented([_unit(direction, bits) for direction in directions])
-    error = _error(m, values, axes)
+    error = _error(m, values, axes, alone)
     return error if error is None else PrincipalAxes(tuple(values), axes, not error, error)
 
 
@@ -230,20 +367,23 @@ def _positive(axis: Triple) -> Triple:
     return axis if max(axis, key=lambda v: (abs(v), v)) > 0 else tuple(-v for v in axis)
 
 
-def _error(m: Rows, values: Sequence[Fraction], axes: Sequence[Triple]) -> Fraction | None:
-    """A bound of the errors of moments and axes; None where two moments are too close for this many bits.
+def _error(m: Rows, values: Sequence[Fraction], axes: Sequence[Triple], alone: Sequence[int]
+           ) -> Fraction | None:
+    """A bound of the errors of the moments that stand alone, of their axes and of all lengths; None where two
+    moments are too close for this many bits. Equal ones have any two axes across the third.
 
     A vector v of length 1 with |m v - D v| = r is within r of a moment, and within 2 r/gap (as an angle) of
     its axis, where gap is the distance from D to the other moments. The lengths differ from 1 by the error of
     their square roots.
     """
-    worst, scale = Fraction(0), values[0]
-    for value, axis in zip(values, axes):
+    scale = values[0]
+    worst = max(abs(dot(axis, axis) - 1) for axis in axes)
+    for value, axis in [(values[i], axes[i]) for i in alone]:
         rest = max(abs(dot(row, axis) - value * axis[i]) for i, row in enumerate(m))
         gaps = [abs(value - other) for other in values if other != value]
         if rest and not min(gaps, default=scale) > 8 * rest:
             return None
-        worst = max(worst, abs(dot(axis, axis) - 1), 2 * rest / scale, 4 * rest / min(gaps, default=scale))
+        worst = max(worst, 2 * rest / scale, 4 * rest / min(gaps, default=scale))
     places = worst.denominator.bit_length() - worst.numerator.bit_length() - 1
     return worst and Fraction(1, 1 << max(0, places))  # rounded up to a power of two
 

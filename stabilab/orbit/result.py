@@ -53,6 +53,18 @@ class Stability:
         return self.verdict == "unstable"
 
 
+@dataclass(frozen=True)
+class Flips:
+    """How often a periodic motion turns over (`unreduced.flips`). axis: 1, 2, 3, of the body, that its
+    angular momentum lies along at one time and against at another; times: from one flip to the next, s, in
+    the order in which they repeat; free: whether no torque acts, so that the momentum is fixed in space and
+    the body turns over."""
+
+    axis: int
+    times: tuple[float, ...]
+    free: bool
+
+
 @dataclass(frozen=True, repr=False)
 class Motion(Shown):
     """Everything known about the motion from one state.
@@ -71,7 +83,8 @@ class Motion(Shown):
     the motion; None where all laws are exact. tilt: what a tilt of its torque off the axis does to a
     bounded motion (`answers.tilt`), where that was asked; first: the limit of its case and its
     `TimeTo`, likewise; caveats: all that limits the answer (`answers.caveats`). largest: |omega| at the
-    most, over all time, where a motion repeats or rests, to eight digits. energy_integral: the paper's
+    most, over all time, where a motion repeats or rests, to eight digits. flips: how often it turns over;
+    None where it does not, or where that is not known (`unreduced.flips`). energy_integral: the paper's
     G1, G2 or G3 (`orbit.reduction`), under a torque along a principal axis with no wheel along it.
     ending: how a motion that loses energy ends, and when (`answers.dissipation.ending`), where it does.
     level: of the fate, "exact", "certified" (a theorem applied to a run of machine precision) or
@@ -103,6 +116,7 @@ class Motion(Shown):
     tilt: object = None
     first: tuple[Quantity | Reason, Any] | None = None
     largest: float | None = None
+    flips: Flips | None = None
     energy_integral: EnergyIntegral | None = None
     caveats: tuple[Caveat, ...] = ()
     stability: Stability | None = None

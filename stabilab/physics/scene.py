@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
 
 from ..errors import Caveat, InputError, Kind
 from ..numbers.exact import exact, exact_vector, floats, sqrt_fraction
-from ..numbers.principal import PrincipalAxes, evened, principal_axes, without_trace
+from ..numbers.principal import PrincipalAxes, entries, evened, principal_axes, rounding, without_trace
 from ..numbers.units import INERTIA, MASS, RATE, half_digit, in_si, vector_in_si
 from ..numbers.vectors import CYCLE, Exact3, Float3, Given, Number, Triple, cross, dot
 from ..reasons import Inertia, Length, Mass, Quantity, Sentence
@@ -107,10 +107,9 @@ class Body(metaclass=Asked):
                 hasattr(row, "__len__") and not isinstance(row, str) for row in rows):
             moments = vector_in_si(self.inertia, INERTIA, "inertia")
             return sum((half_digit(value, INERTIA) for value in self.inertia), Fraction(0)), moments
-        tensor = evened([vector_in_si(row, INERTIA, f"inertia: row {n}") for n, row in enumerate(rows, 1)],
-                        ROUNDING)
+        given = [vector_in_si(row, INERTIA, f"inertia: row {n}") for n, row in enumerate(rows, 1)]
         try:
-            axes = principal_axes(tensor)
+            axes = principal_axes(evened(given, ROUNDING), rounding(entries(given)))
         except InputError as error:
             raise InputError(f"inertia: {error}") from None
         object.__setattr__(self, "axes", axes)
@@ -294,9 +293,7 @@ def along_principal_axes(effects: Sequence[Effect], frame: PrincipalAxes) -> lis
     """The effects along the principal axes, from the frame of the tensor; None for one that is known along
     principal axes alone. Momentum across the torque in that frame is across it along irrational axes too:
     whether it is decides what becomes of a motion."""
-    if frame.as_given:
-        return list(effects)
-    turned = [effect.turned(frame) for effect in effects]
+    turned = list(effects) if frame.as_given else [effect.turned(frame) for effect in effects]
     torque: Any = next((effect for effect in turned if effect and effect.name == "constant_torque"), None)
     return [type(effect)(without_trace(effect.exact, torque.exact))  # type: ignore[attr-defined, call-arg]
             if effect and torque and effect.name == "gyrostat" else effect for effect in turned]

@@ -17,7 +17,7 @@ import numpy as np
 from ...errors import InputError
 from ...numbers.exact import sqrt_fraction
 from ...numbers.polynomial import golden_section
-from ...numbers.principal import IDENTITY, NOTHING, PrincipalAxes, without_trace
+from ...numbers.principal import IDENTITY, NOTHING, PrincipalAxes, summed, without_trace
 from ...numbers.vectors import Exact3, Float3, Number, cross, dot
 from ...orbit.reduction import Reduction
 from ...orbit.result import Fate, Motion
@@ -60,8 +60,7 @@ class Scenario:
 
     def torque(self, thrusters: Sequence[Any]) -> Exact3:
         """The whole torque while these thrusters fire, along the scene's axes."""
-        return tuple(sum(column, Fraction(0))
-                     for column in zip(self.base, *(self.axes.turned(t.torque) for t in thrusters)))
+        return summed([self.base, *(self.axes.turned(t.torque) for t in thrusters)])
 
     def torque_in_file(self, thrusters: Sequence[Any]) -> Float3:
         """The same in the frame of the file; what a thruster alone gives is rounded once."""

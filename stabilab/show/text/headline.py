@@ -257,7 +257,8 @@ def known_as(motion: Motion) -> str:
 
 
 def cause(motion: Motion, units: Units) -> str:
-    """Why nothing is decided, or what it means to be on the separatrix or at an equilibrium."""
+    """Why nothing is decided, what it means to be on the separatrix or at an equilibrium, or how often a
+    bounded motion turns over."""
     fate = motion.fate.word
     if fate == "undecided":
         words = motion.because.removeprefix("undecided: ")
@@ -267,7 +268,19 @@ def cause(motion: Motion, units: Units) -> str:
         return words if len(words) <= CLAUSE else words[:CLAUSE].rsplit(" ", 1)[0] + " ..."
     stays = "" if limiting.unstable(motion.caveats, units) else "every rate stays as it is"
     return {"separatrix": "the smallest change decides what becomes of it",
-            "equilibrium": stays}.get(fate, "")
+            "equilibrium": stays}.get(fate, flips(motion, units))
+
+
+def flips(motion: Motion, units: Units) -> str:
+    """How often it turns over; empty where it does not, or where that is not known."""
+    if motion.flips is None:
+        return ""
+    times, axis = motion.flips.times, units.axes.brief(motion.flips.axis)
+    words = "turns over" if motion.flips.free else f"its angular momentum along {axis} changes sign"
+    told = [units.time(time, SHORT) for time in times[:2]]
+    if len(times) > 2:
+        return f"{words} {len(times)} times in {units.time(sum(times), SHORT)}"
+    return f"{words} every {told[0]}" if len(times) == 1 else f"{words} after {told[0]} and {told[1]} in turn"
 
 
 def largest(motion: Motion, units: Units) -> str:

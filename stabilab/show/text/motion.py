@@ -195,6 +195,12 @@ def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
             f"smaller tilt (proved)"]
 
 
+def flips_dict(case, m) -> dict | None:
+    """How often it turns over: axis and times (s) from one flip to the next; null where it does not, or where
+    that is not known."""
+    return m.flips and {**axes_of(case).key(m.flips.axis), "times": m.flips.times}
+
+
 def followed(m) -> dict:
     """How well a fate is known; of a motion that was followed also when its certificate held (null: it did
     not), what was seen on the way, and the bounds of the rates for all times (null in them: unbounded); of

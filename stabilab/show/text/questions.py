@@ -15,8 +15,18 @@ from ..axes import axes_of
 from ..data import csv_lines
 from ..terminal import greek, lettered, listed
 from ..units import DIGITS, Units, bracket, number
-from .headline import cause, largest, outcome, rate_margin, verdict
-from .motion import bound_lines, energy_margin, extreme_lines, followed, reason, row, tilt_lines, why
+from .headline import cause, flips, largest, outcome, rate_margin, verdict
+from .motion import (
+    bound_lines,
+    energy_margin,
+    extreme_lines,
+    flips_dict,
+    followed,
+    reason,
+    row,
+    tilt_lines,
+    why,
+)
 
 # --- When a limit is reached
 WORDS = {"yes": "reached by", "unknown": "NOT KNOWN of", "never": "NEVER by"}
@@ -187,8 +197,8 @@ def period(case, motion, told, units: Units, all_digits: bool, say: bool, proofs
     else:
         value = f"period {units.time(told.values)}"
     holds = limiting.condition(motion.caveats, units)
-    parts = [value + (holds and f",{holds}"), limiting.unstable(motion.caveats, units),
-             limiting.reached(motion.caveats, units),
+    parts = [value + (holds and f",{holds}"), flips(motion, units),
+             limiting.unstable(motion.caveats, units), limiting.reached(motion.caveats, units),
              limiting.tilted(motion.caveats, units)]
     lines = [f"{case.name}: {'; '.join(filter(None, parts))}",
              *(why(case, motion, units, proofs) if proofs else ())]
@@ -224,14 +234,14 @@ def fate_dict(case, motion, told) -> dict:
     margin = motion.margin_energy if told.values is None else told.values
     return _object("fate", case, motion, told, {
         **axes_of(case).key(motion.axis), "sense": motion.sense or None, "because": motion.because,
-        "margin": margin, "tilt": tilt_dict(motion.tilt), **followed(motion),
-        **ending.key(case, motion.ending)})
+        "margin": margin, "flips": flips_dict(case, motion), "tilt": tilt_dict(motion.tilt),
+        **followed(motion), **ending.key(case, motion.ending)})
 
 
 def period_dict(case, motion, told) -> dict:
     """One object of `stabilab period --json`; period: null where there is none or it is not known."""
     return _object("period", case, motion, told,
-                   {"period": told.values, "time": case.scene.time_unit})
+                   {"period": told.values, "time": case.scene.time_unit, "flips": flips_dict(case, motion)})
 
 
 def extremes_csv(answered) -> str:

@@ -324,7 +324,8 @@ def test_steady_states_of_a_torque_are_all_that_newton_finds():
             Omega -= rate(Omega) * 2 * h / (rate(Omega + h) - rate(Omega - h))
         if not np.isfinite(Omega) or abs(rate(Omega)) > 1e-10:
             continue
-        at = [curve.point(t)[1:3] for curve in curves if curve.segments[0].t[0] < t < curve.segments[0].t[1]]
+        at = [curve.point(t)[1:3] for curve in curves
+                  if curve.segments[0].t[0] < t < curve.segments[-1].t[1]]
         hits += 1
         assert min(np.abs(np.array(p) - (Omega * c, Omega * s)).max() for p in at) < 1e-7
     assert hits > 15
