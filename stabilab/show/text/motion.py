@@ -9,6 +9,7 @@ import math
 from ...equilibrium.circular_orbit import yaw_pitch_roll
 from ...representation import values_of
 from .. import frame, limiting
+from ..axes import axes_of
 from ..terminal import greek, lettered
 from ..units import DEG, DIGITS, SHORT, Units, but_for_rounding, number, vector
 from .headline import rate_margin, span_words
