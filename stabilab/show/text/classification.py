@@ -310,7 +310,7 @@ def uncertain_dict(found) -> dict:
 def _over(over) -> dict | None:
     if over is None:
         return None
-    samples = over.samples and (values_of(over.samples, "number seed counts")
+    samples = over.samples and (values_of(over.samples, "number seed counts corners")
                                 | {"margin_quantiles": over.samples.margins})
     return values_of(over, "answer verdict because") | {
         "except": over.but or None, "proved_up_to": over.proved,
@@ -377,15 +377,14 @@ def what_changes(found, units: Units) -> str:
     over = found and (found.fate or found.equilibria)
     if not over:
         return ""
-    others = (list(dict.fromkeys(w.verdict for w in over.witnesses[1:]
-                                 if w.verdict != over.witnesses[0].verdict)) if over is found.fate else [])
+    others = over.otherwise if over is found.fate else ""
     subject = "the fate is" if over is found.fate else "they are"
     return {"holds": f"{subject} the same for all that the uncertain numbers may be"
             + (", but for a set of measure zero" if over.but else ""),
              "depends": f"BUT within the uncertainties also "
-                        f"{' or '.join(map(units.axes.sentence, others)) or 'another answer'}",
-             "sampled": f"{subject} the same at {over.samples and over.samples.number} sampled points within "
-                        f"the uncertainties, without a proof",
+                        f"{units.axes.sentence(others) or 'another answer'}",
+             "sampled": f"{subject} the same at {over.samples and over.samples.points} within the "
+                        f"uncertainties, without a proof",
              "undecided": f"{subject} undecided within the uncertainties"}[over.answer]
 
 
@@ -422,6 +421,6 @@ def open_fate(found) -> bool:
 
 
 def open_in_box(found) -> bool:
-    """Whether a verdict stays without a proof over the box."""
-    return (found is not None and any(over is not None and over.answer in ("undecided", "sampled")
-                                      for over in (found.equilibria, found.fate)))
+    """Whether the fate is not the same all over the box, or a verdict stays without a proof there."""
+    return (open_fate(found) or found is not None and found.equilibria is not None
+            and found.equilibria.answer in ("undecided", "sampled"))
