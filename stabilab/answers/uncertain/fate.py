@@ -57,6 +57,7 @@ from .boxes import (
     whole,
 )
 from .geometries import codes as codes_of
+from .geometries import deepest
 from .geometries import margins as margins_of
 from .result import (
     FEWER,
@@ -68,6 +69,7 @@ from .result import (
     Over,
     Witness,
     bracketed,
+    confirmed,
     nearest_change,
     worst,
 )
@@ -339,8 +341,13 @@ def _over_geometries(box: Box, here: Any, answer: Answer, axis: int) -> Change |
     codes, n = partial(codes_of, box, axis), len(box.places)
     if (int(codes(np.zeros((1, n)))[0]) == 0) != (here == Fate.BOUNDED.word):
         return None
-    side = 1 if here == Fate.BOUNDED.word else -1
-    return nearest_change(box, codes, answer, here, worst(_sided(partial(margins_of, box, axis), side), n))
+    margins = _sided(partial(margins_of, box, axis), 1 if here == Fate.BOUNDED.word else -1)
+    point = deepest(margins, n)
+    found = nearest_change(box, codes, answer, here, [point / (np.abs(point).max() or 1.0)])
+    if (found is None or found.stretch > 1) and not margins(point[None])[0] > 0:
+        size = float(np.abs(point).max())
+        found = confirmed(Change(point / size, size, 0.0), answer, here)
+    return found
 
 
 def _sided(margins: Callable[..., Any], side: int) -> Callable[[np.ndarray], np.ndarray]:

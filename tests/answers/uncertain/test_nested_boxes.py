@@ -31,7 +31,7 @@ def written(rows, half):
 
 def spins_up(values, times=24):
     """Whether the rate about the torque's axis comes to so many times the size of the start, by DOP853 over
-    five times as long as a free M t/D would take."""
+    twenty times as long as a free M t/D would take: beside a separatrix it lingers."""
     D, h, M, w = (np.array([float(v) for v in values[name]])
                   for name in ("inertia", "momentum", "torque", "state"))
     k = int(np.argmax(np.abs(M)))
@@ -40,7 +40,7 @@ def spins_up(values, times=24):
     def reached(t, x):
         return abs(x[k]) - far
     reached.terminal = True
-    run = solve_ivp(lambda t, x: (np.cross(D * x + h, x) + M) / D, (0, 5 * far * D[k] / abs(M[k])), w,
+    run = solve_ivp(lambda t, x: (np.cross(D * x + h, x) + M) / D, (0, 20 * far * D[k] / abs(M[k])), w,
                     method="DOP853", rtol=1e-9, atol=1e-11, events=reached)
     return run.status == 1
 
