@@ -59,6 +59,7 @@ from .boxes import (
 from .geometries import codes as codes_of
 from .geometries import deepest
 from .geometries import margins as margins_of
+from .neighbours import beside
 from .result import (
     FEWER,
     STRETCHES,
@@ -288,9 +289,13 @@ UNBOUNDED = "unbounded"
 
 
 def fate_over(box: Box) -> Over | None:
-    """What becomes of the motion over the box; None where the box has no state. See `uncertain.uncertain`."""
-    if "state" not in box.middle:
-        return None
+    """What becomes of the motion over the box; None where the box has no state. See `uncertain.uncertain`.
+
+    A box around an equilibrium is judged by its neighbours too: `neighbours.beside`."""
+    return beside(box, _fate_over(box)) if "state" in box.middle else None
+
+
+def _fate_over(box: Box) -> Over:
     look = partial(look_at, box)
     answer: Answer = lambda point: look(point)[0]
     if box.frame is not None:
@@ -333,7 +338,7 @@ def _on_an_axis(box: Box, form: QuadraticForm, acting: Sequence[int]) -> Over | 
         return None
     half = {**box.half, name: tuple(Fraction(0) if i in held else h for i, h in enumerate(box.half[name]))}
     part = replace(box, half=half)
-    return fate_over(part) if part.places else None
+    return _fate_over(part) if part.places else None
 
 
 def _over_geometries(box: Box, here: Any, answer: Answer, axis: int) -> Change | None:
@@ -432,7 +437,9 @@ def _on_circles(box: Box, here: Any, answer: Answer, family: Family) -> Over:
 
 def _tie(box: Box, here: Any, answer: Answer, corners: Sequence[np.ndarray]) -> Over:
     """The middle lies on the separatrix (or at rest on a saddle): what lies on either side."""
-    because, n = "the middle lies on the separatrix itself", len(box.places)
+    n = len(box.places)
+    because = ("the middle lies on the separatrix itself" if here == Fate.SEPARATRIX.word
+               else "the middle is bounded as it is, at rest on a saddle or without a torque")
     sides: dict[str, Any] = {}
     for stretch in STRETCHES:
         for direction in (*corners, *np.eye(n), *-np.eye(n)):
@@ -441,6 +448,10 @@ def _tie(box: Box, here: Any, answer: Answer, corners: Sequence[np.ndarray]) -> 
                 sides.setdefault(word, Witness(word, box.values(direction * stretch)))
         if len(sides) > 1:
             return Over("depends", here, because, changes_at=0.0, witnesses=tuple(sides.values()))
+    other = sides.get(next((word for word in sides if word != here), ""))
+    if other and here != Fate.SEPARATRIX.word:
+        middle = Witness(here, box.values(np.zeros(n)))
+        return Over("depends", here, because, changes_at=0.0, witnesses=(middle, other))
     return Over("undecided", here, f"{because}, and only one side of it was found")
 
 
@@ -532,14 +543,14 @@ class Uncertainty:
 
     @property
     def caveats(self) -> tuple[Caveat, ...]:
-        told = ((name, over) for name, over in (("equilibria", self.equilibria), ("fate", self.fate)) if over)
-        return tuple(found for name, over in told if (found := _caveat(name, over)))
+        both = ((name, over) for name, over in (("equilibria", self.equilibria), ("fate", self.fate)) if over)
+        return tuple(found for name, over in both if (found := _caveat(name, over)))
 
 
 def _caveat(name: str, over: Over) -> Caveat | None:
     """That the fate is another elsewhere in the box, or that samples stand in place of a proof."""
     if over.answer == "depends" and name == "fate":
-        return Caveat(Kind.UNCERTAIN, ELSEWHERE(what=old(f"also {over.otherwise}")))
+        return Caveat(Kind.UNCERTAIN, ELSEWHERE(what=old(over.elsewhere)))
     if over.samples is None or over.answer == "depends":
         return None
     return Caveat(Kind.SAMPLES, BY_SAMPLES(question=name, found=old(over.samples.words)))

@@ -35,7 +35,7 @@ def margins(box: Box, axis: int, points: np.ndarray) -> tuple[np.ndarray, np.nda
         rows = np.flatnonzero((np.sign(p) == sign) & (np.sign(q) == -sign) & possible)
         if len(rows):
             height, sense[rows], possible[rows] = Family(box, axis, (sign, -sign)).margins(points[rows])
-            # of the canonical variables, whose unit vanishes where two moments are equal: the square of a rate
+            # of the canonical variables, whose unit vanishes with two equal moments: a rate squared
             margin[rows] = height / np.abs(p[rows] * q[rows])
     return margin, sense, possible & ~np.isnan(margin)
 

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
+from ...orbit.result import Fate
 from .boxes import Box, Numbers, Point, Proof
 
 MOST = 100.0          # times the stated uncertainty
@@ -227,7 +228,8 @@ class Over:
     but: the set of measure zero that "holds" leaves out, if it does. Every change of the numbers by less than
     `proved` times the stated uncertainties is proved to leave the verdict; `changes_at` times these flips it
     (an upper bound of the least such factor: found by search and checked; None where none was found up to 100
-    times). parts: of the box, looked at.
+    times). parts: of the box, looked at. neighbours: what motions beside the middle do, where that is an
+    equilibrium (`neighbours.Neighbours`), else None.
     """
 
     answer: str
@@ -239,12 +241,23 @@ class Over:
     witnesses: tuple[Witness, ...] = ()
     parts: int = 0
     samples: Sampled | None = None
+    neighbours: Any = None
 
     @property
     def otherwise(self) -> str:
         """The verdicts of the witnesses that are not that of the first, in words; empty without any."""
         first = self.witnesses[0].verdict if self.witnesses else None
         return " or ".join(dict.fromkeys(w.verdict for w in self.witnesses[1:] if w.verdict != first))
+
+    @property
+    def elsewhere(self) -> str:
+        """What the motion does elsewhere in the box, where the answer depends on that: a sentence's end."""
+        near = self.neighbours
+        if near is None or self.otherwise != Fate.BOUNDED.word:
+            return f"also {self.otherwise or 'another answer'}"
+        middle = "the middle itself is stable" if near.verdict == "stable" else near.stability
+        return (f"it departs from this rotation by up to {near.departs}{' and turns over' * near.turned} "
+                f"({middle})")
 
 
 def bracketed(box: Box, here: Any, answer: Answer, change: Change | None,

@@ -41,7 +41,7 @@ def spins_up(values, times=24):
         return abs(x[k]) - far
     reached.terminal = True
     run = solve_ivp(lambda t, x: (np.cross(D * x + h, x) + M) / D, (0, 20 * far * D[k] / abs(M[k])), w,
-                    method="DOP853", rtol=1e-9, atol=1e-11, events=reached)
+                    method="DOP853", rtol=1e-11, atol=1e-13, events=reached)
     return run.status == 1
 
 
