@@ -78,8 +78,8 @@ def beside(box: Box, found: Over) -> Over:
     any other as it is."""
     n = len(box.places)
     scene, state = box.at(np.zeros(n))
-    exact = _exact(box, state)
-    if state is None or not rests(scene.quadratic(), exact):
+    exact = box.middle["state"] if box.frame is None else tuple(map(Fraction, state or ()))
+    if not rests(scene.quadratic(), exact):
         return found
     verdict, growth = stability(scene, exact)
     at_rest = not any(exact)
@@ -126,12 +126,6 @@ def _verdict_at(box: Box, point: Point) -> str:
     """The stability of the equilibrium at a point of the box."""
     scene, state = box.at(point)
     return stability(scene, tuple(map(Fraction, state or ())))[0]
-
-
-def _exact(box: Box, state: Float3 | None) -> Sequence[Fraction] | None:
-    if state is None:
-        return None
-    return box.middle["state"] if box.frame is None else tuple(map(Fraction, state))
 
 
 def stability(scene: AnyScene, exact: Sequence[Fraction]) -> tuple[str, float]:
