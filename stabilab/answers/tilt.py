@@ -45,13 +45,13 @@ NOT_LOOKED_AT = Sentence("cone-not-looked-at", "a tilt of the torque is not look
 BY_FATES = Sentence("cone-fates", "tilted by {angle} it {fates} of {directions} directions of the torque")
 NONE_REACHES = Sentence("cone-none-found", "tilted by {angle} it was not found to reach {limit} within "
                         "{time} in any of {directions} directions of the torque")
-RUNS_END = Sentence("cone-runs-end", "tilted by {angle} it may reach {limit} earlier or later: runs end after "
-                    "{time} with none of {directions} directions of the torque there yet, and untilted it is "
-                    "there after {untilted}")
+RUNS_END = Sentence("cone-runs-end", "tilted by {angle} it may reach {limit} earlier or later: runs end "
+                    "after {time} with none of {directions} directions of the torque there yet, and untilted "
+                    "it is there after {untilted}")
 SOME_LATER = Sentence("cone-some-runs-end",
                       "tilted by {angle} it reaches {limit} after {first} at the earliest of {directions} "
-                      "directions of the torque ({level}), in some of them not within {time}, where runs end, "
-                      "before that of the torque untilted")
+                      "directions of the torque ({level}), in some of them not within {time}, where runs "
+                      "end, before that of the torque untilted")
 SOME_REACH = Sentence("cone-some-reach", "tilted by {angle} it reaches {limit} after {first} at the earliest "
                       "of {directions} directions of the torque ({level}), in some of them not within {time}")
 ALL_REACH = Sentence("cone-all-reach", "tilted by {angle} it reaches {limit} after {first} at the earliest "
