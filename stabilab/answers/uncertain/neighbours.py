@@ -56,7 +56,7 @@ class Neighbours:
         """Of the equilibrium, in words."""
         if self.growth > 0:
             unit = "" if self.scaled else " s"
-            return f"unstable: a disturbance grows e-fold in {1 / self.growth:.6g}{unit}"
+            return f"unstable: a disturbance grows by the factor e in {1 / self.growth:.6g}{unit}"
         return {"unstable": "unstable: its neighbours leave, though not exponentially",
                 "undecided": "its stability is undecided"}.get(self.verdict, self.verdict)
 
