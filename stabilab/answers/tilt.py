@@ -45,6 +45,13 @@ NOT_LOOKED_AT = Sentence("cone-not-looked-at", "a tilt of the torque is not look
 BY_FATES = Sentence("cone-fates", "tilted by {angle} it {fates} of {directions} directions of the torque")
 NONE_REACHES = Sentence("cone-none-found", "tilted by {angle} it was not found to reach {limit} within "
                         "{time} in any of {directions} directions of the torque")
+RUNS_END = Sentence("cone-runs-end", "tilted by {angle} it may reach {limit} earlier or later: runs end "
+                    "after {time} with none of {directions} directions of the torque there yet, and untilted "
+                    "it is there after {untilted}")
+SOME_LATER = Sentence("cone-some-runs-end",
+                      "tilted by {angle} it reaches {limit} after {first} at the earliest of {directions} "
+                      "directions of the torque ({level}), in some of them not within {time}, where runs "
+                      "end, before that of the torque untilted")
 SOME_REACH = Sentence("cone-some-reach", "tilted by {angle} it reaches {limit} after {first} at the earliest "
                       "of {directions} directions of the torque ({level}), in some of them not within {time}")
 ALL_REACH = Sentence("cone-all-reach", "tilted by {angle} it reaches {limit} after {first} at the earliest "
@@ -171,7 +178,8 @@ class Spread:
     its own and those round the edge of the cone. limit: rad/s as of `Limit.least_rate`, None where no limit
     is asked: then fates says in how many directions the motion has which fate. earliest, latest: (low, high)
     of the least and the greatest time found, s, None where the limit was not reached in any direction, or not
-    in all of them within `followed`, s; level: of both, as of `TimeTo`. because: why none was looked at."""
+    in all of them within `followed`, s; level: of both, as of `TimeTo`. because: why none was looked at.
+    untilted: (low, high) of the time of the torque itself, s, where runs end before it; else None."""
 
     ranges: ClassVar[bool] = True
 
@@ -185,6 +193,7 @@ class Spread:
     followed: float = math.inf
     fates: tuple[tuple[str, int], ...] = ()
     because: str = ""
+    untilted: tuple[float, float] | None = None
 
     @property
     def reason(self) -> Reason:
@@ -195,11 +204,13 @@ class Spread:
         if self.limit is None:
             return BY_FATES(**known, fates=", ".join(f"{word} in {count}" for word, count in self.fates))
         known |= {"limit": Rate(self.limit)}
+        if self.earliest is None and self.untilted:
+            return RUNS_END(**known, time=Time(self.followed), untilted=Time(sum(self.untilted) / 2))
         if self.earliest is None:
             return NONE_REACHES(**known, time=Time(self.followed))
         known |= {"first": Time(self.earliest[0]).lower, "level": self.level}
         if self.latest is None:
-            return SOME_REACH(**known, time=Time(self.followed))
+            return (SOME_LATER if self.untilted else SOME_REACH)(**known, time=Time(self.followed))
         return ALL_REACH(**known, last=Time(self.latest[1]).upper)
 
 
@@ -275,8 +286,14 @@ def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None,
     time = lambda torque: run_once(tilted(scene, torque), state, limit, steps=STEPS)
     signed = lambda sign, azimuth: sign * time(cone.at(azimuth))[0]
     (own, *times), ends = map(list, zip(*map(time, torques)))
+    followed, untilted = min(ends), None
+    if followed < math.inf:  # a run ended early: as long as the torque itself takes, or not
+        alone = time_to(scene, state, **ask, exact=exact, work=0)
+        if followed < alone.high < math.inf:
+            untilted = float(alone.low), float(alone.high)
     if not np.isfinite([own, *times]).any():
-        return Spread(cone.angle, cone.words, len(torques), limit.least_rate(), followed=min(ends))
+        return Spread(cone.angle, cone.words, len(torques), limit.least_rate(), followed=followed,
+                      untilted=untilted)
     most = []
     for sign in (1, -1):
         best, azimuth = min(nearest_round(partial(signed, sign),
@@ -288,7 +305,7 @@ def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None,
     levels = {str(one.level) for one in exactly[:1 + all_of_them]}
     return Spread(cone.angle, cone.words, len(torques) + 4 * REFINED, limit.least_rate(), first,
                   last if all_of_them and math.isfinite(last[1]) else None,
-                  levels.pop() if len(levels) == 1 else "run", min(ends))
+                  levels.pop() if len(levels) == 1 else "run", followed, untilted=untilted)
 
 
 @dataclass(frozen=True)

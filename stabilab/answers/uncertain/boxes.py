@@ -130,6 +130,17 @@ class Box:
             wrong = wrong | (sign_over(D[0] - D[1]) < 0) | (sign_over(D[1] - D[2]) < 0)
         return wrong
 
+    def rigid(self, points: np.ndarray) -> np.ndarray:
+        """Whether some rigid body has the moments at points (n, places): none exceeds the sum of the others.
+        True everywhere where the middle itself is no rigid body's, whose answers are told all the same."""
+        points = np.asarray(points, float)
+        D = np.tile([float(d) for d in self.middle.get("inertia", (1, 1, 1))], (1 + len(points), 1))
+        for k, (name, i) in enumerate(self.places):
+            if name == "inertia":
+                D[1:, i] += float(self.half[name][i]) * points[:, k]
+        found = 2 * D.max(1) <= D.sum(1) * (1 + 8 * EPS)
+        return found[1:] | ~found[0]
+
     def rates(self, numbers: Numbers) -> QuadraticForm:
         """The equations of motion (coefficients of the kind of the numbers)."""
         if not self.bodily:

@@ -56,19 +56,25 @@ from .boxes import (
     prove,
     whole,
 )
+from .geometries import codes as codes_of
+from .geometries import deepest
+from .geometries import margins as margins_of
+from .neighbours import beside
 from .result import (
     FEWER,
     STRETCHES,
     UNKNOWN,
     Answer,
+    Change,
     Look,
     Over,
     Witness,
     bracketed,
-    by_sample,
-    by_trial,
+    confirmed,
     nearest_change,
+    worst,
 )
+from .search import FEW, by_sample, by_trial
 
 
 # --- Equilibria
@@ -191,11 +197,11 @@ def equilibria_over(box: Box) -> Over:
         return Over("holds", here, "no uncertain number has a part in the equilibria", proved=np.inf)
     if box.frame is not None:
         return by_sample(box, here, look, "within the uncertainties the principal axes turn with the tensor, "
-                                          "and no proof follows that turn")
+                                          "and no proof follows that turn", FEW)
     try:
         return _by_conditions(box, here, look)
     except Unknown as unknown:
-        return by_trial(box, here, look, str(unknown))
+        return by_trial(box, here, look, str(unknown), most=FEW)
 
 
 def signature_at(box: Box, point: Point) -> str | None:
@@ -237,7 +243,7 @@ def _by_conditions(box: Box, here: Any, look: Look) -> Over:
         return Over("holds", here, "the uncertain numbers have no part in the equilibria", proved=np.inf)
     if 0 in signs:
         vanishing = "; ".join(c.what for c, sign in zip(first, signs) if not sign)
-        return by_trial(box, here, look, f"at the middle itself {vanishing}")
+        return by_trial(box, here, look, f"at the middle itself {vanishing}", most=FEW)
     answer: Answer = lambda point: look(point)[0]
     change = nearest_change(box, codes, answer, here)
     strict, passing = partial(_proof, all_of, box, first, signs), [c for c in first if c.passes]
@@ -283,9 +289,13 @@ UNBOUNDED = "unbounded"
 
 
 def fate_over(box: Box) -> Over | None:
-    """What becomes of the motion over the box; None where the box has no state. See `uncertain.uncertain`."""
-    if "state" not in box.middle:
-        return None
+    """What becomes of the motion over the box; None where the box has no state. See `uncertain.uncertain`.
+
+    A box around an equilibrium is judged by its neighbours too: `neighbours.beside`."""
+    return beside(box, _fate_over(box)) if "state" in box.middle else None
+
+
+def _fate_over(box: Box) -> Over:
     look = partial(look_at, box)
     answer: Answer = lambda point: look(point)[0]
     if box.frame is not None:
@@ -300,9 +310,12 @@ def fate_over(box: Box) -> Over | None:
         return Over("holds", here, REASONS[Basis.TORQUE_FREE], proved=np.inf)
     if len(acting) > 1:
         axes = " and ".join(str(i + 1) for i in acting)
-        return by_sample(box, here, look,
-                         f"the torque may act about axes {axes} together, off the principal axes, where "
-                         "motions are followed one by one: the middle's answer is no proof for the box")
+        because = (f"the torque may act about axes {axes} together, off the principal axes, where motions "
+                   "are followed one by one: the middle's answer is no proof for the box")
+        within = _on_an_axis(box, form, acting)
+        if within is not None and within.answer == "depends":
+            return replace(within, because=f"{because}; {within.because}", proved=0.0)
+        return by_sample(box, here, look, because, FEW)
     reduction = reduction_about(form, acting[0])
     if reduction is None:
         return _under_law(box, look, numbers, form, acting[0])
@@ -310,10 +323,45 @@ def fate_over(box: Box) -> Over | None:
     if signs is None:
         return by_trial(box, here, look, "two of the moments of inertia may be equal within the box, where "
                                          "the geometry of the motion changes from circles to hyperbolas: no "
-                                         "proof is known")
+                                         "proof is known", _over_geometries(box, here, answer, acting[0]))
     if signs[0] * signs[1] >= 0:
         return _between_walls(box, here, look, reduction, numbers, signs)
     return _on_circles(box, here, answer, Family(box, acting[0], signs))
+
+
+def _on_an_axis(box: Box, form: QuadraticForm, acting: Sequence[int]) -> Over | None:
+    """What the part of the box says in which the torque stays on the axis of the middle's: its witnesses are
+    in the box. None where there is no such part."""
+    name = "torque" if "torque" in box.middle else "mu"
+    held = [i for i in range(3) if not box.middle[name][i]]
+    if len(held) != 2:
+        return None
+    half = {**box.half, name: tuple(Fraction(0) if i in held else h for i, h in enumerate(box.half[name]))}
+    part = replace(box, half=half)
+    return _fate_over(part) if part.places else None
+
+
+def _over_geometries(box: Box, here: Any, answer: Answer, axis: int) -> Change | None:
+    """The nearest change that a search over arrays finds where the moments may change places."""
+    codes, n = partial(codes_of, box, axis), len(box.places)
+    if (int(codes(np.zeros((1, n)))[0]) == 0) != (here == Fate.BOUNDED.word):
+        return None
+    margins = _sided(partial(margins_of, box, axis), 1 if here == Fate.BOUNDED.word else -1)
+    point = deepest(margins, n)
+    found = nearest_change(box, codes, answer, here, [point / (np.abs(point).max() or 1.0)])
+    if (found is None or found.stretch > 1) and not margins(point[None])[0] > 0:
+        size = float(np.abs(point).max())
+        found = confirmed(Change(point / size, size, 0.0), answer, here)
+    return found
+
+
+def _sided(margins: Callable[..., Any], side: int) -> Callable[[np.ndarray], np.ndarray]:
+    """The margins of points, of the given sign at the middle, as numbers that fall towards a change; NaN
+    where there is none."""
+    def found(points: np.ndarray) -> np.ndarray:
+        margin, _, possible = margins(points)
+        return np.where(possible, side * margin, np.nan)
+    return found
 
 
 def look_at(box: Box, point: Point) -> tuple[str | None, float]:
@@ -380,14 +428,18 @@ def _on_circles(box: Box, here: Any, answer: Answer, family: Family) -> Over:
     steady = int(codes(np.zeros((1, len(box.places))))[0]) == 0
     if here == Fate.SEPARATRIX.word or steady != (claim == "bounded"):
         return _tie(box, here, answer, _against_gradient(family))
-    change = nearest_change(box, codes, answer, here, _against_gradient(family))
+    favoured = [*_against_gradient(family),
+                worst(_sided(family.margins, 1 if steady else -1), len(box.places))]
+    change = nearest_change(box, codes, answer, here, favoured)
     return bracketed(box, here, answer, change, attempt,
                      REASONS[Basis.BELOW_BARRIER if claim == "bounded" else Basis.ABOVE_BARRIER])
 
 
 def _tie(box: Box, here: Any, answer: Answer, corners: Sequence[np.ndarray]) -> Over:
     """The middle lies on the separatrix (or at rest on a saddle): what lies on either side."""
-    because, n = "the middle lies on the separatrix itself", len(box.places)
+    n = len(box.places)
+    because = ("the middle lies on the separatrix itself" if here == Fate.SEPARATRIX.word
+               else "the middle is bounded as it is, at rest on a saddle or without a torque")
     sides: dict[str, Any] = {}
     for stretch in STRETCHES:
         for direction in (*corners, *np.eye(n), *-np.eye(n)):
@@ -396,6 +448,10 @@ def _tie(box: Box, here: Any, answer: Answer, corners: Sequence[np.ndarray]) -> 
                 sides.setdefault(word, Witness(word, box.values(direction * stretch)))
         if len(sides) > 1:
             return Over("depends", here, because, changes_at=0.0, witnesses=tuple(sides.values()))
+    other = sides.get(next((word for word in sides if word != here), ""))
+    if other and here != Fate.SEPARATRIX.word:
+        middle = Witness(here, box.values(np.zeros(n)))
+        return Over("depends", here, because, changes_at=0.0, witnesses=(middle, other))
     return Over("undecided", here, f"{because}, and only one side of it was found")
 
 
@@ -472,13 +528,14 @@ def _under_law(box: Box, look: Look, numbers: Numbers, form: QuadraticForm, axis
 
 BY_SAMPLES = Sentence("box-by-samples",
                       "{question} over the uncertain numbers by samples, not by proof: {found}")
+ELSEWHERE = Sentence("box-elsewhere", "within the uncertainties {what}")
 
 
 @dataclass(frozen=True)
 class Uncertainty:
     """numbers: the uncertain numbers of the case; equilibria, fate: what they do to each, None where not
-    asked (and the fate where there is no state). caveats: that samples stand in place of a proof, where they
-    do."""
+    asked (and the fate where there is no state). caveats: that the fate is another elsewhere in the box, and
+    that samples stand in place of a proof, where they do."""
 
     numbers: tuple[Any, ...]
     equilibria: Over | None
@@ -486,10 +543,17 @@ class Uncertainty:
 
     @property
     def caveats(self) -> tuple[Caveat, ...]:
-        sampled = ((name, over.samples)
-                   for name, over in (("equilibria", self.equilibria), ("fate", self.fate)) if over)
-        return tuple(Caveat(Kind.SAMPLES, BY_SAMPLES(question=name, found=old(found.words)))
-                     for name, found in sampled if found)
+        both = ((name, over) for name, over in (("equilibria", self.equilibria), ("fate", self.fate)) if over)
+        return tuple(found for name, over in both if (found := _caveat(name, over)))
+
+
+def _caveat(name: str, over: Over) -> Caveat | None:
+    """That the fate is another elsewhere in the box, or that samples stand in place of a proof."""
+    if over.answer == "depends" and name == "fate":
+        return Caveat(Kind.UNCERTAIN, ELSEWHERE(what=old(over.elsewhere)))
+    if over.samples is None or over.answer == "depends":
+        return None
+    return Caveat(Kind.SAMPLES, BY_SAMPLES(question=name, found=old(over.samples.words)))
 
 
 def uncertain(case: Any, questions: Sequence[str] = ("equilibria", "fate")) -> Uncertainty | None:

@@ -18,8 +18,9 @@ from .boxes import Box, Numbers, Point, Proof
 
 MOST = 100.0          # times the stated uncertainty
 LADDER = np.concatenate([10.0 ** np.arange(-9, -2), 2.0 ** np.arange(-6, 7) * (MOST / 64)])
-CORNERS, CHUNK = 256, 4096
-HALVINGS, ROUNDS, NEAREST = 14, 4, 16
+CORNERS, CHUNK = 512, 4096  # of so many corners all are tried, of more as many at random
+HALVINGS, ROUNDS, NEAREST = 14, 8, 16
+NEXT = 2.5  # times the first rung at which a ray changes: those that change by then are bisected
 NEARER_STILL = 0.995  # of a change: how near one must be at least that takes its place
 SETTLED = 20  # halvings of a change by the exact answers
 # points (m, n) of a box -> what is known there as an int each, (m,)
@@ -31,12 +32,30 @@ PARTS, FEWER = 60_000, 2_500  # of the box: for the question asked, and for each
 # shares of a change that is there, tried as proved stretches until one fails
 NEARER = (0.5, 0.75, 0.9, 0.99, 0.999)
 SMALLER = (0.3, 0.15, 0.05, 0.01, 0.001)  # tried where even the first of these fails
-# points of the box drawn at random where motions can only be followed one by one
-SAMPLE, TIRED, SEED = 64, 4, 20261122
 UNDECIDED = "undecided"  # as the signature of equilibria begins and ends where nothing is known of them
 Look: TypeAlias = Callable[[Point], tuple[str | None, float]]  # the answer, and a margin in energy or NaN
 STRETCHES = (1e-6, 1e-3, 1.0)  # at which single points are tried
 FARTHER = (2.0, 5.0, 10.0, 30.0, MOST)
+
+
+def worst(margins: Callable[[np.ndarray], np.ndarray], n: int) -> np.ndarray:
+    """Corners (corners, n) at which a margin is least: of more corners than are all tried, those that no
+    change of one number makes less, from a few of the least on. margins: points -> (m,), NaN where there is
+    no body."""
+    if 2**n <= CORNERS:
+        return np.zeros((0, n))
+    least = lambda points: np.nan_to_num(margins(points), nan=np.inf)
+    tried = corners(n)
+    found = tried[np.argsort(least(tried), kind="stable")[:NEAREST]]
+    flips = 1 - 2 * np.eye(n)
+    for _ in range(n):
+        near = (found[:, None, :] * flips).reshape(-1, n)
+        heights = least(near).reshape(len(found), n)
+        lower = heights.min(1) < least(found)
+        if not lower.any():
+            break
+        found[lower] = near.reshape(len(found), n, n)[lower, heights[lower].argmin(1)]
+    return np.unique(found, axis=0)
 
 
 class Change(NamedTuple):
@@ -50,19 +69,32 @@ class Change(NamedTuple):
 
 def rays(n: int, favoured: Iterable[np.ndarray] = ()) -> np.ndarray:
     """Directions (rays, n) to be tried."""
-    rng = np.random.default_rng(5)
-    if 2**n <= CORNERS:
-        corners = np.array(list(product((-1.0, 1.0), repeat=n)))
-    else:
-        corners = rng.choice((-1.0, 1.0), (CORNERS, n))
     single = np.concatenate([np.eye(n), -np.eye(n)])
-    return np.unique(np.concatenate([*(np.reshape(f, (-1, n)) for f in favoured), single, corners]), axis=0)
+    return np.unique(np.concatenate([*(np.reshape(f, (-1, n)) for f in favoured), single, corners(n)]),
+                     axis=0)
+
+
+def corners(n: int, most: int = CORNERS) -> np.ndarray:
+    """All 2^n corners of a box of n numbers, (corners, n), or so many at random where there are more."""
+    if 2**n <= most:
+        return np.array(list(product((-1.0, 1.0), repeat=n)))
+    return np.random.default_rng(5).choice((-1.0, 1.0), (most, n))
 
 
 def nearest_change(box: Box, codes: Codes, answer: Answer, here: Any,
                    favoured: Iterable[np.ndarray] = ()) -> Change | None:
     """The nearest change of the codes that is found, where the exact answers confirm it. here: the answer at
-    the middle.
+    the middle. Within the box a change at a body that is rigid goes before one at moments that none has.
+    """
+    favoured = list(favoured)
+    rigid = lambda points: np.where(box.rigid(points), codes(points), UNKNOWN)
+    found = _nearest(box, rigid, answer, here, favoured)
+    return found if found is not None and found.stretch <= 1 else _nearest(box, codes, answer, here, favoured)
+
+
+def _nearest(box: Box, codes: Codes, answer: Answer, here: Any,
+             favoured: Iterable[np.ndarray]) -> Change | None:
+    """The nearest change of the codes.
 
     Rungs of growing stretch show where the code first changes on each ray; the rays that change first are
     bisected, and the nearest change is drawn nearer by moving one number at a time.
@@ -74,20 +106,22 @@ def nearest_change(box: Box, codes: Codes, answer: Answer, here: Any,
     changed = _changed(codes, middle, (directions[:, None, :] * LADDER[None, :, None]).reshape(-1, n))
     changed = changed.reshape(len(directions), -1)
     first = np.where(changed.any(1), LADDER[changed.argmax(1)], np.inf)
-    chosen = np.argsort(first, kind="stable")[:NEAREST]
-    chosen = chosen[np.isfinite(first[chosen])]
+    chosen = np.flatnonzero((first <= NEXT * first.min()) & np.isfinite(first))
     if not len(chosen):
         return None
     before = np.array([max(LADDER[LADDER < end], default=0.0) for end in first[chosen]])
-    change = _bisected(codes, middle, directions[chosen], before, first[chosen])
+    beam = _bisected(codes, middle, directions[chosen], before, first[chosen])
     for _ in range(ROUNDS):
-        nearer = NEARER_STILL * change.stretch
-        moved = _moved(change.direction)
+        nearer = NEARER_STILL * beam[0].stretch
+        moved = np.unique(np.concatenate([_moved(one.direction) for one in beam]), axis=0)
         moved = moved[_changed(codes, middle, moved * nearer)]
+        if not len(moved):  # two numbers at a time
+            moved = np.unique(np.concatenate(list(map(_moved, _moved(beam[0].direction)))), axis=0)
+            moved = moved[_changed(codes, middle, moved * nearer)]
         if not len(moved):
             break
-        change = _bisected(codes, middle, moved, np.zeros(len(moved)), np.full(len(moved), nearer))
-    return confirmed(change, answer, here)
+        beam = _bisected(codes, middle, moved, np.zeros(len(moved)), np.full(len(moved), nearer))
+    return confirmed(beam[0], answer, here)
 
 
 def _changed(codes: Codes, here: int, points: np.ndarray) -> np.ndarray:
@@ -97,14 +131,14 @@ def _changed(codes: Codes, here: int, points: np.ndarray) -> np.ndarray:
 
 
 def _bisected(codes: Codes, here: int, directions: np.ndarray, starts: np.ndarray,
-              ends: np.ndarray) -> Change:
-    """The nearest of the changes along directions, each between a start and an end."""
+              ends: np.ndarray) -> list[Change]:
+    """The nearest of the changes along directions, each between a start and an end; the nearest first."""
     for _ in range(HALVINGS):
         middle = np.where(starts > 0, np.sqrt(starts * ends), ends / 2)
         changed = _changed(codes, here, directions * middle[:, None])
         starts, ends = np.where(changed, starts, middle), np.where(changed, middle, ends)
-    best = int(ends.argmin())
-    return Change(directions[best], float(ends[best]), float(starts[best]))
+    return [Change(directions[k], float(ends[k]), float(starts[k]))
+            for k in np.argsort(ends, kind="stable")[:NEAREST]]
 
 
 def _moved(direction: np.ndarray) -> np.ndarray:
@@ -153,6 +187,9 @@ class Sampled:
     seed: int
     counts: dict[str, int]
     margins: tuple[float, float, float] | None = None
+    corners: int = 0
+    every: bool = False
+    others: int = 0
 
     @property
     def otherwise(self) -> float:
@@ -167,10 +204,19 @@ class Sampled:
         told = ", ".join(f"{'all' if agree else count}: {word}" for word, count in self.counts.items())
         rest = (f"; with 95 % confidence at most {100 * self.otherwise:.2g} % of the box does otherwise"
                 if agree else "")
+        if self.corners:
+            rest += f"; so do {'all' if self.every else 'the'} {self.corners} corners of the box"
+        if self.others:
+            rest += f" and {self.others} other points, looked at near the middle and towards the least margin"
         if self.margins:
             rest += ("; margins in energy: 5, 50 and 95 % quantiles "
                      + ", ".join(f"{v:.4g}" for v in self.margins))
         return f"of {self.number} sampled points (seed {self.seed}) {told}{rest}"
+
+    @property
+    def points(self) -> str:
+        """How many points they are, in words."""
+        return f"{self.number} sampled points" + (f" and {self.corners} corners" if self.corners else "")
 
 
 @dataclass(frozen=True)
@@ -182,7 +228,8 @@ class Over:
     but: the set of measure zero that "holds" leaves out, if it does. Every change of the numbers by less than
     `proved` times the stated uncertainties is proved to leave the verdict; `changes_at` times these flips it
     (an upper bound of the least such factor: found by search and checked; None where none was found up to 100
-    times). parts: of the box, looked at.
+    times). parts: of the box, looked at. neighbours: what motions beside the middle do, where that is an
+    equilibrium (`neighbours.Neighbours`), else None.
     """
 
     answer: str
@@ -194,6 +241,23 @@ class Over:
     witnesses: tuple[Witness, ...] = ()
     parts: int = 0
     samples: Sampled | None = None
+    neighbours: Any = None
+
+    @property
+    def otherwise(self) -> str:
+        """The verdicts of the witnesses that are not that of the first, in words; empty without any."""
+        first = self.witnesses[0].verdict if self.witnesses else None
+        return " or ".join(dict.fromkeys(w.verdict for w in self.witnesses[1:] if w.verdict != first))
+
+    @property
+    def elsewhere(self) -> str:
+        """What the motion does elsewhere in the box, where the answer depends on that: a sentence's end."""
+        near = self.neighbours
+        if near is None or self.otherwise != Fate.BOUNDED.word:
+            return f"also {self.otherwise or 'another answer'}"
+        middle = "the middle itself is stable" if near.verdict == "stable" else near.stability
+        return (f"it departs from this rotation by up to {near.departs}{' and turns over' * near.turned} "
+                f"({middle})")
 
 
 def bracketed(box: Box, here: Any, answer: Answer, change: Change | None,
@@ -248,50 +312,3 @@ def _farthest(change: Change | None, attempt: Callable[[float, int], Proof],
 def _sides(box: Box, answer: Answer, point: Point) -> tuple[Witness, ...]:
     """The middle, and a point that does otherwise."""
     return tuple(Witness(answer(p), box.values(p)) for p in (np.zeros(len(box.places)), point))
-
-
-def by_trial(box: Box, here: Any, look: Look, because: str) -> Over:
-    """Where there is no proof: what single points of the box say, by the ordinary code, and where these
-    agree, samples."""
-    n = len(box.places)
-    answer: Answer = lambda point: look(point)[0]
-    trial = np.concatenate([np.eye(n), -np.eye(n), np.ones((1, n)), -np.ones((1, n))])
-    for stretch in STRETCHES:
-        for direction in trial:
-            if answer(direction * stretch) not in (None, here, UNDECIDED):
-                found = confirmed(Change(direction, stretch, 0.0), answer, here)
-                point = direction * (found.stretch if found else stretch)
-                return Over("depends", here, because, changes_at=float(np.abs(point).max()),
-                            witnesses=_sides(box, answer, point))
-    tried = len(trial) * len(STRETCHES)
-    return by_sample(box, here, look,
-                     f"{because}; {tried} other points of the box, tried one by one, do as the middle does")
-
-
-def by_sample(box: Box, here: Any, look: Look, because: str) -> Over:
-    """Where there is no proof: what points of the box drawn at random say, by the ordinary code. look:
-    point -> (verdict or None, margin in energy or NaN)."""
-    counts: dict[str, int] = {}
-    places: dict[str, Point] = {}
-    margins = []
-    for point in np.random.default_rng(SEED).uniform(-1, 1, (SAMPLE, len(box.places))):
-        if counts.get(Fate.UNDECIDED.word, 0) == TIRED:  # each costs a second
-            break
-        word, margin = look(point)
-        if word:
-            counts[word] = counts.get(word, 0) + 1
-            places.setdefault(word, point)
-            margins.append(margin)
-    if not counts or here is None:
-        return Over("undecided", here, because)
-    spread = tuple(np.quantile(margins, (0.05, 0.5, 0.95)).tolist()) if np.isfinite(margins).all() else None
-    found = Sampled(len(margins), SEED, dict(sorted(counts.items(), key=lambda pair: -pair[1])), spread)
-    because = f"{because}; {found.words}"
-    other = next((word for word in places if word not in (here, Fate.UNDECIDED.word, UNDECIDED)), None)
-    if here in (Fate.UNDECIDED.word, UNDECIDED) or (other is None and set(counts) != {here}):
-        return Over("undecided", here, because, samples=found)
-    if other is None:
-        return Over("sampled", here, because, samples=found)
-    return Over("depends", here, because, changes_at=float(np.abs(places[other]).max()), samples=found,
-                witnesses=(Witness(here, box.values(np.zeros(len(box.places)))),
-                           Witness(other, box.values(places[other]))))

@@ -310,11 +310,13 @@ def uncertain_dict(found) -> dict:
 def _over(over) -> dict | None:
     if over is None:
         return None
-    samples = over.samples and (values_of(over.samples, "number seed counts")
+    samples = over.samples and (values_of(over.samples, "number seed counts corners")
                                 | {"margin_quantiles": over.samples.margins})
     return values_of(over, "answer verdict because") | {
         "except": over.but or None, "proved_up_to": over.proved,
         **values_of(over, "changes_at parts"), "samples": samples,
+        "neighbours": over.neighbours and values_of(over.neighbours,
+                                                    "verdict growth number angle rate turned"),
         # a state is rounded to doubles as it is read
         "witnesses": [{"verdict": w.verdict} | {
             name: [repr(float(v)).removesuffix(".0") if name == "state" else bare_number(v) for v in values]
@@ -377,16 +379,24 @@ def what_changes(found, units: Units) -> str:
     over = found and (found.fate or found.equilibria)
     if not over:
         return ""
-    others = (list(dict.fromkeys(w.verdict for w in over.witnesses[1:]
-                                 if w.verdict != over.witnesses[0].verdict)) if over is found.fate else [])
-    subject = "the fate is" if over is found.fate else "they are"
-    return {"holds": f"{subject} the same for all that the uncertain numbers may be"
-            + (", but for a set of measure zero" if over.but else ""),
-             "depends": f"BUT within the uncertainties also "
-                        f"{' or '.join(map(units.axes.sentence, others)) or 'another answer'}",
-             "sampled": f"{subject} the same at {over.samples and over.samples.number} sampled points within "
-                        f"the uncertainties, without a proof",
+    fate = over is found.fate
+    subject = "the fate is" if fate else "they are"
+    near = fate and over.neighbours
+    words = {"holds": f"{subject} the same for all that the uncertain numbers may be"
+             + (", but for a set of measure zero" if over.but else ""),
+             "depends": f"BUT within the uncertainties {over.elsewhere if fate else 'also another answer'}",
+             "sampled": f"{subject} the same at {over.samples and over.samples.points} within the "
+                        f"uncertainties, without a proof",
              "undecided": f"{subject} undecided within the uncertainties"}[over.answer]
+    if near and near.stability not in words:
+        words += f"; the equilibrium is {near.stability}" + beside(near)
+    return units.words(words)
+
+
+def beside(near) -> str:
+    """How far the neighbours of an equilibrium go, as a clause; nothing where none departs from it."""
+    return (f", and at {near.number} sampled points beside it the motion departs from its start by up to "
+            f"{near.departs}" if near.rate else "")
 
 
 def _lines(subject, over, units) -> list[str]:
@@ -397,11 +407,16 @@ def _lines(subject, over, units) -> list[str]:
     lines = [f"  {subject}: {lead[over.answer]}"
              + (f": {units.axes.sentence(over.verdict)}" if over.answer in ("holds", "sampled") else ""),
              f"    {lettered(units.words(over.because))}"]
+    if over.neighbours:
+        lines.append(f"    {units.words(f'the equilibrium is {over.neighbours.stability}')}"
+                     f"{units.words(beside(over.neighbours))}")
     if over.but:
         lines.append(f"    but for a set of measure zero: {units.words(over.but)}")
     if over.proved and math.isfinite(over.proved):
         lines.append(f"    proved to stay for every change below {over.proved:.6g} times the uncertainties")
-    if over.changes_at is not None:
+    if over.changes_at == 0:
+        lines.append("    flips however small the uncertainties are")
+    elif over.changes_at is not None:
         lines.append(
             f"    flips at {over.changes_at:.6g} times the uncertainties (found by search, checked exactly)")
     elif over.answer == "holds" and over.proved < math.inf:
@@ -422,6 +437,6 @@ def open_fate(found) -> bool:
 
 
 def open_in_box(found) -> bool:
-    """Whether a verdict stays without a proof over the box."""
-    return (found is not None and any(over is not None and over.answer in ("undecided", "sampled")
-                                      for over in (found.equilibria, found.fate)))
+    """Whether the fate is not the same all over the box, or a verdict stays without a proof there."""
+    return (open_fate(found) or found is not None and found.equilibria is not None
+            and found.equilibria.answer in ("undecided", "sampled"))

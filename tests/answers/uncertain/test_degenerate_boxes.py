@@ -83,7 +83,9 @@ def test_rest_on_a_saddle_is_bounded_and_nothing_around_it_is(tmp_path):
     about axis 3 the energy is above the one barrier that stands ahead within a turn, so every other point of
     the box spins up."""
     over = fate_of(tmp_path, torque="0, 0, 5", state='0.5, -2, "0 +- 0.1"')
-    assert over.verdict == "bounded" and over.answer == "undecided" and "only one side" in over.because
+    assert over.verdict == "bounded" and over.answer == "depends" and over.changes_at == 0
+    assert [w.verdict for w in over.witnesses] == ["bounded", "spin-up about axis 3, positive direction"]
+    assert over.neighbours.verdict == "unstable"
     box = box_of(case_of(tmp_path, torque="0, 0, 5", state='0.5, -2, "0 +- 0.1"'))
     assert {look_at(box, np.array([p]))[0]
             for p in (-1, -1e-6, 1e-9, 1)} == {"spin-up about axis 3, positive direction"}

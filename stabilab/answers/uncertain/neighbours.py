@@ -1,0 +1,186 @@
+"""What motions beside an equilibrium do, over a box of uncertain numbers around it.
+
+Every motion of such a box may be bounded while none stays near the equilibrium: beside a rotation about the
+intermediate axis a body turns over. So a box around an equilibrium is judged by its stability at the middle,
+and by how far motions of the box depart from the rotation they start with. Each is followed over one period
+by its power series; the equilibrium's stability is exact (`equilibrium.stability`).
+"""
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+import numpy as np
+
+from ...equilibrium.gyrostat import gyrostat_equilibria
+from ...equilibrium.result import Equilibria
+from ...equilibrium.stability import eigenvalues, invariants, linear_word
+from ...errors import InputError
+from ...integrate.quadratic_series import coefficients, length, summed
+from ...numbers.exact import sign_of
+from ...numbers.vectors import Float3
+from ...orbit.result import Fate
+from ...physics.scene import AnyScene, QuadraticForm, rests
+from ..fate import period
+from .boxes import Box, Point
+from .result import Over, Witness, corners
+from .search import SEED
+
+MOST = DRAWN = 32  # corners, and points drawn at random, at which a motion is followed
+STEPS, INSIDE = 4000, 8  # of a motion at most; points a step at which its departure is taken
+SHARE = 1e-13  # of the size of the state: the last terms of a step
+NEAR = 1e-9  # of the size of a state: two equilibria so near are one, in doubles
+
+
+@dataclass(frozen=True)
+class Neighbours:
+    """verdict: "stable", "unstable" or "undecided", of the equilibrium at the middle (Lyapunov); growth: the
+    largest real part of its eigenvalues, 1/s (1/tau when scaled), 0 where none is positive. number: of points
+    of the box whose motion was followed; angle: the most by which the rotation of one of them turns away from
+    where it starts, rad, in the body (None at rest, or where none is bounded); rate: the most by which the
+    rates change, rad/s (or x). turned: whether the rate along the rotation at the start changes its sign in
+    one of them. scaled: whether the variables are."""
+
+    verdict: str
+    growth: float
+    number: int
+    angle: float | None
+    rate: float
+    turned: bool
+    scaled: bool = False
+
+    @property
+    def stability(self) -> str:
+        """Of the equilibrium, in words."""
+        if self.growth > 0:
+            unit = "" if self.scaled else " s"
+            return f"unstable: a disturbance grows by the factor e in {1 / self.growth:.6g}{unit}"
+        return {"unstable": "unstable: its neighbours leave, though not exponentially",
+                "undecided": "its stability is undecided"}.get(self.verdict, self.verdict)
+
+    @property
+    def departs(self) -> str:
+        """How far the motions go, in words that follow "departs from this rotation by up to"."""
+        far = f"{self.rate:.6g}" + ("" if self.scaled else " rad/s")
+        return far if self.angle is None or self.scaled else f"{self.angle:.6g} rad"
+
+    @property
+    def departing(self) -> bool:
+        """Whether motions of the box are seen to leave the equilibrium: it is unstable and they depart from
+        it, or one of them turns over."""
+        return self.rate > 0 and (self.turned or self.verdict == "unstable")
+
+
+def beside(box: Box, found: Over) -> Over:
+    """The answer over a box whose middle is at rest in the equations of motion, with what its neighbours do;
+    any other as it is."""
+    n = len(box.places)
+    scene, state = box.at(np.zeros(n))
+    exact = box.middle["state"] if box.frame is None else tuple(map(Fraction, state or ()))
+    if not rests(scene.quadratic(), exact):
+        return found
+    verdict, growth = stability(scene, exact)
+    at_rest = not any(exact)
+    best, far, number, turned = (0.0, 0.0), np.zeros(n), 0, False
+    other = None  # a point at rest too, and as stable as the middle is not
+    points = np.concatenate([corners(n, MOST), np.random.default_rng(SEED).uniform(-1, 1, (DRAWN, n))])
+    for point in points[box.rigid(points)]:
+        gone = _departure(box, point)
+        if gone is None:
+            continue
+        number += 1
+        if other is None and not gone[1] and verdict != "undecided":
+            other = point if _verdict_at(box, point) not in (verdict, "undecided") else None
+        turned |= gone[0] > math.pi / 2 and not at_rest
+        if (gone if not at_rest else gone[::-1]) > (best if not at_rest else best[::-1]):
+            best, far = gone, point
+    angle = best[0] if number and not at_rest else None
+    neighbours = Neighbours(verdict, growth, number, angle, best[1], turned, scene.variables == "scaled")
+    found = replace(found, neighbours=neighbours)
+    if other is not None and found.answer != "depends":
+        words = [f"{'an' if one == 'unstable' else 'a'} {one} equilibrium"
+                 for one in (verdict, _verdict_at(box, other))]
+        return _depends(box, found, words, other, float(np.abs(other).max()),
+                        f"the middle is {words[0]}, and elsewhere in the box is {words[1]}; of all motions: "
+                        f"{found.because}")
+    if not neighbours.departing or found.answer == "depends":
+        return found
+    return _depends(box, found, [Fate.EQUILIBRIUM.word, Fate.BOUNDED.word], far,
+                    0.0 if verdict == "unstable" else float(np.abs(far).max()),
+                    f"the middle is an equilibrium, {neighbours.stability}; of {number} points of the box "
+                    f"one departs by {neighbours.departs} from its start; of all of them: {found.because}")
+
+
+def _depends(box: Box, found: Over, words: Sequence[str], point: Point, changes_at: float,
+             because: str) -> Over:
+    """The answer with the middle and a point as witnesses of these verdicts."""
+    witnesses = tuple(Witness(word, box.values(place))
+                      for word, place in zip(words, (np.zeros(len(point)), point)))
+    return replace(found, answer="depends", verdict=words[0], because=because, proved=0.0, but="",
+                   changes_at=changes_at, witnesses=witnesses)
+
+
+def _verdict_at(box: Box, point: Point) -> str:
+    """The stability of the equilibrium at a point of the box."""
+    scene, state = box.at(point)
+    return stability(scene, tuple(map(Fraction, state or ())))[0]
+
+
+def stability(scene: AnyScene, exact: Sequence[Fraction]) -> tuple[str, float]:
+    """(verdict in the sense of Lyapunov, largest real part of the eigenvalues or 0) of an equilibrium (three
+    exact numbers) of a gyrostat under a constant torque."""
+    m, n = invariants(scene.quadratic(), exact)
+    growth = max(0.0, *(root.real for root in eigenvalues(Fraction(m), Fraction(n))))
+    if growth > 0:
+        return "unstable", growth
+    return _degenerate(gyrostat_equilibria(scene), tuple(map(float, exact)),
+                       linear_word(sign_of(m), sign_of(n))), 0.0
+
+
+def _degenerate(found: Equilibria, at: Float3, linear: str) -> str:
+    """The verdict where no eigenvalue has a positive real part: that of the same state, else of pieces of
+    curves of the same kind, where these agree."""
+    if found.kind == "all":
+        return "stable"
+    size = max(map(abs, at)) or 1.0
+    known = [*found.points, *(sample for curve in found.curves for sample in curve.samples)]
+    same = {p.verdict for p in known if max(abs(a - b) for a, b in zip(p.at, at)) <= NEAR * size}
+    alike = same or {piece.verdict for curve in found.curves for piece in curve.segments
+                     if piece.linear == linear}
+    return alike.pop() if len(alike) == 1 else "undecided"
+
+
+def _departure(box: Box, point: Point) -> tuple[float, float] | None:
+    """(angle, rate) by which the motion of a point departs from its start at the most; None where there is no
+    such body, or it does not come back."""
+    try:
+        scene, state = box.at(point)
+    except InputError:
+        return None
+    if state is None:
+        return None
+    until = float(period(scene, state))
+    return departure(scene.quadratic(), state, until) if math.isfinite(until) else None
+
+
+def departure(form: QuadraticForm, start: Float3, until: float) -> tuple[float, float] | None:
+    """(largest angle, rad, between the state and its start, largest distance of the two) from time 0 to
+    `until`; None where that takes too many steps."""
+    t, x, size = 0.0, start, math.hypot(*start)
+    angle = rate = 0.0
+    for _ in range(STEPS):
+        if t >= until:
+            return angle, rate
+        series = coefficients(form, x)
+        h = min(length(series, SHARE * (max(map(abs, x)) or 1.0)), until - t)
+        for k in range(1, INSIDE + 1):
+            x = tuple(summed(one, h * k / INSIDE) for one in series)
+            gap = math.dist(x, start)
+            rate = max(rate, gap)
+            if both := size * math.hypot(*x):
+                cosine = sum(a * b for a, b in zip(x, start)) / both
+                angle = max(angle, math.acos(max(-1.0, min(1.0, cosine))))
+        t += h
+    return None
