@@ -472,13 +472,16 @@ def _under_law(box: Box, look: Look, numbers: Numbers, form: QuadraticForm, axis
 
 BY_SAMPLES = Sentence("box-by-samples",
                       "{question} over the uncertain numbers by samples, not by proof: {found}")
+NOT_THE_SAME = Sentence("box-not-the-same",
+                        "{question} not the same for all that the uncertain numbers may be: also {others}")
+LEFT_OPEN = Sentence("box-undecided", "{question} undecided over the uncertain numbers: {why}")
 
 
 @dataclass(frozen=True)
 class Uncertainty:
     """numbers: the uncertain numbers of the case; equilibria, fate: what they do to each, None where not
-    asked (and the fate where there is no state). caveats: that samples stand in place of a proof, where they
-    do."""
+    asked (and the fate where there is no state). caveats: what else there is, where it is not the same all
+    over, and that samples stand in place of a proof, where they do."""
 
     numbers: tuple[Any, ...]
     equilibria: Over | None
@@ -486,10 +489,15 @@ class Uncertainty:
 
     @property
     def caveats(self) -> tuple[Caveat, ...]:
-        sampled = ((name, over.samples)
-                   for name, over in (("equilibria", self.equilibria), ("fate", self.fate)) if over)
-        return tuple(Caveat(Kind.SAMPLES, BY_SAMPLES(question=name, found=old(found.words)))
-                     for name, found in sampled if found)
+        both = ("equilibria", self.equilibria), ("fate", self.fate)
+        asked = [(name, over) for name, over in both if over]
+        return (*(Caveat(Kind.UNCERTAIN, NOT_THE_SAME(question=name, others=old(
+                      " or ".join(dict.fromkeys(w.verdict for w in over.witnesses[1:])))))
+                  for name, over in asked if over.answer == "depends"),
+                *(Caveat(Kind.UNCERTAIN, LEFT_OPEN(question=name, why=old(over.because)))
+                  for name, over in asked if over.answer == "undecided"),
+                *(Caveat(Kind.SAMPLES, BY_SAMPLES(question=name, found=old(over.samples.words)))
+                  for name, over in asked if over.samples))
 
 
 def uncertain(case: Any, questions: Sequence[str] = ("equilibria", "fate")) -> Uncertainty | None:
