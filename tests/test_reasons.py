@@ -5,13 +5,14 @@ from __future__ import annotations
 import ast
 import math
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from stabilab.errors import Caveat, Kind, key
-from stabilab.reasons import Angle, Axis, Quantity, Rate, Sentence, Time, number, old
+from stabilab.reasons import Angle, Axis, Quantity, Rate, Reason, Sentence, Time, number, old
 from stabilab.show.axes import Axes
 from stabilab.show.units import SYSTEMS
 
@@ -24,37 +25,48 @@ def trees():
         yield path, ast.parse(path.read_text(encoding="utf-8"))
 
 
-def sentences():
-    """(module, name of the constant or None, the sentence) of every Sentence(...) in the package."""
+def held(value):
+    """The sentences in a constant of a module."""
+    if isinstance(value, Sentence):
+        yield value
+    elif isinstance(value, Reason):
+        yield value.sentence
+    elif isinstance(value, Caveat):
+        yield value.reason.sentence
+    elif isinstance(value, (tuple, dict)):
+        for one in value.values() if isinstance(value, dict) else value:
+            yield from held(one)
+
+
+def modules():
     for path, tree in trees():
-        if path.name == "reasons.py":  # the class itself
-            continue
-        names = {id(node.value): node.targets[0].id for node in ast.walk(tree)
-                 if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name)}
-        for node in ast.walk(tree):
-            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "Sentence":
-                code, template = (ast.literal_eval(one) for one in node.args)
-                yield path, names.get(id(node)), Sentence(code, template)
+        if "Sentence(" in path.read_text(encoding="utf-8") and path.name != "reasons.py":
+            yield tree, import_module(".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts))
 
 
-ALL = list(sentences())
+ALL = {id(one): one for _, module in modules() for value in vars(module).values() for one in held(value)}.values()
 
 
 def test_every_code_is_one_sentence_and_no_hole_hides_a_key():
-    codes = [one.code for *_, one in ALL]
+    codes = [one.code for one in ALL]
     assert len(codes) == len(set(codes)) > 15
-    assert not [one.code for *_, one in ALL if RESERVED & set(one.holes)]
+    assert not [one.code for one in ALL if RESERVED & set(one.holes)]
+    for tree, module in modules():  # none is hidden in a function
+        inside = {id(one) for node in ast.walk(tree) if isinstance(node, (ast.FunctionDef, ast.Lambda))
+                  for one in ast.walk(node)}
+        assert not [node.lineno for node in ast.walk(tree) if id(node) in inside and isinstance(node, ast.Call)
+                    and getattr(node.func, "id", "") == "Sentence"], module
 
 
 def test_every_call_of_a_sentence_fills_its_holes_and_no_others():
-    named = {name: one for _, name, one in ALL if name}
     called = 0
-    for path, tree in trees():
+    for tree, module in modules():
+        named = {name: one for name, one in vars(module).items() if isinstance(one, Sentence)}
         for node in ast.walk(tree):
             if (isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in named
                     and all(one.arg for one in node.keywords)):
                 given = {one.arg for one in node.keywords}
-                assert given == set(named[node.func.id].holes), (path, node.lineno)
+                assert given == set(named[node.func.id].holes), (module, node.lineno)
                 called += 1
     assert called > 10
 

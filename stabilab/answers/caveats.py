@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
+from ..case.body import MISALIGNED, TOLERANCE
 from ..errors import Caveat, Kind
 from ..orbit.result import Fate, Motion, Stability
 from ..physics.coefficients import effective
@@ -34,11 +35,12 @@ STABILITY_OPEN = Sentence("stability-open", "whether this equilibrium is stable 
 REACHES = Sentence("reaches-limit", "reaches {limit} after {time} ({level})")
 AT_START = Sentence("limit-at-start", "reaches {limit} at the start already")
 IN_A_COMPONENT = Sentence("rate-of-a-component", "{rate} in a component")
-TILTED_TO = Sentence("tilted-reaches", "tilted by {angle} it reaches {limit} after {time} ({level})")
-TILTED_NOT_BEFORE = Sentence("tilted-not-before",
-                             "tilted by {angle} it does not reach {limit} before {time} (proved)")
-TILTED_NOT_FOUND = Sentence("tilted-not-found",
-                            "tilted by {angle} it was not found to reach {limit} within {time}")
+TILTED = Sentence("tilted-by", "tilted by {angle}")
+WITHIN = Sentence("force-within", "with {within}")
+TILTED_AND_WITHIN = Sentence("tilted-and-within", "tilted by {angle} and with {within}")
+TILTED_TO = Sentence("tilted-reaches", "{varied} it reaches {limit} after {time} ({level})")
+TILTED_NOT_BEFORE = Sentence("tilted-not-before", "{varied} it does not reach {limit} before {time} (proved)")
+TILTED_NOT_FOUND = Sentence("tilted-not-found", "{varied} it was not found to reach {limit} within {time}")
 
 
 def caveats_of(scene: AnyScene, steady: bool = False, tilt: Any = None,
@@ -73,7 +75,9 @@ def of_law(validity: Any) -> tuple[Caveat, ...]:
 
 def limited(motion: Motion, scene: AnyScene, case: Any = None) -> Motion:
     """The motion with its caveats; case: whose motion it is."""
-    file = () if case is None else (*case.caveats, *(unseen(case) if motion.tilt is None else ()))
+    file = () if case is None else (*seen(case.caveats, motion.tilt),
+                                    *(unseen(case) if motion.tilt is None else ()))
+    file = tuple(one for one in file if not one.words.startswith(MISALIGNED))  # which `unseen` says
     return replace(motion, caveats=caveats_of(scene, motion.fate in STEADY, motion.tilt, motion.first,
                                               motion.validity, file, motion.stability))
 
@@ -81,6 +85,19 @@ def limited(motion: Motion, scene: AnyScene, case: Any = None) -> Motion:
 def misaligned(case: Any) -> tuple[str, ...]:
     """The thrusters that fire for ever and state by how much they may point elsewhere."""
     return tuple(thruster.name for thruster in case.thrusters if thruster.stuck and thruster.misalignment)
+
+
+def loose_forces(case: Any) -> tuple[str, ...]:
+    """The thrusters that fire for ever with a force of some tolerance."""
+    return tuple(thruster.name for thruster in case.thrusters if thruster.stuck and thruster.force_tolerance)
+
+
+def seen(caveats: Iterable[Caveat], found: Any = None, box: Any = None) -> tuple[Caveat, ...]:
+    """The caveats of a case without those of tolerances and of misalignments, where these are looked at: by
+    a `Tilt` or `Spread` found, tolerances also over a box."""
+    looked = [TOLERANCE] if box is not None or (found is not None and found.within) else []
+    looked += [MISALIGNED] if found is not None else []
+    return tuple(one for one in caveats if not one.words.startswith(tuple(looked)))
 
 
 def unseen(case: Any) -> tuple[Caveat, ...]:
@@ -123,13 +140,26 @@ def _tilted(scene: AnyScene, steady: bool, found: Any) -> list[Caveat]:
         return [Caveat(Kind.TILT, one) for one in (holds, found.reason) if one]
     if holds is None:
         return []
+    sizes = [] if found is None or found.forces is None else [Caveat(Kind.TILT, found.forces.reason)]
+    return [_off_axis(holds, found), *sizes]
+
+
+def _off_axis(holds: Reason, found: Any) -> Caveat:
+    """What a tilt does to a motion that rests on the torque's direction."""
     if found is None or found.untilted:
-        return [Caveat(Kind.TILT, holds)]
+        return Caveat(Kind.TILT, holds)
     limit = Rate(found.limit, digits=DIGITS) if found.stated else Rate(found.limit)
-    by = {"angle": Angle(found.angle), "limit": limit}
+    known: dict[str, Any] = {"varied": varied(found.angle, found.within), "limit": limit}
     if found.ends:
-        reached = TILTED_TO(**by, time=Time(found.low), level=found.level)
-        return [Caveat(Kind.TILT, holds.then(reached, ": "))]
+        reached = TILTED_TO(**known, time=Time(found.low), level=found.level)
+        return Caveat(Kind.TILT, holds.then(reached, ": "))
     if found.not_before >= found.followed:
-        return [Caveat(Kind.TILT, holds.then(TILTED_NOT_BEFORE(**by, time=Time(found.not_before).lower)))]
-    return [Caveat(Kind.TILT, holds.then(TILTED_NOT_FOUND(**by, time=Time(found.followed))))]
+        return Caveat(Kind.TILT, holds.then(TILTED_NOT_BEFORE(**known, time=Time(found.not_before).lower)))
+    return Caveat(Kind.TILT, holds.then(TILTED_NOT_FOUND(**known, time=Time(found.followed))))
+
+
+def varied(angle: float, within: str) -> Reason:
+    """What a torque is varied by: a tilt, the tolerance of its forces ("" without one), or both."""
+    if not within:
+        return TILTED(angle=Angle(angle))
+    return TILTED_AND_WITHIN(angle=Angle(angle), within=within) if angle else WITHIN(within=within)

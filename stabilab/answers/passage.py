@@ -63,7 +63,8 @@ class TimeTo(Shown, Compared):
     spin-up, applied to a run of machine precision), "run" (roots along a run of machine precision, wider by
     what a second run shows), "undecided". words (...,): how it is known. quantity: what was asked, in words.
     caveats: what limits the answers (`answers.caveats`); ending: how the motion of a case ends that loses
-    energy (`answers.dissipation.ending`), where it does.
+    energy (`answers.dissipation.ending`), where it does; tilt: what other directions and sizes of the torque
+    of a case do, None where that was not looked at.
     """
 
     low: np.ndarray
@@ -75,6 +76,7 @@ class TimeTo(Shown, Compared):
     states: np.ndarray | None = field(default=None, repr=False, compare=False)
     caveats: tuple[Caveat, ...] = ()
     ending: Any = field(default=None, compare=False)
+    tilt: Any = field(default=None, repr=False, compare=False)
 
     @cached_property
     def validity(self) -> Validity | None:

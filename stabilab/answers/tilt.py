@@ -1,20 +1,22 @@
-"""What a tilt of the torque does to a motion: no thruster points exactly along an axis.
+"""What a tilt of the torque does to a motion, and another size of it: no thruster points exactly along an
+axis, or has exactly the force that is stated.
 
 A verdict that rests on a torque exactly on an axis is lost with any tilt: the integrals of the axis drift,
 and the motion leaves its well after a time like 1/tilt. Two answers stand beside it: the shortest time to
 the rate limit that is found at the edge of the cone of torques, and a time before which no torque of the
 cone reaches it (`passage.stays_below`). Any other motion has a range instead: of the time to its limit, or
-of its fate, over the cone."""
+of its fate, over the cone. Where forces have a tolerance, each is looked at with its least and its greatest
+size too, and the range is over these as well."""
 from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import partial
-from itertools import pairwise
-from typing import Any, ClassVar, TypeAlias, cast
+from functools import cached_property
+from itertools import pairwise, product
+from typing import Any, ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -23,9 +25,9 @@ from ..numbers.vectors import Exact3
 from ..orbit.result import Fate
 from ..physics.coefficients import three_floats
 from ..physics.scene import AnyScene, Scene, torque_axis
-from ..reasons import Angle, Filling, Rate, Reason, Sentence, Time
+from ..reasons import Filling, Rate, Reason, Sentence, Time
 from ..validation import checked_scene
-from .caveats import STEADY
+from .caveats import STEADY, varied
 from .fate import extremes, fate
 from .kinds import kind_of
 from .limit import Limit, asked
@@ -39,56 +41,110 @@ STEPS = 60_000  # of a run at one azimuth
 SIDES, FEW = 6, 20_000  # directions of a cone that is one of many, and steps of a run at one
 HALVINGS, BEND = 3, 0.02  # of an interval of angles; relative: by so much a time is off a power of the angle
 WORK = 8_000_000  # multiplications for a proof of the shortest time
+MANY = 3  # thrusters with a tolerance, of which all combinations of sizes are looked at
+BETWEEN = (-0.5, 0.5)  # of the tolerance: sizes of all forces together that are looked at too, without a tilt
 TWICE = 2.0  # times the largest rate of the bounded motion: the limit where none is stated
 UP = 1 + 1e-12  # more than the rounding of a few doubles
+DIRECTIONS = Sentence("directions-of-the-torque", "{directions} directions of the torque tried")
+TORQUES = Sentence("torques-looked-at", "{directions} torques tried")
 NOT_LOOKED_AT = Sentence("cone-not-looked-at", "a tilt of the torque is not looked at {why}")
-BY_FATES = Sentence("cone-fates", "tilted by {angle} it {fates} of {directions} directions of the torque")
-NONE_REACHES = Sentence("cone-none-found", "tilted by {angle} it was not found to reach {limit} within "
-                        "{time} in any of {directions} directions of the torque")
-RUNS_END = Sentence("cone-runs-end", "tilted by {angle} it may reach {limit} earlier or later: runs end "
-                    "after {time} with none of {directions} directions of the torque there yet, and untilted "
-                    "it is there after {untilted}")
+BY_FATES = Sentence("cone-fates", "{varied} it {fates} of {looked}")
+NONE_REACHES = Sentence("cone-none-found", "{varied} it was not found to reach {limit} within "
+                        "{time} in any of {looked}")
+RUNS_END = Sentence("cone-runs-end", "{varied} it may reach {limit} earlier or later: runs end after {time} "
+                    "with none of {looked} there yet, and untilted it is there after {untilted}")
 SOME_LATER = Sentence("cone-some-runs-end",
-                      "tilted by {angle} it reaches {limit} after {first} at the earliest of {directions} "
-                      "directions of the torque ({level}), in some of them not within {time}, where runs "
-                      "end, before that of the torque untilted")
-SOME_REACH = Sentence("cone-some-reach", "tilted by {angle} it reaches {limit} after {first} at the earliest "
-                      "of {directions} directions of the torque ({level}), in some of them not within {time}")
-ALL_REACH = Sentence("cone-all-reach", "tilted by {angle} it reaches {limit} after {first} at the earliest "
-                     "and after {last} at the latest of {directions} directions of the torque ({level})")
+                      "{varied} it reaches {limit} after {first} at the earliest of {looked} "
+                      "(times: {level}), in some of them not within {time}, where runs end, before that of "
+                      "the torque untilted")
+SOME_REACH = Sentence("cone-some-reach", "{varied} it reaches {limit} after {first} at the earliest "
+                      "of {looked} (times: {level}), in some of them not within {time}")
+ALL_REACH = Sentence("cone-all-reach", "{varied} it reaches {limit} after {first} at the earliest "
+                     "and after {last} at the latest of {looked} (times: {level})")
 Tried: TypeAlias = list[tuple[float, float]]  # a value and its azimuth
 VERBS = {Fate.BOUNDED: "stays bounded", Fate.SPIN_UP: "spins up", Fate.SEPARATRIX: "lies on a separatrix",
          Fate.EQUILIBRIUM: "stays as it is",
          Fate.UNDECIDED: "is undecided"}
 
 
+class Part(NamedTuple):
+    """What a force or torque adds that is tilted, or of another size: whole, first, second: (3,), N m; angle:
+    half-angle, rad; share: of its size, by which that may be larger or smaller."""
+
+    whole: np.ndarray
+    first: np.ndarray
+    second: np.ndarray
+    angle: float
+    share: float = 0.0
+
+    def change(self, azimuth: float | None, size: float) -> np.ndarray:
+        """(3,), N m, at an azimuth of its cone, None: without a tilt, and a size from -1 to 1."""
+        whole, first, second, a, share = self
+        turned = (0.0 if azimuth is None else (math.cos(a) - 1) * whole
+                  + math.sin(a) * (math.cos(azimuth) * first + math.sin(azimuth) * second))
+        return turned + size * share * (whole + turned)
+
+
 @dataclass(frozen=True)
 class Cone:
-    """torque: on its axis, N m, principal axes; parts: what each tilted force or torque adds: (whole (3,),
-    first (3,), second (3,), half-angle): at azimuth phi the change is (cos - 1) whole + sin (cos phi first +
-    sin phi second). words: what is tilted; angle: the largest half-angle."""
+    """torque: as stated, N m, principal axes; parts: of what may be other: at azimuth phi the change is
+    (cos - 1) whole + sin (cos phi first + sin phi second), and at a size s, from -1 to 1, s share times the
+    whole and that besides. words: what is tilted; angle: the largest half-angle; within: which forces have
+    which tolerance, in words, empty where none has."""
 
     torque: np.ndarray
-    parts: tuple[Any, ...]
+    parts: tuple[Part, ...]
     words: str
     angle: float
+    within: str = ""
 
-    def at(self, azimuth: float) -> np.ndarray:
-        """The torque (3,) at the edge of the cone."""
-        return self.torque + sum((math.cos(a) - 1) * whole
-                                 + math.sin(a) * (math.cos(azimuth) * first + math.sin(azimuth) * second)
-                                 for whole, first, second, a in self.parts)
+    def at(self, azimuth: float | None, sizes: Sequence[float] = ()) -> np.ndarray:
+        """The torque (3,) at the edge of the cone, None: without a tilt; sizes: of every part, as stated
+        where there are none."""
+        return self.torque + sum(part.change(azimuth, size) for part, size in
+                                 zip(self.parts, sizes or (0.0,) * len(self.parts)))
+
+    @cached_property
+    def corners(self) -> tuple[tuple[float, ...], ...]:
+        """Sizes of the parts: as stated, and at the ends of their tolerances, in all combinations where these
+        are few, else all alike and each by itself."""
+        loose = [n for n, part in enumerate(self.parts) if part.share]
+        if len(loose) <= MANY:
+            ends = list(product((-1.0, 1.0), repeat=len(loose)))
+        else:
+            ends = [(s,) * len(loose) for s in (-1.0, 1.0)]
+            ends += [tuple(s * (n == m) for m in loose) for n in loose for s in (-1.0, 1.0)]
+        rows = [dict(zip(loose, row)) for row in ends if row]
+        return ((0.0,) * len(self.parts),
+                *(tuple(row.get(n, 0.0) for n in range(len(self.parts))) for row in rows))
+
+    @property
+    def between(self) -> list[tuple[float, ...]]:
+        """Sizes inside the tolerances, of all parts alike."""
+        return [tuple(s * bool(part.share) for part in self.parts) for s in BETWEEN] if self.within else []
+
+    @property
+    def edge(self) -> list[float]:
+        """The azimuths that are looked at: none of a cone that only has sizes."""
+        return EDGE if self.angle or not self.within else []
+
+    def sizes_alone(self) -> Cone:
+        """The same forces without a tilt."""
+        return replace(self, angle=0.0, parts=tuple(part._replace(angle=0.0) for part in self.parts))
 
     def reach(self) -> tuple[float, tuple[float, float]]:
         """(most of the part across the axis, (least, most) of the component along it) of every torque in the
         cone."""
         axis = int(np.argmax(np.abs(self.torque)))
         across = [n for n in range(3) if n != axis]
-        side = sum((1 - math.cos(a)) * math.hypot(*whole[across])
-                   + math.sin(a) * np.linalg.norm(np.stack([first, second])[:, across], 2)
-                   for whole, first, second, a in self.parts)
-        along = sum((1 - math.cos(a)) * abs(whole[axis]) + math.sin(a) * math.hypot(first[axis], second[axis])
-                    for whole, first, second, a in self.parts)
+        side = sum((1 + r) * ((1 - math.cos(a)) * math.hypot(*whole[across])
+                              + math.sin(a) * np.linalg.norm(np.stack([first, second])[:, across], 2))
+                   + r * math.hypot(*whole[across]) for whole, first, second, a, r in self.parts)
+        along = sum((1 + r) * ((1 - math.cos(a)) * abs(whole[axis])
+                               + math.sin(a) * math.hypot(first[axis], second[axis])) + r * abs(whole[axis])
+                    for whole, first, second, a, r in self.parts)
+        along += math.sin(self.angle) * sum(part.share * math.hypot(*part.whole[across])
+                                            for part in self.parts)  # across by its size, along by the tilt
         blur = (UP - 1) * (float(np.abs(self.torque).max()) + side + along)
         return float(side) + blur, (float(self.torque[axis] - along) - blur,
                                     float(self.torque[axis] + along) + blur)
@@ -96,7 +152,7 @@ class Cone:
 
 def cone_of(scene: Scene, case: Any = None, angle: float | None = None) -> Cone:
     """The cone of a scene's torque: tilted as a whole by `angle`, or, without it, as the stuck thrusters of
-    the case state.
+    the case state; their forces have the sizes of their tolerances in both.
 
     Azimuth 0 of a torque along an axis lies towards the axis that follows it, cyclically; of another across
     the axis that is farthest from it; of a thruster, across the structural axis that is farthest from its
@@ -104,23 +160,40 @@ def cone_of(scene: Scene, case: Any = None, angle: float | None = None) -> Cone:
     """
     torque = np.array([float(v) for v in scene.vector("constant_torque")])
     axis = int(np.argmax(np.abs(torque)))
-    loose = ([] if angle is not None or case is None
-             else [t for t in case.thrusters if t.stuck and t.misalignment])
-    if loose:
-        parts = tuple(_of_force(case, thruster) for thruster in loose)
-        return Cone(torque, parts, "the force of " + " and ".join(t.name for t in loose),
-                    max(part[-1] for part in parts))
+    firing = [] if case is None else [t for t in case.thrusters if t.stuck]
+    whole = cone_of_forces(case, torque, firing, angle is None)
+    forces, within = whole.parts, whole.within
+    if whole.angle or angle is None:
+        return whole
     first, second = (abs(torque[axis]) * np.eye(3)[(axis + n) % 3] for n in (1, 2))
     if np.count_nonzero(torque) > 1:
         first = np.cross(np.eye(3)[int(np.argmin(np.abs(torque)))], torque)
         first *= np.linalg.norm(torque) / np.linalg.norm(first)
         second = np.cross(torque, first) / np.linalg.norm(torque)
-    return Cone(torque, ((torque, first, second, angle),), "the torque", cast(float, angle))
+    if len(forces) == 1 and np.array_equal(forces[0].whole, torque):  # the whole torque is that force's
+        part = Part(torque, first, second, angle, forces[0].share)
+        return Cone(torque, (part,), "the torque", angle, within)
+    # what is tilted is the torque as stated, larger by what the forces may add
+    more = 1 + sum(part.share * np.linalg.norm(part.whole) for part in forces) / np.linalg.norm(torque)
+    return Cone(torque, (Part(more * torque, more * first, more * second, angle), *forces), "the torque",
+                angle, within)
 
 
-def _of_force(case: Any, thruster: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
-    """(whole, first, second, half-angle) of the torque of a thruster whose force points anywhere in its cone,
-    along principal axes."""
+def cone_of_forces(case: Any, torque: np.ndarray, firing: Sequence[Any], tilts: bool = True) -> Cone:
+    """What the thrusters that fire may add to a torque (3,) within what they state: sizes, and directions
+    where `tilts`; a part for each that states any, in their order."""
+    sized = [t for t in firing if t.force_tolerance]
+    named = [t.name for t in firing if tilts and t.misalignment] or [t.name for t in sized]
+    within = " and ".join(f"{t.name} within {float(100 * t.force_tolerance / t.force):.4g} %" for t in sized)
+    parts = tuple(_of_force(case, t, tilts and bool(t.misalignment)) for t in firing
+                  if t.force_tolerance or (tilts and t.misalignment))
+    return Cone(torque, parts, "the force of " + " and ".join(named),
+                max((part.angle for part in parts), default=0.0), f"the force of {within}" if sized else "")
+
+
+def _of_force(case: Any, thruster: Any, tilts: bool) -> Part:
+    """The torque of a thruster whose force points anywhere in its cone, along principal axes; tilts: whether
+    it does."""
     force = np.array([float(v) for v in thruster.direction])
     arm = np.array([float(v) for v in thruster.arm])
     aside = np.eye(3)[int(np.argmin(np.abs(force)))]
@@ -129,7 +202,8 @@ def _of_force(case: Any, thruster: Any) -> tuple[np.ndarray, np.ndarray, np.ndar
     frame = np.array([[float(v) for v in axis] for axis in case.frame.axes])
     turned = [frame @ np.cross(arm, float(thruster.force) * v)
               for v in (force, first, np.cross(force, first))]
-    return turned[0], turned[1], turned[2], float(thruster.misalignment)
+    share = float(thruster.force_tolerance / thruster.force) if thruster.force_tolerance else 0.0
+    return Part(turned[0], turned[1], turned[2], float(thruster.misalignment) if tilts else 0.0, share)
 
 
 def tilted(scene: Scene, torque: np.ndarray) -> Scene:
@@ -147,7 +221,8 @@ class Tilt:
     (3,) N m, principal axes; None where none was found, and followed says how long. azimuths, times: (n,) of
     those that were looked at (one, where a run falls short of not_before), inf where the limit was not
     reached. untilted: (low, high) of the time at which the bounded motion itself reaches the limit, None
-    where it never does."""
+    where it never does. within: which forces have which tolerance, all of which not_before and times include;
+    forces: what these alone do, without a tilt, None where none has any."""
 
     ranges: ClassVar[bool] = False
 
@@ -165,11 +240,18 @@ class Tilt:
     azimuths: np.ndarray
     times: np.ndarray
     untilted: tuple[float, float] | None = None
+    within: str = ""
+    forces: Spread | None = None
 
     @property
     def ends(self) -> bool:
         """Whether a tilt was found that reaches the limit."""
         return self.high is not None
+
+    @property
+    def varies(self) -> bool:
+        """Whether the answer is another for some force within its tolerance."""
+        return self.forces is not None and self.forces.varies
 
 
 @dataclass(frozen=True)
@@ -179,7 +261,8 @@ class Spread:
     is asked: then fates says in how many directions the motion has which fate. earliest, latest: (low, high)
     of the least and the greatest time found, s, None where the limit was not reached in any direction, or not
     in all of them within `followed`, s; level: of both, as of `TimeTo`. because: why none was looked at.
-    untilted: (low, high) of the time of the torque itself, s, where runs end before it; else None."""
+    untilted: (low, high) of the time of the torque itself, s, where runs end before it; else None.
+    within: which forces have which tolerance: the torques looked at have their sizes too."""
 
     ranges: ClassVar[bool] = True
 
@@ -194,15 +277,26 @@ class Spread:
     fates: tuple[tuple[str, int], ...] = ()
     because: str = ""
     untilted: tuple[float, float] | None = None
+    within: str = ""
+
+    @property
+    def varies(self) -> bool:
+        """Whether forces have a tolerance and not all torques looked at do the same: reach the limit or not,
+        or have one fate."""
+        return bool(self.within) and (len(self.fates) > 1
+                                      or (self.earliest is not None and self.latest is None))
 
     @property
     def reason(self) -> Reason:
         """What is found."""
         if self.because:
             return NOT_LOOKED_AT(why=self.because)
-        known: dict[str, Filling] = {"angle": Angle(self.angle), "directions": self.directions}
+        known: dict[str, Filling] = {
+            "varied": varied(self.angle, self.within),
+            "looked": (TORQUES if self.within else DIRECTIONS)(directions=self.directions)}
         if self.limit is None:
-            return BY_FATES(**known, fates=", ".join(f"{word} in {count}" for word, count in self.fates))
+            fates = ", ".join(f"{word} in {count}" for word, count in self.fates)
+            return BY_FATES(**known, fates=fates)
         known |= {"limit": Rate(self.limit)}
         if self.earliest is None and self.untilted:
             return RUNS_END(**known, time=Time(self.followed), untilted=Time(sum(self.untilted) / 2))
@@ -242,7 +336,12 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
     least = limit.least_rate()
     exactly = time_to(scene, state, **question, exact=exact, work=WORK)
     not_before = stays_below(scene, state, least, *cone.reach())
-    time = lambda azimuth: run_once(tilted(scene, cone.at(azimuth)), state, limit, steps=STEPS)
+
+    def time(azimuth: float) -> tuple[float, float]:
+        """The earliest of the torques there, and until when none of them was followed."""
+        found = [run_once(tilted(scene, cone.at(azimuth, sizes)), state, limit, steps=STEPS)
+                 for sizes in cone.corners]
+        return min(t for t, _ in found), min(until for _, until in found)
     tried: Tried = []
     followed = math.inf
     for azimuth in EDGE:
@@ -256,16 +355,19 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
     found: dict[str, Any] = {"low": None, "high": None, "level": "run", "azimuth": None, "torque": None}
     if np.isfinite(times).any():
         azimuth = float(azimuths[np.argmin(times)])
-        torque = cone.at(azimuth)
+        torque = min((cone.at(azimuth, sizes) for sizes in cone.corners), key=lambda one: run_once(
+            tilted(scene, one), state, limit, steps=STEPS)[0])
         # by runs: the validated steps of a proof take a machine ten seconds to compile, which nobody who asks
         # for the first time awaits
         first = time_to(tilted(scene, torque), state, **question, exact=exact, work=0)
         found = {"low": float(first.low), "high": float(first.high) if first.high == first.high
                  else float(times.min()), "level": str(first.level),
                  "azimuth": azimuth, "torque": tuple(torque.tolist())}
+    forces = spread(scene, state, cone.sizes_alone(), question, exact) if cone.within else None
     return Tilt(cone.angle, cone.words, least, stated is not None, not_before, **found, followed=followed,
                 azimuths=azimuths, times=times,
-                untilted=(float(exactly.low), float(exactly.high)) if exactly.high < math.inf else None)
+                untilted=(float(exactly.low), float(exactly.high)) if exactly.high < math.inf else None,
+                within=cone.within, forces=forces)
 
 
 def _twice_the_largest(scene: AnyScene, state: Any) -> dict[str, Any]:
@@ -276,43 +378,52 @@ def _twice_the_largest(scene: AnyScene, state: Any) -> dict[str, Any]:
 
 def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None,
            exact: Exact3 | None = None) -> Spread:
-    """The range over the torque itself and those at the edge of its cone. ask: the limit, by its name as of
-    `time_to`; None: the fates."""
-    torques = [cone.torque, *map(cone.at, EDGE)]
+    """The range over the torque itself and those at the edge of its cone, with forces of every size in
+    `Cone.corners`. ask: the limit, by its name as of `time_to`; None: the fates."""
+    places = [(None, cone.corners[0]), *((at, sizes) for sizes in cone.corners for at in cone.edge),
+              *((None, sizes) for sizes in (*cone.corners[1:], *cone.between))]
+    torques = [cone.at(*place) for place in places]
     if ask is None:
         found = Counter(VERBS[Fate(int(fate(tilted(scene, torque), state).labels))] for torque in torques)
-        return Spread(cone.angle, cone.words, len(torques), fates=tuple(found.most_common()))
+        return Spread(cone.angle, cone.words, len(torques), fates=tuple(found.most_common()),
+                      within=cone.within)
     limit = asked(scene, **ask)
     time = lambda torque: run_once(tilted(scene, torque), state, limit, steps=STEPS)
-    signed = lambda sign, azimuth: sign * time(cone.at(azimuth))[0]
-    (own, *times), ends = map(list, zip(*map(time, torques)))
+    times, ends = map(list, zip(*map(time, torques)))
     followed, untilted = min(ends), None
     if followed < math.inf:  # a run ended early: as long as the torque itself takes, or not
         alone = time_to(scene, state, **ask, exact=exact, work=0)
         if followed < alone.high < math.inf:
             untilted = float(alone.low), float(alone.high)
-    if not np.isfinite([own, *times]).any():
+    if not np.isfinite(times).any():
         return Spread(cone.angle, cone.words, len(torques), limit.least_rate(), followed=followed,
-                      untilted=untilted)
-    most = []
+                      untilted=untilted, within=cone.within)
+    most, more = [], 0
     for sign in (1, -1):
-        best, azimuth = min(nearest_round(partial(signed, sign),
-                                          [(sign * t, at) for t, at in zip(times, EDGE)]))
-        most.append(cone.torque if sign * own <= best else cone.at(azimuth))
+        best, place = min(((sign * t, place) for t, place in zip(times, places)), key=lambda one: one[0])
+        sizes = place[1] if place[1] in cone.corners else cone.corners[0]
+        edge = [(sign * t, at) for t, (at, of) in zip(times, places) if at is not None and of == sizes]
+        if edge:
+            signed = lambda azimuth, sign=sign, sizes=sizes: sign * time(cone.at(azimuth, sizes))[0]
+            nearer, azimuth = min(nearest_round(signed, edge))
+            place, more = (azimuth, sizes) if nearer < best else place, more + 2 * REFINED
+        most.append(cone.at(*place))
     exactly = [time_to(tilted(scene, torque), state, **ask, exact=exact, work=WORK) for torque in most]
     first, last = [(float(one.low), float(one.high)) for one in exactly]
-    all_of_them = bool(np.isfinite([own, *times]).all())
+    all_of_them = bool(np.isfinite(times).all())
     levels = {str(one.level) for one in exactly[:1 + all_of_them]}
-    return Spread(cone.angle, cone.words, len(torques) + 4 * REFINED, limit.least_rate(), first,
+    return Spread(cone.angle, cone.words, len(torques) + more, limit.least_rate(), first,
                   last if all_of_them and math.isfinite(last[1]) else None,
-                  levels.pop() if len(levels) == 1 else "run", followed, untilted=untilted)
+                  levels.pop() if len(levels) == 1 else "run", followed, untilted=untilted,
+                  within=cone.within)
 
 
 @dataclass(frozen=True)
 class ByAngle:
     """Of cones of torques of half-angles (n,), rad: earliest, latest: (n,) s, of the times at which runs at
     their edges reach the limit, inf where one does not within its steps; not_before: (n,) s, before which no
-    torque of the cone reaches it (proved), 0 where nothing is. limit: what is reached; of: what is tilted."""
+    torque of the cone reaches it (proved), 0 where nothing is. limit: what is reached; of: what is tilted;
+    within: which forces have which tolerance, over which the times are as well."""
 
     angles: np.ndarray
     earliest: np.ndarray
@@ -320,6 +431,7 @@ class ByAngle:
     not_before: np.ndarray
     limit: Limit
     of: str
+    within: str = ""
 
 
 def by_angle(scene: Scene, state: Any, angles: np.ndarray, case: Any = None,
@@ -336,9 +448,10 @@ def by_angle(scene: Scene, state: Any, angles: np.ndarray, case: Any = None,
         cone = cone_of(scene, case)
 
     def row(angle: float) -> tuple[float, float, float]:
-        wider = replace(cone, angle=angle, parts=tuple((*part[:3], angle) for part in cone.parts))
-        times = [run_once(tilted(scene, wider.at(azimuth)), state, limit, steps=FEW)[0]
-                 for azimuth in EDGE[::len(EDGE) // SIDES]]
+        wider = replace(cone, angle=angle, parts=tuple(
+            part._replace(angle=angle) if part.angle else part for part in cone.parts))
+        times = [run_once(tilted(scene, wider.at(azimuth, sizes)), state, limit, steps=FEW)[0]
+                 for sizes in cone.corners for azimuth in EDGE[::len(EDGE) // SIDES]]
         sure = stays_below(scene, state, limit.least_rate(), *wider.reach()) if torque_axis(scene) else 0.0
         return min(times), max(times), sure
     rows = {angle: row(angle) for angle in angles.tolist()}
@@ -352,7 +465,8 @@ def by_angle(scene: Scene, state: Any, angles: np.ndarray, case: Any = None,
                 halves += [(low, middle), (middle, high)]
         parts = halves
     earliest, latest, not_before = np.array([rows[angle] for angle in sorted(rows)]).T
-    return ByAngle(np.array(sorted(rows)), earliest, latest, not_before, limit, cone.words)
+    return ByAngle(np.array(sorted(rows)), earliest, latest, not_before, limit, cone.words,
+                   cone.within)
 
 
 def _bends(*times: tuple[float, ...]) -> bool:

@@ -22,7 +22,7 @@ from ..physics.coefficients import loses
 from ..physics.scene import BLOCKS, AnyScene, later, slices, torque_axis
 from ..physics.states import equations_and_start, moved_row, start_of
 from ..representation import Shown
-from .caveats import STEADY, caveats_of, limited, misaligned, stated
+from .caveats import STEADY, caveats_of, limited, loose_forces, misaligned, seen, stated
 from .dissipation.ending import ending
 from .kinds import kind_of
 from .limit import WORK, asked
@@ -215,7 +215,7 @@ def _text(given: Any) -> str | None:
 
 def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None = None) -> TimeTo:
     """As `time_of_case`; where it is never, with what a tilt of the torque does, by what the case states as
-    misalignment, else by one degree."""
+    misalignment, else by one degree; and with what the tolerances of its forces do."""
     found = time_of_case(case, ask, t_max)
     end = (ending(case, motion(case.scene, case.start, brief=True, exact=case.exact_state))
            if loses(case.scene) else None)
@@ -223,8 +223,9 @@ def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None 
         found = _to_the_end(case, ask, found, PAST * end.until, t_max)
     never = math.isinf(found.low)
     stability = motion(case, brief=True).stability if never else None
-    return replace(found, ending=end,
-                   caveats=caveats_of(case.scene, never, of_tilt(case, None, ask, never), file=case.caveats,
+    off = of_tilt(case, None, ask, never)
+    return replace(found, ending=end, tilt=off,
+                   caveats=caveats_of(case.scene, never, off, file=seen(case.caveats, off),
                                       stability=stability))
 
 
@@ -269,8 +270,10 @@ def limit_of(case: Any) -> dict[str, Any] | None:
 
 def of_tilt(case: Any, angle: float | None, ask: dict[str, Any] | None, steady: bool) -> Tilt | Spread | None:
     """What the torques of the cone do: to a steady motion under one on an axis always, else where a tilt is
-    asked for or stated; why not, where it is not looked at."""
-    loose = angle is not None or bool(misaligned(case))
+    asked for or stated, or a tolerance of a force; why not, where it is not looked at (a tolerance is then
+    left to the caveats of the case)."""
+    tilts, sized = angle is not None or bool(misaligned(case)), bool(loose_forces(case))
+    loose = tilts or sized
     on_axis = (steady and case.variables != "scaled" and bool(torque_axis(case.scene))
                and kind_of(case.scene) == "orbit")
     if not loose and not on_axis:
@@ -282,8 +285,8 @@ def of_tilt(case: Any, angle: float | None, ask: dict[str, Any] | None, steady: 
            "for the angle of an axis" if ask and "tilt" in ask
            else "" if any(case.scene.vector("constant_torque")) else "without a torque")
     if why:
-        return Spread(angle or 0.0, "the torque", 0, because=why) if loose else None
-    if on_axis:
+        return Spread(angle or 0.0, "the torque", 0, because=why) if tilts else None
+    if on_axis and (tilts or ask is not None or not sized):
         return tilt(case.scene, case.state, angle, None, case, case.exact_state, ask)
     return spread(case.scene, case.state, cone_of(case.scene, case, angle), ask, case.exact_state)
 

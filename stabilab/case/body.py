@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from ..errors import Caveat, InputError, Kind
@@ -28,7 +28,7 @@ from ..physics.scene import INSIDE, ROUNDING, Body, along_principal_axes, slack_
 from ..reasons import Length, Sentence
 from . import sections
 from .aliases import shown
-from .table import Faults, Table, Written, described, plus_minus, states_uncertainty
+from .table import Faults, Table, Uncertain, Written, described, plus_minus, states_uncertainty
 
 # --- [body] of a case file: moments, a full tensor, or moments beside products of inertia; mass and centre
 # of mass
@@ -162,6 +162,9 @@ def _half(value: object) -> Fraction:
 
 # --- What a spacecraft carries, as a case file states it: [[thrusters]], [[wheels]] and [limits]
 ZERO3 = (Fraction(0),) * 3
+# as the caveats begin of an answer that does not look at them
+TOLERANCE, MISALIGNED = "the tolerance of the force of ", "the misalignment of "
+LOOSE = (TOLERANCE, MISALIGNED)
 THRUSTER = ("name", "position", "direction", "force", "misalignment", "force_tolerance", "stuck",
             *sections.BURN_KEYS)
 WHEEL = ("name", "axis", "momentum", "inertia", "speed")
@@ -174,7 +177,7 @@ class Thruster:
     misalignment: half-angle of the cone that the true direction lies in, rad, or None; force_tolerance:
     half-width, N, or None; stuck: whether it fires for ever; torque: about the centre of mass, N m, input
     frame, of the force as stated; arm: from there to its position, m; burn: when it fires, None where the
-    file does not say."""
+    file does not say; path: of its table."""
 
     name: str
     position: Exact3
@@ -186,6 +189,7 @@ class Thruster:
     torque: Exact3
     arm: Exact3 = ZERO3
     burn: sections.Burn | None = None
+    path: tuple = field(default=(), compare=False)
 
 
 @dataclass(frozen=True)
@@ -331,11 +335,15 @@ def _thruster(table: Table, otherwise: str, centre: Exact3) -> Thruster | None:
     burn = sections.burn_of(table)
     if not complete or None in (position, direction, force):
         return None
+    if tolerance and (stuck or burn):  # the torque of a thruster that does not fire is certain: there is none
+        path, given = (*table.path, "force"), table.data.get("name")
+        label = given if isinstance(given, str) else table.path[-1] + 1
+        table.faults.uncertain[path] = Uncertain(path, force, tolerance, f"thrusters.{label}.force")
     raw, length = direction
     arm = tuple(p - c for p, c in zip(position, centre))
     torque = tuple(force * t / length for t in crossed(arm, raw))
     return Thruster(name, position, tuple(v / length for v in raw), force, angle, tolerance, stuck, torque,
-                    arm, burn)
+                    arm, burn, table.path)
 
 
 def _force(table: Table):

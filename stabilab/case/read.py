@@ -22,6 +22,8 @@ from ..reasons import Sentence
 from ..validation import came, checked_span
 from .aliases import cure_of_key, cure_of_units
 from .body import (
+    MISALIGNED,
+    TOLERANCE,
     Limits,
     Thruster,
     Wheel,
@@ -65,9 +67,12 @@ STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
 BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position",
           "damper": "damper", "wheel": "wheel"}
 UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector and stays as it is
+_LOOK = "{thrusters} is not looked at here; stabilab fate and stabilab when look at it"
+SIZES = Sentence("tolerance-not-looked-at", TOLERANCE + _LOOK)
+TILTS = Sentence("misalignment-not-looked-at", MISALIGNED + _LOOK)
 MIDDLES = Caveat(Kind.UNCERTAIN, Sentence(
     "of-the-middles", "of the middles of the uncertain numbers; stabilab fate says what their box does")())
-STATED = Sentence("stated-by-the-file", "{words}")
+STATED = Sentence("stated-by-the-file", "{statement}")
 SILENT = Sentence("no-thruster-fires",
                   "no thruster fires: stuck = true in a table [[thrusters]] makes one act for ever "
                   "({thrusters})")
@@ -395,11 +400,12 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
                 craft.thrusters, craft.wheels,
                 craft.limits, tuple(dict.fromkeys(map(dotted, sorted(faults.inexact, key=str)))), craft.notes,
                 units,
-                caveats=(*(Caveat(Kind.STATED, STATED(words=words)) for words in stated),
+                caveats=(*(Caveat(Kind.STATED, STATED(statement=one)) for one in stated),
                          *(physical.body.caveats if physical else ()),
                          *(far_off(physical.body, craft.thrusters) if physical else ()),
                          *(one for effect in scene.effects for one in effect.caveats),
-                         *_silent(craft.thrusters), *([MIDDLES] if faults.uncertain else [])))
+                         *_silent(craft.thrusters),
+                         *_middles(tuple(faults.uncertain.values()), craft.thrusters)))
 
 
 def _silent(thrusters: tuple[Thruster, ...]) -> tuple[Caveat, ...]:
@@ -407,6 +413,17 @@ def _silent(thrusters: tuple[Thruster, ...]) -> tuple[Caveat, ...]:
     if not thrusters or any(one.stuck or one.burn for one in thrusters):
         return ()
     return (Caveat(Kind.THRUSTERS, SILENT(thrusters=", ".join(one.name for one in thrusters))),)
+
+
+def _middles(uncertain: tuple[Uncertain, ...], thrusters: tuple[Thruster, ...]) -> list[Caveat]:
+    """That an answer is of the middles of the uncertain numbers; of forces by itself, as more questions look
+    at these than at others."""
+    firing = [one for one in thrusters if one.stuck or one.burn]
+    sized = tuple(one.name for one in firing if one.force_tolerance)
+    tilts = tuple(one.name for one in firing if one.misalignment)
+    return [*([MIDDLES] if len(uncertain) > len(sized) else []),
+            *(Caveat(Kind.UNCERTAIN, sentence(thrusters=names))
+              for sentence, names in ((SIZES, sized), (TILTS, tilts)) if names)]
 
 
 def _units(output: Table | None) -> str:

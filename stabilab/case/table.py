@@ -114,11 +114,12 @@ HOMES = {word: home for home, words in {
 
 class Uncertain(NamedTuple):
     """A number known within bounds: its path in the file (with the list index), the middle and the
-    half-width, exact."""
+    half-width, exact; name: of the key in words, where the path has an index before its end."""
 
     path: tuple
     middle: Fraction
     half: Fraction
+    name: str = ""
 
 
 class Faults:
@@ -308,7 +309,8 @@ class Table:
         """The middle of an uncertain number, which is noted."""
         if self.path + keys[:1] not in UNCERTAIN or len(keys) > 2:
             raise InputError(f"takes no uncertainty, got {described(text)}; one may stand in inertia, "
-                             "coefficient of a damper, momentum, torque, mu, a, b, angular_velocity and x")
+                             "coefficient of a damper, momentum, torque, mu, a, b, angular_velocity, x and "
+                             "force of a thruster")
         path = self.path + keys
         middle, half, sharp = plus_minus(text, dimension_of(path))
         if half:

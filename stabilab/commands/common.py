@@ -13,6 +13,7 @@ from typing import Any
 
 import typer
 
+from ..answers.caveats import seen
 from ..answers.motion import motion
 from ..case.limit_options import stated_tilt
 from ..case.read import Case, blamed_on, load_all
@@ -227,7 +228,7 @@ def over_boxes(cases, motions, *questions):
     from ..answers.uncertain.fate import uncertain
     boxes = [uncertain(case, questions) for case in cases]
     return boxes, [motion if motion is None or box is None
-                   else replace(motion, caveats=(*motion.caveats, *box.caveats))
+                   else replace(motion, caveats=(*seen(motion.caveats, box=box.fate), *box.caveats))
                    for motion, box in zip(motions, boxes)]
 
 

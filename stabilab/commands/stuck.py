@@ -113,7 +113,8 @@ def when(cases, units, json, csv, strict, **limits):
         write(questions.csv(answered))
     else:
         tell_all(answered, systems, questions.text, questions.swept, laws, between="\n")
-    leave_undecided(strict, any(questions.unknown(found) for *_, found in answered))
+    leave_undecided(strict, any(questions.unknown(found) or questions.varies(found)
+                                for *_, found in answered))
     hold_laws(strict, laws, loaded)
 
 

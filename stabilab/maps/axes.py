@@ -76,6 +76,8 @@ def with_values(data: dict[str, Any], values: Iterable[tuple[Key, Any]]) -> dict
     for key, value in values:
         for *tables, last in key.paths:
             value_at(changed, tables)[last] = value
+            if last == "force":  # the value stands for itself, as one does for "2 +- 0.1"
+                value_at(changed, tables).pop("force_tolerance", None)
     return changed
 
 

@@ -15,15 +15,19 @@ from fractions import Fraction
 from itertools import combinations
 from typing import Any, TypeAlias, TypeGuard
 
-from ...errors import InputError, Kind
+from ...case.body import LOOSE, TOLERANCE
+from ...case.table import Uncertain
+from ...errors import Caveat, InputError, Kind
 from ...numbers.exact import floats
 from ...numbers.principal import NOTHING, without_trace
 from ...numbers.vectors import CYCLE, Exact3, dot
 from ...orbit.result import Fate
-from ...physics.scene import Scene
+from ...physics.scene import Scene, torque_axis
+from ...reasons import Sentence
 from ..at_equilibrium import of_gyrostat
 from ..caveats import STEADY, caveats_of
 from ..tilt import Spread, Tilt
+from ..uncertain.fate import Uncertainty, uncertain
 from ..when import limit_of, of_tilt
 from .fate import (
     PATIENCE,
@@ -39,6 +43,7 @@ from .fate import (
 from .line import Family
 from .margins import Helper, Principal, Row, Stuck, WheelAnswer, margins
 
+NOT_SEEN = Sentence("tolerance-not-looked-at-here", TOLERANCE + "{thrusters} is not looked at here")
 NO_TORQUE = Fraction(1, 10**9)  # of the torque: what is left of it counts as none
 WORTH = Fraction(999, 1000)  # of the torque: a helper that leaves more is none
 Duty: TypeAlias = tuple[Fraction, ...]  # the share of the time that each fires
@@ -268,8 +273,11 @@ def _row(scenario: Scenario, thrusters: Sequence[Any]) -> Row:
     off = _tilted(scenario, thrusters, scene, seen)
     stability = (of_gyrostat(scene, scenario.state) if seen.fate == Fate.EQUILIBRIUM and scene.plain
                  else None)
-    caveats = caveats_of(scene, seen.fate in STEADY or seen.when.never, off, file=scenario.case.caveats,
-                         stability=stability)
+    box = _over_box(scenario, thrusters, scene)
+    own = [one for one in scenario.case.caveats if not one.words.startswith(LOOSE)]
+    if (loose := [t.name for t in thrusters if t.force_tolerance]) and not (off and off.within):
+        own.append(Caveat(Kind.UNCERTAIN, NOT_SEEN(thrusters=tuple(loose))))
+    caveats = caveats_of(scene, seen.fate in STEADY or seen.when.never, off, file=own, stability=stability)
     return Row(
         tuple(t.name for t in thrusters), torque=scenario.torque_in_file(thrusters),
         torque_principal=tuple(float(v) + 0.0 for v in torque),
@@ -280,14 +288,28 @@ def _row(scenario: Scenario, thrusters: Sequence[Any]) -> Row:
         margins=margins(scenario, scene, seen),
         wheels=tuple(_wheel(scenario, torque, seen, wheel) for wheel in scenario.case.wheels),
         helpers=helpers(scenario, torque, others, seen) if seen.fate not in STEADY else (),
-        tilt=off, caveats=caveats)
+        tilt=off, caveats=(*caveats, *(box.caveats if box else ())), box=box)
+
+
+def _over_box(scenario: Scenario, thrusters: Sequence[Any], scene: Scene) -> Uncertainty | None:
+    """What the uncertain numbers of the case, and the forces of the thrusters that fire, do to the fate under
+    a torque along an axis, where a proof is to be had."""
+    case = scenario.case
+    others = [one for one in case.uncertain if one.path[-1] != "force"]
+    forces = [Uncertain((*t.path, "force"), t.force, t.force_tolerance, f"thrusters.{t.name}.force")
+              for t in thrusters if t.force_tolerance]
+    if case.variables == "scaled" or not torque_axis(scene):
+        return None
+    firing = tuple(replace(t, stuck=t in thrusters) for t in case.thrusters)
+    return uncertain(replace(case, thrusters=firing, scene=scene, physical=scene,
+                             uncertain=(*others, *forces)), ("fate",))
 
 
 def _tilted(scenario: Scenario, thrusters: Sequence[Any], scene: Scene,
             seen: Outcome) -> Tilt | Spread | None:
     """What a tilt of the torque does: to a bounded motion under one on an axis by the misalignment of the
-    thrusters that fire, else by one degree; else by that misalignment alone."""
-    loose = any(t.misalignment for t in thrusters)
+    thrusters that fire, else by one degree; else by that misalignment alone; and what their tolerances do."""
+    loose = any(t.misalignment or t.force_tolerance for t in thrusters)
     firing = tuple(replace(t, stuck=t in thrusters) for t in scenario.case.thrusters)
     case = replace(scenario.case, thrusters=firing, scene=scene)
     return (of_tilt(case, None, limit_of(case), seen.fate in STEADY) if loose or scenario.limit is not None

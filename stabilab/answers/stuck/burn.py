@@ -38,6 +38,7 @@ from typing import Any
 
 import numpy as np
 
+from ...case.body import LOOSE
 from ...errors import Caveat, InputError, Kind
 from ...numbers.units import RATE, TIME, Dimension, in_si
 from ...numbers.vectors import Float3
@@ -63,6 +64,7 @@ from .chain import (
     links_of,
     weights_of_largest,
 )
+from .forces import forces_of, in_front, over_forces
 
 PROPELLANT = Sentence("mass-stays", "mass, inertia and centre of mass stay as the file gives them while "
                       "{spent} leave the body")
@@ -70,6 +72,9 @@ PROPELLANT_OF = Sentence("mass-stays-of", "mass, inertia and centre of mass stay
                          "while {spent} of {mass} leave the body")
 AS_STATED = Sentence("thrust-as-stated",
                      "force and direction of {thrusters} count as stated, without misalignment and tolerance")
+LEAST_OF = Sentence("closing-least-of", "the latest closing time is the least of {forces} forces looked at, "
+                    "{within}, without a proof for those between; what is left at a closing is that of the "
+                    "forces as stated")
 
 # --- The latest closing time
 LOOKS = 2000  # closing times looked at after the first that is too late
@@ -89,6 +94,8 @@ class Latest:
     times after which the free motion stays below the limit again, though the burn has passed it or would
     have left such a motion in between; seen at 2,000 closing times, no proof. surely: (s, s), where wheels
     leave no closed form: closing is early enough up to the first and too late from the second on; None else.
+    within: where forces have a tolerance or a misalignment, what was looked at, in words; forces: of how many
+    of them it is the least time; stated: the answer for the forces as stated, else None.
     """
 
     limit: float
@@ -98,6 +105,9 @@ class Latest:
     because: str
     again: tuple[tuple[float, float], ...] = ()
     surely: tuple[float, float] | None = None
+    within: str = ""
+    forces: int = 1
+    stated: Latest | None = None
 
 
 def largest_after(scene: Scene, rates: Sequence[float]) -> float:
@@ -139,6 +149,29 @@ def latest(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
         return Latest(size, math.inf, math.inf, found.level, f"{words}: never, whenever the thrusters close")
     again = _again(base, links, found.high, size) if found.time else ()
     return Latest(size, found.low, found.high, found.level, found.words, again)
+
+
+def _of_all_forces(chain: Chain, found: Latest, below: Fraction) -> Latest:
+    """The answer that holds for all forces that are looked at within what the thrusters state; found: that
+    for the forces as stated."""
+    forces = forces_of(chain.burning)
+    if forces is None or found.high == 0:
+        return found
+    when = Fraction(found.low) if 0 < found.low < math.inf else chain.closed
+
+    def left(burning: Any) -> float:
+        """The largest |omega| after closing at that time."""
+        one = Chain(burning, when)
+        state = list(links_of(one))[-1].end.tolist()
+        return largest_after(one.base, state) if one.free else largest_of_run(one.base, state)
+    first, many = in_front(forces, left)
+    chains = [Chain(one, chain.until) for one in first]
+    all_of = [found, *(latest(one, list(links_of(one)), below) for one in chains)]
+    worst = min(all_of, key=lambda one: one.low)
+    words = (f"{worst.because}; {forces.words}: the earliest of {many + 1} forces, each by itself, which is "
+             "no proof for those between")
+    return replace(worst, level="run" if worst.level in ("exact", "proved") else worst.level,
+                   because=words, within=forces.words, forces=many + 1, stated=found)
 
 
 def _first(chain: Chain, links: Sequence[Link], limit: Limit, every: bool = False) -> Found:
@@ -307,10 +340,11 @@ def burn(burning: Any, stop: Any = None, below: Any = None) -> Burned:
                      for one in links)
     closed = _closed(chain, links)
     result = Burned(tuple(t.name for t in craft.thrusters), switches, closed,
-                    caveats=(*craft.caveats, *_granted(craft, closed)))
+                    caveats=(*craft_caveats(craft), *_granted(craft, closed)))
     if limit is None:
         return result
-    found = latest(chain, links, limit)
+    found = _of_all_forces(chain, latest(chain, links, limit), limit)
+    result = replace(result, caveats=(*craft_caveats(craft), *_granted(craft, closed, found)))
     if not 0 < found.low < math.inf:
         return replace(result, latest=found)
     early = Chain(burning, Fraction(found.low))
@@ -347,15 +381,22 @@ def _closed(chain: Chain, links: Sequence[Link]) -> Closed:
                   tuple(None if v is None else float(v) for v in fired), tuple(used))
 
 
-def _granted(craft: Any, closed: Closed) -> Iterator[Caveat]:
-    """What the answer takes for granted of the thrusters."""
+def craft_caveats(craft: Any) -> tuple[Caveat, ...]:
+    """The caveats of a case but for what its thrusters leave open, of which a burn speaks itself."""
+    return tuple(one for one in craft.caveats if not one.words.startswith(LOOSE))
+
+
+def _granted(craft: Any, closed: Closed, found: Latest | None = None) -> Iterator[Caveat]:
+    """What the answer takes for granted of the thrusters; found: by when they must close, if asked."""
     if spent := sum(used or 0.0 for used in closed.used):
         mass = craft.physical.body.mass
         left = Mass(spent, digits=4)
         yield Caveat(Kind.BURN, PROPELLANT_OF(spent=left, mass=Mass(mass)) if mass
                      else PROPELLANT(spent=left))
     loose = [t.name for t in craft.thrusters if t.burn and (t.misalignment or t.force_tolerance)]
-    if loose:
+    if found is not None and found.stated is not None:
+        yield Caveat(Kind.BURN, LEAST_OF(forces=found.forces, within=old(found.within)))
+    elif loose:
         yield Caveat(Kind.BURN, AS_STATED(thrusters=tuple(loose)))
     for note in craft.notes:
         yield Caveat(Kind.BURN, old(note))
@@ -372,7 +413,11 @@ def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = Non
     chain = Chain(burning)
     limit = asked(chain.base, **ask)
     found = _first_crossing(chain, limit, ask, until)
-    return times_of([found], (), limit.words, chain.base, np.array(chain.case.state), chain.case.caveats)
+    case = chain.case
+    end = until if until is not None else max(chain.closed, Fraction(case.span[1]) if case.span else 0)
+    over = over_forces(chain.burning, ask, Fraction(end), lambda one: _first_crossing(one, limit, ask, until))
+    caveats = case.caveats if over is None else (*craft_caveats(case), Caveat(Kind.TILT, over.reason))
+    return replace(times_of([found], (), limit.words, chain.base, np.array(case.state), caveats), tilt=over)
 
 
 def _first_crossing(chain: Chain, limit: Limit, ask: dict[str, Any], until: Fraction | None) -> Found:

@@ -39,9 +39,10 @@ class Piece(NamedTuple):
 
 class Chain:
     """The scenes of a burn, one after the other, up to its last closing, at `stop` (s) at the latest. base:
-    the scene without the thrusters, which holds from then on; closed: s, the last closing; quiet: whether
-    no torque acts from then on; free: whether moreover the largest |omega| has a closed form (`burn`):
-    without wheels, or with these along the axis of a body whose other two moments are equal."""
+    the scene without the thrusters, which holds from then on; burning: what it was made of; closed: s, the
+    last closing; quiet: whether no torque acts from then on; free: whether moreover the largest |omega| has a
+    closed form (`burn`): without wheels, or with these along the axis of a body whose other two moments are
+    equal."""
 
     def __init__(self, burning: Any, stop: Fraction | None = None) -> None:
         if isinstance(burning, (str, PathLike, Mapping, Case)):
@@ -50,7 +51,7 @@ class Chain:
             raise InputError("burn: expected a case whose thrusters fire on a schedule or are stuck, its "
                              f"path, its text, a dict, or what stabilab.load_burning gives; got "
                              f"{came(burning)}")
-        case = burning.craft
+        self.burning, case = burning, burning.craft
         if case.physical is None or case.state is None or case.variables != "physical":
             raise InputError("a burn is followed from a start in rad/s: give [motion] angular_velocity")
         if not case.physical.plain:

@@ -22,6 +22,7 @@ from ...physics.scene import Scene
 from ...representation import Shown
 from ..caveats import STEADY
 from ..tilt import Spread, Tilt
+from ..uncertain.fate import Uncertainty
 from .fate import Outcome, Scenario, across, loose
 from .line import TRIES, Family, Line, candidates, change_between, family_of, nearest_change, pieces, rise
 
@@ -109,7 +110,8 @@ class Row:
     known. never: whether it is known never to be reached. largest_rate: of |omega|, rad/s, up to that time or
     for ever. followed: s, up to where the limit is known not to be reached. tilt: what becomes of a bounded
     motion when the torque is a little off its axis (`answers.tilt`), where a limit or a misalignment is
-    stated. caveats: all that limits the row.
+    stated. box: what uncertain numbers do to the fate under a torque along an axis, None where none is.
+    caveats: all that limits the row.
     """
 
     thrusters: tuple[str, ...]
@@ -132,6 +134,7 @@ class Row:
     helpers: tuple[Helper, ...] = ()
     tilt: Tilt | Spread | None = None
     caveats: tuple[Caveat, ...] = ()
+    box: Uncertainty | None = None
 
 
 @dataclass(frozen=True, repr=False)
@@ -143,6 +146,11 @@ class Stuck(Shown):
     rows: tuple[Row, ...]
     principal: Principal
     ranked: bool = False
+
+    @property
+    def caveats(self) -> tuple[Caveat, ...]:
+        """Those of all rows, each once."""
+        return tuple(dict.fromkeys(one for row in self.rows for one in row.caveats))
 
 
 # --- How little must change

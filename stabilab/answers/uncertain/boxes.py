@@ -37,7 +37,7 @@ from ...errors import InputError
 from ...numbers.affine import EPS, LEAST, Affine, lifted, root, sign_over, squared
 from ...numbers.exact import floats
 from ...numbers.principal import PrincipalAxes, principal_axes, without_trace
-from ...numbers.vectors import Float3, Number, Triple
+from ...numbers.vectors import Exact3, Float3, Number, Triple
 from ...orbit.reduction import Reduction, reduction_about
 from ...physics.coefficients import to_scaled, torque_from_mu
 from ...physics.effects import effect_class
@@ -52,7 +52,9 @@ Numbers: TypeAlias = dict[str, tuple[Number, ...]]  # "inertia", "momentum", "to
 @dataclass(frozen=True)
 class Box:
     """middle: name -> exact numbers, of "inertia", "momentum", "torque" or "mu" (a body), or "a", "b", "mu"
-    (a scaled system), and "state" (three, or absent); half: name -> their half-widths, zero where certain.
+    (a scaled system), "force" (N, of every firing thruster whose force is uncertain) and "state" (three, or
+    absent); half: name -> their half-widths, zero where certain. arms: of each force, the torque of one
+    newton of it, m; "torque" of the middle is that of all else.
     variables: those of scene and state, "physical" or "scaled" (a body may be asked in scaled variables).
     frame: None where all numbers are along the principal axes; else the principal axes of the middle, and all
     numbers are in the frame of the file, with "products", the xy, xz and yz entries of the tensor."""
@@ -61,6 +63,7 @@ class Box:
     half: Numbers
     variables: str
     frame: PrincipalAxes | None = None
+    arms: tuple[Exact3, ...] = ()
 
     @cached_property
     def places(self) -> tuple[tuple[str, int], ...]:
@@ -82,7 +85,7 @@ class Box:
             value = middle + Fraction(reach) * Fraction(e) * self.half[name][i]
             out[name][i] = (middle if value == middle
                             else _toward(value, middle, Fraction if name == "state" else _decimal))
-        return {name: tuple(numbers) for name, numbers in out.items()}
+        return self._with_forces({name: tuple(numbers) for name, numbers in out.items()})
 
     def at(self, point: Point, reach: float = 1) -> tuple[AnyScene, Float3 | None]:
         """(scene, state or None) at a point, exact. Raises InputError where there is no such body or no such
@@ -115,7 +118,15 @@ class Box:
             g[:, k] = half * widths[:, k]
             out[name][i] = Affine(c, g,
                                   8 * EPS * (abs(middle) + np.abs(half * centres[:, k]) + g[:, k]) + LEAST)
-        return {name: tuple(numbers) for name, numbers in out.items()}
+        return self._with_forces({name: tuple(numbers) for name, numbers in out.items()})
+
+    def _with_forces(self, numbers: Numbers) -> Numbers:
+        """With the torque of the uncertain forces in "torque", on the line of each: its components are not
+        independent, which `Affine` numbers keep."""
+        torque = list(numbers.get("torque", ()))
+        for force, arm in zip(numbers.get("force", ()), self.arms):
+            torque = [m + force * along if along else m for m, along in zip(torque, arm)]
+        return numbers | {"torque": tuple(torque)} if torque else numbers
 
     def impossible(self, numbers: Numbers) -> np.ndarray | np.bool_:
         """True for each sub-box that surely holds no body: a moment of inertia not positive (for a body in
@@ -158,6 +169,9 @@ def box_of(case: Any) -> Box:
                          "torque alone; this scene has other effects")
     middle = {}
     oblique = case.frame if case.frame is not None and not case.frame.as_given else None
+    forces = [one for one in case.uncertain if one.path[-1] == "force"]
+    if oblique and len(forces) == len(case.uncertain):  # nothing turns the axes: all stands along them
+        oblique = None
     if oblique:
         middle = _in_the_file(case, oblique)
     elif case.physical is not None:
@@ -170,12 +184,26 @@ def box_of(case: Any) -> Box:
         middle.update({"a": (a,), "b": (b,), "mu": case.scene.exact_mu})
     if case.state is not None and not oblique:
         middle["state"] = tuple(map(Fraction, case.state))
+    arms = tuple(_arm(case, one, oblique) for one in forces)
+    if forces:
+        middle |= {"force": tuple(one.middle for one in forces),
+                   "torque": tuple(_as_written(m - sum(one.middle * arm[i] for one, arm in zip(forces, arms)),
+                                               max(map(abs, middle["torque"])))
+                                   for i, m in enumerate(middle["torque"]))}
     half = {name: [Fraction(0)] * len(numbers) for name, numbers in middle.items()}
     for found in case.uncertain:
-        half[_name(found.path)][found.path[-1] if isinstance(found.path[-1], int) else 0] = found.half
-    box = Box(middle, {name: tuple(widths) for name, widths in half.items()}, case.variables, oblique)
+        at = forces.index(found) if found in forces else found.path[-1]
+        half[_name(found.path)][at if isinstance(at, int) else 0] = found.half
+    box = Box(middle, {name: tuple(widths) for name, widths in half.items()}, case.variables, oblique, arms)
     _scalable(box)
     return box
+
+
+def _arm(case: Any, force: Any, oblique: PrincipalAxes | None) -> Exact3:
+    """The torque of one newton of a thruster, m, in the frame of the box."""
+    thruster = next(one for one in case.thrusters if one.path == force.path[:-1])
+    arm = tuple(m / thruster.force for m in thruster.torque)
+    return arm if oblique or case.frame is None else case.frame.turned(arm)
 
 
 def _in_the_file(case: Any, frame: PrincipalAxes) -> Numbers:

@@ -529,13 +529,16 @@ def _under_law(box: Box, look: Look, numbers: Numbers, form: QuadraticForm, axis
 BY_SAMPLES = Sentence("box-by-samples",
                       "{question} over the uncertain numbers by samples, not by proof: {found}")
 ELSEWHERE = Sentence("box-elsewhere", "within the uncertainties {what}")
+NOT_THE_SAME = Sentence("box-not-the-same",
+                        "{question} not the same for all that the uncertain numbers may be: also {others}")
+LEFT_OPEN = Sentence("box-undecided", "{question} undecided over the uncertain numbers: {why}")
 
 
 @dataclass(frozen=True)
 class Uncertainty:
     """numbers: the uncertain numbers of the case; equilibria, fate: what they do to each, None where not
-    asked (and the fate where there is no state). caveats: that the fate is another elsewhere in the box, and
-    that samples stand in place of a proof, where they do."""
+    asked (and the fate where there is no state). caveats: what else there is, where it is not the same all
+    over, and that samples stand in place of a proof, where they do."""
 
     numbers: tuple[Any, ...]
     equilibria: Over | None
@@ -548,12 +551,15 @@ class Uncertainty:
 
 
 def _caveat(name: str, over: Over) -> Caveat | None:
-    """That the fate is another elsewhere in the box, or that samples stand in place of a proof."""
-    if over.answer == "depends" and name == "fate":
-        return Caveat(Kind.UNCERTAIN, ELSEWHERE(what=old(over.elsewhere)))
-    if over.samples is None or over.answer == "depends":
-        return None
-    return Caveat(Kind.SAMPLES, BY_SAMPLES(question=name, found=old(over.samples.words)))
+    """That the answer is another elsewhere in the box or open, or that samples stand in place of a proof."""
+    if over.answer == "depends":
+        others = " or ".join(dict.fromkeys(one.verdict for one in over.witnesses[1:]))
+        return Caveat(Kind.UNCERTAIN, ELSEWHERE(what=old(over.elsewhere)) if name == "fate"
+                      else NOT_THE_SAME(question=name, others=old(others)))
+    if over.answer == "undecided":
+        return Caveat(Kind.UNCERTAIN, LEFT_OPEN(question=name, why=old(over.because)))
+    return None if over.samples is None else Caveat(
+        Kind.SAMPLES, BY_SAMPLES(question=name, found=old(over.samples.words)))
 
 
 def uncertain(case: Any, questions: Sequence[str] = ("equilibria", "fate")) -> Uncertainty | None:

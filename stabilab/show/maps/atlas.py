@@ -14,7 +14,7 @@ import numpy as np
 from ...case.read import Case, read_text
 from ...errors import InputError, printable
 from ...maps.atlas import LEVEL, REFINE, Asked, Atlas, asked, drawn
-from ...maps.columns import ISLANDS, LEVELS, LIMIT_LEVELS, columns_of, record
+from ...maps.columns import CAVEATS, ISLANDS, LEVELS, LIMIT_LEVELS, columns_of, record
 from ...maps.pointed import AXES, OWN, THRUSTERS, Leaves, Point, area, corners, directions
 from ...orbit.result import Fate
 from ...packages import demand
@@ -22,7 +22,7 @@ from .. import limiting, style
 from ..axes import axes_of
 from ..data import as_json, csv_lines, endless
 from ..units import SHORT, Units, with_unit
-from .shades import FATES, light, limits_of, spinning, unit
+from .shades import FATES, light, limits_of, of_every_point, spinning, unit
 from .sweep import COUNTS, checked, column_in, finished, origin, per_cent, write
 from .sweep import DOES as OF_POINTS
 
@@ -297,13 +297,21 @@ def csv(atlas: Atlas) -> str:
     cells = zip(repeat(""), leaves.wheel.tolist(),
                 zip(leaves.level.tolist(), leaves.number.tolist(), atlas.share.tolist()))
     momenta = atlas.asked.momenta
+    case = atlas.asked.case
+    every = limiting.cell(case, of_every_point(case))
     rows = [[name, momenta[wheel] if momenta else "", *about, *direction, *of_file,
-             *_cells(columns, answered)]
+             *_with(every, columns, _cells(columns, answered))]
             for first, directions, records in ((points, atlas.named_directions, atlas.named_records),
                                                (cells, atlas.directions, atlas.records))
             for (name, wheel, about), direction, of_file, answered in zip(
                 first, directions.tolist(), atlas.in_file(directions).tolist(), records)]
     return csv_lines([heads, *rows])
+
+
+def _with(every: str, columns: Any, values: list[Any]) -> list[Any]:
+    """The cells of a line, before its own caveats those of all lines."""
+    return [("; ".join(filter(None, (every, value))) if column is CAVEATS else value)
+            for column, value in zip(columns, values)]
 
 
 def _cells(columns: Any, record: Any) -> list[Any]:

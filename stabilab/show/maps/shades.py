@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...answers.caveats import CONDITIONS, HOLDS, NO_SUCH_BODY, UNSTABLE_POINT, stated, unseen
+from ...case.body import MISALIGNED
 from ...case.lines import KeyLines
 from ...case.table import Faults, Table
 from ...errors import Caveat, Kind
@@ -77,10 +78,16 @@ def unit(plan: Plan, column: Column) -> str:
             if plan.case.variables == "physical" else "1")
 
 
+def of_every_point(case: Any) -> list[Caveat]:
+    """What limits the answer of every point of a map alike."""
+    return [one for one in (*case.caveats, *unseen(case)) if one.kind is not Kind.UNPHYSICAL  # of a point
+            and not one.words.startswith(MISALIGNED)]  # which `unseen` says
+
+
 def limits_of(case: Any, records: Any) -> list[Caveat]:
     """What limits the answers of a map: what the file says itself, on what its points rest, a limit that was
     not looked at."""
-    found = [*case.caveats, *unseen(case)]
+    found = [*(one for one in case.caveats if not one.words.startswith(MISALIGNED)), *unseen(case)]
     numbers = records["caveats"].ravel().tolist() if "caveats" in records.dtype.names else []
     counts = Counter(number % len(CONDITIONS) for number in numbers)
     parts = [(Kind.TILT, HOLDS(condition=CONDITIONS[n]), count) for n, count in sorted(counts.items()) if n]

@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...case.body import MISALIGNED
 from ...case.read import Case
 from ...errors import Kind, printable
 from ...files import whole_file
@@ -25,7 +27,7 @@ from ..data import as_json, csv_lines, endless
 from ..terminal import greek
 from ..text import headline
 from ..units import Unit, units_of, with_unit
-from .shades import SAMPLE, dimensions, limits_of, names, said, unit
+from .shades import SAMPLE, dimensions, limits_of, names, of_every_point, said, unit
 
 if TYPE_CHECKING:
     import xarray
@@ -53,7 +55,7 @@ def text(found: Swept) -> str:
     """The answer first; then what else was asked, in ranges; a table of the points where there are few."""
     plan = found.plan
     lines = [f"{plan.case.name}: {_answer(found)}", *_details(found)]
-    lines += limiting.lines(limits_of(plan.case, found.records), units_of(plan.case))
+    lines += limiting.lines(limits_of(_case_of(plan), found.records), units_of(plan.case))
     lines += headline.beside(plan.case)
     if found.broken:
         told = (f"{found.broken:,} points are no case; the first" if found.broken > 1
@@ -186,11 +188,20 @@ def rows(found: Swept) -> Iterator[list[Any]]:
         yield row
 
 
+def _case_of(plan: Plan) -> Any:
+    """The case, without the caveat that an answer is of the middles of its uncertain numbers where the points
+    go through all of these."""
+    varied = {path for axis in plan.axes for path in axis.key.paths}
+    if plan.sampled is None and not all(one.path in varied for one in plan.case.uncertain):
+        return plan.case
+    return replace(plan.case, caveats=tuple(one for one in plan.case.caveats if one.kind is not Kind.UNCERTAIN
+                                            or one.words.startswith(MISALIGNED)))
+
+
 def csv(found: Swept) -> str:
     """Every point as a line, with what limits the answers of all points beside what limits its own."""
-    case = found.plan.case
-    # that one is of each point
-    every = limiting.cell(case, [one for one in case.caveats if one.kind is not Kind.UNPHYSICAL])
+    case = _case_of(found.plan)
+    every = limiting.cell(case, of_every_point(case))
     lines = rows(found)
     if every and CAVEATS in columns_of(found.plan.answers):
         lines = ([*row, "; ".join(filter(None, (every, own)))] for *row, own in lines)
@@ -213,7 +224,7 @@ def json(found: Swept) -> str:
         told["samples"] = {"count": plan.sampled.count, "seed": plan.sampled.seed,
                            "keys": [key.name for key in plan.sampled.keys],
                            "values": plan.sampled.values(0, plan.sampled.count).tolist()}
-    told |= limiting.key(plan.case, limits_of(plan.case, found.records))
+    told |= limiting.key(plan.case, limits_of(_case_of(plan), found.records))
     return as_json(told | {"no_case": {"points": found.broken, "because": found.why}, "columns": columns})
 
 
@@ -358,7 +369,7 @@ def _attributes(found: Swept) -> dict[str, Any]:
     broken = {"no_case": f"{found.broken} points: {printable(found.why)}"} if found.broken else {}
     return {**origin(case, plan.command), "case_variables": case.variables, "case": plan.text,
             "sweep": plan.as_json(brief=True),
-            "caveats": limiting.cell(case, limits_of(case, found.records)), **broken}
+            "caveats": limiting.cell(case, limits_of(_case_of(found.plan), found.records)), **broken}
 
 
 def origin(case: Case, command: str) -> dict[str, Any]:

@@ -373,7 +373,8 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
             target.fill_between(degrees, per * found.earliest, np.minimum(per * found.latest, FAR * top),
                                 where=reached, **BAND)
             target.plot(degrees[reached], per * found.earliest[reached], **EARLIEST)
-            rows.append((f"to the latest of {SIDES} directions", BAND))
+            rows.append((f"to the latest of {SIDES} directions" + f", with {found.within}"
+                         * bool(found.within), BAND))
         if found.not_before.any():
             low = 0.3 * per * float(finite.min())
             target.fill_between(degrees, low, np.maximum(per * found.not_before, low), **SURE)

@@ -13,6 +13,7 @@ from itertools import groupby
 from typing import NamedTuple
 
 from ...answers.equilibria import once_stopped
+from ...errors import printable
 from ...numbers.units import unit_of_key
 from ...numbers.vectors import CYCLE
 from ...representation import values_of
@@ -293,7 +294,7 @@ def _scaled(words, one, rate):
 SUBJECTS = {"equilibria": ("hold", "depend"), "fate": ("holds", "depends")}
 LONG = 8  # letters of a number in a line
 # of the numbers of a witness
-UNITS = {"inertia": "kg m^2", "products": "kg m^2", "momentum": "N m s", "torque": "N m"}
+UNITS = {"inertia": "kg m^2", "products": "kg m^2", "momentum": "N m s", "torque": "N m", "force": "N"}
 
 
 def uncertain_dict(found) -> dict:
@@ -326,6 +327,8 @@ def _over(over) -> dict | None:
 def key(uncertain) -> str:
     """The key of a case file, with the place in its list counted from one."""
     *path, last = uncertain.path
+    if uncertain.name:
+        return printable(uncertain.name)
     return ".".join(path) + f"[{last + 1}]" if isinstance(last, int) else ".".join(uncertain.path)
 
 
@@ -437,6 +440,6 @@ def open_fate(found) -> bool:
 
 
 def open_in_box(found) -> bool:
-    """Whether the fate is not the same all over the box, or a verdict stays without a proof there."""
-    return (open_fate(found) or found is not None and found.equilibria is not None
-            and found.equilibria.answer in ("undecided", "sampled"))
+    """Whether a verdict is not proved to be the same all over the box."""
+    return (found is not None and any(over is not None and over.answer != "holds"
+                                      for over in (found.equilibria, found.fate)))

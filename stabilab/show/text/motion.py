@@ -243,8 +243,8 @@ def attitude_text(case, found, units: Units) -> str:
     """The answer first, then the numbers and why."""
     condition = limiting.condition(found.caveats, units)
     departs = limiting.unstable(found.caveats, units)
-    lines = [f"{case.name}: {', '.join(_answer(found, units))}{',' * bool(condition)}{condition}"
-             + f"; {departs}" * bool(departs)]
+    told = f"{case.name}: {', '.join(_answer(found, units))}{',' * bool(condition)}{condition}"
+    lines = ["; ".join(filter(None, (told, departs, limiting.tilted(found.caveats, units))))]
     if found.momentum_direction is not None:
         lines.append(row("angular momentum", f"{number(found.momentum, DIGITS)} N m s along "
                                              f"{_vector(case, found.momentum_direction)}"))

@@ -41,7 +41,7 @@ def as_dict(case, limit, found) -> dict:
     return {"schema": "stabilab.when/1", "case": case.name, "variables": case.variables, "kind": limit.kind,
             "quantities": limit.names, "limits": limit.limits, "reached": reached(low, high),
             "time": [low, high] if math.isfinite(high) else None, "not_before": low,
-            "level": str(found.level), "because": str(found.words)
+            "level": str(found.level), "because": str(found.words), "tilt": tilt_dict(found.tilt)
             } | ending.key(case, found.ending) | limiting.key(case, found.caveats) | frame.key(case)
 
 
@@ -57,7 +57,8 @@ def csv(answers) -> str:
 def text(case, limit, found, units: Units) -> str:
     """The answer in one line with its two ends, and the reason; `as_dict` has all digits of the ends."""
     low, high = float(found.low), float(found.high)
-    parts = [_answer(limit, found, low, high, units), limiting.tilted(found.caveats, units)]
+    parts = [_answer(limit, found, low, high, units),
+             "BUT " * varies(found) + limiting.tilted(found.caveats, units)]
     # the limit stands above, in the units asked for
     reason = re.sub(r"^[^:]* = [^:]*: ", "", str(found.words))
     told = f"{printable(case.name)}: {'; '.join(filter(None, parts))}\n  {lettered(units.words(reason))}"
@@ -85,6 +86,11 @@ def unknown(found) -> bool:
     return reached(float(found.low), float(found.high)) == "unknown"
 
 
+def varies(found) -> bool:
+    """Whether some force within its tolerance reaches the limit, and another does not."""
+    return found.tilt is not None and found.tilt.varies
+
+
 def reached(low, high):
     """Whether a limit is reached, by the ends of the time: "yes", "never" or "unknown"."""
     return "yes" if math.isfinite(high) else "never" if math.isinf(low) else "unknown"
@@ -94,8 +100,9 @@ def _answer(limit, found, low, high, units):
     aim = asked(limit, units)
     if math.isinf(low):
         holds, departs = limiting.condition(found.caveats, units), limiting.unstable(found.caveats, units)
+        stated = " with the force as stated" * varies(found)
         return f"{departs}; undisturbed it " * bool(departs) + (
-            f"NEVER reaches {aim} ({found.level}){',' * bool(holds)}{holds}")
+            f"NEVER reaches {aim}{stated} ({found.level}){',' * bool(holds)}{holds}")
     if math.isnan(high):
         return f"NOT KNOWN when it reaches {aim}: not before {units.time(low)} ({found.level})"
     if high == 0:
@@ -122,13 +129,14 @@ def tilt_dict(found) -> dict | None:
     if found is None:
         return None
     if found.ranges:
-        return values_of(found, "angle of directions limit earliest latest level") | {
+        return values_of(found, "angle of directions limit earliest latest level within") | {
             "fates": dict(found.fates), "because": found.because}
     return values_of(found, "angle of limit") | {
         "limit_stated": found.stated, "not_before": found.not_before,
         "time": [found.low, found.high] if found.ends else None,
         "level": found.level if found.ends else None
-        } | values_of(found, "azimuth torque azimuths times untilted")
+        } | values_of(found, "azimuth torque azimuths times untilted within") | {
+            "forces": tilt_dict(found.forces)}
 
 
 # --- `fate`, `extremes` and `period`

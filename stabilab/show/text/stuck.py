@@ -11,6 +11,7 @@ from ..axes import axes_of, direction
 from ..data import Endless, csv_lines
 from ..terminal import lettered
 from ..units import DIGITS, SHORT, Units, bracket, number, vector
+from .classification import what_changes
 from .headline import REST, STEADY
 from .motion import in_file, reason
 from .motion import row as entry
@@ -116,7 +117,8 @@ def row_name(row) -> str:
 
 def answer_line(row, units) -> str:
     """What becomes of the motion, in one line."""
-    return "; ".join(filter(None, [_answer(row, units), limiting.tilted(row.caveats, units)]))
+    return "; ".join(filter(None, [_answer(row, units), limiting.tilted(row.caveats, units),
+                                   what_changes(row.box, units)]))
 
 
 def _answer(row, units):
@@ -338,7 +340,7 @@ def _latest(one) -> dict | None:
         return None
     return {"limit": one.limit, "reached": reached(one.low, one.high),
             "time": [one.low, one.high] if math.isfinite(one.high) else None, "not_before": one.low,
-            **values_of(one, "level because again surely")}
+            **values_of(one, "level because again surely within forces"), "stated": _latest(one.stated)}
 
 
 def burn_text(case, found, units: Units) -> str:
@@ -364,20 +366,27 @@ def _headline(found, units: Units) -> str:
                  else f"never above {units.rate(one.largest_rate)}")
         return f"CLOSED at {units.moment(one.time)}, then {one.motion.fate.word.upper()}, {after}"
     aim = f"|ω| below {units.rate(latest.limit)}"
+    over = ("" if latest.stated is None else
+            f", {lettered(units.words(printable(latest.within), SHORT))}: the least of {latest.forces} "
+            "forces")
     if math.isinf(latest.low):
-        return f"NO CLOSING IS TOO LATE for {aim} ({latest.level})"
+        return f"NO CLOSING IS TOO LATE for {aim} ({latest.level}){over}"
     if math.isnan(latest.high):
-        return f"NOT KNOWN by when to close for {aim}: up to {units.time(latest.low)} it is early enough"
+        return (f"NOT KNOWN by when to close for {aim}: up to {units.time(latest.low)} it is early enough"
+                f"{over}")
     if not latest.high:
         return f"TOO LATE AT THE START for {aim}: the motion before the burn reaches it already"
     name, size = units.times(latest.high)
     low, high = bracket(latest.low * size, latest.high * size)
     return (f"CLOSE BY {low} {name} to keep {aim} "
-            f"({latest.level} {low} to {high})")
+            f"({latest.level} {low} to {high}){over}")
 
 
 def _of_latest(found, units: Units):
     latest, early = found.latest, found.closed_latest
+    if (stated := latest.stated) is not None:
+        known = ("never too late" if math.isinf(stated.low) else f"close by {units.time(stated.low)}")
+        yield entry("forces as stated", f"{known} ({stated.level})")
     if early is not None:
         yield entry("closed then", f"{_turning(early, units)}; largest rate before "
                                    f"{_rate(early.largest_before, units)}")
