@@ -31,6 +31,8 @@ class Kind(StrEnum):
     MOTOR = "motor"
     THRUSTERS = "thrusters"
     UNSTABLE = "unstable"
+    TOLERANCE = "tolerance"
+    MISALIGNMENT = "misalignment"
 
 
 @dataclass(frozen=True)
@@ -49,6 +51,11 @@ class Caveat:
     def words(self) -> str:
         """The sentence in SI units."""
         return self.reason.text()
+
+
+def without(caveats: Iterable[Caveat], *kinds: Kind) -> tuple[Caveat, ...]:
+    """The caveats of other kinds."""
+    return tuple(one for one in caveats if one.kind not in kinds)
 
 
 def key(caveats: Iterable[Caveat], fill: Callable[[Any], str] | None = None) -> dict[str, list[dict]]:

@@ -4,12 +4,11 @@ hold."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from dataclasses import replace
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
 from typing import Any
 
-from ..case.body import MISALIGNED, TOLERANCE
-from ..errors import Caveat, Kind
+from ..errors import Caveat, Kind, without
 from ..orbit.result import Fate, Motion, Stability
 from ..physics.coefficients import effective
 from ..physics.scene import AnyScene, aligned, torque_axis
@@ -24,8 +23,6 @@ CONDITIONS = (None, *(ALONG(axis=Axis(n)) for n in (1, 2, 3)),
                        "only while the torque is exactly in the plane of the equal moments")(),
               Sentence("torque-as-given", "only while the torque is exactly this one")())
 NO_SUCH_BODY = Sentence("no-such-body", "no rigid body has these moments of inertia")()
-UNSEEN = Sentence("tilt-not-looked-at",
-                  "a tilt of the torque, by the misalignment of {thrusters}, is not looked at here")
 UNSTABLE = Sentence("unstable-equilibrium", "unstable: a disturbance grows by the factor e in {time}")
 UNSTABLE_SLOWLY = Sentence("unstable-not-exponential",
                            "unstable: a disturbance grows, though not exponentially at first")
@@ -43,41 +40,65 @@ TILTED_NOT_BEFORE = Sentence("tilted-not-before", "{varied} it does not reach {l
 TILTED_NOT_FOUND = Sentence("tilted-not-found", "{varied} it was not found to reach {limit} within {time}")
 
 
+@dataclass(frozen=True, kw_only=True)
+class Known:
+    """What is known of a question where its caveats are collected.
+
+    scene: what moves; steady: whether the answer says that the motion is bounded or an equilibrium, or that
+    it never reaches a limit; tilt: a `Tilt` or a `Spread`, where that was asked; first: (limit of the case as
+    `stated`, `TimeTo` of it), where that was asked; validity: of an approximate law; file: the caveats of the
+    case; stability: of a state of equilibrium.
+    """
+
+    scene: AnyScene
+    steady: bool = False
+    tilt: Any = None
+    first: tuple[Any, Any] | None = None
+    validity: Any = None
+    file: tuple[Caveat, ...] = ()
+    stability: Stability | None = None
+
+
 def caveats_of(scene: AnyScene, steady: bool = False, tilt: Any = None,
                first: tuple[Any, Any] | None = None, validity: Any = None, file: Iterable[Caveat] = (),
                stability: Stability | None = None) -> tuple[Caveat, ...]:
-    """The caveats of one answer.
-
-    steady: whether it says that the motion is bounded or an equilibrium, or that it never reaches a limit;
-    tilt: a `Tilt` or a `Spread`, where that was asked;
-    first: (limit of the case as `stated`, `TimeTo` of it), where that was asked; validity: of an approximate
-    law; file: the caveats of the case; stability: of a state of equilibrium.
-    """
-    return (*file, *of_equilibrium(scene, stability), *_reached(scene, first), *_tilted(scene, steady, tilt),
-            *of_law(validity))
+    """The caveats of one answer, by every function of CAVEATS; arguments as of `Known`."""
+    known = Known(scene=scene, steady=steady, tilt=tilt, first=first, validity=validity, file=tuple(file),
+                  stability=stability)
+    return tuple(dict.fromkeys(one for make in CAVEATS for one in make(known)))
 
 
-def of_equilibrium(scene: AnyScene, stability: Stability | None) -> tuple[Caveat, ...]:
+def of_case(case: Any, validity: Any = None) -> tuple[Caveat, ...]:
+    """The caveats of an answer about a case that is no motion's. validity: of its approximate laws."""
+    return caveats_of(case.scene, validity=validity, file=case.caveats)
+
+
+def of_file(known: Known) -> tuple[Caveat, ...]:
+    """What the file says itself, and what it states that an answer leaves out."""
+    return known.file
+
+
+def of_equilibrium(known: Known) -> tuple[Caveat, ...]:
     """That a state of equilibrium is not known to be stable, where it is not."""
-    if stability is None or stability.verdict.endswith("stable") and not stability.unstable:
+    stability = known.stability
+    if stability is None or stability.stable:
         return ()
     if not stability.unstable:
         return (Caveat(Kind.UNSTABLE, STABILITY_OPEN()),)
     if stability.growth is None:
         return (Caveat(Kind.UNSTABLE, UNSTABLE_SLOWLY()),)
-    return (Caveat(Kind.UNSTABLE, UNSTABLE(time=Quantity(1 / stability.growth, scene.time_unit))),)
+    return (Caveat(Kind.UNSTABLE, UNSTABLE(time=Quantity(1 / stability.growth, known.scene.time_unit))),)
 
 
-def of_law(validity: Any) -> tuple[Caveat, ...]:
+def of_law(known: Known) -> tuple[Caveat, ...]:
     """That an approximate law does not hold, where it does not."""
-    return () if validity is None or validity.held else (Caveat(Kind.LAW, old(validity.words)),)
+    held = known.validity is None or known.validity.held
+    return () if held else (Caveat(Kind.LAW, old(known.validity.words)),)
 
 
 def limited(motion: Motion, scene: AnyScene, case: Any = None) -> Motion:
     """The motion with its caveats; case: whose motion it is."""
-    file = () if case is None else (*seen(case.caveats, motion.tilt),
-                                    *(unseen(case) if motion.tilt is None else ()))
-    file = tuple(one for one in file if not one.words.startswith(MISALIGNED))  # which `unseen` says
+    file = () if case is None else seen(case.caveats, motion.tilt)
     return replace(motion, caveats=caveats_of(scene, motion.fate in STEADY, motion.tilt, motion.first,
                                               motion.validity, file, motion.stability))
 
@@ -95,15 +116,8 @@ def loose_forces(case: Any) -> tuple[str, ...]:
 def seen(caveats: Iterable[Caveat], found: Any = None, box: Any = None) -> tuple[Caveat, ...]:
     """The caveats of a case without those of tolerances and of misalignments, where these are looked at: by
     a `Tilt` or `Spread` found, tolerances also over a box."""
-    looked = [TOLERANCE] if box is not None or (found is not None and found.within) else []
-    looked += [MISALIGNED] if found is not None else []
-    return tuple(one for one in caveats if not one.words.startswith(tuple(looked)))
-
-
-def unseen(case: Any) -> tuple[Caveat, ...]:
-    """That a misalignment which the case states is left out of an answer."""
-    names = misaligned(case)
-    return (Caveat(Kind.TILT, UNSEEN(thrusters=names)),) if names else ()
+    sizes = [Kind.TOLERANCE] if box is not None or (found is not None and found.within) else []
+    return without(caveats, *sizes, *([Kind.MISALIGNMENT] if found is not None else []))
 
 
 def condition(scene: AnyScene) -> int:
@@ -122,20 +136,20 @@ def stated(limits: Any) -> Quantity | Reason:
     return IN_A_COMPONENT(rate=Rate(rates[0] if len(set(rates)) == 1 else rates, digits=DIGITS))
 
 
-def _reached(scene: AnyScene, first: tuple[Any, Any] | None) -> list[Caveat]:
+def of_limit(known: Known) -> list[Caveat]:
     """The time at which the limit of the case is reached, where it is."""
-    if first is None or not math.isfinite(first[1].high):
+    if known.first is None or not math.isfinite(known.first[1].high):
         return []
-    limit, found = first
-    after = Quantity(0.5 * float(found.low + found.high), scene.time_unit)
+    limit, found = known.first
+    after = Quantity(0.5 * float(found.low + found.high), known.scene.time_unit)
     return [Caveat(Kind.LIMIT, REACHES(limit=limit, time=after, level=str(found.level)) if found.high > 0
                    else AT_START(limit=limit))]
 
 
-def _tilted(scene: AnyScene, steady: bool, found: Any) -> list[Caveat]:
+def of_direction(known: Known) -> list[Caveat]:
     """The condition of a steady motion, and what is known of a tilt."""
-    known = CONDITIONS[condition(scene)] if steady else None
-    holds = None if known is None else HOLDS(condition=known)
+    only, found = CONDITIONS[condition(known.scene)] if known.steady else None, known.tilt
+    holds = None if only is None else HOLDS(condition=only)
     if found is not None and found.ranges:
         return [Caveat(Kind.TILT, one) for one in (holds, found.reason) if one]
     if holds is None:
@@ -163,3 +177,8 @@ def varied(angle: float, within: str) -> Reason:
     if not within:
         return TILTED(angle=Angle(angle))
     return TILTED_AND_WITHIN(angle=Angle(angle), within=within) if angle else WITHIN(within=within)
+
+
+# One function a kind of caveat: all that limits an answer is collected here, for every view of it
+CAVEATS: tuple[Callable[[Known], Iterable[Caveat]], ...] = (of_file, of_equilibrium, of_limit, of_direction,
+                                                            of_law)

@@ -163,8 +163,6 @@ def _half(value: object) -> Fraction:
 # --- What a spacecraft carries, as a case file states it: [[thrusters]], [[wheels]] and [limits]
 ZERO3 = (Fraction(0),) * 3
 # as the caveats begin of an answer that does not look at them
-TOLERANCE, MISALIGNED = "the tolerance of the force of ", "the misalignment of "
-LOOSE = (TOLERANCE, MISALIGNED)
 THRUSTER = ("name", "position", "direction", "force", "misalignment", "force_tolerance", "stuck",
             *sections.BURN_KEYS)
 WHEEL = ("name", "axis", "momentum", "inertia", "speed")

@@ -22,8 +22,6 @@ from ..reasons import Sentence
 from ..validation import came, checked_span
 from .aliases import cure_of_key, cure_of_units
 from .body import (
-    MISALIGNED,
-    TOLERANCE,
     Limits,
     Thruster,
     Wheel,
@@ -67,9 +65,10 @@ STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
 BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position",
           "damper": "damper", "wheel": "wheel"}
 UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector and stays as it is
-_LOOK = "{thrusters} is not looked at here; stabilab fate and stabilab when look at it"
-SIZES = Sentence("tolerance-not-looked-at", TOLERANCE + _LOOK)
-TILTS = Sentence("misalignment-not-looked-at", MISALIGNED + _LOOK)
+SIZES = Sentence("tolerance-not-looked-at", "the tolerance of the force of {thrusters} is not looked at "
+                 "here; stabilab fate and stabilab when look at it")
+TILTS = Sentence("misalignment-not-looked-at", "the misalignment of {thrusters} is not looked at here; "
+                 "stabilab fate and stabilab when look at it")
 MIDDLES = Caveat(Kind.UNCERTAIN, Sentence(
     "of-the-middles", "of the middles of the uncertain numbers; stabilab fate says what their box does")())
 STATED = Sentence("stated-by-the-file", "{statement}")
@@ -237,6 +236,11 @@ class Burning(BurningQuestions):
     thrusters; no question but these may take it for the whole."""
 
     craft: Case
+
+    @property
+    def place(self) -> str:
+        """Its file and combination, as messages name it."""
+        return self.craft.place
 
     def segments(self, until: Fraction | None = None) -> list[Segment]:
         """From time 0 to the last closing, `until` at the latest: which thrusters fire, between exact times.
@@ -422,8 +426,8 @@ def _middles(uncertain: tuple[Uncertain, ...], thrusters: tuple[Thruster, ...]) 
     sized = tuple(one.name for one in firing if one.force_tolerance)
     tilts = tuple(one.name for one in firing if one.misalignment)
     return [*([MIDDLES] if len(uncertain) > len(sized) else []),
-            *(Caveat(Kind.UNCERTAIN, sentence(thrusters=names))
-              for sentence, names in ((SIZES, sized), (TILTS, tilts)) if names)]
+            *(Caveat(kind, sentence(thrusters=names)) for kind, sentence, names in (
+                (Kind.TOLERANCE, SIZES, sized), (Kind.MISALIGNMENT, TILTS, tilts)) if names)]
 
 
 def _units(output: Table | None) -> str:

@@ -13,7 +13,7 @@ from typing import Any
 
 import typer
 
-from ..answers.caveats import seen
+from ..answers.caveats import of_case, seen
 from ..answers.motion import motion
 from ..case.limit_options import stated_tilt
 from ..case.read import Case, blamed_on, load_all
@@ -263,7 +263,7 @@ def tell_all(answered, systems, text, swept=None, laws=None, boxes=None, between
 def _caveats(row):
     """Those of what was found, and of the case where that has none."""
     case, *found = row
-    return next((one.caveats for one in found if getattr(one, "caveats", None) is not None), case.caveats)
+    return next((one.caveats for one in found if getattr(one, "caveats", None) is not None), of_case(case))
 
 
 def swept_motions(motions, units):

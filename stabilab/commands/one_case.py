@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from functools import partial
 
+from ..answers.caveats import of_case
 from ..case import import_42, import_basilisk
 from ..case.formats import is_42
 from ..case.imported import case_of_tables, case_text, faults_of
@@ -116,7 +117,7 @@ def compare(case, order, out, json, strict, units):
                             for one, found in compared])
     else:
         tell("\n\n".join(headline.first(found.validity, cost.text(one, found, system), system,
-                                         one.caveats)
+                                         of_case(one))
                          for (one, found), system in zip(compared, systems)))
     hold_laws(strict, (found.validity for _, found in compared), loaded)
 
@@ -141,7 +142,7 @@ def precision(case, json, csv, out, until, quick, all_settings, strict):
         write(shown.csv(*measured))
     else:
         tell("\n\n".join(headline.first(found.validity, shown.text(found, all_settings),
-                                   caveats=found.case.caveats) for found in measured))
+                                   caveats=of_case(found.case)) for found in measured))
     all_reached((found.case, found.reference.reason) for found in measured if not found.questions)
     hold_laws(strict, (found.validity for found in measured), [found.case for found in measured])
 

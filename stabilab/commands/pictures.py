@@ -12,6 +12,7 @@ from pathlib import Path
 
 import typer
 
+from ..answers.caveats import of_case
 from ..answers.chaos import Order, row_of
 from ..answers.chaos import chaos as ask_chaos
 from ..case.read import blamed_on, load
@@ -86,8 +87,8 @@ def surface(case, out, json, strict):
         write_json(loaded, [summary | headline.key(held, one, True) for one, summary,
                             held in zip(loaded, summaries, laws)])
     else:
-        tell("\n".join(headline.first(held, surface_text(summary, out), caveats=one.caveats) for one, summary,
-                       held in zip(loaded, summaries, laws)))
+        tell("\n".join(headline.first(held, surface_text(summary, out), caveats=of_case(one))
+                       for one, summary, held in zip(loaded, summaries, laws)))
     for one, summary in zip(loaded, summaries if json else ()):
         if not summary["sheets"]:
             say(f"{one.name}: no surface to write: {summary['reason']}")
@@ -113,7 +114,7 @@ def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
                                            dpi, units, end, neighbours))
     laws = [headline.of_case(one) for one in loaded]
     for one, held, paths in zip(loaded, laws, drawn):
-        for line in limiting.beside(one.caveats, units_of(one, units)):
+        for line in limiting.beside(of_case(one), units_of(one, units)):
             tell(line)
         if held is not None:
             tell(lettered(held.words))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from functools import partial
 
+from ..answers.caveats import of_case
 from ..answers.digits_asked import DEFAULT
 from ..answers.digits_run import best_reached, missed
 from ..answers.simulate import in_matrices, with_quaternion
@@ -112,7 +113,7 @@ def _as_text(case, run, reached, digits, units, width) -> str:
     # as many as the check vouches for, those asked for at least: exit code 5 says where they are not reached
     known = None if digits is None else max(digits, int(min(reached.digits, 99.0)))
     table = simulation.text(case, run, units, known, width)
-    return headline.first(run.validity, table + last + told, units, case.caveats)
+    return headline.first(run.validity, table + last + told, units, of_case(case))
 
 
 def _theory(case, run) -> list:

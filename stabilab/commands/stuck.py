@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 
-from ..answers.caveats import of_law
+from ..answers.caveats import caveats_of
 from ..answers.circular_orbit import circular_orbit
 from ..answers.dissipation.flat_spin import flat_spin as ask_flat_spin
 from ..answers.stuck.ask import each_firing
@@ -105,7 +105,8 @@ def when(cases, units, json, csv, strict, **limits):
                      else limited_time(case, limit.ask, limit.until))
             answered.append((case, limit, found))
     laws = [headline.until(case, found.validity, float(found.high)) for case, _, found in answered]
-    answered = [(case, limit, replace(found, caveats=(*found.caveats, *of_law(held))))
+    answered = [(case, limit, replace(found, caveats=(*found.caveats,
+                                                      *caveats_of(case.scene, validity=held))))
                 for (case, limit, found), held in zip(answered, laws)]
     if json:
         write(as_json([questions.as_dict(*one) | headline.key(held) for one, held in zip(answered, laws)]))

@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from ..answers.caveats import CONDITIONS, STEADY, condition, of_equilibrium
+from ..answers.caveats import CONDITIONS, STEADY, condition
 from ..answers.chaos import chaos, long_enough, row_of
 from ..answers.equilibria import equilibria
 from ..answers.fate import extremes, fate, period
@@ -173,7 +173,7 @@ def _depart(case: Case, states: np.ndarray) -> np.ndarray:
     for row in np.nonzero(open_ & ~found if twin.plain else open_)[0].tolist():
         here = replace(case, state=tuple(states[row].tolist()))
         stability = motion(here.scene, here.start, brief=True).stability
-        found[row] = bool(of_equilibrium(case.scene, stability))
+        found[row] = stability is not None and not stability.stable
     return found
 
 

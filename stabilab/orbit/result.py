@@ -48,6 +48,11 @@ class Stability:
     growth: float | None = None
 
     @property
+    def stable(self) -> bool:
+        """Whether it is proved that disturbances stay small."""
+        return self.verdict in ("stable", "asymptotically stable")
+
+    @property
     def unstable(self) -> bool:
         """Whether disturbances leave it."""
         return self.verdict == "unstable"

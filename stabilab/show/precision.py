@@ -7,7 +7,7 @@ import math
 import textwrap
 from pathlib import Path
 
-from ..answers.caveats import caveats_of
+from ..answers.caveats import of_case
 from ..cost import accuracy
 from ..cost.accuracy import EPS, digit_price
 from ..errors import InputError
@@ -231,7 +231,7 @@ def csv(*measured) -> str:
     lines: list = [(*COLUMNS, "caveats")]
     for found in measured:
         case = found.case
-        caveats = caveats_of(case.scene, validity=found.validity, file=case.caveats)
+        caveats = of_case(case, found.validity)
         lines += [(*_row(found, p).values(), limiting.cell(case, caveats)) for p in found.points]
     return csv_lines(lines)[:-1]
 

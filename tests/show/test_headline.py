@@ -70,7 +70,7 @@ def test_an_equilibrium_with_a_rate_is_a_steady_rotation_and_one_without_is_rest
     assert headline(case, told(case)) == steady
     # without a torque and a rate nothing changes: D omega' = 0, by hand
     wheel = Scene(Body((3, 2, 1)), Gyrostat((0, 0, 1)))
-    assert headline(case, motion(wheel, (0, 0, 0))).startswith("AT REST; every rate stays as it is")
+    assert headline(case, motion(wheel, (0, 0, 0))).startswith("AT REST (stable); every rate stays as it is")
 
 
 def test_proofs_and_algebra_stand_behind_why(stabilab, own):

@@ -86,7 +86,7 @@ def test_a_case_remembers_its_units_and_an_option_overrides_them(stabilab, case_
 
 @pytest.mark.parametrize("line, words",
                          [('units = "grad"', "expected deg, deg/day, rpm, rev/s, si"), ("units = 3", "expected a text in quotes"),
-                                         ('unit = "si"', "did you mean units")])
+                                         ('unit = "si"', 'write units = "si"')])
 def test_units_of_a_case_that_are_none_are_a_fault_with_its_line(stabilab, case_file, line, words):
     path = case_file(CASE + f"[output]\n{line}\n", "own")
     code, out, err = stabilab("classify", path)

@@ -35,14 +35,14 @@ import numpy as np
 
 from ...case.read import with_data
 from ...case.source import parsed
-from ...errors import Caveat, InputError, Kind
+from ...errors import Caveat, InputError, Kind, without
 from ...numbers.units import ANGLE, in_si
 from ...numbers.vectors import Float3, cross, dot
 from ...physics.states import moved_row
 from ...reasons import old
 from ...representation import Compared, Shown
 from ...validation import checked_case
-from ..caveats import of_law
+from ..caveats import caveats_of
 from ..passage import MOVED, WIDER
 from .changes import Span, spans_of
 from .spinner import Run, Spinner, after_the_separatrix
@@ -141,7 +141,7 @@ def flat_spin(case: Any, within: Any = "5 deg") -> FlatSpin:
 def of_case(case: Any, angle: float, spans: bool = True) -> FlatSpin:
     """The same of a case and an angle in rad; spans: also look for changes of the outcome."""
     found = _answered(Spinner.of(case), angle, spans)
-    own = [one for one in case.caveats if one.kind is not Kind.UNCERTAIN]
+    own = without(case.caveats, Kind.UNCERTAIN)
     found = replace(found, caveats=(*own, *found.caveats))
     return _over_the_box(case, found) if case.uncertain and found.outcome in (POSITIVE, NEGATIVE) else found
 
@@ -244,7 +244,8 @@ def _timed(spinner: Spinner, found: FlatSpin, angle: float, spans: bool) -> Flat
     first = runs[0]
     times: dict[str, Any] = {name: Time(t, WIDER * abs(t - seen[1][name]) + 1e-15 * t)
                              for name, t in seen[0].items() if name in seen[1]}
-    found = replace(found, steps=first.steps, nutation=nutation, caveats=of_law(first.validity), **times)
+    found = replace(found, steps=first.steps, nutation=nutation,
+                    caveats=caveats_of(spinner.scene, validity=first.validity), **times)
     if found.outcome != UNDECIDED:
         return found
     why = first.why or runs[1].why

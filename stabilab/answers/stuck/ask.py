@@ -15,9 +15,8 @@ from fractions import Fraction
 from itertools import combinations
 from typing import Any, TypeAlias, TypeGuard
 
-from ...case.body import LOOSE, TOLERANCE
 from ...case.table import Uncertain
-from ...errors import Caveat, InputError, Kind
+from ...errors import Caveat, InputError, Kind, without
 from ...numbers.exact import floats
 from ...numbers.principal import NOTHING, without_trace
 from ...numbers.vectors import CYCLE, Exact3, dot
@@ -43,7 +42,8 @@ from .fate import (
 from .line import Family
 from .margins import Helper, Principal, Row, Stuck, WheelAnswer, margins
 
-NOT_SEEN = Sentence("tolerance-not-looked-at-here", TOLERANCE + "{thrusters} is not looked at here")
+NOT_SEEN = Sentence("tolerance-not-looked-at-here",
+                    "the tolerance of the force of {thrusters} is not looked at here")
 NO_TORQUE = Fraction(1, 10**9)  # of the torque: what is left of it counts as none
 WORTH = Fraction(999, 1000)  # of the torque: a helper that leaves more is none
 Duty: TypeAlias = tuple[Fraction, ...]  # the share of the time that each fires
@@ -247,7 +247,7 @@ def stuck(case: Any, all_thrusters: bool = False, progress: Callable[[str], Any]
 
 def each_firing(case: Any) -> Any:
     """The case as one whose thrusters fire, one at a time: without the caveat that none does."""
-    return replace(case, caveats=tuple(one for one in case.caveats if one.kind is not Kind.THRUSTERS))
+    return replace(case, caveats=without(case.caveats, Kind.THRUSTERS))
 
 
 def _chosen(case: Any, scenario: Scenario, all_thrusters: bool) -> list[tuple[Any, ...]]:
@@ -274,9 +274,9 @@ def _row(scenario: Scenario, thrusters: Sequence[Any]) -> Row:
     stability = (of_gyrostat(scene, scenario.state) if seen.fate == Fate.EQUILIBRIUM and scene.plain
                  else None)
     box = _over_box(scenario, thrusters, scene)
-    own = [one for one in scenario.case.caveats if not one.words.startswith(LOOSE)]
+    own = [*without(scenario.case.caveats, Kind.TOLERANCE, Kind.MISALIGNMENT)]
     if (loose := [t.name for t in thrusters if t.force_tolerance]) and not (off and off.within):
-        own.append(Caveat(Kind.UNCERTAIN, NOT_SEEN(thrusters=tuple(loose))))
+        own.append(Caveat(Kind.TOLERANCE, NOT_SEEN(thrusters=tuple(loose))))
     caveats = caveats_of(scene, seen.fate in STEADY or seen.when.never, off, file=own, stability=stability)
     return Row(
         tuple(t.name for t in thrusters), torque=scenario.torque_in_file(thrusters),

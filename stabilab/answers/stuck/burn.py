@@ -38,8 +38,7 @@ from typing import Any
 
 import numpy as np
 
-from ...case.body import LOOSE
-from ...errors import Caveat, InputError, Kind
+from ...errors import Caveat, InputError, Kind, without
 from ...numbers.units import RATE, TIME, Dimension, in_si
 from ...numbers.vectors import Float3
 from ...orbit.result import Motion
@@ -383,7 +382,7 @@ def _closed(chain: Chain, links: Sequence[Link]) -> Closed:
 
 def craft_caveats(craft: Any) -> tuple[Caveat, ...]:
     """The caveats of a case but for what its thrusters leave open, of which a burn speaks itself."""
-    return tuple(one for one in craft.caveats if not one.words.startswith(LOOSE))
+    return without(craft.caveats, Kind.TOLERANCE, Kind.MISALIGNMENT)
 
 
 def _granted(craft: Any, closed: Closed, found: Latest | None = None) -> Iterator[Caveat]:

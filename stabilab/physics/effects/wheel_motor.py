@@ -58,6 +58,10 @@ class WheelMotor(Effect):
             if time <= 0:
                 raise InputError(f"duration: expected a positive number, got {float(time):g}")
             object.__setattr__(self, "duration", time)
+        ran = float(in_si(self.ran, TIME, "ran"))
+        if ran < 0:
+            raise InputError(f"ran: expected a time of at least 0, got {ran:g}")
+        object.__setattr__(self, "ran", ran)
 
     @classmethod
     def from_case(cls, table: Any, context: Any) -> WheelMotor | None:

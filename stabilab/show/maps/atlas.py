@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...answers.caveats import of_case
 from ...case.read import Case, read_text
 from ...errors import InputError, printable
 from ...maps.atlas import LEVEL, REFINE, Asked, Atlas, asked, drawn
@@ -113,7 +114,7 @@ ROWS = 12  # wheel momenta that are listed one by one
 def text(atlas: Atlas, units: Units) -> str:
     """The answer in the first line; then what is behind it."""
     told = limiting.lines(limits_of(atlas.asked.case, _all(atlas)), units)
-    return limiting.ahead(atlas.asked.case.caveats, "\n".join([
+    return limiting.ahead(of_case(atlas.asked.case), "\n".join([
         f"{atlas.asked.case.name}: {answer(atlas, units)}", *told, *_wheels(atlas, units),
         *_details(atlas, units), *_named(atlas, units)]))
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...answers.caveats import of_case
 from ...case.read import Case
 from ...errors import printable
 from ...maps.basins import (
@@ -64,7 +65,7 @@ def text(found: Basins) -> str:
         lines.append(
             "  refinement ended before the depth asked for: more than the largest number of states would be "
             "needed; take a smaller depth or plane")
-    return limiting.ahead(found.plan.case.caveats, "\n".join(lines))
+    return limiting.ahead(of_case(found.plan.case), "\n".join(lines))
 
 
 def _answer(found: Basins) -> str:

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ...answers.caveats import of_case
 from ...errors import cell, key
 from ...maps.axes import Span
 from ...maps.bifurcation.diagram import branches
@@ -24,10 +25,10 @@ def text(found: Diagram | Plane) -> str:
     """The answer first, then what is counted, notes, and a table: of pieces and events over one number, over
     two an example for each number of equilibria, and the cusps."""
     case, units = found.family.case, units_of(found.family.case)
-    return limiting.ahead(case.caveats, "\n".join([
+    return limiting.ahead(of_case(case), "\n".join([
         f"{case.name}: {answer(found).replace('<=', '≤')}",
         *(f"  {units.axes.sentence(words)}" for words in (found.what, *found.notes)),
-        *limiting.lines(case.caveats, units),
+        *limiting.lines(of_case(case), units),
         *(_table(found) if isinstance(found, Diagram) else _examples(found)), *frame.note(case)]))
 
 
@@ -42,7 +43,7 @@ def csv(found: Diagram | Plane) -> str:
     state, verdict; over two one for each point of each curve, then the cusps. Caveats stand in every line, in
     one of their own where there is no other."""
     head, rows = _line_rows(found) if isinstance(found, Diagram) else _plane_rows(found)
-    caveats = cell(found.family.case.caveats)
+    caveats = cell(of_case(found.family.case))
     rows = list(rows) or [[None] * len(head)] * bool(caveats)
     return csv_lines([[*head, "caveats"], *([*row, caveats] for row in rows)])
 
@@ -55,7 +56,7 @@ def json(found: Diagram | Plane) -> str:
                     "kind": found.kind, "what": found.what,
                     "axes": [_axis(span) for span in found.family.spans]}
                    | (_line_parts(found) if isinstance(found, Diagram) else _plane_parts(found))
-                   | {"notes": list(found.notes)} | key(case.caveats) | frame.key(case))
+                   | {"notes": list(found.notes)} | key(of_case(case)) | frame.key(case))
 
 
 # --- Over one number

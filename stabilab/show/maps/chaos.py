@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ...answers.caveats import caveats_of
+from ...answers.caveats import of_case
 from ...answers.chaos import FLAT, Chaos, Order, chaos
 from ...errors import printable
 from ...packages import demand
@@ -170,7 +170,7 @@ def json(rows: list[tuple[Any, Chaos]], laws: Sequence[Any]) -> str:
 
 def csv(rows: list[tuple[Any, Chaos]], laws: Sequence[Any]) -> str:
     """A line for each case and time. laws: as of `json`."""
-    told = [cell(case, caveats_of(case.scene, validity=held, file=case.caveats))
+    told = [cell(case, of_case(case, held))
             for (case, _), held in zip(rows, laws)]
     return csv_lines([["case", "answer", "time", "megno", "caveats"],
                         *([case.name, Order(int(found.labels)).word, time,

@@ -8,11 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from ...answers.caveats import CONDITIONS, HOLDS, NO_SUCH_BODY, UNSTABLE_POINT, stated, unseen
-from ...case.body import MISALIGNED
+from ...answers.caveats import CONDITIONS, HOLDS, NO_SUCH_BODY, UNSTABLE_POINT, of_case, stated
 from ...case.lines import KeyLines
 from ...case.table import Faults, Table
-from ...errors import Caveat, Kind
+from ...errors import Caveat, Kind, without
 from ...maps.axes import Key, Span, value_at
 from ...maps.columns import ENERGY, PACE, RATE, TIME, Column
 from ...maps.plan import Plan
@@ -80,14 +79,13 @@ def unit(plan: Plan, column: Column) -> str:
 
 def of_every_point(case: Any) -> list[Caveat]:
     """What limits the answer of every point of a map alike."""
-    return [one for one in (*case.caveats, *unseen(case)) if one.kind is not Kind.UNPHYSICAL  # of a point
-            and not one.words.startswith(MISALIGNED)]  # which `unseen` says
+    return [*without(of_case(case), Kind.UNPHYSICAL)]  # which is of a point
 
 
 def limits_of(case: Any, records: Any) -> list[Caveat]:
     """What limits the answers of a map: what the file says itself, on what its points rest, a limit that was
     not looked at."""
-    found = [*(one for one in case.caveats if not one.words.startswith(MISALIGNED)), *unseen(case)]
+    found = [*of_case(case)]
     numbers = records["caveats"].ravel().tolist() if "caveats" in records.dtype.names else []
     counts = Counter(number % len(CONDITIONS) for number in numbers)
     parts = [(Kind.TILT, HOLDS(condition=CONDITIONS[n]), count) for n, count in sorted(counts.items()) if n]

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...case.body import MISALIGNED
+from ...answers.caveats import of_case
 from ...case.read import Case
-from ...errors import Kind, printable
+from ...errors import Kind, printable, without
 from ...files import whole_file
 from ...maps.columns import CAVEATS, ENDLESS, NO_CASE, NONE, OPEN, TIME, VALID, Column, columns_of
 from ...maps.plan import Plan, planned
@@ -63,7 +63,7 @@ def text(found: Swept) -> str:
         lines.append(f"  {told}: {printable(found.why)}")
     if found.records.size <= ROWS:
         lines += _table(found)
-    return limiting.ahead(plan.case.caveats, "\n".join(lines))
+    return limiting.ahead(of_case(plan.case), "\n".join(lines))
 
 
 def _answer(found: Swept) -> str:
@@ -194,8 +194,7 @@ def _case_of(plan: Plan) -> Any:
     varied = {path for axis in plan.axes for path in axis.key.paths}
     if plan.sampled is None and not all(one.path in varied for one in plan.case.uncertain):
         return plan.case
-    return replace(plan.case, caveats=tuple(one for one in plan.case.caveats if one.kind is not Kind.UNCERTAIN
-                                            or one.words.startswith(MISALIGNED)))
+    return replace(plan.case, caveats=without(plan.case.caveats, Kind.UNCERTAIN, Kind.TOLERANCE))
 
 
 def csv(found: Swept) -> str:

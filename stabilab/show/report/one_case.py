@@ -12,12 +12,13 @@ from pathlib import Path
 
 import numpy as np
 
+from ...answers.caveats import of_case
 from ...answers.certificate import certificate
 from ...answers.equilibria import equilibria
 from ...answers.motion import motion
 from ...answers.uncertain.fate import uncertain
 from ...answers.when import with_tilt
-from ...errors import Kind, StabilabError
+from ...errors import Kind, StabilabError, without
 from ...physics.equations import derive, invariants
 from ...theories.follow import models_of
 from ...verify import verify_file
@@ -141,8 +142,9 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     answer = f"No motion is given. Equilibria: {found.kind if found else 'not known'}"
     answer = headline(case, moved, units) if moved else answer
     beyond = "" if moved is None or moved.validity is None or moved.validity.held else moved.validity.words
-    caveats = limiting.beside((one for one in (case if moved is None else moved).caveats
-                               if one.kind is not Kind.UNCERTAIN), units, answer)
+    over = (Kind.UNCERTAIN, Kind.TOLERANCE) if box else (Kind.UNCERTAIN,)
+    caveats = limiting.beside(without(of_case(case) if moved is None else moved.caveats, *over), units,
+                              answer)
     page = {"name": case.name, "title": case.heading, "source": case.source,
             "path": case.path, "text": case.text,
             "headline": printed("; ".join(filter(None, (answer, what_changes(box, units))))),
@@ -261,7 +263,7 @@ def sections_of_sweep(cases, folder: Path, stem: str) -> dict:
     rows = [{"name": case.name, "values": [column[n] for key in keys for _, _, column in key],
              "told": list(map(printed, cells[n])), "fate": "" if found is None else found.fate.word}
             for n, (case, found, _) in enumerate(answered)]
-    caveats = dict.fromkeys(one for case in cases for one in case.caveats)
+    caveats = dict.fromkeys(one for case in cases for one in of_case(case))
     without = len(cases) - len(motions)
     answers, seen = [fates(motions, units)] if motions else [], set(map(look, motions))
     answers += [f"without a motion: {without}"] if without else []
