@@ -112,8 +112,8 @@ def best_reached(case: Any, times: np.ndarray, digits: int = DEFAULT, aim: bool 
 
 
 def _known(found: Reached) -> Reached:
-    """A motion without the times at which not one digit of its state is known: such a state is none. Where the
-    check did not come so far nothing is known of its digits, and it stays."""
+    """A motion without the times at which not one digit of its state is known: such a state is none. Where
+    the check did not come so far nothing is known of its digits, and it stays."""
     run, gaps = found.run, found.gaps
     held = np.ones(len(run.t), bool) if gaps is None else gaps <= LOST
     if held.all():
