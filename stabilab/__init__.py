@@ -16,8 +16,8 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .answers.fate import extremes as extremes
     from .answers.fate import fate as fate
     from .answers.fate import fate_grid as fate_grid
+    from .answers.fate import motion as motion
     from .answers.fate import period as period
-    from .answers.motion import motion as motion
     from .answers.passage import TimeTo as TimeTo
     from .answers.simulate import simulate as simulate
     from .answers.simulate import trajectory as trajectory
@@ -71,7 +71,7 @@ _HOME = {
     "Gyrostat": "physics.effects.gyrostat", "ConstantTorque": "physics.effects.constant_torque",
     "Fate": "orbit.result",
     "equilibria": "answers.equilibria", "chaos": "answers.chaos",
-    "fate": "answers.fate", "fate_grid": "answers.fate", "motion": "answers.motion",
+    "fate": "answers.fate", "fate_grid": "answers.fate", "motion": "answers.fate",
     "attitude": "answers.attitude", "extremes": "answers.fate", "period": "answers.fate",
     "spin_up": "unreduced.spin_up.follow",
     "separatrix": "orbit.separatrix.branches", "stuck": "answers.stuck.ask",
@@ -89,6 +89,7 @@ _HOME = {
     "plot": "show", "sweep": "show.maps.sweep", "atlas": "show.maps.atlas",
     "basin": "show.maps.basins", "bifurcation": "maps.bifurcation.ask", "InputError": "errors",
 }
+DONE = ("load", "fate", "fate_grid", "motion", "extremes", "period", "simulate")
 __all__ = [*_HOME, "__version__"]
 
 
@@ -97,7 +98,7 @@ def __getattr__(name: str) -> Any:
         home = import_module(f"{__name__}.{_HOME[name]}")
         # a room of its own: plot
         found = getattr(home, name) if hasattr(home, name) else import_module(f"{home.__name__}.{name}")
-        if isinstance(found, FunctionType) and name != "load":
+        if isinstance(found, FunctionType) and name not in DONE:
             found = import_module(f"{__name__}.public").of_any(found)
         globals()[name] = found  # one and the same whenever it is used: it is pickled by its name
         return found

@@ -18,8 +18,8 @@ from ..physics.to_numpy import equations_of
 from ..representation import Shown
 from ..unreduced.chaos import TURNS, growth, turn_of
 from ..validation import checked_scene
-from .fate import fate
 from .motion import motion
+from .motions.rows import fates
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -157,7 +157,7 @@ def row_of(scene: AnyScene, state: Sequence[float], blocks: Mapping[str, Sequenc
 def _fates(scene: AnyScene, rows: np.ndarray, end: float) -> np.ndarray:
     """(n,): what becomes of each motion."""
     if scene.plain:
-        return np.asarray(fate(scene, rows, follow=end).labels)
+        return np.asarray(fates(scene, rows, follow=end).labels)
     parts = slices(scene.blocks)
     return np.array([motion(scene, {name: row[part].tolist() for name, part in parts.items()},
                             brief=True).fate for row in rows], int)

@@ -32,7 +32,7 @@ from ..physics.states import (
 )
 from ..physics.to_numpy import to_numpy
 from .digits_asked import CAUTION, DEFAULT, MOST, NEAR, checked_digits, digits_of
-from .simulate import LOST, STIFF_METHOD, Simulation, errors_of, in_quaternions, simulate
+from .simulate import LOST, STIFF_METHOD, Simulation, errors_of, in_quaternions, simulated
 
 # --- The reduced form as one of the ways to follow a motion: `reduced_motion` at a given resolution
 POINTS = (2, 4, 6, 8, 12, 16)  # of Gauss's rule on each panel
@@ -234,7 +234,7 @@ def _distances(one: Any, two: Any) -> np.ndarray:
 
 
 def _integrated(case: Any, times: np.ndarray, method: str | None, rtol: float | None) -> Simulation:
-    return simulate(case.scene, case.state, times, case.blocks, method, rtol)
+    return simulated(case.scene, case.state, times, case.blocks, method, rtol)
 
 
 def _reduced(case: Any, times: np.ndarray, method: str, nodes: float) -> Simulation:

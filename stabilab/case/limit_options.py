@@ -60,6 +60,11 @@ def stated_tilt(text: str) -> float:
     return angle
 
 
+def angle_of(tilt: object) -> float:
+    """The same of what a function is given: text, or a number in rad."""
+    return stated_tilt(tilt if isinstance(tilt, str) else str(tilt))
+
+
 def _of_case(case):
     """The fields of `StatedLimit` but `until` by [limits] of the case; those of an option below."""
     if case.limits is None:

@@ -48,6 +48,10 @@ DOORS = {
     ("stabilab.answers.motion", "stabilab.answers.at_equilibrium"): "loaded for states of equilibrium alone",
     ("stabilab.answers.at_equilibrium", "stabilab.physics.to_numpy"): "loads numpy",
     ("stabilab.answers.motion", "stabilab.answers.dissipation.ending"): "loads numpy",
+    ("stabilab.answers.motions.of_case", "stabilab.answers.simulate"): "loaded for approximate laws alone",
+    ("stabilab.answers.motions.of_case", "stabilab.answers.when"): "loaded for limits and tilts alone",
+    ("stabilab.answers.motions.of_case",
+     "stabilab.integrate.limits_along"): "loaded for approximate laws alone",
     ("stabilab.answers.certificate", "stabilab.answers.certified_motion"): "loads numpy",
     ("stabilab.commands.classify", "stabilab.commands.certificates"): "loaded for --certify alone",
     ("stabilab.commands.common",
@@ -67,9 +71,6 @@ DOORS = {
     ("stabilab.show.explore.session", "stabilab.answers.when"): "loads numpy",
     ("stabilab.show.space", "stabilab.orbit.separatrix.branches"): "loads numpy",
     ("stabilab.show.command_groups", "stabilab.show.plot.subject"): "loads numpy",
-    ("stabilab.show.text.headline", "stabilab.answers.when"): "loads numpy",
-    ("stabilab.show.text.headline", "stabilab.answers.simulate"): "loads numpy",
-    ("stabilab.show.text.headline", "stabilab.integrate.limits_along"): "loaded for approximate laws alone",
     ("stabilab.unreduced.bounds", "stabilab.unreduced.evidence"): "loads numpy",
 }
 
