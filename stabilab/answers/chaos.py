@@ -2,7 +2,7 @@
 proof."""
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any
@@ -13,7 +13,8 @@ from ..errors import InputError
 from ..orbit.result import Fate
 from ..physics.coefficients import effective
 from ..physics.scene import AnyScene, hold_on, judge_starts, slices
-from ..physics.states import REST, checked_starts, float_array, start_of
+from ..physics.states import checked_starts, float_array
+from ..physics.states import row_of as row_of
 from ..physics.to_numpy import equations_of
 from ..representation import Shown
 from ..unreduced.chaos import TURNS, growth, turn_of
@@ -144,14 +145,6 @@ def chaos(scene: AnyScene, states: ArrayLike, until: float | None = None,
 def long_enough(scene: AnyScene, state: ArrayLike) -> float:
     """The time that a motion is followed where none is given."""
     return TURNS * turn_of(scene, checked_starts(equations_of(scene), [state]))
-
-
-def row_of(scene: AnyScene, state: Sequence[float], blocks: Mapping[str, Sequence[float]]) -> list[float]:
-    """All of a state in one row: its three rates, then the other blocks that the scene needs."""
-    if scene.variables == "scaled":
-        return list(state)
-    parts = REST | start_of(scene, state, blocks)
-    return [float(value) for name in scene.blocks for value in parts[name]]
 
 
 def _fates(scene: AnyScene, rows: np.ndarray, end: float) -> np.ndarray:

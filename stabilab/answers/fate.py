@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..case.given import as_case, renamed, started
+from ..case.given import Amount, Given, Span, Start, Starts, as_case, renamed, started, time_in
 from ..case.limit_options import angle_of
 from ..case.read import Case
 from ..errors import InputError
@@ -29,9 +29,10 @@ if TYPE_CHECKING:
 NONE = ((np.nan, np.nan),) * 3
 
 
-def fate(scene: Any, state: Any = None, *, states: Any = None, span: Any = None, tilt: Any = None,
-         digits: int | None = None, follow: float | None = None, proof: bool = False,
-         fast: bool | None = None, tell: Callable[..., Any] | None = None) -> Motions:
+def fate(scene: Given, state: Start | None = None, *, states: Starts | None = None,
+         span: Span | None = None, tilt: Amount | None = None, digits: int | None = None,
+         follow: Amount | None = None, proof: bool = False, fast: bool | None = None,
+         tell: Callable[..., Any] | None = None) -> Motions:
     """What becomes of the motion of a case, or from each of many starts.
 
     scene: a case in any form (see `stabilab.case.given`), or a scene. state: its start, where that is another
@@ -48,6 +49,7 @@ def fate(scene: Any, state: Any = None, *, states: Any = None, span: Any = None,
     analysis does not cover.
     """
     case, array = asked_of(scene, state, states, span, "fate")
+    follow = time_in(case.scene, follow, "follow")
     options = _options(array, follow=follow, proof=proof, fast=fast)
     found = Motions(case, array, options, None if tilt is None else angle_of(tilt))
     if found.by_rows:
@@ -75,7 +77,7 @@ def _put_margins(found: Motions, told: Told) -> None:
         found.kept["fate"] = [replace(found.motions("fate")[0], margin=float(told.values))]
 
 
-def fate_grid(scene: Any, axes: Sequence[ArrayLike]) -> np.ndarray:
+def fate_grid(scene: Given, axes: Sequence[ArrayLike]) -> np.ndarray:
     """Labels (n1, n2, n3), int8 of `Fate`, of the states (axes[0][a], axes[1][b], axes[2][c]); the same as
     `fate` gives.
 
@@ -105,8 +107,9 @@ def _checked_axes(axes: Sequence[ArrayLike]) -> list[np.ndarray]:
     return arrays
 
 
-def extremes(scene: Any, state: Any = None, span: Any = None, *, states: Any = None,
-             digits: int | None = None, follow: float | None = None, fast: bool | None = None) -> Values:
+def extremes(scene: Given, state: Start | None = None, span: Span | None = None, *,
+             states: Starts | None = None, digits: int | None = None, follow: Amount | None = None,
+             fast: bool | None = None) -> Values:
     """Smallest and largest value of each component over all t >= 0: (..., 3, 2) in the case's variables.
 
     scene, state, states, follow, fast: as of `fate`; span: a time, or two (from, to). +-inf where a component
@@ -117,6 +120,7 @@ def extremes(scene: Any, state: Any = None, span: Any = None, *, states: Any = N
     the formulas' own bound.
     """
     case, array = asked_of(scene, state, states, span, "extremes")
+    follow = time_in(case.scene, follow, "follow")
     found = Motions(case, array, _options(array, follow=follow, fast=fast), tilted=False)
     over, why = "all time", ""
     if found.by_rows:
@@ -134,8 +138,8 @@ def extremes(scene: Any, state: Any = None, span: Any = None, *, states: Any = N
     return Values("extremes", values, found, told and told.decimals, over, why)
 
 
-def period(scene: Any, state: Any = None, *, states: Any = None, span: Any = None,
-           digits: int | None = None, follow: float | None = None, fast: bool | None = None) -> Values:
+def period(scene: Given, state: Start | None = None, *, states: Starts | None = None, span: Span | None = None,
+           digits: int | None = None, follow: Amount | None = None, fast: bool | None = None) -> Values:
     """Period of each motion, (...,) in the case's time: inf where the motion does not repeat, 0 at an
     equilibrium, NaN where its fate is undecided or no return is known, as `reason` says.
 
@@ -143,6 +147,7 @@ def period(scene: Any, state: Any = None, *, states: Any = None, span: Any = Non
     does, and under a torque off the axes follows every motion as `fate` does.
     """
     case, array = asked_of(scene, state, states, span, "period")
+    follow = time_in(case.scene, follow, "follow")
     found, why = Motions(case, array, _options(array, follow=follow, fast=fast), tilted=False), ""
     if found.by_rows:
         values = rows.periods(case.scene, array, fast)
@@ -166,8 +171,8 @@ def _with_digits(question: str, found: Motions, digits: int, values: Any) -> Tol
     return ask(question, case.scene, case.start, digits, case.span, known, case.exact_state).required()
 
 
-def motion(scene: Any, state: Any = None, span: Any = None, *, states: Any = None, tilt: Any = None,
-           follow: float | None = None, proof: bool = False, tell: Callable[..., Any] | None = None,
+def motion(scene: Given, state: Start | None = None, span: Span | None = None, *, states: Starts | None = None, tilt: Amount | None = None,
+           follow: Amount | None = None, proof: bool = False, tell: Callable[..., Any] | None = None,
            brief: bool | None = None, exact: Any = None) -> Any:
     """All that is known of the motion of a case: a `Motion`; of many starts (`states`) a list of them.
 
@@ -180,6 +185,7 @@ def motion(scene: Any, state: Any = None, span: Any = None, *, states: Any = Non
     if brief is not None:
         renamed("motion", "brief", "fate, extremes or period", brief, None)
     case, array = asked_of(scene, state, states, span, "motion")
+    follow = time_in(case.scene, follow, "follow")
     angle = None if tilt is None else angle_of(tilt)
     starts = [case] if array.ndim == 1 else [started(case, row) for row in array.reshape(-1, array.shape[-1])]
     found = [_whole(one, bool(brief), angle, follow, tell, proof) for one in starts]

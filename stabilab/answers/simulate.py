@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..case.given import as_case, no_start, renamed, started, time_in
+from ..case.given import Given, Start, as_case, no_start, renamed, started, time_in
 from ..case.sections import attitude_of
 from ..errors import InputError
 from ..integrate.trajectory import SCIPY_METHODS, Trajectory, departures, integrated, watcher
@@ -154,9 +154,9 @@ def errors_of(state: Mapping[str, np.ndarray], share: float) -> dict[str, np.nda
             values in state.items()}
 
 
-def simulate(scene: Any, state: Any = None, times: Any = None, blocks: Mapping[str, Any] | None = None,
+def simulate(scene: Given, state: Start | None = None, times: ArrayLike | None = None, blocks: Mapping[str, Any] | None = None,
              method: str | None = None, rtol: float | None = None, attitude: str | None = None, *,
-             omega: Any = None) -> Simulation:
+             omega: Start | None = None) -> Simulation:
     """The exact motion of a case from its start at the given times.
 
     scene: a case in any form, or a scene; state: its start, where that is another or none: rates, all

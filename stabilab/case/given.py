@@ -7,7 +7,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any
+from os import PathLike
+from typing import TYPE_CHECKING, Any, TypeAlias
 from warnings import warn
 
 from ..errors import InputError
@@ -17,14 +18,23 @@ from ..numbers.units import ANGLE, LENGTH, MOMENTUM, NONE, RATE, TIME, VELOCITY,
 from ..numbers.vectors import Exact3, Number
 from ..physics.scene import BLOCKS, INSIDE, AnyScene, ScaledGyrostat, Scene, slices
 from ..validation import checked_span
-from .read import Case, load
+from .read import Case, load, with_text
 from .write import STATES
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+Amount: TypeAlias = "float | str | Fraction"  # text may have a unit
+Given: TypeAlias = "Case | Scene | ScaledGyrostat | str | PathLike[str] | Mapping[str, object]"
+Start: TypeAlias = "Sequence[Amount] | Mapping[str, Sequence[Amount]] | ArrayLike"  # one, or blocks by name
+Starts: TypeAlias = "ArrayLike | Sequence[Mapping[str, Sequence[Amount]]]"  # many
+Span: TypeAlias = "Amount | Sequence[Amount]"  # (from, to), or the end
 
 UNITS = {"omega": RATE, "x": NONE, "gamma": NONE, "attitude": ANGLE, "velocity": VELOCITY,
          "position": LENGTH, "damper": RATE, "wheel": MOMENTUM}  # of the blocks of a state
 
 
-def as_case(given: Any, state: Any = None, span: Any = None) -> Case:
+def as_case(given: Given, state: Start | None = None, span: Span | None = None) -> Case:
     """The case that is given: a `Case`, whatever `load` takes, or a scene; with this start and span in place
     of its own, where they are given.
 
@@ -37,6 +47,24 @@ def as_case(given: Any, state: Any = None, span: Any = None) -> Case:
     if state is not None:
         case = started(case, state)
     return case if span is None else replace(case, span=checked_span(time_in(case.scene, span, "span")))
+
+
+def as_text(given: Given, state: Start | None = None, span: Span | None = None) -> Case:
+    """`as_case` for questions that vary what is written in a file."""
+    return with_text(as_case(given, state, span))
+
+
+def written(given: Given, state: Start | None = None, span: Span | None = None) -> Case | str | PathLike[str]:
+    """The path of a file as it is; anything else as a case with its text."""
+    path = isinstance(given, PathLike) or isinstance(given, str) and "\n" not in given
+    if path and state is None and span is None:
+        return given  # type: ignore[return-value]  # as the line above tells
+    return as_text(given, state, span)
+
+
+def scene_of(given: Given) -> AnyScene:
+    """The scene that is given, or that of the case."""
+    return given if isinstance(given, (Scene, ScaledGyrostat)) else as_case(given).scene
 
 
 def of_scene(scene: AnyScene) -> Case:

@@ -49,7 +49,7 @@ class Motions(Shown):
     labels: (...,) int8 of `Fate`. margins: (...,) barrier minus energy in the scene's energy (J; or x_i^2/2 +
     U when scaled): positive below the barrier; -inf where there is no barrier ahead, +inf where no separatrix
     bounds the motion, NaN where nothing is known of any (`orbit.fate_arrays.FateResult` has the details).
-    axis: 1, 2, 3 of a spin-up, else 0; sense: its sign, else 0. reasons: codes of `orbit.fate.Reason`, -1
+    axis: 1, 2, 3 of a spin-up, else 0; sense: its sign, else 0. reasons: codes of `orbit.fate.Basis`, -1
     where there is none. level, reason, outcome: in words, a string of one start, an object array of many.
     precise: how many states had to be decided in many digits. caveats: all that limits the answer. fate: of
     one start its `Fate`. case: whose motion it is, of one start with that start. Iterating gives labels,

@@ -7,15 +7,16 @@ from typing import Any
 
 import numpy as np
 
-from ...case.given import as_case, in_numbers, is_one, started, with_start
+from ...case.given import Given, Span, Start, Starts, as_case, in_numbers, is_one, started, with_start
 from ...case.read import Case
 from ...errors import InputError
 from ...numbers.units import NONE, RATE
 from ...physics.coefficients import effective
-from ...physics.states import checked_states, float_array
+from ...physics.states import checked_states, float_array, row_of
 
 
-def asked_of(given: Any, state: Any, states: Any, span: Any, question: str) -> tuple[Case, np.ndarray]:
+def asked_of(given: Given, state: Start | None, states: Starts | None, span: Span | None, question: str
+             ) -> tuple[Case, np.ndarray]:
     """(case, starts): of one start a row (N,) and the case that starts there; of many (..., N) and the case
     as it was given. Raises InputError where no start is given and the case has none."""
     if state is not None and states is not None:
@@ -36,6 +37,15 @@ def asked_of(given: Any, state: Any, states: Any, span: Any, question: str) -> t
 def whole(case: Case) -> np.ndarray:
     """The start of a case as a row of all that its scene needs."""
     return np.array(with_start(case, "fate").start, float)
+
+
+def whole_rows(case: Case, array: np.ndarray) -> np.ndarray:
+    """The starts (..., N) of `asked_of` with all blocks of the state in order, as a run takes them."""
+    if case.scene.blocks == ("omega",):
+        return array
+    made = [started(case, row) for row in array.reshape(-1, array.shape[-1])]
+    return np.array([row_of(one.scene, one.state or (), one.blocks) for one in made]).reshape(
+        *array.shape[:-1], -1)
 
 
 def _rows(case: Case, numbers: Any) -> np.ndarray:

@@ -140,12 +140,13 @@ class Row:
 @dataclass(frozen=True, repr=False)
 class Stuck(Shown):
     """The answer for one case: a row a combination of thrusters (see `stuck`), in one set of principal axes.
-    """
+    caveats: those of the first row; each has its own."""
 
     case: str
     rows: tuple[Row, ...]
     principal: Principal
     ranked: bool = False
+    caveats: tuple[Caveat, ...] = ()
 
     @property
     def caveats(self) -> tuple[Caveat, ...]:
