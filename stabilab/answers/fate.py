@@ -138,8 +138,9 @@ def extremes(scene: Given, state: Start | None = None, span: Span | None = None,
     return Values("extremes", values, found, told and told.decimals, over, why)
 
 
-def period(scene: Given, state: Start | None = None, *, states: Starts | None = None, span: Span | None = None,
-           digits: int | None = None, follow: Amount | None = None, fast: bool | None = None) -> Values:
+def period(scene: Given, state: Start | None = None, *, states: Starts | None = None,
+           span: Span | None = None, digits: int | None = None, follow: Amount | None = None,
+           fast: bool | None = None) -> Values:
     """Period of each motion, (...,) in the case's time: inf where the motion does not repeat, 0 at an
     equilibrium, NaN where its fate is undecided or no return is known, as `reason` says.
 
@@ -171,9 +172,10 @@ def _with_digits(question: str, found: Motions, digits: int, values: Any) -> Tol
     return ask(question, case.scene, case.start, digits, case.span, known, case.exact_state).required()
 
 
-def motion(scene: Given, state: Start | None = None, span: Span | None = None, *, states: Starts | None = None, tilt: Amount | None = None,
-           follow: Amount | None = None, proof: bool = False, tell: Callable[..., Any] | None = None,
-           brief: bool | None = None, exact: Any = None) -> Any:
+def motion(scene: Given, state: Start | None = None, span: Span | None = None, *,
+           states: Starts | None = None, tilt: Amount | None = None, follow: Amount | None = None,
+           proof: bool = False, tell: Callable[..., Any] | None = None, brief: bool | None = None,
+           exact: Start | None = None) -> Motion | list[Motion]:
     """All that is known of the motion of a case: a `Motion`; of many starts (`states`) a list of them.
 
     scene, state, states, tilt, follow, proof, tell: as of `fate`. span: (from, to), in whose times, and from

@@ -154,9 +154,9 @@ def errors_of(state: Mapping[str, np.ndarray], share: float) -> dict[str, np.nda
             values in state.items()}
 
 
-def simulate(scene: Given, state: Start | None = None, times: ArrayLike | None = None, blocks: Mapping[str, Any] | None = None,
-             method: str | None = None, rtol: float | None = None, attitude: str | None = None, *,
-             omega: Start | None = None) -> Simulation:
+def simulate(scene: Given, state: Start | None = None, times: ArrayLike | None = None,
+             blocks: Mapping[str, Any] | None = None, method: str | None = None, rtol: float | None = None,
+             attitude: str | None = None, *, omega: Start | None = None) -> Simulation:
     """The exact motion of a case from its start at the given times.
 
     scene: a case in any form, or a scene; state: its start, where that is another or none: rates, all

@@ -99,8 +99,9 @@ def _parts(scene: AnyScene, state: Any) -> tuple[Exact3, dict[str, tuple[float, 
             rates, blocks = row, {}
         else:
             short = [name for name in scene.blocks if name in ("omega", "gamma", *INSIDE)]
-            known = next((parts for parts in (slices(short), names)
-                          if len(row) == max(part.stop for part in parts.values())), None)
+            # what the question needs, of which what turns inside may be left out at the end; or all of it
+            known = next((dict(list(parts.items())[:n + 1]) for parts in (slices(short), names)
+                          for n, part in enumerate(parts.values()) if len(row) == part.stop), None)
             if known is None:
                 raise InputError(f"state: expected {_expected(scene)}, got {len(row)} of them")
             blocks = {name: row[part] for name, part in known.items()}

@@ -42,6 +42,7 @@ from ..orbit.extremes_arrays import extremes_and_periods
 from ..orbit.result import Fate
 from ..physics.coefficients import effective
 from ..physics.states import start_of
+from ..validation import reach_of
 from .axes import Key, with_values
 from .columns import ENDLESS, LEVELS, LIMIT_LEVELS, NO_CASE, NONE, OPEN, record
 from .plan import Chunk, Plan
@@ -219,7 +220,7 @@ def _extremes_and_periods(case: Case, states: np.ndarray, box: bool, times: bool
                                               by_numba=len(states) >= COMPILED)
     else:
         try:
-            found = extremes(case.scene, states, case.span) if box else None
+            found = extremes(case.scene, states, reach_of(case.span)) if box else None
         except InputError:
             if not KINDS[kind].follows:
                 raise
