@@ -16,8 +16,8 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .answers.fate import extremes as extremes
     from .answers.fate import fate as fate
     from .answers.fate import fate_grid as fate_grid
-    from .answers.fate import motion as motion
     from .answers.fate import period as period
+    from .answers.motions.one import motion as motion
     from .answers.motions.scenes import chaos as chaos
     from .answers.motions.scenes import derive as derive
     from .answers.motions.scenes import ensemble as ensemble
@@ -72,7 +72,7 @@ _HOME = {
     "Gyrostat": "physics.effects.gyrostat", "ConstantTorque": "physics.effects.constant_torque",
     "Fate": "orbit.result",
     "equilibria": "answers.equilibria", "chaos": "answers.motions.scenes",
-    "fate": "answers.fate", "fate_grid": "answers.fate", "motion": "answers.fate",
+    "fate": "answers.fate", "fate_grid": "answers.fate", "motion": "answers.motions.one",
     "attitude": "answers.attitude", "extremes": "answers.fate", "period": "answers.fate",
     "spin_up": "answers.motions.scenes",
     "separatrix": "answers.motions.scenes", "stuck": "answers.stuck.ask",

@@ -61,7 +61,7 @@ class Case(read.Case):
                tilt: Amount | None = None, follow: Amount | None = None, proof: bool = False,
                tell: Callable[..., Any] | None = None) -> Motion | list[Motion]:
         """All that is known of the motion: see `stabilab.motion`."""
-        from .answers.fate import motion
+        from .answers.motions.one import motion
         return motion(self, state, span, states=states, tilt=tilt, follow=follow, proof=proof, tell=tell)
 
     @_in_doubles

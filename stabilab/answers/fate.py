@@ -10,16 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..case.given import Amount, Given, Span, Start, Starts, as_case, renamed, started, time_in
+from ..case.given import Amount, Given, Span, Start, Starts, as_case, time_in
 from ..case.limit_options import angle_of
-from ..case.read import Case
 from ..errors import InputError
-from ..orbit.result import Motion, no_period
+from ..orbit.result import no_period
 from ..validation import reach_of
 from .digits import ask, ask_all
 from .digits_asked import Told
 from .motions import rows
-from .motions.of_case import judged, motion_of_case, with_its_tilt
+from .motions.of_case import motion_of_case
 from .motions.result import Motions, Values, period_of
 from .motions.starts import asked_of
 
@@ -170,32 +169,3 @@ def _with_digits(question: str, found: Motions, digits: int, values: Any) -> Tol
         return ask_all(question, case.scene, found.states, digits, values, reach).required()
     known = found.motions({"fate": "fate", "period": True, "extremes": True}[question])[0]
     return ask(question, case.scene, case.start, digits, case.span, known, case.exact_state).required()
-
-
-def motion(scene: Given, state: Start | None = None, span: Span | None = None, *,
-           states: Starts | None = None, tilt: Amount | None = None, follow: Amount | None = None,
-           proof: bool = False, tell: Callable[..., Any] | None = None, brief: bool | None = None,
-           exact: Start | None = None) -> Motion | list[Motion]:
-    """All that is known of the motion of a case: a `Motion`; of many starts (`states`) a list of them.
-
-    scene, state, states, tilt, follow, proof, tell: as of `fate`. span: (from, to), in whose times, and from
-    the start to them, extremes are searched where the motion is not integrable. brief, exact: former
-    arguments; a start is exact where it is text or rational. Raises InputError as `fate` does.
-    """
-    if exact is not None:
-        state = renamed("motion", "exact", "state", exact, None)
-    if brief is not None:
-        renamed("motion", "brief", "fate, extremes or period", brief, None)
-    case, array = asked_of(scene, state, states, span, "motion")
-    follow = time_in(case.scene, follow, "follow")
-    angle = None if tilt is None else angle_of(tilt)
-    starts = [case] if array.ndim == 1 else [started(case, row) for row in array.reshape(-1, array.shape[-1])]
-    found = [_whole(one, bool(brief), angle, follow, tell, proof) for one in starts]
-    return found[0] if array.ndim == 1 else found
-
-
-def _whole(case: Case, brief: bool, tilt: float | None, follow: float | None,
-           tell: Callable[..., Any] | None, proof: bool) -> Motion:
-    found = motion_of_case(case, brief, follow, tell, proof)
-    found = judged(case, found) or found
-    return with_its_tilt(case, found, tilt)

@@ -49,6 +49,7 @@ DOORS = {
     ("stabilab.answers.motion", "stabilab.answers.at_equilibrium"): "loaded for states of equilibrium alone",
     ("stabilab.answers.at_equilibrium", "stabilab.physics.to_numpy"): "loads numpy",
     ("stabilab.answers.motion", "stabilab.answers.dissipation.ending"): "loads numpy",
+    ("stabilab.answers.motions.one", "stabilab.answers.motions.starts"): "loads numpy",
     ("stabilab.answers.motions.of_case", "stabilab.answers.simulate"): "loaded for approximate laws alone",
     ("stabilab.answers.motions.of_case", "stabilab.answers.when"): "loaded for limits and tilts alone",
     ("stabilab.answers.motions.of_case",
