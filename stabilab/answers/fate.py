@@ -48,13 +48,13 @@ def fate(scene: Given, state: Start | None = None, *, states: Starts | None = No
     analysis does not cover.
     """
     case, array = asked_of(scene, state, states, span, "fate")
-    follow = time_in(case.scene, follow, "follow")
-    options = _options(array, follow=follow, proof=proof, fast=fast)
+    long: Any = time_in(case.scene, follow, "follow")
+    options = _options(array, follow=long, proof=proof, fast=fast)
     found = Motions(case, array, options, None if tilt is None else angle_of(tilt))
     if found.by_rows:
         vars(found)["rows"] = rows.fates(case.scene, array, **options, tell=tell)
     elif found.one:
-        found.kept["fate"] = [motion_of_case(case, "fate", follow, tell, proof)]
+        found.kept["fate"] = [motion_of_case(case, "fate", long, tell, proof)]
     margins = found.margins  # what is bad input is said now
     if digits is not None:
         told = _with_digits("fate", found, digits, margins)
@@ -119,11 +119,11 @@ def extremes(scene: Given, state: Start | None = None, span: Span | None = None,
     the formulas' own bound.
     """
     case, array = asked_of(scene, state, states, span, "extremes")
-    follow = time_in(case.scene, follow, "follow")
-    found = Motions(case, array, _options(array, follow=follow, fast=fast), tilted=False)
+    long: Any = time_in(case.scene, follow, "follow")
+    found = Motions(case, array, _options(array, follow=long, fast=fast), tilted=False)
     over, why = "all time", ""
     if found.by_rows:
-        values = rows.extremes(case.scene, array, reach_of(case.span), fast, follow)
+        values = rows.extremes(case.scene, array, reach_of(case.span), fast, long)
     else:
         known = found.motions("extremes")
         pairs = [NONE if one.extremes is None else one.extremes for one in known]
@@ -147,8 +147,8 @@ def period(scene: Given, state: Start | None = None, *, states: Starts | None = 
     does, and under a torque off the axes follows every motion as `fate` does.
     """
     case, array = asked_of(scene, state, states, span, "period")
-    follow = time_in(case.scene, follow, "follow")
-    found, why = Motions(case, array, _options(array, follow=follow, fast=fast), tilted=False), ""
+    long: Any = time_in(case.scene, follow, "follow")
+    found, why = Motions(case, array, _options(array, follow=long, fast=fast), tilted=False), ""
     if found.by_rows:
         values = rows.periods(case.scene, array, fast)
     else:
@@ -167,5 +167,5 @@ def _with_digits(question: str, found: Motions, digits: int, values: Any) -> Tol
     if not found.one:
         reach = reach_of(case.span) if question == "extremes" else None
         return ask_all(question, case.scene, found.states, digits, values, reach).required()
-    known = found.motions({"fate": "fate", "period": True, "extremes": True}[question])[0]
+    known = found.motions("fate" if question == "fate" else True)[0]
     return ask(question, case.scene, case.start, digits, case.span, known, case.exact_state).required()

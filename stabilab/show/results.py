@@ -231,7 +231,7 @@ def _equilibria_words(found):
 def _equilibria(found):
     rows = ([("", p) for p in found.points]
             + [(curve.name, p) for curve in found.curves for p in curve.samples])
-    at = np.array([p.at for _, p in rows], float).reshape(len(rows), -1)
+    at = np.array([p.at for _, p in rows], float).reshape(len(rows), len(rows[0][1].at) if rows else 3)
     across = "axis" if at.shape[1] == 3 else "component"
     of = {name: _texts(("point",), (getattr(p, name) for _, p in rows))
           for name in ("verdict", "linear", "because")}

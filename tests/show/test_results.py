@@ -113,6 +113,33 @@ def test_data_sets_have_dimensions_units_and_words(results):
     assert data.low.units == "s" and float(data.low[1]) == results["TimeTo"].low[1]
 
 
+def test_a_scene_without_equilibria_has_an_empty_table():
+    """A torque along the wheel's axis: no rotation keeps its momentum (|H|^2/2 - D3 T grows steadily)."""
+    scene = stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.Gyrostat((0, 0, 1)), stabilab.ConstantTorque((0, 0, 1)))
+    found = stabilab.equilibria(scene)
+    assert found.kind == "none" and len(found.to_pandas()) == 0 and found.to_xarray().at.shape == (0, 3)
+    assert "none" in found._repr_html_()
+
+
+def test_what_limits_an_answer_stands_in_every_view_of_it():
+    """A torque exactly along an axis keeps the motion bounded: any tilt may end that."""
+    words = "only while the torque is exactly along axis 3"
+    for found in (stabilab.fate(SCENE, STATES[0]), stabilab.period(SCENE, STATES[0]), stabilab.fate(SCENE, STATES),
+                  stabilab.extremes(SCENE, STATES[0]), stabilab.motion(SCENE, STATES[0]),
+                  stabilab.when(SCENE, STATES[0], rate=3), stabilab.stuck(SCENE, state=STATES[0])):
+        assert any(words in one.words for one in found.caveats)
+        assert words in repr(found) and words in found._repr_html_() and words in found.to_xarray().attrs["caveats"]
+
+
+def test_values_are_numbers_and_say_how_well_they_are_known():
+    one, many = stabilab.period(SCENE, STATES[0]), stabilab.period(SCENE, STATES)
+    assert float(one) == one.values and 2 * one == 2 * float(one) and f"{one:.3f}" == f"{float(one):.3f}"
+    assert one.level == "exact" and "energy is below the barrier" in one.reason
+    assert many.shape == (2,) and many.tolist()[1] == math.inf and np.isinf(many)[1] and (many > 0).all()
+    assert np.asarray(many) is many.values and len(many) == 2 and many[0] == pytest.approx(float(one), rel=1e-11)
+    assert stabilab.fate(SCENE, STATES)[0].fate == stabilab.Fate.BOUNDED and not stabilab.fate(SCENE, STATES)[0].shape
+
+
 def test_a_grid_of_states_keeps_its_shape():
     found = stabilab.fate(SCENE, [[STATES[0], STATES[1], STATES[0]]])
     assert found.to_xarray().fate.shape == (1, 3) and len(found.to_pandas()) == 3

@@ -38,7 +38,7 @@ def motion(scene: Given, state: Start | None = None, span: Span | None = None, *
         state = renamed("motion", "exact", "state", exact, None)
     if brief is not None:
         renamed("motion", "brief", "fate, extremes or period", brief, None)
-    many = state if states is None and state is not None and not is_one(state) else states
+    many: Any = state if states is None and state is not None and not is_one(state) else states
     if many is None:
         cases = [with_start(as_case(scene, state, span), "motion")]
     elif state is not None and many is not state:

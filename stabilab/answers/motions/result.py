@@ -112,7 +112,7 @@ class Motions(Shown):
     def column(self, of: str, one: Callable[[Motion], Any], kind: Any) -> np.ndarray:
         """A column: by rows, or of each motion."""
         if self.by_rows:
-            return getattr(self.rows, of)  # type: ignore[no-any-return]
+            return getattr(self.rows, of)
         return np.array([one(motion) for motion in self.motions("fate")], kind).reshape(self.shape)
 
     # --- Columns

@@ -39,7 +39,7 @@ def extremes(scene: AnyScene, states: Any, reach: float | None = None, fast: boo
     where the scene has no reduction; InputError where that is needed and not given."""
     scene, array = effective(scene), checked_states(states)
     rows = np.ascontiguousarray(array.reshape(-1, 3))
-    return many(scene).extremes(scene, rows, reach, fast,  # type: ignore[no-any-return]
+    return many(scene).extremes(scene, rows, reach, fast,
                                 **following(scene, follow)).reshape(array.shape + (2,))
 
 
@@ -48,4 +48,4 @@ def periods(scene: AnyScene, states: Any, fast: bool | None = None) -> np.ndarra
     return is found."""
     scene, array = effective(scene), checked_states(states)
     rows = np.ascontiguousarray(array.reshape(-1, 3))
-    return many(scene).periods(scene, rows, fast).reshape(array.shape[:-1])  # type: ignore[no-any-return]
+    return many(scene).periods(scene, rows, fast).reshape(array.shape[:-1])

@@ -36,6 +36,7 @@ from .. import chaos as orders
 from .. import simulate as runs
 from .. import time_to as times
 from ..chaos import Chaos
+from ..limit import WORK
 from ..passage import TimeTo
 from .starts import asked_of, whole_rows
 
@@ -49,7 +50,7 @@ if TYPE_CHECKING:
 
 def time_to(scene: Given, state: Start | None = None, rate: Any = None, component: Any = None,
             energy: Amount | None = None, tilt: Any = None, t_max: Amount | None = None,
-            exact: Sequence[Fraction] | None = None, work: int = times.WORK, *,
+            exact: Sequence[Fraction] | None = None, work: int = WORK, *,
             states: Starts | None = None) -> TimeTo:
     """The first time t >= 0 at which each motion reaches a limit, between a lower and an upper bound.
 

@@ -21,7 +21,8 @@ def asked_of(given: Given, state: Start | None, states: Starts | None, span: Spa
     as it was given. Raises InputError where no start is given and the case has none."""
     if state is not None and states is not None:
         raise InputError(f"{question}: state is one start and states are many: give one of them")
-    name, wanted = ("state", state) if states is None else ("states", states)
+    name: str = "state" if states is None else "states"
+    wanted: Any = state if states is None else states
     if wanted is None or is_one(wanted):
         case = with_start(as_case(given, wanted, span), question)
         return case, np.array(case.start, float)
