@@ -72,7 +72,7 @@ def test_a_scene_s_parts_made_of_no_numbers_are_bad_input_that_names_the_key(mad
     takes = [one.name for one in list(inspect.signature(made.__init__).parameters.values())[1:]
              if one.name != "ran"]  # of the program's own making
     fit = {"inertia": (3, 2, 2), "mass": 1, "slack": 0, "a": 1, "b": 2, "mu": (1, 0, 0), "moment": (1, 0, 0),
-           "motor": (1, 0, 0), "duration": 1,
+           "motor": (1, 0, 0), "duration": 1, "ran": 0,
            "vector": (1, 0, 0), "charge": 1,
            "field_strength": 1, "arm": 1, "angle": 0, "coefficient": 1, "density": 1, "viscosity": 1, "P0": 1,
            "law": "printed",

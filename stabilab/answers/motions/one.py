@@ -49,8 +49,9 @@ def motion(scene: Given, state: Start | None = None, span: Span | None = None, *
         many = None if array.ndim == 1 else many
         cases = [case] if many is None else [started(case, row)
                                              for row in array.reshape(-1, array.shape[-1])]
-    angle, long = None if tilt is None else angle_of(tilt), time_in(cases[0].scene, follow, "follow")
-    found = [_whole(one, bool(brief), angle, long, tell, proof) for one in cases]
+    angle = None if tilt is None else angle_of(tilt)
+    found = [_whole(one, bool(brief), angle, time_in(one.scene, follow, "follow"), tell, proof)
+             for one in cases]
     return found[0] if many is None else found
 
 
