@@ -22,6 +22,7 @@ from ...orbit.result import Fate, Motion, without_return
 from ...physics.coefficients import effective
 from ...representation import Shown, same
 from ..caveats import STEADY, caveats_of, unseen
+from ..motion import with_ending
 from . import rows
 from .of_case import judged, motion_of_case, with_its_tilt
 
@@ -99,6 +100,12 @@ class Motions(Shown):
             known = self.kept[str(brief)] = [motion_of_case(case, brief, **options) for case in cases]
         return known
 
+    @cached_property
+    def ended(self) -> list[Motion]:
+        """The motions, of one start with how it ends where something takes energy from it: a run."""
+        known = self.motions("fate")
+        return [with_ending(self.case, known[0])] if self.one else known
+
     @property
     def by_rows(self) -> bool:
         """Whether kernels of many starts answer."""
@@ -150,13 +157,13 @@ class Motions(Shown):
         """How well each fate is known: "exact" (by a law or a closed solution), "certified" (an inequality
         met by a run of machine precision), "proved" (the motion up to it enclosed) or "undecided"."""
         return (self.rows.levels if self.by_rows
-                else self._words([one.level for one in self.motions("fate")]))
+                else self._words([one.level for one in self.ended]))
 
     @property
     def reason(self) -> Any:
         """How it is known, in words."""
         return (self.rows.because if self.by_rows
-                else self._words([one.because for one in self.motions("fate")]))
+                else self._words([one.because for one in self.ended]))
 
     levels, because = level, reason
 
@@ -201,7 +208,7 @@ class Motions(Shown):
     def judged(self) -> Motion:
         """Of one start: the motion with all that limits it; a limit of the case and a tilt of its torque cost
         a tenth of a second."""
-        (motion,), case = self.motions("fate"), self.case
+        (motion,), case = self.ended, self.case
         found = judged(case, motion) or motion
         return with_its_tilt(case, found, self.tilt) if self.tilted else found
 
