@@ -248,7 +248,7 @@ def stuck(case: Given, all_thrusters: bool = False, progress: Callable[[str], An
                                    {"spin-up": 0, "undecided": 1}.get(row.fate, 2)))
     principal = Principal(floats(scenario.axes.moments),
                           tuple(tuple(float(v) + 0.0 for v in axis) for axis in scenario.axes.axes))
-    return Stuck(case.name, tuple(rows), principal, all_thrusters, rows[0].caveats)
+    return Stuck(case.name, tuple(rows), principal, all_thrusters)
 
 
 def each_firing(case: Any) -> Any:

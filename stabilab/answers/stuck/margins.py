@@ -146,7 +146,6 @@ class Stuck(Shown):
     rows: tuple[Row, ...]
     principal: Principal
     ranked: bool = False
-    caveats: tuple[Caveat, ...] = ()
 
     @property
     def caveats(self) -> tuple[Caveat, ...]:
