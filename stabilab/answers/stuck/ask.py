@@ -18,6 +18,7 @@ from typing import Any, TypeAlias, TypeGuard
 from ...case.body import LOOSE, TOLERANCE
 from ...case.given import Amount, Given, Span, Start, as_case
 from ...case.limit_options import angle_of
+from ...case.read import Case
 from ...case.table import Uncertain
 from ...errors import Caveat, InputError, Kind
 from ...numbers.exact import floats
@@ -251,7 +252,7 @@ def stuck(case: Given, all_thrusters: bool = False, progress: Callable[[str], An
     return Stuck(case.name, tuple(rows), principal, all_thrusters)
 
 
-def each_firing(case: Any) -> Any:
+def each_firing(case: Case) -> Case:
     """The case as one whose thrusters fire, one at a time: without the caveat that none does."""
     return replace(case, caveats=tuple(one for one in case.caveats if one.kind is not Kind.THRUSTERS))
 

@@ -140,7 +140,7 @@ class Row:
 @dataclass(frozen=True, repr=False)
 class Stuck(Shown):
     """The answer for one case: a row a combination of thrusters (see `stuck`), in one set of principal axes.
-    caveats: those of the first row; each has its own."""
+    """
 
     case: str
     rows: tuple[Row, ...]
