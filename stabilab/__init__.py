@@ -2,14 +2,14 @@
 from __future__ import annotations
 
 from importlib import import_module
-from types import FunctionType
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+from .representation import seen_through
 from .version import __version__ as __version__
 
 if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type checkers
     from .answers.attitude import attitude as attitude
-    from .answers.chaos import chaos as chaos
     from .answers.circular_orbit import circular_orbit as circular_orbit
     from .answers.dissipation.flat_spin import flat_spin as flat_spin
     from .answers.equilibria import equilibria as equilibria
@@ -17,24 +17,25 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .answers.fate import fate as fate
     from .answers.fate import fate_grid as fate_grid
     from .answers.fate import period as period
-    from .answers.motion import motion as motion
+    from .answers.motions.one import motion as motion
+    from .answers.motions.scenes import chaos as chaos
+    from .answers.motions.scenes import derive as derive
+    from .answers.motions.scenes import ensemble as ensemble
+    from .answers.motions.scenes import separatrix as separatrix
+    from .answers.motions.scenes import spin_up as spin_up
+    from .answers.motions.scenes import time_to as time_to
+    from .answers.motions.scenes import trajectory as trajectory
+    from .answers.motions.scenes import validity as validity
     from .answers.passage import TimeTo as TimeTo
     from .answers.simulate import simulate as simulate
-    from .answers.simulate import trajectory as trajectory
     from .answers.stuck.ask import stuck as stuck
     from .answers.stuck.burn import burn as burn
-    from .answers.time_to import time_to as time_to
     from .answers.when import when as when
-    from .case.read import Case as Case
-    from .case.read import load as load
-    from .case.read import load_burning as load_burning
     from .case.read import load_orbiting as load_orbiting
     from .case.source import example as example
     from .errors import InputError as InputError
-    from .integrate.ensemble import ensemble as ensemble
     from .maps.bifurcation.ask import bifurcation as bifurcation
     from .orbit.result import Fate as Fate
-    from .orbit.separatrix.branches import separatrix as separatrix
     from .papers.report import report as report
     from .physics.effects.body_force import BodyForce as BodyForce
     from .physics.effects.charge import Charge as Charge
@@ -48,8 +49,6 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .physics.effects.resistance import Resistance as Resistance
     from .physics.effects.viscous_damper import ViscousDamper as ViscousDamper
     from .physics.effects.wheel_motor import WheelMotor as WheelMotor
-    from .physics.equations import derive as derive
-    from .physics.law_limits import validity as validity
     from .physics.scene import Body as Body
     from .physics.scene import ScaledGyrostat as ScaledGyrostat
     from .physics.scene import Scene as Scene
@@ -57,27 +56,29 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .show.maps.atlas import atlas as atlas
     from .show.maps.basins import basin as basin
     from .show.maps.sweep import sweep as sweep
+    from .study import Case as Case
+    from .study import load as load
+    from .study import load_burning as load_burning
     from .theories.theory import compare as compare
     from .theories.theory import theory as theory
-    from .unreduced.spin_up.follow import spin_up as spin_up
 
 # Public name -> module; loaded on first use so that light commands stay light.
 _HOME = {
-    "load": "case.read", "example": "case.source", "Case": "case.read",
-    "load_burning": "case.read", "burn": "answers.stuck.burn",
+    "load": "study", "example": "case.source", "Case": "study",
+    "load_burning": "study", "burn": "answers.stuck.burn",
     "load_orbiting": "case.read", "circular_orbit": "answers.circular_orbit",
     "flat_spin": "answers.dissipation.flat_spin",
     "Body": "physics.scene", "Scene": "physics.scene", "ScaledGyrostat": "physics.scene",
     "Gyrostat": "physics.effects.gyrostat", "ConstantTorque": "physics.effects.constant_torque",
     "Fate": "orbit.result",
-    "equilibria": "answers.equilibria", "chaos": "answers.chaos",
-    "fate": "answers.fate", "fate_grid": "answers.fate", "motion": "answers.motion",
+    "equilibria": "answers.equilibria", "chaos": "answers.motions.scenes",
+    "fate": "answers.fate", "fate_grid": "answers.fate", "motion": "answers.motions.one",
     "attitude": "answers.attitude", "extremes": "answers.fate", "period": "answers.fate",
-    "spin_up": "unreduced.spin_up.follow",
-    "separatrix": "orbit.separatrix.branches", "stuck": "answers.stuck.ask",
-    "time_to": "answers.time_to", "TimeTo": "answers.passage",
+    "spin_up": "answers.motions.scenes",
+    "separatrix": "answers.motions.scenes", "stuck": "answers.stuck.ask",
+    "time_to": "answers.motions.scenes", "TimeTo": "answers.passage",
     "when": "answers.when", "report": "papers.report",
-    "trajectory": "answers.simulate", "ensemble": "integrate.ensemble",
+    "trajectory": "answers.motions.scenes", "ensemble": "answers.motions.scenes",
     "simulate": "answers.simulate", "compare": "theories.theory", "theory": "theories.theory",
     "Charge": "physics.effects.charge", "Resistance": "physics.effects.resistance",
     "LiquidCavity": "physics.effects.liquid_cavity",
@@ -85,7 +86,7 @@ _HOME = {
     "BodyForce": "physics.effects.body_force", "ViscousDamper": "physics.effects.viscous_damper",
     "RateDamper": "physics.effects.rate_damper", "EddyCurrents": "physics.effects.eddy_currents",
     "WheelMotor": "physics.effects.wheel_motor",
-    "derive": "physics.equations", "validity": "physics.law_limits",
+    "derive": "answers.motions.scenes", "validity": "answers.motions.scenes",
     "plot": "show", "sweep": "show.maps.sweep", "atlas": "show.maps.atlas",
     "basin": "show.maps.basins", "bifurcation": "maps.bifurcation.ask", "InputError": "errors",
 }
@@ -97,11 +98,17 @@ def __getattr__(name: str) -> Any:
         home = import_module(f"{__name__}.{_HOME[name]}")
         # a room of its own: plot
         found = getattr(home, name) if hasattr(home, name) else import_module(f"{home.__name__}.{name}")
-        if isinstance(found, FunctionType) and name != "load":
-            found = import_module(f"{__name__}.public").of_any(found)
-        globals()[name] = found  # one and the same whenever it is used: it is pickled by its name
+        globals()[name] = found
         return found
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def _results() -> ModuleType:
+    from .show import results
+    return results
+
+
+seen_through(_results)
 
 
 def __dir__() -> list[str]:

@@ -1,16 +1,22 @@
-"""How results are compared, printed and exported. The module that typesets them is imported by name, when a
-reader asks."""
+"""How results are compared, printed and exported. What typesets them stands above all results: the package's
+own table hands it down, and it is loaded when a reader asks."""
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import fields
-from importlib import import_module
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
-SHOWN = "stabilab.show.results"
+_view: list[Callable[[], ModuleType]] = []
+
+
+def seen_through(view: Callable[[], ModuleType]) -> None:
+    """Have results typeset by the module that `view` loads: short, html, dataset and frame of a result."""
+    _view[:] = [view]
 
 
 def same(one: Any, other: Any) -> bool:
@@ -53,17 +59,17 @@ class Shown:
     xarray and pandas hold them."""
 
     def __repr__(self) -> str:
-        return import_module(SHOWN).short(self)
+        return _view[0]().short(self)
 
     def _repr_html_(self) -> str:
-        return import_module(SHOWN).html(self)
+        return _view[0]().html(self)
 
     def to_xarray(self) -> xarray.Dataset:
         """All numbers with their dimensions, units and words. Needs xarray; InputError names it where it is
         not installed."""
-        return import_module(SHOWN).dataset(self)
+        return _view[0]().dataset(self)
 
     def to_pandas(self) -> pandas.DataFrame:
         """All numbers as a table: a row a time, a state, an equilibrium or a component. Needs pandas, as
         `to_xarray` needs xarray."""
-        return import_module(SHOWN).frame(self)
+        return _view[0]().frame(self)

@@ -22,7 +22,8 @@ GROUPS = {
     "Errors": ("InputError",),
 }
 # What the questions answer, and the plots: name -> module
-ANSWERS = {"FateResult": "stabilab.orbit.fate_arrays", "Motion": "stabilab.orbit.result",
+ANSWERS = {"Motions": "stabilab.answers.motions.result", "Values": "stabilab.answers.motions.result",
+           "Motion": "stabilab.orbit.result",
            "Equilibria": "stabilab.equilibrium.result",
            "EquilibriumPoint": "stabilab.equilibrium.result",
            "EquilibriumCurve": "stabilab.equilibrium.result",

@@ -43,12 +43,12 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
+from ..case.given import Given, Span, Start, as_case, with_start
 from ..errors import InputError, ToleranceNotMet
 from ..numbers.balls import Digits, Unclear, settled
 from ..numbers.vectors import CYCLE, dot
 from ..orbit.result import Fate, Motion
 from ..physics.scene import Scene
-from ..validation import is_case, scene_and_state
 from .attitude_result import LONG, SEPARATRIX, SHORT, TOP, Attitude, narrow, steady, turned, with_periods
 from .caveats import limited
 from .digits_asked import MOST_DECIMALS, checked_digits, digits_of
@@ -152,34 +152,30 @@ def _lean(cosine: Any) -> Any:
 
 
 # --- How a body turns
-def attitude(scene: Any, state: Any = None, digits: int | None = None) -> Attitude:
-    """How the motion from `state` (three rates, rad/s; of a top followed by the vertical) turns in space.
+def attitude(scene: Given, state: Start | None = None, digits: int | None = None, *,
+             span: Span | None = None) -> Attitude:
+    """How the motion of a case turns in space.
 
-    scene: a Scene of a body, wheels and a constant torque, or of a heavy symmetric top, or a case, whose own
-    start holds where none is given. digits: 1 to 50, of the periods, which are then written out too. Raises
-    InputError for scaled variables, which have no attitude, for other effects, and as `motion` does;
-    ToleranceNotMet where the periods of a motion that is followed have fewer digits.
+    scene: a case in any form, or a scene, of a body with wheels and a constant torque, or of a heavy
+    symmetric top; state, span: in place of its own, as of `fate`. digits: 1 to 50, of the periods, which are
+    then written out too. Raises InputError for scaled variables, which have no attitude, for other effects,
+    and as `motion` does; ToleranceNotMet where the periods of a motion that is followed have fewer digits.
     """
     digits = None if digits is None else checked_digits(digits, MOST_DECIMALS)
-    exact, case = None, scene if is_case(scene) and state is None else None
-    if case is not None:
-        scene, state, exact = _physical(case)
-    scene, state = scene_and_state(scene, state)
-    if scene.variables == "scaled":
+    case = with_start(as_case(scene, state, span), "attitude")
+    of, start, exact = _physical(case)
+    if of.variables == "scaled":
         raise InputError("attitude: scaled variables have no attitude: give body, wheel and torque, and the "
                          "motion as angular_velocity, in rad/s")
-    axis = None if scene.plain else axis_of_top(scene)
-    if not scene.plain and axis is None:
-        others = ", ".join(sorted({effect.with_article for effect in scene.beyond}))
+    axis = None if of.plain else axis_of_top(of)
+    if not of.plain and axis is None:
+        others = ", ".join(sorted({effect.with_article for effect in of.beyond}))
         raise InputError("attitude: it is known of a body with wheels and a torque constant in the body, and "
                          f"of a heavy symmetric top; this scene also has {others}")
-    exact = exact or tuple(Fraction(v) for v in state[:3])
-    found = motion(scene, state, brief=True, exact=exact)
-    found = found if case is None else limited(found, scene, case)
+    found = limited(motion(of, start, brief=True, exact=exact), of, case)
     if axis is None:
-        return of_motion(scene, exact, found, digits)
-    start = (*exact, *map(Fraction, found.at[3:]))
-    return of_top(scene, axis, start, _at_start(scene, exact, found), digits)
+        return of_motion(of, exact, found, digits)
+    return of_top(of, axis, (*exact, *map(Fraction, found.at[3:])), _at_start(of, exact, found), digits)
 
 
 def of_motion(scene: Scene, omega: Sequence[float | Fraction], found: Motion, digits: int | None = None

@@ -18,7 +18,7 @@ from ..numbers.exact import sqrt_fraction
 from ..orbit.result import Motion
 from ..physics.scene import Scene
 from .attitude_result import LONG, SHORT, Attitude, turned
-from .simulate import simulate, trajectory
+from .simulate import simulated, trajectory
 
 SUM_ERROR, RUN_ERROR = 1e-11, 1e-10  # relative: of a sum over a run, of a run's end
 OTHERS = 1.0 - np.eye(3)  # rows: the two axes beside each one
@@ -111,7 +111,7 @@ def _long_and_short(D: Sequence[Fraction]) -> dict[int, str]:
 
 def _under_torque(scene: Scene, base: Attitude, period: float) -> Attitude:
     """The turn after one period of the rates; the attitude is followed."""
-    run = simulate(scene, base.at, [0.0, period], {"attitude": (0.0, 0.0, 0.0, 1.0)})
+    run = simulated(scene, base.at, [0.0, period], {"attitude": (0.0, 0.0, 0.0, 1.0)})
     *vector, w = run.state["quaternion"][-1].tolist()
     size = math.hypot(*vector)
     axis = tuple(math.copysign(1.0, w) * v / size for v in vector) if size else None

@@ -2,7 +2,7 @@
 proof."""
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any
@@ -13,13 +13,14 @@ from ..errors import InputError
 from ..orbit.result import Fate
 from ..physics.coefficients import effective
 from ..physics.scene import AnyScene, hold_on, judge_starts, slices
-from ..physics.states import REST, checked_starts, float_array, start_of
+from ..physics.states import checked_starts, float_array
+from ..physics.states import row_of as row_of
 from ..physics.to_numpy import equations_of
 from ..representation import Shown
 from ..unreduced.chaos import TURNS, growth, turn_of
 from ..validation import checked_scene
-from .fate import fate
 from .motion import motion
+from .motions.rows import fates
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -146,18 +147,10 @@ def long_enough(scene: AnyScene, state: ArrayLike) -> float:
     return TURNS * turn_of(scene, checked_starts(equations_of(scene), [state]))
 
 
-def row_of(scene: AnyScene, state: Sequence[float], blocks: Mapping[str, Sequence[float]]) -> list[float]:
-    """All of a state in one row: its three rates, then the other blocks that the scene needs."""
-    if scene.variables == "scaled":
-        return list(state)
-    parts = REST | start_of(scene, state, blocks)
-    return [float(value) for name in scene.blocks for value in parts[name]]
-
-
 def _fates(scene: AnyScene, rows: np.ndarray, end: float) -> np.ndarray:
     """(n,): what becomes of each motion."""
     if scene.plain:
-        return np.asarray(fate(scene, rows, follow=end).labels)
+        return np.asarray(fates(scene, rows, follow=end).labels)
     parts = slices(scene.blocks)
     return np.array([motion(scene, {name: row[part].tolist() for name, part in parts.items()},
                             brief=True).fate for row in rows], int)

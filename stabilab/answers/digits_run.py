@@ -32,7 +32,7 @@ from ..physics.states import (
 )
 from ..physics.to_numpy import to_numpy
 from .digits_asked import CAUTION, DEFAULT, MOST, NEAR, checked_digits, digits_of
-from .simulate import LOST, STIFF_METHOD, Simulation, errors_of, in_quaternions, simulate
+from .simulate import LOST, STIFF_METHOD, Simulation, errors_of, in_quaternions, simulated
 
 # --- The reduced form as one of the ways to follow a motion: `reduced_motion` at a given resolution
 POINTS = (2, 4, 6, 8, 12, 16)  # of Gauss's rule on each panel
@@ -115,9 +115,9 @@ def _known(found: Reached) -> Reached:
     """A motion without the times at which not one digit of its state is known: such a state is none. Where
     the check did not come so far nothing is known of its digits, and it stays."""
     run, gaps = found.run, found.gaps
-    held = np.ones(len(run.t), bool) if gaps is None else gaps <= LOST
-    if held.all():
+    if gaps is None or (gaps <= LOST).all():
         return found
+    held = gaps <= LOST
     first = min(run.t[~held], key=abs)
     others = len(run.t) - int(held.sum()) - 1
     reason = (f"no digit of the state is known at t = {first:.6g}"
@@ -235,7 +235,7 @@ def _distances(one: Any, two: Any) -> np.ndarray:
 
 
 def _integrated(case: Any, times: np.ndarray, method: str | None, rtol: float | None) -> Simulation:
-    return simulate(case.scene, case.state, times, case.blocks, method, rtol)
+    return simulated(case.scene, case.state, times, case.blocks, method, rtol)
 
 
 def _reduced(case: Any, times: np.ndarray, method: str, nodes: float) -> Simulation:

@@ -6,12 +6,12 @@ from fractions import Fraction
 from importlib import import_module
 from typing import Any
 
+from ..case.given import Given, as_case
 from ..equilibrium.gyrostat import gyrostat_equilibria
 from ..equilibrium.result import Equilibria
 from ..physics.coefficients import content, limits_of
 from ..physics.effects import effect_class
-from ..physics.scene import AnyScene, Scene
-from ..validation import checked_scene, is_case
+from ..physics.scene import AnyScene, ScaledGyrostat, Scene
 
 # kind of a scene's torques -> (module of `equilibrium`, its function of their coefficients); one that no
 # scene names is not loaded
@@ -34,9 +34,8 @@ def once_stopped(found: Equilibria) -> str:
     return next((words for words in (STOPPED, STARTED) if found.reason.endswith(words)), "")
 
 
-def equilibria(scene: Any) -> Equilibria:
-    """Every equilibrium of a Scene (body, gyrostat, constant torque), a ScaledGyrostat or a case, each with
-    its stability.
+def equilibria(scene: Given) -> Equilibria:
+    """Every equilibrium of a scene, or of a case in any form, each with its stability.
 
     States are in the scene's variables: rad/s in the principal axes, or the dimensionless x. kind is "none"
     (the reason says why), "points" (isolated), "curves" or "all". A plane of equilibria (equal moments) is
@@ -46,14 +45,14 @@ def equilibria(scene: Any) -> Equilibria:
     and kind "undecided" says that not all equilibria are known. Raises InputError for effects this analysis
     does not cover.
     """
-    case = scene if is_case(scene) else None
-    scene = checked_scene(scene if case is None else scene.scene)
-    if case is not None and scene.ending and any(given := case.blocks.get("wheel", ())):
-        found = equilibria(_with_wheel(scene, given))
+    case = None if isinstance(scene, (Scene, ScaledGyrostat)) else as_case(scene)
+    of: Any = scene if case is None else case.scene
+    if case is not None and of.ending and any(given := case.blocks.get("wheel", ())):
+        found = equilibria(_with_wheel(of, given))
         return replace(found, reason=found.reason.replace(STOPPED, STARTED))
-    found = (None if scene.plain else other_equilibria(scene)) or gyrostat_equilibria(scene)
-    limits = limits_of(scene)
-    return replace(found, validity=limits.at_equilibria(scene, found)) if limits else found
+    found = (None if of.plain else other_equilibria(of)) or gyrostat_equilibria(of)
+    limits = limits_of(of)
+    return replace(found, validity=limits.at_equilibria(of, found)) if limits else found
 
 
 def _with_wheel(scene: Any, momentum: Any) -> Scene:

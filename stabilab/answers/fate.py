@@ -1,6 +1,7 @@
-"""Fates, extremes and periods of arrays or grids of states, whatever the scene.
+"""The fate, the extremes, the period and all that is known of motions, of one start or of arrays of them.
 
-A fate is bounded, spin-up, on the separatrix, at rest, or undecided."""
+One start is exact, as it was written; of an array the starts are doubles. A fate is bounded, spin-up, on the
+separatrix, at rest, or undecided."""
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
@@ -9,63 +10,86 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..case.given import Amount, Given, Span, Start, Starts, as_case, time_in
+from ..case.limit_options import angle_of
 from ..errors import InputError
-from ..orbit.fate_arrays import FateResult
-from ..physics.coefficients import effective
-from ..physics.scene import AnyScene
-from ..physics.states import checked_states
-from ..validation import checked_span, is_case, reach_of, scene_and_state
-from .digits import ask_all
-from .kinds import following, many
+from ..orbit.result import no_period
+from ..validation import reach_of
+from .digits import ask, ask_all
+from .digits_asked import Told
+from .motions import rows
+from .motions.of_case import motion_of_case
+from .motions.result import Motions, Values, period_of
+from .motions.starts import asked_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-def fate(scene: Any, states: ArrayLike | None = None, fast: bool | None = None, digits: int | None = None,
-         follow: float | None = None,
-         tell: Callable[..., Any] | None = None, proof: bool = False) -> FateResult:
-    """The fate of every state of an array (..., 3) in the scene's variables (rad/s, or x when scaled).
+NONE = ((np.nan, np.nan),) * 3
 
-    scene: Scene or ScaledGyrostat, or a case, whose own start it is where no states are given.
-    Returns a FateResult. Raises InputError for arrays of another shape, for
-    non-finite numbers, and for scenes with effects that this analysis does not cover. fast: under a torque
-    off the principal axes, whether motions are followed by compiled loops (None: where that is quicker; the
-    numbers are the same); needed nowhere else. digits (1 to 50): give the margins so many,
-    checked, as of `extremes` (the labels have no digits to lose); ToleranceNotMet otherwise. follow: how long
+
+def fate(scene: Given, state: Start | None = None, *, states: Starts | None = None,
+         span: Span | None = None, tilt: Amount | None = None, digits: int | None = None,
+         follow: Amount | None = None, proof: bool = False, fast: bool | None = None,
+         tell: Callable[..., Any] | None = None) -> Motions:
+    """What becomes of the motion of a case, or from each of many starts.
+
+    scene: a case in any form (see `stabilab.case.given`), or a scene. state: its start, where that is another
+    or none: three rates in its variables, all components of its state, or blocks by name; exact where it is
+    text or rational. states: many starts instead, (..., 3) or rows of whole states. span: of the case, in its
+    time. tilt: of one start, the half-angle of a cone of torques ("1 deg", or rad); without it what the case
+    states. digits (1 to 50): give the margins so many, checked; ToleranceNotMet otherwise. follow: how long
     motions are followed that only a run with a certificate decides (a torque off the principal axes), in the
-    scene's time; None for 600,000 steps, some seconds (10,000 of SciPy without heyoka). tell(time, steps,
-    motions left) is called on the way. proof: enclose the way of each of these motions, one after another,
-    some milliseconds each: `levels` then says "proved" where that succeeds.
-
-    Margins are good to 1e-12 of their terms, the kinetic energy and the barrier's height over the state
-    (without a torque: both kinetic energies).
+    scene's time; None for 600,000 steps, some seconds (10,000 of SciPy without heyoka). proof: enclose the
+    way of each of these motions, one after another, some milliseconds each: `level` then says "proved" where
+    that succeeds. fast: of many starts under such a torque, whether they are followed by compiled loops
+    (None: where that is quicker; the numbers are the same). tell(time, steps, motions left) is called
+    meanwhile. Raises InputError for what is no case and no start, and for scenes with effects that this
+    analysis does not cover.
     """
-    scene, states = scene_and_state(scene, states)
+    case, array = asked_of(scene, state, states, span, "fate")
+    long: Any = time_in(case.scene, follow, "follow")
+    options = _options(array, follow=long, proof=proof, fast=fast)
+    found = Motions(case, array, options, None if tilt is None else angle_of(tilt))
+    if found.by_rows:
+        vars(found)["rows"] = rows.fates(case.scene, array, **options, tell=tell)
+    elif found.one:
+        found.kept["fate"] = [motion_of_case(case, "fate", long, tell, proof)]
+    margins = found.margins  # what is bad input is said now
     if digits is not None:
-        found = fate(scene, states, fast, follow=follow, tell=tell, proof=proof)
-        return replace(found, margins=ask_all("fate", scene, states, digits, found.margins).required().values)
-    given, scene, array = scene, effective(scene), checked_states(states)
-    found = many(scene).fates(scene, np.ascontiguousarray(array.reshape(-1, 3)), fast,
-                              **following(scene, follow, tell, proof))
-    columns = {name: getattr(found, name).reshape(array.shape[:-1])
-               for name in ("labels", "margins", "axis", "sense", "reasons")}
-    return replace(found, **columns, scene=scene, states=array, given=given)
+        told = _with_digits("fate", found, digits, margins)
+        if told.values is not None:
+            _put_margins(found, told)
+    return found
 
 
-def fate_grid(scene: AnyScene, axes: Sequence[ArrayLike]) -> np.ndarray:
+def _options(array: np.ndarray, **options: Any) -> dict[str, Any]:
+    """Those that are given."""
+    return {name: value for name, value in options.items() if value not in (None, False)
+            or (name == "fast" and value is False)}
+
+
+def _put_margins(found: Motions, told: Told) -> None:
+    if found.by_rows:
+        vars(found)["rows"] = replace(found.rows, margins=np.asarray(told.values))
+    else:
+        found.kept["fate"] = [replace(found.motions("fate")[0], margin=float(told.values))]
+
+
+def fate_grid(scene: Given, axes: Sequence[ArrayLike]) -> np.ndarray:
     """Labels (n1, n2, n3), int8 of `Fate`, of the states (axes[0][a], axes[1][b], axes[2][c]); the same as
     `fate` gives.
 
-    scene: Scene or ScaledGyrostat. axes: three arrays of rates (rad/s, or x when scaled), in any order.
-    Raises InputError for axes that are not three one-dimensional arrays of finite numbers, and as `fate`
-    does.
+    scene: a case in any form, or a scene. axes: three arrays of rates (rad/s, or x when scaled), in any
+    order. Raises InputError for axes that are not three one-dimensional arrays of finite numbers, and as
+    `fate` does.
     """
-    scene, axes = effective(scene), _checked_axes(axes)
+    twin, axes = as_case(scene).scene, _checked_axes(axes)
     labels = np.empty([len(a) for a in axes], np.int8)
     for index, first in enumerate(axes[0]):
         plane = np.empty(labels.shape[1:] + (3,))
         plane[..., 0], plane[..., 1], plane[..., 2] = first, axes[1][:, None], axes[2]
-        labels[index] = fate(scene, plane).labels
+        labels[index] = rows.fates(twin, plane).labels
     return labels
 
 
@@ -82,40 +106,66 @@ def _checked_axes(axes: Sequence[ArrayLike]) -> list[np.ndarray]:
     return arrays
 
 
-def extremes(scene: Any, states: ArrayLike | None = None, span: Any = None, digits: int | None = None,
-             fast: bool | None = None, follow: float | None = None) -> np.ndarray:
-    """Smallest and largest value of each component over all t >= 0: array (..., 3, 2) in the scene's
-    variables. A case stands for its scene, its own start and span.
+def extremes(scene: Given, state: Start | None = None, span: Span | None = None, *,
+             states: Starts | None = None, digits: int | None = None, follow: Amount | None = None,
+             fast: bool | None = None) -> Values:
+    """Smallest and largest value of each component over all t >= 0: (..., 3, 2) in the case's variables.
 
-    +-inf where a component grows without bound; at an equilibrium both are the state. Scenes without a
-    reduction need `span`, a time, or two (from, to): their extremes hold from the start, at time 0, to its
-    end. Without it they have bounds for all t >= 0 where spin-up is certified (follow: as of `fate`) and NaN
-    elsewhere, InputError where no state has any. digits (1 to 50): reach so many and check them
-    (ToleranceNotMet otherwise); without it eleven, by the formulas' own bound. fast: under a torque off the
-    axes, as of `fate`; of no effect elsewhere. Raises InputError as `fate` does.
+    scene, state, states, follow, fast: as of `fate`; span: a time, or two (from, to). +-inf where a component
+    grows without bound; at an equilibrium both are the state. Scenes without a reduction need `span`: their
+    extremes hold from the start, at time 0, to its end. Without it they have bounds for all t >= 0 where
+    spin-up is certified and NaN elsewhere, of which `reason` says why; of many starts InputError where none
+    has any. digits (1 to 50): reach so many and check them (ToleranceNotMet otherwise); without it eleven, by
+    the formulas' own bound.
     """
-    span = scene.span if span is None and states is None and is_case(scene) else span
-    span, (scene, states) = reach_of(checked_span(span)), scene_and_state(scene, states)
-    if digits is not None:
-        return ask_all("extremes", scene, states, digits, extremes(scene, states, span, follow=follow),
-                       span).required().values
-    scene, array = effective(scene), checked_states(states)
-    rows = np.ascontiguousarray(array.reshape(-1, 3))
-    return many(scene).extremes(scene, rows, span, fast,
-                                **following(scene, follow)).reshape(array.shape + (2,))
+    case, array = asked_of(scene, state, states, span, "extremes")
+    long: Any = time_in(case.scene, follow, "follow")
+    found = Motions(case, array, _options(array, follow=long, fast=fast), tilted=False)
+    over, why = "all time", ""
+    if found.by_rows:
+        values = rows.extremes(case.scene, array, reach_of(case.span), fast, long)
+    else:
+        known = found.motions("extremes")
+        pairs = [NONE if one.extremes is None else one.extremes for one in known]
+        values = np.array(pairs).reshape(*found.shape, 3, 2)
+        if found.one:
+            over = known[0].extremes_over
+            why = over if known[0].extremes is None else ""
+    told = None if digits is None else _with_digits("extremes", found, digits, values)
+    if told is not None and told.values is not None:
+        values = np.asarray(told.values, float)
+    return Values("extremes", values, found, told and told.decimals, over, why)
 
 
-def period(scene: Any, states: ArrayLike | None = None, digits: int | None = None,
-           fast: bool | None = None) -> np.ndarray:
-    """Period of each motion, (...,) in the scene's time: inf where the motion does not repeat, 0 at an
-    equilibrium, NaN where its fate is undecided or no return is found.
+def period(scene: Given, state: Start | None = None, *, states: Starts | None = None,
+           span: Span | None = None, digits: int | None = None, follow: Amount | None = None,
+           fast: bool | None = None) -> Values:
+    """Period of each motion, (...,) in the case's time: inf where the motion does not repeat, 0 at an
+    equilibrium, NaN where its fate is undecided or no return is known, as `reason` says.
 
-    scene, digits, fast: as of `extremes`. Raises InputError as `fate` does, and under a torque off the axes
-    follows every motion as `fate` does.
+    scene, state, states, follow, fast: as of `fate`; digits: as of `extremes`. Raises InputError as `fate`
+    does, and under a torque off the axes follows every motion as `fate` does.
     """
-    scene, states = scene_and_state(scene, states)
-    if digits is not None:
-        return ask_all("period", scene, states, digits, period(scene, states)).required().values
-    scene, array = effective(scene), checked_states(states)
-    rows = np.ascontiguousarray(array.reshape(-1, 3))
-    return many(scene).periods(scene, rows, fast).reshape(array.shape[:-1])
+    case, array = asked_of(scene, state, states, span, "period")
+    long: Any = time_in(case.scene, follow, "follow")
+    found, why = Motions(case, array, _options(array, follow=long, fast=fast), tilted=False), ""
+    if found.by_rows:
+        values = rows.periods(case.scene, array, fast)
+    else:
+        known = found.motions("period")
+        values = np.array([period_of(one) for one in known]).reshape(found.shape)
+        why = no_period(known[0].fate) if found.one and known[0].period is None else ""
+    told = None if digits is None else _with_digits("period", found, digits, values)
+    if told is not None and told.values is not None:
+        values = np.asarray(told.values, float)
+    return Values("period", values, found, told and told.decimals, "", why)
+
+
+def _with_digits(question: str, found: Motions, digits: int, values: Any) -> Told:
+    """The answer with so many digits."""
+    case = found.case
+    if not found.one:
+        reach = reach_of(case.span) if question == "extremes" else None
+        return ask_all(question, case.scene, found.states, digits, values, reach).required()
+    known = found.motions("fate" if question == "fate" else True)[0]
+    return ask(question, case.scene, case.start, digits, case.span, known, case.exact_state).required()

@@ -19,7 +19,7 @@ from .caveats import limited
 from .kinds import following, one
 
 
-def motion(scene: Any, state: Any = None, span: Any = None, brief: bool = False,
+def motion(scene: Any, state: Any = None, span: Any = None, brief: bool | str = False,
            exact: Sequence[Fraction] | None = None,
            follow: float | None = None, tell: Callable[..., Any] | None = None,
            proof: bool = False) -> Motion:
@@ -28,7 +28,8 @@ def motion(scene: Any, state: Any = None, span: Any = None, brief: bool = False,
     scene: a Scene or a ScaledGyrostat, or a case, whose own start and span hold where none are given.
     Where gamma is part of the state: six numbers (omega, gamma), or a dict of blocks. span: (from, to), in
     whose times, and from the start to them, extremes are searched where the motion is not integrable. brief:
-    fate and extremes will do; what else costs time (period, margin_velocity, invariants) may be left out.
+    what costs time and is not needed may be left out: of True all but fate, extremes and period, of "fate",
+    "extremes" or "period" all but this one.
     exact: the three rates as they were given (Fractions), of which `state` is the rounding: where the motion
     has a reduction the answer is theirs. follow, tell: as of `fate`. proof: enclose the way of a motion that
     is followed, so that its fate is proved where it can be. Raises InputError as `fate` does.
@@ -75,7 +76,7 @@ def _largest(twin: AnyScene, found: Motion) -> float | None:
     return None if most is None else min(max(most, *sizes), math.hypot(*sizes))
 
 
-def _found(scene: AnyScene, state: Any, span: tuple[float, float] | None, brief: bool,
+def _found(scene: AnyScene, state: Any, span: tuple[float, float] | None, brief: bool | str,
            exact: Sequence[Fraction] | None,
            follow: float | None, tell: Callable[..., Any] | None, proof: bool) -> Motion:
     """By the module that answers the kind of scene; where all effects together turn the body as a gyrostat
@@ -86,6 +87,6 @@ def _found(scene: AnyScene, state: Any, span: tuple[float, float] | None, brief:
             return one(scene).motion(scene, state, span, exact, brief,
                                      **following(scene, follow, tell, proof))
         twin = gyrostat_scene(parts)
-        found = one(twin).motion(twin, split(parts, state)[0], span, exact,
+        found = one(twin).motion(twin, split(parts, state)[0], span, exact, brief,
                                  **following(twin, follow, tell, proof))
     return replace(found, because=f"{found.because}; {parts.note}") if parts.note else found

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..case.given import Given, Start, as_case, no_start, renamed, started, time_in
 from ..case.sections import attitude_of
 from ..errors import InputError
 from ..integrate.trajectory import SCIPY_METHODS, Trajectory, departures, integrated, watcher
@@ -34,7 +35,6 @@ from ..physics.states import (
 )
 from ..physics.to_numpy import to_numpy
 from ..representation import Compared, Shown
-from ..validation import is_case, scene_and_state
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -154,11 +154,38 @@ def errors_of(state: Mapping[str, np.ndarray], share: float) -> dict[str, np.nda
             values in state.items()}
 
 
-def simulate(scene: Any, omega: Any = None, times: ArrayLike | None = None,
-             blocks: Mapping[str, Sequence[float]] | None = None,
-             method: str | None = None, rtol: float | None = None, attitude: str | None = None) -> Simulation:
-    """The exact motion of a scene from angular velocity `omega` at the given times. A case stands for its
-    scene; its own start holds where none is given, and the two ends of its span where no times are.
+def simulate(scene: Given, state: Start | None = None, times: ArrayLike | None = None,
+             blocks: Mapping[str, Any] | None = None, method: str | None = None, rtol: float | None = None,
+             attitude: str | None = None, *, omega: Start | None = None) -> Simulation:
+    """The exact motion of a case from its start at the given times.
+
+    scene: a case in any form, or a scene; state: its start, where that is another or none: rates, all
+    components of the state, or blocks by name; times: (n,) in the case's time, the two ends of its span where
+    none are given. blocks, method, rtol, attitude: as of `simulated`, blocks in place of those of the case.
+    omega: the former name of `state`. Raises InputError as `trajectory` does.
+    """
+    if omega is not None:
+        state = renamed("simulate", "omega", "state", omega, state)
+    case = as_case(scene, state)
+    if case.state is None:
+        raise no_start(case, "simulate")
+    if blocks is not None:
+        if not isinstance(blocks, Mapping):
+            raise InputError(
+                f"blocks: expected blocks of the state by name, such as {{'gamma': (0, 0, 1)}}, got "
+                f"{blocks!r:.80}")
+        case = started(case, {"omega": case.exact_state, **blocks})
+    wanted = case.span if times is None else time_in(case.scene, times, "times")
+    if wanted is None:
+        raise InputError("times: expected times for a scene; a case without a span needs them too")
+    return simulated(case.scene, case.state, wanted, case.blocks, method, rtol, attitude)
+
+
+def simulated(scene: AnyScene, omega: Any, times: ArrayLike,
+              blocks: Mapping[str, Sequence[float]] | None = None,
+              method: str | None = None, rtol: float | None = None, attitude: str | None = None
+              ) -> Simulation:
+    """The exact motion of a scene from angular velocity `omega` at the given times.
 
     blocks: the rest of the state at time 0 ("gamma", "velocity", "position": three numbers, "attitude": psi,
     phi, theta, rad, or a quaternion from body to space, scalar last, which then stands in place of angles);
@@ -168,19 +195,13 @@ def simulate(scene: Any, omega: Any = None, times: ArrayLike | None = None,
     is "taylor", or Radau where the decay is so fast that an explicit method would crawl (the reason says so).
     Raises InputError as `trajectory` does.
     """
-    if is_case(scene):
-        blocks = scene.blocks if omega is None and blocks is None else blocks
-        omega, times = scene.state if omega is None else omega, scene.span if times is None else times
-    scene, omega = scene_and_state(scene, omega)
-    if times is None:
-        raise InputError("times: expected times for a scene; a case without a span needs them too")
     times = checked_times(times)
     if attitude is not None:
         if attitude not in ATTITUDES:
             raise InputError(f'attitude: expected "quaternion" or "matrix", got {attitude!r:.60}')
         if scene.variables == "scaled":
             raise InputError("attitude: scaled variables have no attitude: give a body and rates in rad/s")
-        turning = simulate(scene, omega, times, quaternion_blocks(blocks or {}), method, rtol)
+        turning = simulated(scene, omega, times, quaternion_blocks(blocks or {}), method, rtol)
         return turning if attitude == "quaternion" else in_matrices(turning)
     if scene.variables == "scaled":
         run = trajectory(scene, omega, times, "taylor" if method is None else method, rtol)

@@ -22,15 +22,15 @@ import numpy as np
 
 from ..errors import InputError
 from ..numbers.vectors import Exact3
-from ..orbit.result import Fate
+from ..orbit.result import Fate, Motion
 from ..physics.coefficients import three_floats
 from ..physics.scene import AnyScene, Scene, torque_axis
 from ..reasons import Filling, Rate, Reason, Sentence, Time
 from ..validation import checked_scene
 from .caveats import STEADY, varied
-from .fate import extremes, fate
 from .kinds import kind_of
 from .limit import Limit, asked
+from .motion import motion
 from .passage import run_once, stays_below
 from .time_to import time_to
 
@@ -322,7 +322,8 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
     if scene.variables == "scaled" or not torque_axis(scene) or kind_of(scene) != "orbit":
         raise InputError("tilt: expected a body under a torque along one of its principal axes, without "
                          "wheel momentum along it")
-    if Fate(int(fate(scene, state).labels)) not in STEADY:
+    known = motion(scene, state, brief="extremes", exact=exact)
+    if known.fate not in STEADY:
         raise InputError("tilt: the motion is not bounded as it is: ask time_to of it")
     if angle is None and not (case is not None and any(t.stuck and t.misalignment for t in case.thrusters)):
         angle = DEGREE
@@ -330,7 +331,7 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
         raise InputError(
             f"tilt: expected an angle between 0 and a quarter turn (pi/2 rad), got {angle!r} rad")
     stated = ask if rate is None else {"rate": rate}
-    question = stated or _twice_the_largest(scene, state)
+    question = stated or _twice_the_largest(known)
     limit = asked(scene, **question)
     cone = cone_of(scene, case, angle)
     least = limit.least_rate()
@@ -370,10 +371,9 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
                 within=cone.within, forces=forces)
 
 
-def _twice_the_largest(scene: AnyScene, state: Any) -> dict[str, Any]:
-    """The limit that is asked for where none is stated."""
-    largest = np.abs(extremes(scene, state)).max(axis=-1)
-    return {"rate": TWICE * math.hypot(*largest.tolist())}
+def _twice_the_largest(known: Motion) -> dict[str, Any]:
+    """The limit that is asked for where none is stated, of a motion whose extremes are known."""
+    return {"rate": TWICE * math.hypot(*(max(map(abs, pair)) for pair in known.extremes or ()))}
 
 
 def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None,
@@ -384,7 +384,8 @@ def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None,
               *((None, sizes) for sizes in (*cone.corners[1:], *cone.between))]
     torques = [cone.at(*place) for place in places]
     if ask is None:
-        found = Counter(VERBS[Fate(int(fate(tilted(scene, torque), state).labels))] for torque in torques)
+        found = Counter(VERBS[motion(tilted(scene, torque), state, brief="fate", exact=exact).fate]
+                        for torque in torques)
         return Spread(cone.angle, cone.words, len(torques), fates=tuple(found.most_common()),
                       within=cone.within)
     limit = asked(scene, **ask)
@@ -443,7 +444,8 @@ def by_angle(scene: Scene, state: Any, angles: np.ndarray, case: Any = None,
     the largest rate of a bounded motion. closer: more angles between these where a time is no power of the
     angle.
     """
-    limit, cone = asked(scene, **(ask or _twice_the_largest(scene, state))), cone_of(scene, case, DEGREE)
+    ask = ask or _twice_the_largest(motion(scene, state, brief="extremes"))
+    limit, cone = asked(scene, **ask), cone_of(scene, case, DEGREE)
     if case is not None and any(t.stuck and t.misalignment for t in case.thrusters):
         cone = cone_of(scene, case)
 

@@ -42,11 +42,11 @@ from ..physics.states import (
 from ..unreduced.spin_up.follow import spin_up
 from ..validation import checked_scene
 from .caveats import caveats_of
-from .fate import extremes, fate, period
 from .kinds import kind_of
 from .limit import STEPS as BAND_STEPS
 from .limit import WORK, Limit, along_axes, asked, banded, enclosed
 from .motion import motion
+from .motions.rows import extremes, fates, periods
 from .passage import MOVED, ROUNDING, Found, TimeTo, by_run, times_of
 
 # --- When a certified spin-up reaches it
@@ -130,15 +130,32 @@ def never(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> tuple[
     kind = kind_of(scene)
     if kind not in REDUCED:
         return None, None
+    if tuple(map(Fraction, state)) != tuple(exact):
+        return _never_of_rationals(scene, state, exact, limit)
     row = np.array(state, float)
-    bounded = lambda: fate(scene, row).labels == Fate.BOUNDED
-    if kind == "aligned" and not (bounded() and math.isfinite(float(period(scene, row)))):
+    bounded = lambda: fates(scene, row).labels == Fate.BOUNDED
+    if kind == "aligned" and not (bounded() and math.isfinite(float(periods(scene, row)))):
         return None, None  # its extremes over all time are not known
     if limit.beyond(extremes(scene, row).tolist(), SLACK):
-        return Found(math.inf, math.inf, "exact",
-                     f"{limit.words}: never, the extremes over all time stay below it"), None
-    repeats = float(period(scene, row)) if kind == "orbit" and bounded() else math.inf
+        return _below(limit), None
+    repeats = float(periods(scene, row)) if kind == "orbit" and bounded() else math.inf
     return None, repeats * (1 + SLACK) if 0 < repeats < math.inf else None
+
+
+def _below(limit: Limit) -> Found:
+    return Found(math.inf, math.inf, "exact",
+                 f"{limit.words}: never, the extremes over all time stay below it")
+
+
+def _never_of_rationals(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit
+                        ) -> tuple[Found | None, float | None]:
+    """`never` of a start that is no double: next to a separatrix its rounding is another motion."""
+    known = motion(scene, state, brief=True, exact=exact)
+    pairs = known.extremes if known.extremes_over == "all time" else None
+    if pairs is not None and limit.beyond(pairs, SLACK):
+        return _below(limit), None
+    repeats = known.period if kind_of(scene) == "orbit" and known.fate == Fate.BOUNDED else None
+    return None, None if repeats is None else repeats * (1 + SLACK)
 
 
 def after_a_period(limit: Limit) -> Found:

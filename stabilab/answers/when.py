@@ -12,7 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from ..case.given import Amount, Given, Span, Start, Starts
 from ..case.limit_options import StatedLimit, stated_limit
+from ..case.read import Case
 from ..errors import InputError
 from ..integrate.trajectory import Trajectory
 from ..numbers.double_double import EPS
@@ -27,6 +29,7 @@ from .dissipation.ending import ending
 from .kinds import kind_of
 from .limit import WORK, asked
 from .motion import motion
+from .motions.starts import asked_of, whole_rows
 from .passage import MOVED, WIDER, TimeTo, by_run, times_of
 from .simulate import denser, trajectory
 from .tilt import Spread, Tilt, cone_of, spread, tilt
@@ -162,26 +165,33 @@ LONGER = 3_000_000  # steps of that run
 FASTEST = 1e150  # rad/s: beyond it squares come near the end of doubles, and no run holds the motion
 
 
-def when(case: Any, states: Any = None, rate: Any = None, component: Any = None, energy: Any = None,
-         tilt: Any = None, until: Any = None, events: Any = None) -> TimeTo | Crossings:
+def when(case: Given, state: Start | None = None, rate: Amount | None = None,
+         component: str | tuple[str, Amount] | None = None, energy: Amount | None = None,
+         tilt: str | tuple[str, Amount] | None = None, until: Amount | None = None,
+         events: Any = None, *, states: Starts | None = None, span: Span | None = None) -> TimeTo | Crossings:
     """The first time at which the motion of a case reaches a limit, or that it never does.
+
+    case: a case in any form, or a scene; state, states, span: as of `fate`.
 
     One limit: rate="30 deg/s", of |omega|; component="z = 30 deg/s", or ("z", "30 deg/s"), of the size of the
     rate about x, y, z of the file or 1, 2, 3, the principal axes; energy="5 J", kinetic; tilt="z = 20 deg",
     of the angle between a body axis and its direction at the start; where none is given, that of [limits].
-    Numbers are in SI units. until: the time at which the search ends. states: other starts (..., 3) than the
-    case's own, in its variables. events: in place of a limit, the name of a component ("omega3"), a function
-    of the time and the state, or several of these, whose zeros up to `until` (or the end of the case's span)
-    are found: see `stabilab.answers.when`. Raises InputError for a limit that is none, and as `time_to`
-    does.
+    Numbers are in SI units. until: the time at which the search ends. events: in place of a limit, the name
+    of a component ("omega3"), a function of the time and the state, or several of these, whose zeros up to
+    `until` (or the end of the case's span) are found: see `stabilab.answers.when`. Raises InputError for a
+    limit that is none, and as `time_to` does.
     """
+    case, array = asked_of(case, state, states, span, "when")
     if events is not None:
+        if array.ndim > 1:
+            raise InputError("when: events are those of one motion: give one state")
         given = any(one is not None for one in (rate, component, energy, tilt))
-        return _crossings(case, states, events, until, given)
+        return _crossings(case, events, until, given)
     limit = limit_stated(case, rate, component, energy, tilt, until)
-    if states is None:
+    if array.ndim == 1:
         return limited_time(case, limit.ask, limit.until)
-    return time_to(case.scene, states, **limit.ask, t_max=limit.until)
+    found = time_to(case.scene, whole_rows(case, array), **limit.ask, t_max=limit.until)
+    return replace(found, caveats=(*case.caveats, *found.caveats))
 
 
 def limit_stated(case: Any, rate: Any = None, component: Any = None, energy: Any = None, tilt: Any = None,
@@ -190,19 +200,16 @@ def limit_stated(case: Any, rate: Any = None, component: Any = None, energy: Any
     return stated_limit(case, *map(_text, (rate, component, energy, tilt, until)))
 
 
-def _crossings(case: Any, state: Any, events: Any, until: Any, limited: bool) -> Crossings:
+def _crossings(case: Case, events: Any, until: Any, limited: bool) -> Crossings:
     if limited:
         raise InputError("when: expected a limit or events, got both: ask for each by itself")
-    if until is None and case.span is None:
+    if until is None and case.span is None or case.state is None:
         raise InputError("when: events need until, the time at which the search ends: the case has no span")
     unit = NONE if case.variables == "scaled" else TIME
-    end = float(case.span[1] if until is None else in_si(until, unit, "until"))
+    end = float((case.span or (0, 0))[1] if until is None else in_si(until, unit, "until"))
     if not end > 0:
         raise InputError(f"until: expected a time above 0, got {end:.6g}")
-    if state is None and case.state is None:
-        raise InputError(f"{case.place}: motion: no angular_velocity or x; when needs a start")
-    start = state if state is not None else (
-        case.state if case.variables == "scaled" else start_of(case.scene, case.state, case.blocks))
+    start = case.state if case.variables == "scaled" else start_of(case.scene, case.state, case.blocks)
     return crossings(case.scene, start, end, events)
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from ..numbers.units import ANGLE, ENERGY, NONE, RATE, TIME, quantity
+from ..numbers.vectors import Exact3
 
 if TYPE_CHECKING:
     from .read import Case
@@ -60,6 +61,11 @@ def stated_tilt(text: str) -> float:
     return angle
 
 
+def angle_of(tilt: object) -> float:
+    """The same of what a function is given: text, or a number in rad."""
+    return stated_tilt(tilt if isinstance(tilt, str) else str(tilt))
+
+
 def _of_case(case):
     """The fields of `StatedLimit` but `until` by [limits] of the case; those of an option below."""
     if case.limits is None:
@@ -68,7 +74,7 @@ def _of_case(case):
                          "[limits] rate")
     if case.limits.rate is not None:
         return {"rate": case.limits.rate}, "rate", ("|omega|",), (float(case.limits.rate),)
-    pairs = [(_along(case, FILE_AXES[n]), most) for n, most in enumerate(case.limits.rates)]
+    pairs = [(along(case, FILE_AXES[n]), most) for n, most in enumerate(case.limits.rates)]
     names = tuple(f"|omega {name}|" for name in FILE_AXES)
     return {"component": pairs}, "component", names, tuple(map(float, case.limits.rates))
 
@@ -81,7 +87,7 @@ def _rate(case, text, dimension):
 def _component(case, text, dimension):
     axis, most = _pair(text, dimension, "component")
     name = f"|{'x' if dimension is NONE else 'omega'} {axis}|"
-    return {"component": (_along(case, axis), most)}, "component", (name,), (float(most),)
+    return {"component": (along(case, axis), most)}, "component", (name,), (float(most),)
 
 
 def _energy(case, text, _):
@@ -91,7 +97,7 @@ def _energy(case, text, _):
 
 def _tilt(case, text, _):
     axis, angle = _pair(text, ANGLE, "tilt")
-    return {"tilt": (_along(case, axis), angle)}, "tilt", (f"the tilt of axis {axis}",), (float(angle),)
+    return {"tilt": (along(case, axis), angle)}, "tilt", (f"the tilt of axis {axis}",), (float(angle),)
 
 
 def _pair(text, dimension, option):
@@ -116,7 +122,7 @@ def _meant(text: str) -> str:
     return "; write " + " or ".join(f'"{name} = {found[2]}"' for name in names)
 
 
-def _along(case, axis):
+def along(case: Case, axis: str) -> int | Exact3:
     """An axis as `time_to` takes it: the number of a principal axis, or three numbers along those."""
     if axis in "123":
         return int(axis)

@@ -5,7 +5,7 @@ import math
 import os
 from collections.abc import Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -40,7 +40,6 @@ from .body import (
 )
 from .far import in_doubles
 from .lines import KeyLines, key_lines
-from .questions import BurningQuestions, Questions
 from .sections import (
     BURN_KEYS,
     BURN_ONLY,
@@ -79,8 +78,8 @@ STAND_IN = Body((3, 2, 1))  # lets the faults of the effects show where the body
 
 
 @dataclass(frozen=True)
-class Case(Questions):
-    """One case file.
+class Case:
+    """One case file. `stabilab.study.Case` is the same with its questions as methods.
 
     scene: the Scene (rad/s, s) or ScaledGyrostat (x, tau) in the variables of the case, which `variables`
     names ("physical" or "scaled"); physical: the Scene in kg m^2, N m, or None where the file gives [scaled];
@@ -126,6 +125,16 @@ class Case(Questions):
     units: str = ""
     swept: tuple[tuple[str, Any], ...] = ()
     caveats: tuple[Caveat, ...] = ()
+
+    def __eq__(self, other: object) -> bool:
+        """By what it holds, whether it has methods or not."""
+        if not isinstance(other, Case):
+            return NotImplemented
+        return all(getattr(self, one.name) == getattr(other, one.name) for one in fields(Case) if one.compare)
+
+    def to_toml(self) -> str:
+        """The case as text that `stabilab.load` reads."""
+        return text_of_case(self)
 
     def __repr__(self) -> str:
         motion = ("no motion" if self.state is None
@@ -218,20 +227,31 @@ def _tables(path: str, data: dict) -> tuple[str, dict, Faults]:
 
 def text_of_case(case: Case) -> str:
     """The text of a case file with this case: its own, with its comments, where that states it; of a
-    combination of a [sweep] and of a case with another motion the numbers alone."""
+    combination of a [sweep], of a case with another motion and of a scene the numbers alone."""
+    if not case.text:
+        return text_of(_data_of(case))
     if not case.variant and case == replace(read_text(case.path, case.text), swept=case.swept):
         return case.text
     top = Table((), *parsed(case.path, case.text))
     data = dict(combinations(top)).get(case.variant, top.data)
     if case == replace(_built(case.path, case.text, data, top.faults, case.variant), swept=case.swept):
         return text_of(data)
+    return text_of(plain({"title": case.title, "source": case.source}) | _data_of(case))
+
+
+def _data_of(case: Case) -> dict[str, Any]:
+    """The tables with the scene of a case and its motion."""
     motion = {"omega": case.exact_state, **case.blocks} if case.state else None
-    return text_of(plain({"title": case.title, "source": case.source})
-                   | data_of_scene(case.scene, motion, case.span))
+    return data_of_scene(case.scene, motion, case.span)
+
+
+def with_text(case: Case) -> Case:
+    """The case itself, or that of the text that a scene makes, for questions that vary what is written."""
+    return case if case.text else replace(read_text(case.path, text_of_case(case)), caveats=case.caveats)
 
 
 @dataclass(frozen=True)
-class Burning(BurningQuestions):
+class Burning:
     """A case whose thrusters fire on a schedule. craft: the case, its scene without the torque of these
     thrusters; no question but these may take it for the whole."""
 

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from ..answers.digits_run import ladder
-from ..answers.fate import extremes, fate, period
+from ..answers.motions.rows import extremes, fates, periods
 from ..errors import InputError
 from ..integrate.to_heyoka import (
     TAYLOR_TOLERANCE,
@@ -310,7 +310,7 @@ def _answer(task, period, found, steps, evaluations) -> Answer:
 
 
 def _roots(task, _):
-    return lambda times: Answer({"period": np.array([float(period(task.scene, task.start))]),
+    return lambda times: Answer({"period": np.array([float(periods(task.scene, task.start))]),
                                  "extremes": extremes(task.scene, task.start)})
 
 
@@ -328,7 +328,7 @@ def known_period(task: Problem):
     it)."""
     if _landscape(task) is None:
         return None
-    found = float(period(task.scene, task.start))
+    found = float(periods(task.scene, task.start))
     return found if 0 < found < np.inf else None
 
 
@@ -351,4 +351,4 @@ def fate_methods(task: Problem) -> list:
                   else decide(Orbit(reduction, task.start)).sign)
         return ("at the barrier" if not margin else "below the barrier" if margin > 0
                 else "above the barrier, or none stands ahead")
-    return [("energy", lambda: Fate(int(fate(task.scene, task.start).labels)).word), ("balls", in_balls)]
+    return [("energy", lambda: Fate(int(fates(task.scene, task.start).labels)).word), ("balls", in_balls)]

@@ -25,9 +25,9 @@ import numpy as np
 from ..answers.caveats import CONDITIONS, STEADY, condition
 from ..answers.chaos import chaos, long_enough, row_of
 from ..answers.equilibria import equilibria
-from ..answers.fate import extremes, fate, period
 from ..answers.kinds import KINDS, kind_of
 from ..answers.motion import motion
+from ..answers.motions.rows import extremes, fates, periods
 from ..answers.time_to import time_to
 from ..case.lines import KeyLines
 from ..case.read import Case, blamed_on, with_data
@@ -42,6 +42,7 @@ from ..orbit.extremes_arrays import extremes_and_periods
 from ..orbit.result import Fate
 from ..physics.coefficients import effective
 from ..physics.states import start_of
+from ..validation import reach_of
 from .axes import Key, with_values
 from .columns import ENDLESS, LEVELS, LIMIT_LEVELS, NO_CASE, NONE, OPEN, record
 from .plan import Chunk, Plan
@@ -185,7 +186,7 @@ def _many(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
         if plan.pointed is not None and KINDS[kind_of(effective(scene))].follows:
             # each motion of an atlas is alone in its scene, and all of them together are worth the compiler
             many = {"fast": installed() or None, "proof": plan.pointed.certify}
-        found = fate(scene, states, follow=plan.longest, **many)
+        found = fates(scene, states, follow=plan.longest, **many)
         columns: dict[str, Callable[[], Any]] = {
             "fate": lambda: found.labels, "spin_axis": lambda: found.axis * found.sense,
             "reason": lambda: found.reasons, "margin": lambda: found.margins,
@@ -215,20 +216,20 @@ def _extremes_and_periods(case: Case, states: np.ndarray, box: bool, times: bool
     last digits are not those of plain Python."""
     kind = kind_of(effective(case.scene))
     if kind == "orbit":
-        found, periods = extremes_and_periods(case.scene, states, box=box, period=times,
+        found, repeats = extremes_and_periods(case.scene, states, box=box, period=times,
                                               by_numba=len(states) >= COMPILED)
     else:
         try:
-            found = extremes(case.scene, states, case.span) if box else None
+            found = extremes(case.scene, states, reach_of(case.span)) if box else None
         except InputError:
             if not KINDS[kind].follows:
                 raise
             found = np.full((*states.shape, 2), np.nan)  # no state of this scene has bounds
-        periods = period(case.scene, states) if times else None
+        repeats = periods(case.scene, states) if times else None
     if found is not None:
         out["least"], out["greatest"] = found[..., 0], found[..., 1]
-    if periods is not None:
-        out["period"] = periods
+    if repeats is not None:
+        out["period"] = repeats
 
 
 def _times(found, out: np.ndarray) -> None:

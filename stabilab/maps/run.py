@@ -26,7 +26,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from ..answers.fate import fate
+from ..answers.motions.rows import fates
 from ..errors import InputError, StabilabError, printable
 from ..files import whole_file
 from ..interrupt import end_with_parent, undoing
@@ -353,6 +353,6 @@ def changes(plan: Plan, index: tuple[int, ...], dimension: int, lower: np.ndarra
     for _ in range(halvings):
         middle = 0.5 * (low + high)
         states = states_at(plan, case, places, dimension, middle)
-        same = (fate(case.scene, states).labels == Fate.SPIN_UP) == spun
+        same = (fates(case.scene, states).labels == Fate.SPIN_UP) == spun
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     return 0.5 * (low + high)

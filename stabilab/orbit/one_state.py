@@ -114,6 +114,7 @@ def in_scene_unit(found: Motion, k: int, state, margin: float) -> Motion:
             return None if value is None else number
         lost.append(name)
     fields = {"margin_energy": finite(margin),
+              "margin": margin, "returns": powered(found.returns, -k),
               "margin_velocity": told("the margin in angular velocity", found.margin_velocity, 1),
               "period": told("the period", found.period, -1)}
     invariants = {name: powered(value, 2 * k) for name, value in found.invariants.items()}
@@ -142,7 +143,7 @@ def far_numbers(scene, state):
 
 
 # --- The motion
-def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
+def motion(scene, state, span=None, exact=None, brief: bool | str = False) -> Motion:
     """See `answers.motion`; the scene has a reduction, and `span` is not needed."""
     state = three_floats(state)
     orbit = Orbit(reduce(scene), exact or state)
@@ -159,19 +160,15 @@ def _reduced(orbit, state, decided, brief, k=0) -> Motion:
     """All that is known of a motion with this orbit and fate; state: the doubles of its start. The extremes
     are in units 2^-k of the orbit's."""
     fields = judged(state, decided)
-    fields |= {"margin_energy": finite(decided.margin), "tolerance": 1e-12,
-               "extremes": extremes_of(orbit, decided.label, k)}
-    return Motion(**fields,
-                  **({"period": _period(orbit, decided)} if brief else _rest(orbit, state, decided)))
-
-
-def _rest(orbit, state, decided) -> dict:
-    return {**apart_fields(orbit, state, decided), "period": _period(orbit, decided),
-            "invariants": orbit.invariants()}
-
-
-def _period(orbit, decided) -> float | None:
-    return repeats(precise_period(orbit, decided.label))
+    fields |= {"margin_energy": finite(decided.margin), "tolerance": 1e-12}
+    if brief not in ("fate", "period"):
+        fields["extremes"] = extremes_of(orbit, decided.label, k)
+    if not brief:
+        fields |= {**apart_fields(orbit, state, decided), "invariants": orbit.invariants()}
+    if brief not in ("fate", "extremes"):
+        fields["returns"] = precise_period(orbit, decided.label)
+        fields["period"] = repeats(fields["returns"])
+    return Motion(**fields)
 
 
 def apart_fields(orbit: Orbit, state, decided) -> dict:

@@ -95,7 +95,9 @@ class Motion(Shown):
     level: of the fate, "exact", "certified" (a theorem applied to a run of machine precision) or
     "undecided". Of motions that were followed until a certificate held, or as long as was asked: cause:
     what was found on the way, in words; bounds: ((low, high),) * 3 of the rates at all t >= 0, wider than
-    the extremes, +-inf where unbounded (None where not known). stability: of an equilibrium.
+    the extremes, +-inf where unbounded (None where not known). stability: of an equilibrium. margin, code,
+    returns: the margin, the number of the reason and the period as arrays have them
+    (`orbit.fate_arrays`): infinite, NaN and -1 where there is none.
     """
 
     at: Float3
@@ -126,6 +128,9 @@ class Motion(Shown):
     caveats: tuple[Caveat, ...] = ()
     stability: Stability | None = None
     ending: Any = None
+    margin: float = field(default=math.nan, repr=False, compare=False)
+    code: int = field(default=-1, repr=False, compare=False)
+    returns: float = field(default=math.nan, repr=False, compare=False)
 
 
 def judged(state: Float3, decided: Any) -> dict[str, Any]:
@@ -136,7 +141,9 @@ def judged(state: Float3, decided: Any) -> dict[str, Any]:
                     else "; it spins up about the torque")
     level = "undecided" if decided.label == Fate.UNDECIDED else "exact"
     return {"at": state, "fate": decided.label, "because": because, "axis": decided.axis,
-            "sense": decided.sense, "level": level}
+            "sense": decided.sense, "level": level, "margin": float(decided.margin),
+            "code": int(decided.reason),
+            "returns": math.nan if decided.label == Fate.BOUNDED else without_return(decided.label)}
 
 
 def finite(value: Number) -> float | None:

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from ..answers.fate import extremes, fate, period
+from ..answers.motions.rows import extremes, fates, periods
 from ..case.read import load
 from ..cost.accuracy import precision
 from ..integrate.reference import WORK, Recursion, one_run, pairs, relative_errors
@@ -42,7 +42,7 @@ DOUBLES = 15
 DISTANCES = tuple(range(1, 16))  # decades of relative distance in energy to the separatrix
 NODE_DIGITS, MOST_NODES = 8, 1 << 15
 BITS = range(16, 129, 4)
-QUESTIONS: dict[str, Callable[..., Any]] = {"fate": fate, "extremes": extremes, "period": period}
+QUESTIONS: dict[str, Callable[..., Any]] = {"fate": fates, "extremes": extremes, "period": periods}
 SLOW, ENOUGH = 1.0, 0.1  # seconds of the first run after which only one follows; seconds of all runs together
 
 
@@ -164,10 +164,10 @@ def near(case, decade: int) -> tuple[np.ndarray, float]:
     axis = landscape(case.scene).reduction.axis
     state = np.array(case.state, float)
     state[axis] = 0.0
-    height = float(fate(case.scene, state).margins)
+    height = float(fates(case.scene, state).margins)
     weight = 1.0 if case.scene.variables == "scaled" else float(case.scene.body.inertia[axis])
     state[axis] = math.sqrt(2 * height * (1 - 10.0**-decade) / weight)
-    return state, float(fate(case.scene, state).margins) / height
+    return state, float(fates(case.scene, state).margins) / height
 
 
 def with_closeness(case, tell=lambda words: None) -> list[Growth]:

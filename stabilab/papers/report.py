@@ -12,10 +12,10 @@ import sys
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
+from ..case.given import Given, Span, Start, as_text
 from ..case.read import load_all
 from ..errors import StabilabError
 from ..interrupt import undoing
@@ -476,12 +476,13 @@ def write(cases=None, out="report", progress=None, arguments=None, papers=False,
     return out / "index.html"
 
 
-def report(case: Any, out: str | os.PathLike[str] = "report", precision: bool = False, certify: bool = False,
-           workers: int | None = None) -> Path:
+def report(case: Given, out: str | os.PathLike[str] = "report", precision: bool = False,
+           certify: bool = False, workers: int | None = None, *, state: Start | None = None,
+           span: Span | None = None) -> Path:
     """Write the pages on a case into the folder `out`, as `stabilab report` does; precision: what accuracy
     costs as well; certify: a certificate, checked. Returns the path of index.html. Raises
     InputError where a package that draws is not installed."""
-    return write([case], out, precision=precision, certify=certify, workers=workers)
+    return write([as_text(case, state, span)], out, precision=precision, certify=certify, workers=workers)
 
 
 def of_all(cases):

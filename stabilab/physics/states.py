@@ -222,6 +222,14 @@ def start_of(scene: AnyScene, omega: Sequence[float],
     return start
 
 
+def row_of(scene: AnyScene, state: Sequence[float], blocks: Mapping[str, Sequence[float]]) -> list[float]:
+    """All of a state in one row: its three rates, then the other blocks that the scene needs."""
+    if scene.variables == "scaled":
+        return list(state)
+    parts = REST | start_of(scene, state, blocks)
+    return [float(value) for name in scene.blocks for value in parts[name]]
+
+
 def _attitude(given: Sequence[float]) -> tuple[float, ...]:
     """The unit quaternion, scalar first, of three angles, or of four numbers: a quaternion with its scalar
     last."""

@@ -5,7 +5,7 @@ import math
 import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from html import escape
 from typing import TYPE_CHECKING, Any
 
@@ -41,14 +41,17 @@ AXIS: dict[str, tuple[Any, dict[str, str]]] = {"axis": ([1, 2, 3], {"long_name":
 
 
 def variables(result: Any) -> Variables:
-    """Those of a result."""
-    return KINDS[type(result).__name__][1](result)
+    """Those of a result, with what limits the whole answer among the attributes."""
+    found = KINDS[type(result).__name__][1](result)
+    caveats = "; ".join(one.words for one in getattr(result, "caveats", ()))
+    return replace(found, attributes={**found.attributes, "caveats": caveats}) if caveats else found
 
 
 def short(result: Any) -> str:
-    """The line of a result: its kind, and what it answers in a few words."""
+    """The line of a result: its kind, what it answers in a few words, and all that limits the answer."""
     name = type(result).__name__
-    return f"{name}({KINDS[name][0](result)})"
+    limits = (one.words for one in getattr(result, "caveats", ()))
+    return f"{name}({'; '.join([KINDS[name][0](result), *limits])})"
 
 
 # --- Cells and words that the kinds below have in common
@@ -158,6 +161,42 @@ def _fates(found):
     return Variables(dims, values, AXIS)
 
 
+def _motions_words(found):
+    if not found.one:
+        return _fates_words(found)
+    motion = found.judged
+    known = "" if motion.level == "undecided" else f"{motion.fate.word}{_about(motion)}, {motion.level}: "
+    return known + motion.because
+
+
+def _values_words(found):
+    told = f" {found.unit}".rstrip()
+    if not found.answer.one:
+        return f"{found.name}{told and ','}{told}: {found.values}"
+    if found.why:
+        return f"{found.name}: {found.why}"
+    over = f" over {found.over}" if found.over else ""
+    numbers = f"{found.values:.9g}" if found.decimals is None and found.values.ndim == 0 else str(found)
+    return f"{found.name}{over}: {numbers}{told}"
+
+
+def _values(found):
+    dims, unit = _dims(found.states[..., 0]), {"units": found.unit or "1"}
+    start = {"start": ((*dims, "axis" if found.states.shape[-1] == 3 else "component"), found.states, {})}
+    axes = AXIS if found.states.shape[-1] == 3 or found.name == "extremes" else {}
+    if found.name == "period":
+        return Variables(dims, start | {"period": (dims, found.values, unit)}, axes, _of_answer(found))
+    ends = {name: ((*dims, "axis"), found.values[..., n], unit | {"long_name": f"over {found.over}"})
+            for n, name in enumerate(("least", "greatest"))}
+    return Variables(dims, start | ends, AXIS, _of_answer(found))
+
+
+def _of_answer(found) -> dict[str, Any]:
+    """What belongs to a whole answer."""
+    one = found.level if isinstance(found.level, str) else None
+    return _known({"level": one, "reason": found.reason if one else None})
+
+
 def _time_to_words(found):
     low, high = found.low, found.high
     if getattr(low, "ndim", 0):
@@ -192,7 +231,7 @@ def _equilibria_words(found):
 def _equilibria(found):
     rows = ([("", p) for p in found.points]
             + [(curve.name, p) for curve in found.curves for p in curve.samples])
-    at = np.array([p.at for _, p in rows], float).reshape(len(rows), -1)
+    at = np.array([p.at for _, p in rows], float).reshape(len(rows), len(rows[0][1].at) if rows else 3)
     across = "axis" if at.shape[1] == 3 else "component"
     of = {name: _texts(("point",), (getattr(p, name) for _, p in rows))
           for name in ("verdict", "linear", "because")}
@@ -444,7 +483,8 @@ def _plane(found):
 # class of a result -> (its line, its numbers)
 KINDS: dict[str, tuple[Callable[[Any], str], Callable[[Any], Variables]]] = {
     "Simulation": (_simulation_words, _simulation), "Trajectory": (_trajectory_words, _trajectory),
-    "FateResult": (_fates_words, _fates), "TimeTo": (_time_to_words, _time_to),
+    "FateResult": (_fates_words, _fates), "Motions": (_motions_words, _fates),
+    "Values": (_values_words, _values), "TimeTo": (_time_to_words, _time_to),
     "Equilibria": (_equilibria_words, _equilibria), "Motion": (_motion_words, _motion),
     "Attitude": (_attitude_words, _attitude), "Crossings": (_crossings_words, _crossings),
     "Chaos": (_chaos_words, _chaos), "Ensemble": (_ensemble_words, _ensemble),

@@ -6,7 +6,7 @@ import difflib
 from dataclasses import replace
 from importlib import import_module
 
-from ..answers.simulate import Simulation, simulate
+from ..answers.simulate import Simulation, simulated
 from ..errors import InputError
 from ..physics.coefficients import limits_of
 from ..physics.states import vertical
@@ -47,7 +47,7 @@ def follow(case, times, model: str = "exact", method: str | None = None, rtol: f
     if order is not None and model != "lindstedt":
         raise InputError(f"order: belongs to the model \"lindstedt\", not to {model!r}")
     if model == "exact":
-        return simulate(case.scene, case.state, times, case.blocks, method, rtol)
+        return simulated(case.scene, case.state, times, case.blocks, method, rtol)
     if model not in models_of(case.scene):
         raise InputError(
             f"model: {model!r} does not apply to this scene; it has {', '.join(models_of(case.scene))}")

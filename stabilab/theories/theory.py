@@ -4,16 +4,15 @@ It is said in words and numbers; of a model, how far off it is, and from when on
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..case.given import Given, Span, Start, as_case, time_in, with_start
 from ..errors import InputError
 from ..integrate.events import roots_of_rates
 from ..physics.states import checked_times
 from ..representation import Compared, Shown
-from ..validation import checked_case
 from .cavity_normal_form import attractors
 from .charged import MISPRINTS, body_of
 from .charged_modes import SMALL_ANGLE, horizon, largest_tilt, modes, pointing, resonances, spin_drift
@@ -26,18 +25,19 @@ from .top_lindstedt import lindstedt
 GAMMA = (3, 4, 5)  # of the state of a top
 
 
-def theory(case: Any, order: int | None = None, model: str | None = None,
-           end: float | None = None) -> list[dict]:
+def theory(case: Given, order: int | None = None, model: str | None = None,
+           end: float | None = None, *, state: Start | None = None, span: Span | None = None) -> list[dict]:
     """What the analytic theories know of a case: a list of {"about", "words", "values"}. The words say of
     which motion a number is: of a model's equations, or of the exact motion.
 
-    case: as `stabilab.load` gives it. values by name, with the unit in the words; none where no theory
-    applies or the case gives no motion. order: of the top's expansion; model: "printed" adds the misprints of
-    the charged body's paper; end: time in s up to which the exact motion of a top is looked at (None: the end
-    of the case's span). Where the theory refuses the case's numbers the one row says why: the InputError is
-    reported and not raised.
+    case: in any form, or a scene with `state`. values by name, with the unit in the words; none where no
+    theory applies or the case gives no motion. order: of the top's expansion; model: "printed" adds the
+    misprints of the charged body's paper; end: time in s up to which the exact motion of a top is looked at
+    (None: the end of the case's span). Where the theory refuses the case's numbers the one row says why: the
+    InputError is reported and not raised.
     """
-    module = family(checked_case(case).scene)
+    case = as_case(case, state, span)
+    module = family(case.scene)
     if module is None or case.state is None:
         return []
     told = {"charged": _axisymmetric, "cavity": _averaged, "top": _top}
@@ -221,18 +221,21 @@ class Comparison(Shown, Compared):
         return self.runs["exact"].validity
 
 
-def compare(case: Any, times: ArrayLike | None = None, order: int | None = None) -> Comparison:
+def compare(case: Given, times: ArrayLike | None = None, order: int | None = None, *,
+            state: Start | None = None, span: Span | None = None) -> Comparison:
     """All models of a case over its span (or at `times` (n,), s, increasing from 0) against the exact motion.
 
-    case: as `stabilab.load` gives it, with a motion; order: of the fast top's expansion.
+    case: in any form, with a motion, or a scene with `state`; order: of the fast top's expansion.
 
     The first times of 1 % and 10 % error are bracketed on the grid and refined by evaluating both models in
     between. Raises InputError as `follow` does.
     """
-    if order is not None and "lindstedt" not in models_of(checked_case(case).scene):
+    case = with_start(as_case(case, state, span), "compare")
+    if order is not None and "lindstedt" not in models_of(case.scene):
         raise InputError(
             f"order: belongs to the model \"lindstedt\"; this scene has {', '.join(models_of(case.scene))}")
-    if checked_case(case).span is None and times is None:
+    times = None if times is None else time_in(case.scene, times, "times")
+    if case.span is None and times is None:
         raise InputError("compare: the case states no span: give it times")
     times = np.linspace(case.span[0], case.span[1], GRID) if times is None else checked_times(times)
     runs, refused = side_by_side(case, times, order)

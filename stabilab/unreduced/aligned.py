@@ -38,14 +38,17 @@ NO_SPAN = (
 TURN_SHARE = 1e-36  # of the energies: half the digits of a turn by irrational numbers
 
 
-def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
+def motion(scene, state, span=None, exact=None, brief: bool | str = False) -> Motion:
     """See `answers.motion`; the extremes of a motion that does not repeat are over the span."""
     state = three_floats(state)
     given = exact or state
     orbit = twin_orbit(aligned(scene), given)
     decided = aligned_fate(scene, given, orbit)
+    fields = {**judged(state, decided), "margin_energy": finite(decided.margin)}
+    if brief == "fate":
+        return Motion(**fields)
     time = turned_period(orbit, decided.label)
-    fields = {**judged(state, decided), "margin_energy": finite(decided.margin), "period": repeats(time)}
+    fields |= {"period": repeats(time), "returns": time}
     if decided.label == Fate.EQUILIBRIUM or repeats(time) is not None:
         box = turned_extremes(scene, given, decided.label, time, None)
         fields |= ({"extremes": pairs(box)} if np.isfinite(box).all()

@@ -38,7 +38,7 @@ OPEN_DIRECTION = ("; the direction is undecided, since its energy is not below t
 SMALL = 1e-290  # below it a square of doubles has lost digits
 
 
-def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
+def motion(scene, state, span=None, exact=None, brief: bool | str = False) -> Motion:
     """See `answers.motion`. state: three numbers; six, omega and gamma, or a dict of blocks, where gamma is
     part of the state.
 
@@ -51,7 +51,7 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     judge_start(scene, {"wheel": wheel})
     at = omega + (gamma or ()) + (sigma if parts.inside else ()) + (wheel if any(parts.u) else ())
     seen = {}
-    if span is not None:
+    if span is not None and brief != "fate":
         from .evidence import seen_of_blocks
         seen = seen_of_blocks(scene, {"omega": omega} | ({"gamma": gamma} if gamma else {})
                          | ({"damper": sigma} if parts.inside else {})

@@ -191,7 +191,7 @@ def _polish(form, first, second, start, x, i):
     return better if np.abs(better - x).max() <= 1e-9 * np.abs(x).max() else x
 
 
-def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
+def motion(scene, state, span=None, exact=None, brief: bool | str = False) -> Motion:
     """See `answers.motion`: the motion is closed, and one return gives its period and every extreme."""
     state = three_floats(state)
     given = exact or state
@@ -205,18 +205,19 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     if rests(scene.quadratic(), given):
         decided = at_rest(scene, decided)
         fields["extremes"] = tuple((v, v) for v in state)
-    else:
+    elif brief != "fate":
         closed = extremes_over_period(scene, given)
         open_ = closed.reason if math.isnan(closed.period) and closed.over != "all time" else ""
         whole = bool(np.isfinite(closed.extremes).all())
         lost += ([] if whole else ["an extreme"]) + (["the period"] if math.isnan(closed.period)
                                                      and closed.over == "all time" else [])
         fields |= {"extremes": pairs(closed.extremes) if whole else None, "period": repeats(closed.period),
+                   "returns": closed.period,
                    "extremes_over": closed.over if whole else f"none: {BEYOND}"}
     known = judged(state, decided)
     known["because"] += f"; its period is not known: {open_}" if open_ else ""
     known["because"] += f"; {BEYOND}: {', '.join(lost)}" if lost else ""
-    return Motion(**known, margin_energy=finite(decided.margin), **fields)
+    return Motion(margin_energy=finite(decided.margin), **(known | fields))
 
 
 def fates(scene, states, fast: bool | None = None):

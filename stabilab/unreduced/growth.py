@@ -179,20 +179,22 @@ def _without_form(scene, state, axis, t_max):
         f"unbounded, because |H|^2/2 - D{axis + 1} T grows in proportion to time; {words}"))
 
 
-def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
+def motion(scene, state, span=None, exact=None, brief: bool | str = False) -> Motion:
     """See `answers.motion`: unbounded by an exact law; what is seen over the span is told beside it."""
     state = three_floats(state)
     found = captured_fate(scene, state, exact=exact)
     known = {"certificate": found.certificate, "t_certificate": found.t_certificate,
              "release_time": found.release_time,
              "release_estimate": found.release_estimate, "steps": found.steps}
-    fields, seen = {**judged(state, unbounded(found)), "because": found.because,
+    fields, seen = {**judged(state, unbounded(found)), "because": found.because, "returns": math.inf,
                     "level": LEVEL.get(found.certificate, "undecided")}, {}
-    if span is not None or _for_ever(found):
+    if brief != "fate" and (span is not None or _for_ever(found)):
         grown = captured_extremes(scene, state, found, reach_of(span), exact)
         fields |= {"extremes": pairs(grown.box), "extremes_over": grown.over}
         seen = ({} if span is None
                 else seen_over(scene, state, (0.0, grown.span or reach_of(span)))["evidence"])
+    elif brief != "fate":
+        fields["extremes_over"] = f"none: {span_needed(scene)}"
     return Motion(**fields, invariants={"J": found.J0, "J_rate": found.J_rate}, evidence={**seen, **known})
 
 

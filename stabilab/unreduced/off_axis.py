@@ -188,8 +188,8 @@ NO_SPAN = ("not known without a certificate of spin-up: give span=T ({unit}), or
            "or follow=T to look for the certificate longer")
 
 
-def motion(scene, state, span=None, exact=None, brief: bool = False, follow: float | None = None, tell=None,
-           proof: bool = False) -> Motion:
+def motion(scene, state, span=None, exact=None, brief: bool | str = False, follow: float | None = None,
+           tell=None, proof: bool = False) -> Motion:
     """See `answers.motion`. Extremes over the span where one is given, else bounds for all times where
     spin-up is certified."""
     state = three_floats(state)
@@ -200,7 +200,7 @@ def motion(scene, state, span=None, exact=None, brief: bool = False, follow: flo
     start = list(exact or state) if proof else state
     found = spin_up(scene, start, **_limits(follow), tell=tell, proof=proof)
     decided = OneFate(found.fate, REASON[found.level], math.nan, found.axis, found.sense)
-    bounds = bounds_for_ever(scene, start, found)
+    bounds = None if brief == "fate" else bounds_for_ever(scene, start, found)
     fields = {**judged(state, decided), "velocity_because": NO_BRANCHES, "level": found.level,
               "cause": found.cause, "bounds": bounds,
               "extremes": bounds, "extremes_over": "all time, as bounds" if bounds
@@ -209,7 +209,7 @@ def motion(scene, state, span=None, exact=None, brief: bool = False, follow: flo
     known = {"t_certificate" if found.fate == Fate.SPIN_UP else "followed_until": found.t,
              "steps_followed": found.steps,
              "small_change_grew": found.condition}
-    seen = {} if span is None else seen_over(scene, state, span)
+    seen = {} if span is None or brief == "fate" else seen_over(scene, state, span)
     if found.fate == Fate.UNDECIDED and "an island is seen" in found.cause:
         fields["because"] += _middle(scene, found.state)
     if seen and found.fate == Fate.UNDECIDED:

@@ -24,7 +24,7 @@ MAY: dict[str, str | None] = {
     "equilibrium": "physics numbers",
     "orbit": "physics numbers", "unreduced": "orbit equilibrium integrate physics numbers",
     "answers": "unreduced orbit equilibrium integrate case physics numbers",
-    "theories": "answers integrate physics numbers",
+    "theories": "answers case integrate physics numbers",
     "maps": "answers orbit equilibrium case integrate physics numbers",
     "cost": "theories answers orbit integrate physics numbers", "verify": None,
     "show": "maps cost theories answers unreduced orbit equilibrium integrate case physics numbers verify",

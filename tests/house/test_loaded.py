@@ -97,7 +97,7 @@ import stabilab
 from stabilab.answers.certificate import certificate
 for path in sys.argv[1:]:
     case = stabilab.load(path)
-    found = stabilab.motion(case.scene, case.state, case.span, exact=case.exact_state)
+    found = stabilab.motion(case.scene, case.exact_state, case.span)
     rest = stabilab.equilibria(case.scene)
     proved = certificate(case.scene, case.exact_state)
     print(case.name, found.fate.word, found.extremes is not None, rest.kind, proved["motion"]["fate"])

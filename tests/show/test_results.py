@@ -7,6 +7,7 @@ import pytest
 
 import stabilab
 from stabilab import errors, packages
+from stabilab.answers.motions.rows import fates
 from tests.shared import CASES
 
 SCENE = stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.Gyrostat(("0.8", 0, 0)),
@@ -19,7 +20,8 @@ DAMPED = stabilab.load(
     stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.ViscousDamper("0.5", 2)), (0.3, 0.1, 2))
 RESULTS = {
     "Motion": lambda: stabilab.motion(SCENE, STATES[0]), "Equilibria": lambda: stabilab.equilibria(SCENE),
-    "FateResult": lambda: stabilab.fate(SCENE, STATES),
+    "FateResult": lambda: fates(SCENE, STATES), "Motions": lambda: stabilab.fate(SCENE, STATES),
+    "Values": lambda: stabilab.period(SCENE, STATES[0]),
     "Trajectory": lambda: stabilab.trajectory(SCENE, STATES[0], TIMES),
     "Simulation": lambda: stabilab.simulate(SCENE, STATES[0], TIMES),
     "Separatrix": lambda: stabilab.separatrix(SCENE, shape=(5, 7)),
@@ -46,7 +48,7 @@ def results():
 @pytest.mark.parametrize("name", RESULTS)
 def test_a_result_says_in_one_short_line_what_it_answers(results, name):
     line = repr(results[name])
-    assert line.startswith(f"{name}(") and len(line) < 160 and "\n" not in line and "array(" not in line
+    assert line.startswith(f"{name}(") and len(line) < 250 and "\n" not in line and "array(" not in line
 
 
 def test_tables_of_a_stuck_thruster_of_models_and_of_a_spin_up_hold_their_numbers(results):
@@ -104,11 +106,38 @@ def test_data_sets_have_dimensions_units_and_words(results):
     assert dict(data.sizes) == {"time": 3,
                                 "axis": 3} and data.omega.units == "rad/s" and data.time.units == "s"
     assert float(data.omega.sel(time=20.0, axis=2)) == results["Simulation"].state["omega"][2, 1]
-    data = results["FateResult"].to_xarray()
+    data = results["Motions"].to_xarray()
     assert data.margin.dims == ("state",
                                 ) and data.margin.units == "J" and data.start.dims == ("state", "axis")
     data = results["TimeTo"].to_xarray()
     assert data.low.units == "s" and float(data.low[1]) == results["TimeTo"].low[1]
+
+
+def test_a_scene_without_equilibria_has_an_empty_table():
+    """A torque along the wheel's axis: no rotation keeps its momentum (|H|^2/2 - D3 T grows steadily)."""
+    scene = stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.Gyrostat((0, 0, 1)), stabilab.ConstantTorque((0, 0, 1)))
+    found = stabilab.equilibria(scene)
+    assert found.kind == "none" and len(found.to_pandas()) == 0 and found.to_xarray().at.shape == (0, 3)
+    assert "none" in found._repr_html_()
+
+
+def test_what_limits_an_answer_stands_in_every_view_of_it():
+    """A torque exactly along an axis keeps the motion bounded: any tilt may end that."""
+    words = "only while the torque is exactly along axis 3"
+    for found in (stabilab.fate(SCENE, STATES[0]), stabilab.period(SCENE, STATES[0]), stabilab.fate(SCENE, STATES),
+                  stabilab.extremes(SCENE, STATES[0]), stabilab.motion(SCENE, STATES[0]),
+                  stabilab.when(SCENE, STATES[0], rate=3), stabilab.stuck(SCENE, state=STATES[0])):
+        assert any(words in one.words for one in found.caveats)
+        assert words in repr(found) and words in found._repr_html_() and words in found.to_xarray().attrs["caveats"]
+
+
+def test_values_are_numbers_and_say_how_well_they_are_known():
+    one, many = stabilab.period(SCENE, STATES[0]), stabilab.period(SCENE, STATES)
+    assert float(one) == one.values and 2 * one == 2 * float(one) and f"{one:.3f}" == f"{float(one):.3f}"
+    assert one.level == "exact" and "energy is below the barrier" in one.reason
+    assert many.shape == (2,) and many.tolist()[1] == math.inf and np.isinf(many)[1] and (many > 0).all()
+    assert np.asarray(many) is many.values and len(many) == 2 and many[0] == pytest.approx(float(one), rel=1e-11)
+    assert stabilab.fate(SCENE, STATES)[0].fate == stabilab.Fate.BOUNDED and not stabilab.fate(SCENE, STATES)[0].shape
 
 
 def test_a_grid_of_states_keeps_its_shape():

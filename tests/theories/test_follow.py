@@ -275,12 +275,13 @@ def test_a_verdict_says_that_it_rests_on_the_constant_angle_of_a_charge(stabilab
         out.split())
 
 
-def test_fate_refuses_a_scene_that_no_theorem_covers_by_name():
+def test_kernels_of_many_starts_refuse_a_scene_that_none_covers_by_name():
     import stabilab
+    from stabilab.answers.motions.rows import fates
     from stabilab.physics.effects import effect_class
     scene = stabilab.Scene(stabilab.Body((3, 2, 2)), effect_class("resistance")(0.1))
     with pytest.raises(InputError, match="resistance"):
-        stabilab.fate(scene, [1.0, 0, 0])
+        fates(scene, [[1.0, 0, 0]])
 
 
 def test_a_run_that_reaches_none_of_the_times_ends_with_5_and_an_empty_table(stabilab, tmp_path):

@@ -113,8 +113,9 @@ def test_a_spin_along_a_torque_between_the_axes_needs_a_span_for_its_extremes():
     scene, state = Scene(Body((2, 2, 1)), ConstantTorque((3, 4, 0))), np.array([3.0, 4.0, 0.0])
     assert motion(scene, state).fate == Fate.SPIN_UP and motion(scene, state).extremes is None
     assert period(scene, state) == np.inf
+    assert np.isnan(extremes(scene, state)).all() and "give span=T" in extremes(scene, state).reason
     with pytest.raises(InputError, match="span"):
-        extremes(scene, state)
+        extremes(scene, states=[state])
     wanted = [[3, 3 + 1.5 * 4], [4, 4 + 2 * 4], [0, 0]]
     np.testing.assert_allclose(extremes(scene, state, span=4.0), wanted, rtol=1e-12, atol=1e-12)
     np.testing.assert_allclose(motion(scene, state, (0, 4)).extremes, wanted, rtol=1e-12, atol=1e-12)

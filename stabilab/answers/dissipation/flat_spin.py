@@ -33,6 +33,8 @@ from typing import Any
 
 import numpy as np
 
+from ...case.given import Amount, Given, Start, as_case, with_start
+from ...case.given import Span as Times
 from ...case.read import with_data
 from ...case.source import parsed
 from ...errors import Caveat, InputError, Kind, without
@@ -41,7 +43,6 @@ from ...numbers.vectors import Float3, cross, dot
 from ...physics.states import moved_row
 from ...reasons import old
 from ...representation import Compared, Shown
-from ...validation import checked_case
 from ..caveats import caveats_of
 from ..passage import MOVED, WIDER
 from .changes import Span, spans_of
@@ -123,19 +124,21 @@ STEPS = 5_000_000  # of a run: some ten seconds
 SPAN_STEPS = 6_000_000  # of all runs that look for changes of the outcome by one number
 
 
-def flat_spin(case: Any, within: Any = "5 deg") -> FlatSpin:
+def flat_spin(case: Given, within: Amount = "5 deg", *, state: Start | None = None,
+              span: Times | None = None) -> FlatSpin:
     """What becomes of a free body with a damper or a liquid: the direction of the major axis about which it
     ends, when it tumbles, and by how much its start decides that.
 
-    case: with a viscous damper or a liquid cavity and nothing else that acts, and a start. within: the
-    nutation angle, rad or text with a unit, from which the tumble is counted and to which it settles. Raises
-    InputError for other scenes, a body at rest, equal moments, and an angle that is none.
+    case: in any form, or a scene with `state`, with a viscous damper or a liquid cavity and nothing else that
+    acts, and a start. within: the nutation angle, rad or text with a unit, from which the tumble is counted
+    and to which it settles. Raises InputError for other scenes, a body at rest, equal moments, and an angle
+    that is none.
     """
     angle = float(in_si(within, ANGLE, "within"))
     if not LEAST <= angle < math.pi / 2:
         raise InputError('within: expected an angle from 0.01 deg to below 90 deg, such as "5 deg", got '
                          f"{math.degrees(angle):.6g} deg")
-    return of_case(checked_case(case), angle)
+    return of_case(with_start(as_case(case, state, span), "flat_spin"), angle)
 
 
 def of_case(case: Any, angle: float, spans: bool = True) -> FlatSpin:

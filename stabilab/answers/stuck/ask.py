@@ -15,6 +15,9 @@ from fractions import Fraction
 from itertools import combinations
 from typing import Any, TypeAlias, TypeGuard
 
+from ...case.given import Amount, Given, Span, Start, as_case
+from ...case.limit_options import angle_of
+from ...case.read import Case
 from ...case.table import Uncertain
 from ...errors import Caveat, InputError, Kind, without
 from ...numbers.exact import floats
@@ -218,25 +221,29 @@ def _slower(scenario: Scenario, torque: Sequence[Fraction], seen: Outcome, run: 
 
 
 # --- The question: a thruster is stuck open, what becomes of the spacecraft, how soon, and what helps?
-def stuck(case: Any, all_thrusters: bool = False, progress: Callable[[str], Any] | None = None) -> Stuck:
+def stuck(case: Given, all_thrusters: bool = False, progress: Callable[[str], Any] | None = None, *,
+          state: Start | None = None, span: Span | None = None, tilt: Amount | None = None) -> Stuck:
     """What the stuck thrusters of a case do: fate, axis, time to the limit, margins, wheels and thrusters
     that help.
 
-    case: as `stabilab.load` gives it, with a motion. The first row has all thrusters that the case marks as
-    stuck firing together, with what else turns the body; where they are several, a row for each alone
-    follows. all_thrusters: a row for each thruster alone instead, stuck or not, the one that reaches the
-    limit first in front. progress: called with words before every row. Raises InputError for a case without a
-    motion or without a thruster that could be stuck, and for other effects than wheel and torque.
+    case: in any form, with a motion, or a scene with `state`; state, span: in place of the case's own. The
+    first row has all thrusters that the case marks as stuck firing together, with what else turns the body;
+    where they are several, a row for each alone follows. all_thrusters: a row for each thruster alone
+    instead, stuck or not, the one that reaches the limit first in front. progress: called with words before
+    every row. tilt: half-angle of the cone of torques, rad or text with a unit; without it what the thrusters
+    state. Raises InputError for a case without a motion or without a thruster that could be stuck, and for
+    other effects than wheel and torque.
     """
+    case = as_case(case, state, span)
     if all_thrusters:
         case = each_firing(case)
-    scenario = scenario_of(case)
+    scenario, angle = scenario_of(case), None if tilt is None else angle_of(tilt)
     rows = []
     for chosen in _chosen(case, scenario, all_thrusters):
         if progress:
             names = " and ".join(thruster.name for thruster in chosen)
             progress(f"{case.name}: {names or 'the torque of the case'}")
-        rows.append(_row(scenario, chosen))
+        rows.append(_row(scenario, chosen, angle))
     if all_thrusters:  # the limit is reached soon; what spins up later, or is not known; never
         rows.sort(key=lambda row: (row.time_to_limit[0] if row.time_to_limit else math.inf,
                                    {"spin-up": 0, "undecided": 1}.get(row.fate, 2)))
@@ -245,7 +252,7 @@ def stuck(case: Any, all_thrusters: bool = False, progress: Callable[[str], Any]
     return Stuck(case.name, tuple(rows), principal, all_thrusters)
 
 
-def each_firing(case: Any) -> Any:
+def each_firing(case: Case) -> Case:
     """The case as one whose thrusters fire, one at a time: without the caveat that none does."""
     return replace(case, caveats=without(case.caveats, Kind.THRUSTERS))
 
@@ -265,12 +272,12 @@ def _chosen(case: Any, scenario: Scenario, all_thrusters: bool) -> list[tuple[An
     return [marked] + ([(t,) for t in marked] if len(marked) > 1 else [])
 
 
-def _row(scenario: Scenario, thrusters: Sequence[Any]) -> Row:
+def _row(scenario: Scenario, thrusters: Sequence[Any], tilt: float | None = None) -> Row:
     torque = scenario.torque(thrusters)
     seen = outcome_of(scenario, torque)
     others = [t for t in scenario.case.thrusters if t not in thrusters]
     scene = scenario.scene(torque)
-    off = _tilted(scenario, thrusters, scene, seen)
+    off = _tilted(scenario, thrusters, scene, seen, tilt)
     stability = (of_gyrostat(scene, scenario.state) if seen.fate == Fate.EQUILIBRIUM and scene.plain
                  else None)
     box = _over_box(scenario, thrusters, scene)
@@ -306,14 +313,15 @@ def _over_box(scenario: Scenario, thrusters: Sequence[Any], scene: Scene) -> Unc
 
 
 def _tilted(scenario: Scenario, thrusters: Sequence[Any], scene: Scene,
-            seen: Outcome) -> Tilt | Spread | None:
-    """What a tilt of the torque does: to a bounded motion under one on an axis by the misalignment of the
-    thrusters that fire, else by one degree; else by that misalignment alone; and what their tolerances do."""
+            seen: Outcome, angle: float | None = None) -> Tilt | Spread | None:
+    """What a tilt of the torque does, by an angle that is given; without one to a bounded motion under one on
+    an axis by the misalignment of the thrusters that fire, else by one degree; else by that misalignment
+    alone; and what their tolerances do."""
     loose = any(t.misalignment or t.force_tolerance for t in thrusters)
     firing = tuple(replace(t, stuck=t in thrusters) for t in scenario.case.thrusters)
     case = replace(scenario.case, thrusters=firing, scene=scene)
-    return (of_tilt(case, None, limit_of(case), seen.fate in STEADY) if loose or scenario.limit is not None
-            else None)
+    return (of_tilt(case, angle, limit_of(case), seen.fate in STEADY)
+            if loose or angle is not None or scenario.limit is not None else None)
 
 
 def _wheel(scenario: Scenario, torque: Exact3, seen: Outcome, wheel: Any) -> WheelAnswer:

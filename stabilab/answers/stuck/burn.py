@@ -46,9 +46,9 @@ from ...physics.scene import Scene
 from ...reasons import Mass, Sentence, old
 from ..attitude import of_motion
 from ..attitude_result import Attitude
-from ..fate import period
 from ..limit import Limit, asked
 from ..motion import motion
+from ..motions.rows import periods
 from ..passage import ROUNDING, WIDER, Found, TimeTo, largest_rate, times_of
 from ..simulate import trajectory
 from .chain import (
@@ -118,7 +118,7 @@ def largest_after(scene: Scene, rates: Sequence[float]) -> float:
 def largest_of_run(scene: Scene, rates: Sequence[float]) -> float:
     """The largest |omega|, rad/s, over all time of a motion without torque, with any wheels: over one period,
     to some 1e-13 of it; over a thousand radians of one that is not seen to return."""
-    time = float(period(scene, rates))
+    time = float(periods(scene, rates))
     if not time:
         return math.hypot(*rates)
     until = 1.001 * time if math.isfinite(time) else TURNS / math.hypot(*rates)

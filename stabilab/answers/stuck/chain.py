@@ -23,7 +23,7 @@ from ...physics.states import checked_times, moved_row
 from ...validation import came
 from ..limit import AXES, Enclosed, Limit, enclosed
 from ..passage import MOVED, ROUNDING, Found, by_run
-from ..simulate import Simulation, in_matrices, quaternion_blocks, simulate, trajectory
+from ..simulate import Simulation, in_matrices, quaternion_blocks, simulated, trajectory
 from ..time_to import down, of_one, up
 
 
@@ -135,7 +135,7 @@ def simulate_burn(burning: Any, times: Any = None, attitude: str | None = None) 
         end = piece.begin + piece.length
         inside = [t for t in times.tolist() if piece.begin <= t and (t < end or piece is after)]
         local = [float(Fraction(t) - piece.begin) for t in inside]
-        run = simulate(piece.scene, omega, np.unique([0.0, *local, float(piece.length)]), blocks)
+        run = simulated(piece.scene, omega, np.unique([0.0, *local, float(piece.length)]), blocks)
         if run.status != "reached":
             raise InputError(f"state: the burn cannot be followed: {run.reason}")
         keep = np.searchsorted(run.t, local)

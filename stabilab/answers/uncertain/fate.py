@@ -39,8 +39,8 @@ from ...orbit.result import Fate
 from ...physics.scene import QuadraticForm
 from ...reasons import Sentence, old
 from ..equilibria import equilibria
-from ..fate import fate
 from ..kinds import kind_of
+from ..motions.rows import fates
 from .boxes import (
     Box,
     Family,
@@ -375,7 +375,7 @@ def look_at(box: Box, point: Point) -> tuple[str | None, float]:
         return UNBOUNDED, np.nan  # about which axis is a question for a run, not for the law
     reduction = reduce(scene)
     if reduction is None:
-        one = fate(scene, np.array(state))
+        one = fates(scene, np.array(state))
         return words(Fate(int(one.labels)), int(one.axis), int(one.sense)), float(one.margins)
     # asked of boxes that have a state
     found = fate_of(scene, Orbit(reduction, state))  # type: ignore[arg-type]

@@ -23,7 +23,7 @@ from ...numbers.exact import sign_of
 from ...numbers.vectors import Float3
 from ...orbit.result import Fate
 from ...physics.scene import AnyScene, QuadraticForm, rests
-from ..fate import period
+from ..motions.rows import periods
 from .boxes import Box, Point
 from .result import Over, Witness, corners
 from .search import SEED
@@ -161,7 +161,7 @@ def _departure(box: Box, point: Point) -> tuple[float, float] | None:
         return None
     if state is None:
         return None
-    until = float(period(scene, state))
+    until = float(periods(scene, state))
     return departure(scene.quadratic(), state, until) if math.isfinite(until) else None
 
 

@@ -23,6 +23,7 @@ from typing import Any
 
 from flint import arb, arb_poly, arb_series
 
+from ...case.given import Given, Span, Start, written
 from ...case.read import Case, read_text
 from ...case.source import parsed
 from ...errors import InputError
@@ -340,19 +341,21 @@ def _bisected(sign: Callable[[Fraction], int], low: Fraction, high: Fraction, fi
 
 
 # --- The question
-def bifurcation(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]],
-                curve: bool = False) -> Diagram | Plane:
+def bifurcation(case: Given, vary: Mapping[str, Any] | Sequence[tuple[str, Any]],
+                curve: bool = False, *,
+                state: Start | None = None, span: Span | None = None) -> Diagram | Plane:
     """All equilibria of a case over the range of one number or of two, exactly: where they appear, vanish or
     go to infinity, and which are stable.
 
-    case: a Case, or the path of a case file. vary: name of a number -> its range, "0:0.5 N m" or two numbers
-    in SI units; names are those of `stabilab.sweep`. Off the principal axes isolated equilibria are counted;
-    of a torque on one, those on the curve that the motion of the case keeps to, or, with `curve` or without a
-    motion, the points of the curve of equilibria where stability changes. Critical values are roots of
-    discriminants and resultants with rational coefficients, isolated by balls: no step size, and none is
-    missed. Over two numbers these are curves, with their cusps. Raises InputError for what cannot be
+    case: in any form, or a scene with `state` and `span`. vary: name of a number -> its range, "0:0.5 N m" or
+    two numbers in SI units; names are those of `stabilab.sweep`. Off the principal axes isolated equilibria
+    are counted; of a torque on one, those on the curve that the motion of the case keeps to, or, with `curve`
+    or without a motion, the points of the curve of equilibria where stability changes. Critical values are
+    roots of discriminants and resultants with rational coefficients, isolated by balls: no step size, and
+    none is missed. Over two numbers these are curves, with their cusps. Raises InputError for what cannot be
     eliminated.
     """
+    case = written(case, state, span)
     family = family_of(case, vary)
     try:
         return with_connections(diagram(family, curve)) if len(family.spans) == 1 else plane(family, curve)

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...answers.caveats import of_case
-from ...case.read import Case, read_text
+from ...case.given import Given, Span, Start, written
+from ...case.read import read_text
 from ...errors import InputError, printable
 from ...maps.atlas import LEVEL, REFINE, Asked, Atlas, asked, drawn
 from ...maps.columns import CAVEATS, ISLANDS, LEVELS, LIMIT_LEVELS, columns_of, record
@@ -359,23 +360,25 @@ def json(atlas: Atlas, units: Units) -> str:
 # --- As a data set
 
 
-def atlas(case: Case | str | os.PathLike[str], torque: Any = None, wheel: str | None = None,
+def atlas(case: Given, torque: Any = None, wheel: str | None = None,
           level: int = LEVEL, refine: int = REFINE,
           certify: bool = False, follow: str | None = None, out: str | os.PathLike[str] | None = None,
           workers: int | None = 1, scheduler: str | None = None,
-          timed: bool = True, **limit: str | None) -> xarray.Dataset:
+          timed: bool = True, *, state: Start | None = None, span: Span | None = None,
+          **limit: str | None) -> xarray.Dataset:
     """What becomes of a case's motion under a torque of every direction: cells of equal area on the sphere,
     smaller ones along the boundaries.
 
-    case: a Case, or the path of a case file. torque: its size, "1 N m"; None: that of the case. wheel:
-    momenta beside each of which all directions are asked, "0:2:5" along the wheel of the case, or "z=0:2:5";
-    None: the case's own. level: 8 4^level cells at first; refine: how often those along a boundary are cut in
-    four. limit: rate, component, energy, tilt or until, as the options of `stabilab when`; without any, that
-    of [limits] of the case, if it has one; timed: whether that time is asked. certify: prove what can be.
-    follow: how long motions are followed that only a run decides. out: a .nc file; workers and scheduler: as
-    of `stabilab.sweep`; the numbers are the same whoever computes them. Raises InputError for what cannot be
-    asked.
+    case: in any form, or a scene with `state` and `span`. torque: its size, "1 N m"; None: that of the case.
+    wheel: momenta beside each of which all directions are asked, "0:2:5" along the wheel of the case, or
+    "z=0:2:5"; None: the case's own. level: 8 4^level cells at first; refine: how often those along a boundary
+    are cut in four. limit: rate, component, energy, tilt or until, as the options of `stabilab when`; without
+    any, that of [limits] of the case, if it has one; timed: whether that time is asked. certify: prove what
+    can be. follow: how long motions are followed that only a run decides. out: a .nc file; workers and
+    scheduler: as of `stabilab.sweep`; the numbers are the same whoever computes them. Raises InputError for
+    what cannot be asked.
     """
+    case = written(case, state, span)
     demand("xarray")
     plan = asked(case, torque, wheel, level, refine, certify, follow, timed, **limit)
     path = None if out is None else checked(out)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...answers.caveats import of_case
-from ...case.read import Case
+from ...case.given import Given, Span, Start, written
 from ...errors import printable
 from ...maps.basins import (
     BOUNDED,
@@ -192,21 +192,23 @@ def undecided(found: Basins) -> bool:
 # --- As a data set
 
 
-def basin(case: Case | str | os.PathLike[str], vary: Mapping[str, str], depth: int = DEPTH,
+def basin(case: Given, vary: Mapping[str, str], depth: int = DEPTH,
           out: str | os.PathLike[str] | None = None,
-          workers: int | None = 1, scheduler: str | None = None, follow: str | None = None) -> Basins:
+          workers: int | None = 1, scheduler: str | None = None, follow: str | None = None, *,
+          state: Start | None = None, span: Span | None = None) -> Basins:
     """The basins of a plane of initial states: what becomes of the motions from there, with cells that get
     smaller towards the boundary.
 
-    case: a Case, or the path of a case file. vary: two rates of the initial state with their ranges,
-    {"angular_velocity[1]": "-60:60 deg/s", ...}, the others as in the case; "-60:60:33 deg/s" for 33 places
-    along the coarse grid. depth: how often a cell is halved whose corners have different fates. out: a .nc
-    file, whose parts outlive a killed run; workers, scheduler: as of `stabilab.sweep`; the bytes are the same
-    whoever computes them. follow: how long motions are followed that only a run decides, "200 s": those in
-    bounded islands are undecided however long. The answer has shares, boundary, dimension and, where the
+    case: in any form, or a scene with `state` and `span`. vary: two rates of the initial state with their
+    ranges, {"angular_velocity[1]": "-60:60 deg/s", ...}, the others as in the case; "-60:60:33 deg/s" for 33
+    places along the coarse grid. depth: how often a cell is halved whose corners have different fates. out: a
+    .nc file, whose parts outlive a killed run; workers, scheduler: as of `stabilab.sweep`; the bytes are the
+    same whoever computes them. follow: how long motions are followed that only a run decides, "200 s": those
+    in bounded islands are undecided however long. The answer has shares, boundary, dimension and, where the
     scene reduces, `separatrix()`: the exact boundary. `stabilab.plot.basin` draws it. Raises InputError for
     what is no plane of states.
     """
+    case = written(case, state, span)
     path = None if out is None else checked(out)
     with basins(case, vary, depth, path, workers, scheduler, follow) as found:
         if path is not None:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...answers.caveats import of_case
+from ...case.given import Given, Span, Start, written
 from ...case.read import Case
 from ...errors import Kind, printable, without
 from ...files import whole_file
@@ -271,23 +272,25 @@ def _cell(value: Any, one: float, kind: str, axes: Axes) -> str:
 ENDING = (".nc",)
 
 
-def sweep(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | None = None,
+def sweep(case: Given, vary: Mapping[str, Any] | None = None,
           samples: int | None = None, seed: int = 1, answer: Any = None,
           out: str | os.PathLike[str] | None = None, workers: int | None = 1, scheduler: str | None = None,
           follow: str | None = None,
+          *, state: Start | None = None, span: Span | None = None,
           **limit: str | None) -> xarray.Dataset:
     """Answers over ranges of a case's numbers, with_unit by what varies.
 
-    case: a Case, or the path of a case file. vary: name of a number -> the values it takes, "0:30:31 deg/s",
-    "0.1:10:21:log", or numbers in SI units; names such as "motion.angular_velocity[1]", "wheels.pitch.speed",
-    or their ends where these are unique. samples, seed: as many random points of the box of the case's
-    uncertain numbers, one more dimension. answer: names of `maps.columns.ANSWERS`; None: fate, level and
-    margin. limit: rate, component, energy, tilt or until, as the options of `stabilab when`, for the answer
-    "when". out: a .nc file, written in chunks that outlive a killed run; follow: how long motions are
-    followed that only a run decides, "200 s"; workers: processes, None for one a core; scheduler: address of
-    a Dask scheduler. The bytes are the same whoever computes them. Raises InputError for what cannot be
-    varied or asked.
+    case: in any form, or a scene with `state` and `span`. vary: name of a number -> the values it takes,
+    "0:30:31 deg/s", "0.1:10:21:log", or numbers in SI units; names such as "motion.angular_velocity[1]",
+    "wheels.pitch.speed", or their ends where these are unique. samples, seed: as many random points of the
+    box of the case's uncertain numbers, one more dimension. answer: names of `maps.columns.ANSWERS`; None:
+    fate, level and margin. limit: rate, component, energy, tilt or until, as the options of `stabilab when`,
+    for the answer "when". out: a .nc file, written in chunks that outlive a killed run; follow: how long
+    motions are followed that only a run decides, "200 s"; workers: processes, None for one a core; scheduler:
+    address of a Dask scheduler. The bytes are the same whoever computes them. Raises InputError for what
+    cannot be varied or asked.
     """
+    case = written(case, state, span)
     demand("xarray")
     plan = planned(case, vary or {}, samples, seed, answer, follow, **limit)
     path = None if out is None else checked(out)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...answers.digits_run import best_reached
-from ...answers.simulate import simulate, trajectory
+from ...answers.simulate import simulated, trajectory
 from ...cost.accuracy import Precision, precision
 from ...errors import InputError
 from .. import style
@@ -44,7 +44,7 @@ def along(one: Subject, times: np.ndarray,
     for a line where doubles are not and each time costs many digits."""
     scene, start = (one.twin, one.state) if one.twin.plain else (one.scene, one.start)
     if not scene.plain:
-        found = simulate(one.scene, one.state, times, one.blocks)
+        found = simulated(one.scene, one.state, times, one.blocks)
         return np.asarray(found.t), np.asarray(found.state["omega"])
     t, states = _run(scene, start, times)
     if _sure(scene, start, t, states):

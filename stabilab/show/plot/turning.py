@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...answers.simulate import simulate, trajectory
+from ...answers.simulate import simulated, trajectory
 from ...case.sections import attitude_of
 from ...errors import InputError, RenderingUnavailable, printable
 from ...files import whole_file
@@ -127,7 +127,7 @@ def _at(one, times):
         run = trajectory(one.scene, start_of(one.scene, one.state, blocks), times, laws=False)
         t, omega, attitudes = run.t, run.block("omega"), run.block("attitude")
     else:
-        found = simulate(one.scene, one.state, times, blocks)
+        found = simulated(one.scene, one.state, times, blocks)
         t, omega = found.t, found.state["omega"]
         attitudes = np.array([quaternion(*row) for row in found.state["angles"]])
     if len(t) < 2:

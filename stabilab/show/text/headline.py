@@ -12,11 +12,11 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
 from typing import TYPE_CHECKING
 
 from ... import errors
-from ...answers.caveats import caveats_of, limited
-from ...answers.motion import with_ending
-from ...case.sections import vertical_of
+from ...answers.caveats import caveats_of
+from ...answers.motions.of_case import judged as judged
+from ...answers.motions.of_case import law_is_open
+from ...answers.motions.of_case import law_of as of_case
 from ...errors import Kind, printable
-from ...physics.coefficients import limits_of
 from .. import ending, limiting
 from ..axes import PLAIN, axes_of, direction
 from ..terminal import lettered
@@ -28,9 +28,6 @@ if TYPE_CHECKING:
 
 
 # --- How far an approximate law holds
-MOST = 1e5  # rad of turn along which a law beside other answers is judged: seconds
-
-
 def first(validity, text: str, units: Units = SI, caveats=()) -> str:
     """The text with the caveats of its case, and with what is to be said of its law: behind the answer where
     the law holds; where it does not, as what follows is then no motion of such a body, that it does not
@@ -69,56 +66,10 @@ def beyond(*found) -> bool:
     return any(v is not None and not v.held for v in found)
 
 
-def of_case(case, span=None, brief=False):
-    """Of a case's own motion over a span, its own where None is given (15 units of time without one), at rest
-    where it has none; None where all laws are exact, or, if brief, where more than a few power series were
-    needed. Of a motion of very many turns it is that of the first ones, as `over` says."""
-    limits = limits_of(case.scene)
-    if limits is None:
-        return None
-    if case.state is None:
-        return limits.validity(case.scene, (0.0,) * 3, "at rest")
-    span = span or case.span or (0.0, 15.0)
-    if "attitude" in case.blocks:
-        from ...integrate.limits_along import law_along
-        found = law_along(case.scene, case.state, vertical_of(*case.blocks["attitude"]), span)
-        if found is not None:
-            return found
-    if brief:
-        return None
-    from ...answers.simulate import simulate
-    spin, longest = math.hypot(*case.state), max(map(abs, span))
-    if spin * longest <= MOST:
-        return simulate(case.scene, case.state, span, case.blocks).validity
-    first = tuple(t * MOST / (spin * longest) for t in span)
-    found = simulate(case.scene, case.state, first, case.blocks).validity
-    over = f"along the first {MOST / spin:.2g} s of the run"
-    return found and replace(found, over=over, also=tuple(replace(one, over=over) for one in found.also))
-
-
-def judged(case, motion, brief=False):
-    """The motion with its law judged along the case's own run, where that needs the attitude and the case
-    gives one, and with the caveats of the case. brief: of `of_case`, and without the time to the limit of the
-    case."""
-    if motion is None:
-        return motion
-    found = of_case(case, brief=brief) if _open(case, motion.validity) else None
-    motion = limited(motion if found is None else replace(motion, validity=found), case.scene, case)
-    motion = motion if brief else with_ending(case, motion)
-    if case.limits is None or brief:
-        return motion
-    from ...answers.when import with_first
-    return with_first(case, motion)
-
-
 def until(case, found, end: float):
     """The validity `found`, or that along the case's own run up to a time `end` (its span where that is none)
     where it needs the attitude and the case gives one."""
-    return of_case(case, (0.0, end) if 0 < end < math.inf else None) if _open(case, found) else found
-
-
-def _open(case, validity) -> bool:
-    return validity is not None and validity.holds is None and "attitude" in case.blocks
+    return of_case(case, (0.0, end) if 0 < end < math.inf else None) if law_is_open(case, found) else found
 
 
 def beside(case) -> list[str]:

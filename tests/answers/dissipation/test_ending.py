@@ -271,8 +271,10 @@ def test_the_tiles_of_a_page_say_when(tumbling):
     assert found["outcome"][0] == "Flat spin" and "at 85.94 deg/s" in found["outcome"][1]
 
 
-def test_another_start_than_that_of_the_case_has_no_end_of_the_case(tumbling):
-    assert motion(load(tumbling), (0.1, 0.2, 0.3)).ending is None
+def test_another_start_than_that_of_the_case_has_its_own_end(tumbling):
+    one = load(tumbling)
+    found = motion(one, (0.1, 0.2, 0.3)).ending
+    assert found == motion(one.scene, (0.1, 0.2, 0.3)).ending != motion(one).ending
 
 
 def test_a_limit_beyond_the_steps_of_a_first_run_is_followed_to_the_end(monkeypatch):

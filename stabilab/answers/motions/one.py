@@ -1,0 +1,62 @@
+"""All that is known of the motion of a case, from one start or one after another from many; no arrays."""
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from ...case.given import (
+    Amount,
+    Given,
+    Span,
+    Start,
+    Starts,
+    as_case,
+    is_one,
+    renamed,
+    started,
+    time_in,
+    with_start,
+)
+from ...case.limit_options import angle_of
+from ...case.read import Case
+from ...errors import InputError
+from ...orbit.result import Motion
+from .of_case import judged, motion_of_case, with_its_tilt
+
+
+def motion(scene: Given, state: Start | None = None, span: Span | None = None, *,
+           states: Starts | None = None, tilt: Amount | None = None, follow: Amount | None = None,
+           proof: bool = False, tell: Callable[..., Any] | None = None, brief: bool | None = None,
+           exact: Start | None = None) -> Motion | list[Motion]:
+    """All that is known of the motion of a case: a `Motion`; of many starts (`states`) a list of them.
+
+    scene, state, states, tilt, follow, proof, tell: as of `fate`. span: (from, to), in whose times, and from
+    the start to them, extremes are searched where the motion is not integrable. brief, exact: former
+    arguments; a start is exact where it is text or rational. Raises InputError as `fate` does.
+    """
+    if exact is not None:
+        state = renamed("motion", "exact", "state", exact, None)
+    if brief is not None:
+        renamed("motion", "brief", "fate, extremes or period", brief, None)
+    many: Any = state if states is None and state is not None and not is_one(state) else states
+    if many is None:
+        cases = [with_start(as_case(scene, state, span), "motion")]
+    elif state is not None and many is not state:
+        raise InputError("motion: state is one start and states are many: give one of them")
+    else:
+        from .starts import asked_of
+        case, array = asked_of(scene, None, many, span, "motion")
+        many = None if array.ndim == 1 else many
+        cases = [case] if many is None else [started(case, row)
+                                             for row in array.reshape(-1, array.shape[-1])]
+    angle = None if tilt is None else angle_of(tilt)
+    found = [_whole(one, bool(brief), angle, time_in(one.scene, follow, "follow"), tell, proof)
+             for one in cases]
+    return found[0] if many is None else found
+
+
+def _whole(case: Case, brief: bool, tilt: float | None, follow: float | None,
+           tell: Callable[..., Any] | None, proof: bool) -> Motion:
+    found = motion_of_case(case, brief, follow, tell, proof)
+    found = judged(case, found) or found
+    return with_its_tilt(case, found, tilt)
