@@ -132,4 +132,4 @@ def _tilted(scene: AnyScene, steady: bool, found: Any) -> list[Caveat]:
         return [Caveat(Kind.TILT, holds.then(reached, ": "))]
     if found.not_before >= found.followed:
         return [Caveat(Kind.TILT, holds.then(TILTED_NOT_BEFORE(**by, time=Time(found.not_before).lower)))]
-    return [Caveat(Kind.TILT, holds.then(TILTED_NOT_FOUND(**by, time=Time(found.followed))))]
+    return [Caveat(Kind.TILT, holds.then(TILTED_NOT_FOUND(**by, time=Time(found.followed).lower)))]

@@ -65,6 +65,9 @@ class Flips:
     free: bool
 
 
+AS_BOUNDS = "all time, as bounds"  # extremes that are wider than those of the motion
+
+
 @dataclass(frozen=True, repr=False)
 class Motion(Shown):
     """Everything known about the motion from one state.
@@ -121,6 +124,11 @@ class Motion(Shown):
     caveats: tuple[Caveat, ...] = ()
     stability: Stability | None = None
     ending: Any = None
+
+    @property
+    def extremes_side(self) -> int:
+        """1 where its extremes are bounds, which are rounded outward; 0 where they are values."""
+        return int(self.extremes_over == AS_BOUNDS)
 
 
 def judged(state: Float3, decided: Any) -> dict[str, Any]:
