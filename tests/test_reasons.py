@@ -24,6 +24,13 @@ def trees():
         yield path, ast.parse(path.read_text(encoding="utf-8"))
 
 
+def text_of(node, texts):
+    """The text of a literal, of a constant of the module, or of a sum of them."""
+    if isinstance(node, ast.BinOp):
+        return text_of(node.left, texts) + text_of(node.right, texts)
+    return texts[node.id] if isinstance(node, ast.Name) else ast.literal_eval(node)
+
+
 def sentences():
     """(module, name of the constant or None, the sentence) of every Sentence(...) in the package."""
     for path, tree in trees():
@@ -31,9 +38,12 @@ def sentences():
             continue
         names = {id(node.value): node.targets[0].id for node in ast.walk(tree)
                  if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name)}
+        texts = {node.targets[0].id: node.value.value for node in ast.walk(tree)
+                 if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name)
+                 and isinstance(node.value, ast.Constant)}
         for node in ast.walk(tree):
             if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "Sentence":
-                code, template = (ast.literal_eval(one) for one in node.args)
+                code, template = (text_of(one, texts) for one in node.args)
                 yield path, names.get(id(node)), Sentence(code, template)
 
 
