@@ -31,6 +31,7 @@ QUANTITIES = {
     "followed_until": ("followed until", "moment", -1),
     "release_time": ("last reversal of the turn", "reversal"),
     "release_estimate": ("barrier gone by about", "moment"), "rate_end": ("rates at the end", "rates"),
+    "vertical_end": ("vertical at the end", "direction"),
     "energy_trend": ("the energy", ""), "certificate": ("how it is certified", ""),
     "steps": ("steps of the run", ""), "invariant_drift": ("first integrals vary by", ""),
     "steps_followed": ("steps of the certified run", ""),
@@ -168,6 +169,8 @@ def quantity(kind: str, value, units: Units, side: int = 0) -> str:
     """An invariant, or what a run showed, with its unit. side: of a bound, as of `Units.told`."""
     if kind == "rates":
         return units.vector(value, units.rates)
+    if kind == "direction":
+        return vector(value)
     if kind in ("moment", "reversal") and isinstance(value, float):
         told = units.moment(value, side=side) if units.scaled else units.time(value, side=side)
         return told if value or kind == "moment" else "none after the start"
