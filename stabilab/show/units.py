@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from ..errors import InputError, printable
 from ..reasons import Axis, Quantity, Reason, listed, outward
 from .axes import PLAIN, Axes, axes_of
+from .names import around
 from .terminal import lettered
 
 if TYPE_CHECKING:
@@ -29,7 +30,8 @@ MOMENT = re.compile(rf"\bt = {NUMBER}(?!\w|\.\d|\s*[-+*/^])(?: (?:s|tau)\b)?")
 IN_RADIANS = re.compile(rf"(?<![\w.])(?:{NUMBER}( to | and ))?{NUMBER} rad(/s\^2|/s)?(?![\w/^])")
 AFTER = re.compile(rf"\b(after|before|within) {NUMBER} s(?![\w^])")
 # before a bound within a sentence, which is rounded outward
-UPPER = re.compile(r"(?:<=|\b(?:at most|no more than|never above|from t =|certain from|proved from t =))\s*$")
+UPPER = re.compile(
+    r"(?:<=|\b(?:at most|no more than|never above|enclosed, within|certain from|from t =))\s*$")
 LOWER = re.compile(
     r"(?:>=|\b(?:at least|not before|up to(?: t =)?|until|not reached (?:by|before)(?: t =)?))\s*$")
 OF_RATES = re.compile(r"\((-?\d[-+.\de]*(?:, -?\d[-+.\de]*)+)\) rad/s(?![\w^])")
@@ -127,6 +129,7 @@ class Units:
         digits = SHORT if max(abs(start), abs(end)) * one < 10**SHORT else DIGITS
         return f"{number(start * one, digits)} to {number(end * one, digits)} {name}"
 
+    @around
     def words(self, words: str, digits: int = DIGITS - 1) -> str:
         """A sentence of the analysis, whose angles and rates are in rad and rad/s and whose times in s, with
         all in these units; "s in [0, 20]" becomes "0 to 20 s", and with names for the numbers of axes."""

@@ -150,8 +150,8 @@ def _range(values: np.ndarray, column: Column, of: str, one: float) -> str:
     rest = [f"{words} at {count:,}" for words, count in (
         (below, np.isneginf(values).sum()), (above, np.isposinf(values).sum()),
         ("not known", np.isnan(values).sum())) if count]
-    ends = (list(dict.fromkeys(_in_unit(float(end), one, column.name) for end in (finite.min(), finite.max())))
-            if finite.size else [])
+    ends = (list(dict.fromkeys(_in_unit(float(end), one, column.name)
+                               for end in (finite.min(), finite.max()))) if finite.size else [])
     told = " to ".join(ends) + (f" {of}" if of else "") if ends else "no finite value"
     return f"  {name}: {told}" + (f" ({', '.join(rest)})" if rest else "")
 
