@@ -169,7 +169,7 @@ def _off_axis(holds: Reason, found: Any) -> Caveat:
         return Caveat(Kind.TILT, holds.then(reached, ": "))
     if found.not_before >= found.followed:
         return Caveat(Kind.TILT, holds.then(TILTED_NOT_BEFORE(**known, time=Time(found.not_before).lower)))
-    return Caveat(Kind.TILT, holds.then(TILTED_NOT_FOUND(**known, time=Time(found.followed))))
+    return Caveat(Kind.TILT, holds.then(TILTED_NOT_FOUND(**known, time=Time(found.followed).lower)))
 
 
 def varied(angle: float, within: str) -> Reason:

@@ -19,6 +19,7 @@ import numpy as np
 
 from ..orbit.result import Fate
 from ..physics.scene import AnyScene
+from ..reasons import number
 from ..unreduced import enclosure_kernel
 from ..unreduced.enclosure import Course, allowed
 from ..unreduced.spin_up.certificate import closed, natural, tests_of
@@ -66,7 +67,8 @@ def certified_spin_up(scene: AnyScene, state: Sequence[Any]) -> tuple[dict[str, 
         box = _box(course, later, state)
         if box is None:
             return (None,
-                    f"{found.fate.word}: {found.cause}; it was not enclosed up to t = {later:.6g} in {STEPS} "
+                    f"{found.fate.word}: {found.cause}; it was not enclosed up to t = "
+                    f"{number(later, side=1)} in {STEPS} "
                     "validated steps")
         inequality = _holding(tests_of(own), ways, box, unit)
         if inequality:

@@ -41,6 +41,7 @@ from ..physics.coefficients import effective
 from ..physics.equations import Equations
 from ..physics.scene import AnyScene, QuadraticForm, Scene, aligned, time_left
 from ..physics.states import checked_states, equations_and_start, moved_row
+from ..reasons import outward
 from ..unreduced.growth_certificate import law_extremes
 from ..unreduced.near_rest import beside_rest, small_loop
 from ..validation import reach_of
@@ -142,7 +143,7 @@ def _judged(question: str, values: Any, balls: Any, digits: int) -> Told:
                     f"formulas in doubles, {error:.1e} from ball arithmetic")
     width = max(_width(balls), 10.0**-wanted)  # the balls of a period are narrower than its two rules agree
     return _of_balls(question, balls, digits, digits_of(width, wanted), "balls",
-                     f"ball arithmetic: the number is within {width:.0e}")
+                     f"ball arithmetic: the number is within {outward(width, 1, 1):.0e}")
 
 
 def _of_balls(question: str, balls: Any, digits: int, held: float, method: str, because: str) -> Told:

@@ -46,6 +46,7 @@ from ..physics.equations import Equations, derive, rotation
 from ..physics.scene import AnyScene, Scene, slices
 from ..physics.states import equations_and_start, moved_row, to_space
 from ..physics.to_numpy import Form, form, to_numpy
+from ..reasons import number
 from ..representation import Compared, Shown
 from .limit import Limit
 
@@ -226,7 +227,7 @@ def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, s
     if one.first is None:
         far = f"{steps} steps" if one.reason else "t_max"
         low = one.t * (1 - ROUNDING) / unit
-        because = f"{words}: not reached by t = {one.t / unit:.6g} {scene.time_unit} ({far})"
+        because = f"{words}: not reached by t = {number(low, side=-1)} {scene.time_unit} ({far})"
         return Found(low, math.nan, "run", because, one.steps)
     second = (moved_row(state, MOVED) if beside is None
               else np.concatenate([beside[:3] / unit, beside[3:]]))

@@ -20,6 +20,7 @@ from ..numbers.vectors import dot
 from ..physics.coefficients import effective
 from ..physics.scene import AnyScene, QuadraticForm, hold_on
 from ..physics.states import equations_and_start
+from ..reasons import number as in_digits
 from .digits_asked import MOST_DECIMALS, checked_digits
 from .limit import flow_of, own_unit
 
@@ -191,7 +192,7 @@ def _enclosed(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: in
         events, words = (events_of(scene, pieces, times[count - 1] if count else Fraction(0)) if asked
                          else ((), "not asked for"))
     because = "Taylor series in integers with a proved bound of their error" if reached else (
-        f"proved up to {float(times[count - 1]) if count else 0:.6g} {scene.time_unit}: "
+        f"proved up to {in_digits(float(times[count - 1]) if count else 0.0, side=-1)} {scene.time_unit}: "
         + (f"beyond, the motion is too sensitive for {MOST_BITS} bits" if why == "bits"
            else "the work allowed goes no further" if why == "work" else f"beyond, {why}"))
     return Tabulated(tuple(times[:count]), tuple(states[:count]), tuple(scene.components), digits, PROVED,
@@ -276,7 +277,8 @@ def _twice(scene: AnyScene, start: Any, exact: Any, times: Sequence[Fraction], d
         f"Taylor series in {digits + GUARD} and {digits + GUARD + MORE_DIGITS} digits agree; no bound is "
         "proved")
     if not reached:
-        because += f"; only up to {float(times[len(states) - 1]) if states else 0:.6g} {scene.time_unit}"
+        last = float(times[len(states) - 1]) if states else 0.0
+        because += f"; only up to {in_digits(last, side=-1)} {scene.time_unit}"
     return Tabulated(tuple(times[:len(states)]), tuple(states), components, digits, TWICE, because, reached,
                      (), "events are found where a wheel and a constant torque are all that acts, as their "
                      "enclosure needs")

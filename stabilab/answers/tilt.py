@@ -299,12 +299,12 @@ class Spread:
             return BY_FATES(**known, fates=fates)
         known |= {"limit": Rate(self.limit)}
         if self.earliest is None and self.untilted:
-            return RUNS_END(**known, time=Time(self.followed), untilted=Time(sum(self.untilted) / 2))
+            return RUNS_END(**known, time=Time(self.followed).lower, untilted=Time(sum(self.untilted) / 2))
         if self.earliest is None:
-            return NONE_REACHES(**known, time=Time(self.followed))
+            return NONE_REACHES(**known, time=Time(self.followed).lower)
         known |= {"first": Time(self.earliest[0]).lower, "level": self.level}
         if self.latest is None:
-            return (SOME_LATER if self.untilted else SOME_REACH)(**known, time=Time(self.followed))
+            return (SOME_LATER if self.untilted else SOME_REACH)(**known, time=Time(self.followed).lower)
         return ALL_REACH(**known, last=Time(self.latest[1]).upper)
 
 

@@ -39,6 +39,7 @@ from ..physics.states import (
     start_of,
     to_space,
 )
+from ..reasons import number
 from ..unreduced.spin_up.follow import spin_up
 from ..validation import checked_scene
 from .caveats import caveats_of
@@ -77,7 +78,7 @@ def by_clock(scene: AnyScene, state: Float3, limit: Limit, followed: float, reac
         found, times = _narrower(scene, state, limit, found, times, reached)
     low = max(followed, times[0]) if sure else followed
     words = (f"{limit.words}: by the clock of the spin-up about axis {found.axis}, {found.level} from t = "
-             f"{found.t:.6g} {scene.time_unit} on")
+             f"{number(found.t, side=1)} {scene.time_unit} on")
     return Found(low, max(times[1], low), found.level, words)
 
 
@@ -174,7 +175,7 @@ def never_bounded(scene: AnyScene, state: Any, limit: Limit) -> Found | None:
     if found.fate == Fate.EQUILIBRIUM:
         why = "the state is an equilibrium"
     elif found.fate == Fate.BOUNDED and bound * (1 + SLACK) < limit.least_rate():
-        why = f"|omega| <= {bound:.6g} rad/s always"
+        why = f"|omega| <= {number(bound, side=1)} rad/s always"
     else:
         return None
     return Found(math.inf, math.inf, "exact", f"{limit.words}: never, {why}")
@@ -233,7 +234,7 @@ def past_the_end(scene: AnyScene, state: Any, limit: Limit, last: float) -> Foun
     later = by_run(after, rates if after.plain and direction is None else there, limit, last - left,
                    beside=np.concatenate([ends[1][name] for name in there]))
     words = (f"{limit.words}: {AFTER}" if math.isfinite(later.high) else
-             f"{limit.words}: {AFTER}: not reached by t = {left + later.low:.6g} s")
+             f"{limit.words}: {AFTER}: not reached by t = {number(left + later.low, side=-1)} s")
     return replace(later, low=left + later.low, high=left + later.high, words=words,
                    steps=found.steps + later.steps)
 

@@ -22,6 +22,7 @@ from ..numbers.units import NONE, TIME, quantity, split
 from ..show import terminal
 from ..show.data import as_json
 from ..show.endings import labelled
+from ..show.names import spare_case
 from ..show.progress import each
 from ..show.terminal import say, tell
 from ..show.text import classification, headline, scene
@@ -101,7 +102,8 @@ def load_cases(paths: Iterable[Path], motion: bool = False) -> list[Case]:
     cases, faults = [], []
     for path in paths:
         try:
-            cases.extend(load_all(path))
+            cases.extend(read := load_all(path))
+            list(map(spare_case, read))
         except InputError as error:
             faults.append(str(error))
     faults += dict.fromkeys(f"{case.path}: motion: expected x or angular_velocity in [motion]; this command "

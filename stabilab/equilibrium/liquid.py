@@ -39,6 +39,7 @@ from ..numbers.exact import sqrt_fraction
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import CYCLE, cross, cross_matrix, dot
 from ..physics.coefficients import Content, gyrostat_scene, linear_rates, liquid_torque
+from ..reasons import number
 from .gyrostat import torque_free_curves
 from .result import (
     CurveSegment,
@@ -86,7 +87,7 @@ def _reason(parts: Content) -> str:
         return ("the liquid takes energy at every rotation that is not about a principal axis, so the "
                 "equilibria are the permanent rotations of the free body and no others")
     limit = validity(parts)
-    where = (f"wherever |omega| < {float(limit):.6g} rad/s" if limit > 0
+    where = (f"wherever |omega| < {number(float(limit), side=-1)} rad/s" if limit > 0
              else "only in the limit of small kappa")
     return ("momentum along rotation: the rates are (D + kappa L) a with a the rates without liquid, and D + "
             f"kappa L is invertible {where}, so there are no others; beyond that the torque of the liquid is "
@@ -304,7 +305,8 @@ def _region(parts: Content):
         if x1 == 0:
             x1 = min(1.0, x2 / 2)  # rest alone lies below x2; the search proves it again
         words = (EVERYWHERE if x2 == inf
-                 else f"T < {x2 * x2 / 2:.6g} J (beyond it the torque of the liquid may outweigh the "
+                 else f"T < {number(x2 * x2 / 2, side=-1)} J (beyond it the torque of the liquid may "
+                      f"outweigh the "
                       f"medium's)")
         return [x1 / sqrt(float(d)) * ROUND for d in parts.D], words
     limit = max(float(validity(parts)), 0.0)
@@ -315,7 +317,8 @@ def _region(parts: Content):
                 "undecided: the torque of the liquid may outweigh the body's own at every rate, and nothing "
                 "bounds the equilibria")
     reach = max(limit, 3 * balance)
-    return [reach] * 3, (f"|omega_i| < {reach:.6g} rad/s (where |omega| > {limit:.6g} rad/s the torque of "
+    return [reach] * 3, (f"|omega_i| < {number(reach, side=-1)} rad/s (where |omega| > {limit:.6g} rad/s "
+                         f"the torque of "
                          "the liquid may be as large as the body's own: its derivation does not hold there)")
 
 

@@ -70,6 +70,9 @@ class Flips:
     free: bool
 
 
+AS_BOUNDS = "all time, as bounds"  # extremes that are wider than those of the motion
+
+
 @dataclass(frozen=True, repr=False)
 class Motion(Shown):
     """Everything known about the motion from one state.
@@ -131,6 +134,11 @@ class Motion(Shown):
     margin: float = field(default=math.nan, repr=False, compare=False)
     code: int = field(default=-1, repr=False, compare=False)
     returns: float = field(default=math.nan, repr=False, compare=False)
+
+    @property
+    def extremes_side(self) -> int:
+        """1 where its extremes are bounds, which are rounded outward; 0 where they are values."""
+        return int(self.extremes_over == AS_BOUNDS)
 
 
 def judged(state: Float3, decided: Any) -> dict[str, Any]:

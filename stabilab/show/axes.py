@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from ..numbers.vectors import Float3
+from .names import around, spare_case
 
 if TYPE_CHECKING:
     from ..case.read import Case
@@ -78,6 +79,7 @@ class Axes:
         """Three decimals of its direction in the frame of the file."""
         return told(self.directions[number - 1]) if self.directions else ""
 
+    @around
     def sentence(self, text: str, name: Callable[[int], str] | None = None) -> str:
         """A sentence of the analysis with names (of `short`, where no other are asked) for the numbers of its
         axes."""
@@ -98,7 +100,8 @@ PLAIN = Axes(("axis 1", "axis 2", "axis 3"), ("",) * 3)  # of a scene without a 
 
 
 def axes_of(case: Case) -> Axes:
-    """The names of a case's axes."""
+    """The names of a case's axes; what its user named stays as written from here on."""
+    spare_case(case)
     if case.variables == "scaled":
         return Axes(("x1", "x2", "x3"), ("",) * 3)
     frame = case.frame

@@ -61,7 +61,8 @@ def _times(one: Ending, units: Units) -> list[str]:
     if not dict(one.times) and one.estimate is not None:
         parts.append(f"{told['settles']} after about {units.time(one.estimate, 2)}, at its first pace")
     if not dict(one.times) and one.at_the_latest is not None:
-        parts.append(f"{told['settles']} after {units.time(one.at_the_latest, SHORT)} at the latest (proved)")
+        latest = units.time(one.at_the_latest, SHORT, 1)
+        parts.append(f"{told['settles']} after {latest} at the latest (proved)")
     if one.minor and "settles" not in dict(one.times) and "tenth" not in dict(one.times):
         known = one.decay if one.nutation is not None else one.growth
         verb = "falls" if one.nutation is not None else "grows"

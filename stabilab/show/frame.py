@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
+from ..reasons import number as in_digits
 from .axes import IN_FILE, axes_of
 
 
@@ -39,7 +40,7 @@ def lines(case) -> list[str]:
     found = rows_of_axes(case)
     if not found:
         return []
-    known = "exact" if case.frame.exact else f"known to {float(case.frame.error) or 1e-300:.1g}"
+    known = "exact" if case.frame.exact else f"known to {in_digits(float(case.frame.error) or 1e-300, 1, 1)}"
     return [f"frame: principal axes 1, 2, 3 ({known}), along which every vector here is; in the frame of the "
             f"file, x y z, they are",
             *(f"  {name:<16}{words}" for name, words in found)]

@@ -14,6 +14,7 @@ import numpy as np
 from ..orbit.result import Fate
 from ..packages import demand
 from ..physics.scene import PARTS
+from ..reasons import number
 from ..representation import values_of
 from .axes import direction
 from .terminal import MINUS, some
@@ -77,8 +78,8 @@ def _dims(array) -> tuple[str, ...]:
     return ("state",) if array.ndim == 1 else tuple(f"state_{n + 1}" for n in range(array.ndim))
 
 
-def _named(words, value):
-    return "" if value is None else f"{words} {value:.6g}"
+def _named(words, value, side=0):
+    return "" if value is None else f"{words} {number(value, 6, side)}"
 
 
 def _shares(words):
@@ -202,8 +203,8 @@ def _time_to_words(found):
     if getattr(low, "ndim", 0):
         levels = _shares(map(str, found.level.reshape(-1)))
         return f"{found.quantity}: {some(low.size, 'state')}, {levels}"
-    when = ("never" if low == math.inf else f"not before {low:.6g}" if math.isnan(high)
-            else f"{low:.9g} to {high:.9g}")
+    when = ("never" if low == math.inf else f"not before {number(low, 6, -1)}" if math.isnan(high)
+            else f"{number(low, 9, -1)} to {number(high, 9, 1)}")
     return f"{found.quantity}: {when}, {found.level}"
 
 
@@ -246,7 +247,7 @@ def _equilibria(found):
 def _motion_words(m):
     parts = [m.fate.word + _about(m) + ("" if m.level in ("exact", "undecided") else f", {m.level}"),
              _named("margin in energy", m.margin_energy),
-             _named("in rate", m.margin_velocity), _named("period", m.period),
+             _named("in rate", m.margin_velocity, -bool(m.velocity_because)), _named("period", m.period),
              "" if m.extremes is None else f"extremes over {m.extremes_over}"]
     return "; ".join(filter(None, parts))
 
@@ -344,7 +345,7 @@ def _stuck_words(found):
     head = found.rows[0]
     low, high = head.time_to_limit or (None, None)
     when = ("" if low is None else f", limit in {low:.6g} s" if f"{low:.6g}" == f"{high:.6g}"
-            else f", limit in {low:.6g} to {high:.6g} s")
+            else f", limit in {number(low, 6, -1)} to {number(high, 6, 1)} s")
     first = (f"{' and '.join(head.thrusters) or 'torque'}: "
              f"{head.fate}{f' about axis {head.axis}' if head.axis else ''}{when}")
     return (first if len(found.rows) == 1
@@ -408,7 +409,7 @@ def _attitude(found):
 
 def _crossings_words(found):
     zeros = ", ".join(some(len(row), "zero") for row in found.t)
-    return f"{zeros} up to t = {found.until:.6g}, {found.status}; by changes of sign along a run"
+    return f"{zeros} up to t = {number(found.until, 6, -1)}, {found.status}; by changes of sign along a run"
 
 
 def _crossings(found):
@@ -425,7 +426,7 @@ def _chaos_words(found):
     one = f", MEGNO {float(found.megno):.4g}" if np.ndim(found.megno) == 0 else ""
     if not len(found.times):
         return _shares(words)
-    return f"{some(len(words), 'state')}: {_shares(words)}{one}; followed to {found.times[-1]:.6g}"
+    return f"{some(len(words), 'state')}: {_shares(words)}{one}; followed to {number(found.times[-1], 6, -1)}"
 
 
 def _chaos(found):

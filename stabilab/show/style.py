@@ -11,7 +11,6 @@ from typing import Any
 from ..files import whole_file
 from ..packages import demand
 from . import endings
-from .terminal import written
 
 # The hues of Okabe and Ito, darker: lines in them have a contrast of at least 3 on white, and colour-blind
 # readers tell them apart. YELLOW is for areas alone.
@@ -229,7 +228,6 @@ def clauses(text: str, width: float) -> str:
 
 
 def literal(text: str) -> str:
-    """A title of the user's as it is drawn: its names as letters (lambda1 becomes λ1), and a dollar is a
-    dollar, which begins no formula. (Matplotlib's parse_math=False does not reach the lines that it
-    wraps.)"""
-    return written(text).replace("$", r"\$")
+    """A title of the user's as it is drawn: as written, where a dollar begins no formula. (Matplotlib's
+    parse_math=False does not reach the lines that it wraps.)"""
+    return text.replace("$", r"\$")

@@ -17,6 +17,7 @@ from ..case.read import blamed_on
 from ..errors import RenderingUnavailable, printable
 from ..orbit.separatrix.branches import separatrix
 from ..packages import present
+from ..reasons import outward
 from . import endings, manifest, style
 from .axes import PLAIN
 from .data import plain
@@ -38,7 +39,7 @@ def text(summary: dict[str, Any], out: Path) -> str:
         return f"{name}: no surface to write: {summary['reason']}"
     lines = [f"{name}: {some(len(branches), 'separatrix surface')}; {summary['reason']}"]
     lines += [f"  {branch['name']}: {branch['triangles']} triangles, every vertex within "
-              f"{branch['largest_residual']:.1e} of the surface (relative)"
+              f"{outward(branch['largest_residual'], 2, 1):.1e} of the surface (relative)"
               for branch in branches]
     return "\n".join([*lines, *(f"  {out / file}" for file in summary["files"])])
 

@@ -11,6 +11,7 @@ import sys
 from collections.abc import Sequence
 
 from ..reasons import ASCII
+from .names import around
 
 GREEK = {"omega": "ω", "lambda": "λ", "Lambda": "Λ", "mu": "μ", "gamma": "γ", "alpha": "α", "sigma": "σ",
          "zeta": "ζ", "tau": "τ"}
@@ -42,17 +43,20 @@ PRINTED = (  # what a book sets otherwise than a terminal
 RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
+@around
 def written(text: str) -> str:
     """A caption or a claim as a paper sets it: lambda3 becomes λ3, r0^2 becomes r0², sqrt(x) becomes √(x),
     l_x becomes lx, +- becomes ±."""
     return _in_letters(MINUS.sub("−", text.replace("+-", "±").replace("-+", "∓")))
 
 
+@around
 def lettered(text: str) -> str:
     """Words of the analysis at a terminal: letters as `written`, numbers with six digits."""
     return _in_letters(LONG.sub(lambda found: f"{float(found[0]):.6g}", text))
 
 
+@around
 def printed(text: str) -> str:
     """Words of the analysis for a page: letters as `lettered`, minus, products and powers of ten as a book
     sets them. What stands between backquotes is a command and stays as it is."""
@@ -84,6 +88,7 @@ def listed(words: Sequence[str], last: str = "and") -> str:
     return f" {last} ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
 
+@around
 def greek(text: str) -> str:
     """The text with the names of angular velocities, momenta and torques as letters, omega1 becomes ω1, and
     with powers of units raised."""

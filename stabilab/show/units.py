@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from ..errors import InputError, printable
 from ..reasons import Axis, Quantity, Reason, listed, outward
 from .axes import PLAIN, Axes, axes_of
+from .names import around
 from .terminal import lettered
 
 if TYPE_CHECKING:
@@ -28,6 +29,11 @@ SPAN = re.compile(r"\b(s|tau) in \[([^],]+), ([^]]+)\]")
 MOMENT = re.compile(rf"\bt = {NUMBER}(?!\w|\.\d|\s*[-+*/^])(?: (?:s|tau)\b)?")
 IN_RADIANS = re.compile(rf"(?<![\w.])(?:{NUMBER}( to | and ))?{NUMBER} rad(/s\^2|/s)?(?![\w/^])")
 AFTER = re.compile(rf"\b(after|before|within) {NUMBER} s(?![\w^])")
+# before a bound within a sentence, which is rounded outward
+UPPER = re.compile(
+    r"(?:<=|\b(?:at most|no more than|never above|enclosed, within|certain from|from t =))\s*$")
+LOWER = re.compile(
+    r"(?:>=|\b(?:at least|not before|up to(?: t =)?|until|not reached (?:by|before)(?: t =)?))\s*$")
 OF_RATES = re.compile(r"\((-?\d[-+.\de]*(?:, -?\d[-+.\de]*)+)\) rad/s(?![\w^])")
 
 
@@ -51,26 +57,28 @@ class Units:
         """Whether the numbers have no dimension."""
         return self.name == "scaled"
 
-    def rate(self, value: float, digits: int = DIGITS) -> str:
-        """An angular velocity, given in rad/s."""
-        return self.told(value, self.rates, digits)
+    def rate(self, value: float, digits: int = DIGITS, side: int = 0) -> str:
+        """An angular velocity, given in rad/s. side: as of `told`, here and below."""
+        return self.told(value, self.rates, digits, side)
 
-    def angle(self, value: float, digits: int = DIGITS) -> str:
+    def angle(self, value: float, digits: int = DIGITS, side: int = 0) -> str:
         """An angle, given in rad."""
-        return self.told(value, self.angles, digits)
+        return self.told(value, self.angles, digits, side)
 
-    def time(self, value: float, digits: int = DIGITS) -> str:
+    def time(self, value: float, digits: int = DIGITS, side: int = 0) -> str:
         """A time, given in s, in the unit that suits its size."""
-        return self.told(value, self.times(value), digits)
+        return self.told(value, self.times(value), digits, side)
 
     def clock(self, low: float, high: float) -> str:
         """A time between two bounds, given in s, in the unit that suits its size."""
-        name, one = self.times(high)
-        return f"{' to '.join(bracket(low * one, high * one))} {name}"
+        unit = self.times(high)
+        return f"{' to '.join(bracket(low, high, unit[1]))} {unit[0]}"
 
-    def moment(self, value: float, digits: int = DIGITS) -> str:
+    def moment(self, value: float, digits: int = DIGITS, side: int = 0) -> str:
         """A point in time: "t = 2.5 s", or "tau = 2.5" of a scaled case."""
-        return f"tau = {number(value, digits)}" if self.scaled else f"t = {self.time(value, digits)}"
+        if self.scaled:
+            return f"tau = {number(as_bound(value, 1.0, digits, side), digits)}"
+        return f"t = {self.time(value, digits, side)}"
 
     def torque(self, value: float, digits: int = DIGITS) -> str:
         """A torque, given in N m."""
@@ -90,7 +98,7 @@ class Units:
         """The number in the unit, with the unit's name. side: +1 of an upper bound, which is never printed
         below itself; -1 of a lower one."""
         name, one = unit
-        return f"{number(_bound(value, one, digits, side), digits)} {name}".rstrip()
+        return f"{number(as_bound(value, one, digits, side), digits)} {name}".rstrip()
 
     def said(self, reason: Reason, digits: int = DIGITS - 1, whole: bool = False) -> str:
         """A sentence in these units, with letters. digits: of angles, rates and times. whole: whether axes
@@ -121,13 +129,14 @@ class Units:
         digits = SHORT if max(abs(start), abs(end)) * one < 10**SHORT else DIGITS
         return f"{number(start * one, digits)} to {number(end * one, digits)} {name}"
 
+    @around
     def words(self, words: str, digits: int = DIGITS - 1) -> str:
         """A sentence of the analysis, whose angles and rates are in rad and rad/s and whose times in s, with
         all in these units; "s in [0, 20]" becomes "0 to 20 s", and with names for the numbers of axes."""
-        words = AFTER.sub(lambda found: f"{found[1]} {self.time(float(found[2]), digits)}",
+        words = AFTER.sub(lambda found: f"{found[1]} {self.time(float(found[2]), digits, _side(found, 2))}",
                           self.axes.sentence(words))
         words = SPAN.sub(lambda found: self.span(found[1], float(found[2]), float(found[3])), words)
-        words = MOMENT.sub(lambda found: self.moment(float(found[1]), digits), words)
+        words = MOMENT.sub(lambda found: self.moment(float(found[1]), digits, _side(found, 1)), words)
         if self.rates[0] in ("rad/s", ""):
             return words
         words = OF_RATES.sub(lambda found: self.vector(found[1].split(", "), self.rates, digits), words)
@@ -138,7 +147,7 @@ class Units:
         first, between, last, per = found.groups(default="")
         name, one = self.rates if per == "/s" else (self.angles[0] + per, self.angles[1])
         before = f"{number(float(first) * one, digits)}{between}" if first else ""
-        return before + self.told(float(last), (name, one), digits)
+        return before + self.told(float(last), (name, one), digits, 0 if first else _side(found, 3))
 
     def of(self, unit: str) -> Unit:
         """The unit in which numbers of this SI unit are printed; those of a scaled case have none."""
@@ -201,11 +210,23 @@ def number(value: float, digits: int = SHORT) -> str:
     return f"{value:.0f}" if "e+" in told and abs(value) < WHOLE else told
 
 
-def _bound(value: float, one: float, digits: int, side: int) -> float:
-    """The value in a unit of which `one` make one in SI, rounded outward; read back in SI it is no less than
-    an upper bound and no more than a lower one."""
-    found = outward(value * one, digits, side)
-    while side and math.isfinite(found) and side * (found / one - value) < 0:
+def _side(found: re.Match[str], group: int) -> int:
+    """Of the number of a group in a sentence: +1 of an upper bound, -1 of a lower one, by what stands before
+    it; 0 of another number."""
+    before = found.string[max(0, found.start(group) - 24):found.start(group)]
+    return 1 if UPPER.search(before) else -1 if LOWER.search(before) else 0
+
+
+def as_bound(value: float, one: float, digits: int, side: int) -> float:
+    """The value in a unit of which `one` make one in SI, rounded outward: read back in SI it is no less than
+    an upper bound (side +1) and no more than a lower one (-1); side 0: the product. With all digits before
+    the point that `number` prints."""
+    found = value * one
+    if not side or not math.isfinite(found):
+        return found
+    whole = len(str(int(abs(found)))) if abs(found) < WHOLE else 0
+    found = outward(found, digits := max(digits, whole), side)
+    while math.isfinite(found) and side * (found / one - value) < 0:
         found = outward(math.nextafter(found, side * math.inf), digits, side)
     return found
 
@@ -219,14 +240,22 @@ def but_for_rounding(pairs, tolerance: float | None):
     return tuple(tuple(0.0 if v is not None and abs(v) <= known else v for v in pair) for pair in pairs)
 
 
-def bracket(low: float, high: float) -> tuple[str, str]:
-    """Both ends with the decimals that tell them apart, six digits at most, rounded down and up."""
-    most = max(0, 5 - math.floor(math.log10(high)))
-    decimals = most if not high > low else min(most, max(0, 1 - math.floor(math.log10(high - low))))
+def bracket(low: float, high: float, one: float = 1.0) -> tuple[str, str]:
+    """Both ends with the decimals that tell them apart, six digits at most, rounded down and up, in a unit of
+    which `one` make one in SI: read back in SI they are no nearer to each other than the ends."""
+    width, top = (high - low) * one, high * one
+    most = max(0, 5 - math.floor(math.log10(top)))
+    decimals = most if not width > 0 else min(most, max(0, 1 - math.floor(math.log10(width))))
     step = Decimal(1).scaleb(-decimals)
     with localcontext() as context:
         context.prec = 800  # of any double
-        return str(Decimal(low).quantize(step, ROUND_FLOOR)), str(Decimal(high).quantize(step, ROUND_CEILING))
+        least = Decimal(low * one).quantize(step, ROUND_FLOOR)
+        greatest = Decimal(top).quantize(step, ROUND_CEILING)
+        while float(least) / one > low:
+            least -= step
+        while float(greatest) / one < high:
+            greatest += step
+    return str(least), str(greatest)
 
 
 def vector(values: Iterable[float], digits: int = DIGITS) -> str:

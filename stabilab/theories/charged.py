@@ -48,6 +48,7 @@ import numpy as np
 from ..answers.simulate import Simulation
 from ..errors import InputError
 from ..numbers.double_double import divided_differences
+from ..reasons import number
 from .charged_modes import SMALL_ANGLE, ChargedBody, Modes, horizon, modes, spin_words
 from .printed.evaluate import printed_formulas
 
@@ -245,7 +246,8 @@ def times(t):
 
 def verdict(tilt, t, until):
     """Status and reason of a motion with this tilt at the times t."""
-    promise = (f"a tilt of {SMALL_ANGLE:g} rad is not reached before t = {until:.6g} s (estimate "
+    promise = (f"a tilt of {SMALL_ANGLE:g} rad is not reached before t = {number(until, side=-1)} s "
+               f"(estimate "
                "from the torque and the start)")
     if until == np.inf:
         promise = f"the tilt stays below {SMALL_ANGLE:g} rad for all time"
@@ -253,7 +255,8 @@ def verdict(tilt, t, until):
         return WITHIN, promise
     first = np.min(np.abs(t[tilt > SMALL_ANGLE]))
     return BEYOND, (f"the model's tilt reaches {np.max(tilt):.4g} rad and exceeds {SMALL_ANGLE:g} rad at t = "
-                    f"{first:.6g} s or before: the small-angle equations no longer describe the body; "
+                    f"{number(first, side=1)} s or before: the small-angle equations no longer describe "
+                    f"the body; "
                     f"{promise}")
 
 

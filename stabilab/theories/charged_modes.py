@@ -27,6 +27,7 @@ import numpy as np
 
 from ..errors import InputError, told
 from ..numbers.exact import sqrt_fraction
+from ..reasons import number
 
 FIELDS = {"inertia": 3, "spin": 0, "gyrostat": 0, "charge_moment": 0, "torque": 2, "rates": 2, "attitude": 3,
           "force": 3, "mass": 0, "velocity": 3, "position": 3}
@@ -204,7 +205,8 @@ def spin_words(body: ChargedBody, omega, t) -> str:
         return "D1 = D2: r is constant and p, q are those of Euler's equations"
     change = (abs(D1 - D2) / (2 * D3) * float((omega[..., 0]**2 + omega[..., 1]**2).max(initial=0.0))
               * float(np.abs(t).max(initial=0.0)))
-    return (f"r is held at r0; with D1 - D2 = {D1 - D2:.6g} kg m^2 it changes by {change:.2g} rad/s at most "
+    return (f"r is held at r0; with D1 - D2 = {D1 - D2:.6g} kg m^2 it changes by {number(change, 2, 1)} "
+            f"rad/s at most "
             "over these times, by the model's p and q")
 
 

@@ -12,6 +12,7 @@ from ..case.given import Given, Span, Start, as_case, time_in, with_start
 from ..errors import InputError
 from ..integrate.events import roots_of_rates
 from ..physics.states import checked_times
+from ..reasons import number
 from ..representation import Compared, Shown
 from .cavity_normal_form import attractors
 from .charged import MISPRINTS, body_of
@@ -79,7 +80,8 @@ def _axisymmetric(case, order, end):
                      f"{LINEAR} p and q turn at {root:.10g} rad/s, the tilt also at "
                      f"{float(body.spin):.10g} rad/s", omega=root,
                      spin=float(body.spin)))
-    bound = "for all time" if until == float("inf") else f"up to t = {until:.6g} s at least (estimate)"
+    bound = ("for all time" if until == float("inf")
+             else f"up to t = {number(until, side=-1)} s at least (estimate)")
     rows.append(_row("small angles", f"{LINEAR} the tilt stays below {SMALL_ANGLE:g} rad {bound}" + (
         f"; its largest value there is {tilt:.6g} rad" if tilt < float("inf")
         else "; it grows without bound"), horizon=until, largest_tilt=tilt))

@@ -27,6 +27,7 @@ from ..orbit.fate import REASONS, Basis
 from ..orbit.result import Fate, Motion
 from ..physics.coefficients import Content, at_rest, content, relative, split, taken_up
 from ..physics.scene import judge_start
+from ..reasons import number
 
 BESIDE = ("undecided: of a wheel motor nothing is proved beside a damper inside, a liquid, a field, a medium "
           "that leaves some axis free, or an outer torque ")
@@ -106,6 +107,11 @@ def _energy(parts: Content, omega) -> tuple[float, float]:
     return T0 * unit * unit, sqrt(2 * T0) * unit
 
 
+def _most(value: float) -> str:
+    """An upper bound in a sentence."""
+    return number(value, side=1)
+
+
 def _sqrt(square: Fraction) -> float:
     """The root of a number that may be below the least double."""
     found = float(square)
@@ -125,8 +131,8 @@ def _motor(parts: Content, omega, gamma, wheel) -> dict[str, Any]:
         rates = {"rate_bound": largest / sqrt(least), "late_rate_bound": late / sqrt(least)}
         end = "where it tends is undecided" if late else "it tends to rest"
         words = (f"T' <= (M - u) . omega - 2 c T, c = {float(slowest):.6g} 1/s: resistance outgrows outer "
-                 f"torque and motor, so |omega| <= {rates['rate_bound']:.6g} rad/s always and <= "
-                 f"{rates['late_rate_bound']:.6g} rad/s in the end; {end}")
+                 f"torque and motor, so |omega| <= {_most(rates['rate_bound'])} rad/s always and <= "
+                 f"{_most(rates['late_rate_bound'])} rad/s in the end; {end}")
         return {"fate": Fate.BOUNDED, "because": words, "invariants": {"energy": T0, **rates}}
     outer, motor = (sqrt(float(dot(v, v))) for v in (parts.M, parts.u))
     if others.kind != "gyrostat" or parts.kappa or (outer if parts.duration is not None else
@@ -142,12 +148,13 @@ def _motor(parts: Content, omega, gamma, wheel) -> dict[str, Any]:
         by_work = "T' = -u . omega", (_energy(parts, omega)[1] + pull * left) / sqrt(least)
         because, bound = min(known, by_work, key=lambda one: one[1])
         words = (f"{because}, and the motor stops after {left:.6g} s, when T stays: so |omega| <= "
-                 f"{bound:.6g} rad/s always")
+                 f"{_most(bound)} rad/s always")
         return {"fate": Fate.BOUNDED, "because": words, "invariants": {"momentum": H, "rate_bound": bound}}
     each = (motor - outer) / float(max(parts.D))
-    grows = f"grows by at most |M| = {outer:.6g} N m s each second" if outer else "stays"
+    grows = f"grows by at most |M| = {_most(outer)} N m s each second" if outer else "stays"
     words = (f"|D omega + Lambda + h| {grows}, and h grows by |u| = {motor:.6g} N m s each second: so "
-             f"|omega| grows without bound while the motor runs, in the end by at least {each:.6g} rad/s "
+             f"|omega| grows without bound while the motor runs, in the end by at least "
+             f"{number(each, side=-1)} rad/s "
              "each second")
     acting = [i for i in range(3) if parts.u[i]]
     axis = acting[0] + 1 if len(acting) == 1 and not outer else 0
@@ -187,7 +194,7 @@ def _resisted(parts: Content, T0, x0) -> tuple[Fate, str, dict]:
     largest, late = energy_bound(parts, x0)
     words = (f"{takes}M . omega - 2 c T <= sqrt(2 T) (sqrt(M . D^-1 M) - c sqrt(2 T)){rate}: resistance "
              f"outgrows the torque, so |omega| <= "
-             f"{largest / least:.6g} rad/s always and <= {late / least:.6g} rad/s in the end")
+             f"{_most(largest / least)} rad/s always and <= {_most(late / least)} rad/s in the end")
     bounds = {"energy": T0, "rate_bound": largest / least, "late_rate_bound": late / least}
     if parts.kappa:
         return Fate.BOUNDED, words + "; where it tends is undecided", bounds
@@ -280,8 +287,8 @@ def _wheel_and_liquid(parts: Content, T0, x0) -> tuple[Fate, str, dict]:
              else f"between {x1 * x1 / 2:.6g} and {x2 * x2 / 2:.6g} J")
     words = (f"resistance outweighs torque and liquid: the kinetic energy falls wherever it is {where}, so "
              f"|omega| <= "
-             f"{max(x0, x1) / least:.6g} rad/s always")
-    end = (f" and <= {x1 / least:.6g} rad/s in the end; where it tends is undecided" if x1
+             f"{_most(max(x0, x1) / least)} rad/s always")
+    end = (f" and <= {_most(x1 / least)} rad/s in the end; where it tends is undecided" if x1
            else "; the motion tends to rest")
     return Fate.BOUNDED, words + end, {"energy": T0, "rate_bound": max(x0, x1) / least,
                                        "late_rate_bound": x1 / least}
@@ -302,7 +309,7 @@ def _directed(parts: Content, omega, gamma, end) -> tuple[Fate, str, dict]:
         above = T0 + V0 - floor
         rate = (sqrt(max(0.0, 2 * above / least)) if SMALL < above < inf
                 else hypot(x0, sqrt(max(0.0, 2 * (V0 - floor)))) / sqrt(least))
-        at_most = "is more than a double holds" if isinf(above) else f"<= {above:.6g} J"
+        at_most = "is more than a double holds" if isinf(above) else f"<= {_most(above)} J"
         kept = ("falls (the medium takes 2 c T)" if parts.c else
                 "falls (the damper takes omega . C omega)" if parts.damped else
                 "falls (eddy currents take k B^2 |omega x gamma|^2)" if parts.eddy else "is constant")
@@ -311,15 +318,15 @@ def _directed(parts: Content, omega, gamma, end) -> tuple[Fate, str, dict]:
             where = _about_the_field(parts, omega, gamma, end)
         return (Fate.BOUNDED,
                 f"|gamma| = 1 bounds the potential energy from below and the sum of kinetic and potential "
-                f"energy {kept}: T {at_most}, so |omega| <= {rate:.6g} rad/s{where}",
+                f"energy {kept}: T {at_most}, so |omega| <= {_most(rate)} rad/s{where}",
                 {"energy": T0 + V0, "rate_bound": rate} | ({"late_rate_bound": 0.0} if decay(parts) else {}))
     if slowest := float(decay(parts)):
         torque = hypot(*map(float, parts.M)) + hypot(*s) + abs(N) * (most - least) / 2
         late = torque / sqrt(least) / slowest
         rate = max(x0, late) / sqrt(least)
         return (Fate.BOUNDED,
-                f"the torque is at most {torque:.6g} N m, and T' <= |torque| |omega| - 2 c T: resistance "
-                f"outgrows it, so |omega| <= {rate:.6g} "
+                f"the torque is at most {_most(torque)} N m, and T' <= |torque| |omega| - 2 c T: resistance "
+                f"outgrows it, so |omega| <= {_most(rate)} "
                 "rad/s; where it tends is undecided", {"energy": T0 + V0, "rate_bound": rate})
     return (Fate.UNDECIDED,
             "undecided: the constant torque does work in a body that also turns in a field; no bound and no "

@@ -29,6 +29,7 @@ from ..errors import InputError
 from ..numbers.exact import exact_vector
 from ..numbers.numba_door import compiled, installed
 from ..physics.coefficients import effective
+from ..reasons import number
 from ..validation import checked_scene
 from . import enclosure_kernel
 from .spin_up.certificate import natural, tests_of
@@ -250,7 +251,8 @@ def proved(scene, state, found: SpinUp, steps: int | None = None, fast: bool = F
             trap = Trap(before.field, before.form, before.orders,  # type: ignore[call-arg]
                         *constants, unit, way.t)
             words = (found.cause.replace("is certified", "is proved")
-                     + f"; the motion up to there is enclosed, within {near:.2g}{rates} at t = {way.t:.6g}")
+                     + f"; the motion up to there is enclosed, within {number(near, 2, 1)}{rates} at t = "
+                       f"{way.t:.6g}")
             return replace(found, level="proved", trap=trap, t=way.t, state=tuple(middle.tolist()),
                            cause=words)
         if not found.t:

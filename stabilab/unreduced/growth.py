@@ -37,6 +37,7 @@ from ..orbit.one_state import in_range
 from ..orbit.result import Fate, Motion, judged, pairs
 from ..physics.coefficients import three_floats
 from ..physics.states import three_numbers
+from ..reasons import number
 from ..validation import reach_of
 from .evidence import growth as seen_growth
 from .evidence import seen_over, span_needed
@@ -149,7 +150,7 @@ def _by_certificate(change, y, t_max):
     if name == "spin-up":
         return spin | known | dict(release_time=last * unit, because=(
             f"spin-up about axis {i + 1}: the turn about it can reverse no more (proved from t = "
-            f"{when:.6g} on)"))
+            f"{number(when, side=1)} on)"))
     if c > 0:
         return spin | known | dict(certificate="bound", t_certificate=0.0, because=(
             f"spin-up about axis {i + 1}: its rate is bounded below by a growing line; still captured when "

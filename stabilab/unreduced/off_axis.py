@@ -35,10 +35,11 @@ from ..numbers.numba_door import installed
 from ..numbers.polynomial import bernstein, bernstein_halves
 from ..orbit.fate import Basis, OneFate, at_rest
 from ..orbit.fate_arrays import FateResult, empty_columns
-from ..orbit.result import Fate, Motion, finite, judged, pairs, without_return
+from ..orbit.result import AS_BOUNDS, Fate, Motion, finite, judged, pairs, without_return
 from ..physics.coefficients import three_floats
 from ..physics.scene import rests
 from ..physics.states import equilibrium_mask
+from ..reasons import number
 from . import enclosure_kernel
 from .enclosure import WHY, Band, Course, allowed
 from .evidence import extremes_over, seen_over, size_words
@@ -90,7 +91,7 @@ def first_crossing(scene, state, limit: float, weights=(1.0, 1.0, 1.0), t_max: f
              else "it comes nearer than is known, and is not surely reached")
     ended = "" if course.status == enclosure_kernel.DONE else f" ({WHY[course.status]})"
     return Crossing(course.t if search.low is None else search.low, math.inf,
-                    f"{words} up to t = {course.t:.6g}{ended}", course.steps)
+                    f"{words} up to t = {number(course.t, side=-1)}{ended}", course.steps)
 
 
 class _Search:
@@ -203,7 +204,7 @@ def motion(scene, state, span=None, exact=None, brief: bool | str = False, follo
     bounds = None if brief == "fate" else bounds_for_ever(scene, start, found)
     fields = {**judged(state, decided), "velocity_because": NO_BRANCHES, "level": found.level,
               "cause": found.cause, "bounds": bounds,
-              "extremes": bounds, "extremes_over": "all time, as bounds" if bounds
+              "extremes": bounds, "extremes_over": AS_BOUNDS if bounds
               else NO_SPAN.format(unit=scene.time_unit)}
     fields["because"] = f"{decided.because}; {found.cause}"
     known = {"t_certificate" if found.fate == Fate.SPIN_UP else "followed_until": found.t,

@@ -89,4 +89,4 @@ def test_proofs_and_algebra_stand_behind_why(stabilab, own):
                           (4.625, 4.625, "4.625 to 4.625 deg/s")])
 def test_open_bounds_are_rounded_outward_with_the_digits_that_tell_them_apart(low, high, words):
     """By hand: two digits of the difference, four digits at least."""
-    assert bracketed(low, high, "deg/s", 4) == words
+    assert bracketed(low, high, ("deg/s", 1.0), 4) == words

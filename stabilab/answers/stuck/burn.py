@@ -43,7 +43,7 @@ from ...numbers.units import RATE, TIME, Dimension, in_si
 from ...numbers.vectors import Float3
 from ...orbit.result import Motion
 from ...physics.scene import Scene
-from ...reasons import Mass, Sentence, old
+from ...reasons import Mass, Sentence, number, old
 from ..attitude import of_motion
 from ..attitude_result import Attitude
 from ..limit import Limit, asked
@@ -193,9 +193,9 @@ def _by_runs(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
                       f"{words}: never, for 2T/D1 stays below its square")
     late = _first(chain, links, asked(base, rate=below), every=True)
     end = late.high if late.time else math.inf
-    known = f"early enough up to {early.low:.10g} s (2T/D1 is below its square, {early.level})"
+    known = f"early enough up to {number(early.low, 10, -1)} s (2T/D1 is below its square, {early.level})"
     if end < math.inf:
-        known += f", too late from {end:.10g} s on (|omega| reaches it, {late.level})"
+        known += f", too late from {number(end, 10, 1)} s on (|omega| reaches it, {late.level})"
     bracket = _bracket(base, links, (early.low, end), size)
     if bracket is None:
         return Latest(size, early.low if late.time else math.inf, end, "run",
@@ -208,7 +208,8 @@ def _by_runs(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
     low, high = math.nextafter(begin + low, -math.inf), math.nextafter(begin + high, math.inf)
     low = max(low, early.low)  # which is proved
     return Latest(size, low, max(min(high, end), low), "run",
-                  f"{words}: by runs over one period, each known to {slack:.1g} of it, the first among some "
+                  f"{words}: by runs over one period, each known to {number(slack, 1, 1)} of it, the first "
+                  f"among some "
                   f"{WHEEL_LOOKS} closing times; {known}", surely=(early.low, end))
 
 
@@ -437,11 +438,11 @@ def _first_crossing(chain: Chain, limit: Limit, ask: dict[str, Any], until: Frac
         return found
     known = 0.0 if found is None else float(end)
     return Found(known, math.nan, "undecided" if found is None else found.level,
-                 f"{limit.words}: not reached before {known:.10g} s")
+                 f"{limit.words}: not reached before {number(known, 10, -1)} s")
 
 
 def _positive(value: Any, unit: Dimension, name: str) -> Fraction:
-    number = in_si(value, unit, name)
-    if number <= 0:
-        raise InputError(f"{name}: expected a positive number, got {float(number):.10g}")
-    return number
+    found = in_si(value, unit, name)
+    if found <= 0:
+        raise InputError(f"{name}: expected a positive number, got {float(found):.10g}")
+    return found

@@ -19,6 +19,7 @@ from ...numbers.vectors import Float3, Number
 from ...orbit.reduction import Reduction
 from ...orbit.result import Fate, Motion
 from ...physics.scene import Scene
+from ...reasons import number
 from ...representation import Shown
 from ..caveats import STEADY
 from ..tilt import Spread, Tilt
@@ -218,7 +219,8 @@ def _rate_again(family: Family, change: Sequence[Number], size: Fraction) -> flo
 
 
 def _again(until: float, unit: str, steady: bool) -> str:
-    return (f"; from {until:.6g} {unit} along the same line on it {'is bounded' if steady else 'spins up'} "
+    return (f"; from {number(until, side=1)} {unit} along the same line on it "
+            f"{'is bounded' if steady else 'spins up'} "
             "again")
 
 

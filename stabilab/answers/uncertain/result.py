@@ -14,6 +14,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from ...orbit.result import Fate
+from ...reasons import number
 from .boxes import Box, Numbers, Point, Proof
 
 MOST = 100.0          # times the stated uncertainty
@@ -202,7 +203,8 @@ class Sampled:
         """The counts, and what they leave open or how the margins spread."""
         agree = len(self.counts) == 1
         told = ", ".join(f"{'all' if agree else count}: {word}" for word, count in self.counts.items())
-        rest = (f"; with 95 % confidence at most {100 * self.otherwise:.2g} % of the box does otherwise"
+        rest = (f"; with 95 % confidence at most {number(100 * self.otherwise, 2, 1)} % of the box does "
+                f"otherwise"
                 if agree else "")
         if self.corners:
             rest += f"; so do {'all' if self.every else 'the'} {self.corners} corners of the box"

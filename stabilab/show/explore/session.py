@@ -59,13 +59,13 @@ def rows(case: Case, motion: Motion, units: Units) -> list[list[str]]:
     if motion.extremes is not None and not any(map(math.isnan, sum(map(list, motion.extremes), []))):
         for component, pair in zip(case.scene.components,
                                    but_for_rounding(motion.extremes, motion.tolerance)):
-            found.append([component.replace("omega", "ω"), _range(*pair, units)])
+            found.append([component.replace("omega", "ω"), _range(*pair, units, motion.extremes_side)])
     return [*found, ["why", lettered(units.words(motion.because))]]
 
 
-def _range(low: float, high: float, units: Units) -> str:
-    """Least and greatest rate."""
-    least, greatest = (units.told(value, units.rates) for value in (low, high))
+def _range(low: float, high: float, units: Units, side: int) -> str:
+    """Least and greatest rate. side: 1 of bounds, which are rounded outward."""
+    least, greatest = units.rate(low, side=-side), units.rate(high, side=side)
     if math.isinf(low) or math.isinf(high):
         return ("without end both ways" if low == -high else f"from {least} up, without end"
                 if math.isinf(high) else f"from {greatest} down, without end")

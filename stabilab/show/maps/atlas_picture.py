@@ -376,7 +376,7 @@ def _times_on_page(atlas: Atlas, units: Units) -> list[str]:
         elif high == high and high < float("inf"):
             told.append(f"reaches {name} in {units.time(low)} ({LIMIT_LEVELS[level]})")
         else:
-            told.append(f"when {name} is reached is not known: not before {units.time(low)}")
+            told.append(f"when {name} is reached is not known: not before {units.time(low, side=-1)}")
     return told
 
 

@@ -27,7 +27,7 @@ from ..axes import Axes, axes_of
 from ..data import as_json, csv_lines, endless
 from ..terminal import greek
 from ..text import headline
-from ..units import Unit, units_of, with_unit
+from ..units import Unit, as_bound, units_of, with_unit
 from .shades import SAMPLE, dimensions, limits_of, names, of_every_point, said, unit
 
 if TYPE_CHECKING:
@@ -43,6 +43,8 @@ DOES = {Fate.BOUNDED: ("stay bounded", "stays bounded"), Fate.SPIN_UP: ("spin up
         Fate.UNDECIDED: ("are undecided", "is undecided"), NO_CASE: ("are no case", "is no case")}
 SHORT = {"spin_axis": "axis", "greatest": "most"}  # names of columns in a table
 # what numbers without end mean, the negative first: in a sentence, and in a cell where that is shorter
+# of a column that is a bound: which of them
+SIDES = {"when_low": -1, "when_high": 1}
 INFINITE = {"margin": (("no barrier ahead", "no barrier"), ("no end to the barrier", "endless")),
             "distance": (("no separatrix",), ("no separatrix",)),
             "least": (("unbounded",), ("unbounded",)), "greatest": (("unbounded",), ("unbounded",)),
@@ -151,8 +153,8 @@ def _range(values: np.ndarray, column: Column, of: str, one: float) -> str:
     rest = [f"{words} at {count:,}" for words, count in (
         (below, np.isneginf(values).sum()), (above, np.isposinf(values).sum()),
         ("not known", np.isnan(values).sum())) if count]
-    ends = (list(dict.fromkeys(f"{end * one + 0.0:.6g}" for end in (finite.min(), finite.max())))
-            if finite.size else [])
+    ends = (list(dict.fromkeys(_in_unit(float(end), one, column.name)
+                               for end in (finite.min(), finite.max()))) if finite.size else [])
     told = " to ".join(ends) + (f" {of}" if of else "") if ends else "no finite value"
     return f"  {name}: {told}" + (f" ({', '.join(rest)})" if rest else "")
 
@@ -265,7 +267,12 @@ def _cell(value: Any, one: float, kind: str, axes: Axes) -> str:
         return str(value)
     if math.isinf(value) and kind in INFINITE:
         return INFINITE[kind][value > 0][-1]
-    return "not known" if math.isnan(value) else f"{value * one + 0.0:.6g}"
+    return "not known" if math.isnan(value) else _in_unit(value, one, kind)
+
+
+def _in_unit(value: float, one: float, kind: str) -> str:
+    """A number of a column in its unit, a bound rounded outward."""
+    return f"{as_bound(value, one, 6, SIDES.get(kind, 0)) + 0.0:.6g}"
 
 
 # --- As a data set

@@ -12,6 +12,7 @@ import numpy as np
 from ...answers.equilibria import equilibria
 from ...equilibrium.result import Equilibria, EquilibriumCurve
 from ...errors import StabilabError
+from ...reasons import number
 from .. import style
 from ..space import (
     EVEN,
@@ -369,7 +370,8 @@ def away(one: Subject, found: Space, scale: Measures) -> str:
     if (one.state is None or one.motion.velocity_witness is None or one.motion.margin_velocity is None
             or found.box.holds(one.motion.velocity_witness)):
         return ""
-    return (f"the separatrix is {one.motion.margin_velocity * scale.rate[1]:.4g} {scale.rate[0]} away, "
+    size = number(one.motion.margin_velocity * scale.rate[1], 4, -bool(one.motion.velocity_because))
+    return (f"the separatrix is {size} {scale.rate[0]} away, "
             f"outside of this picture".replace("  ", " "))
 
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from ...files import write_text
 from ...physics.equations import Equations
 from .. import style
+from ..names import around
 from ..terminal import ALPHABET, written
 from ..text.scene import PRODUCTS, right_side
 
@@ -43,6 +44,7 @@ HEADING = re.compile(r'<h([23])(?: id="([^"]*)")?>(.*?)</h\1>', re.S)
 RAISED = re.compile(r"\^(?:\(([^()]*)\)|([-−]?\w+))")
 
 
+@around
 def book(text: str):
     """Words as a book sets them: I_omega with the index ω below, the exponent of e^(i r0 t) raised."""
     from markupsafe import Markup, escape
@@ -56,6 +58,7 @@ def book(text: str):
                              written(below)))
 
 
+@around
 def signed(text: str) -> str:
     """The text with the minus of a book: before numbers and in their exponents, which begin with no zero,
     before a name and between two. Commands stay as they are typed."""
@@ -65,6 +68,7 @@ def signed(text: str) -> str:
                               for part in parts))
 
 
+@around
 def together(text: str) -> str:
     """The text with no end of a line between a number and its unit, or within one."""
     return COMPOUND.sub(lambda unit: unit[0].replace(" ", "\u00a0"), MEASURED.sub("\u00a0", text))

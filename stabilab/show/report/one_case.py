@@ -213,14 +213,15 @@ def extremes(case, motion, units) -> list[dict]:
         return []
     name, one = units.rates
 
-    def told(value):
+    def told(value, side):
         if value in (math.inf, -math.inf):
             return "no end" if value > 0 else "no end downwards"
-        return printed(f"{shown(value, one)} {name}".rstrip())
+        return printed(f"{shown(value, one, side=side)} {name}".rstrip())
+    side = motion.extremes_side
     bounds = motion.bounds if motion.bounds is not None and motion.bounds != motion.extremes else [None] * 3
     pairs = but_for_rounding(motion.extremes, motion.tolerance)
-    return [{"name": printed(component), "least": told(low), "greatest": told(high),
-             "within": "" if bound is None else " to ".join(map(told, bound))}
+    return [{"name": printed(component), "least": told(low, -side), "greatest": told(high, side),
+             "within": "" if bound is None else " to ".join(map(told, bound, (-1, 1)))}
             for component, (low, high), bound in zip(case.scene.components, pairs, bounds)]
 
 

@@ -67,11 +67,11 @@ def _when(motion, units):
     if found is not None:
         never = math.isinf(found.low)
         return ("never" if never else "not known", f"{limit} is not reached" + (
-            f" ({found.level})" if never else f" before {units.time(float(found.low), SHORT)}"))
+            f" ({found.level})" if never else f" before {units.time(float(found.low), SHORT, -1)}"))
     if motion.fate.word == "spin-up":
         certain = motion.evidence.get("t_certificate")
         if certain is not None:
-            return units.time(float(certain), SHORT), "from then on the spin-up is certain"
+            return units.time(float(certain), SHORT, 1), "from then on the spin-up is certain"
         return ("from the start", "the spin-up is certain") if motion.level == "exact" else ("not known", "")
     return ("never" if motion.fate.word in ("bounded", "equilibrium") else "not known"), ""
 
@@ -219,7 +219,8 @@ def _of_motion(scene, motion, units):
     if reduced is not None and reduced.geometry.centred and (not reduced.sense or potential(reduced).walled):
         because.append("this does not change the fate: beyond the separatrix motions are bounded too, "
                        "about other centres or round the axis")
-    return [_change("rate", units.rate(motion.margin_velocity), along, "; ".join(filter(None, because)))]
+    size = units.rate(motion.margin_velocity, side=-bool(motion.velocity_because))
+    return [_change("rate", size, along, "; ".join(filter(None, because)))]
 
 
 def _tilt(case, answer, units):

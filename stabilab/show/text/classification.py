@@ -20,7 +20,7 @@ from ...representation import values_of
 from .. import ending, frame, limiting
 from ..axes import axes_of
 from ..terminal import lettered, written
-from ..units import DIGITS, SI, Units, number
+from ..units import DIGITS, SI, Units, as_bound, number
 from . import questions
 from .headline import verdict
 from .motion import attitude_rows, flips_dict, followed, reason, row, state, table, tilt_lines, why
@@ -416,7 +416,8 @@ def _lines(subject, over, units) -> list[str]:
     if over.but:
         lines.append(f"    but for a set of measure zero: {units.words(over.but)}")
     if over.proved and math.isfinite(over.proved):
-        lines.append(f"    proved to stay for every change below {over.proved:.6g} times the uncertainties")
+        least = number(as_bound(over.proved, 1.0, DIGITS, -1), DIGITS)
+        lines.append(f"    proved to stay for every change below {least} times the uncertainties")
     if over.changes_at == 0:
         lines.append("    flips however small the uncertainties are")
     elif over.changes_at is not None:

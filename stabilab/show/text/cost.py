@@ -13,6 +13,7 @@ from ...files import write_text
 from ...integrate.trajectory import SCIPY_METHODS
 from ...physics.scene import PARTS
 from ...processes import machine, versions
+from ...reasons import outward
 from ...representation import values_of
 from ...theories.theory import lines as theory_lines
 from .. import style
@@ -50,7 +51,8 @@ def _reference_words(found) -> str:
     reach = "" if r.status == "agrees" else f" Only so far: {whole}; the rest of the span is not judged."
     return (f"Judged at {some(len(r.t), 'time')} up to {_moment(found)} by a Taylor series run in "
             f"{r.digits[0]} and in {r.digits[1]} "
-            f"digits; the two differ by {r.error.max():.0e} of the state, which is the reference's "
+            f"digits; the two differ by {outward(r.error.max(), 1, 1):.0e} of the state, which is the "
+            f"reference's "
             f"error.{reach}")
 
 

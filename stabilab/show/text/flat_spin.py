@@ -46,7 +46,7 @@ def flat_spin_text(case, found, units: Units) -> str:
     for name, one in ((f"nutation over {within}", found.leaves), ("separatrix crossed", found.crosses),
                       (f"within {within}", found.settles), ("a tenth of it", found.tenth)):
         if one is not None:
-            lines.append(row(name, f"t = {units.time(one.at)}, known to {units.time(one.error, 1)}"))
+            lines.append(row(name, f"t = {units.time(one.at)}, known to {units.time(one.error, 1, 1)}"))
     if found.passage is not None:
         lines.append(row("passage", units.time(found.passage)))
     for name, one in (("growth", found.growth), ("decay", found.decay)):

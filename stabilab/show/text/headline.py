@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import replace
-from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
 from typing import TYPE_CHECKING
 
 from ... import errors
@@ -20,7 +19,7 @@ from ...errors import Kind, printable
 from .. import ending, limiting
 from ..axes import PLAIN, axes_of, direction
 from ..terminal import lettered
-from ..units import SHORT, SI, SPAN, Units, number, units_of
+from ..units import SHORT, SI, SPAN, Unit, Units, as_bound, number, units_of
 
 if TYPE_CHECKING:
     from ...case.read import Case
@@ -244,13 +243,13 @@ def largest(motion: Motion, units: Units) -> str:
         finite.pop(motion.axis, None)
         if not motion.axis or over or len(finite) < 2:
             return ""
-        return f"about the other axes at most {units.rate(max(finite.values()), SHORT)}"
+        return f"about the other axes at most {units.rate(max(finite.values()), SHORT, 1)}"
     bound = motion.invariants.get("rate_bound")
     if bound is not None and math.isfinite(bound) and (over or not finite):
         late = motion.invariants.get("late_rate_bound")
-        end = ("" if late is None or late >= bound else f", {units.rate(late, SHORT)} in the end" if late
+        end = ("" if late is None or late >= bound else f", {units.rate(late, SHORT, 1)} in the end" if late
                else ", tends to rest")
-        return f"{'|x|' if units.scaled else '|omega|'} at most {units.rate(bound, SHORT)}{end}"
+        return f"{'|x|' if units.scaled else '|omega|'} at most {units.rate(bound, SHORT, 1)}{end}"
     found = greatest(motion, units)
     return f"largest rate {found}" if found else ""
 
@@ -263,9 +262,11 @@ def greatest(motion: Motion, units: Units) -> str:
         return ""
     axis = max(sizes, key=sizes.__getitem__)
     name, bound = "|x|" if units.scaled else "|omega|", math.hypot(*sizes.values())
-    told = (f"{name} = {units.rate(motion.largest, SHORT)}" if motion.largest is not None and not over
-            else f"{name} at most {units.rate(bound, SHORT)}")
-    return f"{told} ({units.rate(sizes[axis], SHORT)} about {units.axes.brief(axis)}){over}"
+    sharp = motion.largest is not None and not over
+    told = (f"{name} = {units.rate(motion.largest, SHORT)}" if sharp
+            else f"{name} at most {units.rate(bound, SHORT, 1)}")
+    most = units.rate(sizes[axis], SHORT, 0 if sharp else 1)
+    return f"{told} ({most} about {units.axes.brief(axis)}){over}"
 
 
 def _sizes(motion, units):
@@ -304,22 +305,18 @@ def rate_and_height(motion: Motion, units: Units) -> tuple[str, str]:
 def rate_margin(motion: Motion, units: Units, digits: int) -> str:
     """The distance from the separatrix, or its bounds where it is not one to 1e-6; empty where unknown."""
     if motion.velocity_because and motion.velocity_bounds:
-        name, one = units.rates
-        low, high = motion.velocity_bounds
-        return bracketed(low * one, high * one, name, digits)
+        return bracketed(*motion.velocity_bounds, units.rates, digits)
     return "" if motion.margin_velocity is None else units.rate(motion.margin_velocity, digits)
 
 
-def bracketed(low: float, high: float, unit: str, digits: int) -> str:
-    """Two bounds with as many digits as tell them apart, the lower rounded down and the upper up."""
-    if not low > 0 or not math.isfinite(high):
-        return f"{number(low, digits)} to {number(high, digits)} {unit}".rstrip()
-    more = min(17, max(digits, 1 - math.floor(math.log10((high - low) / high)) if high > low else 0))
-    with localcontext() as context:
-        context.prec, ends = more, []
-        for end, context.rounding in ((low, ROUND_FLOOR), (high, ROUND_CEILING)):
-            ends.append(number(float(+Decimal(end)), more))
-    return f"{ends[0]} to {ends[1]} {unit}".rstrip()
+def bracketed(low: float, high: float, unit: Unit, digits: int) -> str:
+    """Two bounds in SI with as many digits as tell them apart, the lower rounded down and the upper up."""
+    name, one = unit
+    more = digits
+    if low > 0 and math.isfinite(high):
+        more = min(17, max(digits, 1 - math.floor(math.log10((high - low) / high)) if high > low else 0))
+    ends = (number(as_bound(end, one, more, side), more) for end, side in ((low, -1), (high, 1)))
+    return f"{' to '.join(ends)} {name}".rstrip()
 
 
 def period(motion: Motion, units: Units) -> str:

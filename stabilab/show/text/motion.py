@@ -7,26 +7,31 @@ from __future__ import annotations
 import math
 
 from ...equilibrium.circular_orbit import yaw_pitch_roll
+from ...reasons import outward
 from ...representation import values_of
 from .. import frame, limiting
 from ..axes import axes_of
 from ..terminal import greek, lettered
-from ..units import DEG, DIGITS, SHORT, Units, but_for_rounding, number, vector
+from ..units import DEG, DIGITS, SHORT, Units, as_bound, but_for_rounding, number, vector
 from .headline import rate_margin, span_words
 
 # --- The numbers of a motion
 WIDE = 24  # columns of a name
-# Of invariants and of what a run showed: what it is called, and its unit in SI or what else it is.
+# Of invariants and of what a run showed: what it is called, its unit in SI or what else it is, and of a bound
+# its side.
 QUANTITIES = {
     "Q": ("invariant Q", "(rad/s)^2"), "energy": ("energy", "J"), "momentum": ("angular momentum", "N m s"),
-    "rate_bound": ("|ω| never exceeds", "rad/s"), "late_rate_bound": ("|ω| in the end at most", "rad/s"),
+    "rate_bound": ("|ω| never exceeds", "rad/s", 1),
+    "late_rate_bound": ("|ω| in the end at most", "rad/s", 1),
     "J": ("J of the law", "(N m s)^2"), "J_rate": ("J changes by", "(N m s)^2/s"),
     "span": ("followed for", "s"), "size_start": ("|ω| at the start", "rad/s"),
     "size_end": ("|ω| at the end", "rad/s"), "size_largest": ("largest |ω| seen", "rad/s"),
     "energy_start": ("energy at the start", "J"), "energy_end": ("energy at the end", "J"),
-    "energy_change": ("change of energy", "J"), "t_certificate": ("certificate holds from", "moment"),
-    "followed_until": ("followed until", "moment"), "release_time": ("last reversal of the turn", "reversal"),
+    "energy_change": ("change of energy", "J"), "t_certificate": ("certificate holds from", "moment", 1),
+    "followed_until": ("followed until", "moment", -1),
+    "release_time": ("last reversal of the turn", "reversal"),
     "release_estimate": ("barrier gone by about", "moment"), "rate_end": ("rates at the end", "rates"),
+    "vertical_end": ("vertical at the end", "direction"),
     "energy_trend": ("the energy", ""), "certificate": ("how it is certified", ""),
     "steps": ("steps of the run", ""), "invariant_drift": ("first integrals vary by", ""),
     "steps_followed": ("steps of the certified run", ""),
@@ -98,7 +103,8 @@ def extreme_lines(case, motion, units: Units) -> list[str]:
     if pairs is None:
         return []
     when = over if over == "all time" else span_words(over, units).removeprefix("over ")
-    return [*_head(f"over {when}" if over == "all time" else when), *pair_lines(case, pairs, units)]
+    return [*_head(f"over {when}" if over == "all time" else when),
+            *pair_lines(case, pairs, units, motion.extremes_side)]
 
 
 def _head(when: str) -> list[str]:
@@ -107,26 +113,27 @@ def _head(when: str) -> list[str]:
     return [*told, f"  {'' if told else when + ',':<{WIDE}}{'least':>12}{'greatest':>14}"]
 
 
-def pair_lines(case, pairs, units: Units) -> list[str]:
-    """A line a component: its name, least, greatest, unit."""
+def pair_lines(case, pairs, units: Units, side: int = 0) -> list[str]:
+    """A line a component: its name, least, greatest, unit. side: 1 of bounds, which are rounded outward."""
     name, one = units.rates
-    return [f"    {greek(component):<{WIDE - 2}}{shown(low, one):>12}{shown(high, one):>14}  {name}".rstrip()
+    return [f"    {greek(component):<{WIDE - 2}}{shown(low, one, side=-side):>12}"
+            f"{shown(high, one, side=side):>14}  {name}".rstrip()
             for component, (low, high) in zip(case.scene.components, pairs)]
 
 
-def shown(value, one: float = 1.0, digits: int = DIGITS) -> str:
-    """A number of a column; a word where it is unbounded or unknown."""
+def shown(value, one: float = 1.0, digits: int = DIGITS, side: int = 0) -> str:
+    """A number of a column; a word where it is unbounded or unknown. side: as of `Units.told`."""
     if value is None:
         return "unknown"
     # its column says downwards or upwards
-    return "unbounded" if math.isinf(value) else number(value * one, digits)
+    return "unbounded" if math.isinf(value) else number(as_bound(value, one, digits, side), digits)
 
 
 def bound_lines(case, motion, units: Units) -> list[str]:
     """The bounds of the rates for all times, where they are not the extremes given already."""
     if motion.bounds is None or motion.bounds == motion.extremes:
         return []
-    return [*_head("bounds for all times"), *pair_lines(case, motion.bounds, units)]
+    return [*_head("bounds for all times"), *pair_lines(case, motion.bounds, units, 1)]
 
 
 def why(case, motion, units: Units, proofs: bool) -> list[str]:
@@ -146,11 +153,11 @@ def constants(motion, units: Units) -> list[tuple[str, str]]:
     """(name, words) of the invariants and of what a run showed. A potential is in the energy of a reduced
     motion, and none of its parts is that of the whole body."""
     reduced = {"energy": ("energy, reduced motion", "J")} if "Q" in motion.invariants else {}
-    found = [((QUANTITIES | reduced)[name], value) for part in (motion.invariants, motion.evidence)
+    found = [((*(QUANTITIES | reduced)[name], 0)[:3], value) for part in (motion.invariants, motion.evidence)
              for name, value in part.items()
              if value is not None and (name, value) != ("steps", 0)]  # a law needed no run
-    return [(name.replace("ω", "x") if units.scaled else name, quantity(kind, value, units))
-            for (name, kind), value in found]
+    return [(name.replace("ω", "x") if units.scaled else name, quantity(kind, value, units, side))
+            for (name, kind, side), value in found]
 
 
 def reason(words: str, units: Units) -> str:
@@ -158,18 +165,21 @@ def reason(words: str, units: Units) -> str:
     return lettered(units.words(words))
 
 
-def quantity(kind: str, value, units: Units) -> str:
-    """An invariant, or what a run showed, with its unit."""
+def quantity(kind: str, value, units: Units, side: int = 0) -> str:
+    """An invariant, or what a run showed, with its unit. side: of a bound, as of `Units.told`."""
     if kind == "rates":
         return units.vector(value, units.rates)
+    if kind == "direction":
+        return vector(value)
     if kind in ("moment", "reversal") and isinstance(value, float):
-        told = units.moment(value) if units.scaled else units.time(value)
+        told = units.moment(value, side=side) if units.scaled else units.time(value, side=side)
         return told if value or kind == "moment" else "none after the start"
     if not kind or not isinstance(value, float):
         return number(value, DIGITS) if isinstance(value, float) else MEANINGS.get(str(value), str(value))
     if kind == "s":
         return units.time(value)
-    return units.told(value, units.of(kind)) + " per unit of tau" * (units.scaled and kind.endswith(")^2/s"))
+    per = " per unit of tau" * (units.scaled and kind.endswith(")^2/s"))
+    return units.told(value, units.of(kind), side=side) + per
 
 
 def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
@@ -187,12 +197,13 @@ def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
             lines.append(f"    at azimuth            {DEG.angle(found.azimuth)}, torque "
                          f"{units.vector(found.torque, units.of('N m'))}")
     else:
-        many, far = len(found.times), units.time(found.followed)
+        many, far = len(found.times), units.time(found.followed, side=-1)
         told = (f"{many} azimuths were followed for {far} or more" if many > 1
                 else f"one azimuth was followed for {far}, which is before it can be reached")
         lines.append(f"    shortest time found   none: {told}")
     return [*lines,
-            f"    not before            {units.time(found.not_before)}, whatever the azimuth and for any "
+            f"    not before            {units.time(found.not_before, side=-1)}, whatever the azimuth and "
+            f"for any "
             f"smaller tilt (proved)"]
 
 
@@ -262,7 +273,7 @@ def attitude_text(case, found, units: Units) -> str:
     for name, digits in (found.decimals or {}).items():
         lines.append(row(name.replace("_", " "), f"{digits} s"))
     if found.error is not None and found.decimals is None:
-        lines.append(row("relative error", f"at most {found.error:.0e}"))
+        lines.append(row("relative error", f"at most {outward(found.error, 1, 1):.0e}"))
     return "\n".join([*lines, f"why: {reason(found.because, units)}", *frame.note(case)])
 
 

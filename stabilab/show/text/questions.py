@@ -104,11 +104,11 @@ def _answer(limit, found, low, high, units):
         return f"{departs}; undisturbed it " * bool(departs) + (
             f"NEVER reaches {aim}{stated} ({found.level}){',' * bool(holds)}{holds}")
     if math.isnan(high):
-        return f"NOT KNOWN when it reaches {aim}: not before {units.time(low)} ({found.level})"
+        return f"NOT KNOWN when it reaches {aim}: not before {units.time(low, side=-1)} ({found.level})"
     if high == 0:
         return f"starts at or beyond {aim}"
     name, one = units.times(high)
-    a, b = bracket(low * one, high * one)
+    a, b = bracket(low, high, one)
     return f"reaches {aim} in {number((low + high) / 2 * one)} {name} ({found.level} {a} to {b})"
 
 

@@ -18,7 +18,7 @@ from ...physics.equations import Equations, Symbolic, derive, invariants
 from .. import ending, frame, limiting, terminal
 from ..axes import axes_of
 from ..terminal import greek, lettered, listed, some, table, width, written
-from ..units import DEG, DIGITS, SHORT, Units, but_for_rounding, number, parameter_unit, units_of
+from ..units import DEG, DIGITS, SHORT, Units, as_bound, but_for_rounding, number, parameter_unit, units_of
 from .headline import WORDS, known_as, rate_margin
 from .motion import shown
 
@@ -94,10 +94,12 @@ def fates(motions: Sequence, units: Units) -> str:
     """How many motions have which fate, and the range of their largest rates."""
     words = counted([(_became(motion), motion.caveats) for motion in motions], WORDS | ending.WORDS, units,
                     ", ")
-    sizes = [size for size in map(_largest, motions) if size is not None]
+    sizes = [(_largest(motion), motion.largest is None) for motion in motions]
+    sizes = [size for size in sizes if size[0] is not None]
     if not sizes:
         return words
-    low, high = number(min(sizes) * units.rates[1]), units.rate(max(sizes), SHORT)
+    (least, _), (most, side) = min(sizes), max(sizes)
+    low, high = number(least * units.rates[1]), units.rate(most, SHORT, side)
     return f"{words}; largest rate " + (high if high.split()[0] == low else f"{low} to {high}")
 
 
@@ -130,7 +132,8 @@ def of_motions(motions: Sequence, units: Units) -> tuple[list[tuple[str, str]], 
                                                       m.sense or (m.ending.sense if m.ending else 0))),
              ("ends after", hour, lambda m: number(m.ending.until * per_hour, 6) if m.ending is not None
               and m.ending.until else ""),
-             ("largest rate", name, lambda m: "" if _largest(m) is None else number(_largest(m) * one, 6)),
+             ("largest rate", name, lambda m: "" if _largest(m) is None else number(
+                 as_bound(_largest(m), one, 6, m.largest is None), 6)),
              ("margin", name, lambda m: rate_margin(m, units, 6).removesuffix(f" {name}") if name
               else rate_margin(m, units, 6)),
              ("to barrier", units.of("J")[0],
@@ -148,7 +151,8 @@ def of_extremes(motions: Sequence, names: Sequence[str],
     for i, component in enumerate(names):
         for end, word in enumerate(("least", "most")):
             columns.append((f"{greek(component)} {word}", name, lambda m, i=i,
-                            end=end: "" if m.extremes is None else shown(m.extremes[i][end], one)))
+                            end=end: "" if m.extremes is None else shown(
+                                m.extremes[i][end], one, side=m.extremes_side * (2 * end - 1))))
     return filled(columns, motions)
 
 

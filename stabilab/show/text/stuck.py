@@ -5,6 +5,7 @@ import math
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 
 from ...errors import printable
+from ...reasons import number as in_si
 from ...representation import values_of
 from .. import limiting
 from ..axes import axes_of, direction
@@ -133,7 +134,7 @@ def _answer(row, units):
     if row.fate == "undecided":
         if when:
             return f"UNDECIDED, but {when}"
-        until = units.time(row.followed, SHORT)
+        until = units.time(row.followed, SHORT, -1)
         return (f"UNDECIDED: followed for {until}" if row.limit is None
                 else f"UNDECIDED: not at {_limit(row.limit, units)} before {until} ({row.time_level})")
     words = FATES[row.fate]
@@ -143,7 +144,7 @@ def _answer(row, units):
     while_ = limiting.condition(row.caveats, units)
     if when:
         return f"{words}{while_}, but {when}{known}"
-    largest = "" if row.largest_rate is None else f", |ω| at most {units.rate(row.largest_rate, SHORT)}"
+    largest = "" if row.largest_rate is None else f", |ω| at most {units.rate(row.largest_rate, SHORT, 1)}"
     below = ", never at its limit" if row.never and row.limit is not None else ""
     return (f"{words}{while_}{largest}{below}{known}" if row.tilt is None
             else f"{words}{largest}{below}{known},{while_}")
@@ -153,11 +154,12 @@ def _when(row, units) -> str:
     if row.time_to_limit is None:
         return ""
     name, one = units.times(row.time_to_limit[1])
-    low, high = (t * one for t in row.time_to_limit)
+    low, high = row.time_to_limit
     if high == 0:
         return f"starts at its limit, {_limit(row.limit, units)}"
-    a, b = bracket(low, high)
-    return (f"reaches {_limit(row.limit, units)} in {number((low + high) / 2)} {name} ({row.time_level} {a} "
+    a, b = bracket(low, high, one)
+    return (f"reaches {_limit(row.limit, units)} in {number((low + high) / 2 * one)} {name} "
+            f"({row.time_level} {a} "
             f"to {b})")
 
 
@@ -191,21 +193,21 @@ def _ends(name, margin, units) -> tuple[str, str]:
     if margin.until is None or not margin.size < margin.until < SOON * margin.size:
         return amount(name, margin.size, units, SHORT), ""
     unit, one = _unit(name, units)
-    low, high = bracket(margin.size * one, margin.until * one)
+    low, high = bracket(margin.size, margin.until, one)
     return f"{low} {unit}", f"{high} {unit}"
 
 
-def amount(name, size, units, digits=DIGITS) -> str:
+def amount(name, size, units, digits=DIGITS, side=0) -> str:
     """The size of a change with its unit."""
-    unit, one = _unit(name, units)
-    return f"{number(size * one, digits)} {unit}"
+    return units.told(size, _unit(name, units), digits, side)
 
 
 def holds_for(name, margin, units) -> str:
     """What a margin holds for: the words of JSON, which are in rad/s, with a rate in the unit of the page."""
     words = str(margin.because)
     if name == "rate" and margin.until is not None and not math.isinf(margin.until):
-        words = words.replace(f"{margin.until:.6g} rad/s", amount(name, margin.until, units))
+        words = words.replace(f"{in_si(margin.until, side=1)} rad/s",
+                              amount(name, margin.until, units, side=1))
     return units.words(words)
 
 
@@ -293,7 +295,8 @@ def _details(row, units) -> list[str]:
     else:
         found += [(f"margin, {name}", told) for name, told in margins.items()]
     if row.tilt is not None and not row.tilt.ranges:
-        found.append(("tilted, not before", f"{units.time(row.tilt.not_before)}, whatever the azimuth and "
+        found.append(("tilted, not before", f"{units.time(row.tilt.not_before, side=-1)}, whatever the "
+                                            "azimuth and "
                                             "for any smaller tilt (proved)"))
     return [printable(row_name(row)), *(f"  {name:<24} {told}" for name, told in found),
             *(f"  {line}" for line in means(row, units))]
@@ -363,7 +366,7 @@ def _headline(found, units: Units) -> str:
     one, latest = found.closed, found.latest
     if latest is None:
         after = ("largest rate not known" if one.largest_rate is None
-                 else f"never above {units.rate(one.largest_rate)}")
+                 else f"never above {units.rate(one.largest_rate, side=1)}")
         return f"CLOSED at {units.moment(one.time)}, then {one.motion.fate.word.upper()}, {after}"
     aim = f"|ω| below {units.rate(latest.limit)}"
     over = ("" if latest.stated is None else
@@ -372,12 +375,12 @@ def _headline(found, units: Units) -> str:
     if math.isinf(latest.low):
         return f"NO CLOSING IS TOO LATE for {aim} ({latest.level}){over}"
     if math.isnan(latest.high):
-        return (f"NOT KNOWN by when to close for {aim}: up to {units.time(latest.low)} it is early enough"
-                f"{over}")
+        early = units.time(latest.low, side=-1)
+        return f"NOT KNOWN by when to close for {aim}: up to {early} it is early enough{over}"
     if not latest.high:
         return f"TOO LATE AT THE START for {aim}: the motion before the burn reaches it already"
     name, size = units.times(latest.high)
-    low, high = bracket(latest.low * size, latest.high * size)
+    low, high = bracket(latest.low, latest.high, size)
     return (f"CLOSE BY {low} {name} to keep {aim} "
             f"({latest.level} {low} to {high}){over}")
 
@@ -392,10 +395,11 @@ def _of_latest(found, units: Units):
                                    f"{_rate(early.largest_before, units)}")
     if latest.surely is not None:
         early_enough, late = latest.surely
-        yield entry("bounded by", f"early enough up to {units.time(early_enough)}"
-                    + (f", too late from {units.time(late)} on" if math.isfinite(late) else ""))
+        yield entry("bounded by", f"early enough up to {units.time(early_enough, side=-1)}"
+                    + (f", too late from {units.time(late, side=1)} on" if math.isfinite(late) else ""))
     for begin, end in latest.again:
-        yield entry("below it again", f"closed between {units.time(begin)} and {units.time(end)} "
+        yield entry("below it again", f"closed between {units.time(begin, side=1)} and "
+                                      f"{units.time(end, side=-1)} "
                                       "(seen at 2000 times, no proof)")
 
 
@@ -416,7 +420,7 @@ def _turning(one, units: Units) -> str:
 def _of_closed(case, found, one, units: Units):
     yield entry("last closing", units.time(one.time))
     yield entry("rates then", f"{units.vector(_seen(case, one.rates), units.rates)}, known to "
-                            f"{units.rate(one.error, 2)}")
+                            f"{units.rate(one.error, 2, 1)}")
     yield entry("angular momentum", f"{number(math.hypot(*one.momentum), DIGITS)} N m s, "
                                   f"{vector(_seen(case, one.momentum))}")
     yield entry("energy", units.energy(one.energy))

@@ -23,6 +23,7 @@ from ...orbit.result import Fate
 from ...physics.coefficients import effective, three_floats
 from ...physics.scene import AnyScene
 from ...physics.states import checked_states
+from ...reasons import number
 from ...validation import checked_scene
 from ..enclosure import proved
 from .certificate import Tests, exactly, loaded, natural, stored, tests_of
@@ -213,7 +214,8 @@ def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
                       passed)
     if found.fired[row] < 0:
         recurrent = recurs(found.largest[row].tolist(), found.least[row].tolist(), steps)
-        words = (f"{seen(scene, state, island_words(scene, t) if recurrent else '')}; followed for {t:.6g} "
+        words = (f"{seen(scene, state, island_words(scene, t) if recurrent else '')}; followed for "
+                 f"{number(t, side=-1)} "
                  f"{scene.time_unit}, {steps} steps, over which a "
                  f"small change grew {condition:.3g} times")
         if row in found.given_up:

@@ -1,0 +1,96 @@
+"""What users call things: cases, thrusters, wheels, keys, files. Text is passed through patterns that set
+letters, units and names of axes; these names are taken out of it before and put in again after, as written.
+
+A view that is about a case calls `spare` with what its user named; only names that a pattern would change are
+remembered."""
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from functools import lru_cache, wraps
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ParamSpec
+
+if TYPE_CHECKING:
+    from ..case.read import Case
+
+P = ParamSpec("P")
+FIRST, MANY = 0xE000, 6000  # letters that stand for names within a pattern: of private use; so many are kept
+# what some pattern looks for: a letter's name, a number with its unit, an axis, a sign
+SUSPECT = re.compile(
+    r"omega|lambda|mu|gamma|alpha|sigma|zeta|tau|beta|delta|eps|eta|theta|kappa|nu|pi|phi|psi|rho|sqrt|inf|axis"
+    r"|axes|l_|_[ijk]|\^|\+-|-\+|[<>]=|-[\d.(\w]| - | x | \. |[MHωλγ]\.|\d\.\d{6}|\de[-+]?\d"
+    r"|\d (?:rad|deg|days?|min|h|s|m|J|tau|N m)\b|s in \[|t = ", re.IGNORECASE)
+_spared: dict[str, str] = {}  # name -> the letter that stands for it
+_found: list[re.Pattern[str]] = []  # of all of them, the longest first; empty where it is to be made
+
+
+def spare(names: Iterable[str]) -> None:
+    """Leave these names as they are, wherever a text holds them."""
+    for name in names:
+        if name in _spared or not _suspect(name) or len(_spared) >= MANY:
+            continue
+        _found.clear()
+        for form in {name, escape(name), escape(name).replace("&#x27;", "&#39;")}:
+            _spared.setdefault(form, chr(FIRST + len(_spared)))
+
+
+def spare_case(case: Case) -> None:
+    """Leave what the user of a case named."""
+    if not hasattr(case, "swept"):  # no case of a file
+        return
+    path = Path(case.path)
+    spare((case.name, case.title, case.source, case.variant, case.path, str(path), path.name, path.stem,
+           *path.parts, *(one.name for one in (*case.thrusters, *case.wheels)), *_swept(case.swept),
+           *(one.words for one in case.caveats if one.reason.code == "stated-by-the-file")))
+
+
+def _swept(swept: Iterable[tuple[str, Any]]) -> Iterable[str]:
+    for key, value in swept:
+        yield key
+        if isinstance(value, str):
+            yield value
+
+
+@lru_cache(maxsize=4096)
+def _suspect(name: str) -> bool:
+    return bool(re.search(r"[^\W\d_]", name) and SUSPECT.search(name))
+
+
+def around(change: Callable[P, str]) -> Callable[P, str]:
+    """A function that changes a text, its first argument of this type, but for the names that are spared."""
+    @wraps(change)
+    def changed(*given: P.args, **named: P.kwargs) -> str:
+        if not _spared:
+            return change(*given, **named)
+        at = next(n for n, one in enumerate(given) if isinstance(one, str))
+        text = str(given[at])
+        hidden = _pattern().sub(lambda found: _spared[found[0]], text)
+        if hidden == text:
+            return change(*given, **named)
+        found = change(*given[:at], _like(given[at], hidden), *given[at + 1:], **named)  # type: ignore[arg-type]
+        return _like(found, "".join(_names().get(letter, letter) for letter in found))
+    return changed
+
+
+def _like(text: Any, words: str) -> Any:
+    """Words of the same type: what is escaped stays so."""
+    return words if type(text) is str else type(text)(words)
+
+
+def _names() -> dict[str, str]:
+    return {letter: name for name, letter in _spared.items()}
+
+
+def _pattern() -> re.Pattern[str]:
+    if not _found:
+        longest = sorted(_spared, key=len, reverse=True)
+        _found.append(re.compile("|".join(
+            f"{_edge(name[0], '<!')}{re.escape(name)}{_edge(name[-1], '!')}" for name in longest)))
+    return _found[0]
+
+
+def _edge(letter: str, look: str) -> str:
+    """That a name which ends in a letter is no part of a longer word."""
+    return rf"(?{look}\w)" if letter.isalnum() or letter == "_" else ""
