@@ -24,6 +24,7 @@ from ..numbers.vectors import Float3, dot
 from ..physics.circular_orbit import Satellite
 from ..reasons import Sentence
 from ..validation import came
+from .caveats import of_case
 
 MIDDLES = Caveat(Kind.UNCERTAIN,
                  Sentence("of-the-middles-alone", "of the middles of the uncertain numbers")())
@@ -83,7 +84,7 @@ def circular_orbit(orbiting: Any, up_to: Any = None) -> CircularOrbit:
     return CircularOrbit(rate, 2 * math.pi / rate, tuple(map(float, satellite.moments)),
                          tuple(map(float, satellite.momentum)), equilibria,
                          None if up_to is None else _varied(satellite, in_si(up_to, MOMENTUM, "up_to")),
-                         tuple(MIDDLES if one.kind is Kind.UNCERTAIN else one for one in case.caveats),
+                         tuple(MIDDLES if one.kind is Kind.UNCERTAIN else one for one in of_case(case)),
                          satellite)
 
 

@@ -46,6 +46,7 @@ from ...physics.scene import Scene
 from ...reasons import Mass, Sentence, number, old
 from ..attitude import of_motion
 from ..attitude_result import Attitude
+from ..caveats import of_case
 from ..limit import Limit, asked
 from ..motion import motion
 from ..motions.rows import periods
@@ -383,7 +384,7 @@ def _closed(chain: Chain, links: Sequence[Link]) -> Closed:
 
 def craft_caveats(craft: Any) -> tuple[Caveat, ...]:
     """The caveats of a case but for what its thrusters leave open, of which a burn speaks itself."""
-    return without(craft.caveats, Kind.TOLERANCE, Kind.MISALIGNMENT)
+    return without(of_case(craft), Kind.TOLERANCE, Kind.MISALIGNMENT)
 
 
 def _granted(craft: Any, closed: Closed, found: Latest | None = None) -> Iterator[Caveat]:
@@ -416,7 +417,7 @@ def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = Non
     case = chain.case
     end = until if until is not None else max(chain.closed, Fraction(case.span[1]) if case.span else 0)
     over = over_forces(chain.burning, ask, Fraction(end), lambda one: _first_crossing(one, limit, ask, until))
-    caveats = case.caveats if over is None else (*craft_caveats(case), Caveat(Kind.TILT, over.reason))
+    caveats = of_case(case) if over is None else (*craft_caveats(case), Caveat(Kind.TILT, over.reason))
     return replace(times_of([found], (), limit.words, chain.base, np.array(case.state), caveats), tilt=over)
 
 

@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
+from ...answers.caveats import of_case
 from ...errors import InputError
 from ...numbers.units import DIMENSIONS, NAMES
 from ...physics.coefficients import shape_factors, to_scaled
@@ -180,7 +181,7 @@ def of_all(cases) -> str:
                          []).append((case, equations, own))
     parts = []
     for alike in kinds.values():
-        parts.append(limiting.noted(alike[0][0].caveats, _whole(*alike[0]), units_of(alike[0][0])))
+        parts.append(limiting.noted(of_case(alike[0][0]), _whole(*alike[0]), units_of(alike[0][0])))
         if len(alike) > 1:
             some_cases = [case for case, _, _ in alike]
             columns = swept_columns(some_cases)

@@ -1,0 +1,93 @@
+"""A caveat that one more function of CAVEATS gives is in every view of every command about a case at once: the
+table of commands and views is made from the command line itself."""
+from __future__ import annotations
+
+import inspect
+import json
+
+import pytest
+
+import stabilab as package
+from stabilab import cli
+from stabilab.answers import caveats
+from stabilab.errors import Caveat, Kind
+from stabilab.reasons import Sentence
+from stabilab.show.explore.session import Session
+from stabilab.show.report import one_case
+from tests.shared import CASES
+from tests.show.explore.test_session import ask
+
+WORDS = "a caveat that nobody thought of"
+PROBE = Sentence("probe", WORDS)
+# what a command cannot do without, and the case where the usual one will not do
+NEEDS = {"when": ("--rate", "3"), "sweep": ("--vary", "torque[3]=0.01,0.02"), "precision": ("--quick",),
+         "basin": ("--vary", "angular_velocity[1]=0:1:3", "--vary", "angular_velocity[2]=0:1:3", "--depth", "0"),
+         "bifurcation": ("--vary", "torque[3]=0.01:0.02"), "atlas": ("--level", "0", "--refine", "0"),
+         "reference": ("--at", "1", "--digits", "9"), "chaos": ("--until", "30 s"), "simulate": ("--at", "0,1")}
+CASE = {"burn": "burns/stage", "orbit": "orbits/boom", "flat_spin": "rahn-barba", "compare": "top-fast",
+        "stuck": "thruster-stuck-major-axis"}
+USUAL = """[body]
+inertia = [12, 9, 5]
+[effects.gyrostat]
+momentum = [0.8, 0, 0]
+[effects.constant_torque]
+torque = [0, 0, 0.02]
+[motion]
+angular_velocity = [0.1, 0.05, 0.02]
+span = [0, 30]
+"""
+WRITES = {"plot", "surface", "report", "explore"}  # a file or a server, not an answer: below
+SLOW = {"precision", "atlas", "burn", "orbit", "surface", "flat_spin", "compare", "chaos"}
+
+
+def views():
+    for command in cli.whole().registered_commands:
+        name, options = command.callback.__name__, inspect.signature(command.callback).parameters
+        if {"case", "cases"} & set(options) and name not in WRITES | {"verify"}:
+            for view in ("text", *(one for one in ("json", "csv") if one in options)):
+                yield pytest.param(name, view, id=f"{name} {view}",
+                                   marks=[pytest.mark.slow] * (name in SLOW and view != "json"))
+
+
+@pytest.fixture
+def probed(monkeypatch):
+    monkeypatch.setattr(caveats, "CAVEATS", (*caveats.CAVEATS, lambda known: (Caveat(Kind.STATED, PROBE()),)))
+
+
+@pytest.fixture
+def usual(case_file):
+    return case_file(USUAL, "usual")
+
+
+@pytest.mark.parametrize("name, view", list(views()))
+def test_every_command_shows_a_new_caveat_in_every_view(stabilab, probed, usual, name, view):
+    case = CASES / f"{CASE[name]}.toml" if name in CASE else usual
+    code, out, err = stabilab(name.replace("_", "-"), case, *NEEDS.get(name, ()),
+                              *([] if view == "text" else [f"--{view}"]))
+    assert code in (0, 3), err
+    assert WORDS in out
+    if view == "json":
+        def lists(value):
+            if isinstance(value, dict):
+                yield from ([value["caveats"]] if "caveats" in value else [])
+                value = value.values()
+            for one in value if not isinstance(value, (str, int, float, bool, type(None))) else ():
+                yield from lists(one)
+        found = [one for rows in lists(json.loads(out)) for one in rows]
+        assert any(one["code"] == "probe" and one["kind"] == "stated" for one in found)
+
+
+def test_without_the_function_no_view_has_it(stabilab, usual):
+    assert WORDS not in stabilab("fate", usual)[1]
+
+
+def test_a_page_the_explorer_and_python_show_a_new_caveat(probed, usual, tmp_path):
+    case = package.load(usual)
+    made = one_case.sections(case, tmp_path, "case", deep=False)
+    assert any(WORDS in words.lower() for words in made["caveats"])
+    answer = ask(Session(case), moving=False)[0]
+    assert WORDS in f"{answer['headline']} {answer['note']}".lower()
+    for found in (case.fate(), case.motion(), case.extremes(), case.period(), case.attitude(),
+                  case.when(rate="3 rad/s")):
+        assert any(one.words == WORDS for one in found.caveats), found
+        assert WORDS in repr(found) and WORDS in found._repr_html_(), found
