@@ -126,13 +126,13 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     """Everything that the template says of a case; pictures go into the folder, their names begin with the
     stem.
 
-    deep: also what takes seconds (a tilt of the torque). certify: write a certificate and check it. What the
+    deep: also the pictures that a page among many leaves out. certify: write a certificate and check it. What the
     analysis cannot answer stands under "absent" with its reason; nothing of it raises.
     """
     units, absent, one = units_of(case), [], subject(case)
     found = _tried(absent, "Equilibria", lambda: equilibria(case))
     moved = None if case.state is None else _tried(absent, "Motion", lambda: one.motion)
-    if deep and moved is not None:
+    if moved is not None:
         moved = _tried(absent, "Tilt of the torque", lambda: with_tilt(case, moved)) or moved
         one = replace(one, known=moved)
     if case.state is None:
