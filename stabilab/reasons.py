@@ -132,6 +132,14 @@ class Reason:
             for inner, clause in one.clauses():
                 yield inner or joint, clause
 
+    def says(self, *sentences: Sentence) -> bool:
+        """Whether one of its clauses is one of these sentences."""
+        return any(one.sentence in sentences for _, one in self.clauses())
+
+    def without(self, sentence: Sentence) -> Reason:
+        """Without the clauses behind the first that are this sentence."""
+        return replace(self, rest=tuple((joint, one) for joint, one in self.rest if one.sentence != sentence))
+
     def text(self, fill: Callable[[Any], str] | None = None, letters: bool = False) -> str:
         """The words. fill: a filling as text, in SI without it; letters: whether it is printed with letters
         such as ω, in ASCII otherwise."""
@@ -165,6 +173,11 @@ def plain(value: Any) -> Any:
     if isinstance(value, Reason):
         return value.as_dict()
     return [*map(plain, value)] if isinstance(value, tuple) else value
+
+
+def as_reason(given: Reason | str) -> Reason:
+    """A reason as it is, words as one."""
+    return given if isinstance(given, Reason) else old(given)
 
 
 def old(words: str) -> Reason:

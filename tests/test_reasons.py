@@ -30,9 +30,9 @@ def held(value):
     if isinstance(value, Sentence):
         yield value
     elif isinstance(value, Reason):
-        yield value.sentence
+        yield from (one.sentence for _, one in value.clauses())
     elif isinstance(value, Caveat):
-        yield value.reason.sentence
+        yield from held(value.reason)
     elif isinstance(value, (tuple, dict)):
         for one in value.values() if isinstance(value, dict) else value:
             yield from held(one)

@@ -77,5 +77,5 @@ def other_equilibria(scene: AnyScene) -> Equilibria | None:
     parts = parts.without_motor if stops else parts
     module, answer = BY_KIND[parts.kind]
     found = getattr(import_module(f"..equilibrium.{module}", __package__), answer)(parts)
-    words = (found.reason, parts.note, STOPPED if stops else "")
+    words = (found.reason, str(parts.note or ""), STOPPED if stops else "")
     return replace(found, reason="; ".join(filter(None, words)))

@@ -89,4 +89,4 @@ def _found(scene: AnyScene, state: Any, span: tuple[float, float] | None, brief:
         twin = gyrostat_scene(parts)
         found = one(twin).motion(twin, split(parts, state)[0], span, exact, brief,
                                  **following(twin, follow, tell, proof))
-    return replace(found, because=f"{found.because}; {parts.note}") if parts.note else found
+    return replace(found, reason=found.reason.then(parts.note))

@@ -231,12 +231,14 @@ def wheels_of(top: Table) -> tuple[Wheel, ...]:
     return tuple(one for one in found if one)
 
 
-_APART = ("the radius of gyration is {radius} and the farthest thruster stands {reach} from the centre of "
-          "mass, beyond all reason for one craft: ")
-WIDE = Sentence("size-beyond-thrusters",
-                _APART + "is the tensor in kg mm^2 or another unit that the file leaves out")
-FAR = Sentence("thrusters-beyond-size",
-               _APART + "is the position in mm, or the tensor in another unit that the file leaves out")
+WIDE = Sentence(
+    "size-beyond-thrusters", "the radius of gyration is {radius} and the farthest thruster stands {reach} "
+    "from the centre of mass, beyond all reason for one craft: is the tensor in kg mm^2 or another unit that "
+    "the file leaves out")
+FAR = Sentence(
+    "thrusters-beyond-size", "the radius of gyration is {radius} and the farthest thruster stands {reach} "
+    "from the centre of mass, beyond all reason for one craft: is the position in mm, or the tensor in "
+    "another unit that the file leaves out")
 FARTHEST = 50  # times: a twentieth of the mass in booms that reach so far makes them 390 times as long
 
 

@@ -44,6 +44,7 @@ from ..numbers.balls import (
 from ..numbers.polynomial import Poly
 from ..numbers.vectors import Number
 from ..physics.scene import rests
+from ..reasons import Reason, Sentence
 from .one_orbit import MOST_BITS, Orbit
 from .result import Fate
 
@@ -381,31 +382,46 @@ class Basis(IntEnum):
     CLOSED_FORM = 14
 
 
-REASONS = {
-    Basis.BELOW_BARRIER: "the energy is below the barrier of the reduced potential that stands ahead of it "
-                          "in the direction of the torque",
-    Basis.ABOVE_BARRIER: "the energy exceeds every barrier of the reduced potential within one turn ahead, "
-                          "and each later turn is lower still",
-    Basis.NO_BARRIER: "the orbit's circle carries no equilibrium, so the reduced potential falls all the "
-                       "way in the direction of the torque",
-    Basis.WALLS: "the reduced potential grows without bound on both sides of the motion",
-    Basis.PLANE_CAPTURED: "on the invariant plane Q = 0, below the barrier that stands ahead",
-    Basis.PLANE_ESCAPES: "on the invariant plane Q = 0 that decays in the direction of the torque, above "
-                          "any barrier: a set of measure zero",
-    Basis.PURE_SPIN: "pure spin about the torque's axis: the other two rates stay where the torque does not "
-                      "see them",
-    Basis.TIE: "the energy equals the barrier's: the motion tends to the saddle equilibrium",
-    Basis.AT_REST: "every rate vanishes at the state, exactly",
-    Basis.TORQUE_FREE: "no torque: the kinetic energy is constant, and it is positive definite",
-    Basis.UNBOUNDED_LAW: "|H|^2/2 - D_i T grows steadily at the rate lambda_i M_i: no motion is bounded",
-    Basis.OFF_AXIS: "the torque is off the principal axes, where no integral of motion is known, and no "
-                     "certificate of spin-up was met",
-    Basis.TURN_ROUNDS: "the energy is within 1e-36 of a barrier's, and the turn that puts the torque on an "
-                        "axis has irrational numbers, "
-                        "carried to 240 bits",
-    Basis.CERTIFIED: "the torque is off the principal axes, and the motion meets an inequality that stays "
-                      "true for ever",
-    Basis.CLOSED_FORM: "the torque is off the principal axes, and equal moments leave a closed solution",
+REASONS: dict[Basis, Reason] = {
+    Basis.BELOW_BARRIER: Sentence(
+        "below-barrier", "the energy is below the barrier ahead, the next maximum of the reduced potential "
+        "in the direction of the torque")(),
+    Basis.ABOVE_BARRIER: Sentence(
+        "above-barrier", "the energy exceeds every barrier of the reduced potential within one turn ahead, "
+        "and each later turn is lower still")(),
+    Basis.NO_BARRIER: Sentence(
+        "no-barrier", "no barrier is ahead: no equilibrium has this value of the first integral Q, so the "
+        "reduced potential falls for ever in the direction of the torque")(),
+    Basis.WALLS: Sentence(
+        "walls", "the reduced potential grows without bound on both sides of the motion")(),
+    Basis.PLANE_CAPTURED: Sentence(
+        "plane-captured", "on the invariant plane Q = 0, below the barrier ahead")(),
+    Basis.PLANE_ESCAPES: Sentence(
+        "plane-escapes", "on the invariant plane Q = 0 that decays in the direction of the torque, above any "
+        "barrier: a set of measure zero")(),
+    Basis.PURE_SPIN: Sentence(
+        "pure-spin", "pure spin about the torque's axis: the angular acceleration about it is constant")(),
+    Basis.TIE: Sentence(
+        "energy-of-barrier",
+        "the energy equals the barrier's: the motion tends to the saddle equilibrium")(),
+    Basis.AT_REST: Sentence("at-equilibrium", "the state is an equilibrium, exactly")(),
+    Basis.TORQUE_FREE: Sentence(
+        "torque-free", "no torque: the kinetic energy is constant, and it is positive definite")(),
+    Basis.UNBOUNDED_LAW: Sentence(
+        "unbounded-law",
+        "|H|²/2 - Dᵢ T grows steadily at the rate λᵢ Mᵢ: no motion is bounded")(),
+    Basis.OFF_AXIS: Sentence(
+        "off-axis-open", "the torque is off the principal axes, where no first integral is known, and no "
+        "certificate of spin-up was met")(),
+    Basis.TURN_ROUNDS: Sentence(
+        "turn-rounds", "the energy is within 1e-36 of a barrier's, and the turn that puts the torque on an "
+        "axis has irrational numbers, carried to 240 bits")(),
+    Basis.CERTIFIED: Sentence(
+        "off-axis-certified", "the torque is off the principal axes, and the motion meets an inequality that "
+        "stays true for ever")(),
+    Basis.CLOSED_FORM: Sentence(
+        "off-axis-closed",
+        "the torque is off the principal axes, and equal moments give a closed solution")(),
 }
 
 
@@ -425,14 +441,18 @@ class OneFate(NamedTuple):
     """Fate of one state: as in `fate_arrays.FateResult`, the margin in the scene's energy."""
 
     label: Fate
-    reason: Basis
+    basis: Basis
     margin: float
     axis: int = 0
     sense: int = 0
 
     @property
+    def reason(self) -> Reason:
+        return REASONS[self.basis]
+
+    @property
     def because(self) -> str:
-        return REASONS[self.reason]
+        return self.reason.text()
 
 
 def fate_of(scene, orbit: Orbit, near: Orbit | None = None) -> OneFate:
@@ -462,8 +482,8 @@ def free_fate(scene, state) -> OneFate:
     return _tie() if margin.tie else OneFate(Fate.BOUNDED, Basis.TORQUE_FREE, margin.double)
 
 
-def _spin_up(r, reason, margin) -> OneFate:
-    return OneFate(Fate.SPIN_UP, reason, margin, r.axis + 1, r.sense)
+def _spin_up(r, basis, margin) -> OneFate:
+    return OneFate(Fate.SPIN_UP, basis, margin, r.axis + 1, r.sense)
 
 
 def _tie() -> OneFate:

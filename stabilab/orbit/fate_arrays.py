@@ -35,7 +35,7 @@ from .fate import REASONS, Basis, decide, fate_of, free_middle, is_free, margin_
 from .landscape import ROUNDINGS, ConicLandscape, Landscape, in_doubles, landscape
 from .margins import MARGIN_SHARE, valley_margins
 from .one_orbit import Orbit
-from .one_state import BEYOND, far_exponent, far_fate, far_rows
+from .one_state import LOST, far_exponent, far_fate, far_rows
 from .potential import derivatives_on_parabola
 from .reduction import reduce
 from .result import Fate
@@ -136,7 +136,7 @@ def _cause(row) -> str:
 def _told(reason, label, margin) -> str:
     known = (margin == margin or reason in (Basis.OFF_AXIS, Basis.TURN_ROUNDS, Basis.CERTIFIED,
                                             Basis.CLOSED_FORM) or label == Fate.EQUILIBRIUM)
-    return REASONS[Basis(reason)] + ("" if known else f"; the margin in energy is {BEYOND}")
+    return str(REASONS[Basis(reason)].then(None if known else LOST(what="the margin in energy")))
 
 
 def empty_columns(n) -> dict[str, np.ndarray]:

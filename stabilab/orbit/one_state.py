@@ -16,6 +16,7 @@ from functools import lru_cache
 
 from ..errors import InputError
 from ..physics.coefficients import three_floats
+from ..reasons import Sentence
 from .extremes import extremes_of, precise_period
 from .fate import fate_of, is_free
 from .one_orbit import Orbit
@@ -26,6 +27,7 @@ from .separatrix.distance import distance_of
 # --- The unit of rate in which numbers are of order one
 ORDINARY = 100  # rates of 2^-100 to 2^100: fourth powers of them, beside ratios of moments, are doubles
 BEYOND = "beyond the range of doubles"
+LOST = Sentence("beyond-doubles", "beyond the range of doubles: {what}")
 
 
 @contextmanager
@@ -121,8 +123,8 @@ def in_scene_unit(found: Motion, k: int, state, margin: float) -> Motion:
     pairs = found.extremes and _finite(found.extremes)
     if found.extremes and pairs is None:
         lost.append("an extreme")
-    because = found.because + (f"; {BEYOND}: {', '.join(lost)}" if lost else "")
-    return replace(found, at=state, because=because, extremes=pairs,
+    reason = found.reason.then(LOST(what=", ".join(lost)) if lost else None)
+    return replace(found, at=state, reason=reason, extremes=pairs,
                    invariants={n: v for n, v in invariants.items() if not math.isnan(v)},
                    extremes_over=found.extremes_over if pairs or not found.extremes else f"none: {BEYOND}",
                    **fields)

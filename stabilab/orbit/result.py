@@ -9,12 +9,16 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import Caveat
 from ..numbers.vectors import Float3, Number
-from ..reasons import Quantity, Reason
+from ..reasons import Axis, Quantity, Reason, Sentence, as_reason
 from ..representation import Shown
 
 if TYPE_CHECKING:  # a scene of exact laws does not load it
     from ..physics.law_limits import Validity
     from .reduction import EnergyIntegral
+
+
+SPINS_ABOUT = Sentence("spins-up-about", "it spins up about {axis}")
+SPINS_ABOUT_TORQUE = Sentence("spins-up-about-torque", "it spins up about the torque")()
 
 
 class Fate(IntEnum):
@@ -96,16 +100,17 @@ class Motion(Shown):
     G1, G2 or G3 (`orbit.reduction`), under a torque along a principal axis with no wheel along it.
     ending: how a motion that loses energy ends, and when (`answers.dissipation.ending`), where it does.
     level: of the fate, "exact", "certified" (a theorem applied to a run of machine precision) or
-    "undecided". Of motions that were followed until a certificate held, or as long as was asked: cause:
-    what was found on the way, in words; bounds: ((low, high),) * 3 of the rates at all t >= 0, wider than
-    the extremes, +-inf where unbounded (None where not known). stability: of an equilibrium. margin, code,
-    returns: the margin, the number of the reason and the period as arrays have them
-    (`orbit.fate_arrays`): infinite, NaN and -1 where there is none.
+    "undecided". reason: why it has this fate, of which words are taken as they are; because: the same in
+    words, in SI units. Of motions that were followed until a certificate held, or as long as was asked:
+    finding: what the run has shown, cause: the same in words; bounds: ((low, high),) * 3 of the rates at
+    all t >= 0, wider than the extremes, +-inf where unbounded (None where not known). stability: of an
+    equilibrium. margin, code, returns: the margin, the number of the reason and the period as arrays have
+    them (`orbit.fate_arrays`): infinite, NaN and -1 where there is none.
     """
 
     at: Float3
     fate: Fate
-    because: str
+    reason: Reason
     axis: int = 0
     sense: int = 0
     margin_energy: float | None = None
@@ -120,7 +125,7 @@ class Motion(Shown):
     evidence: dict[str, Any] = field(default_factory=dict)
     tolerance: float | None = None
     level: str = "exact"
-    cause: str = ""
+    finding: Reason | None = None
     bounds: tuple[tuple[float, float], ...] | None = None
     validity: Validity | None = None
     tilt: object = None
@@ -140,17 +145,29 @@ class Motion(Shown):
         """1 where its extremes are bounds, which are rounded outward; 0 where they are values."""
         return int(self.extremes_over == AS_BOUNDS)
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "reason", as_reason(self.reason))
+
+    @property
+    def because(self) -> str:
+        """Why it has this fate, in words and SI units."""
+        return self.reason.text()
+
+    @property
+    def cause(self) -> str:
+        """What a run has shown, in words and SI units; empty where none was needed."""
+        return "" if self.finding is None else self.finding.text()
+
 
 def judged(state: Float3, decided: Any) -> dict[str, Any]:
-    """The fields of a Motion that its decided fate fills: label, reason in words, axis and sense."""
-    because = decided.because
+    """The fields of a Motion that its decided fate fills: label, reason, axis and sense."""
+    reason = decided.reason
     if decided.label == Fate.SPIN_UP and (decided.axis or decided.sense):
-        because += (f"; it spins up about axis {decided.axis}" if decided.axis
-                    else "; it spins up about the torque")
+        reason = reason.then(SPINS_ABOUT(axis=Axis(decided.axis)) if decided.axis else SPINS_ABOUT_TORQUE)
     level = "undecided" if decided.label == Fate.UNDECIDED else "exact"
-    return {"at": state, "fate": decided.label, "because": because, "axis": decided.axis,
+    return {"at": state, "fate": decided.label, "reason": reason, "axis": decided.axis,
             "sense": decided.sense, "level": level, "margin": float(decided.margin),
-            "code": int(decided.reason),
+            "code": int(decided.basis),
             "returns": math.nan if decided.label == Fate.BOUNDED else without_return(decided.label)}
 
 

@@ -32,6 +32,7 @@ from typing import Any, ClassVar
 from ..errors import InputError
 from ..numbers.exact import exact_vector, sqrt_fraction
 from ..numbers.vectors import Exact3, Float3, Number, Triple, cross, cross_matrix, dot
+from ..reasons import Axis, Reason, Sentence
 from ..validation import checked_scene, real
 from .effects import effect_class
 from .effects.base import Effect
@@ -39,6 +40,12 @@ from .scene import ZERO3, AnyScene, Body, ScaledGyrostat, Scene
 
 KNOWN = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity", "newtonian_field", "gravity",
          "body_force", "viscous_damper", "rate_damper", "eddy_currents", "wheel_motor"}
+CHARGE_AS_WHEEL = Sentence(
+    "charge-as-wheel", "the charge turns the body as a gyrostatic moment -k e3 would: Λ = λ - k e3, as long "
+    "as the angle of {axis} to the field is the constant one, which is judged where an attitude is given")
+FORCE_ASIDE = Sentence(
+    "force-aside", "the force at the centre of mass does not turn the body: the rotation is judged as if it "
+    "were absent")()
 TAKE = ("viscous_damper", "liquid_cavity")  # energy, and keep the angular momentum
 TAKE_BOTH = ("resistance", "rate_damper", "eddy_currents")
 ZERO = Fraction(0)
@@ -125,15 +132,10 @@ class Content:
         return replace(self, Lambda=taken, u=ZERO3, duration=None)
 
     @property
-    def note(self) -> str:
-        """What was put aside or taken together, for the reader; empty where nothing was."""
-        parts = ["the charge turns the body as a gyrostatic moment -k e3 would: Lambda = lambda - k e3, as "
-                 "long as the angle of axis 3 to the "
-                 "field is the constant one, which is judged where an attitude is given"] * self.charged
-        parts += (
-            ["the force at the centre of mass does not turn the body: the rotation is judged as if it were "
-             "absent"] * self.forced)
-        return "; ".join(parts)
+    def note(self) -> Reason | None:
+        """What was put aside or taken together, for the reader; None where nothing was."""
+        forced = FORCE_ASIDE if self.forced else None
+        return CHARGE_AS_WHEEL(axis=Axis(3)).then(forced) if self.charged else forced
 
 
 def content(scene: AnyScene) -> Content | None:

@@ -103,9 +103,10 @@ class Units:
     def said(self, reason: Reason, digits: int = DIGITS - 1, whole: bool = False) -> str:
         """A sentence in these units, with letters. digits: of angles, rates and times. whole: whether axes
         have their long names."""
-        if not reason.code:
-            return lettered(self.words(printable(reason.text()), digits))
-        return reason.text(partial(self.filled, digits=digits, whole=whole), letters=True)
+        fill = partial(self.filled, digits=digits, whole=whole)
+        return "".join(joint + (one.text(fill, letters=True) if one.code
+                                else lettered(self.words(printable(one.text()), digits)))
+                       for joint, one in reason.clauses())
 
     def filled(self, value: Any, digits: int = SHORT, whole: bool = False) -> str:
         """What fills a hole of a sentence, as text. digits, whole: as of `said`."""

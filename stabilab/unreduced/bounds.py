@@ -27,15 +27,150 @@ from ..orbit.fate import REASONS, Basis
 from ..orbit.result import Fate, Motion
 from ..physics.coefficients import Content, at_rest, content, relative, split, taken_up
 from ..physics.scene import judge_start
-from ..reasons import number
+from ..reasons import (
+    Axis,
+    Energy,
+    Momentum,
+    PerSecond,
+    Quantity,
+    Rate,
+    Reason,
+    Sentence,
+    Time,
+    Torque,
+    as_reason,
+)
 
-BESIDE = ("undecided: of a wheel motor nothing is proved beside a damper inside, a liquid, a field, a medium "
-          "that leaves some axis free, or an outer torque ")
-AFTER = ("that goes on after it; ask of the motion from the state when it stops, the wheel's momentum then "
-         "as [effects.gyrostat]")
+NO_BOUND = Sentence("no-bound", "no bound is proved")()
+NO_BOUND_HERE = Sentence("no-bound-here", "no bound is proved for this state")()
+NO_BOUND_NO_RELEASE = Sentence("no-bound-no-release", "no bound and no release is proved")()
+MOTOR_BESIDE = Sentence(
+    "motor-beside", "undecided: of a wheel motor nothing is proved beside a damper inside, a liquid, a "
+    "field, a medium that leaves some axis free, or an outer torque {which}")
+MOTOR_OUTGROWN = Sentence(
+    "motor-outgrown", "T' ≤ (M - u) . ω - 2 c T, c = {c}: resistance outgrows outer torque and motor, so |ω| "
+    "≤ {always} always and ≤ {late} in the end")
+MOTOR_STOPS_MOMENTUM = Sentence(
+    "motor-stops-momentum", "|D ω + Λ + h| stays, and the motor stops after {time}, when T stays: so |ω| ≤ "
+    "{always} always")
+MOTOR_STOPS_WORK = Sentence(
+    "motor-stops-work", "T' = -u . ω, and the motor stops after {time}, when T stays: so |ω| ≤ {always} "
+    "always")
+MOTOR_FOR_EVER = Sentence(
+    "motor-for-ever", "|D ω + Λ + h| stays, and h grows by |u| = {motor} each second: so |ω| grows without "
+    "bound while the motor runs, in the end by at least {gain} each second")
+MOTOR_BEATS_TORQUE = Sentence(
+    "motor-beats-torque", "|D ω + Λ + h| grows by at most |M| = {torque} each second, and h grows by |u| = "
+    "{motor} each second: so |ω| grows without bound while the motor runs, in the end by at least {gain} "
+    "each second")
+WHERE_OPEN = Sentence("end-undecided", "where it tends is undecided")()
+TENDS_TO_REST = Sentence("tends-to-rest", "it tends to rest")()
+REST_LASALLE = Sentence("tends-to-rest-lasalle", "it tends to rest (LaSalle)")()
+MOTION_TO_REST = Sentence("motion-tends-to-rest", "the motion tends to rest")()
+OPEN_DIRECTION = Sentence("direction-undecided", "the direction is undecided, since its energy is not below "
+                          "that of rotation about the next axis")
+WORK_OF_TORQUE_AND_LIQUID = Sentence(
+    "torque-and-liquid", "undecided: the torque does work at the rate M . ω, and what the liquid takes, of "
+    "fourth order in the rates, vanishes about the principal axes: no bound is proved")()
+DAMPER_BESIDE = Sentence(
+    "damper-beside", "undecided: no bound is proved for a damper inside beside a torque, a medium, another "
+    "damper, a liquid or a field")()
+TAKES_ENERGY = Sentence(
+    "takes-energy", "{part} keeps |H| and takes energy at every rotation that is not permanent (LaSalle), so "
+    "the motion is bounded and tends to permanent rotations of its |H|")
+ON_ITS_SIDE = Sentence(
+    "energy-below-next-axis", "{part} keeps |H| and takes energy at every rotation that is not permanent "
+    "(LaSalle), so the motion is bounded; its energy is below that of rotation about {next} at this |H|, so "
+    "it stays on its side and tends to rotation about {axis}, the axis of the largest moment: {rates}")
+TENDS_TO_MAJOR = Sentence(
+    "tends-to-largest-moment", "{part} keeps |H| and takes energy at every rotation that is not permanent "
+    "(LaSalle), so the motion is bounded and tends to a permanent rotation of its |H|: about {axis} (largest "
+    "moment) but for a set of measure zero")
+ENERGY_FALLS = Sentence(
+    "energy-falls", "{law}: the energy falls at least as T(0) exp(-2 c t), so the motion tends to rest")
+RESISTANCE_OUTGROWS = Sentence(
+    "resistance-outgrows", "{law}: resistance outgrows the torque, so |ω| ≤ {always} always and ≤ {late} in "
+    "the end")
+# The laws behind these two by whether a liquid takes energy, too
+LAWS = {False: Sentence("law-medium", "T' = -2 c T")(),
+        True: Sentence("law-medium-and-liquid", "T' ≤ -2 c T")()}
+LAW_DAMPED = Sentence("law-damped", "T' ≤ -2 c T, c = {c}")
+LAWS_TORQUE = {
+    False: Sentence("law-medium-torque",
+                             "T' = M . ω - 2 c T ≤ √(2 T) (√(M . D^-1 M) - c √(2 T))")(),
+    True: Sentence("law-medium-liquid-torque",
+                            "T' ≤ M . ω - 2 c T ≤ √(2 T) (√(M . D^-1 M) - c √(2 T))")()}
+LAW_DAMPED_TORQUE = Sentence("law-damped-torque",
+                             "T' ≤ M . ω - 2 c T ≤ √(2 T) (√(M . D^-1 M) - c √(2 T)), c = {c}")
+TENDS_TO_EQUILIBRIUM = Sentence("tends-to-equilibrium",
+                                "it tends to the equilibrium {rates}, as every motion does")
+SOME_ATTRACT = Sentence(
+    "some-equilibria-attract", "where it tends is undecided: {attracting} of {equilibria} equilibria attract "
+    "their neighbourhood, and no proof covers all motions")
+WORK_OF_TORQUE = Sentence(
+    "torque-and-partial-damper", "undecided: the torque does work at the rate M . ω, and the damper resists "
+    "rotation about some axes alone: no bound is proved")()
+PARTLY_DAMPED = Sentence(
+    "partial-damper", "T' = -ω . C ω ≤ 0: the energy does not grow; where the motion tends is undecided, for "
+    "the damper resists rotation about some axes alone")()
+ONE_AXIS_FREE = Sentence(
+    "one-axis-free", "T' = -ω . C ω vanishes about one axis alone, about which a rotation at {rates} goes "
+    "on: the motion tends to one about it, or to rest (LaSalle)")
+PRINTED_LIQUID = Sentence(
+    "printed-liquid", "the printed torque of the liquid takes energy, T' ≤ 0; where the motion tends is "
+    "undecided, since this torque changes the angular momentum")()
+WHEEL_AND_LIQUID = Sentence(
+    "wheel-and-liquid-open", "undecided: with a wheel or a charge the liquid keeps |H| to first order in κ "
+    "only, and its work has parts of either sign")().then(
+    NO_BOUND_HERE)
+OUTWEIGHED_ABOVE = Sentence(
+    "liquid-outweighed-above", "resistance outweighs torque and liquid: the kinetic energy falls wherever it "
+    "is above {least}, so |ω| ≤ {always} always")
+OUTWEIGHED_BETWEEN = Sentence(
+    "liquid-outweighed-between", "resistance outweighs torque and liquid: the kinetic energy falls wherever "
+    "it is between {least} and {most}, so |ω| ≤ {always} always")
+IN_THE_END = Sentence("bound-in-the-end", "≤ {late} in the end")
+LIQUID_IN_FIELD = Sentence(
+    "liquid-in-field", "undecided: the torque of the field enters the liquid's own, whose work may have "
+    "either sign")().then(
+    NO_BOUND)
+FIELD_BOUNDS = Sentence(
+    "field-bounds-energy", "|γ| = 1 bounds the potential energy from below and the sum of kinetic and "
+    "potential energy {course}: T {energy}, so |ω| ≤ {always}")
+COURSES = {"medium": Sentence("falls-medium", "falls (the medium takes 2 c T)")(),
+           "damper": Sentence("falls-damper", "falls (the damper takes ω . C ω)")(),
+           "eddy": Sentence("falls-eddy-currents", "falls (eddy currents take k B² |ω x γ|²)")(),
+           "": Sentence("energy-constant", "is constant")()}
+ENERGY_AT_MOST = Sentence("energy-at-most", "≤ {most}")
+ENERGY_TOO_LARGE = Sentence("energy-beyond-doubles", "is more than a double holds")()
+TORQUE_AT_MOST = Sentence(
+    "torque-at-most", "the torque is at most {torque}, and T' ≤ |torque| |ω| - 2 c T: resistance outgrows "
+    "it, so |ω| ≤ {always}")
+TORQUE_IN_FIELD = Sentence(
+    "torque-in-field", "undecided: the constant torque does work in a body that also turns in a "
+    "field")().then(
+    NO_BOUND_NO_RELEASE)
+FIELD_REST = Sentence("no-momentum-along-field",
+                      "H . γ = 0 stays, and the motion tends to rest (LaSalle)")()
+ABOUT_FIELD = Sentence(
+    "about-the-field", "H . γ = {momentum} stays, and the motion tends to rotation about the field, at "
+    "{rate} along `vertical`")
+ANY_AXIS = Sentence("about-any-axis",
+                    "(LaSalle); with all moments equal, about whichever axis then points along it")()
+IN_PLANE_OF_LARGEST = Sentence(
+    "plane-of-largest-moments", "about an axis in the plane of {axes}, the two largest moments, but for a "
+    "set of measure zero (LaSalle)")
+ABOUT_LARGEST = Sentence(
+    "about-largest-moment", "at {rate} about {axis}, the axis of the largest moment: its energy is below "
+    "that of rotation about {next} at this H . γ, so it stays on its side (LaSalle)")
+WHICH_SIDE_OPEN = Sentence(
+    "along-or-against-open", "about {axis}, the axis of the largest moment, but for a set of measure zero "
+    "(LaSalle); whether that axis then points along the field or against it is not proved, since its energy "
+    "is not below that of rotation about the next axis")
+BY_A_RUN = Sentence("side-by-run", "by a run over the span it ends at {rate} about {axis}")
+GOES_ON_AFTER = ("that goes on after it; ask of the motion from the state when it stops, the wheel's "
+                 "momentum then as [effects.gyrostat]")
 ENDLESS = "as large as its own"
-OPEN_DIRECTION = ("; the direction is undecided, since its energy is not below that of rotation about the "
-                  "next axis")
 SMALL = 1e-290  # below it a square of doubles has lost digits
 
 
@@ -61,14 +196,14 @@ def motion(scene, state, span=None, exact=None, brief: bool | str = False) -> Mo
     if any(parts.u):
         fields = {**seen, **_motor(parts, omega, gamma, wheel)}
     elif at_rest(parts, exact or omega, gamma) and not any(sigma):
-        fields = {"fate": Fate.EQUILIBRIUM, "because": REASONS[Basis.AT_REST],
+        fields = {"fate": Fate.EQUILIBRIUM, "reason": REASONS[Basis.AT_REST],
                   "extremes": tuple((w, w) for w in omega)}
     else:
-        fate, because, bounds = judged(parts, omega, gamma, sigma, _end(seen))
-        fields = {**seen, "fate": fate, "because": because, "invariants": bounds}
-    because = f"{fields['because']}; {parts.note}" if parts.note else fields["because"]
+        fate, reason, bounds = judged(parts, omega, gamma, sigma, _end(seen))
+        fields = {**seen, "fate": fate, "reason": reason, "invariants": bounds}
+    reason = fields["reason"].then(parts.note)
     level = "undecided" if fields["fate"] == Fate.UNDECIDED else "exact"
-    return Motion(at=at, **{**fields, "because": because, "level": level})
+    return Motion(at=at, **{**fields, "reason": reason, "level": level})
 
 
 def _end(seen: dict[str, Any]) -> tuple[float, ...]:
@@ -78,13 +213,13 @@ def _end(seen: dict[str, Any]) -> tuple[float, ...]:
 
 
 def judged(parts: Content, omega, gamma, sigma=(0.0,) * 3,
-           end: tuple[float, ...] = ()) -> tuple[Fate, str, dict]:
-    """(fate, proof in words, the numbers in it); sigma: rates of a damper relative to the body; end: omega
+           end: tuple[float, ...] = ()) -> tuple[Fate, Reason, dict]:
+    """(fate, its proof, the numbers in it); sigma: rates of a damper relative to the body; end: omega
     and gamma at the end of a run."""
     if parts.inside:
         return _damped(parts, omega, sigma)
     if parts.unproved_loss:
-        return Fate.UNDECIDED, parts.unproved_loss, {}
+        return Fate.UNDECIDED, as_reason(parts.unproved_loss), {}
     if gamma:
         return _directed(parts, omega, gamma, end)
     T0, x0 = _energy(parts, omega)
@@ -93,10 +228,7 @@ def judged(parts: Content, omega, gamma, sigma=(0.0,) * 3,
     if parts.c or parts.damped:
         return _resisted(parts, T0, x0)
     if any(parts.M):
-        return (Fate.UNDECIDED,
-                "undecided: the torque does work at the rate M . omega, and what the liquid takes, of fourth "
-                "order in the rates, "
-                "vanishes about the principal axes: no bound is proved", {})
+        return Fate.UNDECIDED, WORK_OF_TORQUE_AND_LIQUID, {}
     return _liquid(parts, omega, T0, x0)
 
 
@@ -105,11 +237,6 @@ def _energy(parts: Content, omega) -> tuple[float, float]:
     unit = 2.0 ** (frexp(max(map(abs, omega)))[1] - 1)
     T0 = sum(float(d) * w * w for d, w in zip(parts.D, [w / unit for w in omega])) / 2
     return T0 * unit * unit, sqrt(2 * T0) * unit
-
-
-def _most(value: float) -> str:
-    """An upper bound in a sentence."""
-    return number(value, side=1)
 
 
 def _sqrt(square: Fraction) -> float:
@@ -129,122 +256,104 @@ def _motor(parts: Content, omega, gamma, wheel) -> dict[str, Any]:
             after, late = energy_bound(others, x0)
             largest = max(largest, after)
         rates = {"rate_bound": largest / sqrt(least), "late_rate_bound": late / sqrt(least)}
-        end = "where it tends is undecided" if late else "it tends to rest"
-        words = (f"T' <= (M - u) . omega - 2 c T, c = {float(slowest):.6g} 1/s: resistance outgrows outer "
-                 f"torque and motor, so |omega| <= {_most(rates['rate_bound'])} rad/s always and <= "
-                 f"{_most(rates['late_rate_bound'])} rad/s in the end; {end}")
-        return {"fate": Fate.BOUNDED, "because": words, "invariants": {"energy": T0, **rates}}
+        reason = MOTOR_OUTGROWN(c=PerSecond(float(slowest)), always=Rate(rates["rate_bound"]).upper,
+                                late=Rate(rates["late_rate_bound"]).upper)
+        return {"fate": Fate.BOUNDED, "reason": reason.then(WHERE_OPEN if late else TENDS_TO_REST),
+                "invariants": {"energy": T0, **rates}}
     outer, motor = (sqrt(float(dot(v, v))) for v in (parts.M, parts.u))
     if others.kind != "gyrostat" or parts.kappa or (outer if parts.duration is not None else
                                                     dot(parts.M, parts.M) >= dot(parts.u, parts.u)):
-        return {"fate": Fate.UNDECIDED, "because": BESIDE + (ENDLESS if parts.duration is None else AFTER)}
+        return {"fate": Fate.UNDECIDED,
+                "reason": MOTOR_BESIDE(which=ENDLESS if parts.duration is None else GOES_ON_AFTER)}
     start = tuple(float(l) + h for l, h in zip(parts.Lambda, wheel))
     H = hypot(*(float(d) * w + h for d, w, h in zip(parts.D, omega, start)))
     if parts.duration is not None:
         left = float(parts.duration)
         most = max(hypot(*start), hypot(*(h + float(u) * left for h, u in zip(start, parts.u))))
-        known = "|D omega + Lambda + h| stays", (H + most) / least
+        by_momentum = (H + most) / least
         pull = sqrt(sum(float(u) ** 2 / float(d) for d, u in zip(parts.D, parts.u)))
-        by_work = "T' = -u . omega", (_energy(parts, omega)[1] + pull * left) / sqrt(least)
-        because, bound = min(known, by_work, key=lambda one: one[1])
-        words = (f"{because}, and the motor stops after {left:.6g} s, when T stays: so |omega| <= "
-                 f"{_most(bound)} rad/s always")
-        return {"fate": Fate.BOUNDED, "because": words, "invariants": {"momentum": H, "rate_bound": bound}}
+        by_work = (_energy(parts, omega)[1] + pull * left) / sqrt(least)
+        bound = min(by_momentum, by_work)
+        known = {"time": Time(left), "always": Rate(bound).upper}
+        reason = MOTOR_STOPS_MOMENTUM(**known) if by_momentum <= by_work else MOTOR_STOPS_WORK(**known)
+        return {"fate": Fate.BOUNDED, "reason": reason, "invariants": {"momentum": H, "rate_bound": bound}}
     each = (motor - outer) / float(max(parts.D))
-    grows = f"grows by at most |M| = {_most(outer)} N m s each second" if outer else "stays"
-    words = (f"|D omega + Lambda + h| {grows}, and h grows by |u| = {motor:.6g} N m s each second: so "
-             f"|omega| grows without bound while the motor runs, in the end by at least "
-             f"{number(each, side=-1)} rad/s "
-             "each second")
+    reason = (MOTOR_BEATS_TORQUE(torque=Momentum(outer), motor=Momentum(motor), gain=Rate(each).lower)
+              if outer else MOTOR_FOR_EVER(motor=Momentum(motor), gain=Rate(each).lower))
     acting = [i for i in range(3) if parts.u[i]]
     axis = acting[0] + 1 if len(acting) == 1 and not outer else 0
-    return {"fate": Fate.SPIN_UP, "because": words, "axis": axis,
+    return {"fate": Fate.SPIN_UP, "reason": reason, "axis": axis,
             "sense": (-1 if parts.u[axis - 1] > 0 else 1) if axis else 0,
             "invariants": {} if outer else {"momentum": H}}
 
 
-def _damped(parts: Content, omega, sigma) -> tuple[Fate, str, dict]:
+def _damped(parts: Content, omega, sigma) -> tuple[Fate, Reason, dict]:
     """A damper alone, or with wheels: |H| stays, the energy falls."""
     if any(parts.M) or parts.c or parts.damped or parts.kappa or parts.directed:
-        return (Fate.UNDECIDED,
-                "undecided: no bound is proved for a damper inside beside a torque, a medium, another "
-                "damper, a liquid or a field", {})
+        return Fate.UNDECIDED, DAMPER_BESIDE, {}
     k = parts.inside
     w, s = tuple(map(Fraction, omega)), tuple(map(Fraction, sigma))
     H = tuple(d * x + l + k * y for d, x, l, y in zip(parts.D, w, parts.Lambda, s))
     twice = sum(d * x * x for d, x in zip(parts.D, w)) + k * (2 * dot(w, s) + dot(s, s))
     if not any(parts.Lambda):
         return _permanent(parts, H, twice, "the damper")
-    words = ("the damper keeps |H| and takes energy at every rotation that is not permanent (LaSalle), so "
-             "the motion is bounded and tends to permanent rotations of its |H|")
-    return Fate.BOUNDED, words, {"energy": float(twice / 2), "momentum": _sqrt(dot(H, H)),
-                                 "rate_bound": _sqrt(twice / (min(parts.D) - k))}
+    return Fate.BOUNDED, TAKES_ENERGY(part="the damper"), {
+        "energy": float(twice / 2), "momentum": _sqrt(dot(H, H)),
+        "rate_bound": _sqrt(twice / (min(parts.D) - k))}
 
 
-def _resisted(parts: Content, T0, x0) -> tuple[Fate, str, dict]:
+def _resisted(parts: Content, T0, x0) -> tuple[Fate, Reason, dict]:
     least = sqrt(float(min(parts.D)))
-    slowest, takes = decay(parts), "T' <= " if parts.kappa or parts.damped else "T' = "
-    rate = f", c = {float(slowest):.6g} 1/s" if parts.damped else ""
+    slowest = decay(parts)
     if not slowest:
         return _partly(parts, T0, x0, least)
     if not any(parts.M):
-        return (Fate.BOUNDED,
-                f"{takes}-2 c T{rate}: the energy falls at least as T(0) exp(-2 c t), so the motion tends to "
-                "rest", {"energy": T0, "rate_bound": x0 / least, "late_rate_bound": 0.0})
+        law = LAW_DAMPED(c=PerSecond(float(slowest))) if parts.damped else LAWS[bool(parts.kappa)]
+        return Fate.BOUNDED, ENERGY_FALLS(law=law), {"energy": T0, "rate_bound": x0 / least,
+                                                     "late_rate_bound": 0.0}
     largest, late = energy_bound(parts, x0)
-    words = (f"{takes}M . omega - 2 c T <= sqrt(2 T) (sqrt(M . D^-1 M) - c sqrt(2 T)){rate}: resistance "
-             f"outgrows the torque, so |omega| <= "
-             f"{_most(largest / least)} rad/s always and <= {_most(late / least)} rad/s in the end")
+    law = (LAW_DAMPED_TORQUE(c=PerSecond(float(slowest))) if parts.damped
+           else LAWS_TORQUE[bool(parts.kappa)])
+    reason = RESISTANCE_OUTGROWS(law=law, always=Rate(largest / least).upper, late=Rate(late / least).upper)
     bounds = {"energy": T0, "rate_bound": largest / least, "late_rate_bound": late / least}
     if parts.kappa:
-        return Fate.BOUNDED, words + "; where it tends is undecided", bounds
+        return Fate.BOUNDED, reason.then(WHERE_OPEN), bounds
     found = resisted_equilibria(parts)
     drawn = [p for p in found.points if GLOBAL in p.because]
     if drawn:
-        where = ("it tends to the equilibrium (" + ", ".join(f"{v:.12g}" for v in drawn[0].at)
-                 + ") rad/s, as every motion does")
+        where = TENDS_TO_EQUILIBRIUM(rates=Rate(drawn[0].at))
     else:
         attracting = sum(p.verdict == "asymptotically stable" for p in found.points)
-        where = (
-            f"where it tends is undecided: {attracting} of {len(found.points)} equilibria attract their "
-            f"neighbourhood, and no proof covers all motions")
-    return Fate.BOUNDED, f"{words}; {where}", bounds
+        where = SOME_ATTRACT(attracting=attracting, equilibria=len(found.points))
+    return Fate.BOUNDED, reason.then(where), bounds
 
 
-def _partly(parts: Content, T0, x0, least) -> tuple[Fate, str, dict]:
+def _partly(parts: Content, T0, x0, least) -> tuple[Fate, Reason, dict]:
     """A linear damper that leaves some axis free."""
     if any(parts.M):
-        return (Fate.UNDECIDED, "undecided: the torque does work at the rate M . omega, and the damper "
-                                "resists rotation about some axes alone: no bound is proved", {"energy": T0})
+        return Fate.UNDECIDED, WORK_OF_TORQUE, {"energy": T0}
     bounds = {"energy": T0, "rate_bound": x0 / least}
     axis = None if parts.kappa else free_axis(parts)
     if axis is None:
-        return (Fate.BOUNDED, "T' = -omega . C omega <= 0: the energy does not grow; where the motion tends "
-                              "is undecided, for the damper resists rotation about some axes alone", bounds)
+        return Fate.BOUNDED, PARTLY_DAMPED, bounds
     rates = goes_on(parts, axis)
     if rates == ():
-        return Fate.BOUNDED, DIES_OUT, bounds | {"late_rate_bound": 0.0}
-    place = ("any rate" if rates is None else
-             f"({', '.join(f'{float(rates[0] * v):.12g}' for v in axis)}) rad/s")
-    return (Fate.BOUNDED,
-            f"T' = -omega . C omega vanishes about one axis alone, about which a rotation at {place} goes "
-            f"on: the motion tends to one about it, or to rest (LaSalle)", bounds)
+        return Fate.BOUNDED, as_reason(DIES_OUT), bounds | {"late_rate_bound": 0.0}
+    place = "any rate" if rates is None else Rate(tuple(float(rates[0] * v) for v in axis))
+    return Fate.BOUNDED, ONE_AXIS_FREE(rates=place), bounds
 
 
-def _liquid(parts: Content, omega, T0, x0) -> tuple[Fate, str, dict]:
+def _liquid(parts: Content, omega, T0, x0) -> tuple[Fate, Reason, dict]:
     """Liquid alone: |H| stays where no wheel acts, the energy falls."""
     if any(parts.Lambda):  # the printed torque
-        return (Fate.BOUNDED,
-                "the printed torque of the liquid takes energy, T' <= 0; where the motion tends is "
-                "undecided, since "
-                "this torque changes the angular momentum",
+        return (Fate.BOUNDED, PRINTED_LIQUID,
                 {"energy": T0, "rate_bound": x0 / sqrt(float(min(parts.D)))})
     w = tuple(map(Fraction, omega))
     return _permanent(parts, tuple(d * x for d, x in zip(parts.D, w)),
                       sum(d * x * x for d, x in zip(parts.D, w)), "the liquid")
 
 
-def _permanent(parts: Content, H, twice, what: str) -> tuple[Fate, str, dict]:
+def _permanent(parts: Content, H, twice, what: str) -> tuple[Fate, Reason, dict]:
     """A free body of angular momentum H and kinetic energy twice/2 from which something takes energy."""
     square, order = dot(H, H), sorted(range(3), key=lambda i: -parts.D[i])
     size = _sqrt(square)
@@ -252,89 +361,64 @@ def _permanent(parts: Content, H, twice, what: str) -> tuple[Fate, str, dict]:
     bound = (_sqrt(twice / (min(parts.D) - parts.inside)) if parts.inside
              else size / float(min(parts.D)))
     bounds = {"energy": float(twice) / 2, "momentum": size, "rate_bound": bound}
-    words = (
-        f"{what} keeps |H| and takes energy at every rotation that is not permanent (LaSalle), so the "
-        "motion is bounded")
     first, second = order[:2]
     if parts.D[first] == parts.D[second]:
-        return Fate.BOUNDED, words + " and tends to permanent rotations of its |H|", bounds
+        return Fate.BOUNDED, TAKES_ENERGY(part=what), bounds
     final = [0.0] * 3
     final[first] = size / float(parts.D[first]) * (1 if H[first] > 0 else -1)
     if twice * parts.D[second] < square:
-        place = ", ".join(f"{v:.12g}" for v in final)
-        return (Fate.BOUNDED,
-                f"{words}; its energy is below that of rotation about axis {second + 1} at this |H|, so it "
-                f"stays on its side and tends to "
-                f"rotation about axis {first + 1}, the axis of the largest moment: ({place}) rad/s", bounds)
-    return (Fate.BOUNDED,
-            f"{words} and tends to a permanent rotation of its |H|: about axis {first + 1} (largest moment) "
-            f"but for a set of measure zero{OPEN_DIRECTION}",
-            bounds)
+        return (Fate.BOUNDED, ON_ITS_SIDE(part=what, next=Axis(second + 1), axis=Axis(first + 1),
+                                          rates=Rate(tuple(final))), bounds)
+    return Fate.BOUNDED, TENDS_TO_MAJOR(part=what, axis=Axis(first + 1)).then(OPEN_DIRECTION()), bounds
 
 
-def _wheel_and_liquid(parts: Content, T0, x0) -> tuple[Fate, str, dict]:
+def _wheel_and_liquid(parts: Content, T0, x0) -> tuple[Fate, Reason, dict]:
     """With Lambda the liquid's work has parts of either sign, which resistance outweighs below a certain
     energy."""
     found = trap(parts)
     if found is None or x0 >= found[1]:
-        return (Fate.UNDECIDED,
-                "undecided: with a wheel or a charge the liquid keeps |H| to first order in kappa only, and "
-                "its work has parts "
-                "of either sign; no bound is proved for this state", {"energy": T0})
+        return Fate.UNDECIDED, WHEEL_AND_LIQUID, {"energy": T0}
     x1, x2 = found
     least = sqrt(float(min(parts.D)))
-    where = (f"above {x1 * x1 / 2:.6g} J" if x2 == inf
-             else f"between {x1 * x1 / 2:.6g} and {x2 * x2 / 2:.6g} J")
-    words = (f"resistance outweighs torque and liquid: the kinetic energy falls wherever it is {where}, so "
-             f"|omega| <= "
-             f"{_most(max(x0, x1) / least)} rad/s always")
-    end = (f" and <= {_most(x1 / least)} rad/s in the end; where it tends is undecided" if x1
-           else "; the motion tends to rest")
-    return Fate.BOUNDED, words + end, {"energy": T0, "rate_bound": max(x0, x1) / least,
-                                       "late_rate_bound": x1 / least}
+    above, always = Energy(x1 * x1 / 2).upper, Rate(max(x0, x1) / least).upper
+    reason = (OUTWEIGHED_ABOVE(least=above, always=always) if x2 == inf else
+              OUTWEIGHED_BETWEEN(least=above, most=Energy(x2 * x2 / 2).lower, always=always))
+    reason = (reason.then(IN_THE_END(late=Rate(x1 / least).upper), " and ").then(WHERE_OPEN) if x1
+              else reason.then(MOTION_TO_REST))
+    return Fate.BOUNDED, reason, {"energy": T0, "rate_bound": max(x0, x1) / least,
+                                  "late_rate_bound": x1 / least}
 
 
-def _directed(parts: Content, omega, gamma, end) -> tuple[Fate, str, dict]:
+def _directed(parts: Content, omega, gamma, end) -> tuple[Fate, Reason, dict]:
     T0, x0 = _energy(parts, omega)
     s, N = tuple(map(float, parts.s)), float(parts.N)
     V0 = -dot(s, gamma) + N / 2 * sum(float(d) * g * g for d, g in zip(parts.D, gamma))
     least, most = float(min(parts.D)), float(max(parts.D))
     floor = -hypot(*s) + N / 2 * (least if N > 0 else most)
     if parts.kappa:
-        return (Fate.UNDECIDED,
-                "undecided: the torque of the field enters the liquid's own, whose work may have either "
-                "sign; no bound is proved",
-                {"energy": T0 + V0})
+        return Fate.UNDECIDED, LIQUID_IN_FIELD, {"energy": T0 + V0}
     if not any(parts.M):
         above = T0 + V0 - floor
         rate = (sqrt(max(0.0, 2 * above / least)) if SMALL < above < inf
                 else hypot(x0, sqrt(max(0.0, 2 * (V0 - floor)))) / sqrt(least))
-        at_most = "is more than a double holds" if isinf(above) else f"<= {_most(above)} J"
-        kept = ("falls (the medium takes 2 c T)" if parts.c else
-                "falls (the damper takes omega . C omega)" if parts.damped else
-                "falls (eddy currents take k B^2 |omega x gamma|^2)" if parts.eddy else "is constant")
-        where = "; it tends to rest (LaSalle)" if decay(parts) else ""
+        energy = ENERGY_TOO_LARGE if isinf(above) else ENERGY_AT_MOST(most=Energy(above).upper)
+        course = COURSES["medium" if parts.c else "damper" if parts.damped else "eddy" if parts.eddy else ""]
+        where = REST_LASALLE if decay(parts) else None
         if parts.eddy and floor == 0 and not (where or parts.damped or any(parts.Lambda)):
             where = _about_the_field(parts, omega, gamma, end)
         return (Fate.BOUNDED,
-                f"|gamma| = 1 bounds the potential energy from below and the sum of kinetic and potential "
-                f"energy {kept}: T {at_most}, so |omega| <= {_most(rate)} rad/s{where}",
+                FIELD_BOUNDS(course=course, energy=energy, always=Rate(rate).upper).then(where),
                 {"energy": T0 + V0, "rate_bound": rate} | ({"late_rate_bound": 0.0} if decay(parts) else {}))
     if slowest := float(decay(parts)):
         torque = hypot(*map(float, parts.M)) + hypot(*s) + abs(N) * (most - least) / 2
         late = torque / sqrt(least) / slowest
         rate = max(x0, late) / sqrt(least)
-        return (Fate.BOUNDED,
-                f"the torque is at most {_most(torque)} N m, and T' <= |torque| |omega| - 2 c T: resistance "
-                f"outgrows it, so |omega| <= {_most(rate)} "
-                "rad/s; where it tends is undecided", {"energy": T0 + V0, "rate_bound": rate})
-    return (Fate.UNDECIDED,
-            "undecided: the constant torque does work in a body that also turns in a field; no bound and no "
-            "release is proved",
-            {"energy": T0 + V0})
+        reason = TORQUE_AT_MOST(torque=Torque(torque).upper, always=Rate(rate).upper).then(WHERE_OPEN)
+        return Fate.BOUNDED, reason, {"energy": T0 + V0, "rate_bound": rate}
+    return Fate.UNDECIDED, TORQUE_IN_FIELD, {"energy": T0 + V0}
 
 
-def _about_the_field(parts: Content, omega, gamma, end=()) -> str:
+def _about_the_field(parts: Content, omega, gamma, end=()) -> Reason:
     """Where a body tends that eddy currents alone act on: see `equilibrium.dissipative`. end: omega and gamma
     at the end of a run, if there was one.
 
@@ -344,27 +428,20 @@ def _about_the_field(parts: Content, omega, gamma, end=()) -> str:
     rotation about no other axis has so little energy."""
     p = _along(parts, omega, gamma)
     if not p:
-        return "; H . gamma = 0 stays, and the motion tends to rest (LaSalle)"
+        return FIELD_REST
     first, second = sorted(range(3), key=lambda i: -parts.D[i])[:2]
-    rate, name = float(p / parts.D[first]), f"axis {first + 1}, the axis of the largest moment"
-    words = (f"; H . gamma = {float(p):.6g} N m s stays, and the motion tends to rotation about the field, "
-             f"at {rate:.6g} rad/s along `vertical`")
+    rate, axis = float(p / parts.D[first]), Axis(first + 1)
+    reason = ABOUT_FIELD(momentum=Momentum(float(p)), rate=Rate(rate))
     if parts.D[first] == parts.D[second]:
-        return words + (
-            " (LaSalle); with all moments equal, about whichever axis then points along it"
-            if len(set(parts.D)) == 1 else f", about an axis in the plane of axes {first + 1} and "
-            f"{second + 1}, the two largest moments, but for a set of measure zero (LaSalle)")
+        return (reason.then(ANY_AXIS, " ") if len(set(parts.D)) == 1
+                else reason.then(IN_PLANE_OF_LARGEST(axes=(axis, Axis(second + 1))), ", "))
     if _on_its_side(parts, omega, gamma, second):
-        return words + (f": at {_about(rate, gamma[first])} rad/s about {name}: its energy is below "
-                        f"that of rotation about axis {second + 1} at this H . gamma, so it stays on its "
-                        "side (LaSalle)")
-    words += (f", about {name}, but for a set of measure zero (LaSalle); whether that axis then points along "
-              "the field or against it is not proved, since its energy is not below that of rotation about "
-              "the next axis")
+        about = ABOUT_LARGEST(rate=_about(rate, gamma[first]), axis=axis, next=Axis(second + 1))
+        return reason.then(about, ": ")
+    reason = reason.then(WHICH_SIDE_OPEN(axis=axis), ", ")
     if end and _on_its_side(parts, end[:3], end[3:], second):
-        words += (f"; by a run over the span it ends at {_about(rate, end[3 + first])} rad/s about axis "
-                  f"{first + 1}")
-    return words
+        reason = reason.then(BY_A_RUN(rate=_about(rate, end[3 + first]), axis=axis))
+    return reason
 
 
 def _along(parts: Content, omega, gamma) -> Fraction:
@@ -379,6 +456,6 @@ def _on_its_side(parts: Content, omega, gamma, second: int) -> bool:
     return twice * parts.D[second] * dot(g, g) < _along(parts, omega, gamma) ** 2
 
 
-def _about(rate: float, side: float) -> str:
+def _about(rate: float, side: float) -> Quantity:
     """A rate along the field as one about an axis that points along it (side > 0) or against it."""
-    return f"{rate if side > 0 else -rate:+.6g}"
+    return Rate(rate if side > 0 else -rate)

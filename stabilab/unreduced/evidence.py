@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from ..physics.coefficients import limits_of
 from ..physics.scene import Scene
 from ..physics.states import equations_and_start, three_numbers
 from ..physics.to_numpy import equations_of, to_numpy
+from ..reasons import Quantity, Reason, Sentence, old
 from ..validation import reach_of
 
 # A run that has not shown what is asked after this many steps (seconds of work) gives up and says so.
@@ -32,6 +34,13 @@ DOUBLINGS, GROWTH = 3, 1.2
 SHARE, FASTER = 0.9, 10.0
 
 
+GROWS_ALONE = Sentence(
+    "grows-alone", "it alone grows without a change of sign; least rate in the last half of the run {least}")
+NO_AXIS_HOLDS = Sentence("no-axis-holds-spin", "no axis holds the spin")()
+SIZES = Sentence("size-over-span", "over the span the size of its rates went from {first} to {last} (largest "
+                 "{largest}), and its energy {trend}")
+
+
 @dataclass(frozen=True)
 class Growth:
     """Axis (1, 2, 3; 0 where unclear) and sense of the growing spin at the end of a run of length `span`."""
@@ -39,7 +48,7 @@ class Growth:
     axis: int
     sense: int
     span: float
-    words: str
+    reason: Reason
     steps: int
 
 
@@ -95,7 +104,7 @@ def growth(scene, state, t_max: float) -> Growth:
     while t < t_max and steps < STEP_BUDGET:
         run = integrated(scene, here, np.linspace(0, span, 257)[1:])
         if run.status == "stopped":
-            return Growth(0, 0, t, run.reason, steps)
+            return Growth(0, 0, t, old(run.reason), steps)
         t, here, steps = t + span, run.states[-1], steps + run.counters["steps"]
         squares = run.states**2
         share = (squares / squares.sum(axis=1, keepdims=True)).min(axis=0)
@@ -104,12 +113,10 @@ def growth(scene, state, t_max: float) -> Growth:
         if i is None and share.max() > SHARE and np.abs(here).max() > FASTER * begin:
             i = int(share.argmax())
         if i is not None and abs(stages[-1][0][i]) == 1:
-            words = (
-                f"it alone grows without a change of sign; least rate in the last half of the run "
-                f"{stages[-1][1][i]:.4g}")
-            return Growth(i + 1, int(stages[-1][0][i]), t, words, steps)
+            least = Quantity(float(stages[-1][1][i]), "" if scene.variables == "scaled" else "rad/s", 4)
+            return Growth(i + 1, int(stages[-1][0][i]), t, GROWS_ALONE(least=least), steps)
         span = min(t, t_max - t)
-    return Growth(0, 0, t, "no axis holds the spin", steps)
+    return Growth(0, 0, t, NO_AXIS_HOLDS, steps)
 
 
 def _holder(stages, begin):
@@ -128,11 +135,11 @@ def span_needed(scene) -> InputError:
                       f"({scene.time_unit}), or a span in the case's [motion]")
 
 
-def size_words(evidence, unit: str) -> str:
-    """How the size of the rates went. unit: with a space before, or nothing of a scaled case."""
-    return (f"from {evidence['size_start']:.6g} to {evidence['size_end']:.6g}{unit} (largest "
-            f"{evidence['size_largest']:.6g}{unit}), "
-            f"and its energy {evidence['energy_trend']}")
+def sizes(evidence: dict[str, Any], scaled: bool) -> Reason:
+    """How the size of the rates and the energy went over the span."""
+    first, last, largest = (Quantity(evidence[f"size_{name}"], "" if scaled else "rad/s")
+                            for name in ("start", "end", "largest"))
+    return SIZES(first=first, last=last, largest=largest, trend=evidence["energy_trend"])
 
 
 STIFF = 1e5  # fastest decay times span beyond which a search for extremes would take minutes

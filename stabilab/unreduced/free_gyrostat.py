@@ -20,12 +20,13 @@ from ..integrate.events import roots_of_rates
 from ..integrate.quadratic_series import in_unit, mass_unit
 from ..orbit.fate import as_double, at_rest, free_fate, scaled_double
 from ..orbit.fate_arrays import fates as free_fates
-from ..orbit.one_state import BEYOND, ORDINARY, powered
+from ..orbit.one_state import BEYOND, LOST, ORDINARY, powered
 from ..orbit.result import Fate, Motion, finite, judged, pairs, repeats
 from ..orbit.separatrix.distance import has_no_saddle
 from ..physics.coefficients import three_floats
 from ..physics.scene import rests
 from ..physics.states import equilibrium_mask, three_numbers
+from ..reasons import Reason, Sentence
 from .evidence import STEP_BUDGET
 from .near_rest import beside_rest, small_loop
 
@@ -36,6 +37,16 @@ NO_BRANCHES = (
 SAME_POINT = 1e-9
 
 
+PERIOD_OPEN = Sentence("period-open", "its period is not known: {why}")
+NO_RETURN = Sentence("no-return", "no return within {steps} steps: next to a separatrix")
+DOES_NOT_RETURN = Sentence("separatrix-no-return", "on a separatrix it does not return")()
+RESTS = Sentence("rests-exactly", "equilibrium: every angular acceleration is exactly 0")()
+CLOSED_SMALL = Sentence(
+    "closed-small", "no torque: the motion is closed and periodic; followed in many digits, as its rates are "
+    "small")()
+CLOSED_MOTION = Sentence("closed-motion", "no torque: the motion is closed and periodic")()
+
+
 @dataclass(frozen=True)
 class PeriodExtremes:
     """extremes: (3, 2) over `over` ("all time" or the span searched); period: inf on a separatrix, NaN where
@@ -44,7 +55,7 @@ class PeriodExtremes:
     extremes: np.ndarray
     period: float
     over: str
-    reason: str
+    reason: Reason
 
 
 def extremes_over_period(scene, state) -> PeriodExtremes:
@@ -63,8 +74,7 @@ def extremes_over_period(scene, state) -> PeriodExtremes:
         raise InputError("the period by return is for motions without torque; this scene has one")
     exact = [Fraction(v) for v in given]
     if not any(form.rate(exact)):
-        return PeriodExtremes(np.stack([state, state], axis=1), 0.0, "all time",
-                              "equilibrium: every rate is exactly 0")
+        return PeriodExtremes(np.stack([state, state], axis=1), 0.0, "all time", RESTS)
     k, mass = _own_exponent(form, exact), mass_unit(scene)
     if k or mass != 1:
         unit = Fraction(2) ** k
@@ -76,8 +86,7 @@ def extremes_over_period(scene, state) -> PeriodExtremes:
         period, swings = loop
         return PeriodExtremes(np.array([[scaled_double(v, k) for v in pair] for pair in swings]),
                               _no_double_is_nan(scaled_double(period, -k)),
-                              "all time", "no torque: the motion is closed and periodic; followed in many "
-                                          "digits, as its rates are small")
+                              "all time", CLOSED_SMALL)
     tied = scene.variables == "physical" and free_fate(scene, exact).label == Fate.SEPARATRIX
     follow = _without_return if tied else _by_return
     return _in_scene_unit(follow(scene, form, state, k), k)
@@ -121,7 +130,7 @@ def _by_return(scene, form, state, k) -> PeriodExtremes:
         span *= 4
     return PeriodExtremes(roots.extremes(), math.nan,
                           f"{scene.time_unit} in [0, {powered(roots.t_reached, -k):g}]",
-                          f"no return within {roots.steps} steps: next to a separatrix")
+                          NO_RETURN(steps=roots.steps))
 
 
 def _without_return(scene, form, state, k) -> PeriodExtremes:
@@ -129,7 +138,7 @@ def _without_return(scene, form, state, k) -> PeriodExtremes:
     roots = roots_of_rates(scene, state, _first_span(form, state))
     return PeriodExtremes(roots.extremes(), math.inf,
                           f"{scene.time_unit} in [0, {powered(roots.t_reached, -k):g}]",
-                          "on a separatrix it does not return")
+                          DOES_NOT_RETURN)
 
 
 def _first_span(form, x):
@@ -160,7 +169,7 @@ def _one_period(scene, roots, closing):
         if values.size:
             extremes[i] = values.min(), values.max()
     return PeriodExtremes(extremes, float(abs(roots.t[closing] - roots.t[0])), "all time",
-                          "no torque: the motion is closed and periodic")
+                          CLOSED_MOTION)
 
 
 def _quadrics(scene):
@@ -201,13 +210,13 @@ def motion(scene, state, span=None, exact=None, brief: bool | str = False) -> Mo
         fields = {"margin_velocity": 0.0, "velocity_bounds": (0.0, 0.0), "velocity_witness": state}
     elif has_no_saddle(scene):
         fields = {"velocity_because": "with three equal moments there is no separatrix"}
-    lost, open_ = ["the margin in energy"] if math.isnan(decided.margin) else [], ""
+    lost, open_ = ["the margin in energy"] if math.isnan(decided.margin) else [], None
     if rests(scene.quadratic(), given):
         decided = at_rest(scene, decided)
         fields["extremes"] = tuple((v, v) for v in state)
     elif brief != "fate":
         closed = extremes_over_period(scene, given)
-        open_ = closed.reason if math.isnan(closed.period) and closed.over != "all time" else ""
+        open_ = closed.reason if math.isnan(closed.period) and closed.over != "all time" else None
         whole = bool(np.isfinite(closed.extremes).all())
         lost += ([] if whole else ["an extreme"]) + (["the period"] if math.isnan(closed.period)
                                                      and closed.over == "all time" else [])
@@ -215,8 +224,8 @@ def motion(scene, state, span=None, exact=None, brief: bool | str = False) -> Mo
                    "returns": closed.period,
                    "extremes_over": closed.over if whole else f"none: {BEYOND}"}
     known = judged(state, decided)
-    known["because"] += f"; its period is not known: {open_}" if open_ else ""
-    known["because"] += f"; {BEYOND}: {', '.join(lost)}" if lost else ""
+    known["reason"] = known["reason"].then(PERIOD_OPEN(why=open_) if open_ else None).then(
+        LOST(what=", ".join(lost)) if lost else None)
     return Motion(margin_energy=finite(decided.margin), **(known | fields))
 
 

@@ -37,7 +37,7 @@ from ..orbit.one_state import in_range
 from ..orbit.result import Fate, Motion, judged, pairs
 from ..physics.coefficients import three_floats
 from ..physics.states import three_numbers
-from ..reasons import number
+from ..reasons import Axis, Quantity, Reason, Sentence
 from ..validation import reach_of
 from .evidence import growth as seen_growth
 from .evidence import seen_over, span_needed
@@ -58,6 +58,32 @@ LEVEL = {"axis": "exact", "law": "exact", "bound": "exact", "spin-up": "certifie
          "evidence": "run"}
 
 
+SPIN_ALONE = Sentence("spin-alone", "pure spin about {axis}, which the torque speeds up for ever")
+BETWEEN_TWO_AXES = Sentence(
+    "between-two-axes", "unbounded, but between spin-up about {axis} and capture about {other}: a change of "
+    "the state by {change} of its size, as rounding of the run may make, turns the one into the other")
+CAPTURED = Sentence(
+    "captured", "captured about {axis} for ever, where its spin grows like the square root of time: the "
+    "energy grows, and the barrier of the reduced potential above it grows faster")
+NO_MORE_REVERSAL = Sentence(
+    "no-more-reversal", "spin-up about {axis}: the turn about it can reverse no more (proved, after {time})")
+GROWING_BOUND = Sentence(
+    "growing-bound", "spin-up about {axis}: its rate is bounded below by a growing line; still captured when "
+    "the search ended, release expected after about {time}")
+NEITHER_CERTAIN = Sentence(
+    "neither-certain", "unbounded, but neither spin-up about {axis} nor capture about {other} was certain "
+    "after {steps} steps (the search ends after {time})")
+EQUAL_ACROSS = Sentence("equal-moments-across",
+                        "the moments across {axis} are equal: its spin grows exactly in proportion to time")
+ALONG_WHEEL = Sentence(
+    "along-wheel-momentum", "three equal moments: the spin along λ, which is on no axis, grows exactly in "
+    "proportion to time, the rest of the motion is bounded")()
+UNBOUNDED_BY_LAW = Sentence("unbounded-by-law",
+                            "unbounded, because |H|²/2 - D{number} T grows in proportion to time")
+RUN_SPINS_UP = Sentence("run-spins-up", "spin-up about {axis} by the evidence of a run of {time} ({seen})")
+RUN_NO_AXIS = Sentence("run-no-axis", "no axis of spin-up was clear in a run of {time}")
+
+
 @dataclass(frozen=True)
 class CapturedFate:
     """What becomes of a motion that no bound holds.
@@ -73,7 +99,7 @@ class CapturedFate:
 
     J0: float
     J_rate: float
-    because: str
+    reason: Reason
     fate: Fate = Fate.UNDECIDED
     axis: int = 0
     sense: int = 0
@@ -82,6 +108,11 @@ class CapturedFate:
     certificate: str = "none"
     t_certificate: float | None = None
     steps: int = 0
+
+    @property
+    def because(self) -> str:
+        """Why, in words and SI units."""
+        return self.reason.text()
 
 
 def captured_fate(scene, state, t_max: float | None = None, exact=None) -> CapturedFate:
@@ -106,10 +137,10 @@ def captured_fate(scene, state, t_max: float | None = None, exact=None) -> Captu
                          "this scene is for the reduction or for the torque off the axes")
     axis, _, rate = law
     if _is_pure_spin(scene.quadratic(), axis, exact or state):
-        words = f"pure spin about axis {axis + 1}, which the torque speeds up for ever"
-        return CapturedFate(start, rate, **_by_law("axis", axis, scene.quadratic(), words))
+        reason = SPIN_ALONE(axis=Axis(axis + 1))
+        return CapturedFate(start, rate, **_by_law("axis", axis, scene.quadratic(), reason))
     change = standard_form(scene)
-    answer = (_by_certificate(change, change.to_standard(state), t_max) if change
+    answer = (_by_certificate(change, change.to_standard(state), t_max, scene.time_unit) if change
               else _without_form(scene, state, axis, t_max))
     return CapturedFate(start, rate, **answer)
 
@@ -121,43 +152,37 @@ def _is_pure_spin(form, i, x) -> bool:
     return not (x[j] or x[k] or form.rho[j] or form.sigma[k])
 
 
-def _by_law(certificate, i, form, because):
+def _by_law(certificate, i, form, reason):
     """Fields of CapturedFate of a spin about the torque's axis i that is known exactly for all time."""
     return dict(fate=Fate.SPIN_UP, axis=i + 1, sense=1 if form.m[i] > 0 else -1, release_time=0.0,
-                certificate=certificate, t_certificate=0.0, because=because)
+                certificate=certificate, t_certificate=0.0, reason=reason)
 
 
-def _by_certificate(change, y, t_max):
-    """Fields of CapturedFate from the standard form."""
+def _by_certificate(change, y, t_max, second):
+    """Fields of CapturedFate from the standard form. second: the scene's unit of time."""
     c, (i, _, q), unit = change.c, change.axes, change.time
+    axis, other = Axis(i + 1), Axis(q + 1)
     spin = dict(fate=Fate.SPIN_UP, axis=i + 1, sense=1 if change.rates[0] > 0 else -1)
     vanishing = release_estimate(c, angle_of(c, y)[2]) * unit if c > 0 else None
     t_max = PATIENCE * unit if t_max is None else t_max
     name, t, end, last, steps = search_certificate(c, y, t_max / unit)
     if c < 0 and steps and name != "none" and (reach := nearest_other(c, y, t_max / unit, name, steps)):
-        return dict(steps=steps, because=(
-            f"unbounded, but between spin-up about axis {i + 1} and capture about axis {q + 1}: a change of "
-            f"the state by {reach:.0e} of its size, as rounding of the run may make, turns the one into the "
-            "other"))
+        return dict(steps=steps, reason=BETWEEN_TWO_AXES(axis=axis, other=other,
+                                                         change=Quantity(reach, "", 1)))
     estimate = None if name == "spin-up" and not last else vanishing
     when = None if t is None else t * unit
     known = dict(release_estimate=estimate, certificate=name, t_certificate=when, steps=steps)
     if name == "well":
         sense = (1 if change.rates[2] > 0 else -1) * (1 if end[2] > 0 else -1)
-        return known | dict(fate=Fate.SPIN_UP, axis=q + 1, sense=sense, because=(
-            f"captured about axis {q + 1} for ever: the barrier ahead grows faster than the energy, and the "
-            f"spin about axis {q + 1} grows like the square root of time"))
+        return known | dict(fate=Fate.SPIN_UP, axis=q + 1, sense=sense, reason=CAPTURED(axis=other))
     if name == "spin-up":
-        return spin | known | dict(release_time=last * unit, because=(
-            f"spin-up about axis {i + 1}: the turn about it can reverse no more (proved from t = "
-            f"{number(when, side=1)} on)"))
+        return spin | known | dict(release_time=last * unit,
+                            reason=NO_MORE_REVERSAL(axis=axis, time=Quantity(when, second).upper))
     if c > 0:
-        return spin | known | dict(certificate="bound", t_certificate=0.0, because=(
-            f"spin-up about axis {i + 1}: its rate is bounded below by a growing line; still captured when "
-            f"the search ended, release expected at about t = {estimate:.6g}"))
-    return known | dict(because=(
-        f"unbounded, but neither spin-up about axis {i + 1} nor capture about axis {q + 1} was certain after "
-        f"{steps} steps (the search ends at t = {t_max:g})"))
+        return spin | known | dict(certificate="bound", t_certificate=0.0, reason=GROWING_BOUND(
+            axis=axis, time=Quantity(estimate, second)))
+    return known | dict(reason=NEITHER_CERTAIN(axis=axis, other=other, steps=steps,
+                                               time=Quantity(t_max, second)))
 
 
 def _without_form(scene, state, axis, t_max):
@@ -165,19 +190,18 @@ def _without_form(scene, state, axis, t_max):
     evidence."""
     form = scene.quadratic()
     if not (form.kappa[axis] or form.rho[axis] or form.sigma[axis]):
-        return _by_law("law", axis, form, f"the moments across axis {axis + 1} are equal: its spin grows "
-                                          "exactly in proportion to time")
+        return _by_law("law", axis, form, EQUAL_ACROSS(axis=Axis(axis + 1)))
     if not any(form.kappa):
-        return dict(fate=Fate.SPIN_UP, release_time=0.0, certificate="law", t_certificate=0.0, because=(
-            "three equal moments: the spin along lambda, which is on no axis, grows exactly in proportion to "
-            "time, the rest of the motion is bounded"))
+        return dict(fate=Fate.SPIN_UP, release_time=0.0, certificate="law", t_certificate=0.0,
+                    reason=ALONG_WHEEL)
     t_max = PATIENCE / math.sqrt(abs(form.m[axis])) if t_max is None else t_max
     seen = seen_growth(scene, state, t_max)
-    words = (f"spin-up about axis {seen.axis} by the evidence of a run to t = {seen.span:.6g} ({seen.words})"
-             if seen.axis else f"no axis of spin-up was clear in a run to t = {seen.span:.6g}")
+    span = Quantity(seen.span, scene.time_unit)
+    shown = (RUN_SPINS_UP(axis=Axis(seen.axis), time=span, seen=seen.reason) if seen.axis
+             else RUN_NO_AXIS(time=span))
     known = dict(fate=Fate.SPIN_UP, certificate="evidence") if seen.axis else {}
-    return known | dict(axis=seen.axis, sense=seen.sense, steps=seen.steps, because=(
-        f"unbounded, because |H|^2/2 - D{axis + 1} T grows in proportion to time; {words}"))
+    return known | dict(axis=seen.axis, sense=seen.sense, steps=seen.steps,
+                        reason=UNBOUNDED_BY_LAW(number=axis + 1).then(shown))
 
 
 def motion(scene, state, span=None, exact=None, brief: bool | str = False) -> Motion:
@@ -187,7 +211,7 @@ def motion(scene, state, span=None, exact=None, brief: bool | str = False) -> Mo
     known = {"certificate": found.certificate, "t_certificate": found.t_certificate,
              "release_time": found.release_time,
              "release_estimate": found.release_estimate, "steps": found.steps}
-    fields, seen = {**judged(state, unbounded(found)), "because": found.because, "returns": math.inf,
+    fields, seen = {**judged(state, unbounded(found)), "reason": found.reason, "returns": math.inf,
                     "level": LEVEL.get(found.certificate, "undecided")}, {}
     if brief != "fate" and (span is not None or _for_ever(found)):
         grown = captured_extremes(scene, state, found, reach_of(span), exact)

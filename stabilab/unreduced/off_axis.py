@@ -39,10 +39,10 @@ from ..orbit.result import AS_BOUNDS, Fate, Motion, finite, judged, pairs, witho
 from ..physics.coefficients import three_floats
 from ..physics.scene import rests
 from ..physics.states import equilibrium_mask
-from ..reasons import number
+from ..reasons import Angle, Quantity, Reason, Sentence, number, old
 from . import enclosure_kernel
 from .enclosure import WHY, Band, Course, allowed
-from .evidence import extremes_over, seen_over, size_words
+from .evidence import extremes_over, seen_over, sizes
 from .periodic import in_the_middle
 from .spin_up.certificate import natural
 from .spin_up.follow import LEVELS, SpinUps, spin_up, spin_up_many
@@ -182,6 +182,9 @@ PATIENCE = 600_000  # steps for which a motion is followed where nobody says how
 AS_WRITTEN = 120  # times fewer steps where numba is not installed
 ENDLESS = 10**9     # steps where the caller names a time
 BOUND_DIGITS = 10  # decimals of a bound for all times
+PERIODIC_MIDDLE = Sentence(
+    "periodic-middle", "in its middle is a periodic motion of period {period}, elliptic: neighbours turn "
+    "about it by {angle} from passage to passage")
 REASON = {"undecided": Basis.OFF_AXIS, "certified": Basis.CERTIFIED, "proved": Basis.CERTIFIED,
           "exact": Basis.CLOSED_FORM}
 NO_SPAN = ("not known without a certificate of spin-up: give span=T ({unit}), or a span in the case's "
@@ -203,30 +206,26 @@ def motion(scene, state, span=None, exact=None, brief: bool | str = False, follo
     decided = OneFate(found.fate, REASON[found.level], math.nan, found.axis, found.sense)
     bounds = None if brief == "fate" else bounds_for_ever(scene, start, found)
     fields = {**judged(state, decided), "velocity_because": NO_BRANCHES, "level": found.level,
-              "cause": found.cause, "bounds": bounds,
+              "finding": old(found.cause), "bounds": bounds,
               "extremes": bounds, "extremes_over": AS_BOUNDS if bounds
               else NO_SPAN.format(unit=scene.time_unit)}
-    fields["because"] = f"{decided.because}; {found.cause}"
+    fields["reason"] = decided.reason.then(old(found.cause))
     known = {"t_certificate" if found.fate == Fate.SPIN_UP else "followed_until": found.t,
              "steps_followed": found.steps,
              "small_change_grew": found.condition}
     seen = {} if span is None or brief == "fate" else seen_over(scene, state, span)
     if found.fate == Fate.UNDECIDED and "an island is seen" in found.cause:
-        fields["because"] += _middle(scene, found.state)
+        fields["reason"] = fields["reason"].then(_middle(scene, found.state))
     if seen and found.fate == Fate.UNDECIDED:
-        fields["because"] += ("; over the span the size of its rates went "
-                              + size_words(seen["evidence"], "" if scene.variables == "scaled" else " rad/s"))
+        fields["reason"] = fields["reason"].then(sizes(seen["evidence"], scene.variables == "scaled"))
     return Motion(**fields | seen | {"evidence": {**seen.get("evidence", {}), **known}})
 
 
-def _middle(scene, state) -> str:
-    """Words on the periodic motion in the middle of an island, where one is found."""
+def _middle(scene, state) -> Reason | None:
+    """The periodic motion in the middle of an island, where one is found."""
     orbit = in_the_middle(scene, state)
-    if orbit is None:
-        return ""
-    return (f"; in its middle is a periodic motion of period {orbit.period:.6g} {scene.time_unit}, elliptic: "
-            f"neighbours turn about it by "
-            f"{math.degrees(orbit.angle):.4g} deg from passage to passage")
+    return None if orbit is None else PERIODIC_MIDDLE(
+        period=Quantity(orbit.period, scene.time_unit), angle=Angle(orbit.angle))
 
 
 def _limits(follow) -> dict:

@@ -97,8 +97,8 @@ def with_end(case: Any, motion: Motion) -> Motion:
     shows."""
     found = ending(case, motion)
     known = found is not None and found.sense
-    because = motion.because.replace(OPEN_DIRECTION, "") if known else motion.because
-    return replace(motion, ending=found, because=because)
+    reason = motion.reason.without(OPEN_DIRECTION) if known else motion.reason
+    return replace(motion, ending=found, reason=reason)
 
 
 def ending(case: Any, motion: Motion) -> Ending | None:

@@ -307,7 +307,7 @@ def _fate_over(box: Box) -> Over:
     acting = [i for i in range(3) if present(form.m[i])]
     here = answer(np.zeros(len(box.places)))
     if not acting:
-        return Over("holds", here, REASONS[Basis.TORQUE_FREE], proved=np.inf)
+        return Over("holds", here, REASONS[Basis.TORQUE_FREE].text(), proved=np.inf)
     if len(acting) > 1:
         axes = " and ".join(str(i + 1) for i in acting)
         because = (f"the torque may act about axes {axes} together, off the principal axes, where motions "
@@ -432,7 +432,7 @@ def _on_circles(box: Box, here: Any, answer: Answer, family: Family) -> Over:
                 worst(_sided(family.margins, 1 if steady else -1), len(box.places))]
     change = nearest_change(box, codes, answer, here, favoured)
     return bracketed(box, here, answer, change, attempt,
-                     REASONS[Basis.BELOW_BARRIER if claim == "bounded" else Basis.ABOVE_BARRIER])
+                     REASONS[Basis.BELOW_BARRIER if claim == "bounded" else Basis.ABOVE_BARRIER].text())
 
 
 def _tie(box: Box, here: Any, answer: Answer, corners: Sequence[np.ndarray]) -> Over:
@@ -487,11 +487,11 @@ def _between_walls(box: Box, here: Any, look: Look, r: Reduction, numbers: Numbe
              else derivatives_on_parabola(r, state[r.j], state[r.k]))
     if here != Fate.BOUNDED.word:
         if not any(map(present, loose)) and here.startswith("spin-up") and _sign(r.m):
-            return Over("holds", here, REASONS[Basis.PURE_SPIN], proved=1.0)
+            return Over("holds", here, REASONS[Basis.PURE_SPIN].text(), proved=1.0)
         return by_trial(box, here, look,
                         "the middle lies on a set of measure zero, and no proof covers what is around it")
     if not curved:
-        return Over("holds", here, REASONS[Basis.WALLS], proved=1.0,
+        return Over("holds", here, REASONS[Basis.WALLS].text(), proved=1.0,
                     but="where the force is the same all along the parabola, nothing holds the spin back")
     u, v = loose
     certain = not any(isinstance(n, Affine) for n in (u, v, r.p, r.q))
@@ -504,7 +504,7 @@ def _between_walls(box: Box, here: Any, look: Look, r: Reduction, numbers: Numbe
         clear = all(_sign(lifted(side)) for side in (orbit.x + orbit.z, orbit.x - orbit.z))
     but = ("" if clear
            else "the box meets an invariant plane Q = 0, where a motion may spin up or tend to a saddle")
-    return Over("holds", here, REASONS[Basis.WALLS], proved=1.0, but=but)
+    return Over("holds", here, REASONS[Basis.WALLS].text(), proved=1.0, but=but)
 
 
 # -- no reduction
@@ -515,7 +515,8 @@ def _under_law(box: Box, look: Look, numbers: Numbers, form: QuadraticForm, axis
     along = numbers["momentum"][axis] if box.variables == "physical" else -form.sigma[1] - form.rho[2]
     if _sign(along * form.m[axis]):
         return Over("holds", UNBOUNDED,
-                    f"{REASONS[Basis.UNBOUNDED_LAW]}; the axis it ends about is not followed over the box",
+                    f"{REASONS[Basis.UNBOUNDED_LAW].text()}; the axis it ends about is not followed over "
+                    "the box",
                     proved=1.0)
 
     def whether(point: Point) -> tuple[str | None, float]:

@@ -60,7 +60,7 @@ def rows(case: Case, motion: Motion, units: Units) -> list[list[str]]:
         for component, pair in zip(case.scene.components,
                                    but_for_rounding(motion.extremes, motion.tolerance)):
             found.append([component.replace("omega", "ω"), _range(*pair, units, motion.extremes_side)])
-    return [*found, ["why", lettered(units.words(motion.because))]]
+    return [*found, ["why", units.said(motion.reason)]]
 
 
 def _range(low: float, high: float, units: Units, side: int) -> str:

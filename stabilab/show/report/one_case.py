@@ -197,7 +197,7 @@ def facts(case, motion, units) -> list[tuple[str, str]]:
     found = [("law", words(validity.words))] if validity is not None and validity.held else []
     at = state(motion.at, units, case.scene.blocks)
     found += [("start", f"{at} at {'tau' if units.scaled else 't'} = 0")]
-    found += [("because", words(motion.because.removeprefix("undecided: ")))]
+    found += [("because", units.said(motion.reason).removeprefix("undecided: "))]
     found += [] if motion.ending is None else [("its end", words(motion.ending.because))]
     explained = EXPLAINED | ({"margin, rate": ""} if motion.velocity_because else {})
     found += [(name, told + explained.get(name, "")) for name, told in margins(motion, units)]

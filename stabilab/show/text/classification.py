@@ -225,6 +225,7 @@ def _point_dict(case, p) -> dict:
 
 def _motion_dict(case, m) -> dict:
     return {"at": m.at, "fate": m.fate.word, **axes_of(case).key(m.axis), "because": m.because,
+            "reason": m.reason.as_dict(),
             "margin": {"energy": m.margin_energy, "angular_velocity": m.margin_velocity,
                        "bounds": m.velocity_bounds,
                        "witness": m.velocity_witness, "because": m.velocity_because or None},

@@ -6,7 +6,6 @@ an exit code."""
 from __future__ import annotations
 
 import math
-import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -211,10 +210,11 @@ def cause(motion: Motion, units: Units) -> str:
     bounded motion turns over."""
     fate = motion.fate.word
     if fate == "undecided":
-        words = motion.because.removeprefix("undecided: ")
-        words = (re.split(r"; |: ", motion.cause.removeprefix("undecided: "))[0] if motion.cause
-                 and len(words) > CLAUSE else words.split("; ")[0])
-        words = lettered(units.words(words))
+        words = units.said(motion.reason).removeprefix("undecided: ")
+        if motion.finding is not None and len(words) > CLAUSE:
+            words = units.said(motion.finding.alone).removeprefix("undecided: ")
+        else:
+            words = units.said(motion.reason.alone).removeprefix("undecided: ")
         return words if len(words) <= CLAUSE else words[:CLAUSE].rsplit(" ", 1)[0] + " ..."
     stays = "" if limiting.unstable(motion.caveats, units) else "every rate stays as it is"
     return {"separatrix": "the smallest change decides what becomes of it",

@@ -138,7 +138,7 @@ def bound_lines(case, motion, units: Units) -> list[str]:
 
 def why(case, motion, units: Units, proofs: bool) -> list[str]:
     """The reason; with `proofs` also what is not known of the margin, invariants, and what a run showed."""
-    lines = [f"why: {reason(motion.because, units)}"]
+    lines = [f"why: {units.said(motion.reason)}"]
     if motion.ending is not None:
         lines.append(f"  its end: {reason(motion.ending.because, units)}")
     if proofs and motion.velocity_because:

@@ -242,6 +242,7 @@ def fate_dict(case, motion, told) -> dict:
     margin = motion.margin_energy if told.values is None else told.values
     return _object("fate", case, motion, told, {
         **axes_of(case).key(motion.axis), "sense": motion.sense or None, "because": motion.because,
+        "reason": motion.reason.as_dict(),
         "margin": margin, "flips": flips_dict(case, motion), "tilt": tilt_dict(motion.tilt),
         **followed(motion), **ending.key(case, motion.ending)})
 

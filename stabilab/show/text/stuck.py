@@ -14,7 +14,7 @@ from ..terminal import lettered
 from ..units import DIGITS, SHORT, Units, bracket, number, vector
 from .classification import what_changes
 from .headline import REST, STEADY
-from .motion import in_file, reason
+from .motion import in_file
 from .motion import row as entry
 from .questions import reached, tilt_dict
 from .scene import counted
@@ -331,6 +331,7 @@ def _closed(case, one) -> dict | None:
             "momentum": in_file(case, one.momentum), "energy": one.energy,
             "largest_rate": one.largest_rate, "largest_rate_before": one.largest_before,
             "fate": one.motion.fate.word, "because": one.motion.because,
+            "reason": one.motion.reason.as_dict(),
             "mode": turn and turn.mode, "rotation_period": turn and turn.rotation_period,
             "precession_period": turn and turn.precession_period,
             "fired": one.fired, "propellant_used": one.used}
@@ -358,7 +359,7 @@ def burn_text(case, found, units: Units) -> str:
                                                  f"{units.vector(_seen(case, one.rates), units.rates)}"))
     if len(found.switches) > SHOWN:
         lines.append(entry("", f"and {len(found.switches) - SHOWN} more switches, in --json"))
-    words = "\n".join([*lines, f"why: {reason(found.closed.motion.because, units)}"])
+    words = "\n".join([*lines, f"why: {units.said(found.closed.motion.reason)}"])
     return limiting.noted(found.caveats, words, units)
 
 

@@ -211,7 +211,7 @@ def test_eddy_currents_without_momentum_along_the_field_bring_to_rest():
     assert found.because.endswith("H . gamma = 0 stays, and the motion tends to rest (LaSalle)")
 
 
-@pytest.mark.parametrize("moments, words", [((2, 2, 1), "in the plane of axes 1 and 2"),
+@pytest.mark.parametrize("moments, words", [((2, 2, 1), "in the plane of axis 1 and axis 2"),
                                             ((2, 2, 2), "whichever axis then points along it")])
 def test_eddy_currents_name_no_axis_of_the_largest_moment_where_there_are_several(moments, words):
     start = np.array([0.3, -0.2, 1.0, 0.6, 0.0, 0.8])

@@ -126,7 +126,7 @@ def test_the_reason_is_whether_a_barrier_stands_ahead_and_how_high(name):
                                        == Fate.BOUNDED) == (expected in (Basis.WALLS, Basis.BELOW_BARRIER))
     words = found.because
     assert words.shape == (30,)
-    assert words[3] == stabilab.fate(scene, states[3]).because == REASONS[Basis(int(found.reasons[3]))]
+    assert words[3] == stabilab.fate(scene, states[3]).because == str(REASONS[Basis(int(found.reasons[3]))])
 
 
 @pytest.mark.parametrize("state", [(0.3, -0.4, -1.0), (0.3, -0.4, 2.0), (0.0, 0.0, 0.5)])
@@ -205,7 +205,7 @@ def test_arrays_agree_with_balls_at_every_edge(name):
     for n, state in enumerate(states.tolist()):
         one = fate_of(scene, Orbit(reduce(scene), state))
         assert (found.labels[n], found.reasons[n], found.axis[n], found.sense[n]) == (
-            one.label, one.reason, one.axis, one.sense)
+            one.label, one.basis, one.axis, one.sense)
         kinetic = 0.5 * float(problem.weight[axis_of(problem)]) * state[axis_of(problem)] ** 2
         if np.isfinite(one.margin):
             assert abs(found.margins[n] - one.margin) <= 1e-12 * (abs(one.margin + kinetic) + kinetic)
