@@ -65,17 +65,16 @@ def around(change: Callable[P, str]) -> Callable[P, str]:
         if hidden == text:
             return change(*given, **named)
         found = change(*given[:at], _like(given[at], hidden), *given[at + 1:], **named)  # type: ignore[arg-type]
-        return _like(found, "".join(_names().get(letter, letter) for letter in found))
+        shown = {letter: name for name, letter in _spared.items()}
+        if type(found) is not type(given[at]):  # it was escaped on the way
+            shown = {letter: escape(name) for letter, name in shown.items()}
+        return _like(found, "".join(shown.get(letter, letter) for letter in str(found)))
     return changed
 
 
 def _like(text: Any, words: str) -> Any:
     """Words of the same type: what is escaped stays so."""
     return words if type(text) is str else type(text)(words)
-
-
-def _names() -> dict[str, str]:
-    return {letter: name for name, letter in _spared.items()}
 
 
 def _pattern() -> re.Pattern[str]:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 import re
 from dataclasses import replace
-from html import escape
+from html import escape, unescape
 
 import pytest
 
@@ -15,6 +15,7 @@ from stabilab.show import names, style
 from stabilab.show.axes import Axes
 from stabilab.show.explore.pictures import unframed
 from stabilab.show.explore.session import Session
+from stabilab.show.report import html
 from stabilab.show.terminal import greek, lettered, printed, written
 from stabilab.show.units import SYSTEMS
 
@@ -174,6 +175,15 @@ def test_no_pattern_changes_a_name_that_is_spared(name):
             assert change(text.format(name, name, name)) == text.format(name, name, name)
     assert lettered(f"{name}: omega1, lambda3") == f"{name}: ω1, λ3"
     assert units.words(f"{name} about axis 2 after 180 s") == f"{name} about the y axis after 3 min"
+
+
+@pytest.mark.parametrize("name", NEVER_IN_FILES)
+def test_a_name_on_a_page_is_escaped_and_as_written(name):
+    names.spare([name])
+    page = html._environment().from_string(
+        "{{ t|written }}\0{{ t|book|signed }}\0{{ t|together }}\0{{ t|written|book|signed }}\0{{ t|sentence }}")
+    for text in page.render(t=name).split("\0"):
+        assert unescape(text) == name and "<" not in text
 
 
 def test_a_name_within_a_longer_word_is_no_name():
