@@ -29,8 +29,10 @@ _found: list[re.Pattern[str]] = []  # of all of them, the longest first; empty w
 def spare(names: Iterable[str]) -> None:
     """Leave these names as they are, wherever a text holds them."""
     for name in names:
-        if name in _spared or not _suspect(name) or len(_spared) >= MANY:
+        if name in _spared or not _suspect(name):
             continue
+        if len(_spared) >= MANY:  # of cases that are long past
+            _spared.clear()
         _found.clear()
         for form in {name, escape(name), escape(name).replace("&#x27;", "&#39;")}:
             _spared.setdefault(form, chr(FIRST + len(_spared)))
@@ -41,16 +43,9 @@ def spare_case(case: Case) -> None:
     if not hasattr(case, "swept"):  # no case of a file
         return
     path = Path(case.path)
-    spare((case.name, case.title, case.source, case.variant, case.path, str(path), path.name, path.stem,
-           *path.parts, *(one.name for one in (*case.thrusters, *case.wheels)), *_swept(case.swept),
+    spare((case.name, case.title, case.source, case.path, str(path), path.name, path.stem, *path.parts,
+           *(one.name for one in (*case.thrusters, *case.wheels)), *(key for key, _ in case.swept),
            *(one.words for one in case.caveats if one.reason.code == "stated-by-the-file")))
-
-
-def _swept(swept: Iterable[tuple[str, Any]]) -> Iterable[str]:
-    for key, value in swept:
-        yield key
-        if isinstance(value, str):
-            yield value
 
 
 @lru_cache(maxsize=4096)
@@ -70,17 +65,16 @@ def around(change: Callable[P, str]) -> Callable[P, str]:
         if hidden == text:
             return change(*given, **named)
         found = change(*given[:at], _like(given[at], hidden), *given[at + 1:], **named)  # type: ignore[arg-type]
-        return _like(found, "".join(_names().get(letter, letter) for letter in found))
+        shown = {letter: name for name, letter in _spared.items()}
+        if type(found) is not type(given[at]):  # it was escaped on the way
+            shown = {letter: escape(name) for letter, name in shown.items()}
+        return _like(found, "".join(shown.get(letter, letter) for letter in str(found)))
     return changed
 
 
 def _like(text: Any, words: str) -> Any:
     """Words of the same type: what is escaped stays so."""
     return words if type(text) is str else type(text)(words)
-
-
-def _names() -> dict[str, str]:
-    return {letter: name for name, letter in _spared.items()}
 
 
 def _pattern() -> re.Pattern[str]:

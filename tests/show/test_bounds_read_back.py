@@ -14,9 +14,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from stabilab import load
 from stabilab.answers.caveats import caveats_of
 from stabilab.answers.tilt import Tilt
-from stabilab.commands.common import load_cases
 from stabilab.reasons import number as in_si
 from stabilab.show.explore.session import rows
 from stabilab.show.report.one_case import extremes as page_extremes
@@ -42,7 +42,7 @@ TIGHT = 2e-3  # relative: four digits, rounded outward
 
 @cache
 def known(name):
-    case = load_cases([CASES / f"{name}.toml"])[0]
+    case = load(CASES / f"{name}.toml")
     return case, None if case.state is None else case.motion()
 
 
@@ -119,7 +119,7 @@ def test_times_before_which_nothing_happens_are_rounded_down_in_every_view(syste
         tilt = Tilt(0.0123, "the torque", 0.5, True, value, None, None, "run", None, None, 10 * value,
                     np.zeros(3), np.full(3, math.inf))
         tilted = replace(motion, tilt=tilt, caveats=caveats_of(case.scene, True, tilt))
-        one = SimpleNamespace(low=value, high=math.nan, level="proved", caveats=(), words="", ending=None)
+        one = SimpleNamespace(low=value, high=math.nan, level="proved", caveats=(), words="", ending=None, tilt=None)
         asked = SimpleNamespace(kind="rate", names=("|omega|",), limits=(0.5,))
         for text, words in (("\n".join(lines_of.tilt_lines(case, tilted, units)), "not before"),
                             (questions.text(case, asked, one, units), "not before"),

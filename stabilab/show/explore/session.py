@@ -36,6 +36,7 @@ from ...verify.form import line as about_line
 from ...verify.numbers import Malformed
 from .. import frame, limiting, space
 from ..axes import with_moments
+from ..names import around
 from ..report.tables import tiles
 from ..space import natural, seen
 from ..terminal import greek, lettered, written
@@ -260,6 +261,7 @@ def _named(units: Units) -> list[str]:
     return [units.axes.short(n) for n in (1, 2, 3)]
 
 
+@around
 def _capital(words: str) -> str:
     return words[:1].upper() + words[1:]
 

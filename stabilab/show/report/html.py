@@ -80,6 +80,7 @@ def formula(text):
     return text if isinstance(text, Markup) else written(text)
 
 
+@around
 def sentence(text: str):
     """Words for a page: with a capital at their head, and what stands between backquotes as code."""
     from markupsafe import Markup, escape
