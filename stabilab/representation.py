@@ -64,12 +64,13 @@ class Shown:
     def _repr_html_(self) -> str:
         return _view[0]().html(self)
 
-    def to_xarray(self) -> xarray.Dataset:
-        """All numbers with their dimensions, units and words. Needs xarray; InputError names it where it is
-        not installed."""
-        return _view[0]().dataset(self)
+    def to_xarray(self, frame: str = "file") -> xarray.Dataset:
+        """All numbers with their dimensions, units and words. frame: of a body with a full tensor, whose
+        vectors are in the frame of the file, with the principal axes among the attributes; "principal" has
+        them along the principal axes. Needs xarray; InputError names it where it is not installed."""
+        return _view[0]().dataset(self, frame)
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """All numbers as a table: a row a time, a state, an equilibrium or a component. Needs pandas, as
-        `to_xarray` needs xarray."""
-        return _view[0]().frame(self)
+    def to_pandas(self, frame: str = "file") -> pandas.DataFrame:
+        """All numbers as a table: a row a time, a state, an equilibrium or a component; frame: as of
+        `to_xarray`. Needs pandas, as `to_xarray` needs xarray."""
+        return _view[0]().table(self, frame)

@@ -52,7 +52,7 @@ def equilibria(scene: Given) -> Equilibria:
         return replace(found, reason=found.reason.replace(STOPPED, STARTED))
     found = (None if of.plain else other_equilibria(of)) or gyrostat_equilibria(of)
     limits = limits_of(of)
-    return replace(found, validity=limits.at_equilibria(of, found)) if limits else found
+    return replace(found, frame=of.frame, validity=limits.at_equilibria(of, found) if limits else None)
 
 
 def _with_wheel(scene: Any, momentum: Any) -> Scene:

@@ -16,6 +16,7 @@ from ..case.given import Given, Start, as_case, no_start, renamed, started, time
 from ..case.sections import attitude_of
 from ..errors import InputError
 from ..integrate.trajectory import SCIPY_METHODS, Trajectory, departures, integrated, watcher
+from ..numbers.principal import PrincipalAxes, oblique
 from ..orbit.flow import axis_way, reduced_motion
 from ..physics.equations import Equations, rotation
 from ..physics.scene import ATTITUDES, AnyScene, Scene
@@ -132,6 +133,8 @@ class Simulation(Shown, Compared):
     "exact", "linear", ...; the rest as of Trajectory. validity: of the scene's laws; what a formula assumes
     beyond them stands in `reason`. error: name -> size, () or (m,), below which a component is not told from
     0: what a check of the digits showed, else the tolerance of the run; none where neither is known.
+    Vectors in the body are along the principal axes; frame: where these lie in the frame of the file or the
+    tensor, None where the two are one. `to_pandas`, `to_xarray` and files have them in the frame of the file.
     """
 
     t: np.ndarray
@@ -145,6 +148,7 @@ class Simulation(Shown, Compared):
     reason: str = ""
     validity: Validity | None = None
     error: dict[str, np.ndarray] = field(default_factory=dict)
+    frame: PrincipalAxes | None = field(default=None, repr=False, compare=False)
 
 
 def errors_of(state: Mapping[str, np.ndarray], share: float) -> dict[str, np.ndarray]:
@@ -178,7 +182,8 @@ def simulate(scene: Given, state: Start | None = None, times: ArrayLike | None =
     wanted = case.span if times is None else time_in(case.scene, times, "times")
     if wanted is None:
         raise InputError("times: expected times for a scene; a case without a span needs them too")
-    return simulated(case.scene, case.state, wanted, case.blocks, method, rtol, attitude)
+    found = simulated(case.scene, case.state, wanted, case.blocks, method, rtol, attitude)
+    return replace(found, frame=oblique(case.frame))
 
 
 def simulated(scene: AnyScene, omega: Any, times: ArrayLike,

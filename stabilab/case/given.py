@@ -72,7 +72,7 @@ def of_scene(scene: AnyScene) -> Case:
     if isinstance(scene, ScaledGyrostat):
         return Case("scene", "", "", scene, "scaled")
     return Case("scene", "", "", scene, "physical", scene,
-                frame=PrincipalAxes(scene.body.exact, IDENTITY, True),
+                frame=scene.frame or PrincipalAxes(scene.body.exact, IDENTITY, True),
                 caveats=(*scene.body.caveats, *(one for effect in scene.effects for one in effect.caveats)))
 
 

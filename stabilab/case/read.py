@@ -517,12 +517,20 @@ def _physical(top: Table, craft: _Craft,
     torque = (top.data.get("effects", {}).get("constant_torque") if isinstance(top.data.get("effects"), dict)
               else None)
     if not isinstance(torque, dict):  # absent, or no table, which is noted already
-        return Scene(body, *whole), None, frame
+        return _scene(body, whole, frame), None, frame
     mu = Table(("effects", "constant_torque"), torque, Faults(top.faults.lines)).vector("mu")
     if mu and any(thruster.stuck for thruster in craft.thrusters):
         top.fault("mu cannot be added to the torque of a thruster: give torque in N m", "effects",
                   "constant_torque", "mu")
-    return Scene(body, *whole), mu, frame
+    return _scene(body, whole, frame), mu, frame
+
+
+def _scene(body: Body, effects: Any, frame: PrincipalAxes | None) -> Scene:
+    """The scene, which knows where its axes lie in the frame of the file."""
+    scene = Scene(body, *effects)
+    if frame is not None and not frame.as_given:
+        object.__setattr__(scene, "frame", frame)
+    return scene
 
 
 def _effects(top: Table, body: Body | None) -> list:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..errors import InputError
 from ..numbers.polynomial import Poly
+from ..numbers.principal import PrincipalAxes
 from ..numbers.vectors import Exact3, Float3, Number
 from ..representation import Shown
 
@@ -73,13 +74,15 @@ class EquilibriumCurve:
 class Equilibria(Shown):
     """All equilibria of a scene. kind: "none", "points", "curves" (curves, possibly with points) or "all"
     (every state is one); reason: why these and no others. validity: of an approximate law
-    (`stabilab.physics.law_limits`), at the points; None where all laws are exact."""
+    (`stabilab.physics.law_limits`), at the points; None where all laws are exact. frame: the principal axes,
+    along which states are, in the frame of the tensor that was given; None where the two are one."""
 
     kind: str
     reason: str
     points: tuple[EquilibriumPoint, ...] = ()
     curves: tuple[EquilibriumCurve, ...] = ()
     validity: Validity | None = None
+    frame: PrincipalAxes | None = field(default=None, repr=False, compare=False)
 
 
 T = Poly((0, 1))

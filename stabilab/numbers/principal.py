@@ -179,6 +179,11 @@ def without_trace(vector: Exact3, other: Exact3) -> Exact3:
     return tuple(v - level / size * o for v, o in zip(vector, other))
 
 
+def oblique(frame: PrincipalAxes | None) -> PrincipalAxes | None:
+    """The axes, where they are not those of the frame that the tensor was given in."""
+    return None if frame is None or frame.as_given else frame
+
+
 def principal_axes(tensor: Sequence[Sequence[Number]], off: Fraction = Fraction(0)) -> PrincipalAxes:
     """The principal moments and axes of an inertia tensor: 3 x 3 exact numbers, each of which may be `off` by
     so much, or as much as its digits show. Raises InputError where it is not symmetric or a moment is not

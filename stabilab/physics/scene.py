@@ -315,6 +315,8 @@ class Scene(metaclass=Asked):
     variables: ClassVar[Literal["physical"]] = "physical"
     components = ("omega1", "omega2", "omega3")
     time_unit = "s"
+    # where these axes lie in the frame of the tensor; None where that is diagonal, or is not known
+    frame: ClassVar[PrincipalAxes | None] = None
 
     def __init__(self, body: Body | None = None, *effects: Effect):
         flat = (tuple(effects[0]) if len(effects) == 1 and isinstance(effects[0], (tuple, list))
@@ -340,6 +342,8 @@ class Scene(metaclass=Asked):
                         f"scene: {effect_words(effect.name)} is known along principal axes alone: give the "
                         "body by its principal moments, and the rest along its axes")
             flat = tuple(effect for effect in turned if effect is not None)
+            if not body.axes.as_given:
+                object.__setattr__(self, "frame", body.axes)
             body = Body(body.exact, body.mass, body.slack)
         for effect in flat:
             if why := effect.refused_by(body):
@@ -417,6 +421,7 @@ class ScaledGyrostat(metaclass=Asked):
     components = ("x1", "x2", "x3")
     time_unit = "tau"
     effects = approximate = beyond = ending = ()
+    frame: ClassVar[PrincipalAxes | None] = None
     blocks = ("omega",)
     plain = True
 

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..errors import InputError
+from ..numbers.principal import PrincipalAxes, oblique
 from ..orbit.result import Fate
 from ..packages import demand
 from ..physics.scene import PARTS
@@ -41,11 +43,20 @@ class Variables:
 AXIS: dict[str, tuple[Any, dict[str, str]]] = {"axis": ([1, 2, 3], {"long_name": "principal axis"})}
 
 
-def variables(result: Any) -> Variables:
-    """Those of a result, with what limits the whole answer among the attributes."""
+def variables(result: Any, frame: str = "file") -> Variables:
+    """Those of a result, with what limits the whole answer, and of a full tensor the principal axes, among
+    the attributes. frame: as of `Shown.to_xarray`."""
+    if frame not in FRAMES:
+        raise InputError(f'frame: expected "file" or "principal", got {frame!r:.40}')
     found = KINDS[type(result).__name__][1](result)
     caveats = "; ".join(one.words for one in getattr(result, "caveats", ()))
-    return replace(found, attributes={**found.attributes, "caveats": caveats}) if caveats else found
+    attributes = {**found.attributes, **({"caveats": caveats} if caveats else {})}
+    axes = oblique(getattr(getattr(result, "case", result), "frame", None))
+    if axes is None:
+        return replace(found, attributes=attributes)
+    turning = frame == "file" and type(result).__name__ in IN_FILE
+    return replace(in_file(found, axes) if turning else found,
+                   attributes=attributes | frame_attributes(axes, turning))
 
 
 def short(result: Any) -> str:
@@ -53,6 +64,64 @@ def short(result: Any) -> str:
     name = type(result).__name__
     limits = (one.words for one in getattr(result, "caveats", ()))
     return f"{name}({'; '.join([KINDS[name][0](result), *limits])})"
+
+
+# --- In the frame of the file
+FRAMES = ("file", "principal")
+IN_FILE = ("Simulation", "Equilibria", "Motions")  # whose vectors turn; boxes of extremes do not
+FILE_AXES = {"axis": (["x", "y", "z"], {"long_name": "axis of the file"})}
+BODILY = ("omega", "gamma", "damper", "wheel", "start", "at")  # vectors, or several in a row
+INERTIAL = ("momentum", "velocity", "position")
+
+
+def frame_attributes(axes: PrincipalAxes, turned: bool) -> dict[str, Any]:
+    """Which frame vectors are in, and where the principal axes lie in that of the file, row by row."""
+    return {"frame": "file" if turned else "principal",
+            "principal_axes": [float(v) for axis in axes.axes for v in axis],
+            "principal_axes_of": "rows: principal axes 1, 2, 3 in the frame x, y, z of the file"}
+
+
+def in_file(found: Variables, axes: PrincipalAxes) -> Variables:
+    """The vectors of the body in the frame of the file; axes: the principal axes there."""
+    matrix = matrix_of(axes)
+    values = {name: (tuple("inertial_axis" if name in INERTIAL and dim == "axis" else dim for dim in dims),
+                     turned_to_file(name, np.asarray(one), matrix), words)
+              for name, (dims, one, words) in found.values.items()}
+    coordinates = {name: one for name, one in found.coordinates.items() if name != "axis"}
+    return replace(found, values=values, coordinates=coordinates | FILE_AXES)
+
+
+def matrix_of(axes: PrincipalAxes) -> np.ndarray:
+    """(3, 3): the principal axes in the frame of the file, a row each."""
+    return np.array([[float(v) for v in axis] for axis in axes.axes])
+
+
+def turned_to_file(name: str, values: np.ndarray, matrix: np.ndarray) -> np.ndarray:
+    """A part of the state along the principal axes, the rows of `matrix`, in the frame of the file: of a
+    vector w matrix^T w, of an attitude R (from the body to space) R matrix."""
+    if name in BODILY:
+        return np.concatenate([values[..., n:n + 3] @ matrix for n in range(0, values.shape[-1], 3)], axis=-1)
+    if name == "matrix":
+        return values @ matrix
+    return _times(values, _quaternion(matrix)) if name == "quaternion" else values
+
+
+def _times(values: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Products of quaternions (n, 4) with another, scalar last."""
+    x, y, z, w = np.moveaxis(values, -1, 0)
+    a, b, c, d = other
+    return np.stack([w * a + x * d + y * c - z * b, w * b - x * c + y * d + z * a,
+                     w * c + x * b - y * a + z * d, w * d - x * a - y * b - z * c], axis=-1)
+
+
+def _quaternion(m: np.ndarray) -> np.ndarray:
+    """Scalar last, of a rotation matrix: the last eigenvector of Bar-Itzhack's matrix."""
+    sides = m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]
+    k = np.zeros((4, 4))
+    k[:3, :3], k[:3, 3], k[3, :3] = m + m.T - np.trace(m) * np.eye(3), sides, sides
+    k[3, 3] = np.trace(m)
+    found = np.linalg.eigh(k)[1][:, -1]
+    return found if found[3] >= 0 else -found
 
 
 # --- Cells and words that the kinds below have in common
@@ -496,21 +565,21 @@ KINDS: dict[str, tuple[Callable[[Any], str], Callable[[Any], Variables]]] = {
 
 
 # --- Any kind: as a data set, a table, a page
-def dataset(result: Any) -> xarray.Dataset:
+def dataset(result: Any, frame: str = "file") -> xarray.Dataset:
     """The numbers of a result with their dimensions, units and words."""
     demand("xarray")
     import xarray
-    found = variables(result)
+    found = variables(result, frame)
     return xarray.Dataset(dict(found.values),
                           {name: ((name,), *one) for name, one in found.coordinates.items()},
                           dict(found.attributes))
 
 
-def frame(result: Any) -> pandas.DataFrame:
+def table(result: Any, frame: str = "file") -> pandas.DataFrame:
     """The numbers of a result as a table; a column a component, what belongs to the whole in `attrs`."""
     demand("pandas")
     import pandas
-    found = variables(result)
+    found = variables(result, frame)
     made = pandas.DataFrame({name: values for name, values in columns(found)}, index=_index(found))
     made.attrs = dict(found.attributes)
     return made
@@ -526,7 +595,12 @@ def columns(found: Variables) -> list[tuple[str, np.ndarray]]:
             continue
         flat = array.reshape(-1, array.shape[-1] if name != "matrix" else 9)
         known = PARTS[name].components if name in PARTS else ()
-        names = known if len(known) == flat.shape[1] else [f"{name}{n + 1}" for n in range(flat.shape[1])]
+        letters = found.coordinates["axis"][0] if own == ("axis",) and "axis" in found.coordinates else ()
+        if len(letters) and isinstance(letters[0], str):
+            names = [f"{name}_{letter}" for letter in letters]
+        else:
+            names = (list(known) if len(known) == flat.shape[1]
+                     else [f"{name}{n + 1}" for n in range(flat.shape[1])])
         rows += [(one, flat[:, n]) for n, one in enumerate(names)]
     return rows
 

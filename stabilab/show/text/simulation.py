@@ -3,19 +3,21 @@ as JSON, and as a file, which appears whole or not at all."""
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from decimal import ROUND_CEILING, Decimal, localcontext
 from pathlib import Path
 
 import numpy as np
 
 from ...files import whole_file, write_text
+from ...numbers.principal import oblique
 from ...packages import demand
 from ...physics.scene import ATTITUDES, PARTS
 from ...representation import values_of
 from ...version import __version__
 from .. import endings, frame
 from ..data import csv_lines
-from ..results import of_parts
+from ..results import BODILY, Variables, frame_attributes, in_file, matrix_of, of_parts, turned_to_file
 from ..terminal import lettered, written
 from ..units import DIGITS, SHORT, Units, with_unit
 
@@ -133,6 +135,18 @@ def lost_columns(run) -> list[tuple[str, float]]:
 
 
 # --- As files: NetCDF with units and provenance, or CSV
+def _in_file(case, run) -> tuple[list[str], list[str], list]:
+    """Names, units and rows of the vectors of the body in the frame of the file; none where a tensor is
+    diagonal."""
+    axes = oblique(case.frame)
+    known = [name for name in run.state if name in BODILY and np.shape(run.state[name])[1:] == (3,)]
+    if axes is None or not known:
+        return [], [], []
+    turned = [turned_to_file(name, np.asarray(run.state[name], float), matrix_of(axes)) for name in known]
+    return ([f"{name}_{letter}" for name in known for letter in "xyz"],
+            [PARTS[name].unit for name in known for _ in "xyz"], np.hstack(turned).tolist())
+
+
 def checked(path) -> Path:
     """The path, if it can be written by its ending; InputError otherwise."""
     path = endings.file(path, (".nc", ".csv"))
@@ -142,18 +156,33 @@ def checked(path) -> Path:
 
 
 def write(case, run, path) -> Path:
-    """Write a Trajectory of a case to `path` (.nc or .csv), whole or not at all."""
+    """Write a run of a case to `path` (.nc or .csv), whole or not at all. Of a full tensor NetCDF has the
+    vectors of the body in the frame of the file, named x, y, z, the principal axes as an attribute, and those
+    along them as omega_principal and so on; CSV has both beside each other."""
     path = checked(path)
     if endings.ending(path) == ".csv":
         names, rows = columns(run)
-        head = ("tau" if case.variables == "scaled" else "t (s)", *map(with_unit, names, _units(run)))
+        more, units, turned = _in_file(case, run)
+        rows = [[*row, *other] for row, other in zip(rows, turned)] if more else rows
+        head = ("tau" if case.variables == "scaled" else "t (s)",
+                *map(with_unit, [*names, *more], [*_units(run), *units]))
         return write_text(path, csv_lines([head, *((float(t), *row) for t, row in zip(run.t, rows))]))
     import xarray
     time = "t" if case.variables == "physical" else "tau"
+    found, axes = Variables((time,), of_parts(run.state, time, run.error)), oblique(case.frame)
+    if axes is not None:
+        beside = {f"{name}_principal": ((time, "principal_axis"), values, words)
+                  for name, (dims, values, words) in found.values.items()
+                  if name in BODILY and dims == (time, "axis")}
+        found = in_file(found, axes)
+        found = replace(found, values={**found.values, **beside},
+                        coordinates={**found.coordinates, "principal_axis": ([1, 2, 3], {})})
     data = xarray.Dataset(
-        of_parts(run.state, time, run.error),
-        {time: ((time,), run.t, {"units": "s" if case.variables == "physical" else "1"}), "axis": [1, 2, 3]},
-        {"title": case.title, "source": case.source, "case": case.text, "program": f"stabilab {__version__}",
+        dict(found.values),
+        {time: ((time,), run.t, {"units": "s" if case.variables == "physical" else "1"}), "axis": [1, 2, 3],
+         **{name: ((name,), *one) for name, one in found.coordinates.items()}},
+        {**({} if axes is None else frame_attributes(axes, True)),
+         "title": case.title, "source": case.source, "case": case.text, "program": f"stabilab {__version__}",
          "model": run.model, "method": run.method, **({"rtol": run.rtol} if run.rtol else {}),
          "status": run.status,
          **{f"departure_from_{name}": value for name, value in run.invariant_drift.items()}})
