@@ -19,8 +19,8 @@ P = ParamSpec("P")
 FIRST, MANY = 0xE000, 6000  # letters that stand for names within a pattern: of private use; so many are kept
 # what some pattern looks for: a letter's name, a number with its unit, an axis, a sign
 SUSPECT = re.compile(
-    r"omega|lambda|mu|gamma|alpha|sigma|zeta|tau|beta|delta|eps|eta|theta|kappa|nu|pi|phi|psi|rho|sqrt|inf|axis"
-    r"|axes|l_|_[ijk]|\^|\+-|-\+|[<>]=|-[\d.(\w]| - | x | \. |[MHωλγ]\.|\d\.\d{6}|\de[-+]?\d"
+    r"omega|lambda|mu|gamma|alpha|sigma|zeta|tau|beta|delta|eps|eta|theta|kappa|nu|pi|phi|psi|rho|sqrt|inf"
+    r"|ax[ei]s [123]|l_|_[ijk]|\^|\+-|-\+|[<>]=|-[\d.(\w]| - | x | \. |[MHωλγ]\.|\d\.\d{6}|\de[-+]?\d"
     r"|\d (?:rad|deg|days?|min|h|s|m|J|tau|N m)\b|s in \[|t = ", re.IGNORECASE)
 _spared: dict[str, str] = {}  # name -> the letter that stands for it
 _found: list[re.Pattern[str]] = []  # of all of them, the longest first; empty where it is to be made
@@ -44,7 +44,8 @@ def spare_case(case: Case) -> None:
         return
     path = Path(case.path)
     spare((case.name, case.title, case.source, case.path, str(path), path.name, path.stem, *path.parts,
-           *(one.name for one in (*case.thrusters, *case.wheels)), *(key for key, _ in case.swept),
+           *(one.name for one in case.thrusters), *(one.name for one in case.wheels),
+           *(key for key, _ in case.swept),
            *(one.words for one in case.caveats if one.reason.code == "stated-by-the-file")))
 
 

@@ -126,8 +126,8 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     """Everything that the template says of a case; pictures go into the folder, their names begin with the
     stem.
 
-    deep: also the pictures that a page among many leaves out. certify: write a certificate and check it. What the
-    analysis cannot answer stands under "absent" with its reason; nothing of it raises.
+    deep: also the pictures that a page among many leaves out. certify: write a certificate and check it. What
+    the analysis cannot answer stands under "absent" with its reason; nothing of it raises.
     """
     units, absent, one = units_of(case), [], subject(case)
     found = _tried(absent, "Equilibria", lambda: equilibria(case))
