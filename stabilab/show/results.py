@@ -595,7 +595,8 @@ def columns(found: Variables) -> list[tuple[str, np.ndarray]]:
             continue
         flat = array.reshape(-1, array.shape[-1] if name != "matrix" else 9)
         known = PARTS[name].components if name in PARTS else ()
-        letters: Any = found.coordinates["axis"][0] if own == ("axis",) and "axis" in found.coordinates else ()
+        axes = own == ("axis",) and "axis" in found.coordinates
+        letters: Any = found.coordinates["axis"][0] if axes else ()
         if len(letters) and isinstance(letters[0], str):
             names = [f"{name}_{letter}" for letter in letters]
         else:
