@@ -8,7 +8,7 @@ revolution has a symmetry axis and two transverse ones.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -74,6 +74,13 @@ class Axes:
     def label(self, number: int) -> str:
         """Beside an axis that is drawn: "z", of a full tensor "minor"."""
         return self.letters[number - 1] or self.words[number - 1]
+
+    def in_file(self, vector: Sequence[float]) -> tuple[float, ...]:
+        """The components of a vector (3,) along the axes of the file; as they are where these are no others.
+        """
+        if self.directions is None or any(self.letters):
+            return tuple(vector)
+        return tuple(sum(v * axis[n] for v, axis in zip(vector, self.directions)) for n in range(3))
 
     def direction(self, number: int) -> str:
         """Three decimals of its direction in the frame of the file."""

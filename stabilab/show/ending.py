@@ -24,7 +24,7 @@ def words(one: Ending | None, units: Units) -> tuple[str, str] | None:
     rate = "" if not one.rate else f" at {units.rate(one.rate, SHORT)}"
     known = " (by a run)" * (one.level == "run" and one.kind in ("steady rotation", "rest"))
     if one.kind == "steady rotation" and one.rates:
-        rate = f" at {units.vector(one.rates, units.rates, SHORT)}"
+        rate = f" at {units.vector(units.axes.in_file(one.rates), units.rates, SHORT)}"
     return WORDS[one.kind], f"{about(one, units)}{',' * bool(rate and about(one, units))}{rate}{known}"
 
 

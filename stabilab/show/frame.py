@@ -9,13 +9,14 @@ from .axes import IN_FILE, axes_of
 
 
 def key(case) -> dict:
-    """The key "frame" of a JSON answer: moments (kg m^2) and axes (rows, in the frame of the file), how well
-    they are known; nothing where the two frames are one."""
+    """The key "frame" of a JSON answer: moments (kg m^2) and axes (rows, in the frame of the file), the angles
+    (rad) from the nearest axes of the file, how well they are known; nothing where the two frames are one."""
     frame = _turned(case)
     if frame is None:
         return {}
     return {"frame": {"moments": [float(m) for m in frame.moments],
                       "axes": [[float(v) for v in axis] for axis in frame.axes],
+                      "angles": [_nearest(axis)[1] for axis in frame.axes],
                       "exact": frame.exact, "error": float(frame.error)}}
 
 
@@ -52,14 +53,19 @@ def rows_of_axes(case) -> list[tuple[str, str]]:
     frame = _turned(case)
     names, found = axes_of(case), []
     for number, (moment, axis) in enumerate(zip(frame.moments, frame.axes) if frame else (), 1):
-        nearest = max(range(3), key=lambda j: abs(axis[j]))
-        angle = math.degrees(math.atan2(math.sqrt(sum(float(v) ** 2 for j, v in enumerate(axis)
-                                                      if j != nearest)), abs(float(axis[nearest]))))
+        nearest, angle = _nearest(axis)
         found.append((f"{number}, {names.name(number)}",
-                      f"({', '.join(f'{float(v):.6g}' for v in axis)}), {angle:.6g} deg from "
+                      f"({', '.join(f'{float(v):.6g}' for v in axis)}), {math.degrees(angle):.6g} deg from "
                       f"{'+' if axis[nearest] > 0 else '-'}{'xyz'[nearest]}, moment {float(moment):.6g} "
                       f"kg m^2"))
     return found
+
+
+def _nearest(axis) -> tuple[int, float]:
+    """(the axis of the file that is nearest to a direction, the angle between them, rad)."""
+    nearest = max(range(3), key=lambda j: abs(axis[j]))
+    across = math.sqrt(sum(float(v) ** 2 for j, v in enumerate(axis) if j != nearest))
+    return nearest, math.atan2(across, abs(float(axis[nearest])))
 
 
 def components(case, names=None) -> str:

@@ -22,7 +22,7 @@ from ..axes import axes_of
 from ..terminal import lettered, written
 from ..units import DIGITS, SI, Units, as_bound, number
 from . import questions
-from .headline import verdict
+from .headline import largest_key, verdict
 from .motion import attitude_rows, flips_dict, followed, reason, row, state, table, tilt_lines, why
 
 FEW = 3  # curves that one line has room for
@@ -229,7 +229,7 @@ def _motion_dict(case, m) -> dict:
             "margin": {"energy": m.margin_energy, "angular_velocity": m.margin_velocity,
                        "bounds": m.velocity_bounds,
                        "witness": m.velocity_witness, "because": m.velocity_because or None},
-            **values_of(m, "period extremes invariants"), "flips": flips_dict(case, m),
+            "largest_rate": largest_key(m), **values_of(m, "period extremes invariants"), "flips": flips_dict(case, m),
             "energy_integral": None if m.energy_integral is None else asdict(m.energy_integral),
             "sense": m.sense or None, **values_of(m, "extremes_over evidence"),
             "tilt": questions.tilt_dict(m.tilt)} | followed(m) | ending.key(case, m.ending)

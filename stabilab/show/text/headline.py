@@ -236,7 +236,7 @@ def flips(motion: Motion, units: Units) -> str:
 def largest(motion: Motion, units: Units) -> str:
     """The largest rate that is reached; of a spin-up, of the components that stay bounded."""
     if motion.fate.word == "equilibrium":
-        return f"rates {units.vector(motion.at[:3], units.rates, SHORT)}"
+        return f"rates {units.vector(units.axes.in_file(motion.at[:3]), units.rates, SHORT)}"
     sizes, over = _sizes(motion, units)
     finite = {n: size for n, size in sizes.items() if math.isfinite(size)}
     if motion.fate.word == "spin-up":
@@ -276,6 +276,16 @@ def _sizes(motion, units):
         pairs, over = ((motion.bounds, "") if motion.bounds is not None
                        else (pairs, f" {span_words(motion.extremes_over, units)}"))
     return {n: max(map(abs, pair)) for n, pair in enumerate(pairs or (), 1) if None not in pair}, over
+
+
+def largest_key(motion: Motion) -> dict:
+    """The largest rates in JSON, SI: "value" is |omega| at the most, "bound" whether it is an upper bound and
+    not the largest that is reached, "components" the most of each; null where it has no end or is unknown."""
+    pairs = motion.extremes if motion.extremes_over == "all time" else motion.bounds or motion.extremes
+    most = [None if pair is None or None in pair else max(map(abs, pair)) for pair in pairs or (None,) * 3]
+    sharp = motion.largest is not None and motion.extremes_over == "all time"
+    value = motion.largest if sharp else None if None in most else math.hypot(*most)
+    return {"value": value, "bound": not sharp, "components": most}
 
 
 def span_words(over: str, units: Units) -> str:

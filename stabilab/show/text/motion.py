@@ -5,6 +5,7 @@ with its unit. Attitude and circular orbit have JSON here as well."""
 from __future__ import annotations
 
 import math
+from dataclasses import asdict
 
 from ...equilibrium.circular_orbit import yaw_pitch_roll
 from ...reasons import outward
@@ -13,7 +14,7 @@ from .. import frame, limiting
 from ..axes import axes_of
 from ..terminal import greek, lettered
 from ..units import DEG, DIGITS, SHORT, Units, as_bound, but_for_rounding, number, vector
-from .headline import rate_margin, span_words
+from .headline import largest_key, rate_margin, span_words
 
 # --- The numbers of a motion
 WIDE = 24  # columns of a name
@@ -222,6 +223,15 @@ def followed(m) -> dict:
     if m.cause:
         known |= {"t": m.evidence.get("t_certificate"), "cause": m.cause, "bounds": m.bounds}
     return known
+
+
+def numbers(m) -> dict:
+    """What a text prints of a motion, in SI: null where it is not known, or was not asked."""
+    return {"largest_rate": largest_key(m), "period": m.period,
+            **values_of(m, "extremes extremes_over bounds"),
+            "margin": {"energy": m.margin_energy, "rate": m.margin_velocity, "bounds": m.velocity_bounds},
+            **values_of(m, "invariants evidence"),
+            "energy_integral": None if m.energy_integral is None else asdict(m.energy_integral)}
 
 
 # --- How it turns in space

@@ -22,6 +22,7 @@ from .motion import (
     extreme_lines,
     flips_dict,
     followed,
+    numbers,
     reason,
     row,
     tilt_lines,
@@ -221,6 +222,8 @@ def _object(question, case, motion, told, found) -> dict:
              "at": motion.at, "fate": motion.fate.word} | found
             | {"digits": {"asked": told.asked, "reached": shown}
                | values_of(told, "method because decimals")}
+            | {"reason": motion.reason.as_dict(), "numbers": numbers(motion),
+               "flips": flips_dict(case, motion)} | ending.key(case, motion.ending)
             | limiting.key(case, motion.caveats) | frame.key(case))
 
 
@@ -229,7 +232,7 @@ def extremes_dict(case, motion, told) -> dict:
     motion = _with(motion, told)
     return _object("extremes", case, motion, told, {
         "components": case.scene.components, "extremes": motion.extremes, "over": motion.extremes_over,
-        **followed(motion), **ending.key(case, motion.ending)})
+        **followed(motion)})
 
 
 def _with(motion, told):
@@ -242,15 +245,13 @@ def fate_dict(case, motion, told) -> dict:
     margin = motion.margin_energy if told.values is None else told.values
     return _object("fate", case, motion, told, {
         **axes_of(case).key(motion.axis), "sense": motion.sense or None, "because": motion.because,
-        "reason": motion.reason.as_dict(),
-        "margin": margin, "flips": flips_dict(case, motion), "tilt": tilt_dict(motion.tilt),
-        **followed(motion), **ending.key(case, motion.ending)})
+        "margin": margin, "tilt": tilt_dict(motion.tilt), **followed(motion)})
 
 
 def period_dict(case, motion, told) -> dict:
     """One object of `stabilab period --json`; period: null where there is none or it is not known."""
     return _object("period", case, motion, told,
-                   {"period": told.values, "time": case.scene.time_unit, "flips": flips_dict(case, motion)})
+                   {"period": told.values, "time": case.scene.time_unit})
 
 
 def extremes_csv(answered) -> str:
