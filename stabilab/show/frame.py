@@ -9,8 +9,9 @@ from .axes import IN_FILE, axes_of
 
 
 def key(case) -> dict:
-    """The key "frame" of a JSON answer: moments (kg m^2) and axes (rows, in the frame of the file), the angles
-    (rad) from the nearest axes of the file, how well they are known; nothing where the two frames are one."""
+    """The key "frame" of a JSON answer: moments (kg m^2) and axes (rows, in the frame of the file), their
+    angles (rad) from the nearest axes of the file, how well they are known; nothing where the two frames are
+    one."""
     frame = _turned(case)
     if frame is None:
         return {}

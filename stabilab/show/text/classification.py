@@ -229,7 +229,8 @@ def _motion_dict(case, m) -> dict:
             "margin": {"energy": m.margin_energy, "angular_velocity": m.margin_velocity,
                        "bounds": m.velocity_bounds,
                        "witness": m.velocity_witness, "because": m.velocity_because or None},
-            "largest_rate": largest_key(m), **values_of(m, "period extremes invariants"), "flips": flips_dict(case, m),
+            "largest_rate": largest_key(m), **values_of(m, "period extremes invariants"),
+            "flips": flips_dict(case, m),
             "energy_integral": None if m.energy_integral is None else asdict(m.energy_integral),
             "sense": m.sense or None, **values_of(m, "extremes_over evidence"),
             "tilt": questions.tilt_dict(m.tilt)} | followed(m) | ending.key(case, m.ending)
