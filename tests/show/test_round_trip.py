@@ -1,0 +1,115 @@
+"""Every number that a text prints is in the JSON of the same command under a key of its own: a script never has
+to read a sentence. Numbers inside the texts of JSON do not count."""
+from __future__ import annotations
+
+import json
+import math
+import re
+
+import pytest
+
+from tests.recorded.answers import run
+from tests.recorded.cases import ROOT, written
+
+# of a text: not part of a name (omega1, x3, cubesat-3u), a formula's power or index, a list's place
+NUMBER = re.compile(r"(?<![\w.^/])[-−+]?\d[\d,]*(?:\.\d+)?(?:e[-+]?\d+)?(?![\w]|\.\d|/\d)(?!\s*(?:\^|D\b))")
+TURN = 180 / math.pi
+SIZES = (1.0, 1 / TURN, 1 / TURN / 86400, math.pi / 30, math.tau, 60.0, 3600.0, 86400.0, 0.01, 1 / TURN**2)
+COMMANDS = {"fate": ("--why",), "extremes": ("--why",), "period": ("--why",), "classify": ("--why",),
+            "stuck": ("--why",), "attitude": (), "flat-spin": (), "when": ("--rate", "30 deg/s")}
+QUICK = ("minor-axis-100", "phone", "t-handle", "upper-stage", "rahn-barba", "symmetric-spin-up", "toy-top")
+
+
+def numbers(value):
+    """All numbers under keys of an object of JSON, and how many entries its lists have."""
+    if isinstance(value, bool) or value is None:
+        return
+    if isinstance(value, (int, float)):
+        yield float(value)
+    elif isinstance(value, str):
+        try:  # decimals that are asked for, and infinities
+            yield float(value)
+        except ValueError:
+            return
+    else:
+        if isinstance(value, list):
+            yield float(len(value))
+        for one in value.values() if isinstance(value, dict) else value:
+            yield from numbers(one)
+
+
+def known(text: str, values) -> bool:
+    """Whether a printed number is one of the values in some unit, to its last digit (bounds are rounded outward)."""
+    words = text.replace(",", "").replace("−", "-")
+    value, (digits, _, power) = float(words), words.partition("e")
+    last = 10.0 ** (int(power or 0) - len(digits.partition(".")[2]))
+    if "." not in digits and not power:  # 3230 may have three digits alone
+        whole = digits.strip("+-")
+        last = 10.0 ** max(0, len(whole) - max(3, len(whole.rstrip("0")))) if len(whole) > 3 else 1.0
+        last = last if whole.endswith("0") else 1.0 if len(whole) > 4 else 0.0
+    return any(abs(abs(one) - abs(value) * size) <= (1.01 * last + 1e-9 * abs(value)) * size
+               for size in SIZES for one in values)
+
+
+def missing(text: str, given, case: str):
+    """Lines of a text with a number that the JSON has under no key."""
+    values, lines = [*numbers(given)], []
+    for line in text.replace(case, "CASE").splitlines():
+        lost = [found[0] for found in NUMBER.finditer(line) if not known(found[0], values)]
+        lines += [(lost, line)] if lost else []
+    return lines
+
+
+def asked(command, path):
+    options = COMMANDS[command]
+    text = run(command, str(path), *options)
+    rest = () if options == ("--why",) else options
+    found = run(command, str(path), *rest, "--json")
+    return (text["answer"], found["answer"]) if isinstance(found["answer"], (list, dict)) else ("", None)
+
+
+# a title is the user's text; a row of a sweep's table holds the values of its keys, which are the user's
+def own(path, text):
+    title = re.search(r'^title = "(.*)"', path.read_text(encoding="utf-8"), re.MULTILINE)
+    lines = text.splitlines()
+    letters = len(title[1]) if title else -1
+    return "\n".join(line for line in lines if len(line) != letters or line.startswith(" "))
+
+
+def rows():
+    for command in COMMANDS:
+        for name in QUICK:
+            yield pytest.param(command, name, marks=[] if command in ("fate", "period") else [pytest.mark.slow])
+
+
+@pytest.mark.parametrize("command, name", list(rows()))
+def test_every_number_of_a_text_is_a_key_of_json(command, name):
+    path = ROOT / f"cases/{name}.toml"
+    text, given = asked(command, path)
+    assert missing(own(path, text), given, name) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_number_of_a_text_is_a_key_of_json_in_all_cases(command, tmp_path):
+    lost = {}
+    for path in written(tmp_path):
+        if "\n[sweep" in path.read_text(encoding="utf-8"):
+            continue  # a table of combinations, beside an object for each
+        text, given = asked(command, path)
+        if found := missing(own(path, text), given, path.stem):
+            lost[path.stem] = found
+    assert lost == {}
+
+
+def test_a_key_that_is_left_out_is_seen():
+    path = ROOT / "cases/minor-axis-100.toml"
+    text, (given,) = asked("fate", path)
+    for name in ("largest_rate", "period", "margin", "invariants"):
+        less = json.loads(json.dumps(given))
+        del less["numbers"][name]
+        if name == "largest_rate":
+            less["numbers"].pop("extremes")
+        if name == "margin":
+            del less["margin"]
+        assert missing(text, less, path.stem), name
