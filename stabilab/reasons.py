@@ -192,7 +192,7 @@ def number(value: float, digits: int = DIGITS, side: int = 0) -> str:
 
 def outward(value: float, digits: int, side: int) -> float:
     """The value rounded to so many significant digits, up (side +1) or down (-1); itself for side 0."""
-    if not side or value - value != 0:
+    if not side or value - value != 0 or float(f"{value:.{digits}g}") == value:  # which is read back as it is
         return value
     context = Context(prec=digits, rounding=ROUND_CEILING if side > 0 else ROUND_FLOOR)
     return float(context.create_decimal(Decimal(value)))

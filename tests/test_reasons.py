@@ -118,6 +118,7 @@ def test_rounding_outward_changes_nothing_that_is_printed_whole():
         "0.25", "0.25", "12", "12", "-3.5", "-3.5"]
     assert number(0.457951, 4, 1) == "0.458" and number(0.457951, 4, -1) == "0.4579"
     assert number(math.inf, 4, 1) == "inf"
+    assert [number(v, 1, 1) for v in (1e-10, 1e-15, 0.1, 3e-7)] == ["1e-10", "1e-15", "0.1", "3e-07"]
 
 
 def test_a_caveat_has_its_code_and_quantities_in_json():

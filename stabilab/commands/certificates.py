@@ -7,6 +7,7 @@ from ..answers.certificate import subject
 from ..case.read import blamed_on
 from ..errors import InputError, ToleranceNotMet, printable
 from ..show import certification, endings
+from ..show.names import spare
 from ..verify import verify as check
 from ..verify.form import about, differences, line, read
 from ..verify.numbers import Malformed
@@ -39,6 +40,7 @@ def verify(certificate, case, json, strict):
             f"{certificate}: {error}; expected a certificate of stabilab classify --certify or stabilab "
             f"bifurcation --certify") from None
     told = about(claims)
+    spare(one for one in (*told.values(), str(certificate), str(case)) if isinstance(one, str))
     other = _of_another(cases, told, certificate)
     physical = told.get("variables") == "physical"
     either(json, lambda: certification.as_dict(found, told),

@@ -306,8 +306,7 @@ def _region(parts: Content):
             x1 = min(1.0, x2 / 2)  # rest alone lies below x2; the search proves it again
         words = (EVERYWHERE if x2 == inf
                  else f"T < {number(x2 * x2 / 2, side=-1)} J (beyond it the torque of the liquid may "
-                      f"outweigh the "
-                      f"medium's)")
+                      f"outweigh the medium's)")
         return [x1 / sqrt(float(d)) * ROUND for d in parts.D], words
     limit = max(float(validity(parts)), 0.0)
     balance = (sqrt(sum(float(m / d) ** 2 for m, d in zip(parts.M, parts.D))) / float(parts.c) if parts.c
@@ -318,7 +317,7 @@ def _region(parts: Content):
                 "bounds the equilibria")
     reach = max(limit, 3 * balance)
     return [reach] * 3, (f"|omega_i| < {number(reach, side=-1)} rad/s (where |omega| > {limit:.6g} rad/s "
-                         f"the torque of "
+                         "the torque of "
                          "the liquid may be as large as the body's own: its derivation does not hold there)")
 
 

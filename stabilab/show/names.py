@@ -16,13 +16,14 @@ if TYPE_CHECKING:
     from ..case.read import Case
 
 P = ParamSpec("P")
-FIRST, MANY = 0xE000, 6000  # letters that stand for names within a pattern: of private use; so many are kept
+FIRST, MANY = 0xF0000, 60_000  # letters of private use that stand for the names in a text; so many at most
 # what some pattern looks for: a letter's name, a number with its unit, an axis, a sign
 SUSPECT = re.compile(
     r"omega|lambda|mu|gamma|alpha|sigma|zeta|tau|beta|delta|eps|eta|theta|kappa|nu|pi|phi|psi|rho|sqrt|inf"
     r"|ax[ei]s [123]|l_|_[ijk]|\^|\+-|-\+|[<>]=|-[\d.(\w]| - | x | \. |[MHωλγ]\.|\d\.\d{6}|\de[-+]?\d"
     r"|\d (?:rad|deg|days?|min|h|s|m|J|tau|N m)\b|s in \[|t = ", re.IGNORECASE)
-_spared: dict[str, str] = {}  # name -> the letter that stands for it
+VARIANT = r"(?:-\d+)*"  # which combination of a [sweep] it is, behind the name of a case
+_spared: dict[str, None] = {}
 _found: list[re.Pattern[str]] = []  # of all of them, the longest first; empty where it is to be made
 
 
@@ -31,11 +32,8 @@ def spare(names: Iterable[str]) -> None:
     for name in names:
         if name in _spared or not _suspect(name):
             continue
-        if len(_spared) >= MANY:  # of cases that are long past
-            _spared.clear()
         _found.clear()
-        for form in {name, escape(name), escape(name).replace("&#x27;", "&#39;")}:
-            _spared.setdefault(form, chr(FIRST + len(_spared)))
+        _spared.update(dict.fromkeys((name, escape(name), escape(name).replace("&#x27;", "&#39;"))))
 
 
 def spare_case(case: Case) -> None:
@@ -43,9 +41,9 @@ def spare_case(case: Case) -> None:
     if not hasattr(case, "swept"):  # no case of a file
         return
     path = Path(case.path)
-    spare((case.name, case.title, case.source, case.path, str(path), path.name, path.stem, *path.parts,
-           *(one.name for one in case.thrusters), *(one.name for one in case.wheels),
-           *(key for key, _ in case.swept),
+    spare((case.name.removesuffix(case.variant), case.title, case.source, case.path, str(path), path.name,
+           path.stem, *(one.name for one in case.thrusters), *(one.name for one in case.wheels),
+           *(key for key, _ in case.swept if "." in key),  # others are names of ours
            *(one.words for one in case.caveats if one.reason.code == "stated-by-the-file")))
 
 
@@ -61,16 +59,22 @@ def around(change: Callable[P, str]) -> Callable[P, str]:
         if not _spared:
             return change(*given, **named)
         at = next(n for n, one in enumerate(given) if isinstance(one, str))
-        text = str(given[at])
-        hidden = _pattern().sub(lambda found: _spared[found[0]], text)
-        if hidden == text:
+        text, taken = given[at], []  # type: ignore[var-annotated]
+
+        def hidden(found: re.Match[str]) -> str:
+            taken.append(found[0])
+            return chr(FIRST + len(taken) - 1)
+        bare = _pattern().sub(hidden, str(text), count=MANY)
+        if not taken:
             return change(*given, **named)
-        found = change(*given[:at], _like(given[at], hidden), *given[at + 1:], **named)  # type: ignore[arg-type]
-        shown = {letter: name for name, letter in _spared.items()}
-        if type(found) is not type(given[at]):  # it was escaped on the way
-            shown = {letter: escape(name) for letter, name in shown.items()}
-        return _like(found, "".join(shown.get(letter, letter) for letter in str(found)))
+        found = change(*given[:at], _like(text, bare), *given[at + 1:], **named)  # type: ignore[arg-type]
+        # escaped on the way, where it is of another type than what was given
+        shown = taken if type(found) is type(text) else list(map(escape, taken))
+        return _like(found, LETTERS.sub(lambda letter: shown[ord(letter[0]) - FIRST], str(found)))
     return changed
+
+
+LETTERS = re.compile(f"[{chr(FIRST)}-{chr(FIRST + MANY)}]")
 
 
 def _like(text: Any, words: str) -> Any:
@@ -82,7 +86,7 @@ def _pattern() -> re.Pattern[str]:
     if not _found:
         longest = sorted(_spared, key=len, reverse=True)
         _found.append(re.compile("|".join(
-            f"{_edge(name[0], '<!')}{re.escape(name)}{_edge(name[-1], '!')}" for name in longest)))
+            f"{_edge(name[0], '<!')}{re.escape(name)}{VARIANT}{_edge(name[-1], '!')}" for name in longest)))
     return _found[0]
 
 

@@ -19,6 +19,7 @@ from ..physics.scene import PARTS
 from ..reasons import number
 from ..representation import values_of
 from .axes import direction
+from .names import around, spare
 from .terminal import MINUS, some
 
 if TYPE_CHECKING:
@@ -411,6 +412,7 @@ def _comparison(found):
 
 
 def _stuck_words(found):
+    spare([found.case, *(name for row in found.rows for name in row.thrusters)])
     head = found.rows[0]
     low, high = head.time_to_limit or (None, None)
     when = ("" if low is None else f", limit in {low:.6g} s" if f"{low:.6g}" == f"{high:.6g}"
@@ -642,4 +644,9 @@ def _cell(value: Any) -> str:
 
 def _text(words: str) -> str:
     """Words as text; the minus of a number as print has it, the hyphens of words as they are."""
-    return escape(EXPONENT.sub("−", MINUS.sub("−", words)))
+    return escape(_with_minus(words))
+
+
+@around
+def _with_minus(words: str) -> str:
+    return EXPONENT.sub("−", MINUS.sub("−", words))

@@ -21,6 +21,7 @@ from ..reasons import outward
 from . import endings, manifest, style
 from .axes import PLAIN
 from .data import plain
+from .names import spare
 from .plot import canvas
 from .plot.in_space import FACETS, PALEST, away, rows, sight, space_of
 from .plot.subject import measures, subject
@@ -35,6 +36,7 @@ def text(summary: dict[str, Any], out: Path) -> str:
     """The answer in a line, a line a branch, and the files; why there is no surface where there is none.
     summary: of `summarise`."""
     name, branches = summary["case"], summary["sheets"]
+    spare(map(str, (out, *(out / file for file in summary["files"]))))
     if not branches:
         return f"{name}: no surface to write: {summary['reason']}"
     lines = [f"{name}: {some(len(branches), 'separatrix surface')}; {summary['reason']}"]

@@ -226,7 +226,10 @@ def as_bound(value: float, one: float, digits: int, side: int) -> float:
     if not side or not math.isfinite(found):
         return found
     whole = len(str(int(abs(found)))) if abs(found) < WHOLE else 0
-    found = outward(found, digits := max(digits, whole), side)
+    near = float(f"{found:.{(digits := max(digits, whole))}g}")
+    if side * (near / one - value) >= 0:
+        return near
+    found = outward(found, digits, side)
     while math.isfinite(found) and side * (found / one - value) < 0:
         found = outward(math.nextafter(found, side * math.inf), digits, side)
     return found

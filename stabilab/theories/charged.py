@@ -247,8 +247,7 @@ def times(t):
 def verdict(tilt, t, until):
     """Status and reason of a motion with this tilt at the times t."""
     promise = (f"a tilt of {SMALL_ANGLE:g} rad is not reached before t = {number(until, side=-1)} s "
-               f"(estimate "
-               "from the torque and the start)")
+               "(estimate from the torque and the start)")
     if until == np.inf:
         promise = f"the tilt stays below {SMALL_ANGLE:g} rad for all time"
     if np.all(tilt <= SMALL_ANGLE):
@@ -256,8 +255,7 @@ def verdict(tilt, t, until):
     first = np.min(np.abs(t[tilt > SMALL_ANGLE]))
     return BEYOND, (f"the model's tilt reaches {np.max(tilt):.4g} rad and exceeds {SMALL_ANGLE:g} rad at t = "
                     f"{number(first, side=1)} s or before: the small-angle equations no longer describe "
-                    f"the body; "
-                    f"{promise}")
+                    f"the body; {promise}")
 
 
 # --- The formulas as printed

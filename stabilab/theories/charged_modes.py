@@ -206,8 +206,7 @@ def spin_words(body: ChargedBody, omega, t) -> str:
     change = (abs(D1 - D2) / (2 * D3) * float((omega[..., 0]**2 + omega[..., 1]**2).max(initial=0.0))
               * float(np.abs(t).max(initial=0.0)))
     return (f"r is held at r0; with D1 - D2 = {D1 - D2:.6g} kg m^2 it changes by {number(change, 2, 1)} "
-            f"rad/s at most "
-            "over these times, by the model's p and q")
+            "rad/s at most over these times, by the model's p and q")
 
 
 @dataclass(frozen=True)

@@ -278,7 +278,7 @@ def _motor(parts: Content, omega, gamma, wheel) -> dict[str, Any]:
         reason = MOTOR_STOPS_MOMENTUM(**known) if by_momentum <= by_work else MOTOR_STOPS_WORK(**known)
         return {"fate": Fate.BOUNDED, "reason": reason, "invariants": {"momentum": H, "rate_bound": bound}}
     each = (motor - outer) / float(max(parts.D))
-    reason = (MOTOR_BEATS_TORQUE(torque=Momentum(outer), motor=Momentum(motor), gain=Rate(each).lower)
+    reason = (MOTOR_BEATS_TORQUE(torque=Momentum(outer).upper, motor=Momentum(motor), gain=Rate(each).lower)
               if outer else MOTOR_FOR_EVER(motor=Momentum(motor), gain=Rate(each).lower))
     acting = [i for i in range(3) if parts.u[i]]
     axis = acting[0] + 1 if len(acting) == 1 and not outer else 0

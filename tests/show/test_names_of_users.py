@@ -54,6 +54,17 @@ span = [0, "10 min"]
 STUCK, BURNS = 'stuck = true\nmisalignment = "1 deg"', 'start = "0 s"\nstop = "{} s"'
 
 
+@pytest.fixture(autouse=True)
+def no_name_is_left():
+    """Other tests have other users."""
+    before = dict(names._spared)
+    names._spared.clear()
+    yield
+    names._spared.clear()
+    names._spared.update(before)
+    names._found.clear()
+
+
 def write_case(folder, name, stem=None, burns=False, more=""):
     """A case all of whose names are this one, with a word behind it where they must differ."""
     path = folder / f"{stem or name}.toml"

@@ -210,8 +210,7 @@ def _by_runs(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
     low = max(low, early.low)  # which is proved
     return Latest(size, low, max(min(high, end), low), "run",
                   f"{words}: by runs over one period, each known to {number(slack, 1, 1)} of it, the first "
-                  f"among some "
-                  f"{WHEEL_LOOKS} closing times; {known}", surely=(early.low, end))
+                  f"among some {WHEEL_LOOKS} closing times; {known}", surely=(early.low, end))
 
 
 def _bracket(base: Scene, links: Sequence[Link], span: tuple[float, float],

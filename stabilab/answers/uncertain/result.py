@@ -204,7 +204,7 @@ class Sampled:
         agree = len(self.counts) == 1
         told = ", ".join(f"{'all' if agree else count}: {word}" for word, count in self.counts.items())
         rest = (f"; with 95 % confidence at most {number(100 * self.otherwise, 2, 1)} % of the box does "
-                f"otherwise"
+                "otherwise"
                 if agree else "")
         if self.corners:
             rest += f"; so do {'all' if self.every else 'the'} {self.corners} corners of the box"

@@ -52,8 +52,7 @@ def _reference_words(found) -> str:
     return (f"Judged at {some(len(r.t), 'time')} up to {_moment(found)} by a Taylor series run in "
             f"{r.digits[0]} and in {r.digits[1]} "
             f"digits; the two differ by {outward(r.error.max(), 1, 1):.0e} of the state, which is the "
-            f"reference's "
-            f"error.{reach}")
+            f"reference's error.{reach}")
 
 
 def _question_words(found, question):

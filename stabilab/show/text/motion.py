@@ -204,8 +204,7 @@ def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
         lines.append(f"    shortest time found   none: {told}")
     return [*lines,
             f"    not before            {units.time(found.not_before, side=-1)}, whatever the azimuth and "
-            f"for any "
-            f"smaller tilt (proved)"]
+            f"for any smaller tilt (proved)"]
 
 
 def flips_dict(case, m) -> dict | None:
