@@ -65,8 +65,8 @@ CERTIFIED_EQUATOR = Sentence(
     "spin-up-in-equator-certified", "spin-up in the equator, across the axis of symmetry, is certified: an "
     "inequality that the motion meets holds for ever")()
 BY_INEQUALITY = Sentence(
-    "inequality-orders", "it is that of the normal form about the {form}, energy to order {energy}, "
-    "amplitude to order {amplitude}")
+    "inequality-orders", "the inequality is that of the normal form about the {form}, energy to order "
+    "{energy}, amplitude to order {amplitude}")
 
 
 @dataclass
