@@ -171,7 +171,7 @@ def plain(value: Any) -> Any:
     if isinstance(value, Axis):
         return value.number
     if isinstance(value, Reason):
-        return value.as_dict()
+        return value.as_dict() if value.code else value.text()
     return [*map(plain, value)] if isinstance(value, tuple) else value
 
 

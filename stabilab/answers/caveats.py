@@ -12,7 +12,7 @@ from ..errors import Caveat, Kind, without
 from ..orbit.result import Fate, Motion, Stability
 from ..physics.coefficients import effective
 from ..physics.scene import AnyScene, aligned, torque_axis
-from ..reasons import DIGITS, Angle, Axis, Quantity, Rate, Reason, Sentence, Time, old
+from ..reasons import DIGITS, Angle, Axis, Quantity, Rate, Reason, Sentence, Time
 
 STEADY = (Fate.BOUNDED, Fate.EQUILIBRIUM)
 IN_PLANE, THIS = 4, 5
@@ -93,7 +93,7 @@ def of_equilibrium(known: Known) -> tuple[Caveat, ...]:
 def of_law(known: Known) -> tuple[Caveat, ...]:
     """That an approximate law does not hold, where it does not."""
     held = known.validity is None or known.validity.held
-    return () if held else (Caveat(Kind.LAW, old(known.validity.words)),)
+    return () if held else (Caveat(Kind.LAW, known.validity.reason),)
 
 
 def limited(motion: Motion, scene: AnyScene, case: Any = None) -> Motion:

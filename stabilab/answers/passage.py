@@ -46,7 +46,7 @@ from ..physics.equations import Equations, derive, rotation
 from ..physics.scene import AnyScene, Scene, slices
 from ..physics.states import equations_and_start, moved_row, to_space
 from ..physics.to_numpy import Form, form, to_numpy
-from ..reasons import number
+from ..reasons import Quantity, Reason, Sentence
 from ..representation import Compared, Shown
 from .limit import Limit
 
@@ -62,22 +62,30 @@ class TimeTo(Shown, Compared):
     Both inf: never. high NaN: not known; then the limit is not reached before low. level (...,), texts:
     "exact" (a law, or all extremes), "proved" (the motion enclosed by a proof), "certified" (the theorem of
     spin-up, applied to a run of machine precision), "run" (roots along a run of machine precision, wider by
-    what a second run shows), "undecided". words (...,): how it is known. quantity: what was asked, in words.
-    caveats: what limits the answers (`answers.caveats`); ending: how the motion of a case ends that loses
-    energy (`answers.dissipation.ending`), where it does; tilt: what other directions and sizes of the torque
-    of a case do, None where that was not looked at.
+    what a second run shows), "undecided". reason (...,): how it is known; words (...,): the same behind the
+    quantity, in SI units. quantity: what was asked, in words. caveats: what limits the answers
+    (`answers.caveats`); ending: how the motion of a case ends that loses energy
+    (`answers.dissipation.ending`), where it does; tilt: what other directions and sizes of the torque of a
+    case do, None where that was not looked at.
     """
 
     low: np.ndarray
     high: np.ndarray
     level: np.ndarray
-    words: np.ndarray
+    reason: np.ndarray
     quantity: str = ""
     scene: Any = field(default=None, repr=False, compare=False)
     states: np.ndarray | None = field(default=None, repr=False, compare=False)
     caveats: tuple[Caveat, ...] = ()
     ending: Any = field(default=None, compare=False)
     tilt: Any = field(default=None, repr=False, compare=False)
+
+    @cached_property
+    def words(self) -> np.ndarray:
+        """(...,) texts: the quantity and how the answer is known."""
+        reasons = np.array(self.reason, object)
+        told = [f"{self.quantity}: {one}" if str(one) else self.quantity for one in reasons.ravel()]
+        return np.array(told, object).reshape(reasons.shape)[()]
 
     @cached_property
     def validity(self) -> Validity | None:
@@ -90,6 +98,19 @@ class TimeTo(Shown, Compared):
         return iter((self.low, self.high))
 
 
+BY_ROOTS = Sentence("roots-along-run", "roots along a run in machine precision")()
+BY_TWO_RUNS = Sentence(
+    "roots-along-two-runs", "roots along a run in machine precision, the error from a second one")()
+STEPS_END = Sentence("not-reached-in-steps", "not reached within {time} ({steps} steps)")
+TIME_ENDS = Sentence("not-reached-in-time", "not reached within {time} (t_max)")
+SECOND_DOES_NOT = Sentence(
+    "second-run-does-not", "roots along a run in machine precision find it after {time}, a second run from a "
+    "start moved in its last place does not: rounding errors decide it")
+ONLY_NEAR = Sentence(
+    "comes-near-only", "roots along a run in machine precision find it after {time}, but not a limit greater "
+    "by {share} of it: the motion may come near it and no farther")
+
+
 @dataclass(frozen=True)
 class Found:
     """The answer of one motion; fields as of `TimeTo`, plain numbers; steps: that its run took."""
@@ -97,7 +118,7 @@ class Found:
     low: float
     high: float
     level: str
-    words: str
+    reason: Reason
     steps: int = 0
 
     @property
@@ -116,7 +137,7 @@ def times_of(found: Sequence[Found], shape: tuple[int, ...], quantity: str, scen
     """The answers of motions, one after another, in this shape."""
     column = lambda name, kind: np.array([getattr(one, name) for one in found], kind).reshape(shape)[()]
     return TimeTo(column("low", float), column("high", float), column("level", object),
-                  column("words", object), quantity, scene, states, caveats=caveats)
+                  column("reason", object), quantity, scene, states, caveats=caveats)
 
 
 DRIFT_ROUNDING = 1e-9  # of the limit's square: far beyond the rounding of these lines
@@ -223,19 +244,17 @@ def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, s
     forms, state, rates, unit = _search(scene, start, limit)
     end = t_max * unit if math.isfinite(t_max) else 1e300
     one = zeros_passed(forms, state, rates, end, steps, first=True)
-    words = f"{limit.words}: roots along a run in machine precision"
     if one.first is None:
-        far = f"{steps} steps" if one.reason else "t_max"
         low = one.t * (1 - ROUNDING) / unit
-        because = f"{words}: not reached by t = {number(low, side=-1)} {scene.time_unit} ({far})"
-        return Found(low, math.nan, "run", because, one.steps)
+        until = Quantity(low, scene.time_unit).lower
+        ended = STEPS_END(time=until, steps=steps) if one.reason else TIME_ENDS(time=until)
+        return Found(low, math.nan, "run", BY_ROOTS.then(ended, ": "), one.steps)
     second = (moved_row(state, MOVED) if beside is None
               else np.concatenate([beside[:3] / unit, beside[3:]]))
     two = zeros_passed(forms, second, rates, end, 2 * steps, 4 * TAYLOR_TOLERANCE, first=True)
+    at = Quantity(one.first / unit, scene.time_unit)
     if two.first is None:
-        return Found(0.0, math.nan, "undecided",
-                     f"{words} find it at {one.first / unit:.6g} {scene.time_unit}, a second run from a "
-                     "start moved in its last place does not: more than a run in doubles can tell", one.steps)
+        return Found(0.0, math.nan, "undecided", SECOND_DOES_NOT(time=at), one.steps)
     blur = WIDER * abs(one.first - two.first) + ROUNDING * one.first
     if blur > VAGUE * one.first:
         raised = tuple((terms, most * (1 + HIGHER)) for terms, most in limit.parts)
@@ -243,11 +262,9 @@ def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, s
         end = min(end, one.first + 2 * blur)
         if zeros_passed(higher, state, rates, end, 2 * steps, first=True).first is None:
             return Found(max(0.0, one.first - blur) / unit, math.nan, "undecided",
-                         f"{words} find it at {one.first / unit:.6g} {scene.time_unit}, but not a limit "
-                         f"greater by {float(HIGHER):.1g} of it: the motion may come near it and no farther",
-                         one.steps)
+                         ONLY_NEAR(time=at, share=Quantity(float(HIGHER), digits=1)), one.steps)
     return Found(max(0.0, one.first - blur) / unit, (one.first + blur) / unit, "run",
-                 f"{words}, the error from a second one", one.steps)
+                 BY_TWO_RUNS, one.steps)
 
 
 def run_once(scene: AnyScene, state: Sequence[float], limit: Limit, t_max: float = math.inf,

@@ -39,7 +39,7 @@ from ..physics.states import (
     start_of,
     to_space,
 )
-from ..reasons import number
+from ..reasons import Axis, Level, Quantity, Rate, Sentence, Time
 from ..unreduced.spin_up.follow import spin_up
 from ..validation import checked_scene
 from .caveats import caveats_of
@@ -48,12 +48,16 @@ from .limit import STEPS as BAND_STEPS
 from .limit import WORK, Limit, along_axes, asked, banded, enclosed
 from .motion import motion
 from .motions.rows import extremes, fates, periods
-from .passage import MOVED, ROUNDING, Found, TimeTo, by_run, times_of
+from .passage import BY_ROOTS, MOVED, ROUNDING, Found, TimeTo, by_run, times_of
 
 # --- When a certified spin-up reaches it
 # the certificate is asked for again at these shares of the earliest time, where it is narrower
 LATER = (0.5, 0.97)
 LITTLE = 100_000  # steps that this may take: slow drifts pass many turns in few
+
+
+BY_GROWTH = Sentence(
+    "by-growth-of-spin", "by the bounds of the growing spin about {axis}, {level}: they hold after {time}")
 
 
 def by_clock(scene: AnyScene, state: Float3, limit: Limit, followed: float, reached: float,
@@ -77,9 +81,9 @@ def by_clock(scene: AnyScene, state: Float3, limit: Limit, followed: float, reac
     if found.level == "certified" and times[0] > found.t:
         found, times = _narrower(scene, state, limit, found, times, reached)
     low = max(followed, times[0]) if sure else followed
-    words = (f"{limit.words}: by the clock of the spin-up about axis {found.axis}, {found.level} from t = "
-             f"{number(found.t, side=1)} {scene.time_unit} on")
-    return Found(low, max(times[1], low), found.level, words)
+    reason = BY_GROWTH(axis=Axis(found.axis), level=Level(found.level),
+                       time=Quantity(found.t, scene.time_unit).upper)
+    return Found(low, max(times[1], low), found.level, reason)
 
 
 def _narrower(scene: AnyScene, state: Float3, limit: Limit, found: Any, times: Any, reached: float) -> Any:
@@ -116,6 +120,10 @@ def _times(found: Any, limit: Limit) -> Any:
 
 
 # --- That a limit is never reached, and a time before which it is not
+NEVER_AT_REST = Sentence("never-at-equilibrium", "never, the state is an equilibrium")()
+NEVER_BY_EXTREMES = Sentence("never-by-extremes", "never, the extremes over all time stay below it")()
+NEVER_BY_PERIOD = Sentence("never-by-period", "never, the motion repeats and a whole period stays below it")()
+NEVER_BY_BOUND = Sentence("never-by-bound", "never, |ω| ≤ {bound} always")
 SLACK = 1e-9  # relative: extremes and periods are known to 1e-11
 REDUCED = ("orbit", "aligned", "free")
 LESS = 1 - Fraction(1, 1 << 60)  # the roots are known to 2^-240
@@ -127,7 +135,7 @@ def never(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> tuple[
     if limit.kind == "tilt":
         return None, None
     if rests(scene.quadratic(), exact):
-        return Found(math.inf, math.inf, "exact", f"{limit.words}: never, the state is an equilibrium"), None
+        return Found(math.inf, math.inf, "exact", NEVER_AT_REST), None
     kind = kind_of(scene)
     if kind not in REDUCED:
         return None, None
@@ -138,14 +146,9 @@ def never(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> tuple[
     if kind == "aligned" and not (bounded() and math.isfinite(float(periods(scene, row)))):
         return None, None  # its extremes over all time are not known
     if limit.beyond(extremes(scene, row).tolist(), SLACK):
-        return _below(limit), None
+        return Found(math.inf, math.inf, "exact", NEVER_BY_EXTREMES), None
     repeats = float(periods(scene, row)) if kind == "orbit" and bounded() else math.inf
     return None, repeats * (1 + SLACK) if 0 < repeats < math.inf else None
-
-
-def _below(limit: Limit) -> Found:
-    return Found(math.inf, math.inf, "exact",
-                 f"{limit.words}: never, the extremes over all time stay below it")
 
 
 def _never_of_rationals(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit
@@ -154,15 +157,14 @@ def _never_of_rationals(scene: AnyScene, state: Float3, exact: Exact3, limit: Li
     known = motion(scene, state, brief=True, exact=exact)
     pairs = known.extremes if known.extremes_over == "all time" else None
     if pairs is not None and limit.beyond(pairs, SLACK):
-        return _below(limit), None
+        return Found(math.inf, math.inf, "exact", NEVER_BY_EXTREMES), None
     repeats = known.period if kind_of(scene) == "orbit" and known.fate == Fate.BOUNDED else None
     return None, None if repeats is None else repeats * (1 + SLACK)
 
 
-def after_a_period(limit: Limit) -> Found:
+def after_a_period() -> Found:
     """The answer where a whole period, enclosed, stays below the limit."""
-    return Found(math.inf, math.inf, "proved",
-                 f"{limit.words}: never, the motion repeats and a whole period stays below it")
+    return Found(math.inf, math.inf, "proved", NEVER_BY_PERIOD)
 
 
 def never_bounded(scene: AnyScene, state: Any, limit: Limit) -> Found | None:
@@ -173,12 +175,12 @@ def never_bounded(scene: AnyScene, state: Any, limit: Limit) -> Found | None:
     found = motion(scene, state, brief=True)
     bound = found.invariants.get("rate_bound", math.inf)
     if found.fate == Fate.EQUILIBRIUM:
-        why = "the state is an equilibrium"
+        reason = NEVER_AT_REST
     elif found.fate == Fate.BOUNDED and bound * (1 + SLACK) < limit.least_rate():
-        why = f"|omega| <= {number(bound, side=1)} rad/s always"
+        reason = NEVER_BY_BOUND(bound=Rate(bound).upper)
     else:
         return None
-    return Found(math.inf, math.inf, "exact", f"{limit.words}: never, {why}")
+    return Found(math.inf, math.inf, "exact", reason)
 
 
 def earliest(scene: AnyScene, start: Sequence[Number], limit: Limit) -> Fraction:
@@ -205,7 +207,10 @@ def _share(terms: Sequence[Any], D: Sequence[Fraction]) -> Fraction:
 
 
 # --- Past the end of an effect
-AFTER = "roots along a run in machine precision over the end of an effect"
+AFTER_ITS_END = Sentence(
+    "roots-over-end", "roots along a run in machine precision over the end of an effect")()
+FROM_ITS_END = Sentence("from-end-of-effect", "from the end of an effect on")()
+NOT_WITHIN = Sentence("not-within", "not reached within {time}")
 
 
 def past_the_end(scene: AnyScene, state: Any, limit: Limit, last: float) -> Found:
@@ -220,7 +225,7 @@ def past_the_end(scene: AnyScene, state: Any, limit: Limit, last: float) -> Foun
         start["attitude"] = attitude
         origin = to_space(attitude, [float(v) for v in direction])
         limit = replace(limit, origin=tuple(origin.tolist()))
-    found = by_run(scene, start, limit, left) if left else Found(0.0, math.nan, "run", "")
+    found = by_run(scene, start, limit, left) if left else Found(0.0, math.nan, "run", BY_ROOTS)
     if math.isfinite(found.high) or found.level == "undecided" or found.low < left * (1 - 2 * ROUNDING):
         return found
     equations, row = equations_and_start(scene, start)
@@ -229,13 +234,13 @@ def past_the_end(scene: AnyScene, state: Any, limit: Limit, last: float) -> Foun
     after, there = stopped(scene, ends[0])
     rates = tuple(there["omega"])
     if after.plain and (surely := never(after, rates, tuple(map(Fraction, rates)), limit)[0]) is not None:
-        return replace(surely, level="run", words=f"{surely.words}, from the end of an effect on",
+        return replace(surely, level="run", reason=surely.reason.then(FROM_ITS_END, ", "),
                        steps=found.steps)
     later = by_run(after, rates if after.plain and direction is None else there, limit, last - left,
                    beside=np.concatenate([ends[1][name] for name in there]))
-    words = (f"{limit.words}: {AFTER}" if math.isfinite(later.high) else
-             f"{limit.words}: {AFTER}: not reached by t = {number(left + later.low, side=-1)} s")
-    return replace(later, low=left + later.low, high=left + later.high, words=words,
+    until = Time(left + later.low).lower
+    reason = AFTER_ITS_END.then(None if math.isfinite(later.high) else NOT_WITHIN(time=until), ": ")
+    return replace(later, low=left + later.low, high=left + later.high, reason=reason,
                    steps=found.steps + later.steps)
 
 
@@ -286,7 +291,7 @@ def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = Non
         found = [of_one(scene, row, start, limit, end, work) for row, start in zip(rows, starts)]
     parts = content(given) if scene is not given else None
     if parts is not None and parts.note:  # what the twin takes for granted of the scene
-        found = [replace(one, words=f"{one.words}; {parts.note}") for one in found]
+        found = [replace(one, reason=one.reason.then(parts.note)) for one in found]
     caveats = caveats_of(given, any(one.never for one in found))
     return times_of(found, shape, limit.words, given, array, caveats)
 
@@ -320,35 +325,46 @@ def _end(t_max: float | Fraction | None) -> Fraction | None:
     raise InputError(f"t_max: expected a positive time, got {t_max!r:.80}")
 
 
+AT_THE_START = Sentence("reached-at-start", "reached already at the start")()
+TORQUE_TOO_SLOW = Sentence(
+    "torque-too-slow", "not reached by the end of the search: the torque could not bring the energy for it "
+    "sooner")()
+MOTION_ENCLOSED = Sentence("motion-enclosed", "the motion enclosed, its first crossing by roots")()
+TOUCHED = Sentence(
+    "limit-touched", "touched after {time} as closely as {share}: whether it is reached is not known")
+ENCLOSED_TO_END = Sentence("enclosed-to-end", "not reached by the end of the search, the motion enclosed")()
+ENCLOSED_IN_STEPS = Sentence("enclosed-in-steps", "the motion enclosed in {steps} compiled steps")
+PROVED_BEFORE = Sentence("proved-before", "proved not to be reached before {time}")
+
+
 def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction | None, work: int = WORK,
            bands: int = BAND_STEPS, spun: Any = None) -> Found:
     """The answer for one motion of a plain scene: three floats, and the three rationals that they round.
     work: multiplications that an enclosure in integers may take; bands: compiled steps that enclose what goes
     on longer; spun: what `spin_up` says of the motion, where it was asked already."""
     if limit.reached_by(start):
-        return Found(0.0, 0.0, "exact", f"{limit.words}: reached already at the start")
+        return Found(0.0, 0.0, "exact", AT_THE_START)
     found, repeats = never(scene, state, start, limit)
     if found:
         return found
     last = end if repeats is None or (end is not None and end < repeats) else Fraction(repeats)
     before = earliest(scene, start, limit)
     if last is not None and before > last:
-        return after_a_period(limit) if last is not end else Found(
+        return after_a_period() if last is not end else Found(
             down(last), math.nan, "proved",
-            f"{limit.words}: not reached by the end of the search: the torque could not bring the energy for "
-            "it sooner")
+            TORQUE_TOO_SLOW)
     proof = enclosed(scene, start, limit, last, work, before)
     if proof.high is not None:
         return Found(down(proof.low), up(proof.high), "proved",
-                     f"{limit.words}: the motion enclosed, its first crossing by roots")
+                     MOTION_ENCLOSED)
     if proof.done and proof.low is not None:  # the search reached its end, and no crossing is sure
         return Found(down(proof.low), math.nan, "proved",
-                     f"{limit.words}: touched at t = {float(proof.low):.10g} {scene.time_unit} as closely as "
-                     f"{2.0**-50:.0e}:  whether it is reached is not known")
+                     TOUCHED(time=Quantity(float(proof.low), scene.time_unit),
+                             share=Quantity(2.0**-50, digits=1)))
     if proof.done:
-        return after_a_period(limit) if last is not end else Found(
+        return after_a_period() if last is not end else Found(
             down(proof.until), math.nan, "proved",
-            f"{limit.words}: not reached by the end of the search, the motion enclosed")
+            ENCLOSED_TO_END)
     return _beyond_integers(scene, state, start, limit, end, max(down(proof.until), down(before)),
                             bands if work else 0, spun)
 
@@ -364,7 +380,7 @@ def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end:
         band = banded(scene, start, limit, last if open_end else run.high * (1 + BEYOND), bands)
         if band is not None and band.high < math.inf:
             return Found(band.low, band.high, "proved",
-                         f"{limit.words}: the motion enclosed in {band.steps} compiled steps")
+                         ENCLOSED_IN_STEPS(steps=band.steps))
         known = max(known, band.low) if band is not None else known
     if run.high >= known:  # a run that the enclosure contradicts is worth nothing
         return run
@@ -374,14 +390,14 @@ def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end:
     if run.low > known and open_end:
         return run
     return Found(known, math.nan, "proved",
-                 f"{limit.words}: proved not to be reached before low; {run.words}")
+                 PROVED_BEFORE(time=Quantity(known, scene.time_unit).lower).then(run.reason))
 
 
 def _of_any(scene: AnyScene, state: Any, limit: Limit, end: Fraction | None) -> Found:
     """The answer for one motion of any scene."""
     start = equations_and_start(scene, state)[1]
     if limit.reached_by([Fraction(v) for v in start[:3].tolist()]):
-        return Found(0.0, 0.0, "exact", f"{limit.words}: reached already at the start")
+        return Found(0.0, 0.0, "exact", AT_THE_START)
     last = math.inf if end is None else float(end)
     if found := never_bounded(scene, state, limit):
         return found

@@ -417,8 +417,7 @@ REASONS: dict[Basis, Reason] = {
         "turn-rounds", "the energy is within 1e-36 of a barrier's, and the turn that puts the torque on an "
         "axis has irrational numbers, carried to 240 bits")(),
     Basis.CERTIFIED: Sentence(
-        "off-axis-certified", "the torque is off the principal axes, and the motion meets an inequality that "
-        "stays true for ever")(),
+        "off-axis-certified", "the torque is off the principal axes, where no first integral is known")(),
     Basis.CLOSED_FORM: Sentence(
         "off-axis-closed",
         "the torque is off the principal axes, and equal moments give a closed solution")(),

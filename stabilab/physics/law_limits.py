@@ -13,6 +13,7 @@ from functools import reduce
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from ..numbers.vectors import Number
+from ..reasons import Quantity, Reason, Sentence, old
 from ..validation import checked_scene
 from .effects.base import Limit, effect_words
 from .scene import AnyScene, slices
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 States: TypeAlias = Any  # an array (..., N), a sequence of floats, or a dict of blocks
 Blocks: TypeAlias = dict[str, tuple[Number, ...]]
 BEYOND, WITHIN, OPEN = "BEYOND THE LAW", "within the law", "law not judged"
+JUDGED = Sentence("law-judged", "{status}: {effect}: ")
+NOT_GIVEN = Sentence("law-needs", "{number}: it needs {needs}, which is not given, limit {limit}")
+MEASURED = Sentence("law-measured", "{number}, {value} {over}, limit {limit}")
 ROWS = 4096  # of a run that are looked at together
 
 
@@ -64,11 +68,18 @@ class Validity:
         return BEYOND if not self.held else OPEN if self.holds is None else WITHIN
 
     @property
+    def reason(self) -> Reason:
+        """Status, effect, number, value, limit, and what follows."""
+        found = JUDGED(status=self._head, effect=effect_words(self.effect)).then(self._measured(True), "")
+        for one in self.also:
+            if not one.held or one.value is None:
+                found = found.then(one._measured(True), "; also ")
+        return found
+
+    @property
     def words(self) -> str:
-        """One line: status, effect, number, value, limit, and what follows."""
-        told = "; also ".join(v._told()
-                              for v in (self, *(v for v in self.also if not v.held or v.value is None)))
-        return f"{self._head}: {effect_words(self.effect)}: {told}"
+        """`reason` in one line, in SI units."""
+        return self.reason.text()
 
     @property
     def short(self) -> str:
@@ -86,15 +97,14 @@ class Validity:
                                                         "holds", "over", "follows", "source")}
         return named | {"also": [v.as_dict() for v in self.also]}
 
-    def _measured(self) -> str:
+    def _measured(self, follows: bool = False) -> Reason:
+        """Number, value and limit; follows: also what it means that the limit is exceeded."""
         if self.value is None:
-            return f"{self.number}: it needs {self.needs}, which is not given, limit {self.limit:g}"
-        size = ("unbounded" if math.isinf(_largest(self.value))
-                else f"{float(f'{_largest(self.value):.3g}'):g}")
-        return f"{self.number}, {size} {self.over}, limit {self.limit:g}"
-
-    def _told(self) -> str:
-        return self._measured() if self.excess <= 1 else f"{self._measured()}: {self.follows}"
+            return NOT_GIVEN(number=old(self.number), needs=self.needs, limit=Quantity(self.limit))
+        most = _largest(self.value)
+        found = MEASURED(number=old(self.number), value="unbounded" if math.isinf(most) else
+                         Quantity(float(f"{most:.3g}")), over=old(self.over), limit=Quantity(self.limit))
+        return found.then(old(self.follows), ": ") if follows and self.excess > 1 else found
 
 
 def _largest(value: float | np.ndarray | None) -> float:

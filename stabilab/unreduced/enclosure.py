@@ -29,7 +29,7 @@ from ..errors import InputError
 from ..numbers.exact import exact_vector
 from ..numbers.numba_door import compiled, installed
 from ..physics.coefficients import effective
-from ..reasons import number
+from ..reasons import Quantity, Sentence
 from ..validation import checked_scene
 from . import enclosure_kernel
 from .spin_up.certificate import natural, tests_of
@@ -223,6 +223,22 @@ LATER = (1.0, 1.0625, 1.25, 1.5, 2.0)
 WIDENED = 1 + 2.0**-40
 
 
+NOT_ENCLOSED = Sentence(
+    "not-enclosed", "not proved: after {steps} validated steps, which reach {time}, the motion is {why}")
+ENCLOSED = Sentence("enclosed", "the motion up to there is enclosed, within {size} after {time}")
+NOT_FOR_ALL = Sentence(
+    "not-for-all", "not proved: the inequality does not hold for the whole set that is known to hold the "
+    "state")()
+# code of what is certified: the same where it is proved
+AS_PROVED = {
+    "spin-up-certified": Sentence(
+        "spin-up-proved", "spin-up about {axis} is proved: an inequality that the motion meets holds for "
+        "ever"),
+    "spin-up-in-equator-certified": Sentence(
+        "spin-up-in-equator-proved", "spin-up in the equator, across the axis of symmetry, is proved: an "
+        "inequality that the motion meets holds for ever")}
+
+
 def proved(scene, state, found: SpinUp, steps: int | None = None, fast: bool = False,
            plain: int = 0) -> SpinUp:
     """The answer of `spin_up` for the motion from a state (three exact numbers: floats at their word,
@@ -235,31 +251,28 @@ def proved(scene, state, found: SpinUp, steps: int | None = None, fast: bool = F
     before: Any = found.trap  # of a motion off the axes of symmetry
     scene = effective(checked_scene(scene))
     own, unit = natural(scene)
-    rates = "" if scene.variables == "scaled" else " rad/s"
+    rates = "" if scene.variables == "scaled" else "rad/s"
     test = tests_of(own).certifier(before.field, before.orders)
     way = _Way(scene, state, found.t * LATER[-1], plain)
     for later in LATER:
         reached = way.to(found.t * later, steps)
         if reached is None:
             return replace(found,
-                           cause=f"{found.cause}; not proved: after {way.steps} validated steps, at t = "
-                                 f"{way.t:.6g}, the motion is {way.why}")
+                           reason=found.reason.then(NOT_ENCLOSED(
+                               steps=way.steps, time=Quantity(way.t, scene.time_unit).lower, why=way.why)))
         middle, near = reached
         constants = test.constants(middle / unit, near / unit * WIDENED, fast)
         if constants:
             # six constants
             trap = Trap(before.field, before.form, before.orders,  # type: ignore[call-arg]
                         *constants, unit, way.t)
-            words = (found.cause.replace("is certified", "is proved")
-                     + f"; the motion up to there is enclosed, within {number(near, 2, 1)}{rates} at t = "
-                       f"{way.t:.6g}")
+            reason = replace(found.reason, sentence=AS_PROVED[found.reason.code]).then(ENCLOSED(
+                size=Quantity(near, rates, 2).upper, time=Quantity(way.t, scene.time_unit)))
             return replace(found, level="proved", trap=trap, t=way.t, state=tuple(middle.tolist()),
-                           cause=words)
+                           reason=reason)
         if not found.t:
             break
-    return replace(found,
-                   cause=f"{found.cause}; not proved: the inequality does not hold for the whole set that is "
-                         f"known to hold the state")
+    return replace(found, reason=found.reason.then(NOT_FOR_ALL))
 
 
 class _Way:

@@ -66,7 +66,7 @@ CAPTURED = Sentence(
     "captured", "captured about {axis} for ever, where its spin grows like the square root of time: the "
     "energy grows, and the barrier of the reduced potential above it grows faster")
 NO_MORE_REVERSAL = Sentence(
-    "no-more-reversal", "spin-up about {axis}: the turn about it can reverse no more (proved, after {time})")
+    "no-more-reversal", "spin-up about {axis}: the turn about it can reverse no more (proved from {time} on)")
 GROWING_BOUND = Sentence(
     "growing-bound", "spin-up about {axis}: its rate is bounded below by a growing line; still captured when "
     "the search ended, release expected after about {time}")

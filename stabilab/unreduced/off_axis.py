@@ -39,13 +39,14 @@ from ..orbit.result import AS_BOUNDS, Fate, Motion, finite, judged, pairs, witho
 from ..physics.coefficients import three_floats
 from ..physics.scene import rests
 from ..physics.states import equilibrium_mask
-from ..reasons import Angle, Quantity, Reason, Sentence, number, old
+from ..reasons import Angle, Quantity, Reason, Sentence, number
 from . import enclosure_kernel
 from .enclosure import WHY, Band, Course, allowed
 from .evidence import extremes_over, seen_over, sizes
 from .periodic import in_the_middle
 from .spin_up.certificate import natural
 from .spin_up.follow import LEVELS, SpinUps, spin_up, spin_up_many
+from .spin_up.form import ISLAND_POSSIBLE, ISLAND_SEEN
 from .spin_up.result import SpinUp
 
 # --- When a limit is first reached, and ranges of the rates
@@ -206,15 +207,15 @@ def motion(scene, state, span=None, exact=None, brief: bool | str = False, follo
     decided = OneFate(found.fate, REASON[found.level], math.nan, found.axis, found.sense)
     bounds = None if brief == "fate" else bounds_for_ever(scene, start, found)
     fields = {**judged(state, decided), "velocity_because": NO_BRANCHES, "level": found.level,
-              "finding": old(found.cause), "bounds": bounds,
+              "finding": found.reason, "bounds": bounds,
               "extremes": bounds, "extremes_over": AS_BOUNDS if bounds
               else NO_SPAN.format(unit=scene.time_unit)}
-    fields["reason"] = decided.reason.then(old(found.cause))
+    fields["reason"] = decided.reason.then(found.reason)
     known = {"t_certificate" if found.fate == Fate.SPIN_UP else "followed_until": found.t,
              "steps_followed": found.steps,
              "small_change_grew": found.condition}
     seen = {} if span is None or brief == "fate" else seen_over(scene, state, span)
-    if found.fate == Fate.UNDECIDED and "an island is seen" in found.cause:
+    if found.fate == Fate.UNDECIDED and found.reason.says(ISLAND_SEEN):
         fields["reason"] = fields["reason"].then(_middle(scene, found.state))
     if seen and found.fate == Fate.UNDECIDED:
         fields["reason"] = fields["reason"].then(sizes(seen["evidence"], scene.variables == "scaled"))
@@ -309,7 +310,7 @@ class Followed:
 def _island(found: SpinUp | None) -> int:
     if found is None or found.fate != Fate.UNDECIDED:
         return 0
-    return 2 if "an island is seen" in found.cause else int("a bounded island may exist" in found.cause)
+    return 2 if found.reason.says(ISLAND_SEEN) else int(found.reason.says(ISLAND_POSSIBLE.sentence))
 
 
 def fates(scene, states, fast: bool | None = None, follow: float | None = None, tell=None,

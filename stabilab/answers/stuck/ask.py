@@ -291,7 +291,7 @@ def _row(scenario: Scenario, thrusters: Sequence[Any], tilt: float | None = None
         fate=seen.fate.word, level=seen.level, axis=seen.axis or None, sense=seen.sense or None,
         direction=seen.direction and scenario.in_file(seen.direction), limit=scenario.limit,
         time_to_limit=seen.when.time, time_level=seen.when.level, never=seen.when.never,
-        largest_rate=seen.largest, followed=seen.followed, because=seen.because,
+        largest_rate=seen.largest, followed=seen.followed, reason=seen.reason,
         margins=margins(scenario, scene, seen),
         wheels=tuple(_wheel(scenario, torque, seen, wheel) for wheel in scenario.case.wheels),
         helpers=helpers(scenario, torque, others, seen) if seen.fate not in STEADY else (),

@@ -43,7 +43,7 @@ from ...numbers.units import RATE, TIME, Dimension, in_si
 from ...numbers.vectors import Float3
 from ...orbit.result import Motion
 from ...physics.scene import Scene
-from ...reasons import Mass, Sentence, number, old
+from ...reasons import Mass, Sentence, Time, number, old
 from ..attitude import of_motion
 from ..attitude_result import Attitude
 from ..caveats import of_case
@@ -52,6 +52,7 @@ from ..motion import motion
 from ..motions.rows import periods
 from ..passage import ROUNDING, WIDER, Found, TimeTo, largest_rate, times_of
 from ..simulate import trajectory
+from ..time_to import AT_THE_START, NOT_WITHIN
 from .chain import (
     RUN_STEPS,
     Chain,
@@ -148,7 +149,7 @@ def latest(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
     if found.never:
         return Latest(size, math.inf, math.inf, found.level, f"{words}: never, whenever the thrusters close")
     again = _again(base, links, found.high, size) if found.time else ()
-    return Latest(size, found.low, found.high, found.level, found.words, again)
+    return Latest(size, found.low, found.high, found.level, f"{words}: {found.reason}", again)
 
 
 def _of_all_forces(chain: Chain, found: Latest, below: Fraction) -> Latest:
@@ -188,7 +189,7 @@ def _by_runs(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
         return Latest(size, math.inf, math.inf, "run", f"{words}: never, as nothing fires")
     energy = asked(base, energy=min(base.body.exact) * below**2 / 2)
     started = energy.reached_by(links[0].exact or links[0].start.tolist())
-    early = Found(0.0, 0.0, "exact", "") if started else _first(chain, links, energy, every=True)
+    early = Found(0.0, 0.0, "exact", AT_THE_START) if started else _first(chain, links, energy, every=True)
     if early.never:
         return Latest(size, math.inf, math.inf, early.level,
                       f"{words}: never, for 2T/D1 stays below its square")
@@ -420,15 +421,19 @@ def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = Non
     return replace(times_of([found], (), limit.words, chain.base, np.array(case.state), caveats), tilt=over)
 
 
+NEVER_WITH_THRUSTERS = Sentence(
+    "never-with-thrusters", "never, neither while thrusters fire nor after")()
+
+
 def _first_crossing(chain: Chain, limit: Limit, ask: dict[str, Any], until: Fraction | None) -> Found:
     case, closed = chain.case, chain.closed
     if limit.reached_by(case.exact_state or case.state):
-        return Found(0.0, 0.0, "exact", f"{limit.words}: reached already at the start")
+        return Found(0.0, 0.0, "exact", AT_THE_START)
     if until is None and limit.kind == "rate" and chain.free:
         largest = limit_after(chain.base, in_si(ask["rate"], RATE, "rate"))
         after = crossing_of(chain, largest) or first_along(list(links_of(chain)), largest)
         if after.never:
-            return replace(after, words=f"{limit.words}: never, neither while thrusters fire nor after")
+            return replace(after, reason=NEVER_WITH_THRUSTERS)
     end = until if until is not None else max(closed, Fraction(case.span[1]) if case.span else closed)
     found = crossing_of(chain, limit, end)
     if found is None and limit.kind != "tilt":
@@ -438,7 +443,7 @@ def _first_crossing(chain: Chain, limit: Limit, ask: dict[str, Any], until: Frac
         return found
     known = 0.0 if found is None else float(end)
     return Found(known, math.nan, "undecided" if found is None else found.level,
-                 f"{limit.words}: not reached before {number(known, 10, -1)} s")
+                 NOT_WITHIN(time=Time(known).lower))
 
 
 def _positive(value: Any, unit: Dimension, name: str) -> Fraction:

@@ -20,6 +20,7 @@ from ...numbers.vectors import CYCLE, Exact3, Float3
 from ...physics.effects import effect_class
 from ...physics.scene import Scene
 from ...physics.states import checked_times, moved_row
+from ...reasons import Sentence
 from ...validation import came
 from ..limit import AXES, Enclosed, Limit, enclosed
 from ..passage import MOVED, ROUNDING, Found, by_run
@@ -203,14 +204,18 @@ def end_of(scene: Scene, state: np.ndarray, length: Fraction) -> np.ndarray:
     return np.asarray(run.states[-1], float)
 
 
+CHAIN_ENCLOSED = Sentence(
+    "chain-enclosed", "the chain of motions enclosed, its first crossing by roots")()
+NOT_IN_ANY_LINK = Sentence("not-in-any-interval", "not reached between any two switches of the thrusters")()
+
+
 def crossing_of(chain: Chain, limit: Limit, end: Fraction | None = None) -> Found | None:
     """The first crossing along the chain, by `end` (None: the last closing), proved; None where the work does
     not reach it."""
     proof = chain.enclosed(limit, end)
-    words = f"{limit.words}: the chain of motions enclosed, its first crossing by roots"
     if proof.high is not None and proof.low is not None:
-        return Found(down(proof.low), up(proof.high), "proved", words)
-    return Found(math.inf, math.inf, "proved", words) if proof.done and proof.low is None else None
+        return Found(down(proof.low), up(proof.high), "proved", CHAIN_ENCLOSED)
+    return Found(math.inf, math.inf, "proved", CHAIN_ENCLOSED) if proof.done and proof.low is None else None
 
 
 def first_along(links: Sequence[Link], limit: Limit, every: bool = False) -> Found:
@@ -228,7 +233,7 @@ def first_along(links: Sequence[Link], limit: Limit, every: bool = False) -> Fou
             return replace(found, low=low, high=high)
     burns = [one for one in links if one.firing or every]
     level = "proved" if len(burns) <= 1 and all(one.exact for one in burns) else "run"
-    return Found(math.inf, math.inf, level, limit.words)
+    return Found(math.inf, math.inf, level, NOT_IN_ANY_LINK)
 
 
 def _first(link: Link, limit: Limit) -> Found | None:

@@ -19,17 +19,19 @@ from ...numbers.exact import sqrt_fraction
 from ...numbers.polynomial import golden_section
 from ...numbers.principal import IDENTITY, NOTHING, PrincipalAxes, summed, without_trace
 from ...numbers.vectors import Exact3, Float3, Number, cross, dot
+from ...orbit.fate import REASONS, Basis
 from ...orbit.reduction import Reduction
 from ...orbit.result import Fate, Motion
 from ...physics.effects import effect_class
 from ...physics.scene import Body, Scene, rests
+from ...reasons import Reason, Sentence
 from ...unreduced.enclosure import proved
 from ...unreduced.spin_up.follow import spin_up
 from ...validation import came
 from ..kinds import kind_of, one
 from ..limit import Limit, asked
 from ..passage import Found, largest_rate, run_once
-from ..time_to import of_one
+from ..time_to import NEVER_AT_REST, of_one
 from ..when import limit_of
 from .line import EVERY, INF, Family, Intervals, Line, candidates, family_of, own_momentum, pieces
 
@@ -129,10 +131,14 @@ TURN = 1.001  # of a period: a motion that repeats is followed for so long
 EXACT = ("axis", "law")  # certificates of growth that are closed solutions
 
 
+NO_LIMIT = Sentence("no-limit", "no limit is asked for")()
+TIME_TO_LIMIT = Sentence("time-to-limit", "the limit: {known}")
+
+
 @dataclass(frozen=True)
 class Outcome:
     """What becomes of one motion: fate, level, axis (1, 2, 3 of the scene or 0), sense, direction (scene's
-    axes) and because as in `SpinUp`.
+    axes) and reason as in `SpinUp`.
 
     motion: of a scene with an orbit or a law, None elsewhere; when: what is known of the time to the limit,
     without one that it is not reached; largest: |omega| up to the limit, or for ever, rad/s, None where
@@ -144,7 +150,7 @@ class Outcome:
     axis: int
     sense: int
     direction: Float3 | None
-    because: str
+    reason: Reason
     motion: Any
     when: Found
     largest: float | None
@@ -161,8 +167,9 @@ def outcome_of(scenario: Scenario, torque: Sequence[Fraction]) -> Outcome:
     """What becomes of the scenario's motion under a torque."""
     scene = scenario.scene(torque)
     if rests(scene.quadratic(), scenario.state):
-        why, never = "every rate vanishes at the state, exactly", Found(math.inf, math.inf, "exact", "")
-        return Outcome(Fate.EQUILIBRIUM, "exact", 0, 0, None, why, None, never, math.hypot(*scenario.start))
+        never = Found(math.inf, math.inf, "exact", NEVER_AT_REST)
+        return Outcome(Fate.EQUILIBRIUM, "exact", 0, 0, None, REASONS[Basis.AT_REST], None, never,
+                       math.hypot(*scenario.start))
     return _off_axis(scenario, scene) if kind_of(scene) == "off axis" else _by_law(scenario, scene)
 
 
@@ -191,7 +198,7 @@ def _off_axis(scenario: Scenario, scene: Scene) -> Outcome:
     when = _when(scenario, scene, None if spins or seen.fate == Fate.BOUNDED else seen.t, spun=certified)
     axis, sense, direction = (seen.axis, seen.sense, seen.direction) if spins else (0, 0, None)
     return Outcome(seen.fate, "run" if seen.level == "undecided" else seen.level, axis, sense, direction,
-                   f"{seen.cause}{_unsure(when)}", None, when,
+                   seen.reason.then(_unsure(when)), None, when,
                    _largest(scenario, scene, when, None if spins else seen.t))
 
 
@@ -208,7 +215,7 @@ def _by_law(scenario: Scenario, scene: Scene) -> Outcome:
     level = ("run" if motion.fate == Fate.UNDECIDED or certificate in ("evidence", "none") else
              "exact" if certificate in EXACT else "certified")
     return Outcome(motion.fate, level, motion.axis, motion.sense,
-                   _direction(scene, motion) if spins else None, f"{motion.because}{_unsure(when)}", motion,
+                   _direction(scene, motion) if spins else None, motion.reason.then(_unsure(when)), motion,
                    when, largest)
 
 
@@ -216,16 +223,16 @@ def _when(scenario: Scenario, scene: Scene, t_max: float | None, *work: Any, spu
     """When the limit is reached, by `time_to`; t_max: how far an undecided motion was followed, s; work,
     spun: as of `time_to.of_one`."""
     if scenario.limit is None:
-        return Found(t_max or 0.0, math.nan, "run", "")
+        return Found(t_max or 0.0, math.nan, "run", NO_LIMIT)
     end = None if t_max is None else Fraction(t_max)
     # work is no more than two
     return of_one(scene, scenario.start, scenario.state, scenario.exact_limit,  # type: ignore[misc]
                   end, *work, spun=spun)
 
 
-def _unsure(when: Found) -> str:
-    """Why no more is known of the time, in words."""
-    return "" if when.time or when.never or not when.words else f"; {when.words}"
+def _unsure(when: Found) -> Reason | None:
+    """Why no more is known of the time to the limit."""
+    return None if when.time or when.never or when.reason is NO_LIMIT else TIME_TO_LIMIT(known=when.reason)
 
 
 def _largest(scenario: Scenario, scene: Scene, when: Found, otherwise: float | None) -> float | None:

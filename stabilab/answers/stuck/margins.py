@@ -19,7 +19,7 @@ from ...numbers.vectors import Float3, Number
 from ...orbit.reduction import Reduction
 from ...orbit.result import Fate, Motion
 from ...physics.scene import Scene
-from ...reasons import number
+from ...reasons import Reason, number
 from ...representation import Shown
 from ..caveats import STEADY
 from ..tilt import Spread, Tilt
@@ -112,7 +112,7 @@ class Row:
     for ever. followed: s, up to where the limit is known not to be reached. tilt: what becomes of a bounded
     motion when the torque is a little off its axis (`answers.tilt`), where a limit or a misalignment is
     stated. box: what uncertain numbers do to the fate under a torque along an axis, None where none is.
-    caveats: all that limits the row.
+    caveats: all that limits the row. reason: why it has this fate, because: the same in words.
     """
 
     thrusters: tuple[str, ...]
@@ -129,13 +129,18 @@ class Row:
     never: bool
     largest_rate: float | None
     followed: float
-    because: str
+    reason: Reason
     margins: dict[str, Margin]
     wheels: tuple[WheelAnswer, ...] = ()
     helpers: tuple[Helper, ...] = ()
     tilt: Tilt | Spread | None = None
     caveats: tuple[Caveat, ...] = ()
     box: Uncertainty | None = None
+
+    @property
+    def because(self) -> str:
+        """Why it has this fate, in words and SI units."""
+        return self.reason.text()
 
 
 @dataclass(frozen=True, repr=False)

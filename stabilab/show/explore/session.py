@@ -169,7 +169,7 @@ class Session:
         about_axes = frame.components(self.case, units.axes)  # of the file, where they are others
         turns = not self.units.scaled and present("numpy") and (case.scene.plain or not moving)
         holds = None if found is None else found.validity  # of an approximate law
-        notes = [note, self._swept, cut, holds and lettered(units.words(holds.words)),
+        notes = [note, self._swept, cut, holds and units.said(holds.reason),
                  *limiting.beside((case if found is None else found).caveats, units, words)]
         made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word,
                 "look": "conditional" if found is None else look(found),

@@ -141,14 +141,15 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     box = _tried(absent, "Uncertain numbers", lambda: uncertain(case, asked)) if case.uncertain else None
     answer = f"No motion is given. Equilibria: {found.kind if found else 'not known'}"
     answer = headline(case, moved, units) if moved else answer
-    beyond = "" if moved is None or moved.validity is None or moved.validity.held else moved.validity.words
+    held = moved is None or moved.validity is None or moved.validity.held
+    law = "" if held else printed(units.said(moved.validity.reason))
     over = (Kind.UNCERTAIN, Kind.TOLERANCE) if box else (Kind.UNCERTAIN,)
     caveats = limiting.beside(without(of_case(case) if moved is None else moved.caveats, *over), units,
                               answer)
     page = {"name": case.name, "title": case.heading, "source": case.source,
             "path": case.path, "text": case.text,
             "headline": printed("; ".join(filter(None, (answer, what_changes(box, units))))),
-            "law": printed(units.words(beyond)), "caveats": list(map(printed, caveats)),
+            "law": law, "caveats": list(map(printed, caveats)),
             "fate": "" if moved is None else "undecided" if open_fate(box) else moved.fate.word,
             "look": "" if moved is None else "conditional" if open_fate(box) else look(moved),
             "tiles": [], "facts": [], "extremes": [], "over": "", "pictures": [], "sensitivity": None,
@@ -194,7 +195,7 @@ def _tried(absent, what, made):
 def facts(case, motion, units) -> list[tuple[str, str]]:
     """(what, its value) of everything known of the motion, in the order in which one asks."""
     validity, axes, words = motion.validity, frame.rows_of_axes(case), units.words
-    found = [("law", words(validity.words))] if validity is not None and validity.held else []
+    found = [("law", units.said(validity.reason))] if validity is not None and validity.held else []
     at = state(motion.at, units, case.scene.blocks)
     found += [("start", f"{at} at {'tau' if units.scaled else 't'} = 0")]
     found += [("because", units.said(motion.reason).removeprefix("undecided: "))]

@@ -17,7 +17,6 @@ from ...answers.motions.of_case import law_of as of_case
 from ...errors import Kind, printable
 from .. import ending, limiting
 from ..axes import PLAIN, axes_of, direction
-from ..terminal import lettered
 from ..units import SHORT, SI, SPAN, Unit, Units, as_bound, number, units_of
 
 if TYPE_CHECKING:
@@ -34,7 +33,7 @@ def first(validity, text: str, units: Units = SI, caveats=()) -> str:
     if validity is None:
         return text
     answer, *rest = text.split("\n")
-    words = lettered(units.words(printable(validity.words)))
+    words = units.said(validity.reason)
     if validity.held:
         return "\n".join([f"{answer}; {words}", *rest])
     return "\n".join([warned(validity, answer), f"law: {words.removeprefix(f'{validity.status.upper()}: ')}",
@@ -94,7 +93,7 @@ def lines_of(judged, units: Units = SI) -> list[str]:
 
 
 def _told(found, units) -> str:
-    return lettered(units.words(found.words))
+    return units.said(found.reason)
 
 
 def _alike(judged) -> list:

@@ -42,7 +42,8 @@ def as_dict(case, limit, found) -> dict:
     return {"schema": "stabilab.when/1", "case": case.name, "variables": case.variables, "kind": limit.kind,
             "quantities": limit.names, "limits": limit.limits, "reached": reached(low, high),
             "time": [low, high] if math.isfinite(high) else None, "not_before": low,
-            "level": str(found.level), "because": str(found.words), "tilt": tilt_dict(found.tilt)
+            "level": str(found.level), "because": str(found.words),
+            "reason": found.reason.as_dict(), "tilt": tilt_dict(found.tilt)
             } | ending.key(case, found.ending) | limiting.key(case, found.caveats) | frame.key(case)
 
 
@@ -60,9 +61,7 @@ def text(case, limit, found, units: Units) -> str:
     low, high = float(found.low), float(found.high)
     parts = [_answer(limit, found, low, high, units),
              "BUT " * varies(found) + limiting.tilted(found.caveats, units)]
-    # the limit stands above, in the units asked for
-    reason = re.sub(r"^[^:]* = [^:]*: ", "", str(found.words))
-    told = f"{printable(case.name)}: {'; '.join(filter(None, parts))}\n  {lettered(units.words(reason))}"
+    told = f"{printable(case.name)}: {'; '.join(filter(None, parts))}\n  {units.said(found.reason)}"
     end = ending.line(found.ending, units)
     return f"{told}\n  in the end: {lettered(end)}" if end else told
 

@@ -43,7 +43,7 @@ def _row(row, case) -> dict:
     return {**values_of(row, "thrusters torque torque_principal fate level"),
             **axes_of(case).key(row.axis), **values_of(row, "sense limit time_to_limit largest_rate"),
             "margin": _margin_sizes(row), "wheel_intervals": wheels,
-            "because": row.because, "tilt": tilt_dict(row.tilt),
+            "because": row.because, "reason": row.reason.as_dict(), "tilt": tilt_dict(row.tilt),
             **values_of(row, "direction never time_level"),
             "margin_direction": {name: margin.direction for name, margin in margins},
             "margin_until": {name: margin.until and Endless(margin.until) for name, margin in margins},
@@ -282,7 +282,7 @@ def _helper(helper, units) -> str:
 def _details(row, units) -> list[str]:
     found = [("torque, principal axes", f"{vector(row.torque_principal)} N m"),
              ("torque, frame of file", f"{vector(row.torque)} N m"),
-             ("fate", f"{row.fate} ({row.level})"), ("because", lettered(units.words(row.because)))]
+             ("fate", f"{row.fate} ({row.level})"), ("because", units.said(row.reason))]
     margins = {}
     for name, margin in row.margins.items():
         told = lettered(holds_for(name, margin, units))

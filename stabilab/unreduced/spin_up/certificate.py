@@ -66,6 +66,7 @@ from ...numbers.exact import sqrt_fraction
 from ...numbers.numba_door import compiled
 from ...numbers.vectors import dot
 from ...orbit.result import Fate
+from ...reasons import Reason, Sentence
 from . import kernel
 from .centres import FixedCentre, MovingCentre, Terms, moving_centre, sizes
 from .form import forms_of
@@ -103,17 +104,36 @@ def axis_of_symmetry(D) -> int | None:
     return found[0] if len(found) == 1 else None
 
 
+NO_TORQUE = Sentence("closed-no-torque", "without a torque the energy is constant and the motion bounded")()
+SPHERE_ALONE = Sentence("closed-sphere", "a sphere without a wheel: the rate grows along the torque")()
+SPHERE_WHEEL_ACROSS = Sentence(
+    "closed-sphere-wheel-across", "a sphere with a wheel across the torque: the rate goes round the wheel's "
+    "momentum")()
+SPHERE_WHEEL = Sentence(
+    "closed-sphere-wheel", "a sphere with a wheel: the rate grows along the wheel's momentum, by the "
+    "torque's component there")()
+SYMMETRIC_LINEAR = Sentence(
+    "closed-symmetric-linear", "the axis of symmetry bears a torque and there is no transverse wheel: the "
+    "spin about it is linear in time")()
+SYMMETRIC_TURNS = Sentence(
+    "closed-symmetric-turns", "the spin about the axis of symmetry is constant and turns the transverse "
+    "torque round")()
+SYMMETRIC_GROWS = Sentence(
+    "closed-symmetric-grows", "the spin about the axis of symmetry is the one at which the transverse rate "
+    "keeps its direction: it grows along the transverse torque")()
+
+
 @dataclass(frozen=True)
 class Closed:
     """A closed solution, in exact numbers (roots to 240 bits). law: its name; direction: of the growth, any
     length, None where the motion is bounded; gain: the rate grows at least so fast along it; most: what is
-    across it, or the whole rate of a bounded motion, is never larger; cause: words."""
+    across it, or the whole rate of a bounded motion, is never larger; reason: why it is closed."""
 
     law: str
     direction: Sequence[Fraction] | None
     gain: Fraction | None
     most: Fraction
-    cause: str
+    reason: Reason
 
     @property
     def about(self) -> tuple[int, int]:
@@ -132,7 +152,7 @@ def closed(scene, state) -> Closed | None:
     x = [Fraction(v) for v in state]
     if not any(M):
         return Closed("free", None, None, sqrt_fraction(dot(D, [v * v for v in x]) / min(D)),
-                      "without a torque the energy is constant and the motion bounded")
+                      NO_TORQUE)
     if D[0] == D[1] == D[2]:
         return _sphere(D[0], l, M, x)
     i = axis_of_symmetry(D)
@@ -142,14 +162,13 @@ def closed(scene, state) -> Closed | None:
 def _sphere(D, l, M, x):
     if not any(l):
         return Closed("sphere", M, _size(M) / D, _across(x, M),
-                      "a sphere without a wheel: the rate grows along the torque")
+                      SPHERE_ALONE)
     along, across = dot(l, M), _across(x, l) + 2 * _across(M, l) / _size(l)
     if not along:
         return Closed("sphere", None, None, across + abs(dot(x, l)) / _size(l),
-                      "a sphere with a wheel across the torque: the rate goes round the wheel's momentum")
+                      SPHERE_WHEEL_ACROSS)
     return Closed("sphere", [v if along > 0 else -v for v in l], abs(along) / _size(l) / D, across,
-                  "a sphere with a wheel: the rate grows along the wheel's momentum, by the torque's "
-                  "component there")
+                  SPHERE_WHEEL)
 
 
 def _symmetric(i, D, l, M, x):
@@ -160,15 +179,13 @@ def _symmetric(i, D, l, M, x):
         turning = abs(D[i] - D[j]) * abs(M[i]) / (D[i] * D[j])  # of the turn's own rate
         return Closed(law, [Fraction((n == i) * (1 if M[i] > 0 else -1)) for n in range(3)],
                       abs(M[i]) / D[i], cone + 8 * push / sqrt_fraction(turning),
-                      "the axis of symmetry bears a torque and there is no transverse wheel: the spin about "
-                      "it is linear in time")
+                      SYMMETRIC_LINEAR)
     turn = ((D[i] - D[j]) * x[i] + l[i]) / D[j]
     if turn:
         return Closed(law, None, None, cone + 2 * push / abs(turn) + abs(x[i]),
-                      "the spin about the axis of symmetry is constant and turns the transverse torque round")
+                      SYMMETRIC_TURNS)
     return Closed(law, flat, push, _across(x, flat),
-                  "the spin about the axis of symmetry stays where the transverse rate stands still: it "
-                  "grows along the transverse torque")
+                  SYMMETRIC_GROWS)
 
 
 def _size(vector):
@@ -197,7 +214,7 @@ def exactly(scene, state) -> SpinUp | None:
         bounded[axis - 1] = (start, math.inf) if sense > 0 else (-math.inf, -start)
         trap = SteadyTrap(axis, sense, start, float(found.gain), tuple(bounded))
     return SpinUp(Fate.SPIN_UP if direction else Fate.BOUNDED, axis, sense, direction, "exact", trap, 0.0,
-                  tuple(map(float, state)), 0, found.cause, 1.0)
+                  tuple(map(float, state)), 0, found.reason, 1.0)
 
 
 def equatorial(scene) -> MovingCentre | None:

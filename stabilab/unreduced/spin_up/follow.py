@@ -23,12 +23,12 @@ from ...orbit.result import Fate
 from ...physics.coefficients import effective, three_floats
 from ...physics.scene import AnyScene
 from ...physics.states import checked_states
-from ...reasons import number
+from ...reasons import Axis, Quantity, Sentence, old
 from ...validation import checked_scene
 from ..enclosure import proved
 from .certificate import Tests, exactly, loaded, natural, stored, tests_of
 from .drift import Leaps, Runs
-from .form import island_words, recurs, seen
+from .form import island, recurs, seen
 from .result import SpinUp, Trap
 
 NATURAL_TIMES, BUDGET = 1e9, 600_000
@@ -45,6 +45,28 @@ FIRST, EARLY, SHARES, MOST = 4, 600, (0.25, 0.1), 2000
 # applies. What costs more comes later.
 LAST = 20_000
 PLAN = ((1, 0, "often"), (3, 48, "high"), (4, 3000, "all"), (8, LAST, "last"))
+
+
+RATE_TOO_LARGE = Sentence(
+    "rate-too-large", "a rate exceeds {most} natural units of {unit}: no run in doubles holds it")
+BOUNDED_BY_LAW = Sentence("bounded-by-law", "bounded by the law of a torque along a principal axis")()
+BROKE_OFF = Sentence(
+    "run-broke-off", "a run in doubles broke off after {steps} steps, as its numbers left their range: "
+    "nothing is seen of the motion")
+FOLLOWED = Sentence(
+    "followed", "followed for {time}, {steps} steps, over which a small change of the start grew {growth} "
+    "times")
+ROUNDING_DECIDES = Sentence("rounding-decides",
+                            "so that rounding errors decide what a run shows at its end")()
+CERTIFIED_ABOUT = Sentence(
+    "spin-up-certified", "spin-up about {axis} is certified: an inequality that the motion meets holds for "
+    "ever")
+CERTIFIED_EQUATOR = Sentence(
+    "spin-up-in-equator-certified", "spin-up in the equator, across the axis of symmetry, is certified: an "
+    "inequality that the motion meets holds for ever")()
+BY_INEQUALITY = Sentence(
+    "inequality-orders", "the inequality is that of the normal form about the {form}, energy to order "
+    "{energy}, amplitude to order {amplitude}")
 
 
 @dataclass
@@ -160,10 +182,8 @@ def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int
     if not tests:
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, seen(scene, state), 1.0)
     if not follows(state, unit):
-        words = (
-            f"a rate exceeds {FARTHEST:g} natural units of {unit:.3g} 1/{scene.time_unit}: no run in doubles "
-            f"holds it")
-        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, words, 1.0)
+        reason = RATE_TOO_LARGE(most=Quantity(FARTHEST), unit=Quantity(unit, f"1/{scene.time_unit}", 3))
+        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, reason, 1.0)
     plain = _plain_steps(1, fast, proof)
     found = chase(own, tests, np.array([state]) / unit, NATURAL_TIMES if t_max is None else t_max * unit,
                   BUDGET if budget is None else budget, after * unit,
@@ -194,7 +214,7 @@ def kept_by_law(scene: AnyScene, state: tuple[float, ...], answer: SpinUp) -> Sp
     if known.fate not in (Fate.BOUNDED, Fate.EQUILIBRIUM):
         return answer
     return replace(answer, fate=Fate.BOUNDED, level="exact",
-                   cause=f"bounded by the law of a torque along a principal axis: {known.because}")
+                   reason=BOUNDED_BY_LAW.then(known.reason, ": "))
 
 
 def follows(state, unit: float) -> bool:
@@ -207,33 +227,26 @@ def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
     t, state = float(found.t[row]) / unit, tuple((found.states[row] * unit).tolist())
     steps, condition, passed = int(found.steps[row]), float(found.condition[row]), float(found.passed[row])
     if found.fired[row] < 0 and not all(map(math.isfinite, (t, *state))):
-        words = (
-            f"a run in doubles broke off after {steps} steps, as its numbers left their range: nothing is "
-            f"seen of the motion")
-        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, words, condition,
-                      passed)
+        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, BROKE_OFF(steps=steps),
+                      condition, passed)
     if found.fired[row] < 0:
         recurrent = recurs(found.largest[row].tolist(), found.least[row].tolist(), steps)
-        words = (f"{seen(scene, state, island_words(scene, t) if recurrent else '')}; followed for "
-                 f"{number(t, side=-1)} "
-                 f"{scene.time_unit}, {steps} steps, over which a "
-                 f"small change grew {condition:.3g} times")
-        if row in found.given_up:
-            words += f"; {found.given_up[row]}"
+        reason = seen(scene, state, island(scene, t) if recurrent else None).then(FOLLOWED(
+            time=Quantity(t, scene.time_unit).lower, steps=steps, growth=Quantity(condition, digits=3)))
         if not condition * (1 + passed) * 2.0**-52 < 1 / 16:
-            words += ": more than a run in doubles can tell"
-        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, words, condition,
+            reason = reason.then(ROUNDING_DECIDES, ", ")
+        if row in found.given_up:
+            reason = reason.then(old(found.given_up[row]))
+        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, reason, condition,
                       passed)
     field, orders = found.tests.asked[found.fired[row]]
     trap = Trap(field, field.name, orders, *map(float, found.constants[:, row]), unit, t,
                 float(found.blur[row]) / unit)  # type: ignore[call-arg]  # six constants
     direction = tuple(field.basis[0].tolist())
     axis, sense = (0, 1) if field.axis is None else (field.axis + 1, field.sense)
-    where = "in the equator, across the axis of symmetry" if not axis else f"about axis {axis}"
-    words = (
-        f"spin-up {where} is certified about the {field.name} at orders {orders[0]} and {orders[1]}: the "
-        f"inequality holds for ever")
-    return SpinUp(Fate.SPIN_UP, axis, sense, direction, "certified", trap, t, state, steps, words, condition,
+    reason = (CERTIFIED_ABOUT(axis=Axis(axis)) if axis else CERTIFIED_EQUATOR).then(
+        BY_INEQUALITY(form=field.name, energy=orders[0], amplitude=orders[1]))
+    return SpinUp(Fate.SPIN_UP, axis, sense, direction, "certified", trap, t, state, steps, reason, condition,
                   passed)
 
 

@@ -42,6 +42,7 @@ from fractions import Fraction
 
 from ...equilibrium.gyrostat import gyrostat_equilibria
 from ...orbit.one_state import in_range
+from ...reasons import Axis, Quantity, Reason, Sentence
 
 # --- The normal form
 HALF_TURN = (-1, 1, -1)  # about axis 2: a rotation of the body, so every vector takes part
@@ -158,73 +159,93 @@ WIDE = 2.0    # transverse motion over spin beyond which the motion is not about
 SAME, SWINGS, DOUBLINGS, SETTLED = 1.1, 0.9, 3, 10
 
 
-def seen(scene, state, recurrence: str = "") -> str:
+SLOW = Sentence("spin-up-slow", "slow: the torque has not yet gathered the spin about an axis")()
+NO_FORM_SYMMETRIC = Sentence(
+    "no-form-symmetric", "the torque has no component about the axis of symmetry and no spin-up in the "
+    "equator has a certificate: nothing to test")()
+NO_FORM = Sentence(
+    "no-form", "the torque has no component about the major or the minor axis (it lies along the "
+    "intermediate axis, if anywhere): no certificate of spin-up exists about that axis, and nothing was "
+    "followed")()
+NEAR_SADDLE_FOCUS = Sentence(
+    "parked-near-saddle-focus", "parked near a saddle-focus, a spin of {rate} against the torque about "
+    "{axis}, which it leaves on the time scale of {time}")
+SLOWING_DOWN = Sentence(
+    "slowing-down", "spin against the torque about {axis}, still slowing down: it ends after some {time} and "
+    "the fate is open until then")
+WIDE_CONE = Sentence(
+    "wide-cone", "wide cone about {axis}: the transverse motion is {ratio} times the spin, which gains only "
+    "in the mean")
+RATE_SWINGS = Sentence(
+    "rate-swings", "spin along the torque about {axis}, whose rate swings by much more than the torque gives "
+    "it")
+SMALL_COMPONENT = Sentence(
+    "small-torque-component", "small torque component about {axis} ({share} of the torque)")
+ISLAND_POSSIBLE = Sentence(
+    "island-possible", "between two equilibria, saddle-foci as a rule, where a bounded island may exist")()
+ISLAND_SEEN = Sentence(
+    "island-seen", "bounded over {time}, its largest rate no greater in any of the last doublings: an island "
+    "is seen")
+AVERAGED_CENTRE = Sentence("averaged-centre", "averaging has its centre about {axis} at a spin of {rate}")
+OTHER_CENTRE = Sentence("other-averaged-centre", "about {axis} at a spin of {rate}")
+
+
+def seen(scene, state, recurrence: Reason | None = None) -> Reason:
     """The cause why spin-up about neither axis is certified at a state on its way, strongest first.
     recurrence: what is said of a motion that recurs, where it does."""
     forms = forms_of(scene)
     if not forms:
-        return _no_form(scene)
-    causes = [words for rank, words in sorted(_look(form, state, scene.time_unit) for form in forms) if words]
-    island = _between(scene, state, recurrence)
-    small = _small(scene, forms)
-    return "; ".join(filter(None,
-                            [causes[0] if causes
-                             else "slow: the torque has not yet gathered the spin about an axis", small,
-                             island]))
+        symmetric = scene.variables != "scaled" and len(set(scene.body.exact)) == 2
+        return NO_FORM_SYMMETRIC if symmetric else NO_FORM
+    looks = sorted((_look(form, state, scene) for form in forms), key=lambda look: (look[0], str(look[1])))
+    causes = [cause for _, cause in looks if cause]
+    found = causes[0] if causes else SLOW
+    for joint, cause in zip(("; ", ", ", ", "), _small(scene, forms)):
+        found = found.then(cause, joint)
+    return found.then(_between(scene, state, recurrence))
 
 
-def _no_form(scene):
-    if scene.variables != "scaled" and len(set(scene.body.exact)) == 2:
-        return (
-            "the torque has no component about the axis of symmetry and no spin-up in the equator has a "
-            "certificate: nothing to test")
-    return ("the torque has no component about the major or the minor axis (it lies along the intermediate "
-            "axis, if anywhere): no certificate of spin-up exists about that axis, and nothing was followed")
+def _rate(scene, value: float) -> Quantity:
+    return Quantity(value, "" if scene.variables == "scaled" else "rad/s", 4)
 
 
-def _look(form, state, unit):
-    """(rank, words) of one form."""
+def _look(form, state, scene) -> tuple[int, Reason | None]:
+    """(rank, cause) of one form."""
     X, zeta = form.place(state)
-    axis = form.axis + 1
+    axis = Axis(form.axis + 1)
     cone = abs(zeta) / (abs(X) or 1e-300) / math.sqrt(form.D1 * abs(form.scale[0] * form.scale[1]))
     if X < 0:
         rest = form.drag / form.M1
         if form.drag > 0 and abs(X + rest) < PARKED * rest and cone < 3 * PARKED:
-            return 0, (f"parked near a saddle-focus, a spin of {-form.sense * rest:.4g} against the torque "
-                       f"about axis {axis}, which it leaves on the "
-                       f"time scale of {form.D1 * form.drag / form.M1**2:.3g} {unit}")
+            return 0, NEAR_SADDLE_FOCUS(rate=_rate(scene, -form.sense * rest), axis=axis, time=Quantity(
+                form.D1 * form.drag / form.M1**2, scene.time_unit, 3))
         if cone < 1:
-            return 1, (f"spin against the torque about axis {axis}, still slowing down: it ends after some "
-                       f"{form.D1 * -X / form.M1:.3g} {unit} "
-                       "and the fate is open until then")
-        return 4, ""
+            return 1, SLOWING_DOWN(axis=axis, time=Quantity(form.D1 * -X / form.M1, scene.time_unit, 3))
+        return 4, None
     if cone > WIDE:
-        return 4, ""
-    return (2, f"wide cone about axis {axis}: the transverse motion is {cone:.2g} times the spin, which "
-               f"gains only in the mean") if cone > 0.3 else (
-        3, f"spin along the torque about axis {axis}, whose rate swings by much more than the torque "
-           f"gives it")
+        return 4, None
+    return (2, WIDE_CONE(axis=axis, ratio=Quantity(cone, digits=2))) if cone > 0.3 else (
+        3, RATE_SWINGS(axis=axis))
 
 
-def _small(scene, forms):
+def _small(scene, forms) -> list[Reason]:
     torque = [float(v)
               for v in (scene.exact_mu if scene.variables == "scaled" else scene.vector("constant_torque"))]
     size = math.hypot(*torque)
-    words = [f"small torque component about axis {form.axis + 1} ({form.M1 / size:.2g} of the torque)"
-             for form in forms if form.M1 < SMALL * size]
-    return ", ".join(words)
+    return [SMALL_COMPONENT(axis=Axis(form.axis + 1), share=Quantity(form.M1 / size, digits=2))
+            for form in forms if form.M1 < SMALL * size]
 
 
-def _between(scene, state, recurrence):
+def _between(scene, state, recurrence) -> Reason | None:
     """A pointer to bounded islands: with a wheel and two equilibria, the state no faster than thrice the
     farther of them."""
     ends = _equilibria(scene)
     if not ends:
-        return ""
+        return None
     size = math.hypot(*state)
     if size > 3 * max(math.hypot(*end) for end in ends):
-        return ""
-    return recurrence or "between two equilibria, saddle-foci as a rule, where a bounded island may exist"
+        return None
+    return recurrence or ISLAND_POSSIBLE
 
 
 def _equilibria(scene):
@@ -284,10 +305,12 @@ def recurs(largest, least, steps: int) -> bool:
     return max(tops) <= SAME * min(tops) and min(least[last - DOUBLINGS:last + 1]) < SWINGS * max(tops)
 
 
-def island_words(scene, t: float) -> str:
+def island(scene, t: float) -> Reason:
     """What is said of a motion that recurs, followed for a time t."""
-    told = (
-        f"bounded over {t:.4g} {scene.time_unit}, its largest rate no greater in any of the last doublings: "
-        f"an island is seen")
-    where = [f"about axis {found.axis} at a spin of {found.spin:.4g}" for found in centres(scene)]
-    return told + (f"; averaging has its centre {' or '.join(where)}" if where else "")
+    found = ISLAND_SEEN(time=Quantity(t, scene.time_unit, 4))
+    where = [{"axis": Axis(one.axis), "rate": _rate(scene, one.spin)} for one in centres(scene)]
+    if not where:
+        return found
+    for n, centre in enumerate(where):
+        found = found.then(OTHER_CENTRE(**centre), " or ") if n else found.then(AVERAGED_CENTRE(**centre))
+    return found

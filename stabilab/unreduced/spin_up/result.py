@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...orbit.result import Fate
+from ...reasons import Reason
 from ...representation import Shown
 
 WIDER = 1e-12  # relative widening of what is told: the rounding of these few lines
@@ -134,7 +135,8 @@ class SpinUp(Shown):
     holds for the state at time t of a run in machine precision and for a ball about it that holds the run's
     rounding), "proved" (the way to the inequality is enclosed, `unreduced.enclosure`; t is exact, state the
     middle of what holds it) or "undecided". trap: bounds and clocks. t: when it fired, or how long the motion
-    was followed; state there; steps. cause: words. condition: growth of a small change of the start, across
+    was followed; state there; steps. reason: what was seen, of
+    which `cause` has the words in SI units. condition: growth of a small change of the start, across
     the motion, on the way to t. passed: steps that the way to t takes one by one; steps are those computed,
     fewer where a slow drift is run over many revolutions at once (`drift`).
     """
@@ -148,9 +150,14 @@ class SpinUp(Shown):
     t: float
     state: tuple
     steps: int
-    cause: str
+    reason: Reason
     condition: float
     passed: float = 0.0
+
+    @property
+    def cause(self) -> str:
+        """What was seen, in words and SI units."""
+        return self.reason.text()
 
 
 def _delay(c, M1, start, rise):

@@ -99,7 +99,7 @@ def test_parked_motion_is_called_parked():
     """l2 M2/d2 + l3 M3/d3 > 0 and small M1: the saddle-focus at -m*/M1."""
     scene = Scene(Body((1.4, 1, .6)), Gyrostat((0, 0, .8)), ConstantTorque((.02, 0.1, .6)))
     drag = .8 * .6 / .8
-    assert "parked" in seen(scene, (-drag / .02, 0, .8 / .8))
+    assert "parked" in str(seen(scene, (-drag / .02, 0, .8 / .8)))
 
 
 def test_condition_is_the_growth_of_a_small_change():
