@@ -15,6 +15,7 @@ from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.attitude import attitude
 from stabilab.answers.circular_orbit import circular_orbit
 from stabilab.answers.equilibria import equilibria
+from stabilab.answers.motions.one import motion as motion_of
 from stabilab.case.read import read_text
 from stabilab.numbers.principal import crossed, principal_axes, rounding, settled, summed
 
@@ -43,7 +44,7 @@ def written(moments, wheel, torque, omega, turn, text=repr):
 
 def answers(text):
     case = read_text("turned.toml", text)
-    motion, turning, found = case.motion(), attitude(case), equilibria(case)
+    motion, turning, found = motion_of(case), attitude(case), equilibria(case)
     kinds = sorted((curve.name.split()[0], *sorted({one.verdict for one in curve.segments}))
                    for curve in found.curves)
     numbers = [motion.largest, motion.period, turning.rotation_period, turning.precession_period]
