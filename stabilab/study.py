@@ -11,6 +11,7 @@ from .case import read
 from .case.far import in_doubles
 
 if TYPE_CHECKING:
+    import os
     from pathlib import Path
 
     import matplotlib.axes
@@ -49,34 +50,40 @@ class Case(read.Case):
     @_in_doubles
     def fate(self, state: Start | None = None, *, states: Starts | None = None, span: Span | None = None,
              tilt: Amount | None = None, digits: int | None = None, follow: Amount | None = None,
-             proof: bool = False, fast: bool | None = None, tell: Callable[..., Any] | None = None
-             ) -> Motions:
+             proof: bool = False, fast: bool | None = None, tell: Callable[..., Any] | None = None,
+             frame: str = "principal") -> Motions:
         """What becomes of the motion: see `stabilab.fate`."""
         from .answers.fate import fate
         return fate(self, state, states=states, span=span, tilt=tilt, digits=digits, follow=follow,
-                    proof=proof, fast=fast, tell=tell)
+                    proof=proof, fast=fast, tell=tell, frame=frame)
 
     @_in_doubles
     def motion(self, state: Start | None = None, span: Span | None = None, *, states: Starts | None = None,
                tilt: Amount | None = None, follow: Amount | None = None, proof: bool = False,
-               tell: Callable[..., Any] | None = None) -> Motion | list[Motion]:
+               tell: Callable[..., Any] | None = None,
+               frame: str = "principal") -> Motion | list[Motion]:
         """All that is known of the motion: see `stabilab.motion`."""
         from .answers.motions.one import motion
-        return motion(self, state, span, states=states, tilt=tilt, follow=follow, proof=proof, tell=tell)
+        return motion(self, state, span, states=states, tilt=tilt, follow=follow, proof=proof, tell=tell,
+                      frame=frame)
 
     @_in_doubles
     def extremes(self, state: Start | None = None, span: Span | None = None, *, states: Starts | None = None,
-                 digits: int | None = None, follow: Amount | None = None, fast: bool | None = None) -> Values:
+                 digits: int | None = None, follow: Amount | None = None, fast: bool | None = None,
+                 frame: str = "principal") -> Values:
         """The least and greatest value of each component: see `stabilab.extremes`."""
         from .answers.fate import extremes
-        return extremes(self, state, span, states=states, digits=digits, follow=follow, fast=fast)
+        return extremes(self, state, span, states=states, digits=digits, follow=follow, fast=fast,
+                        frame=frame)
 
     @_in_doubles
     def period(self, state: Start | None = None, *, states: Starts | None = None, span: Span | None = None,
-               digits: int | None = None, follow: Amount | None = None, fast: bool | None = None) -> Values:
+               digits: int | None = None, follow: Amount | None = None, fast: bool | None = None,
+               frame: str = "principal") -> Values:
         """The period of the motion: see `stabilab.period`."""
         from .answers.fate import period
-        return period(self, state, states=states, span=span, digits=digits, follow=follow, fast=fast)
+        return period(self, state, states=states, span=span, digits=digits, follow=follow, fast=fast,
+                      frame=frame)
 
     @_in_doubles
     def equilibria(self) -> Equilibria:
@@ -85,27 +92,30 @@ class Case(read.Case):
         return equilibria(self)
 
     @_in_doubles
-    def attitude(self, state: Start | None = None, digits: int | None = None, *, span: Span | None = None
-                 ) -> Attitude:
+    def attitude(self, state: Start | None = None, digits: int | None = None, *, span: Span | None = None,
+                 frame: str = "principal") -> Attitude:
         """How the motion turns in space: see `stabilab.attitude`."""
         from .answers.attitude import attitude
-        return attitude(self, state, digits, span=span)
+        return attitude(self, state, digits, span=span, frame=frame)
 
     @_in_doubles
     def when(self, state: Start | None = None, rate: Amount | None = None,
              component: str | tuple[str, Amount] | None = None, energy: Amount | None = None,
              tilt: str | tuple[str, Amount] | None = None, until: Amount | None = None, events: Any = None, *,
-             states: Starts | None = None, span: Span | None = None) -> TimeTo | Crossings:
+             states: Starts | None = None, span: Span | None = None,
+             frame: str = "principal") -> TimeTo | Crossings:
         """When the motion first reaches a limit: see `stabilab.when`."""
         from .answers.when import when
-        return when(self, state, rate, component, energy, tilt, until, events, states=states, span=span)
+        return when(self, state, rate, component, energy, tilt, until, events, states=states, span=span,
+                    frame=frame)
 
     @_in_doubles
     def stuck(self, all_thrusters: bool = False, progress: Callable[[str], Any] | None = None, *,
-              state: Start | None = None, span: Span | None = None, tilt: Amount | None = None) -> Stuck:
+              state: Start | None = None, span: Span | None = None, tilt: Amount | None = None,
+              frame: str = "principal") -> Stuck:
         """What the stuck thrusters do, and what helps: see `stabilab.stuck`."""
         from .answers.stuck.ask import stuck
-        return stuck(self, all_thrusters, progress, state=state, span=span, tilt=tilt)
+        return stuck(self, all_thrusters, progress, state=state, span=span, tilt=tilt, frame=frame)
 
     @_in_doubles
     def burn(self, stop: Amount | None = None, below: Amount | None = None) -> Burned:
@@ -115,17 +125,18 @@ class Case(read.Case):
 
     def simulate(self, times: ArrayLike | None = None, state: Start | None = None, blocks: Any = None,
                  method: str | None = None, rtol: float | None = None, attitude: str | None = None, *,
-                 omega: Start | None = None) -> Simulation:
+                 omega: Start | None = None,
+                 frame: str = "principal") -> Simulation:
         """The motion at the given times: see `stabilab.simulate`."""
         from .answers.simulate import simulate
-        return simulate(self, state, times, blocks, method, rtol, attitude, omega=omega)
+        return simulate(self, state, times, blocks, method, rtol, attitude, omega=omega, frame=frame)
 
     @property
     def plot(self) -> Plots:
         """`case.plot.time()`, and the other kinds of `stabilab.plot`."""
         return Plots(self)
 
-    def report(self, out: str | Path = "report", precision: bool = False, certify: bool = False,
+    def report(self, out: str | os.PathLike[str] = "report", precision: bool = False, certify: bool = False,
                workers: int | None = None) -> Path:
         """Write the pages of a report into a folder: see `stabilab.report`."""
         from .papers.report import report

@@ -153,16 +153,18 @@ def _lean(cosine: Any) -> Any:
 
 # --- How a body turns
 def attitude(scene: Given, state: Start | None = None, digits: int | None = None, *,
-             span: Span | None = None) -> Attitude:
+             span: Span | None = None,
+             frame: str = "principal") -> Attitude:
     """How the motion of a case turns in space.
 
     scene: a case in any form, or a scene, of a body with wheels and a constant torque, or of a heavy
-    symmetric top; state, span: in place of its own, as of `fate`. digits: 1 to 50, of the periods, which are
-    then written out too. Raises InputError for scaled variables, which have no attitude, for other effects,
-    and as `motion` does; ToleranceNotMet where the periods of a motion that is followed have fewer digits.
+    symmetric top; state, span, frame: in place of its own, as of `fate`. digits: 1 to 50, of the periods,
+    which are then written out too. Raises InputError for scaled variables, which have no attitude, for other
+    effects, and as `motion` does; ToleranceNotMet where the periods of a motion that is followed have fewer
+    digits.
     """
     digits = None if digits is None else checked_digits(digits, MOST_DECIMALS)
-    case = with_start(as_case(scene, state, span), "attitude")
+    case = with_start(as_case(scene, state, span, frame), "attitude")
     of, start, exact = _physical(case)
     if of.variables == "scaled":
         raise InputError("attitude: scaled variables have no attitude: give body, wheel and torque, and the "

@@ -8,6 +8,7 @@ from fractions import Fraction
 from os import PathLike
 from typing import Any
 
+from ..case.given import Amount
 from ..case.read import Case, load_orbiting
 from ..equilibrium.circular_orbit import (
     Branch,
@@ -53,7 +54,7 @@ class CircularOrbit:
     satellite: Satellite | None = field(default=None, repr=False)
 
 
-def circular_orbit(orbiting: Any, up_to: Any = None) -> CircularOrbit:
+def circular_orbit(orbiting: Any, up_to: Amount | None = None) -> CircularOrbit:
     """Every equilibrium, in the orbital frame, of a satellite with wheels on a circular orbit, with its
     stability and its librations.
 

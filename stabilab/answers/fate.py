@@ -31,23 +31,25 @@ NONE = ((np.nan, np.nan),) * 3
 def fate(scene: Given, state: Start | None = None, *, states: Starts | None = None,
          span: Span | None = None, tilt: Amount | None = None, digits: int | None = None,
          follow: Amount | None = None, proof: bool = False, fast: bool | None = None,
-         tell: Callable[..., Any] | None = None) -> Motions:
+         tell: Callable[..., Any] | None = None,
+         frame: str = "principal") -> Motions:
     """What becomes of the motion of a case, or from each of many starts.
 
     scene: a case in any form (see `stabilab.case.given`), or a scene. state: its start, where that is another
     or none: three rates in its variables, all components of its state, or blocks by name; exact where it is
-    text or rational. states: many starts instead, (..., 3) or rows of whole states. span: of the case, in its
-    time. tilt: of one start, the half-angle of a cone of torques ("1 deg", or rad); without it what the case
-    states. digits (1 to 50): give the margins so many, checked; ToleranceNotMet otherwise. follow: how long
-    motions are followed that only a run with a certificate decides (a torque off the principal axes), in the
-    scene's time; None for 600,000 steps, some seconds (10,000 of SciPy without heyoka). proof: enclose the
-    way of each of these motions, one after another, some milliseconds each: `level` then says "proved" where
-    that succeeds. fast: of many starts under such a torque, whether they are followed by compiled loops
-    (None: where that is quicker; the numbers are the same). tell(time, steps, motions left) is called
-    meanwhile. Raises InputError for what is no case and no start, and for scenes with effects that this
-    analysis does not cover.
+    text or rational. states: many starts instead, (..., 3) or rows of whole states. frame: in which the
+    vectors of these are, "principal", along the principal axes as `case.state` and all results are, or
+    "file", of a full tensor. span: of the case, in its time. tilt: of one start, the half-angle of a cone of
+    torques ("1 deg", or rad); without it what the case states. digits (1 to 50): give the margins so many,
+    checked; ToleranceNotMet otherwise. follow: how long motions are followed that only a run with a
+    certificate decides (a torque off the principal axes), in the scene's time; None for 600,000 steps, some
+    seconds (10,000 of SciPy without heyoka). proof: enclose the way of each of these motions, one after
+    another, some milliseconds each: `level` then says "proved" where that succeeds. fast: of many starts
+    under such a torque, whether they are followed by compiled loops (None: where that is quicker; the numbers
+    are the same). tell(time, steps, motions left) is called meanwhile. Raises InputError for what is no case
+    and no start, and for scenes with effects that this analysis does not cover.
     """
-    case, array = asked_of(scene, state, states, span, "fate")
+    case, array = asked_of(scene, state, states, span, "fate", frame)
     long: Any = time_in(case.scene, follow, "follow")
     options = _options(array, follow=long, proof=proof, fast=fast)
     found = Motions(case, array, options, None if tilt is None else angle_of(tilt))
@@ -108,17 +110,18 @@ def _checked_axes(axes: Sequence[ArrayLike]) -> list[np.ndarray]:
 
 def extremes(scene: Given, state: Start | None = None, span: Span | None = None, *,
              states: Starts | None = None, digits: int | None = None, follow: Amount | None = None,
-             fast: bool | None = None) -> Values:
+             fast: bool | None = None,
+             frame: str = "principal") -> Values:
     """Smallest and largest value of each component over all t >= 0: (..., 3, 2) in the case's variables.
 
-    scene, state, states, follow, fast: as of `fate`; span: a time, or two (from, to). +-inf where a component
-    grows without bound; at an equilibrium both are the state. Scenes without a reduction need `span`: their
-    extremes hold from the start, at time 0, to its end. Without it they have bounds for all t >= 0 where
-    spin-up is certified and NaN elsewhere, of which `reason` says why; of many starts InputError where none
-    has any. digits (1 to 50): reach so many and check them (ToleranceNotMet otherwise); without it eleven, by
-    the formulas' own bound.
+    scene, state, states, follow, fast, frame: as of `fate`; span: a time, or two (from, to). +-inf where a
+    component grows without bound; at an equilibrium both are the state. Scenes without a reduction need
+    `span`: their extremes hold from the start, at time 0, to its end. Without it they have bounds for all t
+    >= 0 where spin-up is certified and NaN elsewhere, of which `reason` says why; of many starts InputError
+    where none has any. digits (1 to 50): reach so many and check them (ToleranceNotMet otherwise); without it
+    eleven, by the formulas' own bound.
     """
-    case, array = asked_of(scene, state, states, span, "extremes")
+    case, array = asked_of(scene, state, states, span, "extremes", frame)
     long: Any = time_in(case.scene, follow, "follow")
     found = Motions(case, array, _options(array, follow=long, fast=fast), tilted=False)
     over, why = "all time", ""
@@ -139,14 +142,15 @@ def extremes(scene: Given, state: Start | None = None, span: Span | None = None,
 
 def period(scene: Given, state: Start | None = None, *, states: Starts | None = None,
            span: Span | None = None, digits: int | None = None, follow: Amount | None = None,
-           fast: bool | None = None) -> Values:
+           fast: bool | None = None,
+           frame: str = "principal") -> Values:
     """Period of each motion, (...,) in the case's time: inf where the motion does not repeat, 0 at an
     equilibrium, NaN where its fate is undecided or no return is known, as `reason` says.
 
-    scene, state, states, follow, fast: as of `fate`; digits: as of `extremes`. Raises InputError as `fate`
-    does, and under a torque off the axes follows every motion as `fate` does.
+    scene, state, states, follow, fast, frame: as of `fate`; digits: as of `extremes`. Raises InputError as
+    `fate` does, and under a torque off the axes follows every motion as `fate` does.
     """
-    case, array = asked_of(scene, state, states, span, "period")
+    case, array = asked_of(scene, state, states, span, "period", frame)
     long: Any = time_in(case.scene, follow, "follow")
     found, why = Motions(case, array, _options(array, follow=long, fast=fast), tilted=False), ""
     if found.by_rows:

@@ -160,17 +160,19 @@ def errors_of(state: Mapping[str, np.ndarray], share: float) -> dict[str, np.nda
 
 def simulate(scene: Given, state: Start | None = None, times: ArrayLike | None = None,
              blocks: Mapping[str, Any] | None = None, method: str | None = None, rtol: float | None = None,
-             attitude: str | None = None, *, omega: Start | None = None) -> Simulation:
+             attitude: str | None = None, *, omega: Start | None = None,
+             frame: str = "principal") -> Simulation:
     """The exact motion of a case from its start at the given times.
 
     scene: a case in any form, or a scene; state: its start, where that is another or none: rates, all
     components of the state, or blocks by name; times: (n,) in the case's time, the two ends of its span where
-    none are given. blocks, method, rtol, attitude: as of `simulated`, blocks in place of those of the case.
-    omega: the former name of `state`. Raises InputError as `trajectory` does.
+    none are given; frame: of the start, as of `fate`. blocks, method, rtol, attitude: as of `simulated`,
+    blocks in place of those of the case. omega: the former name of `state`. Raises InputError as `trajectory`
+    does.
     """
     if omega is not None:
         state = renamed("simulate", "omega", "state", omega, state)
-    case = as_case(scene, state)
+    case = as_case(scene, state, None, frame)
     if case.state is None:
         raise no_start(case, "simulate")
     if blocks is not None:

@@ -168,10 +168,11 @@ FASTEST = 1e150  # rad/s: beyond it squares come near the end of doubles, and no
 def when(case: Given, state: Start | None = None, rate: Amount | None = None,
          component: str | tuple[str, Amount] | None = None, energy: Amount | None = None,
          tilt: str | tuple[str, Amount] | None = None, until: Amount | None = None,
-         events: Any = None, *, states: Starts | None = None, span: Span | None = None) -> TimeTo | Crossings:
+         events: Any = None, *, states: Starts | None = None, span: Span | None = None,
+         frame: str = "principal") -> TimeTo | Crossings:
     """The first time at which the motion of a case reaches a limit, or that it never does.
 
-    case: a case in any form, or a scene; state, states, span: as of `fate`.
+    case: a case in any form, or a scene; state, states, span, frame: as of `fate`.
 
     One limit: rate="30 deg/s", of |omega|; component="z = 30 deg/s", or ("z", "30 deg/s"), of the size of the
     rate about x, y, z of the file or 1, 2, 3, the principal axes; energy="5 J", kinetic; tilt="z = 20 deg",
@@ -181,7 +182,7 @@ def when(case: Given, state: Start | None = None, rate: Amount | None = None,
     `until` (or the end of the case's span) are found: see `stabilab.answers.when`. Raises InputError for a
     limit that is none, and as `time_to` does.
     """
-    case, array = asked_of(case, state, states, span, "when")
+    case, array = asked_of(case, state, states, span, "when", frame)
     if events is not None:
         if array.ndim > 1:
             raise InputError("when: events are those of one motion: give one state")

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from ..errors import Caveat, InputError, Kind
-from ..numbers.exact import exact, floats, half_unit, sqrt_fraction
+from ..numbers.exact import Rounded, exact, floats, half_unit, sqrt_fraction
 from ..numbers.principal import (
     IDENTITY,
     PrincipalAxes,
@@ -169,8 +169,8 @@ WHEEL = ("name", "axis", "momentum", "inertia", "speed")
 SAME = Fraction(1, 10**6)  # relative: momentum and inertia x speed given to six digits agree
 
 
-@dataclass(frozen=True)
-class Thruster:
+@dataclass(frozen=True, repr=False)
+class Thruster(Rounded):
     """position: m, structural frame; direction: unit vector of the force on the body, input frame; force: N;
     misalignment: half-angle of the cone that the true direction lies in, rad, or None; force_tolerance:
     half-width, N, or None; stuck: whether it fires for ever; torque: about the centre of mass, N m, input
@@ -190,8 +190,8 @@ class Thruster:
     path: tuple = field(default=(), compare=False)
 
 
-@dataclass(frozen=True)
-class Wheel:
+@dataclass(frozen=True, repr=False)
+class Wheel(Rounded):
     """axis: unit vector, input frame; momentum: along it relative to the body, N m s; vector: both as a
     vector, input frame."""
 
@@ -201,8 +201,8 @@ class Wheel:
     vector: Exact3
 
 
-@dataclass(frozen=True)
-class Limits:
+@dataclass(frozen=True, repr=False)
+class Limits(Rounded):
     """rate: largest |omega|, rad/s, or rates: largest |omega_i| along the axes of the input frame; the other
     one is None."""
 

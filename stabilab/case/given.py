@@ -13,7 +13,7 @@ from warnings import warn
 
 from ..errors import InputError
 from ..numbers.exact import exact, floats
-from ..numbers.principal import IDENTITY, PrincipalAxes
+from ..numbers.principal import IDENTITY, PrincipalAxes, oblique
 from ..numbers.units import ANGLE, LENGTH, MOMENTUM, NONE, RATE, TIME, VELOCITY, Dimension, in_si, split
 from ..numbers.vectors import Exact3, Number
 from ..physics.scene import BLOCKS, INSIDE, AnyScene, ScaledGyrostat, Scene, slices
@@ -30,22 +30,24 @@ Start: TypeAlias = "Sequence[Amount] | Mapping[str, Sequence[Amount]] | ArrayLik
 Starts: TypeAlias = "ArrayLike | Sequence[Mapping[str, Sequence[Amount]]]"  # many
 Span: TypeAlias = "Amount | Sequence[Amount]"  # (from, to), or the end
 
+FRAMES = ("principal", "file")
 UNITS = {"omega": RATE, "x": NONE, "gamma": NONE, "attitude": ANGLE, "velocity": VELOCITY,
          "position": LENGTH, "damper": RATE, "wheel": MOMENTUM}  # of the blocks of a state
 
 
-def as_case(given: Given, state: Start | None = None, span: Span | None = None) -> Case:
+def as_case(given: Given, state: Start | None = None, span: Span | None = None,
+            frame: str = "principal") -> Case:
     """The case that is given: a `Case`, whatever `load` takes, or a scene; with this start and span in place
     of its own, where they are given.
 
     state: numbers in the variables of the case (as many as the scene has components, or the three rates
-    alone), or blocks by name; span: (from, to), or its length, numbers or text with a unit. Raises
-    InputError for what is none of these.
+    alone), or blocks by name; frame: in which its vectors are, "principal" or "file" (of a full tensor);
+    span: (from, to), or its length, numbers or text with a unit. Raises InputError for what is none of these.
     """
     case = (given if isinstance(given, Case)
             else of_scene(given) if isinstance(given, (Scene, ScaledGyrostat)) else load(given))
     if state is not None:
-        case = started(case, state)
+        case = started(case, state, frame)
     return case if span is None else replace(case, span=checked_span(time_in(case.scene, span, "span")))
 
 
@@ -76,9 +78,20 @@ def of_scene(scene: AnyScene) -> Case:
                 caveats=(*scene.body.caveats, *(one for effect in scene.effects for one in effect.caveats)))
 
 
-def started(case: Case, state: Any) -> Case:
-    """The case with another start."""
+def turning(case: Case, frame: str) -> PrincipalAxes | None:
+    """The principal axes, along which vectors given in this frame are turned; None where they are so."""
+    if frame not in FRAMES:
+        raise InputError(f'frame: expected "principal" or "file", got {frame!r:.40}')
+    return oblique(case.frame) if frame == "file" else None
+
+
+def started(case: Case, state: Any, frame: str = "principal") -> Case:
+    """The case with another start, whose vectors are in this frame."""
     rates, blocks = _parts(case.scene, state)
+    if (axes := turning(case, frame)) is not None:
+        rates = axes.turned(rates)
+        blocks |= {name: floats(axes.turned(tuple(map(Fraction, blocks[name]))))
+                   for name in ("gamma", *INSIDE) if name in blocks}
     kept = {} if isinstance(state, Mapping) else {name: value for name, value in case.blocks.items()
                                                   if name not in blocks}
     return replace(case, state=floats(rates), decimals=rates, blocks=kept | blocks)

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from ..errors import CaseError, Caveat, InputError, Kind, printable
 from ..numbers.exact import floats, sqrt_fraction
-from ..numbers.principal import PrincipalAxes
+from ..numbers.principal import PrincipalAxes, oblique
 from ..numbers.vectors import Exact3, Float3, dot
 from ..physics.coefficients import Scaling, to_scaled, torque_from_mu
 from ..physics.effects import REGISTRY, effect_class
@@ -137,9 +137,19 @@ class Case:
         return text_of_case(self)
 
     def __repr__(self) -> str:
-        motion = ("no motion" if self.state is None
-                  else f"state {self.state}" + (f", span {self.span}" if self.span else ""))
-        return f"Case({self.place}: {self.variables}, {motion})"
+        return f"Case({self.place}: {self.variables}, {self._motion()})"
+
+    def _motion(self) -> str:
+        """The start in the frame and the span, with their units."""
+        exact, axes = self.exact_state, oblique(self.frame)
+        if exact is None:
+            return "no motion"
+        numbers = ", ".join(f"{float(v) + 0.0:.6g}" for v in (exact if axes is None else axes.back(exact)))
+        rate = "" if self.variables == "scaled" else " rad/s"
+        where = "" if axes is None else " in the frame of the file"
+        span = (f", span {self.span[0]:.6g} to {self.span[1]:.6g} {self.scene.time_unit}"
+                if self.span else "")
+        return f"state ({numbers}){rate}{where}{span}"
 
     @property
     def exact_state(self) -> Exact3 | None:

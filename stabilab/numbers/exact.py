@@ -5,6 +5,7 @@ import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import fields
 from fractions import Fraction
 from numbers import Integral, Rational, Real
 from threading import RLock
@@ -66,6 +67,23 @@ def _parse(value: Any) -> Fraction:
                 raise InputError(f'"{value}" divides by zero') from None
         raise InputError(f'expected a decimal or a ratio such as "0.1" or "2/3", got "{value[:60]}"')
     raise InputError(f"expected a number, got {type(value).__name__}")
+
+
+class Rounded:
+    """A data class of exact numbers that prints them in so many digits as people read."""
+
+    def __repr__(self) -> str:
+        values = ((one.name, getattr(self, one.name)) for one in fields(self) if one.repr)  # type: ignore[arg-type]
+        return f"{type(self).__name__}({', '.join(f'{name}={_read(value)}' for name, value in values)})"
+
+
+def _read(value: object) -> str:
+    """A value as text, rationals and doubles in twelve digits."""
+    if isinstance(value, (Fraction, float)):
+        return f"{float(value):.12g}"
+    if isinstance(value, tuple):
+        return f"({', '.join(map(_read, value))}{',' * (len(value) == 1)})"
+    return repr(value)
 
 
 def half_unit(value: object) -> Fraction:

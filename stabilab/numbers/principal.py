@@ -20,7 +20,7 @@ from typing import TypeAlias
 
 from ..errors import InputError
 from .balls import rational
-from .exact import sqrt_fraction
+from .exact import Rounded, sqrt_fraction
 from .polynomial import Poly, real_roots
 from .vectors import Exact3, Number, Triple, cross, dot
 
@@ -88,8 +88,8 @@ def summed(vectors: Sequence[Exact3]) -> Exact3:
     return tuple(found)
 
 
-@dataclass(frozen=True)
-class PrincipalAxes:
+@dataclass(frozen=True, repr=False)
+class PrincipalAxes(Rounded):
     """moments: three, in the tensor's unit; axes: rows, unit vectors of the principal axes in the input
     frame, right-handed.
 

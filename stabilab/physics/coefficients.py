@@ -30,7 +30,7 @@ from types import ModuleType
 from typing import Any, ClassVar
 
 from ..errors import InputError
-from ..numbers.exact import exact_vector, sqrt_fraction
+from ..numbers.exact import Rounded, exact_vector, sqrt_fraction
 from ..numbers.vectors import Exact3, Float3, Number, Triple, cross, cross_matrix, dot
 from ..reasons import Axis, Reason, Sentence
 from ..validation import checked_scene, real
@@ -312,8 +312,8 @@ def three_floats(state: Any) -> Float3:
 
 
 # --- Dimensionless variables
-@dataclass(frozen=True)
-class Scaling:
+@dataclass(frozen=True, repr=False)
+class Scaling(Rounded):
     """omega_j = rate[j] x_j and t = time tau; exact up to square roots kept to 240 bits."""
 
     rate: Exact3

@@ -249,3 +249,13 @@ def test_a_scaled_scene_is_the_case_that_it_makes():
 def test_what_is_no_case_is_bad_input(given, words):
     with pytest.raises(stabilab.InputError, match=words):
         stabilab.load(given, *([(1, 2, 3)] if given == FILE else []))
+
+
+def test_the_methods_of_a_case_take_what_the_functions_take():
+    import inspect
+    for name in ("fate", "motion", "extremes", "period", "equilibria", "attitude", "when", "stuck", "burn", "report"):
+        own, *of_method = inspect.signature(getattr(type(CASE), name)).parameters.values()
+        first, *of_function = inspect.signature(getattr(stabilab, name)).parameters.values()
+        left_out = {"brief", "exact"} | ({"state", "span"} if name == "report" else set())
+        assert [str(one) for one in of_method] == [str(one) for one in of_function if one.name not in left_out], name
+        assert not any("Any" in str(one.annotation) and one.name not in ("events", "tell", "progress") for one in of_method), name

@@ -97,3 +97,24 @@ def test_equilibria_are_tabled_in_the_frame_of_the_file():
 def test_a_diagonal_tensor_has_one_frame():
     run = stabilab.load({"body": {"inertia": [3, 2, 1]}, "motion": {"angular_velocity": [1, 2, 3]}}).simulate([0, 1])
     assert run.frame is None and "omega1" in run.to_pandas().columns and "frame" not in run.to_xarray().attrs
+
+
+@pytest.mark.parametrize("question, options", [("fate", {"follow": 20.0}), ("extremes", {"span": 5}), ("motion", {"span": 5}),
+                                               ("when", {"rate": "0.5 rad/s"}), ("simulate", {"times": TIMES}), ("stuck", {})])
+def test_a_start_may_be_given_in_the_frame_of_the_file(case, question, options):
+    """The file gives its own there."""
+    ask, start = getattr(stabilab, question), [str(v) for v in RATES]
+    wanted = ask(case, **options)
+    for given in (case, case.scene):
+        found = ask(given, state=start, frame="file", **options)
+        turned = ask(given, state=case.exact_state, frame="principal", **options)
+        if question == "simulate":
+            assert found.state["omega"].tobytes() == wanted.state["omega"].tobytes() == turned.state["omega"].tobytes()
+        else:
+            assert repr(found).replace(" of scene", "") == repr(turned).replace(" of scene", "")
+        if question == "fate":
+            assert found.states.tolist() == list(case.state)
+            many = ask(given, states=[RATES, 2 * RATES], frame="file", **options)
+            np.testing.assert_allclose(many.states, [case.state, 2 * np.array(case.state)], rtol=1e-14)
+    with pytest.raises(stabilab.InputError, match='frame: expected "principal" or "file"'):
+        ask(case, state=start, frame="body", **options)

@@ -11,10 +11,12 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from stabilab import Body, ConstantTorque, Gyrostat, Scene, load
+from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.attitude import attitude
 from stabilab.answers.circular_orbit import circular_orbit
 from stabilab.answers.equilibria import equilibria
+from stabilab.answers.motions.one import motion as motion_of
+from stabilab.case.read import read_text
 from stabilab.numbers.principal import crossed, principal_axes, rounding, settled, summed
 
 # (moments, wheel, torque, angular velocity), each with zeros or equal numbers that a turned frame hides
@@ -41,8 +43,8 @@ def written(moments, wheel, torque, omega, turn, text=repr):
 
 
 def answers(text):
-    case = load(text)
-    motion, turning, found = case.motion(), attitude(case), equilibria(case)
+    case = read_text("turned.toml", text)
+    motion, turning, found = motion_of(case), attitude(case), equilibria(case)
     kinds = sorted((curve.name.split()[0], *sorted({one.verdict for one in curve.segments}))
                    for curve in found.curves)
     numbers = [motion.largest, motion.period, turning.rotation_period, turning.precession_period]
@@ -75,7 +77,7 @@ def test_they_are_so_in_many_frames(scene, digits):
 def test_no_frame_gives_an_oblate_body_with_a_wheel_a_long_axis_mode():
     for seed in range(10):
         turn = Rotation.random(random_state=100 + seed).as_matrix()
-        case = load(written((1, 1, 1.5), (0, 0, 0.3), None, (0.1, 0.2, 0.3), turn))
+        case = read_text("oblate.toml", written((1, 1, 1.5), (0, 0, 0.3), None, (0.1, 0.2, 0.3), turn))
         assert len(set(case.frame.moments)) == 2 and attitude(case).mode == "short-axis"
 
 

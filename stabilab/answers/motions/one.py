@@ -27,11 +27,12 @@ from .of_case import judged, motion_of_case, with_its_tilt
 def motion(scene: Given, state: Start | None = None, span: Span | None = None, *,
            states: Starts | None = None, tilt: Amount | None = None, follow: Amount | None = None,
            proof: bool = False, tell: Callable[..., Any] | None = None, brief: bool | None = None,
-           exact: Start | None = None) -> Motion | list[Motion]:
+           exact: Start | None = None,
+           frame: str = "principal") -> Motion | list[Motion]:
     """All that is known of the motion of a case: a `Motion`; of many starts (`states`) a list of them.
 
-    scene, state, states, tilt, follow, proof, tell: as of `fate`. span: (from, to), in whose times, and from
-    the start to them, extremes are searched where the motion is not integrable. brief, exact: former
+    scene, state, states, tilt, follow, proof, tell, frame: as of `fate`. span: (from, to), in whose times,
+    and from the start to them, extremes are searched where the motion is not integrable. brief, exact: former
     arguments; a start is exact where it is text or rational. Raises InputError as `fate` does.
     """
     if exact is not None:
@@ -40,12 +41,12 @@ def motion(scene: Given, state: Start | None = None, span: Span | None = None, *
         renamed("motion", "brief", "fate, extremes or period", brief, None)
     many: Any = state if states is None and state is not None and not is_one(state) else states
     if many is None:
-        cases = [with_start(as_case(scene, state, span), "motion")]
+        cases = [with_start(as_case(scene, state, span, frame), "motion")]
     elif state is not None and many is not state:
         raise InputError("motion: state is one start and states are many: give one of them")
     else:
         from .starts import asked_of
-        case, array = asked_of(scene, None, many, span, "motion")
+        case, array = asked_of(scene, None, many, span, "motion", frame)
         many = None if array.ndim == 1 else many
         cases = [case] if many is None else [started(case, row)
                                              for row in array.reshape(-1, array.shape[-1])]

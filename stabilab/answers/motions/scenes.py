@@ -29,7 +29,7 @@ from ...numbers.units import ANGLE, ENERGY, NONE, RATE, Dimension, in_si, split
 from ...orbit.separatrix import branches
 from ...orbit.separatrix.branches import Separatrix
 from ...physics import equations, law_limits
-from ...physics.states import row_of, start_of
+from ...physics.states import float_array, row_of, start_of
 from ...unreduced.spin_up import follow as spin_ups
 from ...unreduced.spin_up.follow import SpinUp
 from .. import chaos as orders
@@ -51,23 +51,24 @@ if TYPE_CHECKING:
 def time_to(scene: Given, state: Start | None = None, rate: Any = None, component: Any = None,
             energy: Amount | None = None, tilt: Any = None, t_max: Amount | None = None,
             exact: Sequence[Fraction] | None = None, work: int = WORK, *,
-            states: Starts | None = None) -> TimeTo:
+            states: Starts | None = None,
+            frame: str = "principal") -> TimeTo:
     """The first time t >= 0 at which each motion reaches a limit, between a lower and an upper bound.
 
-    scene: a case in any form, or a scene; state, states: as of `fate`. One limit is given, positive, in SI or
-    as text with a unit ("10 deg/s"), exact where it is text: rate, of |omega|, or three of them, of the size
-    of each component, whichever comes first; component=(axis, limit), of the size of the rate about an axis:
-    1, 2, 3 or three numbers along it, or a list of such pairs, whichever comes first; energy, kinetic, of the
-    body; tilt=(axis, angle), below pi, of the angle between a body axis and its own direction in space at
-    t = 0. t_max: the time at which the search ends; None: when its work is done. exact: a former argument; a
-    start is exact where it is text or rational. work: multiplications that the proof for a motion may take;
-    0: no proof.
+    scene: a case in any form, or a scene; state, states, frame: as of `fate`. One limit is given, positive,
+    in SI or as text with a unit ("10 deg/s"), exact where it is text: rate, of |omega|, or three of them, of
+    the size of each component, whichever comes first; component=(axis, limit), of the size of the rate about
+    an axis: 1, 2, 3 or three numbers along it, or a list of such pairs, whichever comes first; energy,
+    kinetic, of the body; tilt=(axis, angle), below pi, of the angle between a body axis and its own direction
+    in space at t = 0. t_max: the time at which the search ends; None: when its work is done. exact: a former
+    argument; a start is exact where it is text or rational. work: multiplications that the proof for a motion
+    may take; 0: no proof.
 
     Torque and wheel: the motion is enclosed and its crossing proved where the work reaches; beyond that by
     compiled steps (with numba), roots along a run, the clock of the spin-up. Other effects: roots along a
     run. Raises InputError for cases, states and limits that are none.
     """
-    case, array = asked_of(scene, state if exact is None else exact, states, None, "time_to")
+    case, array = asked_of(scene, state if exact is None else exact, states, None, "time_to", frame)
     plain = NONE if case.variables == "scaled" else RATE
     ask = {"rate": _of(rate, plain, "rate"), "energy": _of(energy, ENERGY, "energy"),
            "component": _pairs(case, component, plain, "component"),
@@ -108,8 +109,16 @@ def chaos(scene: Given, state: Start | None = None, until: Amount | None = None,
     what was seen up to that time: "regular" is no proof, the slowest chaos takes longer. tell(motions done)
     is called meanwhile. Raises InputError for other shapes and numbers.
     """
-    case, array = asked_of(scene, state, states, None, "chaos")
-    rows = _row(case) if array.ndim == 1 else whole_rows(case, array)
+    case, given = as_case(scene), state if states is None else states
+    if given is None or isinstance(given, Mapping):
+        rows: Any = _row(with_start(as_case(case, given), "chaos"))
+    else:  # rows of whole states, or of rates beside the other blocks of the case
+        rows = in_numbers(given, NONE if case.variables == "scaled" else RATE, "states")
+        short = case.state is not None and case.scene.blocks != ("omega",) and float_array(
+            rows, "states", "numbers in rows").shape[-1:] == (3,)
+        if short:
+            case, array = asked_of(case, state, states, None, "chaos")
+            rows = _row(case) if array.ndim == 1 else whole_rows(case, array)
     return orders.chaos(case.scene, rows, time_in(case.scene, until, "until"), tell)
 
 

@@ -7,7 +7,18 @@ from typing import Any
 
 import numpy as np
 
-from ...case.given import Given, Span, Start, Starts, as_case, in_numbers, is_one, started, with_start
+from ...case.given import (
+    Given,
+    Span,
+    Start,
+    Starts,
+    as_case,
+    in_numbers,
+    is_one,
+    started,
+    turning,
+    with_start,
+)
 from ...case.read import Case
 from ...errors import InputError
 from ...numbers.units import NONE, RATE
@@ -15,8 +26,8 @@ from ...physics.coefficients import effective
 from ...physics.states import checked_states, float_array, row_of
 
 
-def asked_of(given: Given, state: Start | None, states: Starts | None, span: Span | None, question: str
-             ) -> tuple[Case, np.ndarray]:
+def asked_of(given: Given, state: Start | None, states: Starts | None, span: Span | None, question: str,
+             frame: str = "principal") -> tuple[Case, np.ndarray]:
     """(case, starts): of one start a row (N,) and the case that starts there; of many (..., N) and the case
     as it was given. Raises InputError where no start is given and the case has none."""
     if state is not None and states is not None:
@@ -24,15 +35,16 @@ def asked_of(given: Given, state: Start | None, states: Starts | None, span: Spa
     name: str = "state" if states is None else "states"
     wanted: Any = state if states is None else states
     if wanted is None or is_one(wanted):
-        case = with_start(as_case(given, wanted, span), question)
+        case = with_start(as_case(given, wanted, span, frame), question)
         return case, np.array(case.start, float)
     case = as_case(given, None, span)
     if isinstance(wanted, (list, tuple)) and all(isinstance(one, Mapping) for one in wanted) and wanted:
-        return case, np.array([whole(started(case, one)) for one in wanted])
+        return case, np.array([whole(started(case, one, frame)) for one in wanted])
     numbers = in_numbers(wanted, NONE if case.variables == "scaled" else RATE, name)
     if effective(case.scene).plain:
-        return case, checked_states(numbers)
-    return case, _rows(case, numbers)
+        array, axes = checked_states(numbers), turning(case, frame)
+        return case, array if axes is None else array @ np.array(axes.axes, float).T
+    return case, _rows(case, numbers, frame)
 
 
 def whole(case: Case) -> np.ndarray:
@@ -49,10 +61,10 @@ def whole_rows(case: Case, array: np.ndarray) -> np.ndarray:
         *array.shape[:-1], -1)
 
 
-def _rows(case: Case, numbers: Any) -> np.ndarray:
+def _rows(case: Case, numbers: Any, frame: str) -> np.ndarray:
     """Rows of whole states, or of rates beside the other blocks of the case."""
     array = float_array(numbers, "states", "numbers in rows")
     if array.ndim < 2:
         raise InputError(f"states: expected rows of numbers, got the shape {array.shape}")
-    made = [whole(started(case, row)) for row in array.reshape(-1, array.shape[-1])]
+    made = [whole(started(case, row, frame)) for row in array.reshape(-1, array.shape[-1])]
     return np.array(made).reshape(*array.shape[:-1], -1)

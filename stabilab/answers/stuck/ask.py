@@ -222,19 +222,20 @@ def _slower(scenario: Scenario, torque: Sequence[Fraction], seen: Outcome, run: 
 
 # --- The question: a thruster is stuck open, what becomes of the spacecraft, how soon, and what helps?
 def stuck(case: Given, all_thrusters: bool = False, progress: Callable[[str], Any] | None = None, *,
-          state: Start | None = None, span: Span | None = None, tilt: Amount | None = None) -> Stuck:
+          state: Start | None = None, span: Span | None = None, tilt: Amount | None = None,
+          frame: str = "principal") -> Stuck:
     """What the stuck thrusters of a case do: fate, axis, time to the limit, margins, wheels and thrusters
     that help.
 
-    case: in any form, with a motion, or a scene with `state`; state, span: in place of the case's own. The
-    first row has all thrusters that the case marks as stuck firing together, with what else turns the body;
-    where they are several, a row for each alone follows. all_thrusters: a row for each thruster alone
-    instead, stuck or not, the one that reaches the limit first in front. progress: called with words before
-    every row. tilt: half-angle of the cone of torques, rad or text with a unit; without it what the thrusters
-    state. Raises InputError for a case without a motion or without a thruster that could be stuck, and for
-    other effects than wheel and torque.
+    case: in any form, with a motion, or a scene with `state`; state, span, frame: in place of the case's own,
+    as of `fate`. The first row has all thrusters that the case marks as stuck firing together, with what else
+    turns the body; where they are several, a row for each alone follows. all_thrusters: a row for each
+    thruster alone instead, stuck or not, the one that reaches the limit first in front. progress: called with
+    words before every row. tilt: half-angle of the cone of torques, rad or text with a unit; without it what
+    the thrusters state. Raises InputError for a case without a motion or without a thruster that could be
+    stuck, and for other effects than wheel and torque.
     """
-    case = as_case(case, state, span)
+    case = as_case(case, state, span, frame)
     if all_thrusters:
         case = each_firing(case)
     scenario, angle = scenario_of(case), None if tilt is None else angle_of(tilt)

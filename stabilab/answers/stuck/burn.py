@@ -38,6 +38,7 @@ from typing import Any
 
 import numpy as np
 
+from ...case.given import Amount
 from ...errors import Caveat, InputError, Kind, without
 from ...numbers.units import RATE, TIME, Dimension, in_si
 from ...numbers.vectors import Float3
@@ -306,7 +307,7 @@ class Closed:
     used: tuple[float | None, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Burned:
     """thrusters: names, in the order of the file; switches: in order of time; closed: what is left after the
     last closing; latest: where a limit was asked for, else None; closed_latest: what is left where they close
@@ -319,8 +320,17 @@ class Burned:
     closed_latest: Closed | None = None
     caveats: tuple[Caveat, ...] = ()
 
+    def __repr__(self) -> str:
+        left, largest = self.closed, self.closed.largest_rate
+        parts = [f"{' and '.join(self.thrusters)}: closed at {left.time:.6g} s, then "
+                 f"{left.motion.fate.word}",
+                 "" if largest is None else f"|omega| at most {largest:.6g} rad/s",
+                 "" if self.latest is None else f"{self.latest.limit:.6g} rad/s needs closing by "
+                 f"{self.latest.low:.6g} s ({self.latest.level})", *(one.words for one in self.caveats)]
+        return f"Burned({'; '.join(filter(None, parts))})"
 
-def burn(burning: Any, stop: Any = None, below: Any = None) -> Burned:
+
+def burn(burning: Any, stop: Amount | None = None, below: Amount | None = None) -> Burned:
     """What thrusters that fire on a schedule leave behind.
 
     burning: a case, the path or the text of a case file, a dict with its tables, or what

@@ -222,7 +222,7 @@ def test_a_bound_of_the_rate_keeps_other_limits_from_being_reached():
     ({}, "expected one of rate, component, energy and tilt, got none"),
     ({"rate": 2, "energy": 1}, "expected one of rate, component, energy and tilt, got rate, energy"),
     ({"rate": -2}, "expected a positive limit, got -2"),
-    ({"rate": "30 deg"}, "rate: expected a decimal or a ratio"),
+    ({"rate": "30 deg"}, "rate: expected angular velocity (rad/s), got angle"),
     ({"component": 3}, "component: expected"),
     ({"component": (4, 1)}, "expected the axis 1, 2 or 3"),
     ({"component": ((0, 0, 0), 1)}, "expected a direction, got zero"),
