@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import InputError
-from ..orbit.result import Fate
+from ..orbit.result import Fate, Needs
 from ..physics.coefficients import effective
 from ..physics.scene import AnyScene, hold_on, judge_starts, slices
 from ..physics.states import checked_starts, float_array
@@ -153,6 +153,6 @@ def _fates(scene: AnyScene, rows: np.ndarray, end: float) -> np.ndarray:
         return np.asarray(fates(scene, rows, follow=end).labels)
     parts = slices(scene.blocks)
     return np.array([motion(scene, {name: row[part].tolist() for name, part in parts.items()},
-                            brief=True).fate for row in rows], int)
+                            needs=Needs.FATE).fate for row in rows], int)
 
 

@@ -39,7 +39,7 @@ from ..files import alone_in, whole_file
 from ..interrupt import undoing
 from ..numbers.numba_door import installed
 from ..orbit.extremes_arrays import extremes_and_periods
-from ..orbit.result import Fate
+from ..orbit.result import Fate, Needs
 from ..physics.coefficients import effective
 from ..physics.states import start_of
 from ..validation import reach_of
@@ -173,7 +173,7 @@ def _depart(case: Case, states: np.ndarray) -> np.ndarray:
         found = open_.copy()
     for row in np.nonzero(open_ & ~found if twin.plain else open_)[0].tolist():
         here = replace(case, state=tuple(states[row].tolist()))
-        stability = motion(here.scene, here.start, brief=True).stability
+        stability = motion(here.scene, here.start, needs=Needs.FATE).stability
         found[row] = stability is not None and not stability.stable
     return found
 
@@ -242,8 +242,8 @@ def _single(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None
     """States that are answered one by one: liquid, medium, field."""
     for n, state in enumerate(states.tolist()):
         here = replace(case, state=tuple(state)) if tuple(state) != case.state else case
-        brief = not {"distance", "period"} & set(plan.answers)
-        found = motion(here.scene, here.start, here.span, brief, here.exact_state, plan.longest)
+        needs = Needs.RETURN | (Needs.DISTANCE if "distance" in plan.answers else Needs.FATE)
+        found = motion(here.scene, here.start, here.span, needs, here.exact_state, plan.longest)
         pairs = found.extremes or ((np.nan, np.nan),) * 3
         known = lambda value: np.nan if value is None else value
         columns = {"fate": found.fate, "spin_axis": found.axis * found.sense,
