@@ -41,6 +41,20 @@ class Fate(IntEnum):
         return ("bounded", "spin-up", "separatrix", "equilibrium", "undecided")[self]
 
 
+class Order(IntEnum):
+    """What is seen of a motion that is followed; `word` is the word of reports and JSON."""
+
+    REGULAR = 0
+    CHAOTIC = 1
+    SPIN_UP = 2
+    UNDECIDED = 3
+
+    @property
+    def word(self) -> str:
+        """The word used in reports and JSON."""
+        return ("regular", "chaotic", "spin-up", "undecided")[self]
+
+
 class Needs(Flag):
     """What of a `Motion` is worked out where a question prints it, each at a price; the fate, its reason and
     the margin in energy always are. LARGEST: of |omega|; DISTANCE: from the separatrix; QUICK: all but what
