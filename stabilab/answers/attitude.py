@@ -47,7 +47,7 @@ from ..case.given import Given, Span, Start, as_case, with_start
 from ..errors import InputError, ToleranceNotMet
 from ..numbers.balls import Digits, Unclear, settled
 from ..numbers.vectors import CYCLE, dot
-from ..orbit.result import Fate, Motion
+from ..orbit.result import Fate, Motion, Needs
 from ..physics.scene import Scene
 from .attitude_result import LONG, SEPARATRIX, SHORT, TOP, Attitude, narrow, steady, turned, with_periods
 from .caveats import limited
@@ -174,7 +174,7 @@ def attitude(scene: Given, state: Start | None = None, digits: int | None = None
         others = ", ".join(sorted({effect.with_article for effect in of.beyond}))
         raise InputError("attitude: it is known of a body with wheels and a torque constant in the body, and "
                          f"of a heavy symmetric top; this scene also has {others}")
-    found = limited(motion(of, start, brief=True, exact=exact), of, case)
+    found = limited(motion(of, start, needs=Needs.RETURN, exact=exact), of, case)
     if axis is None:
         return of_motion(of, exact, found, digits)
     return of_top(of, axis, (*exact, *map(Fraction, found.at[3:])), _at_start(of, exact, found), digits)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..errors import InputError
-from ..orbit.result import Fate
+from ..orbit.result import Fate, Needs
+from ..orbit.result import Order as Order
 from ..physics.coefficients import effective
 from ..physics.scene import AnyScene, hold_on, judge_starts, slices
 from ..physics.states import checked_starts, float_array
@@ -28,20 +28,6 @@ if TYPE_CHECKING:
 FLAT = 2.5        # MEGNO of a regular motion stays below: it tends to 2, or to less, from either side
 STEEP = 4.0       # of a chaotic one has come so far at least ...
 DOUBLES = 1.5     # ... and goes on growing, by so much at least while the time doubles
-
-
-class Order(IntEnum):
-    """What is seen of a motion; `word` is the word of reports and JSON."""
-
-    REGULAR = 0
-    CHAOTIC = 1
-    SPIN_UP = 2
-    UNDECIDED = 3
-
-    @property
-    def word(self) -> str:
-        """The word used in reports and JSON."""
-        return ("regular", "chaotic", "spin-up", "undecided")[self]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -153,6 +139,6 @@ def _fates(scene: AnyScene, rows: np.ndarray, end: float) -> np.ndarray:
         return np.asarray(fates(scene, rows, follow=end).labels)
     parts = slices(scene.blocks)
     return np.array([motion(scene, {name: row[part].tolist() for name, part in parts.items()},
-                            brief=True).fate for row in rows], int)
+                            needs=Needs.FATE).fate for row in rows], int)
 
 

@@ -36,7 +36,7 @@ from ..orbit.fate import free_margin, is_free, precise_margin
 from ..orbit.landscape import landscape
 from ..orbit.one_orbit import Orbit
 from ..orbit.reduction import reduce
-from ..orbit.result import Fate, Motion, no_period
+from ..orbit.result import Fate, Motion, Needs, no_period
 from ..physics.coefficients import effective
 from ..physics.equations import Equations
 from ..physics.scene import AnyScene, QuadraticForm, Scene, aligned, time_left
@@ -76,7 +76,7 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
     twin = effective(scene)  # it turns alike and has nothing but a wheel and a torque, if `plain`
     land = landscape(twin) if twin.plain else None
     if known is None:  # by a reduction none of the three questions needs the distance from the separatrix
-        known = motion(scene, state, span, brief=land is not None, exact=exact)
+        known = motion(scene, state, span, needs=Needs.ALL if land is None else Needs.RETURN, exact=exact)
     if question != "extremes" and number_of(question, known) is None:
         return nothing(question, digits, no_period(known.fate) if question == "period"
                        else "there is no margin in energy to be judged")

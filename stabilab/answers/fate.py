@@ -13,7 +13,7 @@ import numpy as np
 from ..case.given import Amount, Given, Span, Start, Starts, as_case, time_in
 from ..case.limit_options import angle_of
 from ..errors import InputError
-from ..orbit.result import no_period
+from ..orbit.result import Needs, no_period
 from ..validation import reach_of
 from .digits import ask, ask_all
 from .digits_asked import Told
@@ -56,7 +56,7 @@ def fate(scene: Given, state: Start | None = None, *, states: Starts | None = No
     if found.by_rows:
         vars(found)["rows"] = rows.fates(case.scene, array, **options, tell=tell)
     elif found.one:
-        found.kept["fate"] = [motion_of_case(case, "fate", long, tell, proof)]
+        found.kept[Needs.FATE] = [motion_of_case(case, Needs.FATE, long, tell, proof)]
     margins = found.margins  # what is bad input is said now
     if digits is not None:
         told = _with_digits("fate", found, digits, margins)
@@ -75,7 +75,7 @@ def _put_margins(found: Motions, told: Told) -> None:
     if found.by_rows:
         vars(found)["rows"] = replace(found.rows, margins=np.asarray(told.values))
     else:
-        found.kept["fate"] = [replace(found.motions("fate")[0], margin=float(told.values))]
+        found.kept[Needs.FATE] = [replace(found.motions(Needs.FATE)[0], margin=float(told.values))]
 
 
 def fate_grid(scene: Given, axes: Sequence[ArrayLike]) -> np.ndarray:
@@ -128,7 +128,7 @@ def extremes(scene: Given, state: Start | None = None, span: Span | None = None,
     if found.by_rows:
         values = rows.extremes(case.scene, array, reach_of(case.span), fast, long)
     else:
-        known = found.motions("extremes")
+        known = found.motions(Needs.EXTREMES)
         pairs = [NONE if one.extremes is None else one.extremes for one in known]
         values = np.array(pairs).reshape(*found.shape, 3, 2)
         if found.one:
@@ -156,7 +156,7 @@ def period(scene: Given, state: Start | None = None, *, states: Starts | None = 
     if found.by_rows:
         values = rows.periods(case.scene, array, fast)
     else:
-        known = found.motions("period")
+        known = found.motions(Needs.PERIOD)
         values = np.array([period_of(one) for one in known]).reshape(found.shape)
         why = no_period(known[0].fate) if found.one and known[0].period is None else ""
     told = None if digits is None else _with_digits("period", found, digits, values)
@@ -171,5 +171,5 @@ def _with_digits(question: str, found: Motions, digits: int, values: Any) -> Tol
     if not found.one:
         reach = reach_of(case.span) if question == "extremes" else None
         return ask_all(question, case.scene, found.states, digits, values, reach).required()
-    known = found.motions("fate" if question == "fate" else True)[0]
+    known = found.motions(Needs.FATE if question == "fate" else Needs.RETURN)[0]
     return ask(question, case.scene, case.start, digits, case.span, known, case.exact_state).required()

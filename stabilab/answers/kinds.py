@@ -1,7 +1,7 @@
 """Which kind of scene is answered by which module: a table with a row for each kind, whose modules all
 answer the same questions.
 
-One state: `motion(scene, state, span, exact, brief)` -> Motion; brief: what may be left out, as of
+One state: `motion(scene, state, span, exact, needs)` -> Motion; needs: what is worked out, as of
 `answers.motion`. Many: `fates(scene, states, fast)` ->
 FateResult, `extremes(scene, states, span, fast)` -> (n, 3, 2), `periods(scene, states, fast)` -> (n,), for
 rows (n, 3). Kinds that follow motions also take `follow`, how long a motion is followed (None: as long as a

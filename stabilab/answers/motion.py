@@ -11,6 +11,7 @@ from ..integrate.quadratic_series import largest
 from ..orbit.one_state import in_range
 from ..orbit.reduction import energy_integral
 from ..orbit.result import Fate, Motion
+from ..orbit.result import Needs as Needs
 from ..physics.coefficients import content, effective, gyrostat_scene, limits_of, loses, split
 from ..physics.scene import AnyScene
 from ..unreduced.flips import flips_of
@@ -19,7 +20,7 @@ from .caveats import limited
 from .kinds import following, one
 
 
-def motion(scene: Any, state: Any = None, span: Any = None, brief: bool | str = False,
+def motion(scene: Any, state: Any = None, span: Any = None, needs: Needs = Needs.ALL,
            exact: Sequence[Fraction] | None = None,
            follow: float | None = None, tell: Callable[..., Any] | None = None,
            proof: bool = False) -> Motion:
@@ -27,9 +28,8 @@ def motion(scene: Any, state: Any = None, span: Any = None, brief: bool | str = 
 
     scene: a Scene or a ScaledGyrostat, or a case, whose own start and span hold where none are given.
     Where gamma is part of the state: six numbers (omega, gamma), or a dict of blocks. span: (from, to), in
-    whose times, and from the start to them, extremes are searched where the motion is not integrable. brief:
-    what costs time and is not needed may be left out: of True all but fate, extremes and period, of "fate",
-    "extremes" or "period" all but this one.
+    whose times, and from the start to them, extremes are searched where the motion is not integrable. needs:
+    what is worked out beside the fate.
     exact: the three rates as they were given (Fractions), of which `state` is the rounding: where the motion
     has a reduction the answer is theirs. follow, tell: as of `fate`. proof: enclose the way of a motion that
     is followed, so that its fate is proved where it can be. Raises InputError as `fate` does.
@@ -39,20 +39,22 @@ def motion(scene: Any, state: Any = None, span: Any = None, brief: bool | str = 
     if case is not None and state is None:
         span, exact = case.span if span is None else span, case.exact_state
     scene, state = scene_and_state(scene, state)
-    found = _found(scene, state, checked_span(span), brief, exact, follow, tell, proof)
+    limits = limits_of(scene)
+    if limits and needs:  # how far its law holds is seen by its extremes
+        needs |= Needs.EXTREMES
+    found = _found(scene, state, checked_span(span), needs, exact, follow, tell, proof)
     if found.fate == Fate.EQUILIBRIUM:
         from .at_equilibrium import with_stability
         found = with_stability(scene, found, exact)
-    limits = limits_of(scene)
     found = (replace(found, validity=limits.of_motion(scene, found)) if limits and found.validity is None
              else found)
     twin = effective(scene)
-    integral = (None if brief or not twin.plain
+    integral = (None if not needs & Needs.INVARIANTS or not twin.plain
                 else energy_integral(twin, exact or found.at[:3], found.margin_energy))
-    found = replace(found, largest=_largest(twin, found), flips=flips_of(scene, found),
-                    energy_integral=integral)
+    found = replace(found, largest=_largest(twin, found) if needs & Needs.LARGEST else None,
+                    flips=flips_of(scene, found) if needs & Needs.FLIPS else None, energy_integral=integral)
     found = limited(found, scene, case)
-    return found if own is None or brief else with_ending(own, found)
+    return found if own is None or not needs & Needs.ENDING else with_ending(own, found)
 
 
 def with_ending(case: Any, found: Motion) -> Motion:
@@ -76,7 +78,7 @@ def _largest(twin: AnyScene, found: Motion) -> float | None:
     return None if most is None else min(max(most, *sizes), math.hypot(*sizes))
 
 
-def _found(scene: AnyScene, state: Any, span: tuple[float, float] | None, brief: bool | str,
+def _found(scene: AnyScene, state: Any, span: tuple[float, float] | None, needs: Needs,
            exact: Sequence[Fraction] | None,
            follow: float | None, tell: Callable[..., Any] | None, proof: bool) -> Motion:
     """By the module that answers the kind of scene; where all effects together turn the body as a gyrostat
@@ -84,9 +86,9 @@ def _found(scene: AnyScene, state: Any, span: tuple[float, float] | None, brief:
     parts = None if scene.plain else content(scene)
     with in_range():
         if parts is None or parts.kind != "gyrostat":
-            return one(scene).motion(scene, state, span, exact, brief,
+            return one(scene).motion(scene, state, span, exact, needs,
                                      **following(scene, follow, tell, proof))
         twin = gyrostat_scene(parts)
-        found = one(twin).motion(twin, split(parts, state)[0], span, exact, brief,
+        found = one(twin).motion(twin, split(parts, state)[0], span, exact, needs,
                                  **following(twin, follow, tell, proof))
     return replace(found, reason=found.reason.then(parts.note))

@@ -22,7 +22,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..numbers.vectors import Exact3
-from ..orbit.result import Fate, Motion
+from ..orbit.result import Fate, Motion, Needs
 from ..physics.coefficients import three_floats
 from ..physics.scene import AnyScene, Scene, torque_axis
 from ..reasons import Filling, Rate, Reason, Sentence, Time
@@ -322,7 +322,7 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
     if scene.variables == "scaled" or not torque_axis(scene) or kind_of(scene) != "orbit":
         raise InputError("tilt: expected a body under a torque along one of its principal axes, without "
                          "wheel momentum along it")
-    known = motion(scene, state, brief="extremes", exact=exact)
+    known = motion(scene, state, needs=Needs.EXTREMES, exact=exact)
     if known.fate not in STEADY:
         raise InputError("tilt: the motion is not bounded as it is: ask time_to of it")
     if angle is None and not (case is not None and any(t.stuck and t.misalignment for t in case.thrusters)):
@@ -384,7 +384,7 @@ def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None,
               *((None, sizes) for sizes in (*cone.corners[1:], *cone.between))]
     torques = [cone.at(*place) for place in places]
     if ask is None:
-        found = Counter(VERBS[motion(tilted(scene, torque), state, brief="fate", exact=exact).fate]
+        found = Counter(VERBS[motion(tilted(scene, torque), state, needs=Needs.FATE, exact=exact).fate]
                         for torque in torques)
         return Spread(cone.angle, cone.words, len(torques), fates=tuple(found.most_common()),
                       within=cone.within)
@@ -444,7 +444,7 @@ def by_angle(scene: Scene, state: Any, angles: np.ndarray, case: Any = None,
     the largest rate of a bounded motion. closer: more angles between these where a time is no power of the
     angle.
     """
-    ask = ask or _twice_the_largest(motion(scene, state, brief="extremes"))
+    ask = ask or _twice_the_largest(motion(scene, state, needs=Needs.EXTREMES))
     limit, cone = asked(scene, **ask), cone_of(scene, case, DEGREE)
     if case is not None and any(t.stuck and t.misalignment for t in case.thrusters):
         cone = cone_of(scene, case)

@@ -26,7 +26,7 @@ from ..errors import InputError
 from ..integrate.trajectory import integrated
 from ..numbers.exact import exact_vector, sqrt_fraction
 from ..numbers.vectors import Exact3, Float3, Number
-from ..orbit.result import Fate
+from ..orbit.result import Fate, Needs
 from ..physics.coefficients import content, effective
 from ..physics.equations import Equations
 from ..physics.scene import AnyScene, rests, slices, stopped, time_left
@@ -154,7 +154,7 @@ def never(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> tuple[
 def _never_of_rationals(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit
                         ) -> tuple[Found | None, float | None]:
     """`never` of a start that is no double: next to a separatrix its rounding is another motion."""
-    known = motion(scene, state, brief=True, exact=exact)
+    known = motion(scene, state, needs=Needs.RETURN, exact=exact)
     pairs = known.extremes if known.extremes_over == "all time" else None
     if pairs is not None and limit.beyond(pairs, SLACK):
         return Found(math.inf, math.inf, "exact", NEVER_BY_EXTREMES), None
@@ -172,7 +172,7 @@ def never_bounded(scene: AnyScene, state: Any, limit: Limit) -> Found | None:
     where they do not."""
     if limit.kind == "tilt":
         return None
-    found = motion(scene, state, brief=True)
+    found = motion(scene, state, needs=Needs.FATE)
     bound = found.invariants.get("rate_bound", math.inf)
     if found.fate == Fate.EQUILIBRIUM:
         reason = NEVER_AT_REST

@@ -19,7 +19,7 @@ from ..errors import InputError
 from ..integrate.trajectory import Trajectory
 from ..numbers.double_double import EPS
 from ..numbers.units import NONE, TIME, in_si
-from ..orbit.result import Motion
+from ..orbit.result import Motion, Needs
 from ..physics.coefficients import loses
 from ..physics.scene import BLOCKS, AnyScene, later, slices, torque_axis
 from ..physics.states import equations_and_start, moved_row, start_of
@@ -225,12 +225,12 @@ def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None 
     """As `time_of_case`; where it is never, with what a tilt of the torque does, by what the case states as
     misalignment, else by one degree; and with what the tolerances of its forces do."""
     found = time_of_case(case, ask, t_max)
-    end = (ending(case, motion(case.scene, case.start, brief=True, exact=case.exact_state))
+    end = (ending(case, motion(case.scene, case.start, needs=Needs.FATE, exact=case.exact_state))
            if loses(case.scene) else None)
     if end is not None and end.until is not None:
         found = _to_the_end(case, ask, found, PAST * end.until, t_max)
     never = math.isinf(found.low)
-    stability = motion(case, brief=True).stability if never else None
+    stability = motion(case, needs=Needs.FATE).stability if never else None
     off = of_tilt(case, None, ask, never)
     return replace(found, ending=end, tilt=off,
                    caveats=caveats_of(case.scene, never, off, file=seen(case.caveats, off),

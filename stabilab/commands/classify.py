@@ -11,6 +11,7 @@ from ..answers.attitude import attitude as turning
 from ..answers.attitude import in_closed_form, of_motion
 from ..answers.digits_asked import DEFAULT, by_bound, short
 from ..answers.equilibria import equilibria
+from ..answers.motion import Needs
 from ..case.read import blamed_on
 from ..show.data import as_json
 from ..show.text import classification, headline, questions, scene
@@ -72,7 +73,7 @@ def answer(question, cases, json, digits, strict, units, why, csv=False, follow=
     systems = units_asked(loaded, units, tilt=tilt)
     motions, digits_of = [], []
     for case in one_by_one(loaded):
-        found = motion_of(case, brief=question == "extremes", follow=follow, proof=certify)
+        found = motion_of(case, _needed(question, json, why or bool(case.variant)), follow, certify)
         motions.append(tilted(case, found, tilt) if question == "fate" else found)
         digits_of.append(_told(question, case, motions[-1], digits))
     boxes, motions = over_boxes(loaded, motions, *(["fate"] if question == "fate" else []))
@@ -91,6 +92,13 @@ def answer(question, cases, json, digits, strict, units, why, csv=False, follow=
     leave_undecided(strict, any(motion.fate.word == "undecided" for _, motion, _ in answered)
                     or any(map(classification.open_in_box, boxes)))
     hold_laws(strict, (motion.validity for _, motion, _ in answered), loaded)
+
+
+def _needed(question, json, whole):
+    """What of a motion the question prints. whole: with a table of all margins, or what `--why` adds."""
+    if question == "period" and (json or not whole):
+        return Needs.PERIOD | Needs.FLIPS
+    return Needs.QUICK if question == "extremes" else Needs.ALL
 
 
 def _tell(question, answered, systems, digits, boxes, why):

@@ -14,7 +14,7 @@ from typing import Any
 import typer
 
 from ..answers.caveats import of_case, seen
-from ..answers.motion import motion
+from ..answers.motion import Needs, motion
 from ..case.limit_options import stated_tilt
 from ..case.read import Case, blamed_on, load_all
 from ..errors import UNDECIDED, InputError, Kind, ToleranceNotMet, printable
@@ -200,13 +200,14 @@ def _time(text: str, case: Case, option: str) -> Fraction:
 
 
 # --- The motion of a case, with what a tilt of its torque and uncertain numbers do to it
-def motion_of(case, brief=False, follow=None, proof=False):
-    """The motion of a case. follow: how long a run follows it, as typed; proof: its way is enclosed."""
+def motion_of(case, needs=Needs.ALL, follow=None, proof=False):
+    """The motion of a case. needs: what is printed of it; follow: how long a run follows it, as typed; proof:
+    it is enclosed."""
     long = time_asked(follow, case)
     with blamed_on(case), Progress() as progress:
         words = lambda t, steps, left: progress(
             f"{printable(case.name)}: followed to {t:.4g} {case.scene.time_unit}, {steps} steps")
-        found = motion(case.scene, case.start, case.span, brief, case.exact_state, long,
+        found = motion(case.scene, case.start, case.span, needs, case.exact_state, long,
                        words if progress.wanted else None, proof)
         return headline.judged(case, found)
 

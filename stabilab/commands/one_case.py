@@ -11,6 +11,7 @@ from __future__ import annotations
 from functools import partial
 
 from ..answers.caveats import of_case
+from ..answers.motion import Needs
 from ..case import import_42, import_basilisk
 from ..case.formats import is_42
 from ..case.imported import case_of_tables, case_text, faults_of
@@ -151,4 +152,4 @@ def _end(case, until):
     """The end of the span, None for the case's own; as pictures have it where there is neither."""
     if until is not None or case.span is not None:
         return time_asked(until, case, "until")
-    return seen(None, motion_of(case, brief=True), natural(case.scene, case.state))[1]
+    return seen(None, motion_of(case, needs=Needs.QUICK), natural(case.scene, case.state))[1]

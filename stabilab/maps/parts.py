@@ -12,39 +12,28 @@ import json
 import re
 import shlex
 import shutil
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 from glob import escape
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..answers.caveats import CONDITIONS, STEADY, condition
-from ..answers.chaos import chaos, long_enough, row_of
-from ..answers.equilibria import equilibria
-from ..answers.kinds import KINDS, kind_of
-from ..answers.motion import motion
-from ..answers.motions.rows import extremes, fates, periods
-from ..answers.time_to import time_to
 from ..case.lines import KeyLines
 from ..case.read import Case, blamed_on, with_data
 from ..case.table import Faults, Table, Written
-from ..equilibrium.gyrostat import number_of_equilibria
-from ..equilibrium.stability import coefficients as invariants_of
 from ..errors import CaseError, InputError, Kind, printable
 from ..files import alone_in, whole_file
 from ..interrupt import undoing
-from ..numbers.numba_door import installed
-from ..orbit.extremes_arrays import extremes_and_periods
 from ..orbit.result import Fate
 from ..physics.coefficients import effective
-from ..physics.states import start_of
-from ..validation import reach_of
 from .axes import Key, with_values
-from .columns import ENDLESS, LEVELS, LIMIT_LEVELS, NO_CASE, NONE, OPEN, record
+from .columns import ANSWERS, CAVEATS, Column, columns_of, record
 from .plan import Chunk, Plan
 
 
@@ -99,16 +88,6 @@ def states_at(plan: Plan, case: Case, places: Sequence[np.ndarray], moved: int =
 
 
 # --- The answers for a chunk of points, in rows of one record each
-COMPILED = 200  # states for which loading numba's code pays: half a second, of librations in plain Python
-# multiplications for the proof of a time in an atlas: it leaves long motions to compiled steps, which prove
-# them sooner
-POINTED_WORK = 100_000
-NO_CASE_VALUES = {"fate": NO_CASE, "level": -1, "reason": -1, "when_level": -1, "chaos": -1,
-                  "equilibria": NONE, "stable": NONE, "unstable": NONE, "open": NONE}
-
-PERIODS = {Fate.EQUILIBRIUM: 0.0, Fate.SPIN_UP: np.inf, Fate.SEPARATRIX: np.inf}  # of motions that have none
-
-
 def answered(plan: Plan, number: int) -> np.ndarray:
     """(points,) of `columns.record`: the answers for a chunk, in the inner order."""
     chunk = plan.chunks[number]
@@ -121,28 +100,47 @@ def answered(plan: Plan, number: int) -> np.ndarray:
 
 def _scene(plan: Plan, scene: int, chunk: Chunk, out: np.ndarray) -> None:
     """Put the answers for the states of a scene that the chunk has into their records."""
+    columns = columns_of(plan.answers)
+    for column in columns:
+        out[column.name] = column.default
     try:
         case = case_of(plan, scene)
     except CaseError:
-        for name in out.dtype.names:
-            if out.dtype[name].base.kind == "f":
-                out[name] = np.nan
-            elif name in NO_CASE_VALUES:
-                out[name] = NO_CASE_VALUES[name]
         return
-    out["valid"] = 1
-    states = np.empty((0, 3))
+    out["valid"], filled = 1, {"valid"}
     with blamed_on(case):
-        if case.state is not None:
-            states = states_of(plan, case, chunk.low, chunk.high)
-            if set(plan.answers) - {"chaos"}:
-                (_many if effective(case.scene).plain else _single)(plan, case, states, out)
-            if "chaos" in plan.answers:
-                _chaos(plan, case, states, out)
-        if "equilibria" in plan.answers or "verdict" in plan.answers:
-            _equilibria(case, out)
-    if "caveats" in out.dtype.names:
+        states = np.empty((0, 3)) if case.state is None else states_of(plan, case, chunk.low, chunk.high)
+        for module in dict.fromkeys(map(_filling, plan.answers)):
+            own = [column for name in plan.answers if _filling(name) is module
+                   for column in ANSWERS[name].columns]
+            _fill(module, plan, case, states, own, out)
+            filled.update(column.name for column in own)
+    if CAVEATS in columns:
         out["caveats"] = _caveats(case, states, out)
+        filled.add("caveats")
+    if empty := [column.name for column in columns if column.name not in filled]:
+        raise NotImplementedError(f"nobody fills the columns {', '.join(empty)}")
+
+
+def _filling(answer: str) -> Any:
+    """The module that fills the columns of an answer."""
+    return import_module(f".filling.{ANSWERS[answer].module}", __package__)
+
+
+def _fill(module: Any, plan: Plan, case: Case, states: np.ndarray, columns: Sequence[Column],
+          out: np.ndarray) -> None:
+    """Put what a module finds into its columns: of all states at once, or of one after another where their
+    scene has no arrays."""
+    if effective(case.scene).plain or module.of_one is None:
+        found = module.of_many(plan, case, states)
+        for column in columns:
+            out[column.name] = column.many(found)
+        return
+    for n, state in enumerate(states.tolist()):
+        here = replace(case, state=tuple(state)) if tuple(state) != case.state else case
+        found = module.of_one(plan, here)
+        for column in columns:
+            out[column.name][n] = column.one(found)
 
 
 def _caveats(case: Case, states: np.ndarray, out: np.ndarray) -> np.ndarray:
@@ -152,131 +150,14 @@ def _caveats(case: Case, states: np.ndarray, out: np.ndarray) -> np.ndarray:
     if "fate" in out.dtype.names:
         steady, rests = np.isin(out["fate"], STEADY), np.nonzero(out["fate"] == Fate.EQUILIBRIUM)[0]
         if len(rests):
-            departs[rests] = _depart(case, states[rests])
+            departs[rests] = _filling("fate").depart(case, states[rests])
     if "when_low" in out.dtype.names:
         steady |= np.isposinf(out["when_low"])
     unphysical = any(one.kind is Kind.UNPHYSICAL for one in case.caveats)
     return np.where(steady, condition(case.scene), 0) + count * unphysical + 2 * count * departs
 
 
-def _depart(case: Case, states: np.ndarray) -> np.ndarray:
-    """Which states (n, 3) of equilibrium are not known to be stable. Of a gyrostat by the signs of m and n in
-    z^3 + m z + n, exactly where these are zero in doubles."""
-    twin = effective(case.scene)
-    open_ = np.ones(len(states), bool)
-    if twin.plain:
-        form, x = twin.quadratic(), states.T
-        J = form.jacobian([*x], np.ones(len(states)))
-        m, n = (np.asarray(v, float) for v in invariants_of(J))
-        open_, found = (m == 0) | (n == 0) & (m > 0) & (form.m != (0, 0, 0)), (n != 0) | (m < 0)
-    else:
-        found = open_.copy()
-    for row in np.nonzero(open_ & ~found if twin.plain else open_)[0].tolist():
-        here = replace(case, state=tuple(states[row].tolist()))
-        stability = motion(here.scene, here.start, brief=True).stability
-        found[row] = stability is not None and not stability.stable
-    return found
-
-
-def _many(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
-    """The states of a scene whose answers come in arrays."""
-    asked, scene = plan.answers, case.scene
-    if {"fate", "level", "reason", "island", "margin", "distance"} & set(asked):
-        many: dict[str, Any] = {}
-        if plan.pointed is not None and KINDS[kind_of(effective(scene))].follows:
-            # each motion of an atlas is alone in its scene, and all of them together are worth the compiler
-            many = {"fast": installed() or None, "proof": plan.pointed.certify}
-        found = fates(scene, states, follow=plan.longest, **many)
-        columns: dict[str, Callable[[], Any]] = {
-            "fate": lambda: found.labels, "spin_axis": lambda: found.axis * found.sense,
-            "reason": lambda: found.reasons, "margin": lambda: found.margins,
-            "level": lambda: found.level_numbers(LEVELS), "distance": lambda: found.velocity_margins,
-            "island": lambda: 0 if found.followed is None else found.followed.islands}
-        for name, column in columns.items():
-            if name in out.dtype.names:
-                out[name] = column()
-    if {"extremes", "period"} & set(asked):
-        _extremes_and_periods(case, states, "extremes" in asked, "period" in asked, out)
-    if "when" in asked:
-        limit = plan.limit_of(case)
-        brief: dict[str, Any] = {} if plan.pointed is None or plan.pointed.certify else {"work": POINTED_WORK}
-        _times(time_to(scene, states, **limit.ask, t_max=limit.until, **brief), out)
-
-
-def _chaos(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
-    """All followed as long as the case's own motion is, whatever their company."""
-    end = long_enough(plan.case.scene, row_of(plan.case.scene, plan.case.state, plan.case.blocks))
-    rows = np.array([row_of(case.scene, state, case.blocks) for state in states.tolist()])
-    found = chaos(case.scene, rows, end if plan.longest is None else plan.longest)
-    out["chaos"], out["megno"], out["lyapunov"] = found.labels, found.megno, found.lyapunov
-
-
-def _extremes_and_periods(case: Case, states: np.ndarray, box: bool, times: bool, out: np.ndarray) -> None:
-    """Whether numba serves depends on the number of states alone, not on what this process did before: its
-    last digits are not those of plain Python."""
-    kind = kind_of(effective(case.scene))
-    if kind == "orbit":
-        found, repeats = extremes_and_periods(case.scene, states, box=box, period=times,
-                                              by_numba=len(states) >= COMPILED)
-    else:
-        try:
-            found = extremes(case.scene, states, reach_of(case.span)) if box else None
-        except InputError:
-            if not KINDS[kind].follows:
-                raise
-            found = np.full((*states.shape, 2), np.nan)  # no state of this scene has bounds
-        repeats = periods(case.scene, states) if times else None
-    if found is not None:
-        out["least"], out["greatest"] = found[..., 0], found[..., 1]
-    if repeats is not None:
-        out["period"] = repeats
-
-
-def _times(found, out: np.ndarray) -> None:
-    out["when_low"], out["when_high"] = found.low, found.high
-    out["when_level"] = [LIMIT_LEVELS.index(word) if word in LIMIT_LEVELS else 0
-                         for word in np.ravel(found.level)]
-
-
-def _single(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
-    """States that are answered one by one: liquid, medium, field."""
-    for n, state in enumerate(states.tolist()):
-        here = replace(case, state=tuple(state)) if tuple(state) != case.state else case
-        brief = not {"distance", "period"} & set(plan.answers)
-        found = motion(here.scene, here.start, here.span, brief, here.exact_state, plan.longest)
-        pairs = found.extremes or ((np.nan, np.nan),) * 3
-        known = lambda value: np.nan if value is None else value
-        columns = {"fate": found.fate, "spin_axis": found.axis * found.sense,
-                   "level": LEVELS.index(found.level), "reason": -1,
-                   "margin": known(found.margin_energy), "distance": known(found.margin_velocity),
-                   "least": [low for low, _ in pairs],
-                   "greatest": [high for _, high in pairs],
-                   "period": PERIODS.get(found.fate, np.nan) if found.period is None else found.period}
-        for name, value in columns.items():
-            if name in out.dtype.names:
-                out[name][n] = value
-        if "when" in plan.answers:
-            limit = plan.limit_of(here)
-            _times(time_to(here.scene, start_of(here.scene, here.state, here.blocks), **limit.ask,
-                           t_max=limit.until), out[n:n + 1])
-
-
-def _equilibria(case: Case, out: np.ndarray) -> None:
-    """Put the number of equilibria, and of each verdict, into the records that have a place for it."""
-    if "stable" not in out.dtype.names and (number := number_of_equilibria(case.scene)) is not None:
-        out["equilibria"] = number
-        return
-    found = equilibria(case)
-    verdicts = ([point.verdict for point in found.points]
-                + [piece.verdict for curve in found.curves for piece in curve.segments])
-    number = {"none": 0, "points": len(found.points), "undecided": OPEN}.get(found.kind, ENDLESS)
-    counts = {"equilibria": number, "stable": verdicts.count("stable"),
-              "unstable": verdicts.count("unstable")}
-    for name, value in (counts | {"open": len(verdicts) - counts["stable"] - counts["unstable"]}).items():
-        if name in out.dtype.names:
-            out[name] = value
-
-
+# --- The parts of a sweep, a folder beside its file
 PLAN = "sweep.json"
 DIGEST = 32  # bytes in front of a part
 

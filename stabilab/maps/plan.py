@@ -30,7 +30,7 @@ from ..numbers.units import NONE, TIME, in_si
 from ..physics.coefficients import effective
 from ..version import __version__
 from .axes import MOST, Axis, Key, axis_of, each_once, key_of, keys_of, si_unit
-from .columns import asked_answers
+from .columns import ANSWERS, asked_answers
 from .pointed import Pointed, pointed_from
 
 
@@ -96,11 +96,6 @@ AXES = 4
 RATES = ("angular_velocity", "x")  # keys of [motion] whose numbers leave the scene as it is
 # of one processor that a chunk takes, roughly, so that a killed run keeps something; its most points
 CHUNK_SECONDS, LARGEST = 1.0, 1 << 17
-# answer -> seconds for a state of a scene with an orbit, for one whose motions are followed; measured, to
-# size chunks alone
-COST = {"fate": (1e-6, 1e-3), "level": (0, 0), "reason": (0, 0), "margin": (0, 0), "distance": (3e-2, 0),
-        "extremes": (1e-5, 2e-2), "period": (1e-5, 0),
-        "when": (0.1, 0.1), "island": (0, 0), "equilibria": (0, 0), "verdict": (0, 0), "chaos": (2e-2, 5e-2)}
 SCENE_COST = (3e-3, 3e-2)
 POINTED_COST = 5e-2  # of a direction of an atlas, all answers together
 
@@ -233,7 +228,7 @@ class Plan:
             return POINTED_COST
         scene = effective(self.case.scene)
         slow = not scene.plain or KINDS[kind_of(scene)].follows
-        return sum(COST[name][slow] for name in self.answers) + SCENE_COST[slow] / self.states
+        return sum(ANSWERS[name].cost[slow] for name in self.answers) + SCENE_COST[slow] / self.states
 
     def as_json(self, brief: bool = False) -> str:
         """All of the plan, for another process. brief: without the folder of the case, for a file that is to

@@ -21,7 +21,7 @@ from .extremes import extremes_of, precise_period
 from .fate import fate_of, is_free
 from .one_orbit import Orbit
 from .reduction import reduce
-from .result import Fate, Motion, finite, judged, repeats
+from .result import BOX, ROUND, Fate, Motion, Needs, finite, judged, repeats
 from .separatrix.distance import distance_of
 
 # --- The unit of rate in which numbers are of order one
@@ -145,29 +145,31 @@ def far_numbers(scene, state):
 
 
 # --- The motion
-def motion(scene, state, span=None, exact=None, brief: bool | str = False) -> Motion:
+def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL) -> Motion:
     """See `answers.motion`; the scene has a reduction, and `span` is not needed."""
     state = three_floats(state)
     orbit = Orbit(reduce(scene), exact or state)
     far = far_exponent(scene, orbit.state)
     if far is None:
-        return _reduced(orbit, state, fate_of(scene, orbit), brief)
+        return _reduced(orbit, state, fate_of(scene, orbit), needs)
     near = own(orbit, far)
     decided = far_fate(scene, orbit, far, near)
-    return in_scene_unit(_reduced(near, tuple(map(float, near.state)), decided, brief, far), far, state,
+    return in_scene_unit(_reduced(near, tuple(map(float, near.state)), decided, needs, far), far, state,
                          decided.margin)
 
 
-def _reduced(orbit, state, decided, brief, k=0) -> Motion:
+def _reduced(orbit, state, decided, needs, k=0) -> Motion:
     """All that is known of a motion with this orbit and fate; state: the doubles of its start. The extremes
     are in units 2^-k of the orbit's."""
     fields = judged(state, decided)
     fields |= {"margin_energy": finite(decided.margin), "tolerance": 1e-12}
-    if brief not in ("fate", "period"):
+    if needs & BOX:
         fields["extremes"] = extremes_of(orbit, decided.label, k)
-    if not brief:
-        fields |= {**apart_fields(orbit, state, decided), "invariants": orbit.invariants()}
-    if brief not in ("fate", "extremes"):
+    if needs & Needs.DISTANCE:
+        fields |= apart_fields(orbit, state, decided)
+    if needs & Needs.INVARIANTS:
+        fields["invariants"] = orbit.invariants()
+    if needs & ROUND:
         fields["returns"] = precise_period(orbit, decided.label)
         fields["period"] = repeats(fields["returns"])
     return Motion(**fields)

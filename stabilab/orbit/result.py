@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from enum import IntEnum
+from enum import Flag, IntEnum
 from typing import TYPE_CHECKING, Any
 
 from ..errors import Caveat
@@ -39,6 +39,42 @@ class Fate(IntEnum):
     def word(self) -> str:
         """The word used in reports and JSON."""
         return ("bounded", "spin-up", "separatrix", "equilibrium", "undecided")[self]
+
+
+class Order(IntEnum):
+    """What is seen of a motion that is followed; `word` is the word of reports and JSON."""
+
+    REGULAR = 0
+    CHAOTIC = 1
+    SPIN_UP = 2
+    UNDECIDED = 3
+
+    @property
+    def word(self) -> str:
+        """The word used in reports and JSON."""
+        return ("regular", "chaotic", "spin-up", "undecided")[self]
+
+
+class Needs(Flag):
+    """What of a `Motion` is worked out where a question prints it, each at a price; the fate, its reason and
+    the margin in energy always are. LARGEST: of |omega|; DISTANCE: from the separatrix; QUICK: all but what
+    takes tens of milliseconds."""
+
+    FATE = 0
+    EXTREMES = 1
+    PERIOD = 2
+    LARGEST = 4
+    FLIPS = 8
+    DISTANCE = 16
+    INVARIANTS = 32
+    ENDING = 64
+    RETURN = EXTREMES | PERIOD
+    QUICK = RETURN | LARGEST | FLIPS
+    ALL = QUICK | DISTANCE | INVARIANTS | ENDING
+
+
+# what the numbers that are read off the extremes, or off them and the period, are made of
+BOX, ROUND = Needs.EXTREMES | Needs.LARGEST | Needs.FLIPS, Needs.PERIOD | Needs.LARGEST | Needs.FLIPS
 
 
 @dataclass(frozen=True)

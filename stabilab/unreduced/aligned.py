@@ -23,7 +23,7 @@ from ..orbit.landscape import landscape
 from ..orbit.one_orbit import Orbit
 from ..orbit.one_state import apart_fields
 from ..orbit.reduction import reduce
-from ..orbit.result import Fate, Motion, finite, judged, pairs, repeats
+from ..orbit.result import Fate, Motion, Needs, finite, judged, pairs, repeats
 from ..physics.coefficients import three_floats
 from ..physics.scene import aligned, rests
 from . import growth
@@ -38,14 +38,14 @@ NO_SPAN = (
 TURN_SHARE = 1e-36  # of the energies: half the digits of a turn by irrational numbers
 
 
-def motion(scene, state, span=None, exact=None, brief: bool | str = False) -> Motion:
+def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL) -> Motion:
     """See `answers.motion`; the extremes of a motion that does not repeat are over the span."""
     state = three_floats(state)
     given = exact or state
     orbit = twin_orbit(aligned(scene), given)
     decided = aligned_fate(scene, given, orbit)
     fields = {**judged(state, decided), "margin_energy": finite(decided.margin)}
-    if brief == "fate":
+    if not needs:
         return Motion(**fields)
     time = turned_period(orbit, decided.label)
     fields |= {"period": repeats(time), "returns": time}
@@ -56,7 +56,8 @@ def motion(scene, state, span=None, exact=None, brief: bool | str = False) -> Mo
     else:
         fields |= ({"extremes_over": f"none: {NO_SPAN.format(unit=scene.time_unit)}"} if span is None
                    else seen_over(scene, state, span))
-    return Motion(**fields, **({} if brief else turned_apart(aligned(scene), orbit, state, decided)))
+    return Motion(**fields, **(turned_apart(aligned(scene), orbit, state, decided)
+                               if needs & Needs.DISTANCE else {}))
 
 
 def twin_orbit(turn, state) -> Orbit:

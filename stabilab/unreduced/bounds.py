@@ -24,7 +24,7 @@ from ..equilibrium.liquid import trap
 from ..numbers.exact import sqrt_fraction
 from ..numbers.vectors import dot
 from ..orbit.fate import REASONS, Basis
-from ..orbit.result import Fate, Motion
+from ..orbit.result import Fate, Motion, Needs
 from ..physics.coefficients import Content, at_rest, content, relative, split, taken_up
 from ..physics.scene import judge_start
 from ..reasons import (
@@ -174,7 +174,7 @@ ENDLESS = "as large as its own"
 SMALL = 1e-290  # below it a square of doubles has lost digits
 
 
-def motion(scene, state, span=None, exact=None, brief: bool | str = False) -> Motion:
+def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL) -> Motion:
     """See `answers.motion`. state: three numbers; six, omega and gamma, or a dict of blocks, where gamma is
     part of the state.
 
@@ -187,7 +187,7 @@ def motion(scene, state, span=None, exact=None, brief: bool | str = False) -> Mo
     judge_start(scene, {"wheel": wheel})
     at = omega + (gamma or ()) + (sigma if parts.inside else ()) + (wheel if any(parts.u) else ())
     seen = {}
-    if span is not None and brief != "fate":
+    if span is not None and needs:
         from .evidence import seen_of_blocks
         seen = seen_of_blocks(scene, {"omega": omega} | ({"gamma": gamma} if gamma else {})
                          | ({"damper": sigma} if parts.inside else {})

@@ -21,7 +21,7 @@ from ..integrate.quadratic_series import in_unit, mass_unit
 from ..orbit.fate import as_double, at_rest, free_fate, scaled_double
 from ..orbit.fate_arrays import fates as free_fates
 from ..orbit.one_state import BEYOND, LOST, ORDINARY, powered
-from ..orbit.result import Fate, Motion, finite, judged, pairs, repeats
+from ..orbit.result import BOX, ROUND, Fate, Motion, Needs, finite, judged, pairs, repeats
 from ..orbit.separatrix.distance import has_no_saddle
 from ..physics.coefficients import three_floats
 from ..physics.scene import rests
@@ -200,7 +200,7 @@ def _polish(form, first, second, start, x, i):
     return better if np.abs(better - x).max() <= 1e-9 * np.abs(x).max() else x
 
 
-def motion(scene, state, span=None, exact=None, brief: bool | str = False) -> Motion:
+def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL) -> Motion:
     """See `answers.motion`: the motion is closed, and one return gives its period and every extreme."""
     state = three_floats(state)
     given = exact or state
@@ -214,7 +214,7 @@ def motion(scene, state, span=None, exact=None, brief: bool | str = False) -> Mo
     if rests(scene.quadratic(), given):
         decided = at_rest(scene, decided)
         fields["extremes"] = tuple((v, v) for v in state)
-    elif brief != "fate":
+    elif needs & (BOX | ROUND):
         closed = extremes_over_period(scene, given)
         open_ = closed.reason if math.isnan(closed.period) and closed.over != "all time" else None
         whole = bool(np.isfinite(closed.extremes).all())

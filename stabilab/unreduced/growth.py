@@ -34,7 +34,7 @@ from ..numbers.vectors import CYCLE
 from ..orbit.fate import Basis, OneFate
 from ..orbit.fate_arrays import FateResult, at_rest, in_chunks, write_row
 from ..orbit.one_state import in_range
-from ..orbit.result import Fate, Motion, judged, pairs
+from ..orbit.result import Fate, Motion, Needs, judged, pairs
 from ..physics.coefficients import three_floats
 from ..physics.states import three_numbers
 from ..reasons import Axis, Quantity, Reason, Sentence
@@ -204,7 +204,7 @@ def _without_form(scene, state, axis, t_max):
                         reason=UNBOUNDED_BY_LAW(number=axis + 1).then(shown))
 
 
-def motion(scene, state, span=None, exact=None, brief: bool | str = False) -> Motion:
+def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL) -> Motion:
     """See `answers.motion`: unbounded by an exact law; what is seen over the span is told beside it."""
     state = three_floats(state)
     found = captured_fate(scene, state, exact=exact)
@@ -213,12 +213,12 @@ def motion(scene, state, span=None, exact=None, brief: bool | str = False) -> Mo
              "release_estimate": found.release_estimate, "steps": found.steps}
     fields, seen = {**judged(state, unbounded(found)), "reason": found.reason, "returns": math.inf,
                     "level": LEVEL.get(found.certificate, "undecided")}, {}
-    if brief != "fate" and (span is not None or _for_ever(found)):
+    if needs & Needs.EXTREMES and (span is not None or _for_ever(found)):
         grown = captured_extremes(scene, state, found, reach_of(span), exact)
         fields |= {"extremes": pairs(grown.box), "extremes_over": grown.over}
         seen = ({} if span is None
                 else seen_over(scene, state, (0.0, grown.span or reach_of(span)))["evidence"])
-    elif brief != "fate":
+    elif needs & Needs.EXTREMES:
         fields["extremes_over"] = f"none: {span_needed(scene)}"
     return Motion(**fields, invariants={"J": found.J0, "J_rate": found.J_rate}, evidence={**seen, **known})
 

@@ -35,7 +35,7 @@ from ..numbers.numba_door import installed
 from ..numbers.polynomial import bernstein, bernstein_halves
 from ..orbit.fate import Basis, OneFate, at_rest
 from ..orbit.fate_arrays import FateResult, empty_columns
-from ..orbit.result import AS_BOUNDS, Fate, Motion, finite, judged, pairs, without_return
+from ..orbit.result import AS_BOUNDS, Fate, Motion, Needs, finite, judged, pairs, without_return
 from ..physics.coefficients import three_floats
 from ..physics.scene import rests
 from ..physics.states import equilibrium_mask
@@ -193,7 +193,7 @@ NO_SPAN = ("not known without a certificate of spin-up: give span=T ({unit}), or
            "or follow=T to look for the certificate longer")
 
 
-def motion(scene, state, span=None, exact=None, brief: bool | str = False, follow: float | None = None,
+def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL, follow: float | None = None,
            tell=None, proof: bool = False) -> Motion:
     """See `answers.motion`. Extremes over the span where one is given, else bounds for all times where
     spin-up is certified."""
@@ -205,7 +205,7 @@ def motion(scene, state, span=None, exact=None, brief: bool | str = False, follo
     start = list(exact or state) if proof else state
     found = spin_up(scene, start, **_limits(follow), tell=tell, proof=proof)
     decided = OneFate(found.fate, REASON[found.level], math.nan, found.axis, found.sense)
-    bounds = None if brief == "fate" else bounds_for_ever(scene, start, found)
+    bounds = bounds_for_ever(scene, start, found) if needs & Needs.EXTREMES else None
     fields = {**judged(state, decided), "velocity_because": NO_BRANCHES, "level": found.level,
               "finding": found.reason, "bounds": bounds,
               "extremes": bounds, "extremes_over": AS_BOUNDS if bounds
@@ -214,7 +214,7 @@ def motion(scene, state, span=None, exact=None, brief: bool | str = False, follo
     known = {"t_certificate" if found.fate == Fate.SPIN_UP else "followed_until": found.t,
              "steps_followed": found.steps,
              "small_change_grew": found.condition}
-    seen = {} if span is None or brief == "fate" else seen_over(scene, state, span)
+    seen = {} if span is None or not needs & Needs.EXTREMES else seen_over(scene, state, span)
     if found.fate == Fate.UNDECIDED and found.reason.says(ISLAND_SEEN):
         fields["reason"] = fields["reason"].then(_middle(scene, found.state))
     if seen and found.fate == Fate.UNDECIDED:

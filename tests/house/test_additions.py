@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from ..orbit.fate_arrays import in_chunks, write_row
 from ..orbit.fate import Basis
-from ..orbit.result import Fate, Motion
+from ..orbit.result import Fate, Motion, Needs
 from ..physics.coefficients import three_floats
 
 
@@ -28,7 +28,7 @@ def holds(scene) -> bool:
     return scene.plain and not any((*form.kappa, *form.rho, *form.sigma, *form.m))
 
 
-def motion(scene, state, span=None, exact=None, brief=False) -> Motion:
+def motion(scene, state, span=None, exact=None, needs=Needs.ALL) -> Motion:
     """The motion is its start."""
     rates = three_floats(state)
     return Motion(rates, Fate.EQUILIBRIUM, "a sphere keeps its rates", extremes=tuple((v, v) for v in rates))
@@ -59,12 +59,12 @@ KIND_ROW = (
 QUESTION = '''"""How far each rate swings."""
 from __future__ import annotations
 
-from .motion import motion
+from .motion import Needs, motion
 
 
 def swing(scene, state, span=None) -> tuple:
     """Greatest minus least value of the three rates from one state on."""
-    return tuple(high - low for low, high in motion(scene, state, span, brief=True).extremes)
+    return tuple(high - low for low, high in motion(scene, state, span, needs=Needs.EXTREMES).extremes)
 '''
 QUESTION_ROW = ("__init__.py", "_HOME", '    "swing": "answers.swing",\n')
 ASKED = """

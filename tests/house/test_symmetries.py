@@ -10,6 +10,7 @@ import pytest
 import stabilab
 from stabilab import Fate
 from stabilab.answers.digits import ask
+from stabilab.answers.motion import Needs
 from stabilab.answers.motion import motion as motion_of
 from tests.oracles.pairs import physical
 
@@ -104,7 +105,7 @@ def test_nothing_depends_on_how_the_axes_are_numbered_or_pointed(seed):
         scene, _ = physical(D, momentum, torque)
         answer, times = stabilab.fate(scene, states), stabilab.period(scene, states)
         energies = 0.5 * (D * states**2).sum(axis=1)
-        single = motion_of(scene, states[n % 4], brief=True)
+        single = motion_of(scene, states[n % 4], needs=Needs.QUICK)
         for m, (order, signs, sign) in enumerate(images):
             turn = lambda v: sign * signs * np.asarray(v)[..., order]
             other, _ = physical(D[order], turn(momentum), turn(torque))
@@ -120,7 +121,7 @@ def test_nothing_depends_on_how_the_axes_are_numbered_or_pointed(seed):
             if m % 12 == n % 12:
                 np.testing.assert_allclose(stabilab.period(other, turn(states)), times, rtol=1e-9,
                                            err_msg=repr((scene, order)))
-                same_motion(single, motion_of(other, turn(states[n % 4]), brief=True), order,
+                same_motion(single, motion_of(other, turn(states[n % 4]), needs=Needs.QUICK), order,
                             sign * signs, energies[n % 4], other)
 
 

@@ -13,6 +13,7 @@ import numpy as np
 import stabilab
 from stabilab import Fate
 from stabilab.answers.certificate import certificate
+from stabilab.answers.motion import Needs
 from stabilab.answers.motion import motion as motion_of
 from stabilab.errors import InputError
 from stabilab.verify import verify
@@ -109,7 +110,7 @@ def _margin_off(problem, axis, state, got, exact, promise=MARGIN):
 
 def one_state(scene, problem, state):
     """The answer for one state without arrays against the arrays' answers."""
-    one, many = motion_of(scene, state, brief=True), stabilab.fate(scene, np.array([state]))
+    one, many = motion_of(scene, state, needs=Needs.QUICK), stabilab.fate(scene, np.array([state]))
     if (one.fate, one.axis, one.sense) != (many.labels[0], many.axis[0], many.sense[0]):
         return WRONG, f"{one.fate}, arrays {Fate(int(many.labels[0])).word}"
     margin = float(many.margins[0])

@@ -9,6 +9,7 @@ import numpy as np
 import stabilab
 import stabilab.orbit.landscape
 from stabilab import Fate
+from stabilab.answers.motion import Needs
 from stabilab.answers.motion import motion as motion_of
 from stabilab.errors import InputError
 from tests.hunt.disagreements import MARGIN, NO_QUESTION, WRONG, _twins_of, worst
@@ -80,7 +81,7 @@ def _apart(problem, state, margin, other, name):
 def _alone(one, scene, state):
     """The array's answer against the one for a single state."""
     try:
-        single = motion_of(scene, state, brief=True)
+        single = motion_of(scene, state, needs=Needs.QUICK)
     except InputError:
         return NO_QUESTION
     return (WRONG, f"alone {single.fate.word}") if single.fate != one.labels[0] else NO_QUESTION

@@ -12,6 +12,7 @@ import numpy as np
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.digits import ask
+from stabilab.answers.motion import Needs
 from stabilab.answers.motion import motion as motion_of
 from stabilab.orbit.extremes_arrays import extremes_and_periods
 from stabilab.orbit.fate import REASONS, Basis
@@ -159,7 +160,7 @@ def disagreements(scene, states, fast, with_digits):
     many, times = stabilab.fate(scene, array), None
     if not free:
         times = {way: extremes_and_periods(scene, array, by_numba=way) for way in fast}
-    ones = [motion_of(scene, state, brief=True) for state in states]
+    ones = [motion_of(scene, state, needs=Needs.QUICK) for state in states]
     for n, (state, one) in enumerate(zip(states, ones)):
         for wrong in [*_against_arrays(scene, state, one, many, n),
                       *(_against_boxes(one, times, n) if times else ())]:

@@ -16,7 +16,7 @@ from stabilab.answers.equilibria import equilibria
 from stabilab.answers.motion import motion
 from stabilab.case.read import read_text
 from stabilab.errors import InputError
-from stabilab.maps import parts
+from stabilab.maps import columns, parts
 from stabilab.maps.parts import answered
 from stabilab.maps.plan import from_json, planned
 from stabilab.maps.run import run
@@ -281,3 +281,23 @@ def test_what_cannot_be_swept_is_told(options, words):
     with pytest.raises(InputError) as error:
         planned(CASES / "minor-axis-100.toml", **options)
     assert words in str(error.value)
+
+
+def test_a_column_that_nobody_fills_is_an_error_and_no_zeros(monkeypatch):
+    more = columns.Column("hue", "f8", "", "in the table of no answer", lambda found: 0.0, lambda found: 0.0)
+    of, plan = columns.columns_of, planned(CASES / "minor-axis-100.toml", {"x[3]": "0:3:2"})
+    for module in (columns, parts):
+        monkeypatch.setattr(module, "columns_of", lambda answers: (*of(answers), more))
+    with pytest.raises(NotImplementedError, match="nobody fills the columns hue"):
+        answered(plan, 0)
+
+
+@pytest.mark.parametrize("name, key", [("minor-axis-100", "x[3]"), ("liquid-base", "angular_velocity[3]")])
+def test_a_new_column_is_one_row_of_the_table(monkeypatch, name, key):
+    """Of a scene with arrays, and of one whose states are answered one by one."""
+    row = columns.Column("turns", "i1", "", "whether it turns about axis 3",
+                         lambda rows: rows.states[:, 2] > 0, lambda motion: motion.at[2] > 0)
+    monkeypatch.setitem(columns.ANSWERS, "turns", columns.Answer("motions", (0, 0), (row,)))
+    found = swept(name, {key: "0:3:2"}, answer="turns,fate")
+    assert found.records["turns"].tolist() == [0, 1]  # as the axis is written above
+    assert "turns" in words.heads(found) and '"turns"' in words.json(found)

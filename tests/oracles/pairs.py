@@ -10,6 +10,7 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
+from stabilab.answers.motion import Needs
 from stabilab.answers.motion import motion as known_of
 from tests.oracles import energy, model
 from tests.oracles.energy import motion_of
@@ -118,7 +119,7 @@ def agrees(pair, states, digits=120, tolerance=1e-11, extremes=True, period=True
     for state, word, margin, box, time in zip(states.tolist(), words, found.margins, boxes, periods):
         if margins and not free and word != "equilibrium":
             assert_margin(problem, state, margin, digits)
-        alone = known_of(scene, state, brief=True)
+        alone = known_of(scene, state, needs=Needs.QUICK)
         assert alone.fate == WORDS[word]
         if extremes and word in ("bounded", "spin-up"):
             exact = energy.extremes(problem, state, digits=digits)

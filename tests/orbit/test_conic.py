@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import stabilab.errors
+from stabilab.answers.motion import Needs
 from stabilab.answers.motion import motion as motion_of
 from stabilab.orbit.reduction import reduce
 from tests.oracles import energy, sphere
@@ -35,7 +36,7 @@ def test_the_saddle_of_a_free_body_is_found_however_nearly_equal_two_moments_are
     axis = reduce(scene).axis
     exact = float(sphere.margin(*(scene.body.exact, scene.vector("gyrostat")), state, digits=200))
     for found in (stabilab.fate(scene, np.array([state])).margins[0],
-                  motion_of(scene, state, brief=True).margin_energy):
+                  motion_of(scene, state, needs=Needs.QUICK).margin_energy):
         assert found == pytest.approx(exact, rel=1e-11)
     box = stabilab.extremes(scene, np.array([state]))[0]
     assert_extremes(box, energy.extremes(problem, state, digits=200, axis=axis), 1e-11)

@@ -11,6 +11,7 @@ import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
 from stabilab.answers.digits import ask
 from stabilab.answers.kinds import kind_of
+from stabilab.answers.motion import Needs
 from stabilab.answers.motion import motion as motion_of
 from stabilab.errors import InputError
 from stabilab.orbit.fate import free_margin
@@ -47,7 +48,7 @@ def test_margins_of_free_bodies_and_gyrostats_are_those_of_the_nearest_saddle_in
         scene, exact = Scene(Body(D), Gyrostat(lam)), sphere.margin(D, lam, state)
         found = stabilab.fate(scene,
                               np.array([state])).margins[0], motion_of(scene, state,
-                                                                             brief=True).margin_energy
+                                                                             needs=Needs.QUICK).margin_energy
         if exact is None:
             assert found == (np.inf, None), (scene, state)
         else:
@@ -121,9 +122,9 @@ def test_a_state_on_the_separatrix_stays_there_when_the_scene_is_turned(cosine, 
     scene, state = turned_by(cosine, sine)
     assert kind_of(scene) == "aligned"
     given = tuple(map(float, state))
-    assert motion_of(scene, given, exact=state, brief=True).fate is Fate.SEPARATRIX
+    assert motion_of(scene, given, exact=state, needs=Needs.QUICK).fate is Fate.SEPARATRIX
     near = (state[0], state[1] * (1 + Fraction(1, 10**25)), state[2])
-    found = motion_of(scene, given, exact=near, brief=True)
+    found = motion_of(scene, given, exact=near, needs=Needs.QUICK)
     assert found.fate is Fate.BOUNDED and 1e-30 < abs(found.margin_energy) < 1e-20
 
 
@@ -143,11 +144,11 @@ def test_a_state_too_near_a_separatrix_for_an_irrational_turn_is_undecided_and_s
     scene = Scene(Body((4, 4, 2)), Gyrostat(momentum), ConstantTorque((-length, -length * third, 0)))
     x, y = root.mpf(1), root.mpf("-7.5")
     state = (as_fraction(cosine * x - sine * y), as_fraction(sine * x + cosine * y), Fraction(-7, 2))
-    found = motion_of(scene, tuple(map(float, state)), exact=state, brief=True)
+    found = motion_of(scene, tuple(map(float, state)), exact=state, needs=Needs.QUICK)
     # its sign is open
     assert found.fate is Fate.UNDECIDED and "irrational" in found.because and found.margin_energy is None
     off = (state[0], state[1] * (1 + Fraction(1, 10**20)), state[2])
-    assert motion_of(scene, tuple(map(float, state)), exact=off, brief=True).fate is Fate.BOUNDED
+    assert motion_of(scene, tuple(map(float, state)), exact=off, needs=Needs.QUICK).fate is Fate.BOUNDED
 
 
 @pytest.mark.parametrize("torque, along", [((1, 2, 0), (0.1, 0.2, 0.0)), ((3, -1, 0), (-0.3, 0.1, 0.0)),
@@ -159,7 +160,7 @@ def test_spin_along_a_torque_between_equal_axes_is_pure_spin_for_arrays_and_sing
     assert kind_of(scene) == "aligned"
     many = stabilab.fate(scene, np.array([along, np.multiply(along, 2)]))
     np.testing.assert_array_equal(many.labels, Fate.SPIN_UP)
-    assert many.precise == 2 and motion_of(scene, along, brief=True).fate is Fate.SPIN_UP
+    assert many.precise == 2 and motion_of(scene, along, needs=Needs.QUICK).fate is Fate.SPIN_UP
 
 
 def test_arrays_beside_a_turned_separatrix_get_the_labels_of_exact_arithmetic():
@@ -167,7 +168,7 @@ def test_arrays_beside_a_turned_separatrix_get_the_labels_of_exact_arithmetic():
     given = np.array([float(v) for v in state])
     states = given * (1 + np.array([0, 1e-15, -1e-15, 1e-13, -1e-12, 1e-9, 1e-6, -1e-4])[:, None])
     found = stabilab.fate(scene, states)
-    singles = [motion_of(scene, tuple(s), brief=True) for s in states.tolist()]
+    singles = [motion_of(scene, tuple(s), needs=Needs.QUICK) for s in states.tolist()]
     np.testing.assert_array_equal(found.labels, [m.fate for m in singles])
     # of the energy, 140 J
     np.testing.assert_allclose(found.margins, [m.margin_energy for m in singles], rtol=1e-9, atol=1e-12 * 140)
@@ -185,7 +186,7 @@ def test_a_gyrostatic_component_along_a_torque_between_equal_axes_leaves_no_moti
     many = stabilab.fate(scene, states)
     assert set(many.labels.tolist()) <= {Fate.SPIN_UP, Fate.UNDECIDED} and (many.margins == -np.inf).all()
     assert not many.axis.any()
-    one = motion_of(scene, tuple(states[0]), brief=True)
+    one = motion_of(scene, tuple(states[0]), needs=Needs.QUICK)
     assert one.fate == many.labels[0] and "no motion is bounded" in one.because
 
 

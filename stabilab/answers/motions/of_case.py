@@ -9,7 +9,7 @@ from typing import Any
 
 from ...case.read import Case
 from ...case.sections import vertical_of
-from ...orbit.result import Motion
+from ...orbit.result import Motion, Needs
 from ...physics.coefficients import limits_of
 from ..caveats import limited, misaligned
 from ..motion import motion, with_ending
@@ -17,11 +17,11 @@ from ..motion import motion, with_ending
 MOST = 1e5  # rad of turn along which a law beside other answers is judged: seconds
 
 
-def motion_of_case(case: Case, brief: bool | str = False, follow: float | None = None,
+def motion_of_case(case: Case, needs: Needs = Needs.ALL, follow: float | None = None,
                    tell: Callable[..., Any] | None = None, proof: bool = False) -> Motion:
-    """All that is known of the motion of a case from its own start, exactly as it was written; brief,
+    """All that is known of the motion of a case from its own start, exactly as it was written; needs,
     follow, tell, proof: as of `answers.motion`."""
-    return motion(case.scene, case.start, case.span, brief, case.exact_state, follow, tell, proof)
+    return motion(case.scene, case.start, case.span, needs, case.exact_state, follow, tell, proof)
 
 
 def law_of(case: Case, span: Any = None, brief: bool = False) -> Any:

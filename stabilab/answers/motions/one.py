@@ -20,7 +20,7 @@ from ...case.given import (
 from ...case.limit_options import angle_of
 from ...case.read import Case
 from ...errors import InputError
-from ...orbit.result import Motion
+from ...orbit.result import Motion, Needs
 from .of_case import judged, motion_of_case, with_its_tilt
 
 
@@ -51,13 +51,13 @@ def motion(scene: Given, state: Start | None = None, span: Span | None = None, *
         cases = [case] if many is None else [started(case, row)
                                              for row in array.reshape(-1, array.shape[-1])]
     angle = None if tilt is None else angle_of(tilt)
-    found = [_whole(one, bool(brief), angle, time_in(one.scene, follow, "follow"), tell, proof)
-             for one in cases]
+    needs = Needs.QUICK if brief else Needs.ALL
+    found = [_whole(one, needs, angle, time_in(one.scene, follow, "follow"), tell, proof) for one in cases]
     return found[0] if many is None else found
 
 
-def _whole(case: Case, brief: bool, tilt: float | None, follow: float | None,
+def _whole(case: Case, needs: Needs, tilt: float | None, follow: float | None,
            tell: Callable[..., Any] | None, proof: bool) -> Motion:
-    found = motion_of_case(case, brief, follow, tell, proof)
+    found = motion_of_case(case, needs, follow, tell, proof)
     found = judged(case, found) or found
     return with_its_tilt(case, found, tilt)

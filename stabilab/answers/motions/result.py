@@ -18,7 +18,7 @@ from ...case.given import started
 from ...case.read import Case
 from ...errors import Caveat
 from ...orbit.fate_arrays import FateResult
-from ...orbit.result import Fate, Motion, without_return
+from ...orbit.result import Fate, Motion, Needs, without_return
 from ...physics.coefficients import effective
 from ...representation import Shown, same
 from ..caveats import STEADY, caveats_of
@@ -86,24 +86,24 @@ class Motions(Shown):
 
     # --- What is worked out, once and when it is needed
     @cached_property
-    def kept(self) -> dict[str, list[Motion]]:
-        """The motions that were worked out, by what was left out of them."""
+    def kept(self) -> dict[Needs, list[Motion]]:
+        """The motions that were worked out, by what was needed of them."""
         return {}
 
-    def motions(self, brief: bool | str = False) -> list[Motion]:
-        """The motion from each start, one after another; brief: as of `answers.motion`."""
-        known = self.kept.get(str(brief)) or self.kept.get("False")
+    def motions(self, needs: Needs = Needs.ALL) -> list[Motion]:
+        """The motion from each start, one after another; needs: as of `answers.motion`."""
+        known = next((found for of, found in self.kept.items() if of & needs == needs), None)
         if known is None:
             cases = [self.case] if self.one else [
                 started(self.case, row) for row in self.states.reshape(-1, self.states.shape[-1])]
             options = {name: value for name, value in self.options.items() if name != "fast"}
-            known = self.kept[str(brief)] = [motion_of_case(case, brief, **options) for case in cases]
+            known = self.kept[needs] = [motion_of_case(case, needs, **options) for case in cases]
         return known
 
     @cached_property
     def ended(self) -> list[Motion]:
         """The motions, of one start with how it ends where something takes energy from it: a run."""
-        known = self.motions("fate")
+        known = self.motions(Needs.FATE)
         return [with_ending(self.case, known[0])] if self.one else known
 
     @property
@@ -120,7 +120,7 @@ class Motions(Shown):
         """A column: by rows, or of each motion."""
         if self.by_rows:
             return getattr(self.rows, of)
-        return np.array([one(motion) for motion in self.motions("fate")], kind).reshape(self.shape)
+        return np.array([one(motion) for motion in self.motions(Needs.FATE)], kind).reshape(self.shape)
 
     # --- Columns
     @property
@@ -200,7 +200,7 @@ class Motions(Shown):
         if self.by_rows:
             return self.rows.validity
         return self.judged.validity if self.one else max(
-            (one.validity for one in self.motions("fate") if one.validity is not None),
+            (one.validity for one in self.motions(Needs.FATE) if one.validity is not None),
             key=lambda one: one.excess, default=None)
 
     # --- What limits the answer

@@ -22,7 +22,7 @@ from ...case.read import Case
 from ...case.write import data_of
 from ...equilibrium.result import Equilibria
 from ...errors import StabilabError
-from ...orbit.result import Motion
+from ...orbit.result import Motion, Needs
 from ...orbit.separatrix.saddles import REACH
 from ...packages import explained, present
 from ...physics.coefficients import content, gyrostat_scene
@@ -198,8 +198,8 @@ class Session:
                 raise Stopped
         began = time.process_time()
         try:
-            found = motion(case.scene, case.start, brief=moving, exact=case.exact_state,
-                           tell=tell if runs else None)
+            found = motion(case.scene, case.start, needs=Needs.QUICK if moving else Needs.ALL,
+                           exact=case.exact_state, tell=tell if runs else None)
         except ModuleNotFoundError as error:
             if error.name != "numpy":
                 raise

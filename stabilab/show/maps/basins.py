@@ -221,8 +221,8 @@ def dataset(found: Basins) -> xarray.Dataset:
     boundary has."""
     mesh, rough, cells = found.mesh, found.dimension, cells_of(found)
     places = mesh.places(mesh.keys)
-    words = {"fate": ANSWERS["fate"][0], "spin_axis": ANSWERS["fate"][1], "level": ANSWERS["level"][0],
-             "caveats": CAVEATS}
+    columns = (*ANSWERS["fate"].columns, *ANSWERS["level"].columns, CAVEATS)
+    words = {column.name: column for column in columns}
     values: dict[str, Any] = {f"coordinate{n + 1}": (("state",), np.array(axis.values)[places[n]],
                                                      {"long_name": axis.key.name, "units": axis.shown_unit})
                               for n, axis in enumerate(found.plan.axes)}

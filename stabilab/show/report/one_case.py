@@ -15,7 +15,7 @@ import numpy as np
 from ...answers.caveats import of_case
 from ...answers.certificate import certificate
 from ...answers.equilibria import equilibria
-from ...answers.motion import motion
+from ...answers.motion import Needs, motion
 from ...answers.uncertain.fate import uncertain
 from ...answers.when import with_tilt
 from ...errors import Kind, StabilabError, without
@@ -288,7 +288,7 @@ def _answer(case):
     if case.state is None:
         return None, "no motion is given"
     try:
-        return judged(case, motion(case.scene, case.start, case.span, True, case.exact_state)), ""
+        return judged(case, motion(case.scene, case.start, case.span, Needs.QUICK, case.exact_state)), ""
     except StabilabError as error:
         return None, str(error)
 

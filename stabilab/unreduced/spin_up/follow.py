@@ -19,7 +19,7 @@ from ...integrate.guard import too_far, why_given_up
 from ...numbers.numba_door import installed, wanted
 from ...orbit import one_state
 from ...orbit.reduction import reduce
-from ...orbit.result import Fate
+from ...orbit.result import Fate, Needs
 from ...physics.coefficients import effective, three_floats
 from ...physics.scene import AnyScene
 from ...physics.states import checked_states
@@ -210,7 +210,7 @@ def kept_by_law(scene: AnyScene, state: tuple[float, ...], answer: SpinUp) -> Sp
     motion bounded, that."""
     if answer.fate != Fate.UNDECIDED or reduce(scene) is None:
         return answer
-    known = one_state.motion(scene, state, brief=True)
+    known = one_state.motion(scene, state, needs=Needs.FATE)
     if known.fate not in (Fate.BOUNDED, Fate.EQUILIBRIUM):
         return answer
     return replace(answer, fate=Fate.BOUNDED, level="exact",

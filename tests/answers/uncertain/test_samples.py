@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import stabilab as program
-from stabilab.answers.motion import motion
+from stabilab.answers.motion import Needs, motion
 from stabilab.answers.uncertain.boxes import box_of
 from stabilab.answers.uncertain.fate import uncertain
 from stabilab.answers.uncertain.search import SAMPLE, SEED
@@ -57,7 +57,7 @@ def test_beside_products_the_fate_is_by_samples_with_number_seed_and_quantiles(c
     over, box = found.fate, box_of(load(path))
     points = np.random.default_rng(SEED).uniform(-1, 1, (SAMPLE, len(box.places)))
     # one by one, where the samples ask arrays
-    motions = [motion(*box.at(point), brief=True) for point in points]
+    motions = [motion(*box.at(point), needs=Needs.QUICK) for point in points]
     assert {m.fate.word for m in motions} == {"spin-up"} and over.samples.counts == {over.verdict: SAMPLE}
     assert over.samples.margins == pytest.approx(np.quantile([m.margin_energy for m in motions],
                                                              (0.05, 0.5, 0.95)), rel=1e-9)

@@ -12,6 +12,7 @@ import pytest
 
 import stabilab
 from stabilab import Fate, fate
+from stabilab.answers.motion import Needs
 from stabilab.answers.motion import motion as motion_of
 from stabilab.numbers import numba_door
 from stabilab.orbit import extremes_arrays
@@ -155,4 +156,4 @@ def test_periods_of_nearly_equal_moments_have_eleven_digits():
     rng = np.random.default_rng(0)
     states = rng.normal(size=(40, 3)) * rng.uniform(0.01, 1, (40, 1))
     for state, period in zip(states.tolist(), stabilab.period(scene, states)):
-        assert period == pytest.approx(motion_of(scene, state, brief=True).period, rel=1e-11)
+        assert period == pytest.approx(motion_of(scene, state, needs=Needs.QUICK).period, rel=1e-11)
