@@ -31,8 +31,8 @@ KINDS = {
     "motor": "the motor of a wheel runs without an end",
     "thrusters": "the case has thrusters, and none of them fires",
     "unstable": "the state is an equilibrium that is unstable, or not known to be stable",
-    "tolerance": "what the stated tolerances of the thrusters' forces do, or that they are not looked at",
-    "misalignment": "that a stated misalignment of a thruster is not looked at"}
+    "tolerance": "the stated tolerance of a thruster's force is not looked at",
+    "misalignment": "the stated misalignment of a thruster is not looked at"}
 HEAD = """# Codes of caveats and reasons
 
 What limits an answer is a *caveat*. In JSON it stands under the key `caveats`, an object each:
@@ -50,8 +50,8 @@ What limits an answer is a *caveat*. In JSON it stands under the key `caveats`, 
 A bound is rounded outward where it is printed: "at most" up, "at least" and "not before" down. The keys of
 quantities have all digits.
 
-In the sentences below a name in code, such as `time`, is such a quantity. `python -m
-tests.house.sentences` writes this page from the package.
+In the sentences below a name in code, such as `time`, is such a quantity.
+`python -m tests.house.sentences` writes this page from the package.
 """
 
 
