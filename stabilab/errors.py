@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
-from .reasons import Reason, old, quantities_of
+from .reasons import Reason, old
 
 
 class Kind(StrEnum):
@@ -61,8 +61,9 @@ def without(caveats: Iterable[Caveat], *kinds: Kind) -> tuple[Caveat, ...]:
 def key(caveats: Iterable[Caveat], fill: Callable[[Any], str] | None = None) -> dict[str, list[dict]]:
     """The key "caveats" of a JSON object: a list, empty where nothing limits the answer. fill: as of
     `Reason.text`."""
-    return {"caveats": [{"kind": str(one.kind), "words": one.reason.text(fill), "code": one.reason.code}
-                        | quantities_of(one.reason) for one in caveats]}
+    return {"caveats": [{"kind": str(one.kind), "words": one.reason.text(fill)}
+                        | {name: value for name, value in one.reason.as_dict(fill).items() if name != "text"}
+                        for one in caveats]}
 
 
 def cell(caveats: Iterable[Caveat], fill: Callable[[Any], str] | None = None) -> str:

@@ -103,22 +103,25 @@ def page(found) -> str:
     """The table in Markdown: answers that are numbers first, then those that are words."""
     head = ["# Hard cases", "",
             "Formulas that are right on paper lose their digits near a separatrix, where two moments are "
-            "nearly equal, and where numbers of very different "
-            "sizes meet. This page",
-            "lists such cases, what a plain program answers there, and what stabilab answers.", "",
-            "The columns hold relative errors against answers in 25 digits and more that share no code with "
-            "the program. *Condition*: what half",
-            "a unit in the last place of every input, and of the answer, does to the answer; the program "
-            "stays within",
-            f"{ALLOWED} times that. Inputs count as exact numbers, so a naive error below the condition is "
-            f"an error all the",
-            "same, and the program's own is mostly far below. The averaged liquid is judged against a run at "
-            "1e-12, by what",
-            "its second order leaves out, eps^(3/2). Written by `python -m tests.hard_table`; each line is "
-            "tested, its naive",
-            "formula for failing.", ""]
-    tables = [(Row, "## Numbers", "naive error | our error | condition"),
-              (Verdict, "## Verdicts", "naive code says | we say | so it is")]
+            "nearly equal, and",
+            "where numbers of very different sizes meet. This page lists such cases, with the answer of a "
+            "plain program and",
+            "that of stabilab.", "",
+            "The errors are relative, and are measured against results with at least 25 digits by methods "
+            "that share no code",
+            "with the program. *Condition* is the change of the answer when every input changes by half a "
+            "unit in its last",
+            "place, and the answer is rounded; the error of the program stays below "
+            f"{ALLOWED} times that. As inputs are exact",
+            "numbers, a naive error below the condition is an error all the same; that of the program is "
+            "mostly far below it.",
+            "The averaged liquid is compared with a run at a tolerance of 1e-12, and its condition is the "
+            "size of the terms",
+            "beyond the second order, eps^(3/2). `python -m tests.hard_table` writes this page. Each line is "
+            "a test, which",
+            "also checks that the naive formula fails.", ""]
+    tables = [(Row, "## Answers in numbers", "naive error | error of stabilab | condition"),
+              (Verdict, "## Answers in words", "naive code | stabilab | right answer")]
     for kind, title, columns in tables:
         head += [title, "", f"| hard case | asked for | what goes wrong in naive code | {columns} |",
                  "|---" * 6 + "|"]

@@ -5,46 +5,19 @@ from __future__ import annotations
 import ast
 import math
 from dataclasses import replace
-from importlib import import_module
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from stabilab.errors import Caveat, Kind, key
-from stabilab.reasons import Angle, Axis, Quantity, Rate, Reason, Sentence, Time, number, old
+from stabilab.reasons import Angle, Axis, Quantity, Rate, Sentence, Time, number, old
 from stabilab.show.axes import Axes
 from stabilab.show.units import SYSTEMS
 
-PACKAGE = Path(__file__).parents[1] / "stabilab"
+from .house.sentences import KINDS, PAGE, modules, page, sentences
+
 RESERVED = {"kind", "words", "code", "text", "then"}  # keys of JSON beside the quantities
-
-
-def trees():
-    for path in sorted(PACKAGE.rglob("*.py")):
-        yield path, ast.parse(path.read_text(encoding="utf-8"))
-
-
-def held(value):
-    """The sentences in a constant of a module."""
-    if isinstance(value, Sentence):
-        yield value
-    elif isinstance(value, Reason):
-        yield from (one.sentence for _, one in value.clauses())
-    elif isinstance(value, Caveat):
-        yield from held(value.reason)
-    elif isinstance(value, (tuple, dict)):
-        for one in value.values() if isinstance(value, dict) else value:
-            yield from held(one)
-
-
-def modules():
-    for path, tree in trees():
-        if "Sentence(" in path.read_text(encoding="utf-8") and path.name != "reasons.py":
-            yield tree, import_module(".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts))
-
-
-ALL = {id(one): one for _, module in modules() for value in vars(module).values() for one in held(value)}.values()
+ALL = [one for _, one in sentences()]
 
 
 def test_every_code_is_one_sentence_and_no_hole_hides_a_key():
@@ -56,6 +29,11 @@ def test_every_code_is_one_sentence_and_no_hole_hides_a_key():
                   for one in ast.walk(node)}
         assert not [node.lineno for node in ast.walk(tree) if id(node) in inside and isinstance(node, ast.Call)
                     and getattr(node.func, "id", "") == "Sentence"], module
+
+
+def test_the_page_of_codes_is_what_the_package_says():
+    assert {str(kind) for kind in Kind} == KINDS.keys()  # a line for each
+    assert PAGE.read_text(encoding="utf-8") == page(), "python -m tests.house.sentences writes it anew"
 
 
 def test_every_call_of_a_sentence_fills_its_holes_and_no_others():

@@ -24,6 +24,8 @@ FIRST = (("ISO-10303-21", "a CAD model (STEP)"), ("solid ", "a mesh (STL)"), ("#
          ("function ", "MATLAB"), ("clear", "MATLAB"), ("#include", "C"), ("begin_", "a text of keywords"))
 _YAML = re.compile(r"\s*(?:- +)?[\w .\"'/-]+:(?:\s.*)?")
 _PAIR = re.compile(r"\s*[\w .\"'-]+=")
+# a dictionary over several lines, of which each looks like a key of YAML
+_DICTIONARY = re.compile(r"^\w+\s*=\s*\{\s*(?:#.*\n\s*)*[\"'][^\"'\n]*[\"']\s*:", re.M)
 
 
 def seems(text: str) -> str:
@@ -39,6 +41,8 @@ def seems(text: str) -> str:
         return "a spacecraft file of NASA 42"
     if re.match(r"\{\s*[\"}]|\[\s*\{", head):
         return "JSON"
+    if _DICTIONARY.search(head):
+        return "Python"
     known = next((name for words, name in FIRST if head.startswith(words)), "")
     if known:
         return known

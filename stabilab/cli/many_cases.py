@@ -36,21 +36,23 @@ def sweep(
             'deg/s", "speed=1:1000:31:log rpm", "torque[1]=0, 1, 2". Up to four.')] = None,
         samples: Annotated[int | None, option(
             "N", "Random points over the uncertainties that the case states.")] = None,
-        seed: Annotated[int, option("S", "Of the random points.")] = 1,
+        seed: Annotated[int, option("S", "Seed of the random points.")] = 1,
         answer: Annotated[str | None, option("A,B,...",
             "fate, level, reason, island, margin, distance, extremes, period, when, equilibria, "
             "verdict, chaos. Default: fate,level,margin.")] = None,
         out: Annotated[Path | None, option("FILE.nc",
-            "Write NetCDF. What is finished outlives a killed run: the same command goes on.")] = None,
+            "Write NetCDF. Finished parts remain after an interrupted run: the same command "
+            "continues it.")] = None,
         workers: Workers = None, scheduler: Scheduler = None,
-        rate: Annotated[str | None, option("RATE", "Limits of the answer when, as of stabilab when.")] = None,
+        rate: Annotated[str | None, option("RATE", "Limit of the answer when, as of stabilab when.")] = None,
         component: Component = None, energy: Energy = None, tilt: TiltBy = None, until: Until = None,
         follow: Follow = None,
         csv: Annotated[bool, flag("--csv", "CSV on stdout: a line for each point.")] = False,
         json: Json = False, strict: StrictFate = False):
     """Answer a case over ranges of its numbers.
 
-    A map of fates, margins, extremes, equilibria, by short names of the numbers where these are unique.
+    Outcomes, margins, extremes or equilibria at every point. Names of numbers may be shortened where they
+    stay unique.
 
     Example: stabilab sweep cases/minor-axis-100.toml --vary "x[1]=-4:4:101" --vary "x[3]=-3:3:101" --out
     map.nc
@@ -64,26 +66,26 @@ def atlas(
         torque: Annotated[str | None, option(
             "SIZE", 'Size of the torque: "1 N m". Default: that of the case.')] = None,
         wheel: Annotated[str | None, option("[AXIS=]VALUES",
-            'Wheel momenta beside each of which all directions are mapped: "0:2:5" along the wheel '
+            'Wheel momenta for each of which all directions are mapped: "0:2:5" along the wheel '
             'of the case, "z=-2:2:5" (x, y, z of the file, or 1, 2, 3). Default: as in the case.')] = None,
         level: Annotated[int, option("N", "8 times 4^N cells of equal area at first.")] = 3,
-        refine: Annotated[int, option("N", "How often cells along a boundary are cut in four.")] = 2,
+        refine: Annotated[int, option("N", "How often cells along a boundary are divided into four.")] = 2,
         rate: Annotated[str | None, option(
-            "RATE", "Limit for the answer when, as of stabilab when; default: that of [limits].")] = None,
+            "RATE", "Limit for the time, as for stabilab when; default: that of [limits].")] = None,
         component: Component = None, energy: Energy = None, tilt: TiltBy = None, until: Until = None,
         no_time: Annotated[bool, flag(
             "--no-time", "Leave out the time to a limit, which takes most of the work.")] = False,
         certify: Annotated[bool, flag(
-            "--certify", "Prove fates and times where that succeeds, whatever it takes.")] = False,
+            "--certify", "Prove outcomes and times where possible, however long it takes.")] = False,
         out: Annotated[list[Path] | None, option("FILE.nc|.png|.svg|.pdf|.html",
-            "Write cells, a picture or a page that answers the pointer; may be given again. What "
-            "is finished outlives a killed run.")] = None,
+            "Write the cells, a picture, or a page that describes the cell under the pointer; may be "
+            "repeated. Finished parts remain after an interrupted run.")] = None,
         workers: Workers = None, scheduler: Scheduler = None, follow: Follow = None,
         units: UnitsOption = None, csv: CsvOfCells = False, json: Json = False, strict: StrictFate = False):
-    """Map all directions of a torque: fates, axes, times.
+    """Map all directions of a torque: outcomes, axes, times.
 
-    Cells of equal area on the sphere, smaller ones along the boundaries; principal axes and thrusters stand
-    on it as points.
+    The sphere of directions in cells of equal area, with smaller ones along the boundaries; the directions of
+    the principal axes and of the thrusters are answered as points.
 
     Example: stabilab atlas cases/cubesat-3u.toml --out atlas.png
     """
@@ -97,15 +99,16 @@ def basin(
             'A rate of the initial state and its range: "x[1]=-4:4", '
             '"angular_velocity[3]=-30:30:33 deg/s" for 33 points of the coarse grid. Two of them.')] = None,
         depth: Annotated[int, option(
-            "K", "How often a cell is halved whose corners have different fates.")] = 5,
+            "K", "How often a cell is halved whose corners have different outcomes.")] = 5,
         out: Annotated[list[Path] | None, option("FILE.png|.svg|.pdf|.nc",
-            "Draw, or write NetCDF, whose parts outlive a killed run; may be repeated.")] = None,
+            "Draw, or write NetCDF; may be repeated. Finished parts remain after an interrupted "
+            "run.")] = None,
         workers: Workers = None, scheduler: Scheduler = None, follow: Follow = None, csv: CsvOfCells = False,
         json: Json = False, strict: StrictFate = False):
-    """Show which initial states spin up, and how rough the edge is.
+    """Find which initial states spin up, and their boundary.
 
-    A plane of states in cells that get smaller towards the boundary between fates; shares, the exact
-    separatrix, box dimension.
+    A plane of states in cells that get smaller towards the boundary between outcomes; the share of each
+    outcome, the exact separatrix, the box dimension of the boundary.
 
     Example: stabilab basin cases/minor-axis-100.toml --vary "x[1]=-4:4" --vary "x[3]=-3:3" --out basin.png
     """
@@ -119,18 +122,18 @@ def bifurcation(
             'A number that varies: "torque[3]=0:0.5", "wheels.pitch.speed=-3000:3000 rpm". One or '
             "two.")] = None,
         curve: Annotated[bool, flag("--curve",
-            "Of a torque on a principal axis: where stability changes along the whole curve of "
-            "equilibria, whatever the motion.")] = False,
-        out: Annotated[Path | None, option("FILE.png", "Draw it: .png, .svg or .pdf.")] = None,
+            "For a torque on a principal axis: find where stability changes along the whole curve of "
+            "equilibria, independent of the motion.")] = False,
+        out: Annotated[Path | None, option("FILE.png", "Draw the diagram: .png, .svg or .pdf.")] = None,
         certify: Annotated[Path | None, option("FILE.json",
-            "Of one number: write a certificate of every value and count, which `stabilab verify` "
+            "For one number: write a certificate of all values and counts, which `stabilab verify` "
             "checks by other algebra.")] = None,
         csv: Annotated[bool, flag("--csv", "CSV on stdout: points of all branches.")] = False,
         json: Json = False):
     """Find where equilibria appear and vanish.
 
-    Exactly, over the range of one number or two: folds and what else there is are roots of discriminants,
-    none is missed.
+    Exactly, over the range of one number or two: the values at which the number of equilibria changes are
+    roots of discriminants, and none is missed.
 
     Example: stabilab bifurcation cases/wheel-and-thruster.toml --vary "torque[3]=0:2000"
     """

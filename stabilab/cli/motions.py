@@ -1,4 +1,4 @@
-"""Answers about a motion: what becomes of it, its extremes and period, when it reaches a limit."""
+"""Answers about a motion: its outcome, its extremes and period, when it reaches a limit."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -33,14 +33,14 @@ commands = typer.Typer()
 def classify(
         cases: CaseFiles, json: Json = False,
         strict: Annotated[bool, flag("--strict",
-            "Exit with 3 where a verdict or a fate is undecided or an approximate law does not "
-            "hold.")] = False,
+            "Exit with 3 where the stability of an equilibrium or an outcome is undecided, or an "
+            "approximate law does not hold.")] = False,
         certify: Annotated[bool, flag("--certify",
-            "Prove the answer in exact numbers and ball arithmetic, and write it as a certificate "
-            "that `stabilab verify` checks.")] = False,
-        out: Annotated[Path, option("FILE.json", "Where the certificate goes.")] = Path("certificate.json"),
+            "Prove the answer with exact numbers and interval arithmetic, and write a certificate that "
+            "`stabilab verify` checks.")] = False,
+        out: Annotated[Path, option("FILE.json", "File of the certificate.")] = Path("certificate.json"),
         follow: Follow = None, tilt: Tilt = None, units: UnitsOption = None, why: Why = False):
-    """Find equilibria, their stability, and the fate of the motion.
+    """Find equilibria, their stability, and the motion's outcome.
 
     Example: stabilab classify cases/minor-axis-100.toml --json
     """
@@ -54,8 +54,8 @@ def fate(
         why: Why = False):
     """Say whether each motion stays bounded or spins up.
 
-    And how far it is from the separatrix. Digits are those of that distance in energy; the outcome itself is
-    certain.
+    Also how far it is from the separatrix. Digits are those of that distance in energy; the outcome itself
+    is decided exactly.
 
     Example: stabilab fate cases/minor-axis-100.toml --digits 30
     """
@@ -88,9 +88,9 @@ def period(
 def attitude(
         cases: CaseFiles, json: Json = False,
         digits: Annotated[int | None, option(
-            "N", "Write the periods to N digits (1 to 50); exit 5 where they are not reached.")] = None,
+            "N", "Write the periods with N digits (1 to 50); exit with 5 where not reached.")] = None,
         strict: StrictFate = False, units: UnitsOption = None):
-    """Find rotation and precession periods, and the turn in space.
+    """Find rotation and precession periods, and the turn after one.
 
     Example: stabilab attitude cases/torque-free-body.toml
     """
@@ -101,20 +101,20 @@ def attitude(
 def when(
         cases: CaseFiles,
         rate: Annotated[str | None, option(
-            "RATE", 'Of |ω|: "30 deg/s". Default: the limit of [limits].')] = None,
+            "RATE", 'Limit of |ω|: "30 deg/s". Default: that of [limits].')] = None,
         component: Annotated[str | None, option("AXIS=RATE",
-            "Of one component's size: \"z = 30 deg/s\"; x, y, z of the file, 1, 2, 3 for principal "
-            "axes.")] = None,
-        energy: Annotated[str | None, option("ENERGY", 'Of the kinetic energy: "5 J".')] = None,
+            "Limit of the absolute value of one rate: \"z = 30 deg/s\"; x, y, z are axes of the file, "
+            "1, 2, 3 principal axes.")] = None,
+        energy: Annotated[str | None, option("ENERGY", 'Limit of the kinetic energy: "5 J".')] = None,
         tilt: Annotated[str | None, option("AXIS=ANGLE",
-            'Of the angle between a body axis and its direction at the start: "z = 20 deg".')] = None,
-        until: Annotated[str | None, option("TIME", 'Search no further than this: "10 min".')] = None,
+            'Limit of the angle between a body axis and its direction at the start: "z = 20 deg".')] = None,
+        until: Annotated[str | None, option("TIME", 'Search up to this time only: "10 min".')] = None,
         units: UnitsOption = None, si: Si = False, json: Json = False, csv: Csv = False,
         strict: Annotated[bool, flag("--strict",
             "Exit with 3 where the time is not known or an approximate law does not hold.")] = False):
     """Say when each motion first reaches a limit.
 
-    Enclosed between two times, by roots and not by sampling, or never.
+    The answer is two times between which the limit is first reached, or that it is never reached.
 
     Example: stabilab when cases/cubesat-3u.toml --rate "30 deg/s"
     """
@@ -125,14 +125,15 @@ def when(
 def stuck(
         case: CaseFile,
         all_thrusters: Annotated[bool, flag("--all-thrusters",
-            "Each thruster alone, stuck or not; the one that reaches the limit first in front.")] = False,
+            "Answer for each thruster alone, stuck or not; the one that reaches the limit first comes "
+            "first.")] = False,
         units: UnitsOption = None, si: Si = False, why: Why = False,
         out: Annotated[Path | None, option("FILE.png|.svg|.pdf", "Draw the rates against time.")] = None,
         json: Json = False, csv: Csv = False, strict: StrictFate = False):
-    """Say what a thruster stuck open does, how soon, what helps.
+    """Say what a stuck thruster does, how soon, and what helps.
 
-    Outcome, axis, time to the limit of [limits], the least change that brings another outcome; wheel momenta
-    that keep the motion bounded, thrusters that help.
+    Outcome, axis of spin-up, time to the limit of [limits], the smallest change that changes the outcome,
+    wheel momenta that keep the motion bounded, and other thrusters that help.
 
     Example: stabilab stuck cases/upper-stage.toml
     """
@@ -143,14 +144,14 @@ def stuck(
 def burn(
         case: CaseFile,
         stop: Annotated[str | None, option(
-            "TIME", 'Close all thrusters then: "12 s". Default: as the file says.')] = None,
+            "TIME", 'Close all thrusters at this time: "12 s". Default: as the file says.')] = None,
         below: Annotated[str | None, option(
             "RATE", 'Find the latest closing time that keeps |ω| below this for ever: "30 deg/s".')] = None,
         units: UnitsOption = None, json: Json = False, strict: StrictFate = False):
-    """Say what a burn leaves, and by when it must be closed.
+    """Give the motion after a burn, and the latest closing time.
 
-    Of thrusters with start, stop, pulses or propellant in the file: rates at closing, the free motion after
-    it, its largest rate.
+    For thrusters with start, stop, pulses or propellant in the file: rates at closing, the free motion
+    afterwards and its largest rate.
 
     Example: stabilab burn cases/burns/stage.toml --stop "12 s" --below "20 deg/s"
     """
@@ -161,13 +162,14 @@ def burn(
 def flat_spin(
         case: CaseFile,
         within: Annotated[str, option(
-            "ANGLE", "Nutation angle from which the tumble counts, and to which it settles.")] = "5 deg",
+            "ANGLE", "Nutation angle about the minor axis at which the passage begins, and about the major "
+            "axis at which it ends.")] = "5 deg",
         units: UnitsOption = None, json: Json = False,
         strict: Annotated[bool, flag("--strict", "Exit with 3 where the outcome is undecided.")] = False):
     """Say when a spin that loses energy tumbles, and how it ends.
 
-    Of a free body with a damper or a liquid: the direction of the major axis, the time at the separatrix, the
-    final rate, and by how much the start decides.
+    For a free body with a damper or a liquid: the final direction and rate, the time at which the separatrix
+    is crossed, and the changes of the initial state that change the final direction.
 
     Example: stabilab flat-spin cases/explorer-1-damped.toml
     """
@@ -184,8 +186,8 @@ def orbit(
         units: UnitsOption = None, json: Json = False, strict: StrictFate = False):
     """Find all equilibria of a satellite on a circular orbit.
 
-    Of a file with [circular_orbit]: attitudes at rest in the orbital frame under the gravity gradient, with
-    their stability and librations.
+    For a file with [circular_orbit]: equilibrium attitudes in the orbital frame under the gravity gradient,
+    with their stability and librations.
 
     Example: stabilab orbit cases/orbits/boom.toml --up-to "12 N m s"
     """
@@ -201,11 +203,11 @@ def chaos(
             "FILE.png|.svg|.pdf", "Draw the Poincaré section and MEGNO over its plane.")] = None,
         csv: Annotated[bool, flag("--csv", "CSV on stdout: MEGNO over time.")] = False,
         json: Json = False,
-        strict: Annotated[bool, flag("--strict", "Exit with 3 where it stays undecided.")] = False):
+        strict: Annotated[bool, flag("--strict", "Exit with 3 where this is undecided.")] = False):
     """Say whether each motion is regular or chaotic.
 
-    By how a small change of the start grows (MEGNO), from variational equations of the case's own; seen up to
-    a time, not proved.
+    Decided by the growth of a small change of the initial state (MEGNO), which the variational equations
+    give, up to a time; nothing is proved.
 
     Example: stabilab chaos cases/minor-axis-100.toml
     """

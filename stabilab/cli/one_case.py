@@ -17,7 +17,7 @@ commands = typer.Typer()
 def show(case: CaseFile):
     """Show the equations of motion and their first integrals.
 
-    Text and LaTeX; the laws are those of this very scene.
+    In text and LaTeX, for the effects of this case; also what was understood of the file.
 
     Example: stabilab show cases/minor-axis-100.toml
     """
@@ -29,9 +29,9 @@ def compare(
         case: CaseFile, order: Order = None,
         out: Annotated[Path | None, option("FILE.csv", "Write the errors over time.")] = None,
         json: Json = False, strict: Strict = False, units: UnitsOption = None):
-    """Set the analytic models of a case beside its exact motion.
+    """Compare the analytic models of a case with its exact motion.
 
-    Error over time, and when it first reaches 1 % and 10 %.
+    The error over time, and the times at which it first reaches 1 % and 10 %.
 
     Example: stabilab compare cases/charged-body.toml
     """
@@ -45,13 +45,13 @@ def precision(
             "FILE.png|.svg|.pdf|.csv", "Write the picture or the points.")] = None,
         until: Annotated[str | None, option(
             "TIME", "End of the span: \"10 min\"; default: the case's own, or some periods.")] = None,
-        quick: Annotated[bool, flag("--quick", "Few settings: seconds instead of a minute.")] = False,
+        quick: Annotated[bool, flag("--quick", "Try few settings: seconds instead of a minute.")] = False,
         all_settings: Annotated[bool, flag(
-            "--all", "Every setting of every method, and the findings in words.")] = False,
+            "--all", "Print every setting of every method, and the findings in words.")] = False,
         strict: Strict = False):
-    """Measure what accuracy costs: every method, error and time.
+    """Measure what accuracy costs: error and time of each method.
 
-    Judged by a Taylor series in many digits that knows its own error.
+    Errors are measured against a Taylor series in many digits, whose own error is known.
 
     Example: stabilab precision cases/minor-axis-100.toml --quick
     """
@@ -66,10 +66,10 @@ def import_(
         stuck: Annotated[list[str] | None, option(
             "NAME", "A thruster that is stuck open; may be repeated.")] = None,
         body: Annotated[int | None, option(
-            "N", "Of several bodies in a NASA 42 file, one alone.", show_default="all, joined")] = None):
+            "N", "Take one body alone of several in a NASA 42 file.", show_default="all, joined")] = None):
     """Write another program's spacecraft as a case.
 
-    Several bodies on joints become one rigid body, the joints locked as the file places them.
+    Several bodies on joints become one rigid body, with the joints locked in the positions of the file.
 
     What has no counterpart in a case is listed on stderr. Exits with 2 where the case still has faults.
 
@@ -88,7 +88,7 @@ def doctor():
 
 @commands.command()
 @opens("one_case.example")
-def example(name: Annotated[str | None, argument("NAME", "Of a case; without one all are listed.")] = None):
+def example(name: Annotated[str | None, argument("NAME", "Name of a case; default: list all.")] = None):
     """Write a case to begin with: a phone, a CubeSat, an asteroid.
 
     Example: stabilab example phone > phone.toml

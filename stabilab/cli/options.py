@@ -34,30 +34,31 @@ CaseFiles = Annotated[list[Path], argument("CASE...", "Case files (TOML).",
 Json = Annotated[bool, flag("--json", "JSON on stdout instead of text.")]
 Csv = Annotated[bool, flag("--csv", "CSV on stdout instead of text.")]
 Digits = Annotated[int | None, option("N",
-    "Reach N digits (1 to 50) the cheapest way and check them; exit 5 where they are not reached. Without "
-    "it 10 are the aim.")]
+    "Reach N digits (1 to 50) by the cheapest method and check them; exit with 5 where they are not reached. "
+    "Default: 10 where possible.")]
 Follow = Annotated[str | None, option("T",
-    "How long to follow a motion that only a run with a certificate decides (torque off the principal "
-    "axes), with a unit or in the time of the case. Default: a second of work.")]
+    "How long to follow a motion in time where no first integral decides its outcome (torque off the "
+    'principal axes): "10 min", or a number in the time of the case. Default: about a second of work.')]
 Prove = Annotated[bool, flag("--certify",
-    "Enclose a motion that has to be followed, so that its fate is proved; classify --certify writes the "
-    "proof down.")]
+    "Prove the outcome of a motion that has to be followed in time, by bounds of every step; classify "
+    "--certify writes the proof to a file.")]
 Tilt = Annotated[str | None, option("ANGLE",
-    'What a tilt of the torque by up to so much, "1 deg", does to a motion that a torque on an axis keeps '
-    "bounded. By itself where the case states a misalignment or [limits].")]
+    'Also say what a tilt of the torque by up to this angle does, "1 deg", where the motion is bounded '
+    "under a torque on a principal axis. Without it: by the misalignment that the case states, or by 1 deg "
+    "where the case has [limits].")]
 UnitsOption = Annotated[str | None, option("UNIT",
-    "Of rates in text: deg (deg/s), deg/day, rpm, rev/s, or si (rad/s, and all times in s). Default: "
+    "Unit of rates in text: deg (deg/s), deg/day, rpm, rev/s, or si (rad/s, and all times in s). Default: "
     "[output] units of the case, else deg; deg/day for a free body below 0.01 deg/s.",
     autocompletion=command_groups.units)]
 Si = Annotated[bool, flag("--si", "The same as --units si.", hidden=True)]
-Why = Annotated[bool, flag("--why", "With proofs, derivations and algebra.", "-v")]
+Why = Annotated[bool, flag("--why", "Also print proofs, derivations and algebra.", "-v")]
 Strict = Annotated[bool, flag("--strict",
-    "Exit with 3 where a fate is undecided or an approximate law does not hold along the motion.")]
-StrictFate = Annotated[bool, flag("--strict", "Exit with 3 where a fate is undecided.")]
+    "Exit with 3 where an outcome is undecided or an approximate law does not hold along the motion.")]
+StrictFate = Annotated[bool, flag("--strict", "Exit with 3 where an outcome is undecided.")]
 Workers = Annotated[int | None, option(
-    "N", "Processes that share the work; default: one a core where that pays.")]
+    "N", "Processes that share the work; default: one for each core where that is faster.")]
 Scheduler = Annotated[str | None, option(
-    "tcp://...", "Let the workers of this Dask scheduler do it (extra cluster).")]
+    "tcp://...", "Let the workers of this Dask scheduler do the work (needs stabilab[cluster]).")]
 Component = Annotated[str | None, option("AXIS=RATE", hidden=True)]
 Energy = Annotated[str | None, option("ENERGY", hidden=True)]
 TiltBy = Annotated[str | None, option("AXIS=ANGLE", hidden=True)]

@@ -20,12 +20,12 @@ def verify(
             "A certificate.json of classify --certify or bifurcation --certify.",
             autocompletion=command_groups.certificates)],
         case: Annotated[Path | None, option(
-            "CASE.toml", "The case it must be of: exit with 5 where scene or state differ.")] = None,
+            "CASE.toml", "The case that it must be about: exit with 5 where scene or state differ.")] = None,
         json: Json = False,
         strict: Annotated[bool, flag("--strict", "Exit with 3 where a claim could not be checked.")] = False):
     """Check a certificate with separate code.
 
-    Shares only python-flint with the analysis. Exits with 5 where a claim is wrong.
+    The code shares only the library python-flint with the analysis. Exits with 5 where a claim is wrong.
 
     Example: stabilab verify certificate.json --case cases/minor-axis-100.toml
     """
@@ -36,14 +36,15 @@ def verify(
 def reference(
         case: CaseFile,
         at: Annotated[list[str] | None, option("T1,T2,...",
-            "Times from 0 on, with a unit or in that of the case. Default: 201 times over the span.")] = None,
+            'Times from 0 on, with a unit ("2 min") or in that of the case. Default: 201 times over the '
+            "span.")] = None,
         digits: Annotated[int, option("N", "Digits (1 to 50) of every state.")] = 30,
         out: Annotated[Path | None, option("FILE.csv|.json", "Write to a file.")] = None,
         json: Json = False):
     """Write a motion with guaranteed digits, to test integrators.
 
-    States, zeros and extremes, period, with versions, case and command: CSV, or JSON. Exits with 5 where
-    digits are not reached.
+    States, zeros and extremes of the rates, and the period, with version, case and command, as CSV or JSON.
+    Exits with 5 where the digits are not reached.
 
     Example: stabilab reference cases/minor-axis-100.toml --digits 30 --out minor-axis-100.csv
     """
@@ -53,15 +54,16 @@ def reference(
 @opens("papers.audit")
 def audit(
         paper: Annotated[str | None, argument("[PAPER]",
-            "A paper on record or a file of claims, .toml; default: all papers.",
+            "A paper that comes with the program, or a file of claims (.toml); default: all papers.",
             autocompletion=command_groups.audited)] = None,
-        equation: Annotated[str | None, option("N", "One equation or claim, as 17 or text-8a.")] = None,
+        equation: Annotated[str | None, option("N", "One equation or claim, such as 17 or text-8a.")] = None,
         json: Json = False,
         out: Annotated[Path | None, option(
             "FILE.html", "Write a page with the formulas typeset.", "--html")] = None):
     """Check published formulas against the equations of motion.
 
-    Each row: holds, holds only under a condition, wrong (with what is right), definition, or not checkable.
+    Each one holds, holds only under a condition, is wrong (the correct one is given), is a definition, or
+    cannot be checked.
 
     Example: stabilab audit constant-torque-gyrostat --equation 17
     """
@@ -74,10 +76,10 @@ def validate(
             "nesc, basilisk, orekit or 42; default: all.", autocompletion=command_groups.sources)] = None,
         json: Json = False,
         out: Annotated[Path | None, option("FILE.html", "Write a page with the table.", "--html")] = None):
-    """Compare other tools' published numbers with ours.
+    """Compare published results of others with the exact ones.
 
-    Ours with proved digits, theirs, the difference, and its cause. Exits with 5 where a difference is not
-    explained.
+    The result with proved digits, the published one, the difference, and its cause. Exits with 5 where a
+    difference is not explained.
 
     Example: stabilab validate nesc
     """
@@ -87,9 +89,9 @@ def validate(
 @opens("papers.rerun")
 def rerun(
         manifest: Annotated[Path, argument("MANIFEST",
-            "A manifest.json, or the folder that holds it.", autocompletion=command_groups.certificates)],
+            "A manifest.json, or the folder that contains it.", autocompletion=command_groups.certificates)],
         out: Annotated[Path | None, option("DIR", "Keep the new files in an empty folder.")] = None):
-    """Repeat what made a folder and compare every byte.
+    """Repeat what wrote a folder, and compare every byte.
 
     Exits with 2 where inputs are missing or changed, with 5 where a file differs.
 
@@ -101,10 +103,10 @@ def rerun(
 @opens("papers.papers")
 def papers(
         paper: Annotated[str | None, argument(
-            "[PAPER]", "A paper of `stabilab audit`; none: all.",
+            "[PAPER]", "A paper of `stabilab audit`; default: all.",
             autocompletion=command_groups.audited)] = None,
         json: Json = False):
-    """List equations, figures, tables, claims with verdicts.
+    """List equations, figures, tables and claims: right or wrong.
 
     Example: stabilab papers constant-torque-gyrostat
     """
@@ -125,7 +127,7 @@ def tables(out: Folder = ...):  # type: ignore[assignment]  # typer: must be giv
 @opens("papers.figures")
 def figures(
         numbers: Annotated[list[int] | None, argument(
-            "[N...]", "Figure numbers of one paper; none: all.")] = None,
+            "[N...]", "Numbers of figures of one paper; default: all.")] = None,
         paper: Annotated[str | None, option("NAME",
             "constant-torque, charged, cavity or top. Default: constant-torque where numbers are given, "
             "else all.", autocompletion=command_groups.papers)] = None,

@@ -10,38 +10,38 @@ from typer.core import TyperGroup
 # title of a group in the help -> the file of `cli` that declares its commands, and the question of each
 GROUPS = {
     "Answers about a motion": ("motions", {
-        "classify": "Where are the equilibria, which are stable, and what becomes of the motion?",
+        "classify": "Where are the equilibria, which are stable, and what is the outcome of the motion?",
         "fate": "Does the motion stay bounded or spin up, and how far is it from the other outcome?",
         "extremes": "How large do the rates get?",
         "period": "After which time do the rates repeat?",
         "attitude": "How does the body turn in space?",
         "when": "When is a limit first reached?",
         "stuck": "My thruster is stuck open: what happens, how soon, what helps?",
-        "burn": "What is left after a burn, and by when must it close?",
+        "burn": "How does the body move after a burn, and by when must a thruster be closed?",
         "flat-spin": "When does a spin that loses energy tumble, and how does it end?",
-        "orbit": "At which attitudes does a satellite rest on a circular orbit?",
+        "orbit": "Which equilibrium attitudes does a satellite have on a circular orbit?",
         "chaos": "Is the motion regular or chaotic?"}),
     "Runs and pictures": ("runs", {
         "simulate": "What are the rates at a given time?",
         "plot": "What does the motion look like?",
         "surface": "Which surface divides the outcomes, as a mesh?",
         "report": "What is known of my cases, as web pages?",
-        "explore": "How does the verdict change as I change the numbers?"}),
+        "explore": "How does the outcome change as I change the numbers?"}),
     "More about a case": ("one_case", {
         "show": "Which equations of motion and first integrals does my case have?",
         "compare": "For how long is an analytic theory close to the exact motion?",
         "precision": "What does accuracy cost?",
-        "import": "How do I take over another program's spacecraft?"}),
+        "import": "How do I import a spacecraft of another program?"}),
     "Many cases at once": ("many_cases", {
         "sweep": "What are the answers over ranges of my numbers?",
         "atlas": "What does a torque do in each direction?",
-        "basin": "Which initial states spin up, and how rough is the edge?",
+        "basin": "Which initial states spin up, and how rough is the boundary of their set?",
         "bifurcation": "At which numbers do equilibria appear and vanish?"}),
     "Proofs and checks": ("proofs", {
         "verify": "Is what a certificate claims proved?",
         "reference": "Which motion with guaranteed digits tests my integrator?",
         "audit": "Are published formulas right?",
-        "validate": "Do the published numbers of other tools agree?",
+        "validate": "Do published results of other programs agree?",
         "rerun": "Does the same command give the same bytes?"}),
     "The papers": ("proofs", {
         "papers": "Which equations, figures and claims do the papers have, and which are right?",
@@ -49,7 +49,7 @@ GROUPS = {
         "figures": "Where are the figures of the papers?"}),
     "Help to begin": ("one_case", {
         "example": "With which case do I begin?",
-        "doctor": "Is all installed that pictures need?"}),
+        "doctor": "Is everything installed that pictures need?"}),
 }
 
 

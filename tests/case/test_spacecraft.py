@@ -317,7 +317,10 @@ def test_a_spacecraft_of_42_becomes_a_case_with_its_products_turned_round(tmp_pa
 
 
 @pytest.mark.parametrize("ending, write",
-                         [(".json", json.dumps), (".py", lambda data: f"spacecraft = {data!r}\n")])
+                         [(".json", json.dumps), (".py", lambda data: f"spacecraft = {data!r}\n"),
+                          # a line a key, each of which looks like YAML
+                          (".py", lambda data: "# own\nspacecraft = {\n" + ",\n".join(
+                              f'    "{key}": {value!r}' for key, value in data.items()) + "}\n")])
 def test_a_dictionary_of_basilisk_becomes_a_case(tmp_path, stabilab, ending, write):
     path = tmp_path / f"own{ending}"
     path.write_text(write(BASILISK))

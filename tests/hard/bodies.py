@@ -83,7 +83,7 @@ def symmetric(body):
     except ZeroDivisionError:
         said = "no answer: 1/0"
     ours = stabilab.Fate(int(stabilab.fate(scene, np.array(state)).labels)).word
-    return Verdict(body, "fate", "division by D1 - D2", said, ours, energy.label(problem, state))
+    return Verdict(body, "outcome", "division by D1 - D2", said, ours, energy.label(problem, state))
 
 
 def tiny_torque(size):

@@ -149,7 +149,7 @@ def circle_of_no_radius(radius):
     except ZeroDivisionError:
         said = "no answer: 0/0"
     ours = stabilab.fate(scene, np.array(state))
-    return Verdict(f"circle of radius A = {radius:g}", "fate", "A^2 is 0 and the angle undefined", said,
+    return Verdict(f"circle of radius A = {radius:g}", "outcome", "A^2 is 0 and the angle undefined", said,
                    stabilab.Fate(int(ours.labels)).word, energy.label(problem, state, digits=800))
 
 

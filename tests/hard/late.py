@@ -99,6 +99,7 @@ def released(c):
     naive = ("bounded" if np.abs(run.y[:, run.t > 500]).max() <= 1.01 * np.abs(run.y[:, run.t < 500]).max()
              else "spin-up")
     answer = captured_fate(stabilab.ScaledGyrostat(0.0, c, (1, 0, 0)), (0.0, -1.0, 5.0))
-    return Verdict(f"major axis, c = {c:g}", "fate and axis", "a run over 1000 units stays within its bounds",
+    return Verdict(f"major axis, c = {c:g}", "outcome and axis",
+                   "a run over 1000 units stays within its bounds",
                    naive,
                    f"{answer.fate.word} about axis {answer.axis}", "spin-up about axis 1")

@@ -72,6 +72,6 @@ def labels(case, goes_wrong, pair, states, naive, digits=120) -> Verdict:
     exact = [energy.label(problem, s, digits=digits) for s in states]
     ours = stabilab.fate(scene, np.array(states)).labels.tolist()
     tell = lambda wrong: f"{sum(wrong)} of {len(states)} wrong"
-    return Verdict(case, f"fate of {len(states)} states", goes_wrong,
+    return Verdict(case, f"outcome of {len(states)} states", goes_wrong,
                    tell(naive(s) != e for s, e in zip(states, exact)),
                    tell(o != WORDS[e] for o, e in zip(ours, exact)), tell([False]))

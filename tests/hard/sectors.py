@@ -39,7 +39,7 @@ def on_the_plane(y):
     a, b = 0.25, 0.75
     state, (scene, problem) = (y - b, 0.5, -y), scaled(a, b, (0, 1, 0))
     rates = lambda t, x: (x[1] * x[2], 1 - x[2] * (x[0] + a), x[1] * (x[0] + b))
-    return Verdict(f"on the invariant plane x1 + b = -x3 = {y:g}", "fate",
+    return Verdict(f"on the invariant plane x1 + b = -x3 = {y:g}", "outcome",
                    "a run leaves the plane as exp(x2^2/2)",
                    runs(rates, 1, state, 100.0), fate_word(scene, state), energy.label(problem, state))
 
@@ -55,7 +55,8 @@ def exact_saddle(wk):
     momentum, torque, state = np.array([125.0, l2, 0.0]), np.array([0.0, 0.0, -l2 / 4]), (-0.25, wk, 0.0)
     scene, problem = physical(PAPER_BODY, momentum, torque)
     rates = lambda t, w: (np.cross(D * w + momentum, w) + torque) / D
-    return Verdict(f"exact saddle w2 = {wk:g} as initial state", "fate", "rates of rounding grow as exp(t)",
+    return Verdict(f"exact saddle w2 = {wk:g} as initial state", "outcome",
+                   "rates of rounding grow as exp(t)",
                    runs(rates, 2, state, 400.0), fate_word(scene, state), energy.label(problem, state))
 
 

@@ -292,11 +292,11 @@ def test_readme_has_a_picture():
     assert re.search(r"!\[[^]]+\]\(figures/[\w-]+\.png\)", README.read_text())
 
 
-def test_fates_and_exit_codes_in_the_guide_are_those_of_the_program():
+def test_outcomes_and_exit_codes_in_the_guide_are_those_of_the_program():
     from stabilab import Fate
     from stabilab.physics.effects import REGISTRY
     rows = [line.split("|")[1].strip() for line in GUIDE.read_text().splitlines() if line.startswith("|")]
-    fates, effects = rows[rows.index("fate"):], rows[rows.index("effect"):rows.index("fate")]
+    fates, effects = rows[rows.index("outcome"):], rows[rows.index("effect"):rows.index("outcome")]
     assert {row.strip("`") for row in fates if row.startswith("`")} == {fate.word for fate in Fate}
     assert [row[1:].split("`")[0] for row in effects if row.startswith("`")] == list(REGISTRY)
     codes = {errors.OK, errors.BUG, errors.BAD_INPUT, errors.UNDECIDED, errors.NO_RENDERING,
