@@ -16,6 +16,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -26,7 +27,7 @@ from ...integrate.trajectory import root_between
 from ...numbers.vectors import Float3, dot
 from ...orbit.result import Fate, Motion
 from ...physics.coefficients import Content, content, loses
-from ...physics.scene import slices
+from ...physics.scene import later, slices
 from ...physics.states import equations_and_start, moved_row, start_of
 from ...physics.to_numpy import to_numpy
 from ...representation import Compared, Shown
@@ -37,6 +38,7 @@ from .flat_spin import ACROSS, POSITIVE, SECOND_RTOL, UNDECIDED, FlatSpin, Time,
 from .spinner import Spinner
 
 WITHIN = math.radians(5)  # of the nutation angle
+FAR = 1e100  # rad/s, and one over it: rates beyond it have squares and fourth powers that are no doubles
 NEAR = 0.01  # of the rates, or of the departure from the end
 STEPS = 2_000_000  # of a run of a body that something outside acts on
 FEWER = 100_000  # of one that is followed until its rates stay, whatever they do
@@ -110,6 +112,10 @@ def ending(case: Any, motion: Motion) -> Ending | None:
     parts = content(scene)
     if parts is None or not parts.dissipative:
         return None
+    size = math.hypot(*case.state[:3])
+    if size and not 1 / FAR < size < FAR:
+        return Ending("undecided", "undecided", f"no run is made of rates of {size:.3g} rad/s, of which squares "
+                      "are no doubles")
     if _free(parts):
         return _inside(case)
     start = equations_and_start(scene, start_of(scene, case.state, case.blocks))[1]
@@ -233,18 +239,18 @@ def _falls(scene: Any, state: np.ndarray, share: Callable[[np.ndarray], np.ndarr
     too many steps."""
     level, t, steps, here, ahead = NEAR * NEAR, 0.0, 0, 1.0, math.inf
     length = _quick(to_numpy(scene).jacobian(state), state)
-    over = lambda y, times: trajectory(scene, y, times, rtol=rtol, laws=False)
+    over = lambda after, y, times: trajectory(later(scene, after), y, times, rtol=rtol, laws=False)
     while steps < STEPS:
         times = np.linspace(0.0, length, POINTS + 1)
-        run = over(state, times)
+        run = over(t, state, times)
         if run.status != "reached":
             return None, None
         shares = share(run.states)
         below = np.nonzero(shares < level)[0]
         if below.size:
             at = max(0, int(below[0]) - 1)
-            more, late = _root(run.states[at], float(times[at + 1] - times[at]), over,
-                               lambda y: float(share(y[None])[0]) - level)
+            more, late = _root(run.states[at], float(times[at + 1] - times[at]),
+                               partial(over, t + float(times[at])), lambda y: float(share(y[None])[0]) - level)
             return t + float(times[at]) + more, late
         taken = max(1, run.counters["steps"])
         t, steps, state, before, here = t + length, steps + taken, run.states[-1], here, float(shares[-1])
@@ -272,7 +278,7 @@ def _settled(scene: Any, start: np.ndarray, rests: bool) -> Ending:
     length, t, steps = _quick(form.jacobian(start), start), 0.0, 0
     times, rates = np.zeros(1), start[None, :3]
     while steps < FEWER:
-        run = trajectory(scene, state, np.linspace(0.0, length, POINTS + 1)[1:], laws=False)
+        run = trajectory(later(scene, t), state, np.linspace(0.0, length, POINTS + 1)[1:], laws=False)
         if run.status != "reached":
             break
         steps, state, new = steps + max(1, run.counters["steps"]), run.states[-1], run.states[:, :3]
