@@ -15,7 +15,7 @@ from ...physics.coefficients import limits_of
 from ..caveats import limited, misaligned
 from ..motion import motion, with_ending
 
-FASTEST = 1e100  # of a rate or a direction: beyond it, and below its inverse, squares of squares are no doubles
+FASTEST = 1e100  # of a rate: beyond it, and below its inverse, squares of squares are no doubles
 MOST = 1e5  # rad of turn along which a law beside other answers is judged: seconds
 
 
