@@ -16,6 +16,7 @@ from ...case.given import (
     Starts,
     as_case,
     in_numbers,
+    is_one,
     scene_of,
     time_in,
     with_start,
@@ -110,7 +111,8 @@ def chaos(scene: Given, state: Start | None = None, until: Amount | None = None,
     is called meanwhile. Raises InputError for other shapes and numbers.
     """
     case, given = as_case(scene), state if states is None else states
-    if given is None or isinstance(given, Mapping):
+    texts = is_one(given) and not isinstance(given, Mapping) and any(isinstance(v, str) for v in given)
+    if given is None or isinstance(given, Mapping) or texts:
         rows: Any = _row(with_start(as_case(case, given), "chaos"))
     else:  # rows of whole states, or of rates beside the other blocks of the case
         rows = in_numbers(given, NONE if case.variables == "scaled" else RATE, "states")
