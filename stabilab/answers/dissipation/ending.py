@@ -114,8 +114,8 @@ def ending(case: Any, motion: Motion) -> Ending | None:
         return None
     size = math.hypot(*case.state[:3])
     if size and not 1 / FAR < size < FAR:
-        return Ending("undecided", "undecided", f"no run is made of rates of {size:.3g} rad/s, of which squares "
-                      "are no doubles")
+        return Ending("undecided", "undecided", f"no run is made of rates of {size:.3g} rad/s, of which "
+                      "squares are no doubles")
     if _free(parts):
         return _inside(case)
     start = equations_and_start(scene, start_of(scene, case.state, case.blocks))[1]
@@ -249,9 +249,10 @@ def _falls(scene: Any, state: np.ndarray, share: Callable[[np.ndarray], np.ndarr
         below = np.nonzero(shares < level)[0]
         if below.size:
             at = max(0, int(below[0]) - 1)
-            more, late = _root(run.states[at], float(times[at + 1] - times[at]),
-                               partial(over, t + float(times[at])), lambda y: float(share(y[None])[0]) - level)
-            return t + float(times[at]) + more, late
+            begun = t + float(times[at])
+            more, late = _root(run.states[at], float(times[at + 1] - times[at]), partial(over, begun),
+                               lambda y: float(share(y[None])[0]) - level)
+            return begun + more, late
         taken = max(1, run.counters["steps"])
         t, steps, state, before, here = t + length, steps + taken, run.states[-1], here, float(shares[-1])
         parts = math.log(here / level) / math.log(before / here) if here < before else math.inf

@@ -9,7 +9,6 @@ from typing import Any
 
 from ...case.read import Case
 from ...case.sections import vertical_of
-from ...errors import InputError
 from ...orbit.result import Motion, Needs
 from ...physics.coefficients import limits_of
 from ..caveats import limited, misaligned
@@ -67,24 +66,11 @@ def judged(case: Case, motion: Motion | None, brief: bool = False) -> Motion | N
         return motion
     found = law_of(case, brief=brief) if law_is_open(case, motion.validity) else None
     motion = limited(motion if found is None else replace(motion, validity=found), case.scene, case)
-    motion = motion if brief else ended(case, motion)
+    motion = motion if brief else with_ending(case, motion)
     if case.limits is None or brief:
         return motion
     from ..when import with_first
     return with_first(case, motion)
-
-
-def ended(case: Case, motion: Motion) -> Motion:
-    """The motion with how it ends, where something takes energy from it and a run in doubles holds it: what
-    bounds its rates stays true without."""
-    if not all(w == 0 or 1 / FASTEST < abs(w) < FASTEST for w in motion.at):
-        return motion
-    try:
-        return with_ending(case, motion)
-    except InputError:
-        raise
-    except (ArithmeticError, ValueError):  # a root of a run that was not found
-        return motion
 
 
 def with_its_tilt(case: Case, motion: Motion, angle: float | None = None) -> Motion:

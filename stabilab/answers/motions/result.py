@@ -22,8 +22,9 @@ from ...orbit.result import Fate, Motion, Needs, without_return
 from ...physics.coefficients import effective
 from ...representation import Shown, same
 from ..caveats import STEADY, caveats_of
+from ..motion import with_ending
 from . import rows
-from .of_case import ended, judged, motion_of_case, with_its_tilt
+from .of_case import judged, motion_of_case, with_its_tilt
 
 
 def margin_of(one: Motion) -> float:
@@ -103,7 +104,7 @@ class Motions(Shown):
     def ended(self) -> list[Motion]:
         """The motions, of one start with how it ends where something takes energy from it: a run."""
         known = self.motions(Needs.FATE)
-        return [ended(self.case, known[0])] if self.one else known
+        return [with_ending(self.case, known[0])] if self.one else known
 
     @property
     def by_rows(self) -> bool:

@@ -110,7 +110,8 @@ def chaos(scene: Given, state: Start | None = None, until: Amount | None = None,
     what was seen up to that time: "regular" is no proof, the slowest chaos takes longer. tell(motions done)
     is called meanwhile. Raises InputError for other shapes and numbers.
     """
-    case, given = as_case(scene), state if states is None else states
+    case = as_case(scene)
+    given: Any = state if states is None else states
     texts = is_one(given) and not isinstance(given, Mapping) and any(isinstance(v, str) for v in given)
     if given is None or isinstance(given, Mapping) or texts:
         rows: Any = _row(with_start(as_case(case, given), "chaos"))
