@@ -18,6 +18,7 @@ from stabilab import load
 from stabilab.answers.caveats import caveats_of
 from stabilab.answers.tilt import Tilt
 from stabilab.reasons import number as in_si
+from stabilab.reasons import old
 from stabilab.show.explore.session import rows
 from stabilab.show.report.one_case import extremes as page_extremes
 from stabilab.show.report.tables import tiles
@@ -119,7 +120,7 @@ def test_times_before_which_nothing_happens_are_rounded_down_in_every_view(syste
         tilt = Tilt(0.0123, "the torque", 0.5, True, value, None, None, "run", None, None, 10 * value,
                     np.zeros(3), np.full(3, math.inf))
         tilted = replace(motion, tilt=tilt, caveats=caveats_of(case.scene, True, tilt))
-        one = SimpleNamespace(low=value, high=math.nan, level="proved", caveats=(), words="", ending=None, tilt=None)
+        one = SimpleNamespace(low=value, high=math.nan, level="proved", caveats=(), reason=old(""), ending=None, tilt=None)
         asked = SimpleNamespace(kind="rate", names=("|omega|",), limits=(0.5,))
         for text, words in (("\n".join(lines_of.tilt_lines(case, tilted, units)), "not before"),
                             (questions.text(case, asked, one, units), "not before"),
