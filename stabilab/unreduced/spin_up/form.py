@@ -308,9 +308,8 @@ def recurs(largest, least, steps: int) -> bool:
 def island(scene, t: float) -> Reason:
     """What is said of a motion that recurs, followed for a time t."""
     found = ISLAND_SEEN(time=Quantity(t, scene.time_unit, 4))
-    where = [{"axis": Axis(one.axis), "rate": _rate(scene, one.spin)} for one in centres(scene)]
-    if not where:
-        return found
-    for n, centre in enumerate(where):
-        found = found.then(OTHER_CENTRE(**centre), " or ") if n else found.then(AVERAGED_CENTRE(**centre))
+    for n, one in enumerate(centres(scene)):
+        axis, rate = Axis(one.axis), _rate(scene, one.spin)
+        found = (found.then(OTHER_CENTRE(axis=axis, rate=rate), " or ") if n
+                 else found.then(AVERAGED_CENTRE(axis=axis, rate=rate)))
     return found
