@@ -104,3 +104,18 @@ def test_a_caveat_has_its_code_and_quantities_in_json():
     assert key([one]) == {"caveats": [{"kind": "tilt", "words": "tilted by 0.5 rad", "code": "x",
                                        "angle": 0.5}]}
     assert key([Caveat(Kind.LAW, old("beyond"))])["caveats"][0]["words"] == "beyond"
+
+
+def test_an_axis_without_a_case_keeps_its_number():
+    """By hand: no letter and no rank is known of it."""
+    reason = Sentence("t", "about {axis} of {all}")(axis=Axis(1), all=(Axis(2), Axis(3)))
+    assert SYSTEMS["deg"].said(reason) == "about axis 1 of axis 2 and axis 3"
+
+
+def test_what_follows_is_rendered_each_by_itself():
+    """By hand: pi/180 rad is a degree; words without quantities are read again, also behind a sentence."""
+    reason = Sentence("t", "at {rate}")(rate=Rate(math.pi / 180)).then(old("turned by 3.14159265358979 rad"), ": ")
+    assert SYSTEMS["deg"].said(reason) == "at 1 deg/s: turned by 180 deg"
+    assert reason.as_dict()["then"] == [{"code": "", "text": "turned by 3.14159265358979 rad"}]
+    known = Sentence("k", "bounded")().then(reason)
+    assert known.says(reason.sentence) and known.without(reason.sentence) == Sentence("k", "bounded")()

@@ -49,13 +49,32 @@ from ..numbers.balls import Digits, Unclear, settled
 from ..numbers.vectors import CYCLE, dot
 from ..orbit.result import Fate, Motion, Needs
 from ..physics.scene import Scene
-from .attitude_result import LONG, SEPARATRIX, SHORT, TOP, Attitude, narrow, steady, turned, with_periods
+from ..reasons import Sentence
+from .attitude_result import (
+    LONG,
+    ROUND_AXIS,
+    SEPARATRIX,
+    SHORT,
+    TOP,
+    Attitude,
+    narrow,
+    steady,
+    turned,
+    with_periods,
+)
 from .caveats import limited
 from .digits_asked import MOST_DECIMALS, checked_digits, digits_of
 from .motion import motion
 
 # --- A heavy symmetric top
-UPRIGHT = "the axis passes through the vertical, where it has no precession"
+UPRIGHT = Sentence(
+    "top-through-vertical", "the axis passes through the vertical, where it has no precession")()
+ON_VERTICAL = Sentence("top-on-vertical", "the axis stands on the vertical")()
+TO_AND_FRO = Sentence(
+    "top-nutates", "the lean goes to and fro between two roots of Lagrange's cubic")()
+STEADY_LEAN = Sentence("top-precesses-steadily", "the axis keeps its lean and precesses about the vertical")()
+TO_VERTICAL = Sentence(
+    "top-tends-to-vertical", "the axis comes ever closer to the vertical and does not come back")()
 
 
 def axis_of_top(scene: Any) -> int | None:
@@ -76,18 +95,15 @@ def of_top(scene: Scene, axis: int, start: Sequence[Fraction], base: Attitude, d
     """base: what is known at the start, three rates and the vertical; digits: of the periods."""
     top = _Top(scene, axis, start)
     if top.vertical:
-        return replace(steady(base, start[:3], digits), because="the axis stands on the vertical")
+        return replace(steady(base, start[:3], digits), reason=ON_VERTICAL)
     balls: list[Any] = settled(
         lambda numbers: [None if one is None else narrow(one, digits) for one in top.answer(numbers)])
     least, greatest, nutation, precession = balls
-    words = "the lean goes to and fro between two roots of Lagrange's cubic"
-    if top.steady:
-        words = "the axis keeps its lean and precesses about the vertical"
-    elif least is None:
-        return replace(base, mode=SEPARATRIX, because="the axis comes ever closer to the vertical and does "
-                                                      "not come back")
+    if least is None and not top.steady:
+        return replace(base, mode=SEPARATRIX, reason=TO_VERTICAL)
+    reason = (STEADY_LEAN if top.steady else TO_AND_FRO).then(UPRIGHT if precession is None else None)
     found = replace(base, mode=TOP, lean=(float(least.mid()), float(greatest.mid())),
-                    because=words if precession is not None else f"{words}; {UPRIGHT}")
+                    reason=reason)
     return with_periods(found, {"nutation_period": nutation, "precession_period": precession}, digits)
 
 
@@ -180,6 +196,11 @@ def attitude(scene: Given, state: Start | None = None, digits: int | None = None
     return of_top(of, axis, (*exact, *map(Fraction, found.at[3:])), _at_start(of, exact, found), digits)
 
 
+ON_A_SEPARATRIX = Sentence(
+    "separatrix-does-not-repeat", "the motion is on a separatrix and does not repeat")()
+NOT_KNOWN_TO_REPEAT = Sentence("not-known-to-repeat", "the motion is not known to repeat")()
+
+
 def of_motion(scene: Scene, omega: Sequence[float | Fraction], found: Motion, digits: int | None = None
               ) -> Attitude:
     """How a motion that is known turns in space; omega: its rates at the start, taken exactly; digits: as
@@ -189,9 +210,9 @@ def of_motion(scene: Scene, omega: Sequence[float | Fraction], found: Motion, di
     if found.fate == Fate.EQUILIBRIUM:
         return steady(base, exact, digits)
     if found.fate == Fate.SEPARATRIX:
-        return replace(base, mode=SEPARATRIX, because="the motion is on a separatrix and does not repeat")
+        return replace(base, mode=SEPARATRIX, reason=ON_A_SEPARATRIX)
     if found.period is None:
-        return replace(base, because=f"the motion is not known to repeat: {found.because}")
+        return replace(base, reason=NOT_KNOWN_TO_REPEAT.then(found.reason, ": "))
     if in_closed_form(scene):
         return _of_free_body(scene.body.exact, exact, base, digits)
     from .attitude_followed import followed
@@ -220,7 +241,7 @@ def _at_start(scene: Scene, omega: Sequence[Fraction], found: Motion) -> Attitud
     H = [d * w + l for d, w, l in zip(scene.body.exact, omega, scene.vector("gyrostat"))]
     size = math.hypot(*map(float, H))
     along = tuple(float(v) / size for v in H) if size else None
-    return Attitude(found.at[:3], found.fate, None, size, along, "", caveats=found.caveats)
+    return Attitude(found.at[:3], found.fate, None, size, along, None, caveats=found.caveats)
 
 
 def _of_free_body(D: Sequence[Fraction], omega: Sequence[Fraction], base: Attitude,
@@ -247,7 +268,7 @@ def _of_free_body(D: Sequence[Fraction], omega: Sequence[Fraction], base: Attitu
     period, precession, turn = settled(periods)
     shares = [D[a] ** 2 * square / H2 for square in (A2, A2 * (1 - m))]  # cos^2 of the angle, greatest first
     least_angle, greatest_angle = (math.atan2(math.sqrt(1 - share), math.sqrt(share)) for share in shares)
-    words = f"no torque: the angular momentum goes round the {'long' if long else 'short'} axis in the body"
-    found = replace(base, mode=LONG if long else SHORT, cone=(least_angle, greatest_angle), because=words)
+    found = replace(base, mode=LONG if long else SHORT, cone=(least_angle, greatest_angle),
+                    reason=ROUND_AXIS(axis="long" if long else "short"))
     found = with_periods(found, {"rotation_period": period, "precession_period": precession}, digits)
     return turned(found, float(turn.mid()))

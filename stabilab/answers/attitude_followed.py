@@ -17,12 +17,21 @@ import numpy as np
 from ..numbers.exact import sqrt_fraction
 from ..orbit.result import Motion
 from ..physics.scene import Scene
-from .attitude_result import LONG, SHORT, Attitude, turned
+from ..reasons import Sentence
+from .attitude_result import LONG, ROUND_AXIS, SHORT, Attitude, turned
 from .simulate import simulated, trajectory
 
 SUM_ERROR, RUN_ERROR = 1e-11, 1e-10  # relative: of a sum over a run, of a run's end
 OTHERS = 1.0 - np.eye(3)  # rows: the two axes beside each one
-UNDERFLOW = "undecided: the angular momentum is so near an axis that doubles do not tell how it goes round it"
+UNDERFLOW = Sentence(
+    "momentum-too-near-axis", "undecided: the angular momentum is so near an axis that doubles do not tell "
+    "how it goes round it")()
+ROUND_NEITHER = Sentence(
+    "momentum-round-neither", "no torque: in the body the angular momentum goes round neither the long nor "
+    "the short axis alone, so none of them precesses about it")()
+TORQUE_TURNS = Sentence(
+    "torque-turns-momentum", "a torque changes the angular momentum: no axis precesses about it; the rates "
+    "repeat after one rotation period, and the attitude has turned")()
 NUTATION = 1e-11  # squares of angles up to which the motion is linear
 FEWEST, MOST = 64, 1 << 17  # times of the sum
 
@@ -54,21 +63,19 @@ def _of_gyrostat(scene: Scene, base: Attitude, found: Motion, period: float) -> 
         with np.errstate(all="ignore"):
             mean = float(((omega * h) @ OTHERS[e] / across[:, e]).mean())
         if not math.isfinite(mean) or not mean:
-            return replace(base, rotation_period=period, because=UNDERFLOW)
+            return replace(base, rotation_period=period, reason=UNDERFLOW)
         if abs(mean - before) <= SUM_ERROR * abs(mean) or count >= MOST:
             break
         before, count = mean, 2 * count
     error = max(SUM_ERROR, abs(mean - before) / abs(mean))
     mode = names[e] if encircled == [e] else None
-    words = (f"no torque: the angular momentum goes round the {mode[:-5]} axis in the body" if mode else
-             "no torque: in the body the angular momentum goes round neither the long nor the short axis "
-             "alone, so none of them precesses about it")
+    reason = ROUND_AXIS(axis=mode.removesuffix("-axis")) if mode else ROUND_NEITHER
     cone = None
     if mode and found.extremes is not None:
         low, high = (min(1.0, max(-1.0, (D[e] * v + wheel[e]) / base.momentum)) for v in found.extremes[e])
         low, high = (-high, -low) if low + high < 0 else (low, high)
         cone = math.acos(high), math.acos(low)
-    return turned(replace(base, mode=mode, rotation_period=period, cone=cone, error=error, because=words,
+    return turned(replace(base, mode=mode, rotation_period=period, cone=cone, error=error, reason=reason,
                            precession_period=2 * math.pi / abs(mean) if mode else None),
                    mean * period / (2 * math.pi))
 
@@ -117,5 +124,4 @@ def _under_torque(scene: Scene, base: Attitude, period: float) -> Attitude:
     axis = tuple(math.copysign(1.0, w) * v / size for v in vector) if size else None
     return replace(base, rotation_period=period, turn_angle=2 * math.atan2(size, abs(w)), turn_axis=axis,
                    error=RUN_ERROR,
-                   because="a torque changes the angular momentum: no axis precesses about it; the rates "
-                           "repeat after one rotation period, and the attitude has turned")
+                   reason=TORQUE_TURNS)

@@ -11,6 +11,7 @@ from ..errors import Caveat
 from ..numbers.balls import Unclear, settled
 from ..numbers.vectors import Float3, dot
 from ..orbit.result import Fate
+from ..reasons import Reason, Sentence
 from ..representation import Shown
 
 LONG, SHORT, SEPARATRIX, STEADY, TOP = "long-axis", "short-axis", "separatrix", "steady", "heavy top"
@@ -33,7 +34,7 @@ class Attitude(Shown):
     from one least lean to the next, s.
     turn_angle (rad, 0 to pi), turn_axis: the rotation that takes the attitude at the start to that one
     rotation period later; the axis is the same in body and space. What the motion does not have is None,
-    and `because` says why. error: relative, of the periods and the turn.
+    and `reason` says why; because: the same in words. error: relative, of the periods and the turn.
     decimals: where digits were asked for, the periods by name, s, written out to them.
     caveats: all that limits the answer.
     """
@@ -43,7 +44,7 @@ class Attitude(Shown):
     mode: str | None
     momentum: float
     momentum_direction: Float3 | None
-    because: str
+    reason: Reason | None
     rotation_period: float | None = None
     precession_period: float | None = None
     cone: tuple[float, float] | None = None
@@ -54,6 +55,17 @@ class Attitude(Shown):
     error: float | None = None
     decimals: Mapping[str, str] | None = None
     caveats: tuple[Caveat, ...] = ()
+
+    @property
+    def because(self) -> str:
+        """`reason` in words and SI units."""
+        return "" if self.reason is None else self.reason.text()
+
+
+BODY_AT_REST = Sentence("body-at-rest", "the body is at rest")()
+TURNS_STEADILY = Sentence("turns-steadily", "the body turns steadily about one axis")()
+ROUND_AXIS = Sentence(
+    "momentum-round-axis", "no torque: the angular momentum goes round the {axis} axis in the body")
 
 
 def narrow(ball: Any, digits: int | None = None) -> Any:
@@ -76,9 +88,9 @@ def with_periods(found: Attitude, periods: Mapping[str, Any], digits: int | None
 def steady(base: Attitude, omega: Sequence[Fraction], digits: int | None) -> Attitude:
     """Of rates that stay as they are."""
     if not any(omega):
-        return replace(base, mode=STEADY, because="the body is at rest")
+        return replace(base, mode=STEADY, reason=BODY_AT_REST)
     turn = settled(lambda numbers: narrow(2 * numbers.pi() / numbers.ball(dot(omega, omega)).sqrt(), digits))
-    return with_periods(replace(base, mode=STEADY, because="the body turns steadily about one axis"),
+    return with_periods(replace(base, mode=STEADY, reason=TURNS_STEADILY),
                         {"rotation_period": turn}, digits)
 
 

@@ -41,7 +41,7 @@ from ..physics.coefficients import effective
 from ..physics.equations import Equations
 from ..physics.scene import AnyScene, QuadraticForm, Scene, aligned, time_left
 from ..physics.states import checked_states, equations_and_start, moved_row
-from ..reasons import outward
+from ..reasons import Filling, Quantity, Reason, Sentence, as_reason
 from ..unreduced.growth_certificate import law_extremes
 from ..unreduced.near_rest import beside_rest, small_loop
 from ..validation import reach_of
@@ -61,6 +61,28 @@ from .motion import motion
 FORMULA_DIGITS = 11  # the formulas hand over to balls where they hold less
 SAMPLE = 16  # states of an array that are checked one by one; where all agree the formulas serve for the rest
 LAW_BITS = 200  # of the numbers of a law that holds for all time: more than MOST_DECIMALS
+
+
+IN_EQUILIBRIUM = Sentence("digits-of-equilibrium", "the state is an equilibrium")()
+BARRIER_BY_ALGEBRA = Sentence("barrier-by-algebra", "the energy equals the barrier's, by algebra")()
+SAMPLED = Sentence("states-checked", "{checked} of {states} states checked")
+BESIDE_BALLS = Sentence("formulas-and-balls", "formulas in doubles, {error} from ball arithmetic")
+BY_BALLS = Sentence("by-balls", "ball arithmetic: the number is within {width}")
+NO_RETURN_IN_DIGITS = Sentence(
+    "no-return-in-digits", "no return was found in many digits within the work allowed")()
+RETURN_OF_RUN = Sentence(
+    "return-of-run", "the return of a run in doubles, {error} from that of a Taylor series in {fewer} and "
+    "{more} digits")
+RETURN_OF_SERIES = Sentence(
+    "return-of-series", "the return of a Taylor series in {fewer} and {more} digits, {error} apart")
+SERIES_FROM_START = Sentence(
+    "series-from-start", "its series from the start in many digits, {error} apart")
+TWO_SERIES = Sentence("two-series-from-start", "two runs of its series from the start, {error} apart")
+TWO_PRECISIONS = Sentence(
+    "series-in-two-precisions", "Taylor series over the span in two precisions, {error} apart")
+MOVED_RUN = Sentence(
+    "run-from-moved-start", "a run over the span; one at rtol {rtol} from a start moved in its last place "
+    "differs by {error}")
 
 
 def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = None,
@@ -89,7 +111,7 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
                 else _judged(question, number_of(question, known), balls, digits))
     if known.fate == Fate.EQUILIBRIUM:
         return Told(question, number_of(question, known), digits, math.inf, "exact",
-                    "the state is an equilibrium")
+                    IN_EQUILIBRIUM)
     if question == "fate":
         return _margin_without_reduction(twin, known, digits, exact or known.at[:3])
     if question == "extremes" and (balls := law_extremes(twin, exact or known.at[:3],
@@ -116,20 +138,20 @@ def ask_all(question: str, scene: AnyScene, states: Any, digits: int, values: An
                            for old, t in zip(values, told)]).reshape(values.shape)
     judged = [t for t in told if t.digits is not None]
     worst = min(judged, key=lambda t: t.digits or 0.0) if judged else told[0]
-    sampled = f"; {len(told)} of {len(rows)} states checked" if len(told) < len(rows) else ""
+    sampled = SAMPLED(checked=len(told), states=len(rows)) if len(told) < len(rows) else None
     shape = array.shape[:-1]
     texts = (None if worst.decimals is None
              else np.array([t.decimals for t in told],
                            dtype=object).reshape((*shape, *np.shape(worst.decimals))))
-    return replace(worst, values=values.reshape((*shape, *values.shape[1:])), because=worst.because + sampled,
-                   decimals=texts)
+    return replace(worst, values=values.reshape((*shape, *values.shape[1:])),
+                   reason=worst.reason.then(sampled), decimals=texts)
 
 
 # -- motions with a reduction
 
 
 def _tie(question: str, digits: int) -> Told:
-    return Told(question, 0.0, digits, math.inf, "balls", "the energy equals the barrier's, by algebra")
+    return Told(question, 0.0, digits, math.inf, "balls", BARRIER_BY_ALGEBRA)
 
 
 def _judged(question: str, values: Any, balls: Any, digits: int) -> Told:
@@ -140,16 +162,16 @@ def _judged(question: str, values: Any, balls: Any, digits: int) -> Told:
         error = _gap(values, balls)
     if digits <= FORMULA_DIGITS and error <= 10.0**-digits:
         return Told(question, values, digits, digits_of(error), "formulas",
-                    f"formulas in doubles, {error:.1e} from ball arithmetic")
+                    BESIDE_BALLS(error=Quantity(error, digits=2)))
     width = max(_width(balls), 10.0**-wanted)  # the balls of a period are narrower than its two rules agree
     return _of_balls(question, balls, digits, digits_of(width, wanted), "balls",
-                     f"ball arithmetic: the number is within {outward(width, 1, 1):.0e}")
+                     BY_BALLS(width=Quantity(width, digits=1).upper))
 
 
-def _of_balls(question: str, balls: Any, digits: int, held: float, method: str, because: str) -> Told:
+def _of_balls(question: str, balls: Any, digits: int, held: float, method: str, reason: Reason) -> Told:
     """The balls as floats, and written out where more digits are asked for than these have. held: digits."""
     more = digits > MOST
-    return Told(question, _floats(balls), digits, held if more else min(held, MOST + 0.95), method, because,
+    return Told(question, _floats(balls), digits, held if more else min(held, MOST + 0.95), method, reason,
                 _decimals(balls, digits) if more else None)
 
 
@@ -227,7 +249,7 @@ def _by_return(question: str, scene: AnyScene, known: Any, digits: int, state: A
     exact: Any = reference(scene, state, [0.5 * known.period], orbit=True)
     if exact.period is None:
         return Told(question, values, digits, 0.0, "run",
-                    "no return was found in many digits within the work allowed")
+                    NO_RETURN_IN_DIGITS)
     with working(400) as numbers:
         add = lambda pair: numbers.ball(float(pair[0])) + numbers.ball(float(pair[1]))
         found = (add(exact.period) if question == "period"
@@ -235,12 +257,12 @@ def _by_return(question: str, scene: AnyScene, known: Any, digits: int, state: A
         # two doubles hold 32 digits
         own = max(exact.period[2] if question == "period" else exact.extremes_error, 1e-31)
         error = max(_gap(values, found), own)
-        pair = f"{exact.digits[0]} and {exact.digits[1]} digits"
+        pair: dict[str, Filling] = {"fewer": int(exact.digits[0]), "more": int(exact.digits[1])}
         if digits <= MOST and error <= 10.0**-digits:
-            because = f"the return of a run in doubles, {error:.1e} from that of a Taylor series in {pair}"
-            return Told(question, values, digits, digits_of(error), "run", because)
+            reason = RETURN_OF_RUN(**pair, error=Quantity(error, digits=2))
+            return Told(question, values, digits, digits_of(error), "run", reason)
         return _of_balls(question, found, digits, digits_of(own, 31.0), "many digits",
-                         f"the return of a Taylor series in {pair}, {own:.0e} apart")
+                         RETURN_OF_SERIES(**pair, error=Quantity(own, digits=1)))
 
 
 def _by_small_loop(question: str, form: QuadraticForm, values: Any, digits: int, state: Any) -> Told:
@@ -252,13 +274,13 @@ def _by_small_loop(question: str, form: QuadraticForm, values: Any, digits: int,
                  for loop in (small_loop(form, state, n) for n in (more, more + 8))]
         if None in found:
             return Told(question, values, digits, 0.0, "run",
-                        "no return was found in many digits within the work allowed")
+                        NO_RETURN_IN_DIGITS)
         error = max(_balls_apart(found[1], found[0]), 10.0**-more)
         if digits <= MOST and (gap := max(_gap(values, found[1]), error)) <= 10.0**-digits:
             return Told(question, values, digits, digits_of(gap), "run",
-                        f"its series from the start in many digits, {gap:.1e} apart")
+                        SERIES_FROM_START(error=Quantity(gap, digits=2)))
         return _of_balls(question, found[1], digits, digits_of(error, more), "many digits",
-                         f"two runs of its series from the start, {error:.0e} apart")
+                         TWO_SERIES(error=Quantity(error, digits=1)))
 
 
 def _over_span(scene: AnyScene, state: Any, span: Any, known: Motion, digits: int, exact: Exact3 | None,
@@ -276,16 +298,16 @@ def _over_span(scene: AnyScene, state: Any, span: Any, known: Motion, digits: in
     values = np.array(known.extremes)
     other = roots_of_rates(scene, moved_row(start), length, 8 * TAYLOR_TOLERANCE)
     error = CAUTION * _apart(values, other.extremes()) if not other.reason else math.inf
-    because = (f"a run over the span; one at rtol {8 * TAYLOR_TOLERANCE:.1e} from a start moved in its last "
-               f"place differs by {error / CAUTION:.1e}")
+    reason = MOVED_RUN(rtol=Quantity(8 * TAYLOR_TOLERANCE, digits=2),
+                       error=Quantity(error / CAUTION, digits=2))
     if digits <= MOST and error <= 10.0 ** (slack - digits):
-        return Told("extremes", values, digits, digits_of(error), "run", because)
+        return Told("extremes", values, digits, digits_of(error), "run", reason)
     left = time_left(scene)
     one_law = left is None or left >= length
     found = (_many_digits(equations, [*(exact or start[:3]), *start[3:]], length, digits)
              if one_law else None)
     return (_unbounded_again(found, values) if found
-            else Told("extremes", values, digits, digits_of(error), "run", other.reason or because))
+            else Told("extremes", values, digits, digits_of(error), "run", as_reason(other.reason or reason)))
 
 
 def _apart(values: Any, other: Any) -> float:
@@ -321,7 +343,7 @@ def _many_digits(equations: Equations, start: Sequence[Number], length: float, d
             error = max(_balls_apart(now, before), 10.0**-n) if before else 1.0
             if before and error <= 10.0**-digits:
                 return _of_balls("extremes", now, digits, digits_of(error, n), "many digits",
-                                 f"Taylor series over the span in two precisions, {error:.0e} apart")
+                                 TWO_PRECISIONS(error=Quantity(error, digits=1)))
             before = now
     return None
 

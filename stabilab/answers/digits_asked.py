@@ -7,6 +7,7 @@ from typing import Any
 
 from ..errors import InputError, ToleranceNotMet
 from ..orbit.result import Motion, no_period
+from ..reasons import Quantity, Reason, Sentence, as_reason
 
 DEFAULT = 10  # digits, where nothing else is asked for
 NEAR = 1.0  # a digit by which an aim that nobody asked for may be missed, rather than pay for many digits
@@ -15,19 +16,32 @@ MOST_DECIMALS = 50  # digits that are given as decimals
 CAUTION = 4  # differences between runs are samples of the error, not bounds: several times their size counts
 
 
+BY_OWN_BOUND = Sentence(
+    "rounding-bounded", "formulas that bound their own rounding by {error}, balls beyond")
+
+
 @dataclass(frozen=True)
 class Told:
     """One answer. values: floats, as the question's own function gives them; decimals: the same, written out,
     where more digits were asked for than doubles hold; digits: what the check showed, None where there is no
-    number to judge (no period, no barrier); because: how they were checked, or why there are none."""
+    number to judge (no period, no barrier); reason: how they were checked, or why there are none, of which
+    words are taken as they are; because: the same in words."""
 
     question: str
     values: Any
     asked: int
     digits: float | None
     method: str
-    because: str
+    reason: Reason
     decimals: Any = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "reason", as_reason(self.reason))
+
+    @property
+    def because(self) -> str:
+        """How the digits were checked, in words."""
+        return self.reason.text()
 
     @property
     def enough(self) -> bool:
@@ -71,14 +85,14 @@ def by_bound(question: str, motion: Motion) -> Told | None:
         return None
     values = number_of(question, motion)
     if question == "fate":
-        return None if values is not None else nothing(question, DEFAULT, motion.because)
+        return None if values is not None else nothing(question, DEFAULT, motion.reason)
     if values is None:
         return nothing(question, DEFAULT, no_period(motion.fate))
     tolerance = motion.tolerance * (10 if question == "period" else 1)
     return Told(question, values, DEFAULT, digits_of(tolerance), "formulas",
-                f"formulas that bound their own rounding by {tolerance:.0e}, balls beyond")
+                BY_OWN_BOUND(error=Quantity(tolerance, digits=1).upper))
 
 
-def nothing(question: str, asked: int, why: str) -> Told:
+def nothing(question: str, asked: int, why: Reason | str) -> Told:
     """The answer that there is no such number."""
-    return Told(question, None, asked, None, "none", why)
+    return Told(question, None, asked, None, "none", as_reason(why))

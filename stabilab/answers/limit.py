@@ -310,4 +310,4 @@ def banded(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: float,
     found = [first_crossing(scene, start, math.sqrt(most), along_axes(terms), t_max=t_max, steps=steps)
              for terms, most in limit.parts]
     first = min(found, key=lambda one: one.low)
-    return Crossing(first.low, min(one.high for one in found), first.because, sum(one.steps for one in found))
+    return Crossing(first.low, min(one.high for one in found), first.reason, sum(one.steps for one in found))

@@ -68,7 +68,7 @@ class Axes:
         """Within a sentence: "the z axis", "the minor axis"; of two axes with one word also the direction."""
         letter, word = self.letters[number - 1], self.words[number - 1]
         if letter:
-            return f"the {letter} axis"
+            return letter if letter in PLAIN.letters else f"the {letter} axis"
         return f"the {word} axis" + (f" {self.direction(number)}" if self.words.count(word) > 1 else "")
 
     def label(self, number: int) -> str:

@@ -39,7 +39,7 @@ from ..orbit.result import AS_BOUNDS, Fate, Motion, Needs, finite, judged, pairs
 from ..physics.coefficients import three_floats
 from ..physics.scene import rests
 from ..physics.states import equilibrium_mask
-from ..reasons import Angle, Quantity, Reason, Sentence, number
+from ..reasons import Angle, Quantity, Reason, Sentence
 from . import enclosure_kernel
 from .enclosure import WHY, Band, Course, allowed
 from .evidence import extremes_over, seen_over, sizes
@@ -63,13 +63,25 @@ class Crossing:
     """low, high: between these times, in the scene's unit, the limit is first reached; high is inf where that
     was not seen, and surely it is not reached before low.
 
-    because: what ended the search. steps: validated ones.
+    reason: what ended the search, because: the same in words. steps: validated ones.
     """
 
     low: float
     high: float
-    because: str
+    reason: Reason
     steps: int
+
+    @property
+    def because(self) -> str:
+        """What ended the search, in words and SI units."""
+        return self.reason.text()
+
+
+BETWEEN_TIMES = Sentence("crossing-enclosed", "it is reached between these times")()
+STAYS_BELOW = Sentence("stays-below", "it stays below up to {time}")
+COMES_NEARER = Sentence(
+    "comes-nearer", "it comes nearer than is known, and is not surely reached up to {time}")
+ENDED_HERE = Sentence("enclosure-ended", "the motion is {status}")
 
 
 def first_crossing(scene, state, limit: float, weights=(1.0, 1.0, 1.0), t_max: float | None = None,
@@ -87,12 +99,11 @@ def first_crossing(scene, state, limit: float, weights=(1.0, 1.0, 1.0), t_max: f
     while course.status == enclosure_kernel.GOING and course.steps < steps:
         band = course.advance(end, steps - course.steps, band=True)
         if band is not None and search.found_in(band):
-            return Crossing(search.low, search.high, "it is reached between these times", course.steps)
-    words = ("it stays below" if search.low is None
-             else "it comes nearer than is known, and is not surely reached")
-    ended = "" if course.status == enclosure_kernel.DONE else f" ({WHY[course.status]})"
-    return Crossing(course.t if search.low is None else search.low, math.inf,
-                    f"{words} up to t = {number(course.t, side=-1)}{ended}", course.steps)
+            return Crossing(search.low, search.high, BETWEEN_TIMES, course.steps)
+    until = Quantity(course.t, scene.time_unit).lower
+    known = (STAYS_BELOW if search.low is None else COMES_NEARER)(time=until)
+    ended = None if course.status == enclosure_kernel.DONE else ENDED_HERE(status=WHY[course.status])
+    return Crossing(course.t if search.low is None else search.low, math.inf, known.then(ended), course.steps)
 
 
 class _Search:

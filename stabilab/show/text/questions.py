@@ -23,7 +23,6 @@ from .motion import (
     flips_dict,
     followed,
     numbers,
-    reason,
     row,
     tilt_lines,
     why,
@@ -186,7 +185,7 @@ def _all_digits(case, motion, told):
 
 def _said(told, units, of: str = "") -> str:
     """How many digits were checked, of what, and how."""
-    because, digits = reason(told.because, units), told.digits
+    because, digits = units.said(told.reason), told.digits
     if digits is None:
         return f"  {because}"
     return f"  exact: {because}" if math.isinf(digits) else (
@@ -220,7 +219,7 @@ def _object(question, case, motion, told, found) -> dict:
     return ({"schema": f"stabilab.{question}/1", "case": case.name, "variables": case.variables,
              "at": motion.at, "fate": motion.fate.word} | found
             | {"digits": {"asked": told.asked, "reached": shown}
-               | values_of(told, "method because decimals")}
+               | values_of(told, "method because decimals") | {"reason": told.reason.as_dict()}}
             | {"reason": motion.reason.as_dict(), "numbers": numbers(motion),
                "flips": flips_dict(case, motion)} | ending.key(case, motion.ending)
             | limiting.key(case, motion.caveats) | frame.key(case))

@@ -5,7 +5,6 @@ import math
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 
 from ...errors import printable
-from ...reasons import number as in_si
 from ...representation import values_of
 from .. import limiting
 from ..axes import axes_of, direction
@@ -48,6 +47,7 @@ def _row(row, case) -> dict:
             "margin_direction": {name: margin.direction for name, margin in margins},
             "margin_until": {name: margin.until and Endless(margin.until) for name, margin in margins},
             "margin_because": {name: margin.because for name, margin in margins},
+            "margin_reason": {name: margin.reason and margin.reason.as_dict() for name, margin in margins},
             "helpers": [values_of(h, "thrusters duty effect torque_left fate time_to_limit")
                         for h in row.helpers]} | limiting.key(case, row.caveats)
 
@@ -175,16 +175,16 @@ def _limit(limit, units) -> str:
 def _margins(row, units) -> str:
     known = {name: m for name, m in row.margins.items() if m.size is not None}
     if not known:
-        because = next((row.margins[name].because for name in ("wheel", "rate", "torque")
-                        if name in row.margins), "")
-        return f"no distance to a separatrix, as {lettered(units.words(because))}" if because else ""
+        reason = next((row.margins[name].reason for name in ("wheel", "rate", "torque")
+                       if name in row.margins), None)
+        return f"no distance to a separatrix, as {units.said(reason)}" if reason else ""
     ends = {name: _ends(name, m, units) for name, m in known.items()}
     told = [" or ".join(f"{ends[name][0]} of {WORDS[name]}" for name, m in known.items()
                         if (m.beyond or name == "torque") == beyond) for beyond in (True, False)]
     changes = [words + sizes for words, sizes in zip(
         ("the outcome changes with ", "only on a separatrix the outcome is another, nearest "), told)
         if sizes]
-    return "; ".join([*changes, *(f"from {back} of {WORDS[name]} on it is as now again"
+    return "; ".join([*changes, *(f"beyond {back} of {WORDS[name]} it is again as now"
                                   for name, (_, back) in ends.items() if back)])
 
 
@@ -202,13 +202,9 @@ def amount(name, size, units, digits=DIGITS, side=0) -> str:
     return units.told(size, _unit(name, units), digits, side)
 
 
-def holds_for(name, margin, units) -> str:
-    """What a margin holds for: the words of JSON, which are in rad/s, with a rate in the unit of the page."""
-    words = str(margin.because)
-    if name == "rate" and margin.until is not None and not math.isinf(margin.until):
-        words = words.replace(f"{in_si(margin.until, side=1)} rad/s",
-                              amount(name, margin.until, units, side=1))
-    return units.words(words)
+def holds_for(margin, units) -> str:
+    """What a margin holds for, in words; empty where nothing is to be said."""
+    return units.said(margin.reason) if margin.reason else ""
 
 
 def _unit(name, units):
@@ -285,7 +281,7 @@ def _details(row, units) -> list[str]:
              ("fate", f"{row.fate} ({row.level})"), ("because", units.said(row.reason))]
     margins = {}
     for name, margin in row.margins.items():
-        told = lettered(holds_for(name, margin, units))
+        told = holds_for(margin, units)
         if margin.size is not None:
             along = f" along {vector(margin.direction)}" if margin.direction else ""
             told = f"{amount(name, margin.size, units)}{along}" + (f": {told}" if told else "")

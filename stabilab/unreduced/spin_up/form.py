@@ -309,6 +309,7 @@ def island(scene, t: float) -> Reason:
     """What is said of a motion that recurs, followed for a time t."""
     found = ISLAND_SEEN(time=Quantity(t, scene.time_unit, 4))
     for n, one in enumerate(centres(scene)):
-        sentence, joint = (OTHER_CENTRE, " or ") if n else (AVERAGED_CENTRE, "; ")
-        found = found.then(sentence(axis=Axis(one.axis), rate=_rate(scene, one.spin)), joint)
+        axis, rate = Axis(one.axis), _rate(scene, one.spin)
+        found = (found.then(OTHER_CENTRE(axis=axis, rate=rate), " or ") if n
+                 else found.then(AVERAGED_CENTRE(axis=axis, rate=rate)))
     return found

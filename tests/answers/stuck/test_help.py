@@ -243,7 +243,7 @@ def test_a_margin_into_a_narrow_gap_between_two_separatrices_says_where_the_fate
         assert energy_fate(craft.J, craft.torque(), l, craft.start)[0] == fate == craft.fate(l=l)
     code, out, _ = stabilab("stuck", tmp_path / "own.toml")
     assert code == 0 and " or 0.350597 N m s of wheel momentum or " in out
-    assert "; from 0.350601 N m s of wheel momentum on it is as now again" in out
+    assert "; beyond 0.350601 N m s of wheel momentum it is again as now" in out
 
 
 def test_an_end_at_infinity_is_a_number_in_json_and_null_is_what_is_not_known(stabilab, tmp_path):

@@ -68,7 +68,7 @@ def test_where_the_search_ends_early_the_limit_is_surely_not_reached_before():
     found = first_crossing(EXAMPLE, (.1, 1, 2), 1e3, steps=20)
     assert found.high == math.inf and 1 < found.low < 10 and "used up" in found.because
     below = first_crossing(EXAMPLE, (.1, 1, 2), 1e3, t_max=2.0)
-    assert below.low == 2 and below.because == "it stays below up to t = 2"
+    assert below.low == 2 and below.because == "it stays below up to 2 s"
 
 
 def test_a_limit_must_be_above_zero():
