@@ -49,13 +49,37 @@ from ..numbers.balls import Digits, Unclear, settled
 from ..numbers.vectors import CYCLE, dot
 from ..orbit.result import Fate, Motion
 from ..physics.scene import Scene
-from .attitude_result import LONG, SEPARATRIX, SHORT, TOP, Attitude, narrow, steady, turned, with_periods
+from ..reasons import Sentence
+from .attitude_result import (
+    GOES_ROUND,
+    LONG,
+    NOT_KNOWN,
+    SEPARATRIX,
+    SHORT,
+    TOP,
+    Attitude,
+    narrow,
+    steady,
+    turned,
+    with_periods,
+)
 from .caveats import limited
 from .digits_asked import MOST_DECIMALS, checked_digits, digits_of
 from .motion import motion
 
 # --- A heavy symmetric top
-UPRIGHT = "the axis passes through the vertical, where it has no precession"
+UPRIGHT = Sentence("through-the-vertical",
+                   "the axis passes through the vertical, where it has no precession")()
+ON_VERTICAL = Sentence("on-the-vertical", "the axis stands on the vertical")()
+LEAN_SWINGS = Sentence("lean-swings",
+                       "the lean goes to and fro between two roots of Lagrange's cubic")()
+LEAN_STAYS = Sentence("lean-stays",
+                      "the axis keeps its lean and precesses about the vertical")()
+NO_RETURN = Sentence("closer-to-the-vertical",
+                     "the axis comes ever closer to the vertical and does not come back")()
+NO_REPEAT = Sentence("separatrix-no-repeat",
+                     "the motion is on a separatrix and does not repeat")()
+NOT_REPEATING = Sentence("repeat-not-known", "the motion is not known to repeat: {why}")
 
 
 def axis_of_top(scene: Any) -> int | None:
@@ -76,18 +100,15 @@ def of_top(scene: Scene, axis: int, start: Sequence[Fraction], base: Attitude, d
     """base: what is known at the start, three rates and the vertical; digits: of the periods."""
     top = _Top(scene, axis, start)
     if top.vertical:
-        return replace(steady(base, start[:3], digits), because="the axis stands on the vertical")
+        return replace(steady(base, start[:3], digits), reason=ON_VERTICAL)
     balls: list[Any] = settled(
         lambda numbers: [None if one is None else narrow(one, digits) for one in top.answer(numbers)])
     least, greatest, nutation, precession = balls
-    words = "the lean goes to and fro between two roots of Lagrange's cubic"
-    if top.steady:
-        words = "the axis keeps its lean and precesses about the vertical"
-    elif least is None:
-        return replace(base, mode=SEPARATRIX, because="the axis comes ever closer to the vertical and does "
-                                                      "not come back")
+    reason = LEAN_STAYS if top.steady else LEAN_SWINGS
+    if least is None and not top.steady:
+        return replace(base, mode=SEPARATRIX, reason=NO_RETURN)
     found = replace(base, mode=TOP, lean=(float(least.mid()), float(greatest.mid())),
-                    because=words if precession is not None else f"{words}; {UPRIGHT}")
+                    reason=reason if precession is not None else reason.then(UPRIGHT))
     return with_periods(found, {"nutation_period": nutation, "precession_period": precession}, digits)
 
 
@@ -187,9 +208,9 @@ def of_motion(scene: Scene, omega: Sequence[float | Fraction], found: Motion, di
     if found.fate == Fate.EQUILIBRIUM:
         return steady(base, exact, digits)
     if found.fate == Fate.SEPARATRIX:
-        return replace(base, mode=SEPARATRIX, because="the motion is on a separatrix and does not repeat")
+        return replace(base, mode=SEPARATRIX, reason=NO_REPEAT)
     if found.period is None:
-        return replace(base, because=f"the motion is not known to repeat: {found.because}")
+        return replace(base, reason=NOT_REPEATING(why=found.reason))
     if in_closed_form(scene):
         return _of_free_body(scene.body.exact, exact, base, digits)
     from .attitude_followed import followed
@@ -218,7 +239,7 @@ def _at_start(scene: Scene, omega: Sequence[Fraction], found: Motion) -> Attitud
     H = [d * w + l for d, w, l in zip(scene.body.exact, omega, scene.vector("gyrostat"))]
     size = math.hypot(*map(float, H))
     along = tuple(float(v) / size for v in H) if size else None
-    return Attitude(found.at[:3], found.fate, None, size, along, "", caveats=found.caveats)
+    return Attitude(found.at[:3], found.fate, None, size, along, NOT_KNOWN, caveats=found.caveats)
 
 
 def _of_free_body(D: Sequence[Fraction], omega: Sequence[Fraction], base: Attitude,
@@ -245,7 +266,7 @@ def _of_free_body(D: Sequence[Fraction], omega: Sequence[Fraction], base: Attitu
     period, precession, turn = settled(periods)
     shares = [D[a] ** 2 * square / H2 for square in (A2, A2 * (1 - m))]  # cos^2 of the angle, greatest first
     least_angle, greatest_angle = (math.atan2(math.sqrt(1 - share), math.sqrt(share)) for share in shares)
-    words = f"no torque: the angular momentum goes round the {'long' if long else 'short'} axis in the body"
-    found = replace(base, mode=LONG if long else SHORT, cone=(least_angle, greatest_angle), because=words)
+    found = replace(base, mode=LONG if long else SHORT, cone=(least_angle, greatest_angle),
+                    reason=GOES_ROUND(which="long" if long else "short"))
     found = with_periods(found, {"rotation_period": period, "precession_period": precession}, digits)
     return turned(found, float(turn.mid()))

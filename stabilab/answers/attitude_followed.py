@@ -17,12 +17,20 @@ import numpy as np
 from ..numbers.exact import sqrt_fraction
 from ..orbit.result import Motion
 from ..physics.scene import Scene
-from .attitude_result import LONG, SHORT, Attitude, turned
+from ..reasons import Sentence
+from .attitude_result import GOES_ROUND, LONG, SHORT, Attitude, turned
 from .simulate import simulated, trajectory
 
 SUM_ERROR, RUN_ERROR = 1e-11, 1e-10  # relative: of a sum over a run, of a run's end
 OTHERS = 1.0 - np.eye(3)  # rows: the two axes beside each one
-UNDERFLOW = "undecided: the angular momentum is so near an axis that doubles do not tell how it goes round it"
+UNDERFLOW = Sentence("too-near-an-axis", "undecided: the angular momentum is so near an axis that doubles do "
+                     "not tell how it goes round it")()
+ROUND_NEITHER = Sentence(
+    "round-neither", "no torque: in the body the angular momentum goes round neither the long nor the short "
+    "axis alone, so none of them precesses about it")()
+UNDER_TORQUE = Sentence(
+    "turn-under-torque", "a torque changes the angular momentum: no axis precesses about it; the rates "
+    "repeat after one rotation period, and the attitude has turned")()
 NUTATION = 1e-11  # squares of angles up to which the motion is linear
 FEWEST, MOST = 64, 1 << 17  # times of the sum
 
@@ -54,21 +62,19 @@ def _of_gyrostat(scene: Scene, base: Attitude, found: Motion, period: float) -> 
         with np.errstate(all="ignore"):
             mean = float(((omega * h) @ OTHERS[e] / across[:, e]).mean())
         if not math.isfinite(mean) or not mean:
-            return replace(base, rotation_period=period, because=UNDERFLOW)
+            return replace(base, rotation_period=period, reason=UNDERFLOW)
         if abs(mean - before) <= SUM_ERROR * abs(mean) or count >= MOST:
             break
         before, count = mean, 2 * count
     error = max(SUM_ERROR, abs(mean - before) / abs(mean))
     mode = names[e] if encircled == [e] else None
-    words = (f"no torque: the angular momentum goes round the {mode[:-5]} axis in the body" if mode else
-             "no torque: in the body the angular momentum goes round neither the long nor the short axis "
-             "alone, so none of them precesses about it")
+    reason = GOES_ROUND(which=mode.removesuffix("-axis")) if mode else ROUND_NEITHER
     cone = None
     if mode and found.extremes is not None:
         low, high = (min(1.0, max(-1.0, (D[e] * v + wheel[e]) / base.momentum)) for v in found.extremes[e])
         low, high = (-high, -low) if low + high < 0 else (low, high)
         cone = math.acos(high), math.acos(low)
-    return turned(replace(base, mode=mode, rotation_period=period, cone=cone, error=error, because=words,
+    return turned(replace(base, mode=mode, rotation_period=period, cone=cone, error=error, reason=reason,
                            precession_period=2 * math.pi / abs(mean) if mode else None),
                    mean * period / (2 * math.pi))
 
@@ -116,6 +122,4 @@ def _under_torque(scene: Scene, base: Attitude, period: float) -> Attitude:
     size = math.hypot(*vector)
     axis = tuple(math.copysign(1.0, w) * v / size for v in vector) if size else None
     return replace(base, rotation_period=period, turn_angle=2 * math.atan2(size, abs(w)), turn_axis=axis,
-                   error=RUN_ERROR,
-                   because="a torque changes the angular momentum: no axis precesses about it; the rates "
-                           "repeat after one rotation period, and the attitude has turned")
+                   error=RUN_ERROR, reason=UNDER_TORQUE)

@@ -11,9 +11,15 @@ from ..errors import Caveat
 from ..numbers.balls import Unclear, settled
 from ..numbers.vectors import Float3, dot
 from ..orbit.result import Fate
+from ..reasons import Reason, Sentence
 from ..representation import Shown
 
 LONG, SHORT, SEPARATRIX, STEADY, TOP = "long-axis", "short-axis", "separatrix", "steady", "heavy top"
+NOT_KNOWN = Sentence("turn-not-known", "how it turns is not known")()
+AT_REST = Sentence("body-at-rest", "the body is at rest")()
+ONE_AXIS = Sentence("steady-about-one-axis", "the body turns steadily about one axis")()
+GOES_ROUND = Sentence("momentum-goes-round", "no torque: the angular momentum goes round the {which} axis in "
+                      "the body")
 
 
 CLOSED_ERROR = 1e-15  # relative, of numbers from balls
@@ -33,7 +39,7 @@ class Attitude(Shown):
     from one least lean to the next, s.
     turn_angle (rad, 0 to pi), turn_axis: the rotation that takes the attitude at the start to that one
     rotation period later; the axis is the same in body and space. What the motion does not have is None,
-    and `because` says why. error: relative, of the periods and the turn.
+    and `reason` says why, `because` in words. error: relative, of the periods and the turn.
     decimals: where digits were asked for, the periods by name, s, written out to them.
     caveats: all that limits the answer.
     """
@@ -43,7 +49,7 @@ class Attitude(Shown):
     mode: str | None
     momentum: float
     momentum_direction: Float3 | None
-    because: str
+    reason: Reason
     rotation_period: float | None = None
     precession_period: float | None = None
     cone: tuple[float, float] | None = None
@@ -54,6 +60,11 @@ class Attitude(Shown):
     error: float | None = None
     decimals: Mapping[str, str] | None = None
     caveats: tuple[Caveat, ...] = ()
+
+    @property
+    def because(self) -> str:
+        """Why it turns so, or what it does not have, in words and SI units."""
+        return self.reason.text()
 
 
 def narrow(ball: Any, digits: int | None = None) -> Any:
@@ -76,9 +87,9 @@ def with_periods(found: Attitude, periods: Mapping[str, Any], digits: int | None
 def steady(base: Attitude, omega: Sequence[Fraction], digits: int | None) -> Attitude:
     """Of rates that stay as they are."""
     if not any(omega):
-        return replace(base, mode=STEADY, because="the body is at rest")
+        return replace(base, mode=STEADY, reason=AT_REST)
     turn = settled(lambda numbers: narrow(2 * numbers.pi() / numbers.ball(dot(omega, omega)).sqrt(), digits))
-    return with_periods(replace(base, mode=STEADY, because="the body turns steadily about one axis"),
+    return with_periods(replace(base, mode=STEADY, reason=ONE_AXIS),
                         {"rotation_period": turn}, digits)
 
 

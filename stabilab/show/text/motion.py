@@ -242,7 +242,8 @@ def row_of(case, one) -> dict:
             "momentum_direction": in_file(case, one.momentum_direction),
             **values_of(one, "cone lean nutation_period turn_angle"),
             "turn_axis": in_file(case, one.turn_axis),
-            **values_of(one, "error decimals because")} | limiting.key(case, one.caveats)
+            **values_of(one, "error decimals because"), "reason": one.reason.as_dict()
+            } | limiting.key(case, one.caveats)
 
 
 def in_file(case, along):
@@ -274,7 +275,7 @@ def attitude_text(case, found, units: Units) -> str:
         lines.append(row(name.replace("_", " "), f"{digits} s"))
     if found.error is not None and found.decimals is None:
         lines.append(row("relative error", f"at most {outward(found.error, 1, 1):.0e}"))
-    return "\n".join([*lines, f"why: {reason(found.because, units)}", *frame.note(case)])
+    return "\n".join([*lines, f"why: {units.said(found.reason)}", *frame.note(case)])
 
 
 def attitude_rows(found, units: Units) -> list[tuple[str, str]]:
