@@ -19,13 +19,39 @@ from ...numbers.vectors import Float3, Number
 from ...orbit.reduction import Reduction
 from ...orbit.result import Fate, Motion
 from ...physics.scene import Scene
-from ...reasons import Reason, number
+from ...reasons import Momentum, Quantity, Rate, Reason, Sentence, Torque, as_reason
 from ...representation import Shown
 from ..caveats import STEADY
 from ..tilt import Spread, Tilt
 from ..uncertain.fate import Uncertainty
 from .fate import Outcome, Scenario, across, loose
 from .line import TRIES, Family, Line, candidates, change_between, family_of, nearest_change, pieces, rise
+
+ON_SEPARATRIX = Sentence("margin-on-separatrix", "the motion is on the separatrix")()
+OFF_AXES = Sentence("no-separatrix-off-axes",
+                    "the torque is off the principal axes: no separatrix is known")()
+NONE_NEAR = Sentence("no-separatrix-near", "no separatrix stands near it")()
+FREE = Sentence("any-change-bounds", "the motion spins up on a set of measure zero: nearly every change, "
+                "however small, makes it bounded")()
+ALONE = Sentence(
+    "separatrix-alone", "to the separatrix, where alone the fate is another: beyond it the motion is "
+    "bounded again")()
+BOUNDED_AGAIN = Sentence("bounded-again", "from {until} along the same line on it is bounded again")
+SPINS_UP_AGAIN = Sentence("spins-up-again", "from {until} along the same line on it spins up again")
+NO_TORQUE = Sentence("bounded-without-torque",
+                     "no torque acts: the motion is bounded whatever the wheel does")()
+WHEEL_ALONG = Sentence("none-bounded-wheel-along", "the wheel has momentum along the torque: no motion is "
+                       "bounded, and no separatrix divides them")()
+ALL_BOUNDED = Sentence(
+    "all-bounded", "every motion is bounded but for a set of measure zero: the fate does not change")()
+NO_TORQUE_CHANGES = Sentence("no-torque-changes", "no torque along this axis changes the fate")()
+STAYS_ON_AXIS = Sentence("torque-stays-on-axis", "of a torque that stays on its axis")()
+TO_NO_TORQUE = Sentence("to-no-torque",
+                        "to no torque at all: along this axis any torque spins it up")()
+NO_WHEEL_CHANGES = Sentence("no-wheel-changes", "no wheel momentum across the torque is known to change the "
+                            "fate, up to {times} times the body's own")
+ACROSS = Sentence(
+    "wheel-across", "of a wheel momentum that stays across the torque, the least found over its directions")()
 
 
 # --- The answer
@@ -42,15 +68,22 @@ class Margin:
     """The smallest change that changes the fate: its size, its direction (unit vector, frame of the file);
     None where none is known.
 
-    because: why it is not known, or what it holds for. until: the greater change along the direction from
+    reason: why it is not known, or what it holds for, None where there is nothing to say; because: the same
+    in words, in SI units. until: the greater change along the direction from
     which on the fate is again what it was: the size itself where it is another on the separatrix alone, inf
     where no greater change leads back, None where that is not known.
     """
 
     size: float | None = None
     direction: Float3 | None = None
-    because: str = ""
+    reason: Reason | None = None
     until: float | None = None
+
+    @property
+    def because(self) -> str:
+        """Why it is not known, or what it holds for, in words and SI units; empty where there is nothing to
+        say."""
+        return "" if self.reason is None else self.reason.text()
 
     @property
     def beyond(self) -> bool:
@@ -66,19 +99,24 @@ class WheelAnswer:
     has no end. best: where there is no interval, the momentum within `searched` that delays the limit most;
     best_time: (low, high), s, None where the limit is not reached within the time followed; gain: by how much
     later, s (low end against low end). most: whether the runs that are compared came to the limit: else
-    another momentum may delay it more. because: how this is known.
+    another momentum may delay it more. reason: how this is known; because: the same in words.
     """
 
     wheel: str
     axis: Float3
     now: float
     keeps_bounded: tuple[tuple[float, float], ...]
-    because: str
+    reason: Reason
     best: float | None = None
     best_time: tuple[float, float] | None = None
     gain: float | None = None
     searched: tuple[float, float] | None = None
     most: bool = True
+
+    @property
+    def because(self) -> str:
+        """How this is known, in words and SI units."""
+        return self.reason.text()
 
 
 @dataclass(frozen=True)
@@ -160,6 +198,7 @@ class Stuck(Shown):
 
 
 # --- How little must change
+DIGITS = 6  # of a rate from which on the fate is back
 TURN = 2000  # places on the turn at which the rise of the potential is looked at, to find a direction
 MOST = 1000  # of the body's own momentum: changes of the wheel as great are not given
 # of a turn: directions beside that of a circle that is a point
@@ -169,8 +208,6 @@ FEW = 5  # nearest places that are looked at in exact numbers
 DIRECTIONS, CLOSER = 180, 26
 # rad: the nearest place may be the tip where two separatrices meet, with nothing straight behind it
 TURNS = (0.0, 1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3)
-FREE = "the motion spins up on a set of measure zero: nearly every change, however small, makes it bounded"
-ALONE = "to the separatrix, where alone the fate is another: beyond it the motion is bounded again"
 # of a change: how near the exact one is to that of doubles; changes back so soon are no use to anybody
 CLOSE = 1e-6
 
@@ -178,12 +215,11 @@ CLOSE = 1e-6
 def margins(scenario: Scenario, scene: Scene, seen: Outcome) -> dict[str, Margin]:
     """The margins of one outcome, by name: "rate" (rad/s), "wheel" (N m s), "torque" (N m)."""
     if seen.fate == Fate.SEPARATRIX:
-        return {name: Margin(0.0, None, "the motion is on the separatrix")
+        return {name: Margin(0.0, None, ON_SEPARATRIX)
                 for name in ("rate", "wheel", "torque")}
     family = family_of(scene, scenario.state)
     if seen.motion is None or (family is None and any(scene.vector("constant_torque"))):
-        why = "the torque is off the principal axes: no separatrix is known"
-        return {name: Margin(because=why) for name in ("rate", "wheel", "torque")}
+        return {name: Margin(reason=OFF_AXES) for name in ("rate", "wheel", "torque")}
     if family is not None and seen.fate == Fate.SPIN_UP and _walled(family):
         any_change = Margin(0.0, None, FREE, math.inf)
         return {"rate": any_change, "wheel": any_change, "torque": _torque(scenario, family, False)}
@@ -193,18 +229,27 @@ def margins(scenario: Scenario, scene: Scene, seen: Outcome) -> dict[str, Margin
 def _rate(scenario: Scenario, motion: Motion, family: Family | None) -> Margin:
     """To the nearest separatrix as the motion knows it, and how far beyond it the fate is another."""
     if motion.margin_velocity is None or motion.velocity_witness is None:
-        return Margin(because=motion.velocity_because or "no separatrix stands near it")
+        return Margin(reason=_known(motion) or NONE_NEAR)
     change = [b - a for a, b in zip(scenario.start, motion.velocity_witness)]
-    direction, because = _unit(scenario.in_file(change)) if any(change) else None, motion.velocity_because
+    direction, reason = _unit(scenario.in_file(change)) if any(change) else None, _known(motion)
     if _walled(family):
-        return Margin(motion.margin_velocity, direction, f"{because}; {ALONE}".removeprefix("; "),
+        return Margin(motion.margin_velocity, direction, _followed(reason, ALONE),
                       motion.margin_velocity)
     if family is None or not any(change):
-        return Margin(motion.margin_velocity, direction, because)
+        return Margin(motion.margin_velocity, direction, reason)
     until = _rate_again(family, change, Fraction(motion.margin_velocity))
     if until is not None and until < math.inf:
-        because = f"{because}{_again(until, 'rad/s', family.fate() in STEADY)}".removeprefix("; ")
-    return Margin(motion.margin_velocity, direction, because, until)
+        reason = _followed(reason, _again(Rate(until, digits=DIGITS), family.fate() in STEADY))
+    return Margin(motion.margin_velocity, direction, reason, until)
+
+
+def _known(motion: Motion) -> Reason | None:
+    """What is said of the distance from the separatrix, if anything."""
+    return as_reason(motion.velocity_because) if motion.velocity_because else None
+
+
+def _followed(reason: Reason | None, other: Reason) -> Reason:
+    return other if reason is None else reason.then(other)
 
 
 def _rate_again(family: Family, change: Sequence[Number], size: Fraction) -> float | None:
@@ -223,10 +268,8 @@ def _rate_again(family: Family, change: Sequence[Number], size: Fraction) -> flo
     return until if abs(first - size) <= CLOSE * size else None
 
 
-def _again(until: float, unit: str, steady: bool) -> str:
-    return (f"; from {number(until, side=1)} {unit} along the same line on it "
-            f"{'is bounded' if steady else 'spins up'} "
-            "again")
+def _again(until: Quantity, steady: bool) -> Reason:
+    return BOUNDED_AGAIN(until=until.upper) if steady else SPINS_UP_AGAIN(until=until.upper)
 
 
 def _walled(family: Family | None) -> bool:
@@ -241,11 +284,8 @@ def _parameters(scenario: Scenario, family: Family | None) -> dict[str, Margin]:
     if family is not None and reduction is not None and not reduction.geometry.walled:
         steady = family.fate() in STEADY
         return {"wheel": _wheel(scenario, family, steady), "torque": _torque(scenario, family, steady)}
-    words = ("no torque acts: the motion is bounded whatever the wheel does" if family is None else
-             "the wheel has momentum along the torque: no motion is bounded, and no separatrix divides them"
-             if reduction is None else
-             "every motion is bounded but for a set of measure zero: the fate does not change")
-    found = {name: Margin(because=words) for name in ("wheel", "torque")}
+    reason = NO_TORQUE if family is None else WHEEL_ALONG if reduction is None else ALL_BOUNDED
+    found = {name: Margin(reason=reason) for name in ("wheel", "torque")}
     if family is not None and reduction is not None and not any(loose(reduction, family.state)):
         found["torque"] = _torque(scenario, family, True)  # no wall need hold the start: it may be let go
     return found
@@ -266,13 +306,12 @@ def _torque(scenario: Scenario, family: Family, steady: bool) -> Margin:
         until = math.inf if opposite is None else float(size + opposite)
     change = min(changes, key=abs, default=None)
     if change is None:
-        return Margin(because="no torque along this axis changes the fate")
-    words = ("of a torque that stays on its axis" if family.torque + change
-             else "to no torque at all: along this axis any torque spins it up")
+        return Margin(reason=NO_TORQUE_CHANGES)
+    reason = STAYS_ON_AXIS if family.torque + change else TO_NO_TORQUE
     if abs(change) < until < math.inf:
-        words += _again(until, "N m", steady)
+        reason = reason.then(_again(Torque(until), steady))
     direction = _direction(scenario, family, {family.axis: 1 if change > 0 else -1})
-    return Margin(float(abs(change)), direction, words, until)
+    return Margin(float(abs(change)), direction, reason, until)
 
 
 def _least_torque(family: Family, sign: int, size: Fraction) -> Fraction | None:
@@ -305,12 +344,11 @@ def _wheel(scenario: Scenario, family: Family, steady: bool) -> Margin:
                 break
     size, until, step = best
     if size == math.inf:
-        return Margin(because="no wheel momentum across the torque is known to change the fate, up to a "
-                              "thousand times the body's own")
-    words = "of a wheel momentum that stays across the torque, the least found over its directions"
+        return Margin(reason=NO_WHEEL_CHANGES(times=MOST))
+    reason = ACROSS
     if until < math.inf:
-        words += _again(until, "N m s", steady)
-    return Margin(size, _direction(scenario, family, {j: step[j], k: step[k]}), words, until)
+        reason = reason.then(_again(Momentum(until), steady))
+    return Margin(size, _direction(scenario, family, {j: step[j], k: step[k]}), reason, until)
 
 
 def _along(family: Family, step: Sequence[Fraction], steady: bool) -> tuple[float, float]:

@@ -192,10 +192,10 @@ def sensitivity(one, units) -> dict:
     why: dict[str, list] = {}
     for name, margin in row.margins.items():
         if margin.size is None:
-            why.setdefault(margin.because, []).append(WORDS[name])
-    reasons = [f"No margin in {listed(names, 'or')}: {units.words(because)}."
-               for because, names in why.items()]
-    rows = [_change(name, amount(name, margin.size, units), margin.direction, holds_for(name, margin, units))
+            why.setdefault(margin.reason, []).append(WORDS[name])
+    reasons = [f"No margin in {listed(names, 'or')}: {units.said(reason) if reason else ''}."
+               for reason, names in why.items()]
+    rows = [_change(name, amount(name, margin.size, units), margin.direction, holds_for(margin, units))
             for name, margin in row.margins.items() if margin.size is not None]
     words += _tilt(case, motion if motion.tilt else row, units)
     return {"rows": rows, "words": list(map(printed, words)), "reason": printed(" ".join(reasons))}

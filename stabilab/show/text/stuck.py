@@ -5,12 +5,10 @@ import math
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 
 from ...errors import printable
-from ...reasons import number as in_si
 from ...representation import values_of
 from .. import limiting
 from ..axes import axes_of, direction
 from ..data import Endless, csv_lines
-from ..terminal import lettered
 from ..units import DIGITS, SHORT, Units, bracket, number, vector
 from .classification import what_changes
 from .headline import REST, STEADY
@@ -38,7 +36,8 @@ def as_dict(case, found) -> dict:
 
 def _row(row, case) -> dict:
     wheels = [{"wheel": w.wheel, "keeps_bounded": [list(map(Endless, pair)) for pair in w.keeps_bounded],
-               **values_of(w, "now axis best best_time gain searched because")} for w in row.wheels]
+               **values_of(w, "now axis best best_time gain searched because"),
+               "reason": w.reason.as_dict()} for w in row.wheels]
     margins = row.margins.items()
     return {**values_of(row, "thrusters torque torque_principal fate level"),
             **axes_of(case).key(row.axis), **values_of(row, "sense limit time_to_limit largest_rate"),
@@ -48,6 +47,7 @@ def _row(row, case) -> dict:
             "margin_direction": {name: margin.direction for name, margin in margins},
             "margin_until": {name: margin.until and Endless(margin.until) for name, margin in margins},
             "margin_because": {name: margin.because for name, margin in margins},
+            "margin_reason": {name: margin.reason and margin.reason.as_dict() for name, margin in margins},
             "helpers": [values_of(h, "thrusters duty effect torque_left fate time_to_limit")
                         for h in row.helpers]} | limiting.key(case, row.caveats)
 
@@ -175,9 +175,9 @@ def _limit(limit, units) -> str:
 def _margins(row, units) -> str:
     known = {name: m for name, m in row.margins.items() if m.size is not None}
     if not known:
-        because = next((row.margins[name].because for name in ("wheel", "rate", "torque")
-                        if name in row.margins), "")
-        return f"no distance to a separatrix, as {lettered(units.words(because))}" if because else ""
+        reason = next((row.margins[name].reason for name in ("wheel", "rate", "torque")
+                       if name in row.margins), None)
+        return f"no distance to a separatrix, as {units.said(reason)}" if reason else ""
     ends = {name: _ends(name, m, units) for name, m in known.items()}
     told = [" or ".join(f"{ends[name][0]} of {WORDS[name]}" for name, m in known.items()
                         if (m.beyond or name == "torque") == beyond) for beyond in (True, False)]
@@ -202,13 +202,9 @@ def amount(name, size, units, digits=DIGITS, side=0) -> str:
     return units.told(size, _unit(name, units), digits, side)
 
 
-def holds_for(name, margin, units) -> str:
-    """What a margin holds for: the words of JSON, which are in rad/s, with a rate in the unit of the page."""
-    words = str(margin.because)
-    if name == "rate" and margin.until is not None and not math.isinf(margin.until):
-        words = words.replace(f"{in_si(margin.until, side=1)} rad/s",
-                              amount(name, margin.until, units, side=1))
-    return units.words(words)
+def holds_for(margin, units) -> str:
+    """What a margin holds for, or why it is not known."""
+    return units.said(margin.reason) if margin.reason else ""
 
 
 def _unit(name, units):
@@ -222,7 +218,7 @@ def _wheel(wheel, units) -> str:
                    for low, high, without in merged(wheel.keeps_bounded)]
         return f"wheel {name}, now {number(wheel.now)} N m s, keeps it bounded at {' or '.join(momenta)}"
     if wheel.best is None:
-        return f"wheel {name}: no momentum is known to keep it bounded: {wheel.because}"
+        return f"wheel {name}: no momentum is known to keep it bounded: {units.said(wheel.reason)}"
     later = ("not reached while followed" if wheel.best_time is None
              else f"{units.time(wheel.best_time[0], SHORT)}")
     gain = "" if wheel.gain is None else f", {units.time(wheel.gain, SHORT)} later"
@@ -285,7 +281,7 @@ def _details(row, units) -> list[str]:
              ("fate", f"{row.fate} ({row.level})"), ("because", units.said(row.reason))]
     margins = {}
     for name, margin in row.margins.items():
-        told = lettered(holds_for(name, margin, units))
+        told = holds_for(margin, units)
         if margin.size is not None:
             along = f" along {vector(margin.direction)}" if margin.direction else ""
             told = f"{amount(name, margin.size, units)}{along}" + (f": {told}" if told else "")
@@ -304,7 +300,8 @@ def _details(row, units) -> list[str]:
 
 def means(row, units) -> list[str]:
     """What a wheel or another thruster can do, a line each."""
-    wheels = [_wheel(w, units) + (f" ({w.because})" if w.keeps_bounded or w.best is not None else "")
+    wheels = [_wheel(w, units)
+              + (f" ({units.said(w.reason)})" if w.keeps_bounded or w.best is not None else "")
               for w in row.wheels]
     return wheels + [_helper(h, units) for h in row.helpers]
 
@@ -344,7 +341,8 @@ def _latest(one) -> dict | None:
         return None
     return {"limit": one.limit, "reached": reached(one.low, one.high),
             "time": [one.low, one.high] if math.isfinite(one.high) else None, "not_before": one.low,
-            **values_of(one, "level because again surely within forces"), "stated": _latest(one.stated)}
+            **values_of(one, "level because again surely within forces"), "reason": one.reason.as_dict(),
+            "stated": _latest(one.stated)}
 
 
 def burn_text(case, found, units: Units) -> str:
@@ -371,7 +369,7 @@ def _headline(found, units: Units) -> str:
         return f"CLOSED at {units.moment(one.time)}, then {one.motion.fate.word.upper()}, {after}"
     aim = f"|ω| below {units.rate(latest.limit)}"
     over = ("" if latest.stated is None else
-            f", {lettered(units.words(printable(latest.within), SHORT))}: the least of {latest.forces} "
+            f", {units.said(latest.looked, SHORT)}: the least of {latest.forces} "
             "forces")
     if math.isinf(latest.low):
         return f"NO CLOSING IS TOO LATE for {aim} ({latest.level}){over}"
