@@ -28,7 +28,7 @@ commands = typer.Typer()
 
 
 @commands.command()
-@opens("pictures.sweep")
+@opens("sweep.sweep")
 def sweep(
         case: CaseFile,
         vary: Annotated[list[str] | None, option("KEY=VALUES",
@@ -60,7 +60,7 @@ def sweep(
 
 
 @commands.command()
-@opens("pictures.atlas")
+@opens("maps.atlas")
 def atlas(
         case: CaseFile,
         torque: Annotated[str | None, option(
@@ -92,7 +92,7 @@ def atlas(
 
 
 @commands.command()
-@opens("pictures.basin")
+@opens("maps.basin")
 def basin(
         case: CaseFile,
         vary: Annotated[list[str] | None, option("KEY=FROM:TO[:N]",
@@ -115,7 +115,7 @@ def basin(
 
 
 @commands.command()
-@opens("pictures.bifurcation")
+@opens("maps.bifurcation")
 def bifurcation(
         case: CaseFile,
         vary: Annotated[list[str] | None, option("KEY=FROM:TO",

@@ -69,7 +69,7 @@ Order = Annotated[int | None, option("N", "Order of the lindstedt expansion.", m
 
 
 def opens(place: str, **fixed: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """The work of a command that declares its options: a function of `commands` ("pictures.sweep"), which
+    """The work of a command that declares its options: a function of `commands` ("sweep.sweep"), which
     gets them all by name, and what is fixed. Its file is read when the command is given."""
     file, name = place.split(".")
 

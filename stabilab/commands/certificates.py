@@ -8,10 +8,12 @@ from ..case.read import blamed_on
 from ..errors import InputError, ToleranceNotMet, printable
 from ..show import certification, endings
 from ..show.names import spare
+from ..show.terminal import say
 from ..verify import verify as check
 from ..verify.form import about, differences, line, read
 from ..verify.numbers import Malformed
-from .common import either, leave_undecided, load_cases, say
+from .common import load_cases
+from .writing import either, leave_undecided
 
 
 def checked(out, paths):

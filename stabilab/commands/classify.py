@@ -18,10 +18,7 @@ from ..show.text import classification, headline, questions, scene
 from ..show.text.motion import attitude_dict, attitude_text, row_of
 from ..show.units import DEG
 from .common import (
-    all_reached,
     answers_of,
-    hold_laws,
-    leave_undecided,
     load_cases,
     motion_of,
     one_by_one,
@@ -30,8 +27,8 @@ from .common import (
     tell_all,
     tilted,
     units_asked,
-    write,
 )
+from .writing import all_reached, hold_laws, leave_undecided, write
 
 
 def classify(cases, json, strict, certify, out, follow, tilt, units, why):

@@ -25,25 +25,13 @@ from ..files import write_text
 from ..show import endings
 from ..show import precision as shown
 from ..show.space import natural, seen
+from ..show.terminal import say, tell
 from ..show.text import cost, headline
 from ..show.text.scene import of_all
 from ..theories.follow import models_of
 from ..theories.theory import compare as set_side_by_side
-from .common import (
-    all_reached,
-    answers_of,
-    hold_laws,
-    load_cases,
-    motion_of,
-    one_by_one,
-    say,
-    tell,
-    time_asked,
-    units_asked,
-    write,
-    write_each,
-    write_json,
-)
+from .common import answers_of, load_cases, motion_of, one_by_one, time_asked, units_asked
+from .writing import all_reached, hold_laws, write, write_each, write_json
 
 
 def show(case):

@@ -16,8 +16,9 @@ from ..papers.validation import comparison, validated
 from ..show import manifest
 from ..show.manifest import rerun as repeated
 from ..show.progress import counted
-from ..show.terminal import width
-from .common import either, leave_undecided, load_cases, say, tell, unphysical, write
+from ..show.terminal import say, tell, width
+from .common import load_cases
+from .writing import either, leave_undecided, unphysical, write
 
 
 def audit(paper, equation, json, out):

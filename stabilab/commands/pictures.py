@@ -1,9 +1,4 @@
-"""Commands that draw, one case or a map of many.
-
-`stabilab surface`, `plot`, `chaos` and `explore`: a case to look at.
-
-`stabilab sweep`, `bifurcation`, `basin` and `atlas`: one case over ranges of its numbers.
-"""
+"""Commands that draw: `stabilab surface`, `plot`, `chaos` and `explore`, a case to look at."""
 from __future__ import annotations
 
 import sys
@@ -17,58 +12,18 @@ from ..answers.chaos import Order, row_of
 from ..answers.chaos import chaos as ask_chaos
 from ..case.read import blamed_on, load
 from ..errors import RenderingUnavailable, printable
-from ..maps.atlas import asked, drawn
-from ..maps.basins import basins
-from ..maps.bifurcation.ask import bifurcation as ask
-from ..maps.bifurcation.diagram import certifiable, diagram_certificate
-from ..maps.plan import planned, split_keys
-from ..maps.run import run
-from ..show import certification, endings, limiting
-from ..show.maps import (
-    atlas as atlas_shown,
-)
-from ..show.maps import (
-    basins as basins_shown,
-)
-from ..show.maps import (
-    bifurcation as diagram_shown,
-)
-from ..show.maps import (
-    bifurcation_picture,
-    picture,
-)
-from ..show.maps import (
-    chaos as chaos_shown,
-)
-from ..show.maps import (
-    sweep as sweep_shown,
-)
-from ..show.maps import (
-    to_file as map_files,
-)
+from ..show import endings, limiting
+from ..show.maps import chaos as chaos_shown
+from ..show.maps import picture
+from ..show.maps import to_file as map_files
 from ..show.plot import to_file
 from ..show.surface import text as surface_text
 from ..show.surface import write_all
-from ..show.terminal import lettered
+from ..show.terminal import lettered, say, tell
 from ..show.text import headline
 from ..show.units import units_of
-from .common import (
-    answers_of,
-    hold_laws,
-    leave_undecided,
-    load_cases,
-    say,
-    say_written,
-    tell,
-    tell_all,
-    time_asked,
-    units_asked,
-    unphysical,
-    write,
-    write_answer,
-    write_json,
-    written,
-)
+from .common import answers_of, load_cases, tell_all, time_asked, units_asked
+from .writing import hold_laws, leave_undecided, say_written, write, write_json, written
 
 AN_EXAMPLE = Path(__file__).parents[1] / "cases" / "thruster-stuck-major-axis.toml"
 
@@ -158,57 +113,3 @@ def explore(case, port, browser, static, pyodide):
         say("Ctrl-C ends it.")
         write(address)
     serve(one, port, browser, announce)
-
-
-def sweep(case, vary, samples, seed, answer, follow, out, workers, scheduler, csv, json, strict, **limits):
-    """Answer the case at every point. limits: those of the answer when, by the names of their options."""
-    plan = planned(case, split_keys(vary or []), samples, seed, answer, follow, **limits)
-    if out:
-        sweep_shown.checked(out)
-    with run(plan, out, workers, scheduler) as found:
-        files = [sweep_shown.write(sweep_shown.dataset(found), out)] if out else []
-    write_answer(sweep_shown, found, json, csv)
-    say_written(files)
-    leave_undecided(strict, strict and (sweep_shown.undecided(found) or unphysical([plan.case])))
-
-
-def bifurcation(case, vary, curve, out, certify, csv, json):
-    """Find where equilibria appear and vanish over the range of one number or two."""
-    if out:
-        endings.file(out, endings.PICTURES)
-    spans = split_keys(vary or [], "KEY=FROM:TO")
-    if certify:
-        endings.file(certify, (".json",))
-        certifiable(spans)
-    found = ask(case, spans, curve)
-    made = diagram_certificate(found) if certify else None
-    files = [bifurcation_picture.write(found, out)] if out else []
-    write_answer(diagram_shown, found, json, csv)
-    say_written(files)
-    if made:
-        say("\n".join([f"written: {certification.write(made, certify)}",
-                       f"certified: {len(made['events'])} values, {len(made['pieces'])} counts between them",
-                       *(f"not certified: {why}" for why in made["uncertified"])]))
-
-
-def basin(case, vary, depth, out, workers, scheduler, follow, csv, json, strict):
-    """Show which initial states of a plane spin up, and how rough the boundary is."""
-    targets = map_files.checked(out or [])
-    with basins(case, split_keys(vary or [], "KEY=FROM:TO or KEY=FROM:TO:N"), depth,
-                map_files.data_of(targets), workers, scheduler, follow) as found:
-        files = [map_files.write_basins(found, path) for path in targets]
-    write_answer(basins_shown, found, json, csv)
-    say_written(files)
-    leave_undecided(strict, strict and (basins_shown.undecided(found) or unphysical([found.plan.case])))
-
-
-def atlas(case, torque, wheel, level, refine, certify, follow, no_time, out, workers, scheduler, units, csv,
-          json, strict, **limits):
-    """Map all directions of a torque. limits: what is to be reached, by the names of the options."""
-    plan = asked(case, torque, wheel, level, refine, certify, follow, not no_time, **limits)
-    system, targets = units_of(plan.case, units), map_files.checked(out or [], map_files.PAGES)
-    with drawn(plan, targets[0] if targets else None, workers, scheduler) as found:
-        files = [map_files.write_atlas(found, target, system) for target in targets]
-    write_answer(atlas_shown, found, json, csv, system)
-    say_written(files)
-    leave_undecided(strict, strict and (atlas_shown.undecided(found) or unphysical([plan.case])))

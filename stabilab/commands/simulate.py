@@ -15,26 +15,13 @@ from ..errors import InputError, ToleranceNotMet
 from ..show import endings, terminal
 from ..show import reference as shown
 from ..show.data import as_json
-from ..show.terminal import lettered
+from ..show.terminal import lettered, say, tell
 from ..show.text import headline, simulation
 from ..theories.euler_angles import with_euler_angles
 from ..theories.follow import follow
 from ..theories.theory import lines, theory
-from .common import (
-    all_reached,
-    exact_times_asked,
-    hold_laws,
-    load_cases,
-    one_by_one,
-    say,
-    say_repeated,
-    tell,
-    times_asked,
-    units_asked,
-    write,
-    write_each,
-    write_json,
-)
+from .common import exact_times_asked, load_cases, one_by_one, say_repeated, times_asked, units_asked
+from .writing import all_reached, hold_laws, write, write_each, write_json
 
 
 def simulate(case, at, model, order, method, rtol, digits, angles, attitude, matrix, out, json, strict,

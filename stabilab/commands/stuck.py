@@ -33,16 +33,12 @@ from ..show.text import headline, questions
 from ..show.text import stuck as shown
 from ..show.text.flat_spin import flat_spin_dict, flat_spin_text
 from ..show.text.motion import circular_orbit_dict, circular_orbit_text
-from .common import (
-    answers_of,
+from .common import answers_of, load_cases, one_by_one, tell_all, units_asked
+from .writing import (
     either,
     hold_laws,
     leave_undecided,
-    load_cases,
-    one_by_one,
     say_written,
-    tell_all,
-    units_asked,
     write,
     write_json,
     written,

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from flint import fmpq_poly
 
-from stabilab.commands.pictures import bifurcation as command
+from stabilab.commands.maps import bifurcation as command
 from stabilab.errors import InputError
 from stabilab.verify import verify
 from stabilab.verify.diagram.check import check_diagram

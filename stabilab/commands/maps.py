@@ -1,0 +1,59 @@
+"""`stabilab bifurcation`, `basin`, `atlas`: one case over ranges of its numbers as a map, and its picture."""
+from __future__ import annotations
+
+from ..maps.atlas import asked, drawn
+from ..maps.basins import basins
+from ..maps.bifurcation.ask import bifurcation as ask
+from ..maps.bifurcation.diagram import certifiable, diagram_certificate
+from ..maps.plan import split_keys
+from ..show import certification, endings
+from ..show.maps import atlas as atlas_shown
+from ..show.maps import basins as basins_shown
+from ..show.maps import bifurcation as diagram_shown
+from ..show.maps import bifurcation_picture
+from ..show.maps import to_file as map_files
+from ..show.terminal import say
+from ..show.units import units_of
+from .writing import leave_undecided, say_written, unphysical, write_answer
+
+
+def bifurcation(case, vary, curve, out, certify, csv, json):
+    """Find where equilibria appear and vanish over the range of one number or two."""
+    if out:
+        endings.file(out, endings.PICTURES)
+    spans = split_keys(vary or [], "KEY=FROM:TO")
+    if certify:
+        endings.file(certify, (".json",))
+        certifiable(spans)
+    found = ask(case, spans, curve)
+    made = diagram_certificate(found) if certify else None
+    files = [bifurcation_picture.write(found, out)] if out else []
+    write_answer(diagram_shown, found, json, csv)
+    say_written(files)
+    if made:
+        say("\n".join([f"written: {certification.write(made, certify)}",
+                       f"certified: {len(made['events'])} values, {len(made['pieces'])} counts between them",
+                       *(f"not certified: {why}" for why in made["uncertified"])]))
+
+
+def basin(case, vary, depth, out, workers, scheduler, follow, csv, json, strict):
+    """Show which initial states of a plane spin up, and how rough the boundary is."""
+    targets = map_files.checked(out or [])
+    with basins(case, split_keys(vary or [], "KEY=FROM:TO or KEY=FROM:TO:N"), depth,
+                map_files.data_of(targets), workers, scheduler, follow) as found:
+        files = [map_files.write_basins(found, path) for path in targets]
+    write_answer(basins_shown, found, json, csv)
+    say_written(files)
+    leave_undecided(strict, strict and (basins_shown.undecided(found) or unphysical([found.plan.case])))
+
+
+def atlas(case, torque, wheel, level, refine, certify, follow, no_time, out, workers, scheduler, units, csv,
+          json, strict, **limits):
+    """Map all directions of a torque. limits: what is to be reached, by the names of the options."""
+    plan = asked(case, torque, wheel, level, refine, certify, follow, not no_time, **limits)
+    system, targets = units_of(plan.case, units), map_files.checked(out or [], map_files.PAGES)
+    with drawn(plan, targets[0] if targets else None, workers, scheduler) as found:
+        files = [map_files.write_atlas(found, target, system) for target in targets]
+    write_answer(atlas_shown, found, json, csv, system)
+    say_written(files)
+    leave_undecided(strict, strict and (atlas_shown.undecided(found) or unphysical([plan.case])))

@@ -1,0 +1,79 @@
+"""How commands write their answers: data and answers to stdout, messages to stderr; an exit code says where
+an answer falls short."""
+from __future__ import annotations
+
+import sys
+
+import typer
+
+from ..errors import UNDECIDED, Kind, ToleranceNotMet
+from ..show.data import as_json
+from ..show.endings import labelled
+from ..show.terminal import say, tell
+from ..show.text import headline
+
+
+def write(text: str):
+    """Text to stdout as it is: data, or names of files."""
+    sys.stdout.write(text.rstrip("\n") + "\n")
+    sys.stdout.flush()
+
+
+def either(json: bool, data, words):
+    """JSON to stdout, or text for people; both are functions, and one of them is called."""
+    if json:
+        write(as_json(data()))
+    else:
+        tell(words())
+
+
+def write_answer(shown, found, json: bool, csv: bool, *more):
+    """What was found by json, csv or text of `shown`; `more`: for all but csv."""
+    if json or csv:
+        write(shown.json(found, *more) if json else shown.csv(found))
+    else:
+        tell(shown.text(found, *more))
+
+
+def write_json(cases, rows):
+    """An object for a case, a list of them for the combinations of a [sweep]."""
+    write(as_json(rows if any(case.variant for case in cases) else rows[0]))
+
+
+def write_each(out, writers):
+    """Let write(path) of every (case, write) make its file; each is named."""
+    say_written(written(out, writers))
+
+
+def written(out, writers) -> list:
+    """Let write(path) of every (case, write) make its file where `out` is a name: the files."""
+    return [writer(labelled(out, case)) for case, writer in writers] if out else []
+
+
+def say_written(files):
+    """Name files that were written, a line each."""
+    for file in files:
+        say(f"written: {file}")
+
+
+def leave_undecided(strict: bool, open_: bool):
+    """Exit with 3 where strict and something is open."""
+    if strict and open_:
+        raise typer.Exit(UNDECIDED)
+
+
+def hold_laws(strict: bool, validities, cases=()):
+    """Exit with 3 where strict and a law does not hold, or no rigid body has the tensor of a case."""
+    leave_undecided(strict, strict and (headline.beyond(*validities) or unphysical(cases)))
+
+
+def unphysical(cases) -> bool:
+    """Whether no rigid body has the tensor of one of the cases."""
+    return any(one.kind is Kind.UNPHYSICAL for case in cases for one in case.caveats)
+
+
+def all_reached(short):
+    """Exit with 5 where (case, why) says that an answer falls short."""
+    lines = [f"{case.place}: {why}" for case, why in short]
+    if lines:
+        raise ToleranceNotMet("\n".join(lines))
