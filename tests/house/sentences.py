@@ -50,6 +50,10 @@ What limits an answer is a *caveat*. In JSON it stands under the key `caveats`, 
 A bound is rounded outward where it is printed: "at most" up, "at least" and "not before" down. The keys of
 quantities have all digits.
 
+Why an answer is known stands in the same form under the key `reason` (of the margins of stuck thrusters under
+`margin_reason`, of checked digits under `digits`), with `text` in place of `words`, and with the clauses that
+follow it in a list under `then`. The key `because` has all of it as one text.
+
 In the sentences below a name in code, such as `time`, is such a quantity.
 `python -m tests.house.sentences` writes this page from the package.
 """
