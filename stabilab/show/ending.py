@@ -47,7 +47,7 @@ def first(one: Ending, units: Units) -> tuple[str, str]:
     """(the time by which it has ended, all times in words) of a page at a glance."""
     value = (units.time(one.until, SHORT) if one.until is not None else
              f"about {units.time(one.estimate, 2)}" if one.estimate is not None else "not known")
-    return value, when(one, units) or one.because
+    return value, when(one, units) or units.said(one.reason)
 
 
 def _times(one: Ending, units: Units) -> list[str]:
@@ -88,7 +88,7 @@ def line(one: Ending | None, units: Units) -> str:
     if one is None:
         return ""
     if (found := words(one, units)) is None:
-        return units.words(one.because)
+        return units.said(one.reason)
     return "; ".join(filter(None, ("".join(found), when(one, units))))
 
 
@@ -101,7 +101,8 @@ def key(case: Case, one: Ending | None) -> dict[str, Any]:
     known = {name: [times[name].at, times[name].error] if name in times else None
              for name in ("leaves", "crosses", "settles", "tenth")}
     return {"ending": {
-        "kind": one.kind, "level": one.level, "because": one.because, "axis": one.axis or None,
+        "kind": one.kind, "level": one.level, "because": one.because,
+        "reason": one.reason.as_dict(), "axis": one.axis or None,
         "sense": one.sense or None, "rate": one.rate,
         "rates": one.rates and (back(case, one.rates) or list(one.rates)), "within": one.within, **known,
         "nutation": one.nutation, "growth_time": one.growth, "decay_time": one.decay,

@@ -30,6 +30,7 @@ from ...physics.coefficients import Content, content, loses
 from ...physics.scene import later, slices
 from ...physics.states import equations_and_start, moved_row, start_of
 from ...physics.to_numpy import to_numpy
+from ...reasons import Axis, Momentum, Reason, Sentence, as_reason
 from ...representation import Compared, Shown
 from ...unreduced.bounds import OPEN_DIRECTION
 from ..passage import MOVED, WIDER
@@ -49,6 +50,22 @@ POINTS = 400  # of a part of a run
 STAYS = 1e-4  # of the largest rate: what is left of a change
 STILL = 1e-9  # of the fastest eigenvalue: one that is zero
 FADED = 8.0  # time constants for which the rates stay
+NO_MOMENTUM = Sentence("no-angular-momentum", "the angular momentum is zero and stays, and the energy falls "
+                       "until all is at rest")()
+ENERGY_FALLS = Sentence("energy-only-falls",
+                        "the kinetic energy only falls, and the motion tends to rest")()
+ONE_EQUILIBRIUM = Sentence("one-equilibrium-draws", "one equilibrium draws every motion")()
+ABOUT_FIELD = Sentence(
+    "ends-about-the-field", "H . γ = {momentum} stays and the energy falls to the least at it, of rotation "
+    "about the field and {axis}, that of the largest moment, but for a set of measure zero (LaSalle)")
+RUN_TURNS = Sentence("run-ends-turning", "a run ends turning in its {side} direction")
+RESTS_UNSEEN = Sentence("rest-not-met", "it tends to rest; a run did not come near it")()
+NO_REST = Sentence("rates-do-not-stay", "where it tends is not proved, and the rates of a run of {steps} "
+                   "steps do not stay")
+RESTS_SEEN = Sentence("rest-met", "it tends to rest; a run says when it is near")()
+RUN_RESTS = Sentence("run-rests", "a run comes to rest")()
+RUN_STAYS = Sentence("run-stays", "a run comes to rates that stay, next to which no eigenvalue is on the "
+                     "right")()
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -56,7 +73,8 @@ class Ending(Shown, Compared):
     """How a motion ends that loses energy, and when.
 
     kind: "flat spin", "nutation dies out", "rest", "rotation about the field", "steady rotation" or
-    "undecided". level: of the kind and the rates, "exact", "run" or "undecided"; because: how it is known.
+    "undecided". level: of the kind and the rates, "exact", "run" or "undecided"; reason: how it is known;
+    because: the same in words, in SI units.
     axis: 1 to 3, about which it ends turning, 0 across all or at rest; minor: the axis of the least moment of
     a free body, else 0; sense: +1 or -1 of the turn, 0 where undecided. rate: |omega| in the end, rad/s;
     rates: along the principal axes, None where undecided. within: how near "settles" is: rad of nutation of a
@@ -70,7 +88,7 @@ class Ending(Shown, Compared):
 
     kind: str
     level: str
-    because: str
+    reason: Reason
     axis: int = 0
     minor: int = 0
     sense: int = 0
@@ -83,6 +101,11 @@ class Ending(Shown, Compared):
     decay: float | None = None
     at_the_latest: float | None = None
     estimate: float | None = None
+
+    @property
+    def because(self) -> str:
+        """How it is known, in words and SI units."""
+        return self.reason.text()
 
     def time(self, name: str) -> float | None:
         """One of its times, s."""
@@ -131,12 +154,11 @@ def _free(parts: Content) -> bool:
 # --- Inside a free body
 def _inside(case: Any) -> Ending:
     if not any(Spinner.made(case).momentum):
-        words = "the angular momentum is zero and stays, and the energy falls until all is at rest"
-        return Ending("rest", "exact", words, rate=0.0, rates=(0.0,) * 3)
+        return Ending("rest", "exact", NO_MOMENTUM, rate=0.0, rates=(0.0,) * 3)
     try:
         return of_spin(of_case(case, WITHIN, spans=False))
     except InputError as error:  # a liquid in moments that no rigid body has
-        return Ending("undecided", "undecided", str(error))
+        return Ending("undecided", "undecided", as_reason(str(error)))
 
 
 def of_spin(found: FlatSpin) -> Ending:
@@ -144,11 +166,13 @@ def of_spin(found: FlatSpin) -> Ending:
     names = ("leaves", "crosses", "settles", "tenth")
     ahead = [(name, one) for name in names if (one := getattr(found, name)) is not None]
     sense = 0 if found.outcome in (UNDECIDED, ACROSS) else 1 if found.outcome == POSITIVE else -1
-    drawn = [one.words for one in found.caveats if one.kind is Kind.UNCERTAIN]
+    reason = found.reason
+    for drawn in (one.reason for one in found.caveats if one.kind is Kind.UNCERTAIN):
+        reason = reason.then(drawn)
     kind = "flat spin" if found.nutation is None else "nutation dies out"
     axis = 0 if found.outcome == ACROSS else found.axis
     times = tuple(sorted(ahead, key=lambda one: one[1].at))
-    return Ending(kind, found.level, "; ".join([found.because, *drawn]), axis, found.minor, sense,
+    return Ending(kind, found.level, reason, axis, found.minor, sense,
                   found.final_rate, found.rates, found.within, times, found.nutation, found.growth,
                   found.decay)
 
@@ -162,8 +186,7 @@ def _outside(scene: Any, parts: Content, start: np.ndarray, motion: Motion) -> E
     first = float(energy(start[None])[0])
     rests = motion.invariants.get("late_rate_bound") == 0.0
     if rests and not parts.directed and not parts.inside and first > 0:
-        words = "the kinetic energy only falls, and the motion tends to rest"
-        found = Ending("rest", "exact", words, rate=0.0, rates=(0.0,) * 3)
+        found = Ending("rest", "exact", ENERGY_FALLS, rate=0.0, rates=(0.0,) * 3)
         slowest = float(decay(parts))
         latest = math.log(1 / NEAR) / slowest if slowest and not any(parts.M) else None
         return _timed(replace(found, at_the_latest=latest), scene, start, lambda y: energy(y) / first)[0]
@@ -174,7 +197,7 @@ def _outside(scene: Any, parts: Content, start: np.ndarray, motion: Motion) -> E
         end = np.array(drawn)
         apart = lambda y: (y[:, :3] - end) ** 2 @ np.array(D) / 2
         begun = float(apart(start[None])[0])
-        found = Ending("steady rotation", "exact", "one equilibrium draws every motion",
+        found = Ending("steady rotation", "exact", ONE_EQUILIBRIUM,
                        rate=math.hypot(*drawn), rates=drawn)
         return _timed(found, scene, start, lambda y: apart(y) / begun)[0] if begun > 0 else found
     return _settled(scene, start, rests)
@@ -204,10 +227,8 @@ def _about_the_field(scene: Any, parts: Content, start: np.ndarray, energy: Call
     axis = max(range(3), key=lambda i: parts.D[i])
     most = float(parts.D[axis])
     lowest, rate = p * p / (2 * most), abs(p) / most
-    words = (f"H . gamma = {p:.6g} N m s stays and the energy falls to the least at it, of rotation about "
-             f"the field and axis {axis + 1}, that of the largest moment, but for a set of measure zero "
-             "(LaSalle)")
-    found = Ending("rotation about the field", "exact", words, axis + 1, rate=rate)
+    reason = ABOUT_FIELD(momentum=Momentum(p), axis=Axis(axis + 1))
+    found = Ending("rotation about the field", "exact", reason, axis + 1, rate=rate)
     if first <= lowest * (1 + 1e-12) or not p:
         return replace(found, kind="rotation about the field" if p else "rest",
                        rates=None if p else (0.0,) * 3)
@@ -217,8 +238,7 @@ def _about_the_field(scene: Any, parts: Content, start: np.ndarray, energy: Call
     sense = 1 if late[axis] > 0 else -1
     rates = tuple(sense * rate if i == axis else 0.0 for i in range(3))
     return replace(found, level="run", sense=sense, rates=rates,
-                   because=f"{words}; a run ends turning in its {'positive' if sense > 0 else 'negative'} "
-                           "direction")
+                   reason=reason.then(RUN_TURNS(side="positive" if sense > 0 else "negative")))
 
 
 def _timed(found: Ending, scene: Any, start: np.ndarray, share: Callable[[np.ndarray], np.ndarray]
@@ -292,10 +312,8 @@ def _settled(scene: Any, start: np.ndarray, rests: bool) -> Ending:
             return _stays(times, rates, end, STAYS * largest, rests)
         length = t  # as long again
     if rests:
-        words = "it tends to rest; a run did not come near it"
-        return Ending("rest", "exact", words, rate=0.0, rates=(0.0,) * 3)
-    return Ending("undecided", "undecided",
-                  f"where it tends is not proved, and the rates of a run of {steps} steps do not stay")
+        return Ending("rest", "exact", RESTS_UNSEEN, rate=0.0, rates=(0.0,) * 3)
+    return Ending("undecided", "undecided", NO_REST(steps=steps))
 
 
 def _stays(times: np.ndarray, rates: np.ndarray, end: np.ndarray, small: float, rests: bool) -> Ending:
@@ -308,12 +326,9 @@ def _stays(times: np.ndarray, rates: np.ndarray, end: np.ndarray, small: float, 
         low, high = times[last].item(), times[last + 1].item()
         found = (("settles", Time((low + high) / 2, (high - low) / 2)),)
     if rests or size <= small:
-        known = ("exact", "it tends to rest; a run says when it is near") if rests else (
-            "run", "a run comes to rest")
+        known = ("exact", RESTS_SEEN) if rests else ("run", RUN_RESTS)
         return Ending("rest", *known, rate=0.0, rates=(0.0,) * 3, times=found)
-    return Ending("steady rotation", "run",
-                  "a run comes to rates that stay, next to which no eigenvalue is on the right",
-                  rate=size, rates=tuple(end.tolist()), times=found)
+    return Ending("steady rotation", "run", RUN_STAYS, rate=size, rates=tuple(end.tolist()), times=found)
 
 
 def _polished(form: Any, state: np.ndarray, small: float) -> np.ndarray:

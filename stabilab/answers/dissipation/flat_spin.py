@@ -41,12 +41,46 @@ from ...errors import Caveat, InputError, Kind, without
 from ...numbers.units import ANGLE, in_si
 from ...numbers.vectors import Float3, cross, dot
 from ...physics.states import moved_row
-from ...reasons import old
+from ...reasons import Angle, Axis, Quantity, Reason, Sentence
 from ...representation import Compared, Shown
 from ..caveats import caveats_of
 from ..passage import MOVED, WIDER
 from .changes import Span, spans_of
-from .spinner import Run, Spinner, after_the_separatrix
+from .spinner import ENDED, Run, Spinner, after_the_separatrix
+
+# --- Why
+NOT_KNOWN = Sentence("end-not-known", "how it ends is not known")()
+PAST = Sentence("past-the-separatrix",
+                "2 T D2 < |H|² at the start: the separatrix is crossed already, with the angular momentum on "
+                "the {side} side of {axis}, where it stays and tends to that axis")
+LEAST_ENERGY = Sentence("rotation-of-least-energy",
+                        "the start is a permanent rotation about the greatest moment, the one with the least "
+                        "energy")()
+UNSTABLE_ROTATION = Sentence(
+    "unstable-rotation", "the start is exactly the rotation about the {which} axis, an equilibrium that is "
+    "unstable: either direction of the major axis follows from a disturbance, however small; give a start "
+    "with a nutation angle")
+BY_PHASE = Sentence(
+    "ends-by-phase", "two greatest moments are equal: the energy falls to that of rotation about an axis in "
+    "their plane, and which one hangs on the phase alone: the start turned about the minor axis by an angle "
+    "ends at an axis turned by that angle")()
+PLANE_NOT_REACHED = Sentence("plane-not-reached",
+                             "two greatest moments are equal, and the angular momentum is not within "
+                             "{within} of their plane by the end of the run: {why}")
+NOT_CROSSED = Sentence("separatrix-not-crossed",
+                       "the separatrix is not crossed by the end of the run: {why}")
+BETWEEN_DIRECTIONS = Sentence(
+    "between-directions", "the start is within rounding of the boundary between the two directions: a run "
+    "and a second one, from a start moved by {moved} in its last place with tolerance {tolerance}, end at "
+    "opposite directions of the major axis")
+CROSSES = Sentence(
+    "crosses-the-separatrix", "2 T D2 falls below |H|² with the angular momentum on the {side} side of "
+    "{axis}; from then on it cannot cross, and tends to that axis; a second run, from a start moved by "
+    "{moved} in its last place with tolerance {tolerance}, agrees")
+ENDS_DRAWN = Sentence("ends-drawn", "of {drawn} motions drawn from their box {positive} end about the "
+                      "positive and {negative} about the negative side of {axis}")
+OPEN_OVER_BOX = Sentence("end-open-over-box", "the uncertain numbers leave it open: {found}")
+SAME_OVER_BOX = Sentence("end-over-box-by-samples", "uncertain numbers: {found}; samples, no proof")
 
 # --- The answer
 POSITIVE, NEGATIVE = "positive major axis", "negative major axis"
@@ -67,11 +101,11 @@ class FlatSpin(Shown, Compared):
     """What internal dissipation makes of a spin.
 
     outcome: "positive major axis", "negative major axis", "across the minor axis" (two greatest moments are
-    equal: about some axis in their plane) or "undecided"; because: how it is known, or why it is not; level:
-    "exact", "run" (a run and a second one agree) or "undecided". axis: of the greatest moment, 1 to 3, and
-    minor: of the least; momentum: |H|, N m s; final_rate: |H|/(greatest moment), rad/s; rates: rad/s, along
-    the principal axes, at the end, None where it is undecided or across. energy, final_energy: J, now and at
-    the end.
+    equal: about some axis in their plane) or "undecided"; reason: how it is known, or why it is not; because:
+    the same in words, in SI units; level: "exact", "run" (a run and a second one agree) or "undecided". axis:
+    of the greatest moment, 1 to 3, and minor: of the least; momentum: |H|, N m s; final_rate: |H|/(greatest
+    moment), rad/s; rates: rad/s, along the principal axes, at the end, None where it is undecided or across.
+    energy, final_energy: J, now and at the end.
 
     The nutation angle is that of the polhode: the largest angle between the angular momentum and an axis in
     the free motion of the same T and |H|. leaves: when it exceeds `within`, rad, from the minor axis;
@@ -84,7 +118,7 @@ class FlatSpin(Shown, Compared):
     """
 
     outcome: str
-    because: str
+    reason: Reason
     level: str
     axis: int
     minor: int
@@ -104,6 +138,11 @@ class FlatSpin(Shown, Compared):
     spans: tuple[Span, ...] = ()
     steps: int = 0
     caveats: tuple[Caveat, ...] = field(default=(), repr=False)
+
+    @property
+    def because(self) -> str:
+        """How it is known, or why it is not, in words and SI units."""
+        return self.reason.text()
 
     @property
     def lost(self) -> float:
@@ -163,13 +202,11 @@ def _over_the_box(case: Any, found: FlatSpin) -> FlatSpin:
         side = (spinner.momentum[found.axis - 1] if found.crosses is None
                 else after_the_separatrix(spinner, spinner.start, found.crosses.at)[0])
         ends[POSITIVE if side > 0 else NEGATIVE] += 1
-    told = (f"of {drawn} motions drawn from their box {ends[POSITIVE]} end about the positive and "
-            f"{ends[NEGATIVE]} about the negative side of axis {found.axis}")
+    seen = ENDS_DRAWN(drawn=drawn, positive=ends[POSITIVE], negative=ends[NEGATIVE], axis=Axis(found.axis))
     if all(ends.values()):
         return replace(found, outcome=UNDECIDED, level="undecided", rates=None,
-                       because=f"the uncertain numbers leave it open: {told}")
-    return replace(found, caveats=(*found.caveats, Caveat(
-        Kind.UNCERTAIN, old(f"uncertain numbers: {told}; samples, no proof"))))
+                       reason=OPEN_OVER_BOX(found=seen))
+    return replace(found, caveats=(*found.caveats, Caveat(Kind.UNCERTAIN, SAME_OVER_BOX(found=seen))))
 
 
 def _answered(spinner: Spinner, angle: float, spans: bool) -> FlatSpin:
@@ -178,40 +215,39 @@ def _answered(spinner: Spinner, angle: float, spans: bool) -> FlatSpin:
     size, axis = spinner.size, spinner.order[0]
     growth, decay = spinner.constants
     found = FlatSpin(
-        UNDECIDED, "", "undecided", axis + 1, spinner.order[2] + 1, size, size / float(D1), None,
+        UNDECIDED, NOT_KNOWN, "undecided", axis + 1, spinner.order[2] + 1, size, size / float(D1), None,
         float(spinner.energy), float(dot(spinner.momentum, spinner.momentum) / (2 * D1)), angle,
         growth=growth, decay=decay)
     if not any(spinner.sigma) and not any(cross(spinner.momentum, spinner.omega)):  # nothing changes
         return _at_rest(spinner, found)
     if spinner.ratio * D2 < 1 and D1 > D2:
-        found = _ended(found, spinner.momentum[axis], "exact",
-                       "2 T D2 < |H|^2 at the start: the separatrix is crossed already, with the angular "
-                       "momentum on the {} side of axis {}, where it stays and tends to that axis")
+        direction = spinner.momentum[axis]
+        found = _ended(found, direction, "exact", PAST(side=_side(direction), axis=Axis(axis + 1)))
     return _timed(spinner, found, angle, spans)
 
 
-def _ended(found: FlatSpin, direction: Fraction | int, level: str, words: str) -> FlatSpin:
-    """With the rates at the end; words: why, with places for the side and the number of the axis."""
-    sign, side = (1, "positive") if direction > 0 else (-1, "negative")
+def _side(direction: Fraction | int) -> str:
+    return "positive" if direction > 0 else "negative"
+
+
+def _ended(found: FlatSpin, direction: Fraction | int, level: str, reason: Reason) -> FlatSpin:
+    """With the rates at the end; reason: why."""
+    sign = 1 if direction > 0 else -1
     rates = tuple(sign * found.final_rate if i == found.axis - 1 else 0.0 for i in range(3))
     return replace(found, outcome=POSITIVE if sign > 0 else NEGATIVE, rates=rates, level=level,
-                   because=words.format(side, found.axis))
+                   reason=reason)
 
 
 def _at_rest(spinner: Spinner, found: FlatSpin) -> FlatSpin:
     """A permanent rotation: of the greatest moment it stays for ever; any other is unstable."""
     D1, D2, _ = spinner.moments
     if spinner.ratio * D1 == 1:
-        words = "the start is a permanent rotation about the greatest moment, the one with the least energy"
         if D1 == D2:
-            return replace(found, outcome=ACROSS, level="exact", because=words,
+            return replace(found, outcome=ACROSS, level="exact", reason=LEAST_ENERGY,
                            rates=tuple(map(float, spinner.omega)))
-        return _ended(found, spinner.momentum[spinner.order[0]], "exact", words)
+        return _ended(found, spinner.momentum[spinner.order[0]], "exact", LEAST_ENERGY)
     name = "minor" if spinner.ratio * spinner.moments[2] == 1 else "intermediate"
-    return replace(found, because=(
-        f"the start is exactly the rotation about the {name} axis, an equilibrium that is unstable: either "
-        "direction of the major axis follows from a disturbance, however small; give a start with a nutation "
-        "angle"))
+    return replace(found, reason=UNSTABLE_ROTATION(which=name))
 
 
 def _dying(spinner: Spinner, settled: float) -> float | None:
@@ -251,24 +287,18 @@ def _timed(spinner: Spinner, found: FlatSpin, angle: float, spans: bool) -> Flat
                     caveats=caveats_of(spinner.scene, validity=first.validity), **times)
     if found.outcome != UNDECIDED:
         return found
-    why = first.why or runs[1].why
+    why = first.why or runs[1].why or ENDED
     if D1 == D2:
-        return found if "settles" not in seen[0] else replace(
-            found, outcome=ACROSS, level="run",
-            because="two greatest moments are equal: the energy falls to that of rotation about an axis in "
-                    "their plane, and which one hangs on the phase alone: the start turned about the minor "
-                    "axis by an angle ends at an axis turned by that angle")
+        return (replace(found, reason=PLANE_NOT_REACHED(within=Angle(angle), why=why))
+                if "settles" not in seen[0]
+                else replace(found, outcome=ACROSS, level="run", reason=BY_PHASE))
     if "crosses" not in seen[0] or "crosses" not in seen[1]:
-        return replace(found, because=f"the separatrix is not crossed by the end of the run: {why}")
+        return replace(found, reason=NOT_CROSSED(why=why))
+    second = {"moved": int(MOVED), "tolerance": Quantity(SECOND_RTOL, digits=1)}
     if directions[0] != directions[1]:
-        return replace(found, because=(
-            "the start is within rounding of the boundary between the two directions: a run and a second "
-            f"one, from a start moved by {MOVED:.0f} in its last place with tolerance {SECOND_RTOL:.0e}, end "
-            "at opposite directions of the major axis"))
-    words = ("2 T D2 falls below |H|^2 with the angular momentum on the {} side of axis {}; from then on it "
-             "cannot cross, and tends to that axis; a second run, from a start moved by "
-             f"{MOVED:.0f} in its last place with tolerance {SECOND_RTOL:.0e}, agrees")
-    found = _ended(found, directions[0], "run", words)
+        return replace(found, reason=BETWEEN_DIRECTIONS(**second))
+    found = _ended(found, directions[0], "run",
+                   CROSSES(side=_side(directions[0]), axis=Axis(found.axis), **second))
     if found.crosses is None or not spans:
         return found
     return replace(found, spans=spans_of(spinner, found.crosses.at, found.steps, SPAN_STEPS))

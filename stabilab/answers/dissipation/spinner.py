@@ -19,11 +19,16 @@ from ...physics.effects.base import effect_words
 from ...physics.scene import Scene, slices
 from ...physics.states import body_momentum, equations_and_start, start_of
 from ...physics.to_numpy import to_numpy
+from ...reasons import Quantity, Reason, Sentence, Time, as_reason
 from ..simulate import trajectory
 
 STEPS = 5_000_000  # of a run: some ten seconds
 PATIENCE = 4  # times STEPS: a forecast beyond that ends a run
 POINTS = 200  # of a part of a run
+ENDED = Sentence("run-ended", "it ended before")()
+TOO_LONG = Sentence("run-too-long", "it would take some {steps} steps, {time} of the motion")
+NOT_ENOUGH = Sentence("run-not-enough", "{steps} steps, to t = {time}, were not enough: 2 T/|H|² is still "
+                      "{above} above the level")
 
 
 @dataclass(frozen=True)
@@ -176,7 +181,8 @@ class Run:
 
     def __init__(self, spinner: Spinner, state: np.ndarray, rtol: float | None, most: int = STEPS) -> None:
         self.spinner, self.state, self.rtol, self.most = spinner, state, rtol, most
-        self.t, self.steps, self.why, self.validity = 0.0, 0, "", None
+        self.t, self.steps, self.validity = 0.0, 0, None
+        self.why: Reason | None = None
         self.length = 100 / float(np.linalg.norm(state[:3]))
 
     def over(self, state: np.ndarray, times: np.ndarray) -> Any:
@@ -188,7 +194,7 @@ class Run:
             times = np.linspace(0.0, self.length, POINTS + 1)
             run = self.over(self.state, times)
             if run.status != "reached":
-                self.why = run.reason
+                self.why = as_reason(run.reason)
                 return None
             taken = max(1, run.counters["steps"])
             self.steps, self.validity = self.steps + taken, run.validity
@@ -198,12 +204,12 @@ class Run:
             self.t, self.state = self.t + self.length, run.states[-1]
             wait = self.spinner.ahead(float(self.spinner.ratios(self.state)), level)
             if (more := wait * taken / self.length) > PATIENCE * self.most:
-                self.why = f"it would take some {more:.1g} steps, {wait:.1g} s of the motion"
+                self.why = TOO_LONG(steps=Quantity(more, digits=1), time=Time(wait, digits=1))
                 return None
             self.length *= min(2.0, max(0.1, (self.most - self.steps) / taken))
         ahead = float(self.spinner.ratios(self.state)) - level
-        self.why = (f"{self.steps} steps, to t = {self.t:.6g} s, were not enough: 2 T/|H|^2 is still "
-                    f"{ahead:.3g}/(kg m^2) above the level")
+        self.why = NOT_ENOUGH(steps=self.steps, time=Time(self.t),
+                              above=Quantity(ahead, "1/(kg m^2)", digits=3))
         return None
 
     def _land(self, states: np.ndarray, times: np.ndarray, at: int, level: float) -> float:

@@ -199,7 +199,7 @@ def facts(case, motion, units) -> list[tuple[str, str]]:
     at = state(motion.at, units, case.scene.blocks)
     found += [("start", f"{at} at {'tau' if units.scaled else 't'} = 0")]
     found += [("because", units.said(motion.reason).removeprefix("undecided: "))]
-    found += [] if motion.ending is None else [("its end", words(motion.ending.because))]
+    found += [] if motion.ending is None else [("its end", units.said(motion.ending.reason))]
     explained = EXPLAINED | ({"margin, rate": ""} if motion.velocity_because else {})
     found += [(name, told + explained.get(name, "")) for name, told in margins(motion, units)]
     found += [("margin, rate", words(motion.velocity_because))] if motion.velocity_because else []

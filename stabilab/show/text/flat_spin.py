@@ -8,7 +8,7 @@ from ...representation import values_of
 from .. import ending, limiting
 from ..axes import Axes, axes_of
 from ..units import DIGITS, Units, number
-from .motion import in_file, reason, row
+from .motion import in_file, row
 
 NAMES = {"phase": "phase", "nutation": "nutation angle", "coefficient": "the damper's coefficient alone",
          "inertia": "the sphere's moment of inertia alone, the moments of the whole as they are",
@@ -23,6 +23,7 @@ def flat_spin_dict(case, found) -> dict:
     times = {name: one and [one.at, one.error]
              for name, one in values_of(found, "leaves crosses settles tenth").items()}
     return {"schema": "stabilab.flat_spin/1", "case": case.name, **values_of(found, "outcome level because"),
+            "reason": found.reason.as_dict(),
             "minor_axis": found.minor, **values_of(found, "momentum final_rate"),
             "final_rates": found.rates and in_file(case, found.rates),
             **values_of(found, "energy final_energy"), "energy_lost": found.lost, "within": found.within,
@@ -62,7 +63,7 @@ def flat_spin_text(case, found, units: Units) -> str:
                          if ends else f"no change of {NAMES[one.name]} that was looked at"))
     if found.steps:
         lines.append(row("cost", f"{found.steps} steps"))
-    return "\n".join([*lines, f"why: {reason(found.because, units)}"])
+    return "\n".join([*lines, f"why: {units.said(found.reason)}"])
 
 
 def _headline(found, axes: Axes, units: Units) -> str:

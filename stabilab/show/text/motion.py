@@ -141,7 +141,7 @@ def why(case, motion, units: Units, proofs: bool) -> list[str]:
     """The reason; with `proofs` also what is not known of the margin, invariants, and what a run showed."""
     lines = [f"why: {units.said(motion.reason)}"]
     if motion.ending is not None:
-        lines.append(f"  its end: {reason(motion.ending.because, units)}")
+        lines.append(f"  its end: {units.said(motion.ending.reason)}")
     if proofs and motion.velocity_because:
         rate = "" if motion.velocity_bounds else "margin, rate: "
         lines.append(f"  {rate}{reason(motion.velocity_because, units)}")
