@@ -37,7 +37,7 @@ from ...orbit.potential import derivatives_on_parabola
 from ...orbit.reduction import Reduction, reduce, reduction_about
 from ...orbit.result import Fate
 from ...physics.scene import QuadraticForm
-from ...reasons import Sentence, old
+from ...reasons import Axis, Reason, Sentence, as_reason
 from ..equilibria import equilibria
 from ..kinds import kind_of
 from ..motions.rows import fates
@@ -62,6 +62,7 @@ from .geometries import margins as margins_of
 from .neighbours import beside
 from .result import (
     FEWER,
+    SPIN_UPS,
     STRETCHES,
     UNKNOWN,
     Answer,
@@ -71,10 +72,78 @@ from .result import (
     Witness,
     bracketed,
     confirmed,
+    joined,
     nearest_change,
+    reason_of,
     worst,
 )
 from .search import FEW, by_sample, by_trial
+
+# --- What happens where a condition of the equilibria vanishes
+TORQUE_VANISHES = Sentence("torque-vanishes", "the torque about {axis} vanishes")
+MOMENTUM_VANISHES = Sentence("momentum-vanishes", "the gyrostatic moment along {axis} vanishes")
+TWO_EQUAL = Sentence("two-moments-equal", "moments {first} and {second} are equal")
+TORQUE_ON_AXIS = Sentence("torque-on-axis", "the torque comes to lie along a principal axis")()
+ONE_AT_INFINITY = Sentence("one-through-infinity",
+                           "one of the equilibria passes through infinity")()
+ONLY_AT_INFINITY = Sentence("only-one-through-infinity", "the equilibrium passes through infinity")()
+FOLD = Sentence("two-meet-in-fold", "two equilibria meet in a fold")()
+LINE_APPEARS = Sentence("line-appears", "a line of equilibria appears")()
+ACROSS_EQUAL = Sentence("moments-across-equal", "the two moments across the torque are equal")()
+HYPERBOLA_SPLITS = Sentence("hyperbola-splits",
+                            "the hyperbola of equilibria falls apart into two lines")()
+FOLD_AT_INFINITY = Sentence("fold-through-infinity", "a fold passes through infinity")()
+SOME_EQUAL = Sentence("some-moments-equal", "two moments are equal")()
+FOLDS_MEET = Sentence("folds-meet", "two folds meet and vanish")()
+ACROSS_VANISHES = Sentence("momentum-across-vanishes",
+                           "the gyrostatic moment across the torque vanishes")()
+ALL_EQUAL = Sentence("all-moments-equal", "all three moments are equal")()
+LINE_CHANGES = Sentence("line-changes-stability", "the whole line changes its stability")()
+
+# --- How the equilibria over a box are known
+FREE_WITH_WHEEL = Sentence(
+    "free-with-wheel-over-box", "without a torque, and with a gyrostatic moment, the stability along the "
+    "curve of equilibria is not followed over a box")()
+EQUAL_PLANE = Sentence("torque-across-equal-moments",
+                       "the torque lies across the axes in the plane of two equal moments")()
+NONE_OF_EQUILIBRIA = Sentence("none-for-equilibria",
+                              "no uncertain number has a part in the equilibria")()
+NO_PART = Sentence("no-part-in-equilibria", "the uncertain numbers have no part in the equilibria")()
+AXES_TURN = Sentence("axes-turn-over-box", "within the uncertainties the principal axes turn with the "
+                     "tensor, and no proof follows that turn")()
+AT_MIDDLE = Sentence("vanishes-at-middle", "at the middle itself {what}")
+SIGNS_STAY = Sentence("signs-stay", "no quantity that they hang on changes its sign within the box")()
+WHERE = Sentence("but-where", "where {what}")
+
+# --- How the fate over a box is known
+OFF_AXES = Sentence(
+    "torque-off-axes-over-box", "the torque may act about {axes} together, off the principal axes, where "
+    "motions are followed one by one: the middle's answer is no proof for the box")
+GEOMETRY_CHANGES = Sentence(
+    "geometry-changes-over-box", "two of the moments of inertia may be equal within the box, where the "
+    "geometry of the motion changes from circles to hyperbolas: no proof is known")()
+ON_SEPARATRIX = Sentence("middle-on-separatrix", "the middle lies on the separatrix itself")()
+ON_SADDLE = Sentence("middle-on-saddle",
+                     "the middle is bounded as it is, at rest on a saddle or without a torque")()
+ONE_SIDE = Sentence("one-side-found", "and only one side of it was found")()
+MEASURE_ZERO = Sentence("middle-of-measure-zero", "the middle lies on a set of measure zero, and no proof "
+                        "covers what is around it")()
+SAME_FORCE = Sentence("same-force-along-parabola", "where the force is the same all along the parabola, "
+                      "nothing holds the spin back")()
+ON_PLANE = Sentence("box-on-plane", "every motion of the box lies on an invariant plane Q = 0, where a "
+                    "barrier decides, and the plane's motions are not followed over a box")()
+MEETS_PLANE = Sentence("box-meets-plane", "the box meets an invariant plane Q = 0, where a motion may spin "
+                       "up or tend to a saddle")()
+AXIS_OPEN = Sentence("axis-open-over-box", "the axis it ends about is not followed over the box")()
+MAY_VANISH = Sentence(
+    "momentum-may-vanish", "the gyrostatic moment along {axis}, the torque's, may vanish or not: where it "
+    "does not, there is no reduction to one degree of freedom, and no motion is bounded")
+BY_SAMPLES = Sentence("box-by-samples",
+                      "{question} over the uncertain numbers by samples, not by proof: {found}")
+ELSEWHERE = Sentence("box-elsewhere", "within the uncertainties {what}")
+NOT_THE_SAME = Sentence("box-not-the-same",
+                        "{question} not the same for all that the uncertain numbers may be: also {others}")
+LEFT_OPEN = Sentence("box-undecided", "{question} undecided over the uncertain numbers: {why}")
 
 
 # --- Equilibria
@@ -83,12 +152,16 @@ class Condition(NamedTuple):
     the answer is the same on both sides of that surface, and only on the surface itself another."""
 
     value: Number
-    what: str
+    what: Reason
     passes: bool = False
 
 
 class Unknown(Exception):
-    """Scenes whose equilibria have no such list here; the text says which."""
+    """Scenes whose equilibria have no such list here; reason: which."""
+
+    def __init__(self, reason: Reason) -> None:
+        super().__init__(str(reason))
+        self.reason = reason
 
 
 def conditions(box: Box, numbers: Numbers) -> list[Condition]:
@@ -98,12 +171,12 @@ def conditions(box: Box, numbers: Numbers) -> list[Condition]:
     D, lam, M = _balance(box, numbers, form)
     if not acting:
         return _free(D, lam)
-    torque = [Condition(M[i], f"the torque about axis {i + 1} vanishes") for i in acting]
+    torque = [Condition(M[i], TORQUE_VANISHES(axis=Axis(i + 1))) for i in acting]
     if len(acting) > 1:
         return _off_axis(D, lam, M, acting)
     axis = acting[0]
     if present(lam[axis]):
-        return torque + [Condition(lam[axis], f"the gyrostatic moment along axis {axis + 1} vanishes")]
+        return torque + [Condition(lam[axis], MOMENTUM_VANISHES(axis=Axis(axis + 1)))]
     reduction: Any = reduction_about(form, axis)  # a torque on an axis without momentum along it has one
     return torque + (_conic(reduction) if present(reduction.kappa) else _line(reduction))
 
@@ -125,17 +198,16 @@ def _balance(box: Box, numbers: Numbers, form: QuadraticForm) -> tuple[Triple, T
 
 def _free(D: Sequence[Number], lam: Sequence[Number]) -> list[Condition]:
     if any(map(present, lam)):
-        raise Unknown("without a torque, and with a gyrostatic moment, the stability along the curve of "
-                      "equilibria is not followed over a box")
+        raise Unknown(FREE_WITH_WHEEL)
     pairs = [(i, j) for i, j in ((0, 1), (1, 2), (2, 0)) if present(D[i] - D[j])]
-    return [Condition(D[i] - D[j], f"moments {i + 1} and {j + 1} are equal") for i, j in pairs]
+    return [Condition(D[i] - D[j], TWO_EQUAL(first=i + 1, second=j + 1)) for i, j in pairs]
 
 
 def _off_axis(D: Sequence[Number], lam: Sequence[Number], M: Sequence[Number],
               acting: Sequence[int]) -> list[Condition]:
     """Of a torque about several axes: the signs of the quadratic on the line along v."""
     if not any(present(D[i] - D[acting[0]]) for i in acting[1:]):
-        raise Unknown("the torque lies across the axes in the plane of two equal moments")
+        raise Unknown(EQUAL_PLANE)
     gaps = [D[j] - D[k] for j, k in CYCLE]
     v = [-(M[j] * M[k] * gaps[i]) for i, (j, k) in enumerate(CYCLE)]
     area = sum((squared(c) for c in v), Fraction(0))
@@ -146,13 +218,13 @@ def _off_axis(D: Sequence[Number], lam: Sequence[Number], M: Sequence[Number],
     turn = lambda x: dot(M, cross(lam, x))
     q2, q1 = pair(v, v), pair(v, foot) + pair(foot, v) + turn(v)
     q0 = pair(foot, foot) + turn(foot) + sum((squared(m) for m in M), Fraction(0))
-    plane = Condition(area, "the torque comes to lie along a principal axis")
+    plane = Condition(area, TORQUE_ON_AXIS)
     if present(q2):
-        return [plane, Condition(q2, "one of the equilibria passes through infinity", True),
-                Condition(squared(q1) - 4 * (q2 * q0), "two equilibria meet in a fold")]
+        return [plane, Condition(q2, ONE_AT_INFINITY, True),
+                Condition(squared(q1) - 4 * (q2 * q0), FOLD)]
     if present(q1):
-        return [plane, Condition(q1, "the equilibrium passes through infinity", True)]
-    return [plane, Condition(q0, "a line of equilibria appears")]
+        return [plane, Condition(q1, ONLY_AT_INFINITY, True)]
+    return [plane, Condition(q0, LINE_APPEARS)]
 
 
 def _conic(r: Reduction) -> list[Condition]:
@@ -165,13 +237,12 @@ def _conic(r: Reduction) -> list[Condition]:
     first = 256 * (p * q) * squared(p * q) * squared(N) - 192 * (squared(p * q) * PQ * N)
     second = 27 * squared(p * Q2) + 6 * (p * q) * (P2 * Q2) + 27 * squared(q * P2)
     disc = (first - second) * N - 4 * PQ * squared(PQ)
-    found = [Condition(k, "the two moments across the torque are equal"),
-             Condition(N, "the hyperbola of equilibria falls apart into two lines")]
+    found = [Condition(k, ACROSS_EQUAL),
+             Condition(N, HYPERBOLA_SPLITS)]
     for lead, low in ((p, P), (q, Q)):
-        found += [Condition(value, "a fold passes through infinity" if value is low
-                            else "two moments are equal")
+        found += [Condition(value, FOLD_AT_INFINITY if value is low else SOME_EQUAL)
                   for value in (lead if present(lead) else low,) if present(value)]
-    return found + ([Condition(disc, "two folds meet and vanish")] if present(disc) else [])
+    return found + ([Condition(disc, FOLDS_MEET)] if present(disc) else [])
 
 
 def _line(r: Reduction) -> list[Condition]:
@@ -179,11 +250,11 @@ def _line(r: Reduction) -> list[Condition]:
     across = squared(r.rho) + squared(r.sigma)
     if not present(across):
         return []
-    found = [Condition(across, "the gyrostatic moment across the torque vanishes")]
+    found = [Condition(across, ACROSS_VANISHES)]
     if present(r.p):
-        return found + [Condition(r.p, "all three moments are equal")]
+        return found + [Condition(r.p, ALL_EQUAL)]
     level = r.rho * r.q0 + r.sigma * r.p0
-    return found + ([Condition(level, "the whole line changes its stability")] if present(level) else [])
+    return found + ([Condition(level, LINE_CHANGES)] if present(level) else [])
 
 
 def equilibria_over(box: Box) -> Over:
@@ -194,14 +265,13 @@ def equilibria_over(box: Box) -> Over:
     look = lambda point: (signature_at(box, point), np.nan)
     here, _ = look(np.zeros(len(box.places)))
     if not box.places:
-        return Over("holds", here, "no uncertain number has a part in the equilibria", proved=np.inf)
+        return Over("holds", here, NONE_OF_EQUILIBRIA, proved=np.inf)
     if box.frame is not None:
-        return by_sample(box, here, look, "within the uncertainties the principal axes turn with the tensor, "
-                                          "and no proof follows that turn", FEW)
+        return by_sample(box, here, look, AXES_TURN, FEW)
     try:
         return _by_conditions(box, here, look)
     except Unknown as unknown:
-        return by_trial(box, here, look, str(unknown), most=FEW)
+        return by_trial(box, here, look, unknown.reason, most=FEW)
 
 
 def signature_at(box: Box, point: Point) -> str | None:
@@ -240,18 +310,17 @@ def _by_conditions(box: Box, here: Any, look: Look) -> Over:
         return np.where(odd, UNKNOWN, sum(3**k * (sign + 1) for k, sign in enumerate(signs)))
 
     if not first:
-        return Over("holds", here, "the uncertain numbers have no part in the equilibria", proved=np.inf)
+        return Over("holds", here, NO_PART, proved=np.inf)
     if 0 in signs:
-        vanishing = "; ".join(c.what for c, sign in zip(first, signs) if not sign)
-        return by_trial(box, here, look, f"at the middle itself {vanishing}", most=FEW)
+        vanishing = joined((c.what for c, sign in zip(first, signs) if not sign), "; ")
+        return by_trial(box, here, look, AT_MIDDLE(what=vanishing), most=FEW)
     answer: Answer = lambda point: look(point)[0]
     change = nearest_change(box, codes, answer, here)
     strict, passing = partial(_proof, all_of, box, first, signs), [c for c in first if c.passes]
-    found = bracketed(box, here, answer, change, partial(strict, passes=True),
-                      "no quantity that they hang on changes its sign within the box")
+    found = bracketed(box, here, answer, change, partial(strict, passes=True), SIGNS_STAY)
     if found.answer != "holds" or not passing or strict(1.0, FEWER).holds:
         return found
-    return Over(**{**vars(found), "but": "; ".join(f"where {c.what}" for c in passing)})
+    return replace(found, exception=joined((WHERE(what=c.what) for c in passing), "; "))
 
 
 def _conditions(box: Box, centres: np.ndarray, widths: np.ndarray, stretch: float = 1.0) -> list[Condition]:
@@ -299,31 +368,25 @@ def _fate_over(box: Box) -> Over:
     look = partial(look_at, box)
     answer: Answer = lambda point: look(point)[0]
     if box.frame is not None:
-        return by_sample(box, answer(np.zeros(len(box.places))), look,
-                         "within the uncertainties the principal axes turn with the tensor, and no proof "
-                         "follows that turn")
+        return by_sample(box, answer(np.zeros(len(box.places))), look, AXES_TURN)
     numbers = _root(box)
     form = box.rates(numbers)
     acting = [i for i in range(3) if present(form.m[i])]
     here = answer(np.zeros(len(box.places)))
     if not acting:
-        return Over("holds", here, REASONS[Basis.TORQUE_FREE].text(), proved=np.inf)
+        return Over("holds", here, REASONS[Basis.TORQUE_FREE], proved=np.inf)
     if len(acting) > 1:
-        axes = " and ".join(str(i + 1) for i in acting)
-        because = (f"the torque may act about axes {axes} together, off the principal axes, where motions "
-                   "are followed one by one: the middle's answer is no proof for the box")
+        reason = OFF_AXES(axes=tuple(Axis(i + 1) for i in acting))
         within = _on_an_axis(box, form, acting)
         if within is not None and within.answer == "depends":
-            return replace(within, because=f"{because}; {within.because}", proved=0.0)
-        return by_sample(box, here, look, because, FEW)
+            return replace(within, reason=reason.then(within.reason), proved=0.0)
+        return by_sample(box, here, look, reason, FEW)
     reduction = reduction_about(form, acting[0])
     if reduction is None:
         return _under_law(box, look, numbers, form, acting[0])
     signs = _signs(reduction)
     if signs is None:
-        return by_trial(box, here, look, "two of the moments of inertia may be equal within the box, where "
-                                         "the geometry of the motion changes from circles to hyperbolas: no "
-                                         "proof is known", _over_geometries(box, here, answer, acting[0]))
+        return by_trial(box, here, look, GEOMETRY_CHANGES, _over_geometries(box, here, answer, acting[0]))
     if signs[0] * signs[1] >= 0:
         return _between_walls(box, here, look, reduction, numbers, signs)
     return _on_circles(box, here, answer, Family(box, acting[0], signs))
@@ -387,7 +450,7 @@ def words(label: Fate, axis: int, sense: int) -> str:
     if label == Fate.EQUILIBRIUM:
         return Fate.BOUNDED.word
     if label == Fate.SPIN_UP and axis:
-        return f"spin-up about axis {axis}, {'positive' if sense > 0 else 'negative'} direction"
+        return str(SPIN_UPS[axis, 1 if sense > 0 else -1])
     return label.word
 
 
@@ -432,14 +495,13 @@ def _on_circles(box: Box, here: Any, answer: Answer, family: Family) -> Over:
                 worst(_sided(family.margins, 1 if steady else -1), len(box.places))]
     change = nearest_change(box, codes, answer, here, favoured)
     return bracketed(box, here, answer, change, attempt,
-                     REASONS[Basis.BELOW_BARRIER if claim == "bounded" else Basis.ABOVE_BARRIER].text())
+                     REASONS[Basis.BELOW_BARRIER if claim == "bounded" else Basis.ABOVE_BARRIER])
 
 
 def _tie(box: Box, here: Any, answer: Answer, corners: Sequence[np.ndarray]) -> Over:
     """The middle lies on the separatrix (or at rest on a saddle): what lies on either side."""
     n = len(box.places)
-    because = ("the middle lies on the separatrix itself" if here == Fate.SEPARATRIX.word
-               else "the middle is bounded as it is, at rest on a saddle or without a torque")
+    reason = ON_SEPARATRIX if here == Fate.SEPARATRIX.word else ON_SADDLE
     sides: dict[str, Any] = {}
     for stretch in STRETCHES:
         for direction in (*corners, *np.eye(n), *-np.eye(n)):
@@ -447,12 +509,12 @@ def _tie(box: Box, here: Any, answer: Answer, corners: Sequence[np.ndarray]) -> 
             if word not in (None, Fate.SEPARATRIX.word):
                 sides.setdefault(word, Witness(word, box.values(direction * stretch)))
         if len(sides) > 1:
-            return Over("depends", here, because, changes_at=0.0, witnesses=tuple(sides.values()))
+            return Over("depends", here, reason, changes_at=0.0, witnesses=tuple(sides.values()))
     other = sides.get(next((word for word in sides if word != here), ""))
     if other and here != Fate.SEPARATRIX.word:
         middle = Witness(here, box.values(np.zeros(n)))
-        return Over("depends", here, because, changes_at=0.0, witnesses=(middle, other))
-    return Over("undecided", here, f"{because}, and only one side of it was found")
+        return Over("depends", here, reason, changes_at=0.0, witnesses=(middle, other))
+    return Over("undecided", here, reason.then(ONE_SIDE, ", "))
 
 
 def _senses(box: Box, family: Family, stretch: float) -> tuple[int, ...] | None:
@@ -487,24 +549,18 @@ def _between_walls(box: Box, here: Any, look: Look, r: Reduction, numbers: Numbe
              else derivatives_on_parabola(r, state[r.j], state[r.k]))
     if here != Fate.BOUNDED.word:
         if not any(map(present, loose)) and here.startswith("spin-up") and _sign(r.m):
-            return Over("holds", here, REASONS[Basis.PURE_SPIN].text(), proved=1.0)
-        return by_trial(box, here, look,
-                        "the middle lies on a set of measure zero, and no proof covers what is around it")
+            return Over("holds", here, REASONS[Basis.PURE_SPIN], proved=1.0)
+        return by_trial(box, here, look, MEASURE_ZERO)
     if not curved:
-        return Over("holds", here, REASONS[Basis.WALLS].text(), proved=1.0,
-                    but="where the force is the same all along the parabola, nothing holds the spin back")
+        return Over("holds", here, REASONS[Basis.WALLS], proved=1.0, exception=SAME_FORCE)
     u, v = loose
     certain = not any(isinstance(n, Affine) for n in (u, v, r.p, r.q))
     if certain and v * v * abs(r.p) == u * u * abs(r.q):
-        return by_sample(box, here, look,
-                         "every motion of the box lies on an invariant plane Q = 0, where a barrier decides, "
-                         "and the plane's motions are not followed over a box")
+        return by_sample(box, here, look, ON_PLANE)
     with np.errstate(all="ignore"):
         orbit = orbit_of(r, state, signs)
         clear = all(_sign(lifted(side)) for side in (orbit.x + orbit.z, orbit.x - orbit.z))
-    but = ("" if clear
-           else "the box meets an invariant plane Q = 0, where a motion may spin up or tend to a saddle")
-    return Over("holds", here, REASONS[Basis.WALLS].text(), proved=1.0, but=but)
+    return Over("holds", here, REASONS[Basis.WALLS], proved=1.0, exception=None if clear else MEETS_PLANE)
 
 
 # -- no reduction
@@ -514,25 +570,13 @@ def _under_law(box: Box, look: Look, numbers: Numbers, form: QuadraticForm, axis
     """A gyrostatic moment along the torque: |H|^2/2 - D_i T grows at the rate lambda_i M_i."""
     along = numbers["momentum"][axis] if box.variables == "physical" else -form.sigma[1] - form.rho[2]
     if _sign(along * form.m[axis]):
-        return Over("holds", UNBOUNDED,
-                    f"{REASONS[Basis.UNBOUNDED_LAW].text()}; the axis it ends about is not followed over "
-                    "the box",
-                    proved=1.0)
+        return Over("holds", UNBOUNDED, REASONS[Basis.UNBOUNDED_LAW].then(AXIS_OPEN), proved=1.0)
 
     def whether(point: Point) -> tuple[str | None, float]:
         word, _ = look(point)
         return UNBOUNDED if word and word.startswith("spin-up") else word, np.nan
     return by_trial(box, whether(np.zeros(len(box.places)))[0], whether,
-                    f"the gyrostatic moment along axis {axis + 1}, the torque's, may vanish or not: where it "
-                    "does not, there is no reduction to one degree of freedom, and no motion is bounded")
-
-
-BY_SAMPLES = Sentence("box-by-samples",
-                      "{question} over the uncertain numbers by samples, not by proof: {found}")
-ELSEWHERE = Sentence("box-elsewhere", "within the uncertainties {what}")
-NOT_THE_SAME = Sentence("box-not-the-same",
-                        "{question} not the same for all that the uncertain numbers may be: also {others}")
-LEFT_OPEN = Sentence("box-undecided", "{question} undecided over the uncertain numbers: {why}")
+                    MAY_VANISH(axis=Axis(axis + 1)))
 
 
 @dataclass(frozen=True)
@@ -554,13 +598,13 @@ class Uncertainty:
 def _caveat(name: str, over: Over) -> Caveat | None:
     """That the answer is another elsewhere in the box or open, or that samples stand in place of a proof."""
     if over.answer == "depends":
-        others = " or ".join(dict.fromkeys(one.verdict for one in over.witnesses[1:]))
-        return Caveat(Kind.UNCERTAIN, ELSEWHERE(what=old(over.elsewhere)) if name == "fate"
-                      else NOT_THE_SAME(question=name, others=old(others)))
+        others = dict.fromkeys(one.verdict for one in over.witnesses[1:])
+        return Caveat(Kind.UNCERTAIN, ELSEWHERE(what=over.elsewhere) if name == "fate" else
+                      NOT_THE_SAME(question=name, others=joined(map(reason_of, others), " or ")))
     if over.answer == "undecided":
-        return Caveat(Kind.UNCERTAIN, LEFT_OPEN(question=name, why=old(over.because)))
+        return Caveat(Kind.UNCERTAIN, LEFT_OPEN(question=name, why=over.reason))
     return None if over.samples is None else Caveat(
-        Kind.SAMPLES, BY_SAMPLES(question=name, found=old(over.samples.words)))
+        Kind.SAMPLES, BY_SAMPLES(question=name, found=over.samples.reason))
 
 
 def uncertain(case: Any, questions: Sequence[str] = ("equilibria", "fate")) -> Uncertainty | None:
@@ -574,5 +618,5 @@ def uncertain(case: Any, questions: Sequence[str] = ("equilibria", "fate")) -> U
         box = box_of(case)
         found = {name: ask[name](box) for name in asked}
     except InputError as error:
-        found = {name: Over("undecided", None, str(error)) for name in asked}
+        found = {name: Over("undecided", None, as_reason(str(error))) for name in asked}
     return Uncertainty(case.uncertain, found.get("equilibria"), found.get("fate"))

@@ -23,6 +23,8 @@ from ...numbers.exact import sign_of
 from ...numbers.vectors import Float3
 from ...orbit.result import Fate
 from ...physics.scene import AnyScene, QuadraticForm, rests
+from ...reasons import Angle, Quantity, Rate, Reason, Sentence, in_si
+from ..caveats import UNSTABLE, UNSTABLE_SLOWLY
 from ..motions.rows import periods
 from .boxes import Box, Point
 from .result import Over, Witness, corners
@@ -32,6 +34,14 @@ MOST = DRAWN = 32  # corners, and points drawn at random, at which a motion is f
 STEPS, INSIDE = 4000, 8  # of a motion at most; points a step at which its departure is taken
 SHARE = 1e-13  # of the size of the state: the last terms of a step
 NEAR = 1e-9  # of the size of a state: two equilibria so near are one, in doubles
+STABLE = Sentence("stable-equilibrium", "stable")()
+STABILITY_UNDECIDED = Sentence("stability-undecided", "its stability is undecided")()
+MIDDLE_AND_ELSEWHERE = Sentence("stability-over-box",
+                                "the middle is {middle}, and elsewhere in the box is {elsewhere}")
+OF_MOTIONS = Sentence("of-all-motions", "of all motions: {why}")
+ONE_DEPARTS = Sentence(
+    "one-departs", "the middle is an equilibrium, {stability}; of {number} points of the box one departs by "
+    "{departure} from its start; of all of them: {why}")
 
 
 @dataclass(frozen=True)
@@ -52,19 +62,28 @@ class Neighbours:
     scaled: bool = False
 
     @property
-    def stability(self) -> str:
-        """Of the equilibrium, in words."""
+    def reason(self) -> Reason:
+        """How stable the equilibrium is."""
         if self.growth > 0:
-            unit = "" if self.scaled else " s"
-            return f"unstable: a disturbance grows by the factor e in {1 / self.growth:.6g}{unit}"
-        return {"unstable": "unstable: its neighbours leave, though not exponentially",
-                "undecided": "its stability is undecided"}.get(self.verdict, self.verdict)
+            return UNSTABLE(time=Quantity(1 / self.growth, "tau" if self.scaled else "s"))
+        return {"unstable": UNSTABLE_SLOWLY(), "undecided": STABILITY_UNDECIDED}.get(self.verdict, STABLE)
+
+    @property
+    def stability(self) -> str:
+        """The same in words and SI units."""
+        return self.reason.text()
+
+    @property
+    def departure(self) -> Quantity:
+        """How far the motions go: by an angle, or a rate where there is none."""
+        if self.scaled:
+            return Quantity(self.rate)
+        return Rate(self.rate) if self.angle is None else Angle(self.angle)
 
     @property
     def departs(self) -> str:
-        """How far the motions go, in words that follow "departs from this rotation by up to"."""
-        far = f"{self.rate:.6g}" + ("" if self.scaled else " rad/s")
-        return far if self.angle is None or self.scaled else f"{self.angle:.6g} rad"
+        """The same in words and SI units, which follow "departs from this rotation by up to"."""
+        return in_si(self.departure)
 
     @property
     def departing(self) -> bool:
@@ -103,23 +122,23 @@ def beside(box: Box, found: Over) -> Over:
         words = [f"{'an' if one == 'unstable' else 'a'} {one} equilibrium"
                  for one in (verdict, _verdict_at(box, other))]
         return _depends(box, found, words, other, float(np.abs(other).max()),
-                        f"the middle is {words[0]}, and elsewhere in the box is {words[1]}; of all motions: "
-                        f"{found.because}")
+                        MIDDLE_AND_ELSEWHERE(middle=words[0], elsewhere=words[1]).then(
+                            OF_MOTIONS(why=found.reason)))
     if not neighbours.departing or found.answer == "depends":
         return found
     return _depends(box, found, [Fate.EQUILIBRIUM.word, Fate.BOUNDED.word], far,
                     0.0 if verdict == "unstable" else float(np.abs(far).max()),
-                    f"the middle is an equilibrium, {neighbours.stability}; of {number} points of the box "
-                    f"one departs by {neighbours.departs} from its start; of all of them: {found.because}")
+                    ONE_DEPARTS(stability=neighbours.reason, number=number,
+                                departure=neighbours.departure, why=found.reason))
 
 
 def _depends(box: Box, found: Over, words: Sequence[str], point: Point, changes_at: float,
-             because: str) -> Over:
+             reason: Reason) -> Over:
     """The answer with the middle and a point as witnesses of these verdicts."""
     witnesses = tuple(Witness(word, box.values(place))
                       for word, place in zip(words, (np.zeros(len(point)), point)))
-    return replace(found, answer="depends", verdict=words[0], because=because, proved=0.0, but="",
-                   changes_at=changes_at, witnesses=witnesses)
+    return replace(found, answer="depends", verdict=words[0], reason=reason, proved=0.0,
+                   exception=None, changes_at=changes_at, witnesses=witnesses)
 
 
 def _verdict_at(box: Box, point: Point) -> str:

@@ -8,14 +8,40 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from functools import reduce
 from itertools import product
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from ...orbit.result import Fate
-from ...reasons import number
+from ...reasons import Axis, Quantity, Reason, Sentence, as_reason
 from .boxes import Box, Numbers, Point, Proof
+
+SPINS_UP = Sentence("spin-up-about", "spin-up about {axis}, {direction} direction")
+SPIN_UPS = {(n, sense): SPINS_UP(axis=Axis(n), direction="positive" if sense > 0 else "negative")
+            for n in (1, 2, 3) for sense in (1, -1)}
+VERDICTS = {str(one): one for one in SPIN_UPS.values()}  # those that name an axis
+EACH_VERDICT = Sentence("so-many-points", "{count}: {verdict}")
+ONE_VERDICT = Sentence("all-points", "all: {verdict}")
+SAMPLED = Sentence("sampled-points", "of {number} sampled points (seed {seed}) {verdicts}")
+CONFIDENCE = Sentence("share-otherwise",
+                      "with 95 % confidence at most {percent} % of the box does otherwise")
+ALL_CORNERS = Sentence("all-corners", "so do all {corners} corners of the box")
+SOME_CORNERS = Sentence("some-corners", "so do the {corners} corners of the box")
+OTHER_POINTS = Sentence("other-points", "and {others} other points, looked at near the middle and towards "
+                        "the least margin")
+QUANTILES = Sentence("margin-quantiles",
+                     "margins in energy: 5, 50 and 95 % quantiles {low}, {median}, {high}")
+ALSO = Sentence("also-elsewhere", "also {verdicts}")
+ALSO_ANOTHER = Sentence("also-another", "also another answer")()
+DEPARTS = Sentence("departs-from-rotation", "it departs from this rotation by up to {departure} ({middle})")
+TURNS_OVER = Sentence("departs-and-turns-over",
+                      "it departs from this rotation by up to {departure} and turns over ({middle})")
+MIDDLE_STABLE = Sentence("middle-stable", "the middle itself is stable")()
+BOTH_SIDES = Sentence("both-sides", "{middle} at the middle, {elsewhere} elsewhere in the box")
+NEITHER = Sentence("neither-proof-nor-contrary",
+                   "neither a proof in {parts} parts of the box nor a contrary case was found")
 
 MOST = 100.0          # times the stated uncertainty
 LADDER = np.concatenate([10.0 ** np.arange(-9, -2), 2.0 ** np.arange(-6, 7) * (MOST / 64)])
@@ -37,6 +63,16 @@ UNDECIDED = "undecided"  # as the signature of equilibria begins and ends where 
 Look: TypeAlias = Callable[[Point], tuple[str | None, float]]  # the answer, and a margin in energy or NaN
 STRETCHES = (1e-6, 1e-3, 1.0)  # at which single points are tried
 FARTHER = (2.0, 5.0, 10.0, 30.0, MOST)
+
+
+def reason_of(verdict: str | None) -> Reason:
+    """A verdict as what fills a hole of a sentence: with its axis, where it names one."""
+    return VERDICTS.get(verdict or "") or as_reason(str(verdict))
+
+
+def joined(reasons: Iterable[Reason], joint: str) -> Reason:
+    """Several as one, each behind the joint."""
+    return reduce(lambda one, other: one.then(other, joint), reasons)
 
 
 def worst(margins: Callable[[np.ndarray], np.ndarray], n: int) -> np.ndarray:
@@ -199,21 +235,29 @@ class Sampled:
         return 1 - float(0.05 ** (1 / self.number))
 
     @property
-    def words(self) -> str:
+    def reason(self) -> Reason:
         """The counts, and what they leave open or how the margins spread."""
         agree = len(self.counts) == 1
-        told = ", ".join(f"{'all' if agree else count}: {word}" for word, count in self.counts.items())
-        rest = (f"; with 95 % confidence at most {number(100 * self.otherwise, 2, 1)} % of the box does "
-                "otherwise"
-                if agree else "")
+        verdicts = joined((ONE_VERDICT(verdict=reason_of(word)) if agree
+                           else EACH_VERDICT(count=count, verdict=reason_of(word))
+                           for word, count in self.counts.items()), ", ")
+        found = SAMPLED(number=self.number, seed=Quantity(self.seed, digits=12), verdicts=verdicts)
+        if agree:
+            found = found.then(CONFIDENCE(percent=Quantity(100 * self.otherwise, digits=2).upper))
         if self.corners:
-            rest += f"; so do {'all' if self.every else 'the'} {self.corners} corners of the box"
+            found = found.then(ALL_CORNERS(corners=self.corners) if self.every
+                               else SOME_CORNERS(corners=self.corners))
         if self.others:
-            rest += f" and {self.others} other points, looked at near the middle and towards the least margin"
+            found = found.then(OTHER_POINTS(others=self.others), " ")
         if self.margins:
-            rest += ("; margins in energy: 5, 50 and 95 % quantiles "
-                     + ", ".join(f"{v:.4g}" for v in self.margins))
-        return f"of {self.number} sampled points (seed {self.seed}) {told}{rest}"
+            low, median, high = (Quantity(v, digits=4) for v in self.margins)
+            found = found.then(QUANTILES(low=low, median=median, high=high))
+        return found
+
+    @property
+    def words(self) -> str:
+        """The same in words."""
+        return self.reason.text()
 
     @property
     def points(self) -> str:
@@ -227,17 +271,18 @@ class Over:
 
     answer: "holds" (proved for the whole box), "depends" (with a witness on each side), "sampled" (no proof
     is to be had, and all points of `samples` do as the middle does) or "undecided". verdict: the middle's.
-    but: the set of measure zero that "holds" leaves out, if it does. Every change of the numbers by less than
-    `proved` times the stated uncertainties is proved to leave the verdict; `changes_at` times these flips it
-    (an upper bound of the least such factor: found by search and checked; None where none was found up to 100
-    times). parts: of the box, looked at. neighbours: what motions beside the middle do, where that is an
-    equilibrium (`neighbours.Neighbours`), else None.
+    reason: how it is known, or why not; because: the same in words, in SI units. exception: the set of
+    measure zero that "holds" leaves out, None where it leaves out none; but: the same in words. Every change
+    of the numbers by less than `proved` times the stated uncertainties is proved to leave the verdict;
+    `changes_at` times these flips it (an upper bound of the least such factor: found by search and checked;
+    None where none was found up to 100 times). parts: of the box, looked at. neighbours: what motions beside
+    the middle do, where that is an equilibrium (`neighbours.Neighbours`), else None.
     """
 
     answer: str
     verdict: str | None
-    because: str
-    but: str = ""
+    reason: Reason
+    exception: Reason | None = None
     proved: float = 0.0
     changes_at: float | None = None
     witnesses: tuple[Witness, ...] = ()
@@ -246,24 +291,35 @@ class Over:
     neighbours: Any = None
 
     @property
-    def otherwise(self) -> str:
-        """The verdicts of the witnesses that are not that of the first, in words; empty without any."""
-        first = self.witnesses[0].verdict if self.witnesses else None
-        return " or ".join(dict.fromkeys(w.verdict for w in self.witnesses[1:] if w.verdict != first))
+    def because(self) -> str:
+        """How it is known, or why not, in words and SI units."""
+        return self.reason.text()
 
     @property
-    def elsewhere(self) -> str:
+    def but(self) -> str:
+        """The set of measure zero that "holds" leaves out, in words; empty where it leaves out none."""
+        return "" if self.exception is None else self.exception.text()
+
+    @property
+    def otherwise(self) -> tuple[str, ...]:
+        """The verdicts of the witnesses that are not that of the first."""
+        first = self.witnesses[0].verdict if self.witnesses else None
+        return tuple(dict.fromkeys(w.verdict for w in self.witnesses[1:] if w.verdict != first))
+
+    @property
+    def elsewhere(self) -> Reason:
         """What the motion does elsewhere in the box, where the answer depends on that: a sentence's end."""
         near = self.neighbours
-        if near is None or self.otherwise != Fate.BOUNDED.word:
-            return f"also {self.otherwise or 'another answer'}"
-        middle = "the middle itself is stable" if near.verdict == "stable" else near.stability
-        return (f"it departs from this rotation by up to {near.departs}{' and turns over' * near.turned} "
-                f"({middle})")
+        if near is None or self.otherwise != (Fate.BOUNDED.word,):
+            return (ALSO(verdicts=joined(map(reason_of, self.otherwise), " or ")) if self.otherwise
+                    else ALSO_ANOTHER)
+        middle = MIDDLE_STABLE if near.verdict == "stable" else near.reason
+        return (TURNS_OVER(departure=near.departure, middle=middle) if near.turned
+                else DEPARTS(departure=near.departure, middle=middle))
 
 
 def bracketed(box: Box, here: Any, answer: Answer, change: Change | None,
-              attempt: Callable[[float, int], Proof], because: str) -> Over:
+              attempt: Callable[[float, int], Proof], reason: Reason) -> Over:
     """The answer from a change that was found (or None) and attempt(stretch, most) -> Proof, with [proved,
     changes_at]."""
     parts, proved = 0, 0.0
@@ -281,12 +337,11 @@ def bracketed(box: Box, here: Any, answer: Answer, change: Change | None,
     found: dict[str, Any] = {"proved": proved, "changes_at": change and change.stretch, "witnesses": sides,
                              "parts": parts}
     if proved >= 1:
-        return Over("holds", here, because, **found)
+        return Over("holds", here, reason, **found)
     if change is not None and change.stretch <= 1:
-        return Over("depends", here,
-                    f"{sides[0].verdict} at the middle, {sides[1].verdict} elsewhere in the box", **found)
-    return Over("undecided", here,
-                f"neither a proof in {parts} parts of the box nor a contrary case was found", **found)
+        return Over("depends", here, BOTH_SIDES(middle=reason_of(sides[0].verdict),
+                                                elsewhere=reason_of(sides[1].verdict)), **found)
+    return Over("undecided", here, NEITHER(parts=parts), **found)
 
 
 def _farthest(change: Change | None, attempt: Callable[[float, int], Proof],

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from ...orbit.result import Fate
+from ...reasons import Reason
 from .boxes import Box, Point
 from .result import (
     CORNERS,
@@ -84,43 +85,43 @@ class Looks:
         return None
 
 
-def by_trial(box: Box, here: Any, look: Look, because: str, change: Change | None = None,
+def by_trial(box: Box, here: Any, look: Look, reason: Reason, change: Change | None = None,
              most: int = CORNERS) -> Over:
     """Points near the middle first, along single numbers and the diagonal, where a verdict may change at
     once; then as `by_sample`. change: one that a search over arrays has found and the ordinary code has
     confirmed."""
     looks = Looks(box, here, look)
     if change is not None and change.stretch <= 1:
-        return _depends(looks, because, change.direction * change.stretch, settled=True)
+        return _depends(looks, reason, change.direction * change.stretch, settled=True)
     n = len(box.places)
     trial = np.concatenate([np.eye(n), -np.eye(n), np.ones((1, n)), -np.ones((1, n))])
     found = (looks.first(direction * stretch for stretch in STRETCHES for direction in trial)
              if looks.settled else None)
-    return _looked(looks, because, most) if found is None else _depends(looks, because, found)
+    return _looked(looks, reason, most) if found is None else _depends(looks, reason, found)
 
 
-def by_sample(box: Box, here: Any, look: Look, because: str, most: int = CORNERS) -> Over:
+def by_sample(box: Box, here: Any, look: Look, reason: Reason, most: int = CORNERS) -> Over:
     """Corners (most: so many), a search from the least margin, and points drawn at random."""
-    return _looked(Looks(box, here, look), because, most)
+    return _looked(Looks(box, here, look), reason, most)
 
 
-def _looked(looks: Looks, because: str, most: int) -> Over:
+def _looked(looks: Looks, reason: Reason, most: int) -> Over:
     n, before = len(looks.box.places), looks.number
     tried = corners(n, most)
     found = looks.first(tried) if looks.settled else None
     at_corners = looks.number - before
     found = looks.descended() if looks.settled and found is None else found
     if found is not None:
-        return _depends(looks, because, found)
+        return _depends(looks, reason, found)
     samples, places = _drawn(looks, at_corners, len(tried) == 2**n)
     if samples is None or looks.here is None:
-        return Over("undecided", looks.here, because)
+        return Over("undecided", looks.here, reason)
     other = next((word for word in places if word != looks.here and word not in OPEN), None)
     if looks.settled and other is not None:
-        return _depends(looks, because, places[other])
-    because = f"{because}; {samples.words}"
+        return _depends(looks, reason, places[other])
+    reason = reason.then(samples.reason)
     agree = looks.settled and not looks.open and set(samples.counts) == {looks.here}
-    return Over("sampled" if agree else "undecided", looks.here, because, samples=samples)
+    return Over("sampled" if agree else "undecided", looks.here, reason, samples=samples)
 
 
 def _drawn(looks: Looks, at_corners: int = 0, every: bool = False) -> tuple[Sampled | None, dict[str, Point]]:
@@ -145,7 +146,7 @@ def _drawn(looks: Looks, at_corners: int = 0, every: bool = False) -> tuple[Samp
                    at_corners, every, looks.number - at_corners), places
 
 
-def _depends(looks: Looks, because: str, point: Point, settled: bool = False) -> Over:
+def _depends(looks: Looks, reason: Reason, point: Point, settled: bool = False) -> Over:
     """The answer from a point that does otherwise, drawn towards the middle unless that is settled; with what
     points drawn at random do."""
     answer: Callable[[Point], Any] = lambda place: None if (word := looks.look(place)[0]) in OPEN else word
@@ -156,5 +157,5 @@ def _depends(looks: Looks, because: str, point: Point, settled: bool = False) ->
     witnesses = tuple(Witness(answer(place), looks.box.values(place))
                       for place in (np.zeros(len(point)), point))
     samples, _ = _drawn(looks)
-    because = f"{because}; {samples.words}" if samples else because
-    return Over("depends", looks.here, because, changes_at=size, witnesses=witnesses, samples=samples)
+    reason = reason.then(samples.reason) if samples else reason
+    return Over("depends", looks.here, reason, changes_at=size, witnesses=witnesses, samples=samples)

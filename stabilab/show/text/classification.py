@@ -13,6 +13,7 @@ from itertools import groupby
 from typing import NamedTuple
 
 from ...answers.equilibria import once_stopped
+from ...answers.uncertain.result import ALSO_ANOTHER, reason_of
 from ...errors import printable
 from ...numbers.units import unit_of_key
 from ...numbers.vectors import CYCLE
@@ -316,7 +317,7 @@ def _over(over) -> dict | None:
     samples = over.samples and (values_of(over.samples, "number seed counts corners")
                                 | {"margin_quantiles": over.samples.margins})
     return values_of(over, "answer verdict because") | {
-        "except": over.but or None, "proved_up_to": over.proved,
+        "reason": over.reason.as_dict(), "except": over.but or None, "proved_up_to": over.proved,
         **values_of(over, "changes_at parts"), "samples": samples,
         "neighbours": over.neighbours and values_of(over.neighbours,
                                                     "verdict growth number angle rate turned"),
@@ -387,21 +388,23 @@ def what_changes(found, units: Units) -> str:
     fate = over is found.fate
     subject = "the fate is" if fate else "they are"
     near = fate and over.neighbours
+    elsewhere = units.said(over.elsewhere if fate else ALSO_ANOTHER)
     words = {"holds": f"{subject} the same for all that the uncertain numbers may be"
-             + (", but for a set of measure zero" if over.but else ""),
-             "depends": f"BUT within the uncertainties {over.elsewhere if fate else 'also another answer'}",
+             + (", but for a set of measure zero" if over.exception else ""),
+             "depends": f"BUT within the uncertainties {elsewhere}",
              "sampled": f"{subject} the same at {over.samples and over.samples.points} within the "
                         f"uncertainties, without a proof",
              "undecided": f"{subject} undecided within the uncertainties"}[over.answer]
-    if near and near.stability not in words:
-        words += f"; the equilibrium is {near.stability}" + beside(near)
-    return units.words(words)
+    if near and (stability := units.said(near.reason)) not in words:
+        words += f"; the equilibrium is {stability}{beside(near, units)}"
+    return words
 
 
-def beside(near) -> str:
+def beside(near, units: Units) -> str:
     """How far the neighbours of an equilibrium go, as a clause; nothing where none departs from it."""
+    departure = units.filled(near.departure, DIGITS - 1)
     return (f", and at {near.number} sampled points beside it the motion departs from its start by up to "
-            f"{near.departs}" if near.rate else "")
+            f"{departure}" if near.rate else "")
 
 
 def _lines(subject, over, units) -> list[str]:
@@ -410,13 +413,13 @@ def _lines(subject, over, units) -> list[str]:
             "sampled": "the same at all sampled points of the box, without a proof",
             "undecided": "undecided over the box"}
     lines = [f"  {subject}: {lead[over.answer]}"
-             + (f": {units.axes.sentence(over.verdict)}" if over.answer in ("holds", "sampled") else ""),
-             f"    {lettered(units.words(over.because))}"]
+             + (f": {units.said(reason_of(over.verdict))}" if over.answer in ("holds", "sampled") else ""),
+             f"    {units.said(over.reason)}"]
     if over.neighbours:
-        lines.append(f"    {units.words(f'the equilibrium is {over.neighbours.stability}')}"
-                     f"{units.words(beside(over.neighbours))}")
-    if over.but:
-        lines.append(f"    but for a set of measure zero: {units.words(over.but)}")
+        lines.append(f"    the equilibrium is {units.said(over.neighbours.reason)}"
+                     f"{beside(over.neighbours, units)}")
+    if over.exception:
+        lines.append(f"    but for a set of measure zero: {units.said(over.exception)}")
     if over.proved and math.isfinite(over.proved):
         least = number(as_bound(over.proved, 1.0, DIGITS, -1), DIGITS)
         lines.append(f"    proved to stay for every change below {least} times the uncertainties")
@@ -433,7 +436,7 @@ def _lines(subject, over, units) -> list[str]:
             unit, one = _of_file(units, known.get(name, ""))
             row = ", ".join(number(float(v) * one, DIGITS) for v in values)
             numbers.append(f"{name} = {row} {unit}".rstrip())
-        lines.append(f"    {units.axes.sentence(w.verdict)} at {'; '.join(numbers)}")
+        lines.append(f"    {units.said(reason_of(w.verdict))} at {'; '.join(numbers)}")
     return lines
 
 
