@@ -31,6 +31,7 @@ from ...numbers.algebraic import between, coefficients, univariate
 from ...numbers.balls import Digits, Unclear, evaluated, rational, real_roots_of, settled, working
 from ...numbers.vectors import Float3
 from ...physics.coefficients import effective
+from ...reasons import Sentence
 from ..axes import spans_of
 from ..plan import place_and_text
 from .diagram import ball_form, diagram, followed, general_states, parts
@@ -44,7 +45,11 @@ NEAR = Fraction(1, 10**9)  # of a piece: so near to its ends, where a saddle is 
 DEPTH = 48  # halvings of an interval
 MOST = 5000  # enclosures of a rise in one diagram: some ten seconds
 PARTS = (Fraction(1, 2), Fraction(5, 11), Fraction(6, 11))  # places where an interval may be divided
-WORDS = "two saddles are at one height: the separatrix of each ends at the other"
+CONNECTED = Sentence("saddles-connected",
+                     "two saddles are at one height: the separatrix of each ends at the other")()
+NOT_SETTLED = Sentence("connections-not-settled",
+                       "undecided: whether two saddles come to one height somewhere; enclosures did not "
+                       "settle it")()
 
 
 class Spent(Exception):
@@ -60,10 +65,7 @@ def with_connections(found: Diagram) -> Diagram:
     try:
         return replace(found, connections=tuple(connections(found.family, system, found.pieces)))
     except (Unclear, Spent):
-        return replace(found,
-                       notes=(*found.notes,
-                              "undecided: whether two saddles come to one height somewhere; enclosures did "
-                              "not settle it"))
+        return replace(found, remarks=(*found.remarks, NOT_SETTLED))
 
 
 def connections(family: Family, system: Any, pieces: tuple[Piece, ...]) -> list[Event]:
@@ -120,7 +122,7 @@ def _places(family: Family, eliminated: Eliminated, saddles: list[int], value: F
 def _event(family: Family, eliminated: Eliminated, piece: Piece, value: Fraction) -> Event:
     value = Fraction(float(value))
     return Event(float(value), None, (), 0, ("connection",), piece.count,
-                 _states_at(family, eliminated, piece, value), WORDS)
+                 _states_at(family, eliminated, piece, value), CONNECTED)
 
 
 def _states_at(family: Family, eliminated: Eliminated, piece: Piece, value: Fraction) -> tuple[State, ...]:

@@ -23,12 +23,13 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import partial
+from functools import partial, reduce
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from flint import arb, fmpq_mpoly
 
 from ...equilibrium.gyrostat import WELL, gyrostat_equilibria
+from ...equilibrium.result import Equilibria
 from ...equilibrium.stability import POSITIVE_EIGENVALUE, invariants, isolated_verdict, linear_word
 from ...errors import InputError
 from ...numbers.algebraic import Algebraic, Cut, between, cuts, gaps, univariate
@@ -36,6 +37,7 @@ from ...numbers.balls import Unclear, evaluated, rational, settled, sign
 from ...numbers.vectors import CYCLE, Float3, dot, nearest_first
 from ...physics.coefficients import effective
 from ...physics.scene import QuadraticForm, euler_form
+from ...reasons import Axis, Reason, Sentence, as_reason
 from ...version import __version__
 from .eliminated import Eliminated, Leant, Root
 from .equations import (
@@ -122,77 +124,98 @@ def general_states(family: Family, kind: str, eliminated: Eliminated, value: Fra
                  for root in eliminated.at_general((value,), view))
 
 
-class Told(NamedTuple):
-    """What there is at one value: how many equilibria, and in words."""
+ALL_STATES = Sentence("every-state", "every state is an equilibrium")()
+ALL_POINTS = Sentence("every-point-of-a-curve", "every point of a curve is an equilibrium")()
+MOMENTS_EQUAL = Sentence("moments-become-equal", "moments of inertia {first} and {second} are equal")
+WHEEL_VANISHES = Sentence("wheel-part-vanishes", "the wheel's part along {axis} vanishes")
+TORQUE_VANISHES = Sentence("torque-part-vanishes", "the torque's part along {axis} vanishes")
+WHEEL_ACROSS = Sentence("wheel-across-torque", "the wheel is across the torque")()
+CONIC_SPLITS = Sentence("conic-splits", "the conic falls apart into lines")()
+CURVE_ON_AXIS = Sentence("curve-on-axis",
+                         "the torque falls on a principal axis: a curve of equilibria")()
+NONE_ON_AXIS = Sentence("none-on-axis",
+                        "the torque falls on a principal axis that carries a wheel: no equilibrium")()
+NONE_BECAUSE = Sentence("no-equilibrium-because", "no equilibrium: {why}")
+CURVES_BECAUSE = Sentence("curves-because", "{curves}: {why}")
+
+
+class There(NamedTuple):
+    """What there is at one value: how many equilibria, and which curves, None where there are none."""
 
     number: int
-    words: str
+    reason: Reason | None
 
 
-def told(family: Family, what: str) -> Diagram:
-    """The diagram in words over one number."""
+def of_curves(family: Family, counted: Reason) -> Diagram:
+    """The diagram over one number where equilibria form curves, which are named."""
     span, named = family.spans[0], list(_named(family))
     parts = [factor for f, _ in named if not f.is_constant() for factor, _ in f.factor()[1]]
     found = cuts((univariate(f, 2) for f in parts), span.low, span.high)
     pieces: list[Piece] = []
     events: list[Event] = []
     for n, gap in enumerate(gaps(found, span.low, span.high)):
-        event = _change_in_words(family, found[n - 1], named) if n else None
+        event = _change_of_curves(family, found[n - 1], named) if n else None
         if gap:
-            there = _words_at(family, gap.sample)
-            same = event is None or (event.count, event.words) == there
-            if same and pieces and there == (pieces[-1].count, pieces[-1].words):
+            there = _curves_at(family, gap.sample)
+            same = event is None or (event.count, event.reason) == there
+            if same and pieces and there == (pieces[-1].count, pieces[-1].reason):
                 pieces[-1] = replace(pieces[-1], high=gap.high)
                 continue
-            pieces.append(Piece(*gap[:2], there.number, gap.sample, (), words=there.words))
+            pieces.append(Piece(*gap[:2], there.number, gap.sample, (), reason=there.reason))
         if event is not None:
             events.append(event)
-    return Diagram(family, CURVES, what, tuple(pieces), tuple(events))
+    return Diagram(family, CURVES, counted, tuple(pieces), tuple(events))
 
 
-def _words_at(family: Family, value: Fraction) -> Told:
+def _curves_at(family: Family, value: Fraction) -> There:
     found = gyrostat_equilibria(effective(family.at((value,)).scene))
     if found.kind == "all":
-        return Told(ENDLESS, "every state is an equilibrium")
-    return Told(ENDLESS if found.curves else len(found.points),
-                ", ".join(curve.name for curve in found.curves))
+        return There(ENDLESS, ALL_STATES)
+    return There(ENDLESS if found.curves else len(found.points), _names(found))
 
 
-def _change_in_words(family: Family, cut: Cut, named: list[tuple[fmpq_mpoly, str]]) -> Event:
+def _names(found: Equilibria) -> Reason | None:
+    """The curves by their names; None where there are none."""
+    names = ", ".join(curve.name for curve in found.curves)
+    return as_reason(names) if names else None
+
+
+def _change_of_curves(family: Family, cut: Cut, named: list[tuple[fmpq_mpoly, Reason]]) -> Event:
     number, exact = cut.number, cut.number.rational
-    here = _words_at(family, exact) if exact is not None else Told(ENDLESS, "")
-    why = [words for f, words in named if number.reduced(univariate(f, 2)) == 0]
-    words = here.words or "; ".join(dict.fromkeys(why))
-    return Event(float(number), exact, number.whole, number.index, ("curve",), here.number, (), words)
+    here = _curves_at(family, exact) if exact is not None else There(ENDLESS, None)
+    first, *others = dict.fromkeys(why for f, why in named if number.reduced(univariate(f, 2)) == 0)
+    reason = here.reason or reduce(Reason.then, others, first)
+    return Event(float(number), exact, number.whole, number.index, ("curve",), here.number, (), reason)
 
 
-def _named(family: Family) -> Iterator[tuple[fmpq_mpoly, str]]:
+def _named(family: Family) -> Iterator[tuple[fmpq_mpoly, Reason]]:
     """(polynomial, what is so where it vanishes) of all that may change the curves; those that vanish all
     over the range are left out."""
     n = family.numbers
     D, lam, M = n["D"], n["lam"], n["M"]
     load = dot(lam, M)
-    rows = [(D[i] - D[j], f"moments of inertia {i + 1} and {j + 1} are equal") for i in range(3)
-            for j in range(i)]
-    rows += [(lam[i], f"the wheel's part along axis {i + 1} vanishes") for i in range(3)]
-    rows += [(M[i], f"the torque's part along axis {i + 1} vanishes") for i in range(3)]
-    rows += [(load, "the wheel is across the torque")]
-    rows += [((D[i] - D[c]) * dot(M, M) + lam[c] * (lam[j] * M[i] - lam[i] * M[j]),
-              "the conic falls apart into lines") for c, (i, j) in enumerate(CYCLE)]
-    return ((f, words) for f, words in rows if not f.is_zero())
+    rows = [(D[i] - D[j], MOMENTS_EQUAL(first=i + 1, second=j + 1)) for i in range(3) for j in range(i)]
+    rows += [(lam[i], WHEEL_VANISHES(axis=Axis(i + 1))) for i in range(3)]
+    rows += [(M[i], TORQUE_VANISHES(axis=Axis(i + 1))) for i in range(3)]
+    rows += [(load, WHEEL_ACROSS)]
+    rows += [((D[i] - D[c]) * dot(M, M) + lam[c] * (lam[j] * M[i] - lam[i] * M[j]), CONIC_SPLITS)
+             for c, (i, j) in enumerate(CYCLE)]
+    return ((f, why) for f, why in rows if not f.is_zero())
 
 
-WORDS = {"fold": "two {} meet and vanish", "pitchfork": "three {} meet in one",
-         "crossing": "two branches of {} cross",
-         "touch": "two {} that are there at this value alone", "infinity": "{} go to infinity"}
+EVENTS = {"fold": Sentence("event-fold", "two {things} meet and vanish"),
+          "pitchfork": Sentence("event-pitchfork", "three {things} meet in one"),
+          "crossing": Sentence("event-crossing", "two branches of {things} cross"),
+          "touch": Sentence("event-touch", "two {things} that are there at this value alone"),
+          "infinity": Sentence("event-infinity", "{things} go to infinity")}
 
 
 def diagram(family: Family, borders: bool = False) -> Diagram:
     """All equilibria over the one range of a family."""
-    kind, what, system, notes = chosen(family, borders)
+    kind, counted, system, remarks = chosen(family, borders)
     span = family.spans[0]
     if system is None:
-        return told(family, what)
+        return of_curves(family, counted)
     eliminated = Eliminated(family, system)
     found = cuts((univariate(c, 2) for c in eliminated.critical), span.low, span.high)
     pieces: list[Piece | None] = []
@@ -201,7 +224,7 @@ def diagram(family: Family, borders: bool = False) -> Diagram:
         pieces.append(Piece(*gap[:2], len(states), gap.sample, states) if gap else None)
     events = [_event(family, kind, eliminated, cut, pieces[n:n + 2]) for n, cut in enumerate(found)]
     kept = [piece for piece in pieces if piece is not None]
-    return Diagram(family, kind, what, *_joined(kept, events, found), notes=notes)
+    return Diagram(family, kind, counted, *_joined(kept, events, found), remarks=remarks)
 
 
 def _event(family: Family, kind: str, eliminated: Eliminated, cut: Cut,
@@ -213,13 +236,14 @@ def _event(family: Family, kind: str, eliminated: Eliminated, cut: Cut,
         return make(("axis",), *_on_an_axis(family, system, cut))
     roots = settled(lambda digits: [eliminated.at_algebraic(number, digits.bits)])[0]
     if roots is None:
-        return make(("curve",), ENDLESS, (), "every point of a curve is an equilibrium")
+        return make(("curve",), ENDLESS, (), ALL_POINTS)
     kinds = _kinds(roots, sides)
     if not kinds:
         return None
     states = settled(lambda digits: _states_at(family, kind, eliminated, cut, digits.bits, sides))
     things = "points" if kind == BORDERS else "equilibria"
-    return make(kinds, len(roots), states, "; ".join(WORDS[word].format(things) for word in kinds))
+    first, *others = (EVENTS[one](things=things) for one in kinds)
+    return make(kinds, len(roots), states, reduce(Reason.then, others, first))
 
 
 def _kinds(roots: Sequence[Root], sides: Sequence[Piece | None]) -> tuple[str, ...]:
@@ -247,19 +271,19 @@ def _states_at(family: Family, kind: str, eliminated: Eliminated, cut: Cut, bits
                  for root in roots)
 
 
-def _on_an_axis(family: Family, system: OnLine | Conics, cut: Cut) -> tuple[int, tuple[State, ...], str]:
-    """(count, states, words) where the torque of an isolated family falls on a principal axis."""
+def _on_an_axis(family: Family, system: OnLine | Conics, cut: Cut) -> tuple[int, tuple[State, ...], Reason]:
+    """(count, states, what happens) where the torque of an isolated family falls on a principal axis."""
     value = cut.number.rational
     if value is None:
         load = cut.number.reduced(univariate(system.load, 2)) == 0
-        return (ENDLESS, (), "the torque falls on a principal axis: a curve of equilibria") if load else \
-            (0, (), "the torque falls on a principal axis that carries a wheel: no equilibrium")
+        return (ENDLESS, (), CURVE_ON_AXIS) if load else (0, (), NONE_ON_AXIS)
     found = gyrostat_equilibria(effective(family.at((value,)).scene))
     states = tuple(State(point.at, 1, point.linear, point.verdict, point.because) for point in found.points)
-    told = ("no equilibrium" if found.kind == "none"
-            else f"{', '.join(curve.name for curve in found.curves)}" if found.curves else "")
+    why, names = as_reason(found.reason), _names(found)
+    reason = (NONE_BECAUSE(why=why) if found.kind == "none" else why if names is None
+              else CURVES_BECAUSE(curves=names, why=why))
     count = ENDLESS if found.curves or found.kind == "all" else len(states)
-    return count, states, f"{told}: {found.reason}" if told else found.reason
+    return count, states, reason
 
 
 def _joined(pieces: list[Piece], events: list[Event | None],
@@ -378,7 +402,7 @@ def diagram_certificate(found: Diagram) -> dict[str, Any]:
     """The object of `stabilab.diagram-certificate/1`. Raises InputError for a diagram of more events than it
     may hold."""
     if found.kind == CURVES:
-        raise InputError(f"--certify: {found.what.partition(';')[0]}: stabilab classify --certify proves "
+        raise InputError(f"--certify: {found.counted.alone}: stabilab classify --certify proves "
                          "them at one value")
     pieces, events = _changes(found)
     if len(events) > MOST:

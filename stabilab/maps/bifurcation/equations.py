@@ -31,6 +31,7 @@ from ...errors import InputError, printable
 from ...numbers.balls import rational
 from ...numbers.vectors import CYCLE, Float3, cross, dot
 from ...physics.coefficients import effective
+from ...reasons import Axis, Reason, Sentence
 from ...representation import Shown
 from ..axes import Span, with_values
 
@@ -137,8 +138,8 @@ class Event:
     """A value at which something happens. value: a double, in the unit of the range; exact: the number itself
     where it is rational; polynomial: whole coefficients, lowest power first, of which it is the real root
     number `index` (in rising order, from 0); kinds: "fold", "pitchfork", "crossing", "touch", "infinity",
-    "axis", "curve" or "connection", as `words` tells; count: equilibria there, ENDLESS for curves of them;
-    states: those there."""
+    "axis", "curve" or "connection", as `reason` tells, `words` in words; count: equilibria there, ENDLESS for
+    curves of them; states: those there."""
 
     value: float
     exact: Fraction | None
@@ -147,15 +148,20 @@ class Event:
     kinds: tuple[str, ...]
     count: int
     states: tuple[State, ...]
-    words: str
+    reason: Reason
+
+    @property
+    def words(self) -> str:
+        """What happens, in words."""
+        return self.reason.text()
 
 
 @dataclass(frozen=True)
 class Piece:
     """An open piece of the range with one number of equilibria. low, high: doubles; sample: a value inside,
     exact; states: the equilibria there, in the order in which their branches are numbered; seams: values
-    inside at which two of them may change places in the component that orders them; words: which curves there
-    are, where equilibria form these."""
+    inside at which two of them may change places in the component that orders them; reason: which curves
+    there are, where equilibria form these, else None; words: the same in words."""
 
     low: float
     high: float
@@ -163,22 +169,38 @@ class Piece:
     sample: Fraction
     states: tuple[State, ...]
     seams: tuple[float, ...] = ()
-    words: str = ""
+    reason: Reason | None = None
+
+    @property
+    def words(self) -> str:
+        """Which curves there are, in words; empty where equilibria form none."""
+        return "" if self.reason is None else self.reason.text()
 
 
 @dataclass(frozen=True, repr=False)
 class Diagram(Shown):
     """All equilibria over one number. kind: which are counted ("isolated", "motion", "borders" or "curves");
-    what: the same in words; pieces and events in rising order: event n lies between pieces; an event at an
-    end of the range has a piece on one side only."""
+    counted: the same as a sentence, what: in words; pieces and events in rising order: event n lies between
+    pieces; an event at an end of the range has a piece on one side only. remarks: what else there is to say,
+    notes: the same in words."""
 
     family: Family = field(repr=False)
     kind: str
-    what: str
+    counted: Reason
     pieces: tuple[Piece, ...]
     events: tuple[Event, ...]
     connections: tuple[Event, ...] = ()
-    notes: tuple[str, ...] = ()
+    remarks: tuple[Reason, ...] = ()
+
+    @property
+    def what(self) -> str:
+        """Which equilibria are counted, in words."""
+        return self.counted.text()
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What else there is to say, in words."""
+        return tuple(map(str, self.remarks))
 
 
 ISOLATED, LEAF, BORDERS = "isolated", "motion", "borders"
@@ -328,48 +350,55 @@ def common_divisor(parts: Iterable[fmpq_mpoly]) -> fmpq_mpoly:
     return reduce(lambda f, g: f.gcd(g), parts)
 
 
-WHAT = {ISOLATED: "isolated equilibria (torque off the principal axes)",
-        LEAF: "equilibria on the curve that the motion stays on, all branches of it",
-        BORDERS: "points where stability changes along the curve of equilibria"}
+ARE_ISOLATED = Sentence("isolated-equilibria",
+                        "isolated equilibria (torque off the principal axes)")()
+ON_CURVE = Sentence("equilibria-on-curve", "equilibria on the curve that the motion stays on, all branches "
+                    "of it (torque on {axis})")
+STABILITY_CHANGES = Sentence("stability-changes-along-curve",
+                             "points where stability changes along the curve of equilibria")()
+CURVES_ALWAYS = Sentence("curves-for-every-value",
+                         "without a torque equilibria form curves for every value")()
+CURVES_OF_EQUAL = Sentence("curves-of-equal-moments", "the torque lies along equal moments of inertia, where "
+                           "equilibria form curves")()
+NO_EQUILIBRIUM = Sentence(
+    "wheel-along-torque", "the torque lies on {axis} and a wheel carries momentum along it: no equilibrium "
+    "wherever neither is zero")
+NO_BALANCE = Sentence("nothing-balances",
+                      "three equal moments of inertia and no wheel: nothing balances a torque")()
+WHOLE_CURVES = Sentence("whole-curves-counted",
+                        "whole curves of equilibria solve what a diagram would count, {what}")
+MORE = Sentence("classify-tells", "stabilab classify tells their stability at one value")()
 
-MORE = "stabilab classify tells their stability at one value"
 
-
-def chosen(family: Family, borders: bool) -> tuple[str, str, OnLine | Conics | None, tuple[str, ...]]:
-    """(kind, in words, the equations or None where all is curves, notes)."""
+def chosen(family: Family, borders: bool) -> tuple[str, Reason, OnLine | Conics | None, tuple[Reason, ...]]:
+    """(kind, what is counted, the equations or None where all is curves, remarks)."""
     n = family.numbers
     axis = fixed_axis(family)
     if all(c.is_zero() for c in n["M"]):
-        return CURVES, f"without a torque equilibria form curves for every value; {MORE}", None, ()
+        return CURVES, CURVES_ALWAYS.then(MORE), None, ()
     if axis is None:
         line = on_line(family)
         if line.special.is_zero():
-            return (CURVES,
-                    f"the torque lies along equal moments of inertia, where equilibria form curves; {MORE}",
-                    None, ())
-        return ISOLATED, WHAT[ISOLATED], line, ()
+            return CURVES, CURVES_OF_EQUAL.then(MORE), None, ()
+        return ISOLATED, ARE_ISOLATED, line, ()
     if not n["lam"][axis].is_zero():
         one, zero = family.ring.constant(1), family.ring.constant(0)
         load = n["lam"][axis] * n["M"][axis]
-        note = (
-            f"the torque lies on principal axis {axis + 1} and a wheel carries momentum along it: no "
-            "equilibrium wherever neither is zero")
         nowhere = OnLine((one, zero, zero), (zero,) * 3, (zero,) * 3, one, load, load)
-        return ISOLATED, WHAT[ISOLATED], nowhere, (note,)
+        return ISOLATED, ARE_ISOLATED, nowhere, (NO_EQUILIBRIUM(axis=Axis(axis + 1)),)
     D = n["D"]
     if borders or "y" not in n:
-        return _solvable(BORDERS, WHAT[BORDERS], across(family, axis, BORDERS))
+        return _solvable(BORDERS, STABILITY_CHANGES, across(family, axis, BORDERS))
     others = [i for i in range(3) if i != axis]
     if all((D[i] - D[axis]).is_zero() and n["lam"][i].is_zero() for i in others):
-        return (CURVES, f"three equal moments of inertia and no wheel: nothing balances a torque; {MORE}",
-                None, ())
-    return _solvable(LEAF, f"{WHAT[LEAF]} (torque on principal axis {axis + 1})", across(family, axis, LEAF))
+        return CURVES, NO_BALANCE.then(MORE), None, ()
+    return _solvable(LEAF, ON_CURVE(axis=Axis(axis + 1)), across(family, axis, LEAF))
 
 
-def _solvable(kind: str, what: str, conics: Conics) -> tuple[str, str, Conics | None, tuple[str, ...]]:
+def _solvable(kind: str, what: Reason,
+              conics: Conics) -> tuple[str, Reason, Conics | None, tuple[Reason, ...]]:
     """The same, or words where the two conics share a curve."""
     common = conics.f.gcd(conics.g) if not (conics.f.is_zero() or conics.g.is_zero()) else None
     if common is None or max(common.degrees()[:2]) > 0:
-        return (CURVES, f"whole curves of equilibria solve what a diagram would count, {what}; {MORE}", None,
-                ())
+        return CURVES, WHOLE_CURVES(what=what).then(MORE), None, ()
     return kind, what, conics, ()

@@ -24,6 +24,7 @@ from flint import arb, arb_poly, fmpq_mpoly, fmpq_poly
 from ...errors import InputError
 from ...numbers.algebraic import Algebraic, Cut, coefficients, cuts, gaps, real_balls, univariate
 from ...numbers.balls import Unclear, evaluated, rational, real_roots_of, settled
+from ...reasons import Reason
 from ...representation import Shown
 from ..axes import with_values
 from .diagram import ball_form, diagram, doubles, spread, state_of
@@ -193,25 +194,35 @@ class Wall:
 
 @dataclass(frozen=True, repr=False)
 class Plane(Shown):
-    """All equilibria over two numbers. kind, what: as those of `Diagram`; curves: irreducible polynomials in
-    p and q; strips: rising in p, without gaps; walls: lines of one p; cusps: where fold curves end in one
-    another."""
+    """All equilibria over two numbers. kind, counted, what, remarks, notes: as those of `Diagram`; curves:
+    irreducible polynomials in p and q; strips: rising in p, without gaps; walls: lines of one p; cusps: where
+    fold curves end in one another."""
 
     family: Family = field(repr=False)
     kind: str
-    what: str
+    counted: Reason
     curves: tuple[fmpq_mpoly, ...] = field(repr=False)
     strips: tuple[Strip, ...]
     walls: tuple[Wall, ...] = ()
     cusps: tuple[Cusp, ...] = ()
-    notes: tuple[str, ...] = ()
+    remarks: tuple[Reason, ...] = ()
+
+    @property
+    def what(self) -> str:
+        """Which equilibria are counted, in words."""
+        return self.counted.text()
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What else there is to say, in words."""
+        return tuple(map(str, self.remarks))
 
 
 def plane(family: Family, borders: bool = False) -> Plane:
     """All equilibria over the two ranges of a family."""
-    kind, what, system, notes = chosen(family, borders)
+    kind, counted, system, remarks = chosen(family, borders)
     if system is None:
-        raise InputError(f"{family.case.place}: {what}: vary one number, and the curves are described in "
+        raise InputError(f"{family.case.place}: {counted}: vary one number, and the curves are described in "
                          "words; over two there is nothing to draw")
     eliminated = Eliminated(family, system)
     curves = eliminated.critical
@@ -225,8 +236,8 @@ def plane(family: Family, borders: bool = False) -> Plane:
             line = diagram(fixed(family, 0, gap.sample), borders)
             strips.append(Strip(*gap, line, tuple(_arc(curves, gap.sample, event) for event in line.events)))
     walls = [wall for cut in found for wall in _walls(family, borders, cut, curves, strips)]
-    return Plane(family, kind, what, curves, tuple(strips), tuple(walls),
-                 tuple(cusps(family, eliminated, curves)), notes)
+    return Plane(family, kind, counted, curves, tuple(strips), tuple(walls),
+                 tuple(cusps(family, eliminated, curves)), remarks)
 
 
 def _projected(family: Family, curves: Sequence[fmpq_mpoly]):

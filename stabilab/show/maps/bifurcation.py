@@ -27,7 +27,7 @@ def text(found: Diagram | Plane) -> str:
     case, units = found.family.case, units_of(found.family.case)
     return limiting.ahead(of_case(case), "\n".join([
         f"{case.name}: {answer(found).replace('<=', '≤')}",
-        *(f"  {units.axes.sentence(words)}" for words in (found.what, *found.notes)),
+        *(f"  {units.said(one)}" for one in (found.counted, *found.remarks)),
         *limiting.lines(of_case(case), units),
         *(_table(found) if isinstance(found, Diagram) else _examples(found)), *frame.note(case)]))
 
@@ -54,6 +54,7 @@ def json(found: Diagram | Plane) -> str:
     case = found.family.case
     return as_json({"schema": SCHEMA, "case": case.name, "variables": case.variables, "answer": answer(found),
                     "kind": found.kind, "what": found.what,
+                    "reason": found.counted.as_dict(),
                     "axes": [_axis(span) for span in found.family.spans]}
                    | (_line_parts(found) if isinstance(found, Diagram) else _plane_parts(found))
                    | {"notes": list(found.notes)} | key(of_case(case)) | frame.key(case))
@@ -141,10 +142,11 @@ def _table(found: Diagram) -> list[str]:
     for _, one in _in_order(found):
         if isinstance(one, Piece):
             rows.append([f"{_number(one.low, digits)} to {_number(one.high, digits)}",
-                         *_counts(found, one.count, one.states), units.axes.sentence(one.words)])
+                         *_counts(found, one.count, one.states),
+                         units.said(one.reason) if one.reason else ""])
         else:
             rows.append([f"at {_number(one.value, digits)}", *_counts(found, one.count, one.states),
-                         units.axes.sentence(one.words) + _meeting(one, units)])
+                         units.said(one.reason) + _meeting(one, units)])
     wide = [max(len(row[n]) for row in rows) for n in range(len(rows[0]) - 1)]
     return [("  " + "  ".join(f"{cell:>{size}}" for cell, size in zip(row, wide)) + "  " + row[-1]).rstrip()
             for row in rows]
@@ -198,7 +200,7 @@ def _axis(span: Span) -> dict[str, Any]:
 def _event_row(event: Event) -> dict[str, Any]:
     """An event as an object; whole numbers beyond what other readers hold are strings."""
     return {"value": event.value, "exact": None if event.exact is None else str(event.exact),
-            "kinds": list(event.kinds), "words": event.words,
+            "kinds": list(event.kinds), "words": event.words, "reason": event.reason.as_dict(),
             "polynomial": [str(c) for c in event.polynomial],
             "root": event.index} | _states(event.count, event.states)
 

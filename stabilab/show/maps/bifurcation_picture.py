@@ -18,7 +18,6 @@ from ...maps.bifurcation.plane import Plane
 from ...maps.bifurcation.plane import rows as arcs_of
 from ...numbers.vectors import dot
 from .. import style
-from ..axes import axes_of
 from ..units import Units, units_of, with_unit
 from .shades import light, mark_own, own_values
 
@@ -123,7 +122,7 @@ def write(found: Diagram | Plane, out: str | Path, size: tuple[float, float] | N
     """Draw the diagram and write the picture; returns its path. Raises InputError where equilibria form
     curves for every value."""
     if isinstance(found, Diagram) and found.kind == CURVES:
-        what = axes_of(found.family.case).sentence(found.what).partition(";")[0]
+        what = units_of(found.family.case).said(found.counted.alone)
         raise InputError(
             f"{found.family.case.place}: {what}: these are described in words, and there are no branches to "
             f"draw: leave out --out")
