@@ -18,7 +18,7 @@ from ..physics.coefficients import Scaling, to_scaled, torque_from_mu
 from ..physics.effects import REGISTRY, effect_class
 from ..physics.effects.base import effect_words
 from ..physics.scene import INSIDE, Body, ScaledGyrostat, Scene
-from ..reasons import Sentence
+from ..reasons import Reason, Sentence
 from ..validation import came, checked_span
 from .aliases import cure_of_key, cure_of_units
 from .body import (
@@ -70,6 +70,8 @@ TILTS = Sentence("misalignment-not-looked-at", "the misalignment of {thrusters} 
                  "stabilab fate and stabilab when look at it")
 MIDDLES = Caveat(Kind.UNCERTAIN, Sentence(
     "of-the-middles", "of the middles of the uncertain numbers; stabilab fate says what their box does")())
+NO_CENTRE = Sentence("no-centre-of-mass",
+                     "the file gives no centre_of_mass: thrusters are placed from it")()
 STATED = Sentence("stated-by-the-file", "{statement}")
 SILENT = Sentence("no-thruster-fires",
                   "no thruster fires: stuck = true in a table [[thrusters]] makes one act for ever "
@@ -95,8 +97,9 @@ class Case:
     `frame` tells (None where the file gives [scaled]); where the tensor is diagonal the two frames are one.
     thrusters, wheels, limits: as stated, in the frame of the file; torques of the stuck ones and momenta of
     the wheels are in the scene. inexact: the keys whose unit holds pi, good to
-    240 bits. notes: what was taken for granted, in words. units: "deg" or "si", in which people want to read
-    answers (empty where the file does not say); swept: (key, value as written) of every key of [sweep].
+    240 bits. assumed: what was taken for granted, notes: in words. units: "deg" or "si", in which people want
+    to read answers (empty where the file does not say); swept: (key, value as written) of every key of
+    [sweep].
     caveats: what the file itself says that limits every answer.
     """
 
@@ -121,7 +124,7 @@ class Case:
     wheels: tuple[Wheel, ...] = ()
     limits: Limits | None = None
     inexact: tuple[str, ...] = ()
-    notes: tuple[str, ...] = ()
+    assumed: tuple[Reason, ...] = ()
     units: str = ""
     swept: tuple[tuple[str, Any], ...] = ()
     caveats: tuple[Caveat, ...] = ()
@@ -131,6 +134,11 @@ class Case:
         if not isinstance(other, Case):
             return NotImplemented
         return all(getattr(self, one.name) == getattr(other, one.name) for one in fields(Case) if one.compare)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was taken for granted, in words."""
+        return tuple(map(str, self.assumed))
 
     def to_toml(self) -> str:
         """The case as text that `stabilab.load` reads."""
@@ -431,9 +439,8 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
     return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect,
                 motion.blocks, text,
                 variant, tuple(faults.uncertain.values()), mu, motion.exact, frame if physical else None,
-                craft.thrusters, craft.wheels,
-                craft.limits, tuple(dict.fromkeys(map(dotted, sorted(faults.inexact, key=str)))), craft.notes,
-                units,
+                craft.thrusters, craft.wheels, craft.limits,
+                tuple(dict.fromkeys(map(dotted, sorted(faults.inexact, key=str)))), craft.assumed, units,
                 caveats=(*(Caveat(Kind.STATED, STATED(statement=one)) for one in stated),
                          *(physical.body.caveats if physical else ()),
                          *(far_off(physical.body, craft.thrusters) if physical else ()),
@@ -480,7 +487,7 @@ class _Craft(NamedTuple):
     thrusters: tuple[Thruster, ...] = ()
     wheels: tuple[Wheel, ...] = ()
     limits: Limits | None = None
-    notes: tuple[str, ...] = ()
+    assumed: tuple[Reason, ...] = ()
 
 
 def _craft(top: Table) -> _Craft:
@@ -488,9 +495,8 @@ def _craft(top: Table) -> _Craft:
         return _Craft()
     centre = centre_of_mass(top)
     thrusters = thrusters_of(top, centre)
-    notes = ("the file gives no centre_of_mass: thrusters are placed from it",
-             ) if thrusters and centre is None else ()
-    return _Craft(thrusters, wheels_of(top), limits_of(top), notes)
+    assumed = (NO_CENTRE,) if thrusters and centre is None else ()
+    return _Craft(thrusters, wheels_of(top), limits_of(top), assumed)
 
 
 class _Context(NamedTuple):

@@ -289,6 +289,8 @@ def _timed(spinner: Spinner, found: FlatSpin, angle: float, spans: bool) -> Flat
         return found
     why = first.why or runs[1].why or ENDED
     if D1 == D2:
+        if "settles" not in ahead:  # near their plane already, from which the falling energy keeps it
+            return replace(found, outcome=ACROSS, level="exact", reason=BY_PHASE)
         return (replace(found, reason=PLANE_NOT_REACHED(within=Angle(angle), why=why))
                 if "settles" not in seen[0]
                 else replace(found, outcome=ACROSS, level="run", reason=BY_PHASE))

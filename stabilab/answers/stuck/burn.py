@@ -44,7 +44,7 @@ from ...numbers.units import RATE, TIME, Dimension, in_si
 from ...numbers.vectors import Float3
 from ...orbit.result import Motion
 from ...physics.scene import Scene
-from ...reasons import Mass, Sentence, Time, number, old
+from ...reasons import Mass, Quantity, Rate, Reason, Sentence, Time
 from ..attitude import of_motion
 from ..attitude_result import Attitude
 from ..caveats import of_case
@@ -78,6 +78,22 @@ LEAST_OF = Sentence("closing-least-of", "the latest closing time is the least of
                     "{within}, without a proof for those between; what is left at a closing is that of the "
                     "forces as stated")
 
+REACHED_BEFORE = Sentence("reached-before-the-burn",
+                          "the motion before the burn reaches it already")()
+WHENEVER = Sentence("never-whenever-closed", "never, whenever the thrusters close")()
+NOTHING_FIRES = Sentence("never-nothing-fires", "never, as nothing fires")()
+BY_ENERGY = Sentence("never-by-energy", "never, for 2T/D1 stays below its square")()
+EARLY_ENOUGH = Sentence("closing-early-enough",
+                        "early enough up to {early} (2T/D1 is below its square, {level})")
+TOO_LATE = Sentence("closing-too-late", "too late from {late} on (|ω| reaches it, {level})")
+NO_LOOK = Sentence("closing-not-found", "not after any of some {looks} closing times, no proof")
+BY_PERIODS = Sentence("closing-by-periods", "by runs over one period, each known to {share} of it, the first "
+                      "among some {looks} closing times")
+OF_CLOSING = Sentence("largest-after-closing", "largest |ω| after closing = {limit}: {known}")
+EARLIEST = Sentence(
+    "closing-earliest-of-forces", "{varied}: the earliest of {forces} forces, each by itself, which is no "
+    "proof for those between")
+
 # --- The latest closing time
 LOOKS = 2000  # closing times looked at after the first that is too late
 WHEEL_LOOKS = 100  # with wheels, where each takes a run: before it
@@ -92,24 +108,39 @@ class Latest:
 
     level: "exact", "proved" (the motion enclosed over all switches; low and high are neighbouring doubles but
     for the longest burns), "run" (roots along runs in machine precision, wider by what a second run shows) or
-    "undecided"; because: how it is known. again: (from, to), s, of later closing
+    "undecided"; reason: how it is known, because: in words. again: (from, to), s, of later closing
     times after which the free motion stays below the limit again, though the burn has passed it or would
     have left such a motion in between; seen at 2,000 closing times, no proof. surely: (s, s), where wheels
     leave no closed form: closing is early enough up to the first and too late from the second on; None else.
-    within: where forces have a tolerance or a misalignment, what was looked at, in words; forces: of how many
-    of them it is the least time; stated: the answer for the forces as stated, else None.
+    looked: where forces have a tolerance or a misalignment, what was looked at, within: in words; forces: of
+    how many of them it is the least time; stated: the answer for the forces as stated, else None.
     """
 
     limit: float
     low: float
     high: float
     level: str
-    because: str
+    reason: Reason
     again: tuple[tuple[float, float], ...] = ()
     surely: tuple[float, float] | None = None
-    within: str = ""
+    looked: Reason | None = None
     forces: int = 1
     stated: Latest | None = None
+
+    @property
+    def because(self) -> str:
+        """How it is known, in words and SI units."""
+        return self.reason.text()
+
+    @property
+    def within(self) -> str:
+        """Which forces were looked at, in words and SI units; empty where all are as stated."""
+        return "" if self.looked is None else self.looked.text()
+
+
+def _known(size: float, known: Reason) -> Reason:
+    """How the closing time for a limit, rad/s, is known."""
+    return OF_CLOSING(limit=Rate(size, digits=10), known=known)
 
 
 def largest_after(scene: Scene, rates: Sequence[float]) -> float:
@@ -143,14 +174,13 @@ def latest(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
         return _by_runs(chain, links, below)
     base, size = chain.base, float(below)
     limit = limit_after(base, below)
-    words = limit.words
     if links and limit.reached_by(links[0].exact or links[0].start.tolist()):
-        return Latest(size, 0.0, 0.0, "exact", f"{words}: the motion before the burn reaches it already")
+        return Latest(size, 0.0, 0.0, "exact", _known(size, REACHED_BEFORE))
     found = _first(chain, links, limit)
     if found.never:
-        return Latest(size, math.inf, math.inf, found.level, f"{words}: never, whenever the thrusters close")
+        return Latest(size, math.inf, math.inf, found.level, _known(size, WHENEVER))
     again = _again(base, links, found.high, size) if found.time else ()
-    return Latest(size, found.low, found.high, found.level, f"{words}: {found.reason}", again)
+    return Latest(size, found.low, found.high, found.level, _known(size, found.reason), again)
 
 
 def _of_all_forces(chain: Chain, found: Latest, below: Fraction) -> Latest:
@@ -170,10 +200,9 @@ def _of_all_forces(chain: Chain, found: Latest, below: Fraction) -> Latest:
     chains = [Chain(one, chain.until) for one in first]
     all_of = [found, *(latest(one, list(links_of(one)), below) for one in chains)]
     worst = min(all_of, key=lambda one: one.low)
-    words = (f"{worst.because}; {forces.words}: the earliest of {many + 1} forces, each by itself, which is "
-             "no proof for those between")
     return replace(worst, level="run" if worst.level in ("exact", "proved") else worst.level,
-                   because=words, within=forces.words, forces=many + 1, stated=found)
+                   reason=worst.reason.then(EARLIEST(varied=forces.reason, forces=many + 1)),
+                   looked=forces.reason, forces=many + 1, stated=found)
 
 
 def _first(chain: Chain, links: Sequence[Link], limit: Limit, every: bool = False) -> Found:
@@ -183,27 +212,24 @@ def _first(chain: Chain, links: Sequence[Link], limit: Limit, every: bool = Fals
 def _by_runs(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
     """The first root of G = below, with the two times that bound it."""
     base, size = chain.base, float(below)
-    words = f"largest |omega| after closing = {size:.10g} rad/s"
     if largest_of_run(base, list(chain.case.state)) >= size:
-        return Latest(size, 0.0, 0.0, "run", f"{words}: the motion before the burn reaches it already")
+        return Latest(size, 0.0, 0.0, "run", _known(size, REACHED_BEFORE))
     if not links:
-        return Latest(size, math.inf, math.inf, "run", f"{words}: never, as nothing fires")
+        return Latest(size, math.inf, math.inf, "run", _known(size, NOTHING_FIRES))
     energy = asked(base, energy=min(base.body.exact) * below**2 / 2)
     started = energy.reached_by(links[0].exact or links[0].start.tolist())
     early = Found(0.0, 0.0, "exact", AT_THE_START) if started else _first(chain, links, energy, every=True)
     if early.never:
-        return Latest(size, math.inf, math.inf, early.level,
-                      f"{words}: never, for 2T/D1 stays below its square")
+        return Latest(size, math.inf, math.inf, early.level, _known(size, BY_ENERGY))
     late = _first(chain, links, asked(base, rate=below), every=True)
     end = late.high if late.time else math.inf
-    known = f"early enough up to {number(early.low, 10, -1)} s (2T/D1 is below its square, {early.level})"
+    known = EARLY_ENOUGH(early=Time(early.low, digits=10).lower, level=early.level)
     if end < math.inf:
-        known += f", too late from {number(end, 10, 1)} s on (|omega| reaches it, {late.level})"
+        known = known.then(TOO_LATE(late=Time(end, digits=10).upper, level=late.level), ", ")
     bracket = _bracket(base, links, (early.low, end), size)
     if bracket is None:
         return Latest(size, early.low if late.time else math.inf, end, "run",
-                      f"{words}: not after any of some {WHEEL_LOOKS} closing times, no proof; {known}",
-                      surely=(early.low, end))
+                      _known(size, NO_LOOK(looks=WHEEL_LOOKS).then(known)), surely=(early.low, end))
     one, times = bracket
     slack = max(SHARE, *(np.abs(one.end - one.second_end) / size))
     low, high = (_root(base, one, times, size * (1 + sign * slack)) for sign in (-1, 1))
@@ -211,8 +237,8 @@ def _by_runs(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
     low, high = math.nextafter(begin + low, -math.inf), math.nextafter(begin + high, math.inf)
     low = max(low, early.low)  # which is proved
     return Latest(size, low, max(min(high, end), low), "run",
-                  f"{words}: by runs over one period, each known to {number(slack, 1, 1)} of it, the first "
-                  f"among some {WHEEL_LOOKS} closing times; {known}", surely=(early.low, end))
+                  _known(size, BY_PERIODS(share=Quantity(slack, digits=1).upper,
+                                          looks=WHEEL_LOOKS).then(known)), surely=(early.low, end))
 
 
 def _bracket(base: Scene, links: Sequence[Link], span: tuple[float, float],
@@ -406,11 +432,11 @@ def _granted(craft: Any, closed: Closed, found: Latest | None = None) -> Iterato
                      else PROPELLANT(spent=left))
     loose = [t.name for t in craft.thrusters if t.burn and (t.misalignment or t.force_tolerance)]
     if found is not None and found.stated is not None:
-        yield Caveat(Kind.BURN, LEAST_OF(forces=found.forces, within=old(found.within)))
+        yield Caveat(Kind.BURN, LEAST_OF(forces=found.forces, within=found.looked))
     elif loose:
         yield Caveat(Kind.BURN, AS_STATED(thrusters=tuple(loose)))
-    for note in craft.notes:
-        yield Caveat(Kind.BURN, old(note))
+    for one in craft.assumed:
+        yield Caveat(Kind.BURN, one)
 
 
 def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = None) -> TimeTo:

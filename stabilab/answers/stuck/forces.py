@@ -14,6 +14,8 @@ from typing import Any
 
 import numpy as np
 
+from ...reasons import Reason
+from ..caveats import varied
 from ..limit import Limit, asked
 from ..passage import Found, run_once
 from ..tilt import Cone, Spread, cone_of_forces, nearest_round
@@ -33,12 +35,9 @@ class Forces:
     loose: tuple[int, ...]
 
     @property
-    def words(self) -> str:
+    def reason(self) -> Reason:
         """What is looked at."""
-        if not self.cone.angle:
-            return f"with {self.cone.within}"
-        return f"tilted by {self.cone.angle:.6g} rad" + f" and with {self.cone.within}" * bool(
-            self.cone.within)
+        return varied(self.cone.angle, self.cone.within)
 
     def places(self) -> list[Place]:
         """Those that are looked at, the forces as stated left out."""

@@ -19,7 +19,7 @@ from ...numbers.vectors import Float3, Number
 from ...orbit.reduction import Reduction
 from ...orbit.result import Fate, Motion
 from ...physics.scene import Scene
-from ...reasons import DIGITS, Momentum, Quantity, Rate, Reason, Sentence, Torque, old
+from ...reasons import DIGITS, Momentum, Quantity, Rate, Reason, Sentence, Torque, as_reason
 from ...representation import Shown
 from ..caveats import STEADY
 from ..tilt import Spread, Tilt
@@ -71,19 +71,24 @@ class WheelAnswer:
     has no end. best: where there is no interval, the momentum within `searched` that delays the limit most;
     best_time: (low, high), s, None where the limit is not reached within the time followed; gain: by how much
     later, s (low end against low end). most: whether the runs that are compared came to the limit: else
-    another momentum may delay it more. because: how this is known.
+    another momentum may delay it more. reason: how this is known; because: the same in words.
     """
 
     wheel: str
     axis: Float3
     now: float
     keeps_bounded: tuple[tuple[float, float], ...]
-    because: str
+    reason: Reason
     best: float | None = None
     best_time: tuple[float, float] | None = None
     gain: float | None = None
     searched: tuple[float, float] | None = None
     most: bool = True
+
+    @property
+    def because(self) -> str:
+        """How this is known, in words and SI units."""
+        return self.reason.text()
 
 
 @dataclass(frozen=True)
@@ -223,10 +228,11 @@ def margins(scenario: Scenario, scene: Scene, seen: Outcome) -> dict[str, Margin
 def _rate(scenario: Scenario, motion: Motion, family: Family | None) -> Margin:
     """To the nearest separatrix as the motion knows it, and how far beyond it the fate is another."""
     if motion.margin_velocity is None or motion.velocity_witness is None:
-        return Margin(reason=old(motion.velocity_because) if motion.velocity_because else NO_SEPARATRIX_NEAR)
+        return Margin(reason=as_reason(motion.velocity_because) if motion.velocity_because
+                      else NO_SEPARATRIX_NEAR)
     change = [b - a for a, b in zip(scenario.start, motion.velocity_witness)]
     direction = _unit(scenario.in_file(change)) if any(change) else None
-    reason = old(motion.velocity_because) if motion.velocity_because else None
+    reason = as_reason(motion.velocity_because) if motion.velocity_because else None
     if _walled(family):
         return Margin(motion.margin_velocity, direction, reason.then(ALONE) if reason else ALONE,
                       motion.margin_velocity)

@@ -17,6 +17,7 @@ from ...answers.uncertain.result import ALSO_ANOTHER, reason_of
 from ...errors import printable
 from ...numbers.units import unit_of_key
 from ...numbers.vectors import CYCLE
+from ...reasons import Quantity
 from ...representation import values_of
 from .. import ending, frame, limiting
 from ..axes import axes_of
@@ -426,8 +427,8 @@ def _lines(subject, over, units) -> list[str]:
     if over.changes_at == 0:
         lines.append("    flips however small the uncertainties are")
     elif over.changes_at is not None:
-        lines.append(
-            f"    flips at {over.changes_at:.6g} times the uncertainties (found by search, checked exactly)")
+        flips = units.filled(Quantity(over.changes_at).upper, DIGITS)
+        lines.append(f"    flips at {flips} times the uncertainties (found by search, checked exactly)")
     elif over.answer == "holds" and over.proved < math.inf:
         lines.append("    no change was found up to 100 times the uncertainties")
     for w in over.witnesses:  # to six digits: JSON has them all

@@ -231,7 +231,7 @@ def _head(case) -> str:
     units = units_of(case)
     rows += [f"  motion from {units.vector(case.state[:3], units.rates, DIGITS)}"] if case.state else []
     rows += [f"  to 72 digits, as π is in the unit: {', '.join(case.inexact)}"] if case.inexact else []
-    rows += [f"  note: {note}" for note in case.notes]
+    rows += [f"  note: {units.said(one)}" for one in case.assumed]
     return "\n".join(rows) + "\n"
 
 

@@ -9,7 +9,6 @@ from ...representation import values_of
 from .. import limiting
 from ..axes import axes_of, direction
 from ..data import Endless, csv_lines
-from ..terminal import lettered
 from ..units import DIGITS, SHORT, Units, bracket, number, vector
 from .classification import what_changes
 from .headline import REST, STEADY
@@ -37,7 +36,8 @@ def as_dict(case, found) -> dict:
 
 def _row(row, case) -> dict:
     wheels = [{"wheel": w.wheel, "keeps_bounded": [list(map(Endless, pair)) for pair in w.keeps_bounded],
-               **values_of(w, "now axis best best_time gain searched because")} for w in row.wheels]
+               **values_of(w, "now axis best best_time gain searched because"),
+               "reason": w.reason.as_dict()} for w in row.wheels]
     margins = row.margins.items()
     return {**values_of(row, "thrusters torque torque_principal fate level"),
             **axes_of(case).key(row.axis), **values_of(row, "sense limit time_to_limit largest_rate"),
@@ -218,7 +218,7 @@ def _wheel(wheel, units) -> str:
                    for low, high, without in merged(wheel.keeps_bounded)]
         return f"wheel {name}, now {number(wheel.now)} N m s, keeps it bounded at {' or '.join(momenta)}"
     if wheel.best is None:
-        return f"wheel {name}: no momentum is known to keep it bounded: {wheel.because}"
+        return f"wheel {name}: no momentum is known to keep it bounded: {units.said(wheel.reason)}"
     later = ("not reached while followed" if wheel.best_time is None
              else f"{units.time(wheel.best_time[0], SHORT)}")
     gain = "" if wheel.gain is None else f", {units.time(wheel.gain, SHORT)} later"
@@ -300,7 +300,8 @@ def _details(row, units) -> list[str]:
 
 def means(row, units) -> list[str]:
     """What a wheel or another thruster can do, a line each."""
-    wheels = [_wheel(w, units) + (f" ({w.because})" if w.keeps_bounded or w.best is not None else "")
+    wheels = [_wheel(w, units)
+              + (f" ({units.said(w.reason)})" if w.keeps_bounded or w.best is not None else "")
               for w in row.wheels]
     return wheels + [_helper(h, units) for h in row.helpers]
 
@@ -340,7 +341,8 @@ def _latest(one) -> dict | None:
         return None
     return {"limit": one.limit, "reached": reached(one.low, one.high),
             "time": [one.low, one.high] if math.isfinite(one.high) else None, "not_before": one.low,
-            **values_of(one, "level because again surely within forces"), "stated": _latest(one.stated)}
+            **values_of(one, "level because again surely within forces"), "reason": one.reason.as_dict(),
+            "stated": _latest(one.stated)}
 
 
 def burn_text(case, found, units: Units) -> str:
@@ -367,7 +369,7 @@ def _headline(found, units: Units) -> str:
         return f"CLOSED at {units.moment(one.time)}, then {one.motion.fate.word.upper()}, {after}"
     aim = f"|ω| below {units.rate(latest.limit)}"
     over = ("" if latest.stated is None else
-            f", {lettered(units.words(printable(latest.within), SHORT))}: the least of {latest.forces} "
+            f", {units.said(latest.looked, SHORT)}: the least of {latest.forces} "
             "forces")
     if math.isinf(latest.low):
         return f"NO CLOSING IS TOO LATE for {aim} ({latest.level}){over}"
