@@ -124,7 +124,7 @@ def test_what_a_burn_takes_for_granted_has_a_code(case_file, stabilab):
 def test_the_attitude_says_which_axis_by_a_code():
     found = attitude("[body]\ninertia = [12, 9, 5]\n[motion]\nangular_velocity = [1, 0.1, 0.1]\n")
     # 2 T D2 = 109.3 is below |H|^2 = 145.06: H goes round the axis of the greatest moment
-    assert found.reason.code == "momentum-goes-round" and found.reason.quantities == {"which": "short"}
+    assert found.reason.code == "momentum-round-axis" and found.reason.quantities == {"axis": "short"}
 
 
 def test_a_diagram_names_the_axis_of_its_torque(case_file, stabilab):
