@@ -101,7 +101,7 @@ def test_a_margin_names_the_change_from_which_the_fate_is_back(case_file, stabil
         known = clauses(margin.reason)
         back = known.get("bounded-again") or known.get("spins-up-again")
         assert (back is not None) == (margin.until is not None and margin.until < math.inf)
-        assert back is None or (back["until"].value, back["until"].side) == (margin.until, 1)
+        assert back is None or (back["change"].value, back["change"].side) == (margin.until, 1)
     told = json.loads(stabilab("stuck", case_file(CRAFT.format(thruster="stuck = true")), "--json")[1])
     assert told["rows"][0]["margin_reason"]["torque"]["code"] == row.margins["torque"].reason.code
 
@@ -124,7 +124,7 @@ def test_what_a_burn_takes_for_granted_has_a_code(case_file, stabilab):
 def test_the_attitude_says_which_axis_by_a_code():
     found = attitude("[body]\ninertia = [12, 9, 5]\n[motion]\nangular_velocity = [1, 0.1, 0.1]\n")
     # 2 T D2 = 109.3 is below |H|^2 = 145.06: H goes round the axis of the greatest moment
-    assert found.reason.code == "momentum-goes-round" and found.reason.quantities == {"which": "short"}
+    assert found.reason.code == "momentum-round-axis" and found.reason.quantities == {"axis": "short"}
 
 
 def test_a_diagram_names_the_axis_of_its_torque(case_file, stabilab):

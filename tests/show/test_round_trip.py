@@ -43,10 +43,9 @@ def known(text: str, values) -> bool:
     words = text.replace(",", "").replace("−", "-")
     value, (digits, _, power) = float(words), words.partition("e")
     last = 10.0 ** (int(power or 0) - len(digits.partition(".")[2]))
-    if "." not in digits and not power:  # 3230 may have three digits alone
+    if "." not in digits and not power:  # four significant digits, of which zeros at the end are not written
         whole = digits.strip("+-")
-        last = 10.0 ** max(0, len(whole) - max(3, len(whole.rstrip("0")))) if len(whole) > 3 else 1.0
-        last = last if whole.endswith("0") else 1.0 if len(whole) > 4 else 0.0
+        last = 10.0 ** (len(whole) - (3 if whole.endswith("0") else 4))
     return any(abs(abs(one) - abs(value) * size) <= (1.01 * last + 1e-9 * abs(value)) * size
                for size in SIZES for one in values)
 
@@ -62,9 +61,7 @@ def missing(text: str, given, case: str):
 
 def asked(command, path):
     options = COMMANDS[command]
-    text = run(command, str(path), *options)
-    rest = () if options == ("--why",) else options
-    found = run(command, str(path), *rest, "--json")
+    text, found = run(command, str(path), *options), run(command, str(path), *options, "--json")
     return (text["answer"], found["answer"]) if isinstance(found["answer"], (list, dict)) else ("", None)
 
 

@@ -19,39 +19,13 @@ from ...numbers.vectors import Float3, Number
 from ...orbit.reduction import Reduction
 from ...orbit.result import Fate, Motion
 from ...physics.scene import Scene
-from ...reasons import Momentum, Quantity, Rate, Reason, Sentence, Torque, as_reason
+from ...reasons import DIGITS, Momentum, Quantity, Rate, Reason, Sentence, Torque, as_reason
 from ...representation import Shown
 from ..caveats import STEADY
 from ..tilt import Spread, Tilt
 from ..uncertain.fate import Uncertainty
 from .fate import Outcome, Scenario, across, loose
 from .line import TRIES, Family, Line, candidates, change_between, family_of, nearest_change, pieces, rise
-
-ON_SEPARATRIX = Sentence("margin-on-separatrix", "the motion is on the separatrix")()
-OFF_AXES = Sentence("no-separatrix-off-axes",
-                    "the torque is off the principal axes: no separatrix is known")()
-NONE_NEAR = Sentence("no-separatrix-near", "no separatrix stands near it")()
-FREE = Sentence("any-change-bounds", "the motion spins up on a set of measure zero: nearly every change, "
-                "however small, makes it bounded")()
-ALONE = Sentence(
-    "separatrix-alone", "to the separatrix, where alone the fate is another: beyond it the motion is "
-    "bounded again")()
-BOUNDED_AGAIN = Sentence("bounded-again", "from {until} along the same line on it is bounded again")
-SPINS_UP_AGAIN = Sentence("spins-up-again", "from {until} along the same line on it spins up again")
-NO_TORQUE = Sentence("bounded-without-torque",
-                     "no torque acts: the motion is bounded whatever the wheel does")()
-WHEEL_ALONG = Sentence("none-bounded-wheel-along", "the wheel has momentum along the torque: no motion is "
-                       "bounded, and no separatrix divides them")()
-ALL_BOUNDED = Sentence(
-    "all-bounded", "every motion is bounded but for a set of measure zero: the fate does not change")()
-NO_TORQUE_CHANGES = Sentence("no-torque-changes", "no torque along this axis changes the fate")()
-STAYS_ON_AXIS = Sentence("torque-stays-on-axis", "of a torque that stays on its axis")()
-TO_NO_TORQUE = Sentence("to-no-torque",
-                        "to no torque at all: along this axis any torque spins it up")()
-NO_WHEEL_CHANGES = Sentence("no-wheel-changes", "no wheel momentum across the torque is known to change the "
-                            "fate, up to {times} times the body's own")
-ACROSS = Sentence(
-    "wheel-across", "of a wheel momentum that stays across the torque, the least found over its directions")()
 
 
 # --- The answer
@@ -68,8 +42,7 @@ class Margin:
     """The smallest change that changes the fate: its size, its direction (unit vector, frame of the file);
     None where none is known.
 
-    reason: why it is not known, or what it holds for, None where there is nothing to say; because: the same
-    in words, in SI units. until: the greater change along the direction from
+    reason: why it is not known, or what it holds for. until: the greater change along the direction from
     which on the fate is again what it was: the size itself where it is another on the separatrix alone, inf
     where no greater change leads back, None where that is not known.
     """
@@ -81,8 +54,7 @@ class Margin:
 
     @property
     def because(self) -> str:
-        """Why it is not known, or what it holds for, in words and SI units; empty where there is nothing to
-        say."""
+        """`reason` in words and SI units, empty where there is none."""
         return "" if self.reason is None else self.reason.text()
 
     @property
@@ -198,7 +170,6 @@ class Stuck(Shown):
 
 
 # --- How little must change
-DIGITS = 6  # of a rate from which on the fate is back
 TURN = 2000  # places on the turn at which the rise of the potential is looked at, to find a direction
 MOST = 1000  # of the body's own momentum: changes of the wheel as great are not given
 # of a turn: directions beside that of a circle that is a point
@@ -208,6 +179,34 @@ FEW = 5  # nearest places that are looked at in exact numbers
 DIRECTIONS, CLOSER = 180, 26
 # rad: the nearest place may be the tip where two separatrices meet, with nothing straight behind it
 TURNS = (0.0, 1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3)
+FREE = Sentence(
+    "measure-zero", "the motion spins up on a set of measure zero: nearly every change, however small, makes "
+    "it bounded")()
+ALONE = Sentence(
+    "on-separatrix-alone", "to the separatrix, where alone the fate is another: beyond it the motion is "
+    "bounded again")()
+ON_SEPARATRIX = Sentence("is-on-separatrix", "the motion is on the separatrix")()
+NO_SEPARATRIX_KNOWN = Sentence(
+    "off-axis-no-separatrix", "the torque is off the principal axes: no separatrix is known")()
+NO_SEPARATRIX_NEAR = Sentence("no-separatrix-near", "no separatrix stands near it")()
+BOUNDED_AGAIN = Sentence("bounded-again", "beyond {change} along the same line it is bounded again")
+SPINS_UP_AGAIN = Sentence("spins-up-again", "beyond {change} along the same line it spins up again")
+WHATEVER_WHEEL = Sentence(
+    "bounded-without-torque", "no torque acts: the motion is bounded whatever the wheel does")()
+WHEEL_ALONG = Sentence(
+    "wheel-along-torque", "the wheel has momentum along the torque: no motion is bounded, and no separatrix "
+    "divides them")()
+EVERY_BOUNDED = Sentence(
+    "all-bounded", "every motion is bounded but for a set of measure zero: the fate does not change")()
+NO_TORQUE_CHANGES = Sentence("no-torque-changes", "no torque along this axis changes the fate")()
+TORQUE_ON_AXIS = Sentence("torque-on-axis", "for a torque along the same axis")()
+TO_NO_TORQUE = Sentence("to-no-torque", "to no torque at all: along this axis any torque spins it up")()
+NO_WHEEL_CHANGES = Sentence(
+    "no-wheel-changes", "no wheel momentum across the torque is known to change the fate, up to a thousand "
+    "times the body's own")()
+WHEEL_ACROSS = Sentence(
+    "wheel-across", "for a change of wheel momentum perpendicular to the torque, the least found over all "
+    "directions")()
 # of a change: how near the exact one is to that of doubles; changes back so soon are no use to anybody
 CLOSE = 1e-6
 
@@ -219,7 +218,7 @@ def margins(scenario: Scenario, scene: Scene, seen: Outcome) -> dict[str, Margin
                 for name in ("rate", "wheel", "torque")}
     family = family_of(scene, scenario.state)
     if seen.motion is None or (family is None and any(scene.vector("constant_torque"))):
-        return {name: Margin(reason=OFF_AXES) for name in ("rate", "wheel", "torque")}
+        return {name: Margin(reason=NO_SEPARATRIX_KNOWN) for name in ("rate", "wheel", "torque")}
     if family is not None and seen.fate == Fate.SPIN_UP and _walled(family):
         any_change = Margin(0.0, None, FREE, math.inf)
         return {"rate": any_change, "wheel": any_change, "torque": _torque(scenario, family, False)}
@@ -229,27 +228,21 @@ def margins(scenario: Scenario, scene: Scene, seen: Outcome) -> dict[str, Margin
 def _rate(scenario: Scenario, motion: Motion, family: Family | None) -> Margin:
     """To the nearest separatrix as the motion knows it, and how far beyond it the fate is another."""
     if motion.margin_velocity is None or motion.velocity_witness is None:
-        return Margin(reason=_known(motion) or NONE_NEAR)
+        return Margin(reason=as_reason(motion.velocity_because) if motion.velocity_because
+                      else NO_SEPARATRIX_NEAR)
     change = [b - a for a, b in zip(scenario.start, motion.velocity_witness)]
-    direction, reason = _unit(scenario.in_file(change)) if any(change) else None, _known(motion)
+    direction = _unit(scenario.in_file(change)) if any(change) else None
+    reason = as_reason(motion.velocity_because) if motion.velocity_because else None
     if _walled(family):
-        return Margin(motion.margin_velocity, direction, _followed(reason, ALONE),
+        return Margin(motion.margin_velocity, direction, reason.then(ALONE) if reason else ALONE,
                       motion.margin_velocity)
     if family is None or not any(change):
         return Margin(motion.margin_velocity, direction, reason)
     until = _rate_again(family, change, Fraction(motion.margin_velocity))
     if until is not None and until < math.inf:
-        reason = _followed(reason, _again(Rate(until, digits=DIGITS), family.fate() in STEADY))
+        again = _again(Rate(until, digits=DIGITS), family.fate() in STEADY)
+        reason = reason.then(again) if reason else again
     return Margin(motion.margin_velocity, direction, reason, until)
-
-
-def _known(motion: Motion) -> Reason | None:
-    """What is said of the distance from the separatrix, if anything."""
-    return as_reason(motion.velocity_because) if motion.velocity_because else None
-
-
-def _followed(reason: Reason | None, other: Reason) -> Reason:
-    return other if reason is None else reason.then(other)
 
 
 def _rate_again(family: Family, change: Sequence[Number], size: Fraction) -> float | None:
@@ -269,7 +262,7 @@ def _rate_again(family: Family, change: Sequence[Number], size: Fraction) -> flo
 
 
 def _again(until: Quantity, steady: bool) -> Reason:
-    return BOUNDED_AGAIN(until=until.upper) if steady else SPINS_UP_AGAIN(until=until.upper)
+    return (BOUNDED_AGAIN if steady else SPINS_UP_AGAIN)(change=until.upper)
 
 
 def _walled(family: Family | None) -> bool:
@@ -284,7 +277,7 @@ def _parameters(scenario: Scenario, family: Family | None) -> dict[str, Margin]:
     if family is not None and reduction is not None and not reduction.geometry.walled:
         steady = family.fate() in STEADY
         return {"wheel": _wheel(scenario, family, steady), "torque": _torque(scenario, family, steady)}
-    reason = NO_TORQUE if family is None else WHEEL_ALONG if reduction is None else ALL_BOUNDED
+    reason = WHATEVER_WHEEL if family is None else WHEEL_ALONG if reduction is None else EVERY_BOUNDED
     found = {name: Margin(reason=reason) for name in ("wheel", "torque")}
     if family is not None and reduction is not None and not any(loose(reduction, family.state)):
         found["torque"] = _torque(scenario, family, True)  # no wall need hold the start: it may be let go
@@ -307,7 +300,7 @@ def _torque(scenario: Scenario, family: Family, steady: bool) -> Margin:
     change = min(changes, key=abs, default=None)
     if change is None:
         return Margin(reason=NO_TORQUE_CHANGES)
-    reason = STAYS_ON_AXIS if family.torque + change else TO_NO_TORQUE
+    reason = TORQUE_ON_AXIS if family.torque + change else TO_NO_TORQUE
     if abs(change) < until < math.inf:
         reason = reason.then(_again(Torque(until), steady))
     direction = _direction(scenario, family, {family.axis: 1 if change > 0 else -1})
@@ -344,10 +337,8 @@ def _wheel(scenario: Scenario, family: Family, steady: bool) -> Margin:
                 break
     size, until, step = best
     if size == math.inf:
-        return Margin(reason=NO_WHEEL_CHANGES(times=MOST))
-    reason = ACROSS
-    if until < math.inf:
-        reason = reason.then(_again(Momentum(until), steady))
+        return Margin(reason=NO_WHEEL_CHANGES)
+    reason = WHEEL_ACROSS.then(_again(Momentum(until), steady) if until < math.inf else None)
     return Margin(size, _direction(scenario, family, {j: step[j], k: step[k]}), reason, until)
 
 

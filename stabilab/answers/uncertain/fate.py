@@ -83,7 +83,7 @@ from .search import FEW, by_sample, by_trial
 TORQUE_VANISHES = Sentence("torque-vanishes", "the torque about {axis} vanishes")
 MOMENTUM_VANISHES = Sentence("momentum-vanishes", "the gyrostatic moment along {axis} vanishes")
 TWO_EQUAL = Sentence("two-moments-equal", "moments {first} and {second} are equal")
-TORQUE_ON_AXIS = Sentence("torque-on-axis", "the torque comes to lie along a principal axis")()
+TORQUE_ON_AXIS = Sentence("torque-falls-on-axis", "the torque comes to lie along a principal axis")()
 ONE_AT_INFINITY = Sentence("one-through-infinity",
                            "one of the equilibria passes through infinity")()
 ONLY_AT_INFINITY = Sentence("only-one-through-infinity", "the equilibrium passes through infinity")()

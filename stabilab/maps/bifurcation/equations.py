@@ -361,8 +361,8 @@ CURVES_ALWAYS = Sentence("curves-for-every-value",
 CURVES_OF_EQUAL = Sentence("curves-of-equal-moments", "the torque lies along equal moments of inertia, where "
                            "equilibria form curves")()
 NO_EQUILIBRIUM = Sentence(
-    "wheel-along-torque", "the torque lies on {axis} and a wheel carries momentum along it: no equilibrium "
-    "wherever neither is zero")
+    "diagram-wheel-along-torque", "the torque lies on {axis} and a wheel carries momentum along it: no "
+    "equilibrium wherever neither is zero")
 NO_BALANCE = Sentence("nothing-balances",
                       "three equal moments of inertia and no wheel: nothing balances a torque")()
 WHOLE_CURVES = Sentence("whole-curves-counted",
