@@ -70,7 +70,7 @@ def answer(question, cases, json, digits, strict, units, why, csv=False, follow=
     systems = units_asked(loaded, units, tilt=tilt)
     motions, digits_of = [], []
     for case in one_by_one(loaded):
-        found = motion_of(case, _needed(question, json, why or bool(case.variant)), follow, certify)
+        found = motion_of(case, _needed(question, why or bool(case.variant and not json)), follow, certify)
         motions.append(tilted(case, found, tilt) if question == "fate" else found)
         digits_of.append(_told(question, case, motions[-1], digits))
     boxes, motions = over_boxes(loaded, motions, *(["fate"] if question == "fate" else []))
@@ -91,9 +91,9 @@ def answer(question, cases, json, digits, strict, units, why, csv=False, follow=
     hold_laws(strict, (motion.validity for _, motion, _ in answered), loaded)
 
 
-def _needed(question, json, whole):
+def _needed(question, whole):
     """What of a motion the question prints. whole: with a table of all margins, or what `--why` adds."""
-    if question == "period" and (json or not whole):
+    if question == "period" and not whole:
         return Needs.PERIOD | Needs.FLIPS
     return Needs.QUICK if question == "extremes" else Needs.ALL
 
