@@ -43,9 +43,9 @@ def known(text: str, values) -> bool:
     words = text.replace(",", "").replace("−", "-")
     value, (digits, _, power) = float(words), words.partition("e")
     last = 10.0 ** (int(power or 0) - len(digits.partition(".")[2]))
-    if "." not in digits and not power:  # four significant digits, of which zeros at the end are not written
+    if "." not in digits and not power:  # three or four significant digits
         whole = digits.strip("+-")
-        last = 10.0 ** (len(whole) - (3 if whole.endswith("0") else 4))
+        last = 10.0 ** (len(whole) - (3 if whole.endswith("0") or len(whole) < 4 else 4))
     return any(abs(abs(one) - abs(value) * size) <= (1.01 * last + 1e-9 * abs(value)) * size
                for size in SIZES for one in values)
 
@@ -70,7 +70,8 @@ def own(path, text):
     title = re.search(r'^title = "(.*)"', path.read_text(encoding="utf-8"), re.MULTILINE)
     lines = text.splitlines()
     letters = len(title[1]) if title else -1
-    return "\n".join(line for line in lines if len(line) != letters or line.startswith(" "))
+    kept = "\n".join(line for line in lines if len(line) != letters or line.startswith(" "))
+    return kept.replace("along axes 1, 2, 3", "")
 
 
 def rows():

@@ -40,6 +40,7 @@ def _row(row, case) -> dict:
                "reason": w.reason.as_dict()} for w in row.wheels]
     margins = row.margins.items()
     return {**values_of(row, "thrusters torque torque_principal fate level"),
+            "torque_size": math.hypot(*row.torque),
             **axes_of(case).key(row.axis), **values_of(row, "sense limit time_to_limit largest_rate"),
             "margin": _margin_sizes(row), "wheel_intervals": wheels,
             "because": row.because, "reason": row.reason.as_dict(), "tilt": tilt_dict(row.tilt),
