@@ -22,7 +22,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..numbers.vectors import Exact3
-from ..orbit.result import Fate, Motion, Needs
+from ..orbit.result import OUTCOMES, Motion, Needs
 from ..physics.coefficients import three_floats
 from ..physics.scene import AnyScene, Scene, torque_axis
 from ..reasons import Filling, Rate, Reason, Sentence, Time
@@ -62,9 +62,6 @@ SOME_REACH = Sentence("cone-some-reach", "{varied} it reaches {limit} after {fir
 ALL_REACH = Sentence("cone-all-reach", "{varied} it reaches {limit} after {first} at the earliest "
                      "and after {last} at the latest of {looked} (times: {level})")
 Tried: TypeAlias = list[tuple[float, float]]  # a value and its azimuth
-VERBS = {Fate.BOUNDED: "stays bounded", Fate.SPIN_UP: "spins up", Fate.SEPARATRIX: "lies on a separatrix",
-         Fate.EQUILIBRIUM: "stays as it is",
-         Fate.UNDECIDED: "is undecided"}
 
 
 class Part(NamedTuple):
@@ -384,8 +381,8 @@ def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None,
               *((None, sizes) for sizes in (*cone.corners[1:], *cone.between))]
     torques = [cone.at(*place) for place in places]
     if ask is None:
-        found = Counter(VERBS[motion(tilted(scene, torque), state, needs=Needs.FATE, exact=exact).fate]
-                        for torque in torques)
+        fate = lambda torque: motion(tilted(scene, torque), state, needs=Needs.FATE, exact=exact).fate
+        found = Counter(OUTCOMES[fate(torque)].does for torque in torques)
         return Spread(cone.angle, cone.words, len(torques), fates=tuple(found.most_common()),
                       within=cone.within)
     limit = asked(scene, **ask)

@@ -1,11 +1,49 @@
-"""What a text seems to be that is no case file: named by how it begins, so that an error can say it."""
+"""What a text seems to be that is no case file: named by how it begins, so that an error can say it; and the
+files of other programs that `stabilab import` reads."""
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any, NamedTuple
 
-READ = ("`stabilab import` reads a spacecraft file of NASA 42 (SC_*.txt), and JSON or a Python dictionary "
-        "with "
-        "Basilisk's names or with the tables of a case")
+
+class Importer(NamedTuple):
+    """Files of another program. name: with its article; holds: whether a text is one; module: of this room,
+    loaded where one is read, with a function `read(text, path, body)` -> a `Craft`, or the text of a case;
+    files: how they are named; bodies: whether one body of several can be asked for."""
+
+    name: str
+    holds: Callable[[str], bool]
+    module: str
+    files: str = ""
+    bodies: bool = False
+
+    def read(self, text: str, path: Any, body: int | None = None) -> Any:
+        """What the file says of its spacecraft. Raises InputError where that makes no case."""
+        return import_module(f".{self.module}", __package__).read(text, path, body)
+
+
+def is_42(text: str) -> bool:
+    """Whether a text is a file of NASA's simulator 42."""
+    return "42:" in text[:200] and "!" in text
+
+
+# The first row that holds a text reads it: a new importer is a file and a row above the last, which takes all
+# others.
+IMPORTERS = (
+    Importer("a NASA 42 spacecraft file", is_42, "import_42", " (SC_*.txt)", bodies=True),
+    Importer("JSON or a Python dictionary with Basilisk's names or with the tables of a case",
+             lambda text: True, "import_basilisk"))
+FORMATS = ", and ".join(one.name + one.files for one in IMPORTERS)
+READ = f"`stabilab import` reads {FORMATS}"
+
+
+def importer_of(text: str) -> Importer:
+    """The first that holds a text."""
+    return next(one for one in IMPORTERS if one.holds(text))
+
+
 # Of which the numbers go over by hand: what they are called there, and where they go.
 BY_HAND = ("write its moments as [body] inertia = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]] in kg m^2, "
            "about "
@@ -37,8 +75,8 @@ def seems(text: str) -> str:
     ccsds = re.match(r"(?:COMMENT.*\n\s*)*CCSDS_([A-Z]{3})_VERS", head)
     if ccsds:
         return f"a CCSDS {CCSDS.get(ccsds[1], 'message')} ({ccsds[1]})"
-    if is_42(text):
-        return "a spacecraft file of NASA 42"
+    if (one := importer_of(text)) is not IMPORTERS[-1]:
+        return one.name
     if re.match(r"\{\s*[\"}]|\[\s*\{", head):
         return "JSON"
     if _DICTIONARY.search(head):
@@ -53,11 +91,6 @@ def seems(text: str) -> str:
     yaml = sum(bool(_YAML.fullmatch(line)) and not _PAIR.match(line) for line in lines)
     titles = any(line.rstrip().endswith(":") for line in lines)
     return "YAML" if yaml > 1 - titles and yaml > pairs and yaml >= 0.3 * len(lines) else ""
-
-
-def is_42(text: str) -> bool:
-    """Whether a text is a file of NASA's simulator 42."""
-    return "42:" in text[:200] and "!" in text
 
 
 def _columns(lines: list[str]) -> bool:

@@ -134,7 +134,7 @@ class Entry(NamedTuple):
     line: int
 
 
-def spacecraft(text: str, path, body: int | None = None) -> Craft:
+def read(text: str, path, body: int | None = None) -> Craft:
     """What the file says of all its bodies as one, or of one of them alone, in that body's frame. Raises
     InputError where it says no inertia."""
     entries = _used(_entries(text))

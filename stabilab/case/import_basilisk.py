@@ -11,9 +11,9 @@ import re
 from decimal import Decimal
 from typing import Any
 
-from ..errors import InputError
-from .formats import BY_HAND, READ, seems
-from .imported import Craft
+from ..errors import InputError, printable
+from .formats import BY_HAND, FORMATS, READ, seems
+from .imported import Craft, case_of_tables
 
 HUB = {"mass": ("mHub", "mass"), "centre": ("r_BcB_B",), "inertia": ("IHubPntBc_B", "inertia"),
        "rate": ("omega_BN_BInit", "omega_BN_B", "angular_velocity", "omega")}
@@ -23,6 +23,13 @@ THRUSTER = {"name": ("label", "name"), "position": ("thrLoc_B", "location"),
             "direction": ("thrDir_B", "direction"), "force": ("MaxThrust", "maxThrust")}
 MOTION = re.compile("omega|rate|angvel|velocity|spin|motion", re.IGNORECASE)  # of names that state one
 WHEEL = {"name": ("label", "name"), "axis": ("gsHat_B",), "inertia": ("Js",), "speed": ("Omega",)}
+
+
+def read(text: str, path: Any, body: None = None) -> Craft | str:
+    """The craft, or the case as TOML of a file that has the tables of one."""
+    data = dictionary(text, printable(str(path)))
+    own = case_of_tables(data, path)
+    return from_dictionary(data, path) if own is None else own
 
 
 def from_dictionary(data: dict, path="the dictionary") -> Craft:
@@ -110,8 +117,7 @@ def dictionary(text: str, path) -> Any:
             f"{path}: neither JSON ({json_words}) nor a dictionary of plain numbers in Python "
             f"({error}); {READ}") from None
     raise InputError(
-        f"{path}: expected a NASA 42 spacecraft file (SC_*.txt), or JSON or a Python dictionary with "
-        f"Basilisk's names; JSON says: {json_words}")
+        f"{path}: expected {FORMATS}; JSON says: {json_words}")
 
 
 def _literal(node):

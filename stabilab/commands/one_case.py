@@ -12,9 +12,8 @@ from functools import partial
 
 from ..answers.caveats import of_case
 from ..answers.motion import Needs
-from ..case import import_42, import_basilisk
-from ..case.formats import is_42
-from ..case.imported import case_of_tables, case_text, faults_of
+from ..case.formats import IMPORTERS, importer_of
+from ..case.imported import case_text, faults_of
 from ..case.read import blamed_on
 from ..case.source import EXAMPLES, command_of, source_text
 from ..case.source import example as text_of
@@ -52,20 +51,16 @@ def example(name):
 def import_(file, out, stuck, body=None):
     """Write the case, name what has no counterpart, and refuse what has faults yet."""
     given = source_text(file)
-    if is_42(given):
-        craft = import_42.spacecraft(given, file, body)
-    elif body is None:
-        data = import_basilisk.dictionary(given, printable(str(file)))
-        own = case_of_tables(data, file)
-        if own is not None:
-            _written(own, file, out, stuck)
-            return
-        craft = import_basilisk.from_dictionary(data, file)
-    else:
-        raise InputError(
-            f"--body counts the bodies of a NASA 42 spacecraft file, and {printable(str(file))} is none")
-    text = case_text(craft, file, stuck or ())
-    _written(text, file, out, (), (*craft.caveats, *craft.said), craft.omitted)
+    importer = importer_of(given)
+    if body is not None and not importer.bodies:
+        names = " or ".join(one.name for one in IMPORTERS if one.bodies)
+        raise InputError(f"--body counts the bodies of {names}, and {printable(str(file))} is none")
+    found = importer.read(given, file, body)
+    if isinstance(found, str):
+        _written(found, file, out, stuck)
+        return
+    text = case_text(found, file, stuck or ())
+    _written(text, file, out, (), (*found.caveats, *found.said), found.omitted)
 
 
 def _written(text, file, out, stuck, said=(), omitted=()):

@@ -5,7 +5,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from enum import Flag, IntEnum
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..errors import Caveat
 from ..numbers.vectors import Float3, Number
@@ -38,7 +38,34 @@ class Fate(IntEnum):
     @property
     def word(self) -> str:
         """The word used in reports and JSON."""
-        return ("bounded", "spin-up", "separatrix", "equilibrium", "undecided")[self]
+        return OUTCOMES[self].word
+
+
+class Outcome(NamedTuple):
+    """What a fate is called. word: in JSON, CSV and case files; head: at the head of an answer; does, do: of
+    one motion and of several; legend: of a picture; no_period: why it has no period, where it has none."""
+
+    word: str
+    head: str
+    does: str
+    do: str
+    legend: str
+    no_period: str
+
+
+NEVER_AGAIN = "the motion does not repeat"
+# every view takes its words from here
+OUTCOMES = {
+    Fate.BOUNDED: Outcome("bounded", "BOUNDED for ever", "stays bounded", "stay bounded", "bounded",
+                          "no period is known of this motion"),
+    Fate.SPIN_UP: Outcome("spin-up", "SPINS UP", "spins up", "spin up", "spins up", NEVER_AGAIN),
+    Fate.SEPARATRIX: Outcome("separatrix", "ON THE SEPARATRIX", "lies on the separatrix",
+                             "lie on the separatrix", "on the separatrix", NEVER_AGAIN),
+    Fate.EQUILIBRIUM: Outcome("equilibrium", "STEADY ROTATION", "is an equilibrium", "are equilibria",
+                              "equilibrium", "the state is an equilibrium and has no period"),
+    Fate.UNDECIDED: Outcome("undecided", "UNDECIDED", "is undecided", "are undecided", "undecided",
+                            "the period is not known: the fate is undecided")}
+HEADS = {one.word: one.head for one in OUTCOMES.values()}
 
 
 class Order(IntEnum):
@@ -225,10 +252,7 @@ def without_return(label: int) -> float:
 
 def no_period(fate: Fate) -> str:
     """Why a motion with this fate has no period, in words."""
-    known = {Fate.UNDECIDED: "the period is not known: the fate is undecided",
-             Fate.BOUNDED: "no period is known of this motion",
-             Fate.EQUILIBRIUM: "the state is an equilibrium and has no period"}
-    return known.get(fate, "the motion does not repeat")
+    return OUTCOMES[fate].no_period
 
 
 def pairs(array: Iterable[Sequence[Number]]) -> tuple[tuple[float, float], ...]:

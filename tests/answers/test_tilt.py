@@ -207,7 +207,7 @@ def test_a_steady_rotation_is_not_told_to_be_at_rest():
     scene = package.Scene(package.Body((3, 2, "1.5")), package.Gyrostat((0, 0, 7)),
                           package.ConstantTorque((11, "-2.5", -2)))
     found = spread(scene, (1.0, 2.0, 3.0), Cone(np.array([11, -2.5, -2]), (), "the torque", 0.0), None)
-    assert found.fates == (("stays as it is", 13),)
+    assert found.fates == (("is an equilibrium", 13),)
 
 
 @pytest.mark.parametrize("torque", [[0.0, 0.0, 0.02], [0.001, 0.0, 0.02]])

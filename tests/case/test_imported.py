@@ -1,13 +1,19 @@
 """What an import takes over of a motion, and what it says of a file that it does not read."""
 import json
 import math
+import sys
+from types import ModuleType
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from stabilab.case import formats
+from stabilab.case.imported import Craft
 from stabilab.case.orbit_42 import from_quaternion
 from stabilab.case.read import load, load_orbiting
+from stabilab.commands.one_case import import_
+from stabilab.errors import InputError
 
 CRAFT = """<<<<<<<<  42: Spacecraft Description File   >>>>>>>>
 Own test craft              !  Description
@@ -147,3 +153,19 @@ def test_a_file_of_another_kind_is_named_with_what_is_read(tmp_path, stabilab, t
     (tmp_path / "own.txt").write_text(text)
     code, out, err = stabilab("import", tmp_path / "own.txt")
     assert code == 2 and not out and words in err and "SC_*.txt" in err and "Traceback" not in err
+
+
+def test_a_new_importer_is_a_module_and_a_row(tmp_path, monkeypatch, capsys):
+    """What the errors say is read, and what an error calls the file where a case is expected, are of the table."""
+    module = ModuleType("stabilab.case.import_toy")
+    module.read = lambda text, path, body=None: Craft("toy", inertia=text.split()[1:4])
+    monkeypatch.setitem(sys.modules, module.__name__, module)
+    row = formats.Importer("a toy", lambda text: text.startswith("TOY"), "import_toy")
+    monkeypatch.setattr(formats, "IMPORTERS", (row, *formats.IMPORTERS))
+    path = tmp_path / "a.toy"
+    path.write_text("TOY 3 4 5\n", encoding="utf-8")
+    import_(path, None, None)
+    assert "inertia = [3, 4, 5]" in capsys.readouterr().out
+    assert formats.seems("TOY 3 4 5") == "a toy"
+    with pytest.raises(InputError, match="counts the bodies of a NASA 42 spacecraft file, and .*a.toy is none"):
+        import_(path, None, None, 0)

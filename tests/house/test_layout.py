@@ -14,6 +14,7 @@ import pytest
 
 import stabilab
 from stabilab import cli
+from stabilab.orbit.result import OUTCOMES
 from tests.house import geometry, rooms
 from tests.house.rooms import (
     GROUND,
@@ -173,6 +174,15 @@ def test_a_folder_holds_a_list_that_fits_the_eye(folder):
 def test_no_file_stands_beside_a_folder_of_its_name():
     """Python would import the folder, and nobody would read the file."""
     assert not [path for path in PACKAGE.rglob("*.py") if path.with_suffix("").is_dir()]
+
+
+def test_the_words_of_an_outcome_stand_in_one_table():
+    """`orbit.result.OUTCOMES`, which every view reads; the short words, which name other things too, left out."""
+    phrases = {text for one in OUTCOMES.values() for text in one if " " in text}
+    found = {(str(path.relative_to(PACKAGE)), node.value) for path in MODULES for node in ast.walk(tree_of(path))
+             if isinstance(node, ast.Constant) and node.value in phrases}
+    assert {place for place, _ in found} == {"orbit/result.py"}, found
+    assert len(phrases) >= 14
 
 
 def test_few_places_ask_for_the_sign_of_the_geometry():

@@ -11,6 +11,7 @@ import numpy as np
 from ...answers.caveats import of_case
 from ...answers.chaos import FLAT, Chaos, Order, chaos
 from ...errors import printable
+from ...orbit.result import OUTCOMES, Fate
 from ...packages import demand
 from .. import endings, style
 from ..data import as_json, csv_lines
@@ -93,7 +94,8 @@ def _map(figure: Any, ax: Any, beside: Any, one: Subject, until: float) -> None:
     handles, words = list(told.legend_handles), [text.get_text() for text in told.get_texts()]
     told.remove()
     if np.isfinite(leaving).any():
-        handles, words = [*handles, Patch(facecolor=light(style.VERMILION))], [*words, "spins up"]
+        handles = [*handles, Patch(facecolor=light(style.VERMILION))]
+        words = [*words, OUTCOMES[Fate.SPIN_UP].legend]
     figure.legend(handles, words, loc="outside lower center", ncols=5)
 
 

@@ -13,10 +13,10 @@ from ...case.lines import KeyLines
 from ...case.table import Faults, Table
 from ...errors import Caveat, Kind, without
 from ...maps.axes import Key, Span, value_at
-from ...maps.columns import ENERGY, PACE, RATE, TIME, Column
+from ...maps.columns import ENERGY, NO_CASE, PACE, RATE, TIME, Column
 from ...maps.plan import Plan
 from ...numbers.units import unit_of
-from ...orbit.result import Fate
+from ...orbit.result import OUTCOMES
 from ...reasons import Sentence
 from .. import style
 from ..units import with_unit
@@ -104,11 +104,8 @@ def limits_of(case: Any, records: Any) -> list[Caveat]:
 # --- How fates and axes of a sweep look: colours by meaning, labels with units, straight or logarithmic
 # scales
 # fate -> (its name in a legend, its colour)
-FATES = {Fate.BOUNDED: ("bounded", style.OUTCOME["bounded"]),
-         Fate.SPIN_UP: ("spins up", style.OUTCOME["spin-up"]),
-         Fate.SEPARATRIX: ("on the separatrix", style.OUTCOME["separatrix"]),
-         Fate.EQUILIBRIUM: ("equilibrium", style.OUTCOME["equilibrium"]),
-         Fate.UNDECIDED: ("undecided", style.OUTCOME["undecided"]), 5: ("no case", style.GREY)}
+FATES = {fate: (one.legend, style.OUTCOME[one.word]) for fate, one in OUTCOMES.items()} | {
+    NO_CASE: ("no case", style.GREY)}
 FLAGS = ("fate", "level", "reason", "chaos")  # columns of words
 LIGHT = 0.45  # of a colour that fills an area
 

@@ -19,7 +19,7 @@ from ...files import whole_file
 from ...maps.columns import CAVEATS, ENDLESS, NO_CASE, NONE, OPEN, TIME, VALID, Column, columns_of
 from ...maps.plan import Plan, planned
 from ...maps.run import Swept, run
-from ...orbit.result import Fate
+from ...orbit.result import OUTCOMES, Fate
 from ...packages import demand
 from ...version import __version__
 from .. import endings, limiting, terminal
@@ -37,10 +37,7 @@ SCHEMA = "stabilab.sweep/1"
 ROWS = 40  # points of a table
 FEW = 100  # points that are counted; of more their share is given
 # what points do, what one point does
-DOES = {Fate.BOUNDED: ("stay bounded", "stays bounded"), Fate.SPIN_UP: ("spin up", "spins up"),
-        Fate.SEPARATRIX: ("lie on the separatrix", "lies on the separatrix"),
-        Fate.EQUILIBRIUM: ("are equilibria", "is an equilibrium"),
-        Fate.UNDECIDED: ("are undecided", "is undecided"), NO_CASE: ("are no case", "is no case")}
+DOES = {fate: (one.do, one.does) for fate, one in OUTCOMES.items()} | {NO_CASE: ("are no case", "is no case")}
 SHORT = {"spin_axis": "axis", "greatest": "most"}  # names of columns in a table
 # what numbers without end mean, the negative first: in a sentence, and in a cell where that is shorter
 # of a column that is a bound: which of them

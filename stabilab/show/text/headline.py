@@ -15,6 +15,7 @@ from ...answers.motions.of_case import judged as judged
 from ...answers.motions.of_case import law_is_open
 from ...answers.motions.of_case import law_of as of_case
 from ...errors import Kind, printable
+from ...orbit.result import HEADS
 from .. import ending, limiting
 from ..axes import PLAIN, axes_of, direction
 from ..units import SHORT, SI, SPAN, Unit, Units, as_bound, number, units_of
@@ -128,10 +129,7 @@ def _of_alike(group, cases, units: Units = SI) -> str:
 
 
 # --- The answer in one line
-# of an equilibrium: without a rate, and with one
-REST, STEADY = "AT REST", "STEADY ROTATION"
-WORDS = {"bounded": "BOUNDED for ever", "spin-up": "SPINS UP", "separatrix": "ON THE SEPARATRIX",
-         "equilibrium": STEADY, "undecided": "UNDECIDED"}
+REST = "AT REST"  # an equilibrium without a rate
 LEVELS = {"run": "by a run alone"}
 CLAUSE = 110  # letters of a cause that the line has room for
 
@@ -181,11 +179,11 @@ def fate_parts(motion: Motion, units: Units, tilt: bool = True) -> tuple[str, st
     """(the fate; its axis and how well it is known; the condition that it rests on). tilt: with what a tilt
     of the torque does to that."""
     fate = motion.fate.word
-    words, where = WORDS[fate], limiting.condition(motion.caveats, units, alone=not tilt)
+    words, where = HEADS[fate], limiting.condition(motion.caveats, units, alone=not tilt)
     if where:
         words = words.removesuffix(" for ever")
     if fate == "equilibrium":
-        words = f"{STEADY if any(motion.at[:3]) else REST}{stable_word(motion)}"
+        words = f"{words if any(motion.at[:3]) else REST}{stable_word(motion)}"
     if ended := ending.words(motion.ending, units):
         return *ended, where
     about = f" about {units.axes.whole(motion.axis)}, {direction(motion.sense)}" if motion.axis else ""

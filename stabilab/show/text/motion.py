@@ -8,6 +8,7 @@ import math
 from dataclasses import asdict
 
 from ...equilibrium.circular_orbit import yaw_pitch_roll
+from ...orbit.result import HEADS
 from ...reasons import outward
 from ...representation import values_of
 from .. import frame, limiting
@@ -234,8 +235,8 @@ def numbers(m) -> dict:
 
 
 # --- How it turns in space
-HEADS = {"long-axis": "LONG-AXIS MODE", "short-axis": "SHORT-AXIS MODE", "separatrix": "ON THE SEPARATRIX",
-         "steady": "STEADY ROTATION", "heavy top": "HEAVY TOP"}
+MODES = {"long-axis": "LONG-AXIS MODE", "short-axis": "SHORT-AXIS MODE", "separatrix": HEADS["separatrix"],
+         "steady": HEADS["equilibrium"], "heavy top": "HEAVY TOP"}
 
 
 def attitude_dict(answered) -> dict:
@@ -297,7 +298,7 @@ def attitude_rows(found, units: Units) -> list[tuple[str, str]]:
 
 
 def _answer(found, units):
-    yield HEADS.get(found.mode, "ROTATION PERIOD KNOWN" if found.rotation_period else "NO ROTATION PERIOD")
+    yield MODES.get(found.mode, "ROTATION PERIOD KNOWN" if found.rotation_period else "NO ROTATION PERIOD")
     if found.lean is not None:
         low, high = (units.angle(angle, SHORT) for angle in found.lean)
         yield f"leaning by {low} to {high}" if low != high else f"leaning by {low}"

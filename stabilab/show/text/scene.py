@@ -13,6 +13,7 @@ from fractions import Fraction
 from ...answers.caveats import of_case
 from ...errors import InputError
 from ...numbers.units import DIMENSIONS, NAMES
+from ...orbit.result import HEADS
 from ...physics.coefficients import shape_factors, to_scaled
 from ...physics.effects.base import effect_words
 from ...physics.equations import Equations, Symbolic, derive, invariants
@@ -20,7 +21,7 @@ from .. import ending, frame, limiting, terminal
 from ..axes import axes_of
 from ..terminal import greek, lettered, listed, some, table, width, written
 from ..units import DEG, DIGITS, SHORT, Units, as_bound, but_for_rounding, number, parameter_unit, units_of
-from .headline import WORDS, known_as, rate_margin
+from .headline import known_as, rate_margin
 from .motion import shown
 
 LETTERS = {"angular_velocity": "ω", "mu": "μ"}  # keys with a shorter name
@@ -93,7 +94,7 @@ def counted(answers: Sequence[tuple], words: Mapping[str, str], units: Units, be
 
 def fates(motions: Sequence, units: Units) -> str:
     """How many motions have which fate, and the range of their largest rates."""
-    words = counted([(_became(motion), motion.caveats) for motion in motions], WORDS | ending.WORDS, units,
+    words = counted([(_became(motion), motion.caveats) for motion in motions], HEADS | ending.WORDS, units,
                     ", ")
     sizes = [(_largest(motion), motion.largest is None) for motion in motions]
     sizes = [size for size in sizes if size[0] is not None]

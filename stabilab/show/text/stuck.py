@@ -5,13 +5,14 @@ import math
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 
 from ...errors import printable
+from ...orbit.result import HEADS, OUTCOMES, Fate
 from ...representation import values_of
 from .. import limiting
 from ..axes import axes_of, direction
 from ..data import Endless, csv_lines
 from ..units import DIGITS, SHORT, Units, bracket, number, vector
 from .classification import what_changes
-from .headline import REST, STEADY
+from .headline import REST
 from .motion import in_file
 from .motion import row as entry
 from .questions import reached, tilt_dict
@@ -21,8 +22,8 @@ CSV = ("case", "thrusters", "torque_x", "torque_y", "torque_z", "torque_1", "tor
        "level", "axis", "axis_name", "sense", "limit", "time_low", "time_high", "largest_rate",
        "margin_rate", "margin_wheel", "margin_torque", "caveats")
 WORDS = {"rate": "rate", "wheel": "wheel momentum", "torque": "torque"}
-FATES = {"bounded": "STAYS BOUNDED", "spin-up": "SPINS UP", "equilibrium": STEADY,
-         "separatrix": "ON THE SEPARATRIX", "undecided": "UNDECIDED"}
+# bounded is not for ever here: another torque may come
+FATES = HEADS | {Fate.BOUNDED.word: OUTCOMES[Fate.BOUNDED].does.upper()}
 PRECISE = Context(prec=40)  # digits in which ends are rounded
 FIRST = 5  # lines of the answer at most
 SOON = 2  # times a margin: the fate is back before a change as great
