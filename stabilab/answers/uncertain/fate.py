@@ -62,7 +62,6 @@ from .geometries import margins as margins_of
 from .neighbours import beside
 from .result import (
     FEWER,
-    SPIN_UPS,
     STRETCHES,
     UNKNOWN,
     Answer,
@@ -72,12 +71,11 @@ from .result import (
     Witness,
     bracketed,
     confirmed,
-    joined,
     nearest_change,
-    reason_of,
     worst,
 )
 from .search import FEW, by_sample, by_trial
+from .verdicts import SPIN_UPS, joined, reason_of
 
 # --- What happens where a condition of the equilibria vanishes
 TORQUE_VANISHES = Sentence("torque-vanishes", "the torque about {axis} vanishes")

@@ -8,20 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-from functools import reduce
 from itertools import product
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from ...orbit.result import Fate
-from ...reasons import Axis, Quantity, Reason, Sentence, as_reason
+from ...reasons import Quantity, Reason, Sentence
 from .boxes import Box, Numbers, Point, Proof
+from .verdicts import ALSO, ALSO_ANOTHER, joined, reason_of
 
-SPINS_UP = Sentence("spin-up-about", "spin-up about {axis}, {direction} direction")
-SPIN_UPS = {(n, sense): SPINS_UP(axis=Axis(n), direction="positive" if sense > 0 else "negative")
-            for n in (1, 2, 3) for sense in (1, -1)}
-VERDICTS = {str(one): one for one in SPIN_UPS.values()}  # those that name an axis
 EACH_VERDICT = Sentence("so-many-points", "{count}: {verdict}")
 ONE_VERDICT = Sentence("all-points", "all: {verdict}")
 SAMPLED = Sentence("sampled-points", "of {number} sampled points (seed {seed}) {verdicts}")
@@ -33,8 +29,6 @@ OTHER_POINTS = Sentence("other-points", "and {others} other points, looked at ne
                         "the least margin")
 QUANTILES = Sentence("margin-quantiles",
                      "margins in energy: 5, 50 and 95 % quantiles {low}, {median}, {high}")
-ALSO = Sentence("also-elsewhere", "also {verdicts}")
-ALSO_ANOTHER = Sentence("also-another", "also another answer")()
 DEPARTS = Sentence("departs-from-rotation", "it departs from this rotation by up to {departure} ({middle})")
 TURNS_OVER = Sentence("departs-and-turns-over",
                       "it departs from this rotation by up to {departure} and turns over ({middle})")
@@ -63,16 +57,6 @@ UNDECIDED = "undecided"  # as the signature of equilibria begins and ends where 
 Look: TypeAlias = Callable[[Point], tuple[str | None, float]]  # the answer, and a margin in energy or NaN
 STRETCHES = (1e-6, 1e-3, 1.0)  # at which single points are tried
 FARTHER = (2.0, 5.0, 10.0, 30.0, MOST)
-
-
-def reason_of(verdict: str | None) -> Reason:
-    """A verdict as what fills a hole of a sentence: with its axis, where it names one."""
-    return VERDICTS.get(verdict or "") or as_reason(str(verdict))
-
-
-def joined(reasons: Iterable[Reason], joint: str) -> Reason:
-    """Several as one, each behind the joint."""
-    return reduce(lambda one, other: one.then(other, joint), reasons)
 
 
 def worst(margins: Callable[[np.ndarray], np.ndarray], n: int) -> np.ndarray:

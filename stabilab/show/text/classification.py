@@ -13,7 +13,7 @@ from itertools import groupby
 from typing import NamedTuple
 
 from ...answers.equilibria import once_stopped
-from ...answers.uncertain.result import ALSO_ANOTHER, reason_of
+from ...answers.uncertain.verdicts import ALSO_ANOTHER, reason_of
 from ...errors import printable
 from ...numbers.units import unit_of_key
 from ...numbers.vectors import CYCLE
