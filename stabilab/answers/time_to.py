@@ -378,10 +378,11 @@ def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end:
     open_end = math.isnan(run.high)  # the run did not come to the limit
     if run.steps <= bands and (not open_end or run.low >= last * (1 - BEYOND)):
         band = banded(scene, start, limit, last if open_end else run.high * (1 + BEYOND), bands)
-        if band is not None and band.high < math.inf:
-            return Found(band.low, band.high, "proved",
+        if band is not None and band.low is not None and band.high is not None:
+            return Found(down(band.low), up(band.high), "proved",
                          ENCLOSED_IN_STEPS(steps=band.steps))
-        known = max(known, band.low) if band is not None else known
+        if band is not None:
+            known = max(known, down(band.until if band.low is None else band.low))
     if run.high >= known:  # a run that the enclosure contradicts is worth nothing
         return run
     clock = by_clock(scene, state, limit, max(run.low, known), run.low, spun) if end is None else None
