@@ -186,6 +186,7 @@ FIRST_BITS, MOST_BITS = 112, 720
 KEPT = 58  # bits that the enclosure of the state is to keep
 MARGIN = KEPT + 18  # beyond the growth of the error, for the rounding of a longer series
 WORK = 30_000_000  # multiplications; two to four seconds
+SHORT_WORK = 8_000_000  # likewise, where compiled steps go on: a second, as long as loading these takes
 # after this part of the work a way that would take so many times what is left is given up
 TRIED, HOPELESS = 16, 8
 STEADY = 1.125  # steps that grow faster than this are those of the first search for a length

@@ -19,8 +19,8 @@ from fractions import Fraction
 SHORT = 72  # a step below 2^-72 of the piece has arrived: a crossing lies between neighbouring doubles
 WIDE = 20  # up to 2^-20 of the piece behind the lower end the upper one is looked for at once
 SHORTER = 1.0 - 2.0**-30  # less than what rounding adds to a step's length
-# Where a motion goes along its limit steps become very short. PLACES: looked at on a piece; then what is ahead
-# counts as near the limit. BEHIND: looked at behind the lower end over all pieces; then only their ends are
+# Where a motion goes along its limit steps become very short. PLACES: looked at on a piece; then what is
+# ahead counts as near the limit. BEHIND: looked at behind the lower end on all pieces; then only their ends
 PLACES, BEHIND = 4_000, 20_000
 
 
