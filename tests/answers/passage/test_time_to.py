@@ -298,7 +298,7 @@ def by_dop853(scene, state, limit, end):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed, scenes", [(3, 100), pytest.param(4, 1000, marks=pytest.mark.long)])
+@pytest.mark.parametrize("seed, scenes", [(3, 30), pytest.param(4, 1000, marks=pytest.mark.long)])
 def test_compiled_steps_do_not_contradict_integers(seed, scenes):
     """Two enclosures of one motion meet; every tenth is held against SciPy."""
     pytest.importorskip("numba")
@@ -306,7 +306,7 @@ def test_compiled_steps_do_not_contradict_integers(seed, scenes):
     for n in range(scenes):
         scene, state, question, limit = random_question(rng)
         one, two = (stabilab.time_to(scene, state, **question, t_max=FAR, work=work) for work in (30_000_000, 1))
-        ends = [float(np.nan_to_num(found.high, nan=math.inf)) for found in (one, two)]
+        ends = [math.inf if math.isnan(found.high) else float(found.high) for found in (one, two)]
         assert max(one.low, two.low) <= min(ends), (question, one, two)
         proved += two.level in ("proved", "exact")
         if n % 10 == 0:
