@@ -4,7 +4,7 @@ A limit is one of the rate, of a component, of the kinetic energy, or of the ang
 turned.
 
 The motion is enclosed in integers, of as many bits as are needed, as far as the work allowed reaches;
-beyond that by compiled steps, for rates along principal axes alone."""
+beyond that by compiled steps. One search finds the crossing in either (`integrate.crossing`)."""
 from __future__ import annotations
 
 import math
@@ -14,12 +14,13 @@ from fractions import Fraction
 from typing import Any
 
 from ..errors import InputError
-from ..integrate.integer_flow import IntegerFlow, Search, Threshold
+from ..integrate.crossing import Crossing, Search, Threshold
+from ..integrate.integer_flow import IntegerFlow
 from ..numbers.exact import exact, exact_vector, precise, sqrt_fraction, unit_vector
 from ..numbers.numba_door import installed
 from ..numbers.vectors import Exact3, Float3, Number
 from ..physics.scene import AnyScene
-from ..unreduced.off_axis import Crossing, first_crossing
+from ..unreduced.crossing import first_crossing
 
 # --- The limit
 AXES = tuple(tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3))
@@ -185,27 +186,16 @@ FIRST_BITS, MOST_BITS = 112, 720
 KEPT = 58  # bits that the enclosure of the state is to keep
 MARGIN = KEPT + 18  # beyond the growth of the error, for the rounding of a longer series
 WORK = 30_000_000  # multiplications; two to four seconds
+SHORT_WORK = 8_000_000  # likewise, where compiled steps go on: a second, as long as loading these takes
 # after this part of the work a way that would take so many times what is left is given up
 TRIED, HOPELESS = 16, 8
 STEADY = 1.125  # steps that grow faster than this are those of the first search for a length
 STEPS = 60_000  # validated ones; some two seconds
 
 
-@dataclass(frozen=True)
-class Enclosed:
-    """low, high: of the first crossing, in the scene's time, exact; high None: not found before `until`, and
-    low is None or a place where the limit is touched. until: the last time that was looked at; done: whether
-    that is the time asked for."""
-
-    low: Fraction | None
-    high: Fraction | None
-    until: Fraction
-    done: bool
-
-
 def enclosed(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: Fraction | None = None,
              work: int = WORK,
-             earliest: Fraction = Fraction(0), later: Sequence[tuple[Fraction, AnyScene]] = ()) -> Enclosed:
+             earliest: Fraction = Fraction(0), later: Sequence[tuple[Fraction, AnyScene]] = ()) -> Crossing:
     """The first crossing of the motion of a plain scene from three rationals, proved; or until when there is
     none.
 
@@ -216,7 +206,7 @@ def enclosed(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: Frac
     """
     unit = max(own_unit(one, start) for one in (scene, *(one for _, one in later)))
     switches = [(time * unit, one.quadratic()) for time, one in later]
-    bits, best, spent = FIRST_BITS, Enclosed(None, None, Fraction(0), False), 0
+    bits, best, spent = FIRST_BITS, Crossing(None, None, Fraction(0), False), 0
     while True:
         attempt = _Attempt(flow_of(scene, start, bits, unit, limit.direction), limit, unit, t_max, earliest,
                            switches)
@@ -257,7 +247,7 @@ class _Attempt:
         self.thresholds = limit.thresholds(unit)
         self.proved = [Search(one) for one in self.thresholds]
 
-    def run(self, work: int) -> Enclosed:
+    def run(self, work: int) -> Crossing:
         """Proved as far as the bits reach, then on, unproved, to where a proof would end."""
         until, lost, flow = Fraction(0), 0, self.flow
         searches, proving, length = self.proved, True, math.inf
@@ -291,23 +281,21 @@ class _Attempt:
                 self.needs = needs + 1
                 return self._answer(until, False)
 
-    def _answer(self, until: Fraction, done: bool) -> Enclosed:
-        low = min((one.low for one in self.proved if one.low is not None), default=None)
-        high = min((one.high for one in self.proved if one.high is not None), default=None)
+    def _answer(self, until: Fraction, done: bool) -> Crossing:
+        found = Crossing.of(self.proved, until, done)
+        low, high = found.low, found.high
         if self.end is not None and low is not None and low > self.end:
             low = high = None
         scale = lambda t: None if t is None else t / self.unit
         until = min(until, self.end) if done and self.end is not None else until
-        return Enclosed(scale(low), scale(high), until / self.unit, done)
+        return Crossing(scale(low), scale(high), until / self.unit, done)
 
 
 def banded(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: float,
            steps: int = STEPS) -> Crossing | None:
-    """low and high of the first crossing (high inf where none is found before low) of the motion from three
-    rationals; None where numba is not there to compile the steps, or the limit is of another kind."""
-    if limit.kind == "tilt" or not installed() or any(not along_axes(terms) for terms, _ in limit.parts):
+    """The first crossing of the motion from three rationals by compiled steps; None where numba is not there
+    to compile them."""
+    if not installed():
         return None
-    found = [first_crossing(scene, start, math.sqrt(most), along_axes(terms), t_max=t_max, steps=steps)
-             for terms, most in limit.parts]
-    first = min(found, key=lambda one: one.low)
-    return Crossing(first.low, min(one.high for one in found), first.reason, sum(one.steps for one in found))
+    unit = own_unit(scene, start)
+    return first_crossing(scene, start, limit.thresholds(unit), unit, limit.direction, t_max, steps)

@@ -25,6 +25,7 @@ import numpy as np
 from ..errors import InputError
 from ..integrate.trajectory import integrated
 from ..numbers.exact import exact_vector, sqrt_fraction
+from ..numbers.numba_door import installed
 from ..numbers.vectors import Exact3, Float3, Number
 from ..orbit.result import Fate, Needs
 from ..physics.coefficients import content, effective
@@ -44,8 +45,8 @@ from ..unreduced.spin_up.follow import spin_up
 from ..validation import checked_scene
 from .caveats import caveats_of
 from .kinds import kind_of
+from .limit import SHORT_WORK, WORK, Limit, along_axes, asked, banded, enclosed
 from .limit import STEPS as BAND_STEPS
-from .limit import WORK, Limit, along_axes, asked, banded, enclosed
 from .motion import motion
 from .motions.rows import extremes, fates, periods
 from .passage import BY_ROOTS, MOVED, ROUNDING, Found, TimeTo, by_run, times_of
@@ -267,9 +268,9 @@ def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = Non
     three exact numbers of which a single state is the rounding. work: multiplications that the proof for a
     motion may take; 0: no proof.
 
-    Torque and wheel: the motion is enclosed and its crossing proved where the work reaches; beyond that by
-    compiled steps (with numba), roots along a run, the clock of the spin-up. Other effects: roots along a
-    run. Raises InputError for scenes, states and limits that are none.
+    Torque and wheel: the motion is enclosed and its crossing proved where the work reaches (with numba, at
+    most a second of it, as compiled steps go on); beyond that by roots along a run, the clock of the spin-up.
+    Other effects: roots along a run. Raises InputError for scenes, states and limits that are none.
     """
     given, scene = scene, effective(checked_scene(scene))
     limit, end = asked(scene, rate, component, energy, tilt), _end(t_max)
@@ -353,7 +354,8 @@ def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction 
         return after_a_period() if last is not end else Found(
             down(last), math.nan, "proved",
             TORQUE_TOO_SLOW)
-    proof = enclosed(scene, start, limit, last, work, before)
+    proof = enclosed(scene, start, limit, last, min(work, SHORT_WORK) if bands and installed() else work,
+                     before)
     if proof.high is not None:
         return Found(down(proof.low), up(proof.high), "proved",
                      MOTION_ENCLOSED)
@@ -378,10 +380,11 @@ def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end:
     open_end = math.isnan(run.high)  # the run did not come to the limit
     if run.steps <= bands and (not open_end or run.low >= last * (1 - BEYOND)):
         band = banded(scene, start, limit, last if open_end else run.high * (1 + BEYOND), bands)
-        if band is not None and band.high < math.inf:
-            return Found(band.low, band.high, "proved",
+        if band is not None and band.low is not None and band.high is not None:
+            return Found(down(band.low), up(band.high), "proved",
                          ENCLOSED_IN_STEPS(steps=band.steps))
-        known = max(known, band.low) if band is not None else known
+        if band is not None:
+            known = max(known, down(band.until if band.low is None else band.low))
     if run.high >= known:  # a run that the enclosure contradicts is worth nothing
         return run
     clock = by_clock(scene, state, limit, max(run.low, known), run.low, spun) if end is None else None

@@ -1,5 +1,5 @@
 """The motion of a gyrostat under constant torque, enclosed by a Taylor series in integers with a proved bound
-of its error, and the first time at which a quantity of it reaches a limit.
+of its error.
 
 Numbers are integers in units of 2^-bits. Any polynomial p obeys p' = f(p) + defect, and here the defect is
 bounded term by term: what rounds each coefficient, and what the products have beyond the order. The
@@ -16,21 +16,15 @@ by the factor exp(integral of mu),
 (proof: docs/mathematics/numbers.md; in physical variables the wheel drops out). With bits to spare for that
 factor the enclosure is as narrow as wanted, and no set has to be turned. A direction n at rest in space obeys
 n' = n x omega, and its error grows by that of omega alone: |e_n|' <= |n| |e_omega|.
-
-A limit is found by roots, and nothing is sampled. On a piece the quantity less its limit is a polynomial
-g(s), 0 <= s <= 1, known to within err. From a place where g + err < 0 a bound B of |g''| tells how far g +
-err stays below 0: to the root of g + err + g' s + B s^2 / 2. These steps end at the first root of g + err
-from below, quadratically where it is simple, and pass whatever only comes near. A place behind where g - err
-> 0 is the upper end.
 """
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from fractions import Fraction
 from operator import mul
 
 from ..numbers.vectors import CYCLE
+from .crossing import Piece
 
 CLOCK = 40  # bits of a step's length: a multiple of 2^-40 in the motion's own time
 SLACK = 16  # bits by which the last coefficient of a step may exceed the last place
@@ -40,24 +34,6 @@ MORE = 1.0 + 2.0**-40  # more than the rounding of a few doubles
 # Beside rates of 1 the numbers of an ordinary motion are below 2^STIFF; those above 2^STIFFEST would need
 # steps shorter than the clock's. LEAST: of the weights beside the largest, whose roots stay doubles
 STIFF, STIFFEST, LEAST = 20, CLOCK - 6, 2.0**-900
-
-
-@dataclass(frozen=True)
-class Piece:
-    """The motion over one step: component i is sum_n rows[i][n] s^n 2^-bits, 0 <= s <= 1, and at most
-    radii[i] 2^-bits off.
-
-    start, length: in the motion's own time, exact; sizes: sum_n |rows[i][n]|, which is not below |component
-    i|. Components 0, 1, 2 are the rates in their own unit; 3, 4, 5 those of the direction, where one is
-    followed.
-    """
-
-    start: Fraction
-    length: Fraction
-    bits: int
-    rows: list
-    radii: list
-    sizes: list
 
 
 class IntegerFlow:
@@ -205,163 +181,3 @@ def _tail(first, second, order, bits):
         rest += abs(a)
         total += rest * abs(b)
     return (total >> bits) + 1
-
-
-SHORT = 72  # a step below 2^-72 of the piece has arrived: a crossing lies between neighbouring doubles
-WIDE = 20  # up to 2^-20 of the piece behind the lower end the upper one is looked for at once
-SHORTER = 1.0 - 2.0**-30  # less than what rounding adds to a step's length
-
-
-@dataclass(frozen=True)
-class Threshold:
-    """A quantity and its limit: sum_r c_r (a_r . y)^2 reaches `limit` from below, or, with `falls`, a . y
-    reaches it from above.
-
-    y: the components of a `Piece`, in the motion's own unit; terms: ((c_r, a_r), ...), positive c_r, a_r as
-    many rationals as there are components.
-    """
-
-    terms: tuple
-    limit: Fraction
-    falls: bool = False
-
-    def passed(self, y) -> bool:
-        """Whether exact components reach the limit."""
-        values = [(c, sum(a * v for a, v in zip(vector, y))) for c, vector in self.terms]
-        return values[0][1] <= self.limit if self.falls else sum(c * v * v for c, v in values) >= self.limit
-
-
-class Search:
-    """The first crossing of one threshold, as the pieces of a motion come by. low, high: in the motion's own
-    time; None as long as not found.
-
-    exactly: whether the error of the pieces is taken into account; else they are taken at their word.
-    """
-
-    def __init__(self, threshold: Threshold, exactly: bool = True):
-        self.threshold, self.exactly = threshold, exactly
-        self.low: Fraction | None = None
-        self.high: Fraction | None = None
-
-    def take(self, piece: Piece) -> bool:
-        """Look at the next piece; whether the crossing is known from both sides."""
-        g = _Excess(self.threshold, piece, self.exactly)
-        if g.stays_below():
-            return False
-        s = 0
-        if self.low is None:
-            s = g.reaches(1)
-            if s is None:
-                return False
-            self.low = piece.start + piece.length * Fraction(s, 1 << piece.bits)
-        s = g.surely_beyond(s)
-        if s is None:
-            return False
-        self.high = piece.start + piece.length * Fraction(s, 1 << piece.bits)
-        return True
-
-
-class _Excess:
-    """g over one piece: in units of 2^(-2 bits) for squares, 2^-bits for what falls."""
-
-    def __init__(self, threshold, piece, exactly):
-        self.bits, self.falls, self.one = piece.bits, threshold.falls, 1 << piece.bits
-        made = [_combined(vector, piece) for _, vector in threshold.terms]
-        self.rows, self.sizes = [row for row, _ in made], [sum(map(abs, row)) for row, _ in made]
-        radii = [radius for _, radius in made]
-        self.weights = [round(c * self.one) for c, _ in threshold.terms]
-        self.limit = round(threshold.limit * self.one)
-        slack = 2 * max(map(len, self.rows))  # of Horner's rule, twice
-        off = [(radius if exactly else 0) + slack for radius in radii]
-        self.size = self.sizes[0] if self.falls else self._sum([v * v for v in self.sizes])
-        if self.falls:
-            self.err = off[0] + 1
-        else:  # squares, then weights and limit rounded
-            self.err = (self._sum([2 * v * r + r * r for v, r in zip(self.sizes, off)])
-                        + sum((v * v >> self.bits) + 1 for v in self.sizes) + self.one)
-        self.bend, self.rough = self._bend(), self._rough(max(map(len, self.rows)))
-
-    def _sum(self, values):
-        return sum(c * v for c, v in zip(self.weights, values)) + self.one - 1 >> self.bits
-
-    def _bend(self):
-        first = [sum(n * abs(v) for n, v in enumerate(row)) for row in self.rows]
-        second = [sum(n * (n - 1) * abs(v) for n, v in enumerate(row)) for row in self.rows]
-        return (second[0] if self.falls
-                else 2 * self._sum([f * f + v * w for f, v, w in zip(first, self.sizes, second)]))
-
-    def _rough(self, terms):
-        """What rounding may take from the slope."""
-        steep = [sum(n * abs(v) for n, v in enumerate(row)) for row in self.rows]
-        return (terms * (terms + 1) if self.falls
-                else 2 * self._sum([terms * (terms + 1) * v + terms * w for v, w in zip(self.sizes, steep)])
-                + 2)
-
-    def stays_below(self):
-        """Whether bounds of the components alone keep g below 0."""
-        if self.falls:
-            row = self.rows[0]
-            return row[0] - (self.size - abs(row[0])) - self.err > self.limit
-        return self.size + self.err < self.limit << self.bits
-
-    def value(self, s):
-        """(g, g') at s, an integer in units of 2^-bits; g' is not too small, and rounding of g is part of
-        err."""
-        found = []
-        for row in self.rows:
-            v = slope = 0
-            for c in reversed(row):
-                slope = (slope * s >> self.bits) + v
-                v = (v * s >> self.bits) + c
-            found.append((v, slope))
-        if self.falls:
-            return self.limit - found[0][0], self.rough - found[0][1]
-        value = self._sum([v * v for v, _ in found]) - (self.limit << self.bits)
-        return value, 2 * self._sum([v * slope for v, slope in found]) + self.rough
-
-    def reaches(self, sign, s=0):
-        """The last place that the steps reach from s before g + sign err may be 0; None where there is no
-        such place in the piece."""
-        while True:
-            value, slope = self.value(s)
-            gap = -(value + sign * self.err)
-            if gap <= 0:
-                return s
-            ahead = self._safe(gap, slope)
-            s += max(ahead, 1)
-            if s >= self.one:
-                return None
-            if ahead < self.one >> SHORT:
-                return s - max(ahead, 1)
-
-    def _safe(self, gap, slope):
-        scale = max(gap, abs(slope), self.bend, 1)
-        a, b, c = gap / scale, slope / scale, self.bend / scale
-        root = math.sqrt(b * b + 2 * c * a)
-        ahead = 2 * a / (root + b) if b > 0 else (root - b) / c if c else 2.0
-        return int(min(ahead, 2.0) * SHORTER * self.one)
-
-    def surely_beyond(self, s):
-        """A place from s on where g - err > 0, as near as can be found; None where the piece has none."""
-        while s is not None:
-            for places in range(SHORT - 2, WIDE, -1):
-                behind = min(s + (self.one >> places), self.one)
-                if self.value(behind)[0] > self.err:
-                    return behind
-            s += self.one >> WIDE
-            s = self.reaches(-1, s) if s < self.one else None
-        return None
-
-
-def _combined(vector, piece):
-    """(the row of a . y, how far it may be off), in units of 2^-bits."""
-    used = [(Fraction(a), row, radius, size)
-            for a, row, radius, size in zip(vector, piece.rows, piece.radii, piece.sizes) if a]
-    if len(used) == 1 and abs(used[0][0]) == 1:
-        a, row, radius, _ = used[0]
-        return (row if a > 0 else [-v for v in row]), radius
-    factors = [round(a * (1 << piece.bits)) for a, *_ in used]
-    rows = [sum(f * v for f, v in zip(factors, column)) >> piece.bits
-            for column in zip(*(row for _, row, _, _ in used))]
-    radius = sum(math.ceil(abs(a)) * r + (size >> piece.bits) + 1 for a, _, r, size in used) + len(rows)
-    return rows, radius

@@ -26,6 +26,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
+from ..integrate.crossing import Piece
 from ..numbers.exact import exact_vector
 from ..numbers.numba_door import compiled, installed
 from ..physics.coefficients import effective
@@ -39,6 +40,7 @@ from .spin_up.result import SpinUp, Trap
 # at most, unless others are asked for: compiled some three seconds, else some ten
 STEPS, SLOW_STEPS = 200_000, 2_000
 CHUNK = 512  # steps kept at a time between which the band is asked for
+BITS = 112  # of a step in integers: far beyond its doubles
 TOLERANCE = 2.0**-88  # of a step's tail, beside the state: as small as the rounding of its coefficients
 WHY = {enclosure_kernel.DONE: "enclosed",
        enclosure_kernel.GOING: "not finished: the steps allowed were used up",
@@ -52,27 +54,44 @@ class Band:
 
     times: (n + 1,) ends, exact doubles; polynomials: (n, 3, N + 1) rates as polynomials in x = (t -
     times[i])/(times[i + 1] - times[i]), lowest first; radii: (n, 3): at every time of step i each rate is
-    within radii[i] of its polynomial, however exactly that is evaluated.
+    within radii[i] of its polynomial, however exactly that is evaluated. (n, 6, N + 1) and (n, 6) where a
+    direction is followed, its components behind the rates.
     """
 
     times: np.ndarray
     polynomials: np.ndarray
     radii: np.ndarray
 
-    def form(self, weights) -> tuple[np.ndarray, np.ndarray]:
-        """((n, 2 N + 1) polynomials, (n,) radii) of the sum of weights_i omega_i^2 (three numbers, not
-        negative) during each step: ones for |omega|^2, halves of the moments for the energy."""
-        weights = [float(w) for w in weights]
+    def along(self, vector) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """((n, N + 1) polynomials, (n,) radii, (n,) sums of sizes) of a . y, y the components."""
+        a = np.array([float(v) for v in vector])
+        rows = self.polynomials[:, :len(a)]
+        size = np.abs(rows).sum(axis=2) @ np.abs(a)
+        radii = (self.radii[:, :len(a)] @ np.abs(a) + 2.0**-48 * size) * (1 + 2.0**-30)
+        return np.tensordot(a, rows, (0, 1)), radii, size
+
+    def form(self, terms) -> tuple[np.ndarray, np.ndarray]:
+        """((n, 2 N + 1) polynomials, (n,) radii) of the sum of c (a . y)^2 during each step; terms: pairs of
+        c, a positive number, and a."""
         n, _, m = self.polynomials.shape
-        out, radius, size = np.zeros((n, 2 * m - 1)), np.zeros(n), np.abs(self.polynomials).sum(axis=2)
-        for i, w in enumerate(weights):
-            row = self.polynomials[:, i]
+        out, radius = np.zeros((n, 2 * m - 1)), np.zeros(n)
+        for c, vector in terms:
+            w, (row, r, size) = float(c), self.along(vector)
             for k in range(m):
                 out[:, k:k + m] += w * row * row[:, k:k + 1]
-            r = self.radii[:, i]
             # N + 1 products and three sums to a coefficient, and the weight's rounding
-            radius += w * (r * (2 * size[:, i] + r) + 2.0**-44 * size[:, i] ** 2)
+            radius += w * (r * (2 * size + r) + 2.0**-44 * size**2)
         return out, radius * (1 + 2.0**-30)
+
+    def piece(self, i: int, unit: Fraction) -> Piece:
+        """Step i in integers of BITS bits, its rates over `unit`, a power of two, its time the scene's."""
+        shift = BITS - (unit.numerator.bit_length() - unit.denominator.bit_length())
+        places = [shift] * 3 + [BITS] * (self.polynomials.shape[1] - 3)
+        rows = [[int(math.ldexp(v, n)) for v in row] for n, row in zip(places, self.polynomials[i].tolist())]
+        # beside what is cut of each coefficient
+        radii = [math.ceil(math.ldexp(r, n)) + len(rows[0]) for n, r in zip(places, self.radii[i].tolist())]
+        begin, end = map(Fraction, self.times[i:i + 2].tolist())
+        return Piece(begin, end - begin, BITS, rows, radii, [sum(map(abs, row)) for row in rows])
 
 
 @dataclass(frozen=True)
@@ -107,11 +126,12 @@ class Course:
     scene: gyrostat and constant torque, physical or scaled; state: three rates at t = 0, each an exact number
     (a double at its word, a Fraction, a decimal in a string). t_end: the end of what will be asked for; its
     last binary digit is the grain of time, and every step ends at a whole number of grains, so that times are
-    exact. plain: so many first steps are taken by the interpreter unless the compiled code is loaded, to the
+    exact. direction: a vector of length 1 at rest in space, as it is in the body at t = 0, which is followed,
+    too. plain: so many first steps are taken by the interpreter unless the compiled code is loaded, to the
     same bits (powers are those of one library): a motion may be at its end before that is.
     """
 
-    def __init__(self, scene, state, t_end: float, plain: int = 0):
+    def __init__(self, scene, state, t_end: float, plain: int = 0, direction=None):
         scene = effective(checked_scene(scene))
         scene.quadratic()  # says which effect of the scene is not covered
         start = exact_vector(state, "state")
@@ -124,7 +144,8 @@ class Course:
         form = own.quadratic()
         self._numbers = *twofold([form.kappa, form.rho, form.sigma, form.m]), energy_of(own), TOLERANCE
         centre, low = twofold([v / Fraction(self.unit) for v in start])
-        self._set = [centre, low, np.eye(3), np.abs(centre) * 2.0**-104 + enclosure_kernel.TINY]
+        self._set = [centre, low, np.eye(3), np.abs(centre) * 2.0**-104 + enclosure_kernel.TINY,
+                     *twofold(direction or ()), np.array([2.0**-100])]
 
     def advance(self, t: float, steps: int | None = None, band: bool = False) -> Band | None:
         """Carry the motion on to the time t (taken down to the grain of time), by at most so many steps, at
@@ -136,14 +157,18 @@ class Course:
         t = float(int(t / self._grain)) * self._grain
         steps = max(0, allowed() - self.steps) if steps is None else steps
         size = min(steps, CHUNK) if band else 0
-        kept = [np.empty(size), np.empty((size, 3, enclosure_kernel.ORDER + 1)), np.empty((size, 3))]
+        followed = 3 + len(self._set[4])
+        kept = [np.empty(size), np.empty((size, followed, enclosure_kernel.ORDER + 1)),
+                np.empty((size, followed))]
         begun = self.t * self.unit
         now, made = self._carried(begun, t, size or steps, kept)
         self.t, self.steps = now / self.unit, self.steps + made
         if not (band and made):
             return None
         times, polynomials, radii = (rows[:made] for rows in kept)
-        return Band(np.append(begun, times) / self.unit, polynomials * self.unit, radii * self.unit)
+        for rows in (polynomials, radii):
+            rows[:, :3] *= self.unit
+        return Band(np.append(begun, times) / self.unit, polynomials, radii)
 
     def _carried(self, t, t_end, steps, kept):
         """(time, steps made) of the set carried on; what is told of each step goes to arrays `kept`."""
@@ -169,7 +194,7 @@ class Course:
     @property
     def now(self) -> Enclosed:
         """Where the motion is."""
-        centre, low, B, rad = self._set
+        centre, low, B, rad = self._set[:4]
         status = "enclosed" if self.status == enclosure_kernel.DONE else "stopped"
         return Enclosed(self.t, centre * self.unit, low * self.unit,
                         np.abs(B) @ rad * enclosure_kernel.WIDER * self.unit,

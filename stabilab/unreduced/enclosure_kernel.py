@@ -29,6 +29,11 @@ doubles are enough for all but the centre.
 
 Between the times: |w(c + B r) - p| <= |e| + U, all along the step.
 
+A direction n at rest in space, n' = n x w, |n| = 1, goes along where one is given, about a polynomial q that
+is made with p. Its error g = n - q obeys g' = g x w + q x (w - p) - d, d = q' - q x p the residue, which is
+bounded as that of p. As g x w is normal to g, and |q| <= |n| + |g|, |g| grows over a step by at most 2.5 h
+times the bound of |w - p| and the integral of |d|, as long as it stays below 1.
+
 Rounding. Doubles to nearest, no operation fused with another or rearranged (numba without fastmath gives LLVM
 no leave to; a test holds it). A sum of at most N + 1 products of twofold numbers, exact products and sums
 (Dekker, Knuth) with what they leave gathered in one double, errs by less than 2^-93 of the sum of sizes: 4 (N
@@ -46,7 +51,7 @@ from math import frexp, inf, ldexp, sqrt
 
 import numpy as np
 
-from ..numbers.error_free import add, exact_product, exact_sum, halves, scaled, times
+from ..numbers.error_free import add, exact_product, exact_sum, halves, less, scaled, times
 
 ORDER = 36
 FINE, COARSE, WIDER, TINY = 2.0**-92, 2.0**-44, 1.0 + 2.0**-30, 1e-200
@@ -113,6 +118,27 @@ def variations(numbers, unit, a, B, V):
                               + numbers[2, i] * V[n, j, 1]) * over
             V[n + 1, i, 2] = (numbers[0, i] * s2 + numbers[1, i] * V[n, k, 2]
                               + numbers[2, i] * V[n, j, 2]) * over
+
+
+def product_term(x, low_x, y, low_y, n):
+    """The coefficient of power n of a product of two series of twofold numbers."""
+    total, rest = 0.0, 0.0
+    for m in range(n + 1):
+        p, e = exact_product(x[m], y[n - m])
+        total, f = exact_sum(total, p)
+        rest += f + (e + (x[m] * low_y[n - m] + low_x[m] * y[n - m]))
+    return exact_sum(total, rest)
+
+
+def series_of_direction(unit, a, low, c, low_c):
+    """Taylor coefficients c + low_c, (3, N + 1) each, of n' = n x w from c[:, 0] + low_c[:, 0], w those of
+    `series`."""
+    for n in range(ORDER):
+        for i in range(3):
+            j, k = (i + 1) % 3, (i + 2) % 3
+            v = less(product_term(c[j], low_c[j], a[k], low[k], n),
+                     product_term(c[k], low_c[k], a[j], low[j], n))
+            c[i, n + 1], low_c[i, n + 1] = divided((v[0] * unit, v[1] * unit), n + 1.0)
 
 
 def longest(a, tolerance):
@@ -245,6 +271,26 @@ def judged(numbers, energy, a, V, B, rad, h, x, error, spread, moved, E, P):
     return True
 
 
+def strayed(a, c, h, x, error, spread, off, C):
+    """A bound of the error of the direction all along a step, that of its start being `off`; C: the sums of
+    sizes of its polynomials c. Of `judged`: h, x, error, spread."""
+    alpha, gamma, tails = np.empty((3, ORDER + 1)), np.empty((3, ORDER + 1)), np.zeros(ORDER + 2)
+    P, d, power = np.zeros(3), np.empty(3), 1.0
+    C[0], C[1], C[2] = 0.0, 0.0, 0.0
+    for n in range(ORDER + 1):
+        for i in range(3):
+            alpha[i, n], gamma[i, n] = abs(a[i, n]) * power * WIDER, abs(c[i, n]) * power * WIDER
+            P[i] += alpha[i, n]
+            C[i] += gamma[i, n]
+        power *= x
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        tail = beyond(gamma[j], alpha[k], tails) + beyond(gamma[k], alpha[j], tails)
+        d[i] = h * (FINE * (C[j] * P[k] + C[k] * P[j]) + tail / (ORDER + 1)) * WIDER + TINY
+    rates = length_of(error[0] + spread[0], error[1] + spread[1], error[2] + spread[2])
+    return (off + 2.5 * h * rates + length_of(d[0], d[1], d[2])) * WIDER
+
+
 def radii_in(Y, slip, M, rest, rad):
     """Radii rad of the set {M r + rest}, |r| <= rad, |rest_i| <= rest, in directions B whose inverse is Y but
     for the slip: y = Y x + (1 - Y B) y."""
@@ -364,16 +410,18 @@ def on_grain(length, grain):
 
 
 def advance(numbers, low_numbers, energy, tolerance, t, t_end, grain, steps, centre, low_centre, B, rad,
-            times, polynomials, radii):
+            direction, low_direction, off, times, polynomials, radii):
     """Carry the set on by at most so many steps, or to t_end. numbers, low_numbers: (4, 3) kappa, rho, sigma,
     m as twofold numbers; energy: (4,) roots of the moments and the growth of |D^(1/2) w|, zeros where there
-    is none; grain: every time is a multiple of it. centre, low_centre, B, rad change in place. Where `times`
-    (n,) is not empty the steps' ends, polynomials (n, 3, N + 1) in (t - start)/h from 0 to 1 and radii (n, 3)
-    go there. Returns (status, time, steps)."""
+    is none; grain: every time is a multiple of it. direction, low_direction: (3,) at rest in space, (0,)
+    where none is followed; off: (1,) a bound of its error. centre, low_centre, B, rad and these change in
+    place. Where `times` (n,) is not empty the steps' ends, polynomials (n, 3, N + 1) in (t - start)/h from 0
+    to 1 and radii (n, 3) go there, those of the direction behind them. Returns (status, time, steps)."""
     a, low, V = np.zeros((3, ORDER + 1)), np.zeros((3, ORDER + 1)), np.empty((ORDER + 1, 3, 3))
     error, spread, moved, P, E, M = np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(
         (3, 3)), np.empty((3, 3))
-    dense = len(times) > 0
+    c, low_c, C, strays = np.zeros((3, ORDER + 1)), np.zeros((3, ORDER + 1)), np.zeros(3), 0.0
+    dense, followed = len(times) > 0, len(direction) > 0
     for number in range(steps):
         if t >= t_end:
             return DONE, t, number
@@ -390,7 +438,13 @@ def advance(numbers, low_numbers, energy, tolerance, t, t_end, grain, steps, cen
             a[i, 0], low[i, 0] = centre[i], low_centre[i]
         series(numbers, low_numbers, unit, a, low)
         variations(numbers, unit, a, B, V)
-        h = longest(a, tolerance) * unit
+        reach = longest(a, tolerance)
+        if followed:
+            for i in range(3):
+                c[i, 0], low_c[i, 0] = direction[i], low_direction[i]
+            series_of_direction(unit, a, low, c, low_c)
+            reach = min(reach, longest(c, tolerance))
+        h = reach * unit
         holds = False
         for _ in range(HALVINGS):
             h = min(h, t_end - t)
@@ -405,6 +459,12 @@ def advance(numbers, low_numbers, energy, tolerance, t, t_end, grain, steps, cen
         if not holds:
             return LOST, t, number
         x = h / unit
+        if followed:
+            strays = strayed(a, c, h, x, error, spread, off[0], C)
+            if not strays < 1.0:
+                return LOST, t, number
+            at_end(c, low_c, x, direction, low_direction)
+            off[0] = (strays + FINE * length_of(C[0], C[1], C[2])) * WIDER
         end_of_variations(V, x, M)
         at_end(a, low, x, centre, low_centre)
         for i in range(3):
@@ -420,4 +480,10 @@ def advance(numbers, low_numbers, energy, tolerance, t, t_end, grain, steps, cen
                     polynomials[number, i, n] = a[i, n] * power
                     power *= x
                 radii[number, i] = (error[i] + spread[i] + 2.0**-46 * P[i]) * WIDER
+                if followed:
+                    power = 1.0
+                    for n in range(ORDER + 1):
+                        polynomials[number, 3 + i, n] = c[i, n] * power
+                        power *= x
+                    radii[number, 3 + i] = (strays + 2.0**-46 * C[i]) * WIDER
     return (DONE if t >= t_end else GOING), t, steps

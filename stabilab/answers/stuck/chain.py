@@ -16,13 +16,14 @@ import numpy as np
 
 from ...case.read import Case, load_burning
 from ...errors import InputError
+from ...integrate.crossing import Crossing
 from ...numbers.vectors import CYCLE, Exact3, Float3
 from ...physics.effects import effect_class
 from ...physics.scene import Scene
 from ...physics.states import checked_times, moved_row
 from ...reasons import Sentence
 from ...validation import came
-from ..limit import AXES, Enclosed, Limit, enclosed
+from ..limit import AXES, Limit, enclosed
 from ..passage import MOVED, ROUNDING, Found, by_run
 from ..simulate import Simulation, in_matrices, quaternion_blocks, simulated, trajectory
 from ..time_to import down, of_one, up
@@ -84,7 +85,7 @@ class Chain:
             names = tuple(self.case.thrusters[n].name for n in firing)
             yield Piece(begin, end - begin, names, self._scene(firing))
 
-    def enclosed(self, limit: Limit, end: Fraction | None = None) -> Enclosed:
+    def enclosed(self, limit: Limit, end: Fraction | None = None) -> Crossing:
         """The first crossing of a limit by `end` (s; None: by the last closing), proved over all switches, or
         until when there is none."""
         scenes = [*((piece.begin, piece.scene) for piece in self.pieces()), (self.closed, self.base)]

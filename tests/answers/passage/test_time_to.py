@@ -281,3 +281,36 @@ def test_three_components_are_enclosed_by_compiled_steps_too():
     one = stabilab.time_to(TILTED, [0.1, 0.05, 0.9], component=(3, "1.5"))
     assert found.level == far.level == "proved" and found.low <= one.high and one.low <= found.high
     assert far.low > found.high
+
+
+def by_dop853(scene, state, limit, end):
+    """The first time by `end` at which sum c_i w_i^2 + k . n, n = k at the start, is the limit's value."""
+    (c, k, value), D, l, M = limit, scene.body.inertia, scene.vector("gyrostat"), scene.vector("constant_torque")
+    l, M = np.array(l, float), np.array(M, float)
+    sign = -1 if np.any(k) else 1  # a tilt's cosine falls
+
+    def passed(_, y):
+        return sign * float(np.dot(c, np.square(y[:3])) + np.dot(k, y[3:]) - value)
+    passed.terminal, passed.direction = True, 1
+    run = solve_ivp(lambda _, y: [*euler(D, l, M, y[:3]), *np.cross(y[3:], y[:3])], (0, end), [*state, *k],
+                    "DOP853", events=passed, rtol=1e-12, atol=1e-12, max_step=0.2 / max(1, np.abs(state).max()))
+    return run.t_events[0][0] if run.t_events[0].size else math.inf
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed, scenes", [(3, 30), pytest.param(4, 1000, marks=pytest.mark.long)])
+def test_compiled_steps_do_not_contradict_integers(seed, scenes):
+    """Two enclosures of one motion meet; every tenth is held against SciPy."""
+    pytest.importorskip("numba")
+    rng, proved = np.random.default_rng(seed), 0
+    for n in range(scenes):
+        scene, state, question, limit = random_question(rng)
+        one, two = (stabilab.time_to(scene, state, **question, t_max=FAR, work=work) for work in (30_000_000, 1))
+        ends = [math.inf if math.isnan(found.high) else float(found.high) for found in (one, two)]
+        assert max(one.low, two.low) <= min(ends), (question, one, two)
+        proved += two.level in ("proved", "exact")
+        if n % 10 == 0:
+            true = by_dop853(scene, state, limit, FAR)
+            assert (true == math.inf and two.low >= FAR * (1 - 1e-9)) or (
+                two.low - 1e-7 * true <= true <= ends[1] + 1e-7 * true), (question, two, true)
+    assert proved >= 0.95 * scenes

@@ -14,6 +14,7 @@ from stabilab.errors import InputError
 from stabilab.numbers.numba_door import installed
 from stabilab.unreduced import enclosure_kernel
 from stabilab.unreduced.enclosure import Course
+from tests.oracles import taylor
 from tests.oracles.pairs import model_of
 from tests.oracles.taylor import integrate
 
@@ -125,7 +126,7 @@ def test_energy_and_squares_of_a_band_are_those_of_the_motion():
     band = course.advance(1.0, band=True)
     D = EXAMPLE.body.exact
     for weights in ((1, 1, 1), tuple(d / 2 for d in D)):
-        polynomials, radii = band.form(weights)
+        polynomials, radii = band.form(list(zip(weights, np.eye(3))))
         for i in range(len(radii)):
             begin, end = map(Fraction, band.times[i:i + 2].tolist())
             x = Fraction(3, 8)
@@ -136,6 +137,66 @@ def test_energy_and_squares_of_a_band_are_those_of_the_motion():
                 value = sum(mpmath.mpf(c) * (mpmath.mpf(3) / 8) ** k for k,
                             c in enumerate(polynomials[i].tolist()))
                 assert abs(value - true) <= radii[i] and radii[i] < 1e-10  # a run in 50 digits
+
+
+def in_fifty_digits(scene, state, direction, times):
+    """(rates, direction n) at increasing times: n' = n x omega by its power series, those of the rates of
+    `tests.oracles.taylor`; steps of 1/16."""
+    model, exactly = model_of(scene), lambda row: [mpmath.mpf(Fraction(v).numerator) / Fraction(v).denominator
+                                                   for v in row]
+    table = [*map(exactly, (model.kappa, model.rho, model.sigma, model.m))]
+    x, n, found, now = exactly(state), exactly(direction), [], mpmath.mpf(0)
+    for end in map(mpmath.mpf, times):
+        while now < end:
+            h = min(mpmath.mpf(1) / 16, end - now)
+            w, rows = taylor.coefficients(table, x, 60), [[v] for v in n]
+            for m in range(60):
+                cross = [mpmath.fdot(rows[j], w[k][m::-1]) - mpmath.fdot(rows[k], w[j][m::-1])
+                         for j, k in ((1, 2), (2, 0), (0, 1))]
+                for row, value in zip(rows, cross):
+                    row.append(value / (m + 1))
+            x, n = ([mpmath.polyval(row[::-1], h) for row in series] for series in (w, rows))
+            now += h
+        found.append([*x, *n])
+    return found
+
+
+@pytest.mark.one_in(2)
+@pytest.mark.parametrize("seed", range(4))
+def test_a_direction_at_rest_in_space_is_within_its_radius_at_all_times(seed):
+    rng = random.Random(seed)
+    scene, state = random_scene(rng, rng.choice((0, 1))), sphere(rng, rng.choice((.3, 2)))
+    end, direction = 3.0, [(0, 0, 1), (Fraction(3, 5), 0, Fraction(-4, 5))][seed % 2]
+    course = Course(scene, state, end, direction=direction)
+    band = course.advance(end, band=True)
+    assert course.status == enclosure_kernel.DONE
+    places = range(0, len(band.radii), max(1, len(band.radii) // 4))
+    begins, ends = band.times[:-1], band.times[1:]
+    with mpmath.workdps(50):
+        at = [mpmath.mpf(begins[i]) + (mpmath.mpf(ends[i]) - begins[i]) * 5 / 8 for i in places]
+        for i, true in zip(places, in_fifty_digits(scene, state, direction, at)):  # no code shared
+            for row, radius, value in zip(band.polynomials[i].tolist(), band.radii[i].tolist(), true):
+                off = abs(mpmath.polyval([mpmath.mpf(c) for c in row[::-1]], mpmath.mpf(5) / 8) - value)
+                assert off <= radius < 1e-11
+        # the true direction itself, not rounded to the doubles of a band, is as near as the rates
+        last = in_fifty_digits(scene, state, direction, [end])[0][3:]
+        high, low, off = course._set[4:]
+        gap = mpmath.sqrt(sum((mpmath.mpf(a) + mpmath.mpf(b) - v) ** 2 for a, b, v in zip(high, low, last)))
+        assert gap <= off[0] < 1e-22
+
+
+def test_a_step_in_integers_holds_the_same_motion():
+    """The polynomials and radii of a band, evaluated in exact fractions."""
+    course = Course(EXAMPLE, (.1, 1, 2), 1.0, direction=(0, 0, 1))
+    band, unit = course.advance(1.0, band=True), Fraction(1, 4)
+    piece = band.piece(1, unit)
+    assert piece.start == Fraction(band.times[1]) and piece.start + piece.length == Fraction(band.times[2])
+    for n, row in enumerate(piece.rows):
+        of = unit if n < 3 else 1
+        rest = sum(abs(Fraction(c, 2**piece.bits) * of - Fraction(d))
+                   for c, d in zip(row, band.polynomials[1, n].tolist()))
+        assert Fraction(band.radii[1, n]) + rest <= Fraction(piece.radii[n], 2**piece.bits) * of
+        assert piece.radii[n] < 2**70 and piece.sizes[n] == sum(map(abs, row))
 
 
 def test_a_band_is_one_piece_and_ends_at_the_time_asked_for():
@@ -170,11 +231,11 @@ def test_steps_without_the_compiler_give_the_same_bits(plain, monkeypatch):
     rng = random.Random(plain)
     for _ in range(3):
         scene, state = random_scene(rng, rng.choice((0, 1, 5))), sphere(rng, rng.choice((.1, 3, 30)))
-        told = []
+        told, direction = [], rng.choice((None, (0, 1, 0)))
         for first, compiler in ((0, True), (plain, True), (0, False)):
             monkeypatch.setattr("stabilab.unreduced.enclosure.loaded", lambda first=first: not first)
             monkeypatch.setattr("stabilab.unreduced.enclosure.installed", lambda there=compiler: there)
-            course = Course(scene, state, 40.0, plain=first)
+            course = Course(scene, state, 40.0, plain=first, direction=direction)
             bands = [course.advance(40.0, 12, band=True), course.advance(40.0, 3, band=True)]
             told.append([course.t, course.steps, course.status,
                          *(v.tobytes() for v in (course.now.middle, course.now.rest, course.now.radius)),

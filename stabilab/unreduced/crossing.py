@@ -1,0 +1,84 @@
+"""When a motion enclosed in compiled steps (`enclosure`) first reaches a limit.
+
+The steps of which Bernstein coefficients leave open whether the limit is reached are searched as pieces in
+integers (`integrate.crossing`); the others surely stay below it. A polynomial on [0, 1] lies between the
+least and the greatest of its Bernstein coefficients, which are positive sums of those of its powers, so that
+one formed in doubles errs by less than BLUR of the sum of sizes."""
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+from functools import lru_cache
+
+import numpy as np
+
+from ..integrate.crossing import Crossing, Search, Threshold
+from ..numbers.polynomial import bernstein
+from . import enclosure_kernel
+from .enclosure import Band, Course, allowed
+from .spin_up.certificate import natural
+
+FAR = 2.0**24  # natural units of time: beyond what any number of steps reaches
+BLUR, PIECES = 2.0**-40, 8
+
+
+def first_crossing(scene, state, thresholds: Sequence[Threshold], unit: Fraction = Fraction(1),
+                   direction=None, t_max: float | None = None, steps: int | None = None) -> Crossing:
+    """The first time, in the scene's unit, at which one of the thresholds is reached; these are of rates over
+    `unit`, a power of two.
+
+    scene, state, direction: as of `enclosure.Course`. t_max: how far to look (None: as far as so many steps
+    reach; these None: as many as take some seconds).
+    """
+    end = t_max if t_max is not None else FAR / natural(scene)[1]
+    course, searches = Course(scene, state, end, direction=direction), [Search(one) for one in thresholds]
+    steps = allowed() if steps is None else steps
+    while course.status == enclosure_kernel.GOING and course.steps < steps:
+        band = course.advance(end, steps - course.steps, band=True)
+        if band is not None and _found(searches, band, unit):
+            break
+    return Crossing.of(searches, Fraction(course.t), course.status == enclosure_kernel.DONE, course.steps)
+
+
+def _found(searches: Sequence[Search], band: Band, unit: Fraction) -> bool:
+    """Whether one of the limits is surely reached in this band."""
+    open_at = [_open(one.threshold, band, float(unit)) for one in searches]
+    for i in range(len(band.radii)):
+        piece = None
+        for one, places in zip(searches, open_at):
+            if places[i] or one.low is not None:
+                piece = piece or band.piece(i, unit)
+                if one.take(piece):
+                    return True
+    return False
+
+
+def _open(threshold: Threshold, band: Band, unit: float) -> np.ndarray:
+    """(n,) whether each step may reach it."""
+    if threshold.falls:
+        rows, radii, _ = band.along(threshold.terms[0][1])
+        rows, most = -rows, -float(threshold.limit)
+    else:
+        rows, radii = Band(band.times, band.polynomials[:, :3] / unit, band.radii[:, :3] / unit).form(
+            threshold.terms)
+        most = float(threshold.limit)
+    radii = radii + BLUR * np.abs(rows).sum(axis=1) + 2.0**-50 * abs(most)
+    found = np.zeros(len(rows), bool)
+    # most steps are surely below at once, the others are divided
+    open_at = np.flatnonzero((rows @ bernstein_of(rows.shape[1] - 1, 1).T).max(axis=1) + radii >= most)
+    values = rows[open_at] @ bernstein_of(rows.shape[1] - 1, PIECES).T
+    found[open_at] = values.max(axis=1, initial=-math.inf) + radii[open_at] >= most
+    return found
+
+
+@lru_cache(maxsize=4)
+def bernstein_of(degree: int, pieces: int) -> np.ndarray:
+    """(pieces (degree + 1), degree + 1): powers of x on [0, 1] to Bernstein coefficients on each of so many
+    equal pieces; entries are not negative and at most 1."""
+    rows = []
+    for piece in range(pieces):
+        shifted = np.array([[math.comb(k, m) * (piece / pieces) ** (k - m) / pieces**m if m <= k else 0.0
+                             for k in range(degree + 1)] for m in range(degree + 1)])
+        rows.append(bernstein(degree) @ shifted)
+    return np.concatenate(rows)
