@@ -91,6 +91,7 @@ def test_commands_that_had_no_bound_have_one(command, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.long  # minutes of processor time a few of them
 @pytest.mark.parametrize("seed", range(len(COMMANDS) * 6))
 def test_a_wild_number_fills_no_memory_and_breaks_nothing_off(seed, tmp_path):
     text, command = wild(seed)

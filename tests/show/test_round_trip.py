@@ -91,6 +91,7 @@ def test_every_number_of_a_text_is_a_key_of_json(command, name):
 
 
 @pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("command", COMMANDS)
 def test_every_number_of_a_text_is_a_key_of_json_in_all_cases(command, tmp_path):
     lost = {}
