@@ -12,9 +12,11 @@ from below, quadratically where it is simple, and pass whatever only comes near.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+
+from ..numbers.vectors import Number
 
 SHORT = 72  # a step below 2^-72 of the piece has arrived: a crossing lies between neighbouring doubles
 WIDE = 20  # up to 2^-20 of the piece behind the lower end the upper one is looked for at once
@@ -37,9 +39,9 @@ class Piece:
     start: Fraction
     length: Fraction
     bits: int
-    rows: list
-    radii: list
-    sizes: list
+    rows: list[list[int]]
+    radii: list[int]
+    sizes: list[int]
 
 
 @dataclass(frozen=True)
@@ -51,11 +53,11 @@ class Threshold:
     many rationals as there are components.
     """
 
-    terms: tuple
+    terms: tuple[tuple[Fraction, tuple[Fraction, ...]], ...]
     limit: Fraction
     falls: bool = False
 
-    def passed(self, y) -> bool:
+    def passed(self, y: Sequence[Number]) -> bool:
         """Whether exact components reach the limit."""
         values = [(c, sum(a * v for a, v in zip(vector, y))) for c, vector in self.terms]
         return values[0][1] <= self.limit if self.falls else sum(c * v * v for c, v in values) >= self.limit
@@ -88,7 +90,7 @@ class Search:
     exactly: whether the error of the pieces is taken into account; else they are taken at their word.
     """
 
-    def __init__(self, threshold: Threshold, exactly: bool = True):
+    def __init__(self, threshold: Threshold, exactly: bool = True) -> None:
         self.threshold, self.exactly, self.left = threshold, exactly, BEHIND
         self.low: Fraction | None = None
         self.high: Fraction | None = None
@@ -100,23 +102,24 @@ class Search:
             return False
         s = 0
         if self.low is None:
-            s = g.reaches(1)
-            if s is None:
+            first = g.reaches(1)
+            if first is None:
                 return False
+            s = first
             self.low = piece.start + piece.length * Fraction(s, 1 << piece.bits)
         before = g.looked
-        s = g.surely_beyond(s, before + min(PLACES, self.left))
+        beyond = g.surely_beyond(s, before + min(PLACES, self.left))
         self.left -= min(g.looked - before, self.left)
-        if s is None:
+        if beyond is None:
             return False
-        self.high = piece.start + piece.length * Fraction(s, 1 << piece.bits)
+        self.high = piece.start + piece.length * Fraction(beyond, 1 << piece.bits)
         return True
 
 
 class _Excess:
     """g over one piece: in units of 2^(-2 bits) for squares, 2^-bits for what falls."""
 
-    def __init__(self, threshold, piece, exactly):
+    def __init__(self, threshold: Threshold, piece: Piece, exactly: bool) -> None:
         self.bits, self.falls, self.one, self.looked = piece.bits, threshold.falls, 1 << piece.bits, 0
         made = [_combined(vector, piece) for _, vector in threshold.terms]
         self.rows, self.sizes = [row for row, _ in made], [sum(map(abs, row)) for row, _ in made]
@@ -133,30 +136,30 @@ class _Excess:
                         + sum((v * v >> self.bits) + 1 for v in self.sizes) + self.one)
         self.bend, self.rough = self._bend(), self._rough(max(map(len, self.rows)))
 
-    def _sum(self, values):
+    def _sum(self, values: Iterable[int]) -> int:
         return sum(c * v for c, v in zip(self.weights, values)) + self.one - 1 >> self.bits
 
-    def _bend(self):
+    def _bend(self) -> int:
         first = [sum(n * abs(v) for n, v in enumerate(row)) for row in self.rows]
         second = [sum(n * (n - 1) * abs(v) for n, v in enumerate(row)) for row in self.rows]
         return (second[0] if self.falls
                 else 2 * self._sum([f * f + v * w for f, v, w in zip(first, self.sizes, second)]))
 
-    def _rough(self, terms):
+    def _rough(self, terms: int) -> int:
         """What rounding may take from the slope."""
         steep = [sum(n * abs(v) for n, v in enumerate(row)) for row in self.rows]
         return (terms * (terms + 1) if self.falls
                 else 2 * self._sum([terms * (terms + 1) * v + terms * w for v, w in zip(self.sizes, steep)])
                 + 2)
 
-    def stays_below(self):
+    def stays_below(self) -> bool:
         """Whether bounds of the components alone keep g below 0."""
         if self.falls:
             row = self.rows[0]
             return row[0] - (self.size - abs(row[0])) - self.err > self.limit
         return self.size + self.err < self.limit << self.bits
 
-    def value(self, s):
+    def value(self, s: int) -> tuple[int, int]:
         """(g, g') at s, an integer in units of 2^-bits; g' is not too small, and rounding of g is part of
         err."""
         found = []
@@ -172,7 +175,7 @@ class _Excess:
         value = self._sum([v * v for v, _ in found]) - (self.limit << self.bits)
         return value, 2 * self._sum([v * slope for v, slope in found]) + self.rough
 
-    def reaches(self, sign, s=0, allowed=PLACES):
+    def reaches(self, sign: int, s: int = 0, allowed: int = PLACES) -> int | None:
         """The last place that the steps reach from s before g + sign err may be 0, or that so many of them
         reach; None where there is no such place in the piece."""
         while self.looked < allowed:
@@ -188,16 +191,17 @@ class _Excess:
                 return s - max(ahead, 1)
         return s
 
-    def _safe(self, gap, slope):
+    def _safe(self, gap: int, slope: int) -> int:
         scale = max(gap, abs(slope), self.bend, 1)
         a, b, c = gap / scale, slope / scale, self.bend / scale
         root = math.sqrt(b * b + 2 * c * a)
         ahead = 2 * a / (root + b) if b > 0 else (root - b) / c if c else 2.0
         return int(min(ahead, 2.0) * SHORTER * self.one)
 
-    def surely_beyond(self, s, allowed):
+    def surely_beyond(self, start: int, allowed: int) -> int | None:
         """A place from s on where g - err > 0, as near as can be found by so many looked at, else the end;
         None where the piece has none."""
+        s: int | None = start
         while s is not None and self.looked < allowed:
             for places in range(SHORT - 2, WIDE, -1):
                 behind = min(s + (self.one >> places), self.one)
@@ -208,7 +212,7 @@ class _Excess:
         return self.one if s is not None and self.value(self.one)[0] > self.err else None
 
 
-def _combined(vector, piece):
+def _combined(vector: Sequence[Fraction], piece: Piece) -> tuple[list[int], int]:
     """(the row of a . y, how far it may be off), in units of 2^-bits."""
     used = [(Fraction(a), row, radius, size)
             for a, row, radius, size in zip(vector, piece.rows, piece.radii, piece.sizes) if a]

@@ -10,11 +10,14 @@ import math
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
 from ..integrate.crossing import Crossing, Search, Threshold
 from ..numbers.polynomial import bernstein
+from ..numbers.vectors import Exact3
+from ..physics.scene import AnyScene
 from . import enclosure_kernel
 from .enclosure import Band, Course, allowed
 from .spin_up.certificate import natural
@@ -23,8 +26,9 @@ FAR = 2.0**24  # natural units of time: beyond what any number of steps reaches
 BLUR, PIECES = 2.0**-40, 8
 
 
-def first_crossing(scene, state, thresholds: Sequence[Threshold], unit: Fraction = Fraction(1),
-                   direction=None, t_max: float | None = None, steps: int | None = None) -> Crossing:
+def first_crossing(scene: AnyScene, state: Sequence[Any], thresholds: Sequence[Threshold],
+                   unit: Fraction = Fraction(1), direction: Exact3 | None = None,
+                   t_max: float | None = None, steps: int | None = None) -> Crossing:
     """The first time, in the scene's unit, at which one of the thresholds is reached; these are of rates over
     `unit`, a power of two.
 
