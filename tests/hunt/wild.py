@@ -174,7 +174,7 @@ def disagreements(scene, states, fast, with_digits):
 
 
 def _against_arrays(scene, state, one, many, n):
-    label, words = Fate(int(many.labels[n])), REASONS[Basis(int(many.reasons[n]))]
+    label, words = Fate(int(many.labels[n])), str(REASONS[Basis(int(many.reasons[n]))])
     if (one.fate, one.axis, one.sense) != (label, many.axis[n],
                                            many.sense[n]) or not one.because.startswith(words):
         yield (
