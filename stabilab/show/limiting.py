@@ -76,7 +76,8 @@ def beside(caveats: Iterable[Caveat], units: Units, text: str = "") -> list[str]
 def unsaid(caveats: Iterable[Caveat], text: str, units: Units) -> list[Caveat]:
     """The caveats that a text does not state; that on an approximate law has a line of its own."""
     return [one for one in dict.fromkeys(caveats) if one.kind is not Kind.LAW
-            and not any(form.removeprefix("holds ").lower() in text.lower() for form in _forms(one, units))]
+            and not any(form.removeprefix("holds ").removeprefix("unstable: ").lower() in text.lower()
+                        for form in _forms(one, units))]
 
 
 def _forms(one: Caveat, units: Units) -> list[str]:
