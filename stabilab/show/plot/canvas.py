@@ -7,9 +7,9 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
-from ...errors import InputError
+from ...errors import InputError, Kind
 from ...packages import demand
-from .. import style
+from .. import limiting, style
 from ..axes import axes_of
 from ..text import headline
 from ..text.headline import outcome
@@ -70,7 +70,10 @@ def answer(one: Subject, scale: Measures) -> str:
         return ""
     units = replace(scale.system or units_of(one.case), axes=axes_of(one.case))
     became, limit, _ = outcome(one.motion, units)
-    return headline.warned(one.motion.validity, "; ".join(filter(None, (became, limit))))
+    left_out = [limiting.words(of, units).split("; ")[0] for of in one.motion.caveats
+                if of.kind in (Kind.TOLERANCE, Kind.MISALIGNMENT, Kind.UNCERTAIN)]
+    words = "; ".join(filter(None, (became, limit, *left_out)))
+    return headline.warned(one.motion.validity, limiting.ahead(one.motion.caveats, words, named=False))
 
 
 def title(ax: Any, *lines: str) -> None:
