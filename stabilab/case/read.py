@@ -63,6 +63,7 @@ STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
 # key: block
 BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position",
           "damper": "damper", "wheel": "wheel"}
+TURNED_BACK = Fraction(1, 10**15)
 UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector and stays as it is
 SIZES = Sentence("tolerance-not-looked-at", "the tolerance of the force of {thrusters} is not looked at "
                  "here; stabilab fate and stabilab when look at it")
@@ -152,7 +153,9 @@ class Case:
         exact, axes = self.exact_state, oblique(self.frame)
         if exact is None:
             return "no motion"
-        numbers = ", ".join(f"{float(v) + 0.0:.6g}" for v in (exact if axes is None else axes.back(exact)))
+        state = exact if axes is None else axes.back(exact)
+        least = TURNED_BACK * max(map(abs, state)) if axes is not None else 0  # what turning there and back left
+        numbers = ", ".join(f"{float(v) if abs(v) > least else 0.0:.6g}" for v in state)
         rate = "" if self.variables == "scaled" else " rad/s"
         where = "" if axes is None else " in the frame of the file"
         span = (f", span {self.span[0]:.6g} to {self.span[1]:.6g} {self.scene.time_unit}"
