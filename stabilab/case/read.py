@@ -154,7 +154,8 @@ class Case:
         if exact is None:
             return "no motion"
         state = exact if axes is None else axes.back(exact)
-        least = TURNED_BACK * max(map(abs, state)) if axes is not None else 0  # what turning there and back left
+        # below it stands what turning there and back left
+        least = TURNED_BACK * max(map(abs, state)) if axes is not None else 0
         numbers = ", ".join(f"{float(v) if abs(v) > least else 0.0:.6g}" for v in state)
         rate = "" if self.variables == "scaled" else " rad/s"
         where = "" if axes is None else " in the frame of the file"
