@@ -24,7 +24,7 @@ def test_an_interval_that_keeps_the_motion_bounded_is_told_in_six_digits_and_lie
     assert float(words[1]) <= most < float(words[1]) + 1e-6 and float(words[2]) - 1e-7 < least <= float(
         words[2])
     page = sections(load(case), tmp_path, "satellite", deep=False)["sensitivity"]["rows"][0]["because"]
-    assert "rad/s" not in page and "from 25.58" in page
+    assert "rad/s" not in page and "beyond 25.5849 deg/s" in page
     # 0.44654 rad/s
     assert "rad/s" not in text and re.search(
         r"margin, rate +\S+ deg/s along .* from 25\.58\d* deg/s along the same line", text)
