@@ -50,12 +50,7 @@ def of_gyrostat(scene: AnyScene, x: Sequence[Number]) -> Stability:
     found = equilibria(scene)
     if found.kind == "all":
         return Stability("stable", found.reason)
-    if m:
-        pieces = [one for curve in found.curves for one in curve.segments if one.linear == "stable"]
-        verdict = ((pieces[0].verdict, pieces[0].because) if pieces and not found.points
-                   else isolated_verdict(1, 0))
-        return Stability(*verdict)
-    return Stability(*_degenerate(found, tuple(map(float, x))))
+    return Stability(*_without_growth(found, tuple(map(float, x)), "stable" if m else "degenerate"))
 
 
 def of_scene(scene: AnyScene, at: Sequence[float]) -> Stability:
@@ -84,14 +79,15 @@ def _growth(scene: AnyScene, at: Sequence[float]) -> float | None:
     return largest if largest > GROWS * float(np.abs(jacobian).max()) else None
 
 
-def _degenerate(found: Equilibria, at: Sequence[float]) -> tuple[str, str]:
-    """The verdict where m and n vanish: of a fold or a crossing, or of a plane of equilibria."""
-    near = _nearest((one for curve in found.curves for one in curve.samples
-                     if one.linear == "degenerate"), at)
+def _without_growth(found: Equilibria, at: Sequence[float], linear: str) -> tuple[str, str]:
+    """The verdict where no eigenvalue has a positive real part: that of the same state, else of the pieces of
+    curves of the same linear kind, where these agree."""
+    near = _nearest((*found.points, *(one for curve in found.curves for one in curve.samples)), at)
     if near is not None:
         return near.verdict, near.because
-    pieces = [one for curve in found.curves for one in curve.segments if one.linear == "degenerate"]
-    return (pieces[0].verdict, pieces[0].because) if pieces else NOT_FOUND
+    alike = {one.verdict: (one.verdict, one.because) for curve in found.curves for one in curve.segments
+             if one.linear == linear}
+    return alike.popitem()[1] if len(alike) == 1 else NOT_FOUND
 
 
 def _looked_up(found: Equilibria, at: Sequence[float]) -> tuple[str, str]:

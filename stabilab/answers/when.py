@@ -225,12 +225,12 @@ def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None 
     """As `time_of_case`; where it is never, with what a tilt of the torque does, by what the case states as
     misalignment, else by one degree; and with what the tolerances of its forces do."""
     found = time_of_case(case, ask, t_max)
-    end = (ending(case, motion(case.scene, case.start, needs=Needs.FATE, exact=case.exact_state))
-           if loses(case.scene) else None)
+    moved = motion(case, needs=Needs.FATE) if math.isinf(found.low) or loses(case.scene) else None
+    end = None if moved is None or not loses(case.scene) else ending(case, moved)
     if end is not None and end.until is not None:
         found = _to_the_end(case, ask, found, PAST * end.until, t_max)
     never = math.isinf(found.low)
-    stability = motion(case, needs=Needs.FATE).stability if never else None
+    stability = None if moved is None or not never else moved.stability
     off = of_tilt(case, None, ask, never)
     return replace(found, ending=end, tilt=off,
                    caveats=caveats_of(case.scene, never, off, file=seen(case.caveats, off),

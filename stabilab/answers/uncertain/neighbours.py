@@ -3,7 +3,7 @@
 Every motion of such a box may be bounded while none stays near the equilibrium: beside a rotation about the
 intermediate axis a body turns over. So a box around an equilibrium is judged by its stability at the middle,
 and by how far motions of the box depart from the rotation they start with. Each is followed over one period
-by its power series; the equilibrium's stability is exact (`equilibrium.stability`).
+by its power series; the equilibrium's stability is exact (`answers.at_equilibrium`).
 """
 from __future__ import annotations
 
@@ -14,16 +14,13 @@ from fractions import Fraction
 
 import numpy as np
 
-from ...equilibrium.gyrostat import gyrostat_equilibria
-from ...equilibrium.result import Equilibria
-from ...equilibrium.stability import eigenvalues, invariants, linear_word
 from ...errors import InputError
 from ...integrate.quadratic_series import coefficients, length, summed
-from ...numbers.exact import sign_of
 from ...numbers.vectors import Float3
 from ...orbit.result import Fate
-from ...physics.scene import AnyScene, QuadraticForm, rests
+from ...physics.scene import QuadraticForm, rests
 from ...reasons import Angle, Quantity, Rate, Reason, Sentence, in_si
+from ..at_equilibrium import of_gyrostat
 from ..caveats import UNSTABLE, UNSTABLE_SLOWLY
 from ..motions.rows import periods
 from .boxes import Box, Point
@@ -33,7 +30,6 @@ from .search import SEED
 MOST = DRAWN = 32  # corners, and points drawn at random, at which a motion is followed
 STEPS, INSIDE = 4000, 8  # of a motion at most; points a step at which its departure is taken
 SHARE = 1e-13  # of the size of the state: the last terms of a step
-NEAR = 1e-9  # of the size of a state: two equilibria so near are one, in doubles
 STABLE = Sentence("stable-equilibrium", "stable")()
 STABILITY_UNDECIDED = Sentence("stability-undecided", "its stability is undecided")()
 MIDDLE_AND_ELSEWHERE = Sentence("stability-over-box",
@@ -100,7 +96,8 @@ def beside(box: Box, found: Over) -> Over:
     exact = box.middle["state"] if box.frame is None else tuple(map(Fraction, state or ()))
     if not rests(scene.quadratic(), exact):
         return found
-    verdict, growth = stability(scene, exact)
+    middle = of_gyrostat(scene, exact)
+    verdict, growth = middle.verdict, middle.growth or 0.0
     at_rest = not any(exact)
     best, far, number, turned = (0.0, 0.0), np.zeros(n), 0, False
     other = None  # a point at rest too, and as stable as the middle is not
@@ -144,31 +141,7 @@ def _depends(box: Box, found: Over, words: Sequence[str], point: Point, changes_
 def _verdict_at(box: Box, point: Point) -> str:
     """The stability of the equilibrium at a point of the box."""
     scene, state = box.at(point)
-    return stability(scene, tuple(map(Fraction, state or ())))[0]
-
-
-def stability(scene: AnyScene, exact: Sequence[Fraction]) -> tuple[str, float]:
-    """(verdict in the sense of Lyapunov, largest real part of the eigenvalues or 0) of an equilibrium (three
-    exact numbers) of a gyrostat under a constant torque."""
-    m, n = invariants(scene.quadratic(), exact)
-    growth = max(0.0, *(root.real for root in eigenvalues(Fraction(m), Fraction(n))))
-    if growth > 0:
-        return "unstable", growth
-    return _degenerate(gyrostat_equilibria(scene), tuple(map(float, exact)),
-                       linear_word(sign_of(m), sign_of(n))), 0.0
-
-
-def _degenerate(found: Equilibria, at: Float3, linear: str) -> str:
-    """The verdict where no eigenvalue has a positive real part: that of the same state, else of pieces of
-    curves of the same kind, where these agree."""
-    if found.kind == "all":
-        return "stable"
-    size = max(map(abs, at)) or 1.0
-    known = [*found.points, *(sample for curve in found.curves for sample in curve.samples)]
-    same = {p.verdict for p in known if max(abs(a - b) for a, b in zip(p.at, at)) <= NEAR * size}
-    alike = same or {piece.verdict for curve in found.curves for piece in curve.segments
-                     if piece.linear == linear}
-    return alike.pop() if len(alike) == 1 else "undecided"
+    return of_gyrostat(scene, tuple(map(Fraction, state or ()))).verdict
 
 
 def _departure(box: Box, point: Point) -> tuple[float, float] | None:
