@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from .aliases import LISTS, SECTIONS, named
@@ -212,10 +213,10 @@ def _key(key: str, reasons: list[str]) -> str:
     return known
 
 
-def _comment(value: str, reasons: list[str]) -> tuple[str, str]:
-    """(the value, its comment with a #): what stands outside quotes and brackets behind a sign of comment."""
+def _unquoted_signs(text: str) -> Iterator[tuple[int, str, int]]:
+    """(where, the sign, how many brackets are open) of all that stands outside quotes and is no bracket."""
     depth, quote = 0, ""
-    for at, c in enumerate(value):
+    for at, c in enumerate(text):
         if quote:
             quote = "" if c == quote else quote
         elif c in "\"'":
@@ -224,7 +225,14 @@ def _comment(value: str, reasons: list[str]) -> tuple[str, str]:
             depth += 1
         elif c in "])}":
             depth -= 1
-        elif c == "#":
+        else:
+            yield at, c, depth
+
+
+def _comment(value: str, reasons: list[str]) -> tuple[str, str]:
+    """(the value, its comment with a #): what stands outside quotes and brackets behind a sign of comment."""
+    for at, c, depth in _unquoted_signs(value):
+        if c == "#":
             return value[:at].rstrip(), f"  {value[at:]}"
         elif not depth and (c in ";!" or value.startswith(("//", "/*"), at)
                             or c == "%" and re.match(r"%\s*[A-Za-z]", value[at:])):
@@ -353,18 +361,10 @@ def _split(inner: str, reasons: list[str]) -> list[str]:
 
 def _items(inner: str) -> list[str]:
     """What commas part, brackets and quotes counted; items that stand side by side in brackets too."""
-    items, depth, quote, start = [], 0, "", 0
+    items, start = [], 0
     inner = re.sub(r"([\])])\s*;?\s*(?=[\[(])", r"\1, ", inner)
-    for at, c in enumerate(inner):
-        if quote:
-            quote = "" if c == quote else quote
-        elif c in "\"'":
-            quote = c
-        elif c in "[({":
-            depth += 1
-        elif c in "])}":
-            depth -= 1
-        elif c == "," and depth == 0:
+    for at, c, depth in _unquoted_signs(inner):
+        if c == "," and depth == 0:
             items.append(inner[start:at])
             start = at + 1
     return [one.strip() for one in (*items, inner[start:]) if one.strip()]
