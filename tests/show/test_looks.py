@@ -30,7 +30,9 @@ def test_every_view_has_the_same_headline(name):
     line = plain(EXPLORER[name]["headline"])
     first, title = TEXT[name]["answer"].split("\n")[0], PICTURES[name]["time"][0]["title"]
     assert all(line in plain(one) for one in (PAGE[name]["headline"], first.replace(f"{name}: ", ""), title))
-    assert EXPLORER[name]["look"] == PAGE[name]["look"] or "BUT within the uncertainties" in PAGE[name]["headline"]
+    # a fate that a part of the box has not, or samples alone show, is one on a condition; the explorer has no box
+    assert EXPLORER[name]["look"] == PAGE[name]["look"] or PAGE[name]["look"] == "conditional" and (
+        "BUT within the uncertainties" in PAGE[name]["headline"] or PAGE[name]["headline"].endswith("without a proof"))
 
 
 def test_the_look_of_a_headline_follows_from_what_it_says():
@@ -39,8 +41,10 @@ def test_the_look_of_a_headline_follows_from_what_it_says():
     for one in EXPLORER.values():
         words = one["headline"]
         assert (one["look"] == "conditional") == (
-            words.startswith(("BEYOND", "UNDECIDED")) or (" only while " in words and "; reaches" not in words)), words
-        assert one["look"] != "bounded" or words.startswith("BOUNDED for ever")
+            words.startswith(("BEYOND", "UNDECIDED"))
+            or " only while " in words and not re.search("; reaches|, UNSTABLE", words)), words  # a change says more
+        # a motion that loses energy is said by its end, which holds for ever too
+        assert one["look"] != "bounded" or words.startswith(("BOUNDED for ever", "TENDS TO "))
     assert all(seen[kind] > 2 for kind in style.LOOK), seen
 
 

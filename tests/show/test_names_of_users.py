@@ -10,6 +10,7 @@ from html import escape, unescape
 
 import pytest
 
+import stabilab
 from stabilab.commands.common import load_cases
 from stabilab.show import names, style
 from stabilab.show.axes import Axes
@@ -18,6 +19,7 @@ from stabilab.show.explore.session import Session
 from stabilab.show.report import html
 from stabilab.show.terminal import greek, lettered, printed, written
 from stabilab.show.units import SYSTEMS
+from tests.shared import MOVING
 
 PLAIN = "Qqqq"  # no pattern knows it
 HOSTILE = ["axis 3 after 200 s", "lambda 2", "t = 5 s", "omega1 10 rad", "mu_i +- 1 = 2^2", "gamma3 -5 rad",
@@ -163,6 +165,15 @@ def test_pictures_have_names_as_written(name, kind, tmp_path, stabilab, monkeypa
         assert code == 0, err
         return "\n".join(seen)
     same_but_for_names(told, name)
+
+
+@pytest.mark.parametrize("title", ["omega1 10 rad", "lambda 2 in tau", PLAIN])
+def test_a_picture_has_its_title_as_written_and_what_is_said_below_it_in_letters(title):
+    """|omega| stands in the program's words alone."""
+    case = stabilab.load(f"title = {json.dumps(title)}\n{MOVING}span = [0, 10]\n")
+    first, *below = stabilab.plot.time(case).get_title().split("\n")
+    assert first == title
+    assert "|ω| = " in " ".join(below) and "omega" not in " ".join(below)
 
 
 @pytest.mark.slow

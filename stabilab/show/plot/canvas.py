@@ -11,6 +11,7 @@ from ...errors import InputError, Kind
 from ...packages import demand
 from .. import limiting, style
 from ..axes import axes_of
+from ..terminal import written
 from ..text import headline
 from ..text.headline import outcome
 from ..units import units_of
@@ -48,9 +49,9 @@ def _checked(ax: Any, space: bool) -> Any:
     return ax
 
 
-def explained(ax: Any, rows: list[tuple[str, dict[str, Any]]], own: bool, *lines: str) -> Any:
-    """The axes, with the lines of a title and with what the looks mean, rows of (name, look)."""
-    title(ax, *lines)
+def explained(ax: Any, rows: list[tuple[str, dict[str, Any]]], own: bool, heading: str, *lines: str) -> Any:
+    """The axes, with a title as of `title` and with what the looks mean, rows of (name, look)."""
+    title(ax, heading, *lines)
     legend(ax, rows, own)
     return ax
 
@@ -76,9 +77,11 @@ def answer(one: Subject, scale: Measures) -> str:
     return headline.warned(one.motion.validity, limiting.ahead(one.motion.caveats, words, named=False))
 
 
-def title(ax: Any, *lines: str) -> None:
-    """The lines that are not empty, above the axes; the first is the title of the case."""
+def title(ax: Any, heading: str, *lines: str) -> None:
+    """The heading of the case, as its user wrote it, and below it what the program says, names as letters
+    (omega becomes ω); nothing for what is empty."""
     # beside others it has its own share alone
     width = ax.get_position().width if len(ax.figure.axes) > 1 else 1.0
-    told = (style.clauses(line, ax.figure.get_figwidth() * width) for line in lines if line)
+    told = (style.clauses(line, ax.figure.get_figwidth() * width)
+            for line in (heading, *map(written, lines)) if line)
     ax.set_title("\n".join(map(style.literal, told)), wrap=True)

@@ -260,7 +260,8 @@ def stuck(case: Case, found: Stuck, units: Units, plt: Any) -> Any:
             when = sum(row.time_to_limit) / 2 if row.time_to_limit else None
             drawn += _limit(ax, row.limit, when, t, omega, time_unit, scale.rate)
         ax.set_ylabel(with_unit("rate, axes of the file", scale.rate[0]))
-        canvas.title(ax, f"{row_name(row)}: {answer_line(row, units).partition('; ')[0].rsplit(' (', 1)[0]}")
+        became = answer_line(row, units).partition("; ")[0].rsplit(" (", 1)[0]
+        canvas.title(ax, "", f"{row_name(row)}: {became}")
         told |= {words.partition(" after ")[0]: look for words, look in drawn}
     figure.suptitle(style.literal(case.heading), fontsize=10.5, wrap=True)
     canvas.legend(axes[-1, 0], list(told.items()), True)
