@@ -177,8 +177,25 @@ class Piece:
         return "" if self.reason is None else self.reason.text()
 
 
+class Counted(Shown):
+    """What a map of equilibria says of itself in words, over one number or over two."""
+
+    counted: Reason
+    remarks: tuple[Reason, ...]
+
+    @property
+    def what(self) -> str:
+        """Which equilibria are counted, in words."""
+        return self.counted.text()
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What else there is to say, in words."""
+        return tuple(map(str, self.remarks))
+
+
 @dataclass(frozen=True, repr=False)
-class Diagram(Shown):
+class Diagram(Counted):
     """All equilibria over one number. kind: which are counted ("isolated", "motion", "borders" or "curves");
     counted: the same as a sentence, what: in words; pieces and events in rising order: event n lies between
     pieces; an event at an end of the range has a piece on one side only. remarks: what else there is to say,
@@ -191,16 +208,6 @@ class Diagram(Shown):
     events: tuple[Event, ...]
     connections: tuple[Event, ...] = ()
     remarks: tuple[Reason, ...] = ()
-
-    @property
-    def what(self) -> str:
-        """Which equilibria are counted, in words."""
-        return self.counted.text()
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What else there is to say, in words."""
-        return tuple(map(str, self.remarks))
 
 
 ISOLATED, LEAF, BORDERS = "isolated", "motion", "borders"

@@ -25,11 +25,10 @@ from ...errors import InputError
 from ...numbers.algebraic import Algebraic, Cut, coefficients, cuts, gaps, real_balls, univariate
 from ...numbers.balls import Unclear, evaluated, rational, real_roots_of, settled
 from ...reasons import Reason
-from ...representation import Shown
 from ..axes import with_values
 from .diagram import ball_form, diagram, doubles, spread, state_of
 from .eliminated import Eliminated, at_rational, over_field
-from .equations import Diagram, Event, Family, chosen, common_divisor
+from .equations import Counted, Diagram, Event, Family, chosen, common_divisor
 
 MOST_BITS = 2048  # beyond which a state is taken to have no number
 
@@ -193,7 +192,7 @@ class Wall:
 
 
 @dataclass(frozen=True, repr=False)
-class Plane(Shown):
+class Plane(Counted):
     """All equilibria over two numbers. kind, counted, what, remarks, notes: as those of `Diagram`; curves:
     irreducible polynomials in p and q; strips: rising in p, without gaps; walls: lines of one p; cusps: where
     fold curves end in one another."""
@@ -206,16 +205,6 @@ class Plane(Shown):
     walls: tuple[Wall, ...] = ()
     cusps: tuple[Cusp, ...] = ()
     remarks: tuple[Reason, ...] = ()
-
-    @property
-    def what(self) -> str:
-        """Which equilibria are counted, in words."""
-        return self.counted.text()
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What else there is to say, in words."""
-        return tuple(map(str, self.remarks))
 
 
 def plane(family: Family, borders: bool = False) -> Plane:
