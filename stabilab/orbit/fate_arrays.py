@@ -38,7 +38,7 @@ from .one_orbit import Orbit
 from .one_state import LOST, far_exponent, far_fate, far_rows
 from .potential import derivatives_on_parabola
 from .reduction import reduce
-from .result import Fate
+from .result import Fate, spins_about
 from .separatrix.distance import separatrix_distance
 
 # --- The answer
@@ -86,8 +86,8 @@ class FateResult(Shown, Compared):
     def because(self):
         """The reason in words: a string for one state, an object array otherwise."""
         words = np.array([_told(*one)
-                          for one in zip(*map(np.ravel, (self.reasons, self.labels, self.margins)))],
-                         dtype=object)
+                          for one in zip(*map(np.ravel, (self.reasons, self.labels, self.margins, self.axis,
+                                                         self.sense)))], dtype=object)
         if self.followed is not None:
             words = np.array([one + _cause(self.followed.row(n)) for n, one in enumerate(words)],
                              dtype=object)
@@ -133,10 +133,11 @@ def _cause(row) -> str:
     return "" if row is None else f"; {row.cause}"
 
 
-def _told(reason, label, margin) -> str:
+def _told(reason, label, margin, axis, sense) -> str:
     known = (margin == margin or reason in (Basis.OFF_AXIS, Basis.TURN_ROUNDS, Basis.CERTIFIED,
                                             Basis.CLOSED_FORM) or label == Fate.EQUILIBRIUM)
-    return str(REASONS[Basis(reason)].then(None if known else LOST(what="the margin in energy")))
+    return str(REASONS[Basis(reason)].then(spins_about(label, int(axis), int(sense)))
+               .then(None if known else LOST(what="the margin in energy")))
 
 
 def empty_columns(n) -> dict[str, np.ndarray]:

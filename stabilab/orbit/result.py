@@ -222,11 +222,17 @@ class Motion(Shown):
         return "" if self.finding is None else self.finding.text()
 
 
+def spins_about(label: int, axis: int, sense: int) -> Reason | None:
+    """About what a motion with this fate spins up, a clause of its reason; None where it does not, or where
+    that is not known."""
+    if label != Fate.SPIN_UP or not (axis or sense):
+        return None
+    return SPINS_ABOUT(axis=Axis(axis)) if axis else SPINS_ABOUT_TORQUE
+
+
 def judged(state: Float3, decided: Any) -> dict[str, Any]:
     """The fields of a Motion that its decided fate fills: label, reason, axis and sense."""
-    reason = decided.reason
-    if decided.label == Fate.SPIN_UP and (decided.axis or decided.sense):
-        reason = reason.then(SPINS_ABOUT(axis=Axis(decided.axis)) if decided.axis else SPINS_ABOUT_TORQUE)
+    reason = decided.reason.then(spins_about(decided.label, decided.axis, decided.sense))
     level = "undecided" if decided.label == Fate.UNDECIDED else "exact"
     return {"at": state, "fate": decided.label, "reason": reason, "axis": decided.axis,
             "sense": decided.sense, "level": level, "margin": float(decided.margin),

@@ -126,7 +126,10 @@ def test_the_reason_is_whether_a_barrier_stands_ahead_and_how_high(name):
                                        == Fate.BOUNDED) == (expected in (Basis.WALLS, Basis.BELOW_BARRIER))
     words = found.because
     assert words.shape == (30,)
-    assert words[3] == stabilab.fate(scene, states[3]).because == str(REASONS[Basis(int(found.reasons[3]))])
+    for n, one in enumerate(states[:8]):
+        about = f"; it spins up about axis {found.axis[n]}" if found.labels[n] == Fate.SPIN_UP else ""
+        assert words[n] == str(REASONS[Basis(int(found.reasons[n]))]) + about
+        assert stabilab.fate(scene, one).because == words[n]
 
 
 @pytest.mark.parametrize("state", [(0.3, -0.4, -1.0), (0.3, -0.4, 2.0), (0.0, 0.0, 0.5)])
