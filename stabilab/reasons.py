@@ -159,6 +159,22 @@ class Reason:
         return found | ({"then": [one.as_dict(fill) for _, one in self.rest]} if self.rest else {})
 
 
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Reasoned:
+    """What every result brings that says why it is known. reason: with its quantities; words without any are
+    taken as they are."""
+
+    reason: Reason
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "reason", as_reason(self.reason))
+
+    @property
+    def because(self) -> str:
+        """The reason in words and SI units."""
+        return self.reason.text()
+
+
 def quantities_of(reason: Reason) -> dict[str, Any]:
     """The quantities of a reason by their names as JSON holds them."""
     return {name: plain(value) for name, value in reason.filled}

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..errors import Caveat
 from ..numbers.vectors import Float3, Number
-from ..reasons import Axis, Quantity, Reason, Sentence, as_reason
+from ..reasons import Axis, Quantity, Reason, Reasoned, Sentence
 from ..representation import Shown
 
 if TYPE_CHECKING:  # a scene of exact laws does not load it
@@ -141,7 +141,7 @@ AS_BOUNDS = "all time, as bounds"  # extremes that are wider than those of the m
 
 
 @dataclass(frozen=True, repr=False)
-class Motion(Shown):
+class Motion(Shown, Reasoned):
     """Everything known about the motion from one state.
 
     axis: 1, 2, 3 of the spin-up, 0 otherwise; sense: +1 or -1 of the spin-up, 0 otherwise. margin_energy:
@@ -173,7 +173,6 @@ class Motion(Shown):
 
     at: Float3
     fate: Fate
-    reason: Reason
     axis: int = 0
     sense: int = 0
     margin_energy: float | None = None
@@ -207,14 +206,6 @@ class Motion(Shown):
     def extremes_side(self) -> int:
         """1 where its extremes are bounds, which are rounded outward; 0 where they are values."""
         return int(self.extremes_over == AS_BOUNDS)
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "reason", as_reason(self.reason))
-
-    @property
-    def because(self) -> str:
-        """Why it has this fate, in words and SI units."""
-        return self.reason.text()
 
     @property
     def cause(self) -> str:
