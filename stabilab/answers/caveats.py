@@ -166,7 +166,7 @@ def _off_axis(holds: Reason, found: Any) -> Caveat:
     known: dict[str, Any] = {"varied": varied(found.angle, found.within), "limit": limit}
     if found.ends:
         reached = TILTED_TO(**known, time=Time(found.low), level=found.level)
-        return Caveat(Kind.TILT, holds.then(reached, ": "))
+        return Caveat(Kind.TILT, holds.then(reached))
     if found.not_before >= found.followed:
         return Caveat(Kind.TILT, holds.then(TILTED_NOT_BEFORE(**known, time=Time(found.not_before).lower)))
     return Caveat(Kind.TILT, holds.then(TILTED_NOT_FOUND(**known, time=Time(found.followed).lower)))

@@ -60,6 +60,17 @@ class Axes:
         return (f"{letter} ({word} axis)" if letter and word else letter
                 or f"the {word} axis, {self.direction(number)}{IN_FILE}")
 
+    def head(self, number: int) -> str:
+        """In a first line: "z (minor axis)", or "the minor axis", whose direction `direction_clause` says."""
+        letter = self.letters[number - 1]
+        return self.whole(number) if letter else self.short(number)
+
+    def direction_clause(self, number: int) -> str:
+        """Where an axis without a letter lies, a clause; empty of one with a letter."""
+        if not number or self.letters[number - 1]:
+            return ""
+        return f"the {self.words[number - 1]} axis is {self.direction(number)}{IN_FILE}"
+
     def brief(self, number: int) -> str:
         """After another axis of the same line: "x", or what `whole` says where there is no letter."""
         return self.letters[number - 1] or self.whole(number)

@@ -110,6 +110,7 @@ def encodable(text: str, encoding: str | None) -> str:
     return text
 
 
+LINE = 100   # letters of a line that holds several clauses
 USUAL = 80   # columns of a terminal that does not say how wide it is
 GAP = 2      # columns between those of a table
 NARROW = 40  # columns below which nothing is wrapped any narrower
@@ -128,12 +129,38 @@ def tell(text: str) -> None:
     out = sys.stdout
     text = encodable(greek(text), getattr(out, "encoding", None)).rstrip("\n") + "\n"
     columns = width()
+    text = by_clauses(text)
     if columns is not None:
         text = wrapped(text, columns)
         if not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb":
             return _in_colours(text)
     out.write(text)
     out.flush()
+
+
+def by_clauses(text: str) -> str:
+    """The text with every line that is longer than `LINE` broken between its clauses: as many as fit stay on
+    the first line, each other has a line of its own, two columns further in."""
+    lines = []
+    for line in text.split("\n"):
+        first, *rest = clauses_of(line) if len(line) > LINE else [line]
+        while rest and len(first) + len(rest[0]) + 2 <= LINE:
+            first = f"{first}; {rest.pop(0)}"
+        indent = " " * (len(line) - len(line.lstrip()) + GAP)
+        lines += [first, *(indent + clause for clause in rest)]
+    return "\n".join(lines)
+
+
+def clauses_of(line: str) -> list[str]:
+    """What stands between the semicolons of a line outside its brackets and quotes."""
+    found, depth, quoted, begin = [], 0, False, 0
+    for n, letter in enumerate(line):
+        depth += (letter in "([{") - (letter in ")]}")
+        quoted ^= letter == '"'
+        if line.startswith("; ", n) and depth <= 0 and not quoted:
+            found.append(line[begin:n])
+            begin = n + 2
+    return [*found, line[begin:]]
 
 
 def say(text: str) -> None:

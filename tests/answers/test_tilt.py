@@ -184,7 +184,7 @@ def test_a_stated_limit_or_misalignment_brings_the_tilt_by_itself(stabilab, case
     path = case_file(MOVING + '[limits]\nrate = "2 rad/s"\n', "limit")
     code, out, _ = stabilab("fate", path)
     assert code == 0
-    assert "BOUNDED only while the torque is exactly along z (minor axis): tilted by 1 deg it reaches 114.592 deg/s after 1" in out.splitlines()[0]
+    assert "BOUNDED only while the torque is exactly along z (minor axis); tilted by 1 deg it reaches 114.592 deg/s after 1" in out.splitlines()[0]
     row = json.loads(stabilab("fate", path, "--json")[1])[0]["tilt"]
     assert row["limit"] == 2 and row["limit_stated"] and row["time"][0] <= row["time"][1] and 0 < row[
         "not_before"] < row["time"][0]

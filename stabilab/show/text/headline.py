@@ -147,7 +147,7 @@ def verdict(case: Case, motion: Motion, units: Units | None = None) -> str:
     units = (units_of(case) if units is None else replace(units, axes=axes_of(case)) if units.axes == PLAIN
              else units)
     parts = [*outcome(motion, units), cause(motion, units), largest(motion, units), margin(motion, units),
-             period(motion, units)]
+             period(motion, units), units.axes.direction_clause(motion.axis)]
     return "; ".join(part for part in parts if part)
 
 
@@ -186,7 +186,7 @@ def fate_parts(motion: Motion, units: Units, tilt: bool = True) -> tuple[str, st
         words = f"{words if any(motion.at[:3]) else REST}{stable_word(motion)}"
     if ended := ending.words(motion.ending, units):
         return *ended, where
-    about = f" about {units.axes.whole(motion.axis)}, {direction(motion.sense)}" if motion.axis else ""
+    about = f" about {units.axes.head(motion.axis)}, {direction(motion.sense)}" if motion.axis else ""
     return words, about + known_as(motion), where
 
 
