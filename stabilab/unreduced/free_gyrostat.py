@@ -26,7 +26,7 @@ from ..orbit.separatrix.distance import has_no_saddle
 from ..physics.coefficients import three_floats
 from ..physics.scene import rests
 from ..physics.states import equilibrium_mask, three_numbers
-from ..reasons import Reason, Sentence
+from ..reasons import Reasoned, Sentence
 from .evidence import STEP_BUDGET
 from .near_rest import beside_rest, small_loop
 
@@ -48,14 +48,13 @@ CLOSED_MOTION = Sentence("closed-motion", "no torque: the motion is closed and p
 
 
 @dataclass(frozen=True)
-class PeriodExtremes:
+class PeriodExtremes(Reasoned):
     """extremes: (3, 2) over `over` ("all time" or the span searched); period: inf on a separatrix, NaN where
     no return was found."""
 
     extremes: np.ndarray
     period: float
     over: str
-    reason: Reason
 
 
 def extremes_over_period(scene, state) -> PeriodExtremes:
@@ -74,7 +73,7 @@ def extremes_over_period(scene, state) -> PeriodExtremes:
         raise InputError("the period by return is for motions without torque; this scene has one")
     exact = [Fraction(v) for v in given]
     if not any(form.rate(exact)):
-        return PeriodExtremes(np.stack([state, state], axis=1), 0.0, "all time", RESTS)
+        return PeriodExtremes(np.stack([state, state], axis=1), 0.0, "all time", reason=RESTS)
     k, mass = _own_exponent(form, exact), mass_unit(scene)
     if k or mass != 1:
         unit = Fraction(2) ** k
@@ -86,7 +85,7 @@ def extremes_over_period(scene, state) -> PeriodExtremes:
         period, swings = loop
         return PeriodExtremes(np.array([[scaled_double(v, k) for v in pair] for pair in swings]),
                               _no_double_is_nan(scaled_double(period, -k)),
-                              "all time", CLOSED_SMALL)
+                              "all time", reason=CLOSED_SMALL)
     tied = scene.variables == "physical" and free_fate(scene, exact).label == Fate.SEPARATRIX
     follow = _without_return if tied else _by_return
     return _in_scene_unit(follow(scene, form, state, k), k)
@@ -130,7 +129,7 @@ def _by_return(scene, form, state, k) -> PeriodExtremes:
         span *= 4
     return PeriodExtremes(roots.extremes(), math.nan,
                           f"{scene.time_unit} in [0, {powered(roots.t_reached, -k):g}]",
-                          NO_RETURN(steps=roots.steps))
+                          reason=NO_RETURN(steps=roots.steps))
 
 
 def _without_return(scene, form, state, k) -> PeriodExtremes:
@@ -138,7 +137,7 @@ def _without_return(scene, form, state, k) -> PeriodExtremes:
     roots = roots_of_rates(scene, state, _first_span(form, state))
     return PeriodExtremes(roots.extremes(), math.inf,
                           f"{scene.time_unit} in [0, {powered(roots.t_reached, -k):g}]",
-                          DOES_NOT_RETURN)
+                          reason=DOES_NOT_RETURN)
 
 
 def _first_span(form, x):
@@ -169,7 +168,7 @@ def _one_period(scene, roots, closing):
         if values.size:
             extremes[i] = values.min(), values.max()
     return PeriodExtremes(extremes, float(abs(roots.t[closing] - roots.t[0])), "all time",
-                          CLOSED_MOTION)
+                          reason=CLOSED_MOTION)
 
 
 def _quadrics(scene):
