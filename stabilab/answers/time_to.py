@@ -294,7 +294,7 @@ def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = Non
     if parts is not None and parts.note:  # what the twin takes for granted of the scene
         found = [replace(one, reason=one.reason.then(parts.note)) for one in found]
     caveats = caveats_of(given, any(one.never for one in found))
-    return times_of(found, shape, limit.words, given, array, caveats)
+    return times_of(found, shape, limit.label, given, array, caveats)
 
 
 def time_of_case(case: Any, ask: dict[str, Any], t_max: float | Fraction | None = None,

@@ -283,7 +283,7 @@ class Family(NamedTuple):
 
     line: Line
     axis: Exact3 | None
-    words: str
+    label: str
 
 
 def symmetry(satellite: Satellite) -> int | None:

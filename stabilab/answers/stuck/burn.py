@@ -449,7 +449,7 @@ def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = Non
     end = until if until is not None else max(chain.closed, Fraction(case.span[1]) if case.span else 0)
     over = over_forces(chain.burning, ask, Fraction(end), lambda one: _first_crossing(one, limit, ask, until))
     caveats = of_case(case) if over is None else (*craft_caveats(case), Caveat(Kind.TILT, over.reason))
-    return replace(times_of([found], (), limit.words, chain.base, np.array(case.state), caveats), tilt=over)
+    return replace(times_of([found], (), limit.label, chain.base, np.array(case.state), caveats), tilt=over)
 
 
 NEVER_WITH_THRUSTERS = Sentence(

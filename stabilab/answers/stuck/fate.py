@@ -82,7 +82,7 @@ class Scenario:
         """The limit of the case along the scene's axes, exactly, where it has one."""
         found = asked(self.scene(self.base), **cast(dict[str, Any], limit_of(self.case)))
         if found.kind == "component":
-            return replace(found, words="components in the frame of the file")
+            return replace(found, label="components in the frame of the file")
         return found
 
     @property

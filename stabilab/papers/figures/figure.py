@@ -22,7 +22,7 @@ from . import panels
 
 @dataclass(frozen=True)
 class Figure:
-    """One figure: draw(plt) -> matplotlib figure, or a list of those over which it is divided; words: the
+    """One figure: draw(plt) -> matplotlib figure, or a list of those over which it is divided; text: the
     caption, exact: how exact the curves are, each a text or a function that forms it from what is drawn;
     paper: the short name under which the command knows it, "" for the constant-torque paper; lines: a
     function that gives the figure's lines (panels.Row, columns) where it sets printed curves beside the exact
@@ -31,7 +31,7 @@ class Figure:
 
     number: int
     title: str
-    words: str | Callable[[], str]
+    text: str | Callable[[], str]
     draw: Callable
     exact: str | Callable[[], str]
     paper: str = ""
@@ -40,7 +40,7 @@ class Figure:
 
     @property
     def caption(self) -> str:
-        return written(self.words() if callable(self.words) else self.words)
+        return written(self.text() if callable(self.text) else self.text)
 
     @property
     def tolerance(self) -> str:

@@ -253,7 +253,8 @@ def row_of(case, one) -> dict:
             **values_of(one, "cone lean nutation_period turn_angle"),
             "turn_axis": in_file(case, one.turn_axis),
             **values_of(one, "error decimals because"),
-            "reason": one.reason.as_dict() if one.reason else None} | limiting.key(case, one.caveats) | frame.key(case)
+            "reason": one.reason.as_dict() if one.reason else None
+            } | limiting.key(case, one.caveats) | frame.key(case)
 
 
 def in_file(case, along):
