@@ -103,7 +103,6 @@ def test_a_caveat_has_its_code_and_quantities_in_json():
     one = Caveat(Kind.TILT, Sentence("x", "tilted by {angle}")(angle=Angle(0.5)))
     assert key([one]) == {"caveats": [{"kind": "tilt", "words": "tilted by 0.5 rad", "code": "x",
                                        "angle": 0.5}]}
-    assert key([Caveat(Kind.LAW, old("beyond"))])["caveats"][0]["words"] == "beyond"
 
 
 def test_an_axis_without_a_case_keeps_its_number():

@@ -257,7 +257,7 @@ class Spread:
     its own and those round the edge of the cone. limit: rad/s as of `Limit.least_rate`, None where no limit
     is asked: then fates says in how many directions the motion has which fate. earliest, latest: (low, high)
     of the least and the greatest time found, s, None where the limit was not reached in any direction, or not
-    in all of them within `followed`, s; level: of both, as of `TimeTo`. because: why none was looked at.
+    in all of them within `followed`, s; level: of both, as of `TimeTo`. omitted: why none was looked at.
     untilted: (low, high) of the time of the torque itself, s, where runs end before it; else None.
     within: which forces have which tolerance: the torques looked at have their sizes too."""
 
@@ -272,7 +272,7 @@ class Spread:
     level: str = "run"
     followed: float = math.inf
     fates: tuple[tuple[str, int], ...] = ()
-    because: str = ""
+    omitted: str = ""
     untilted: tuple[float, float] | None = None
     within: str = ""
 
@@ -284,10 +284,15 @@ class Spread:
                                       or (self.earliest is not None and self.latest is None))
 
     @property
+    def because(self) -> str:
+        """Why none was looked at."""
+        return self.omitted
+
+    @property
     def reason(self) -> Reason:
         """What is found."""
-        if self.because:
-            return NOT_LOOKED_AT(why=self.because)
+        if self.omitted:
+            return NOT_LOOKED_AT(why=self.omitted)
         known: dict[str, Filling] = {
             "varied": varied(self.angle, self.within),
             "looked": (TORQUES if self.within else DIRECTIONS)(directions=self.directions)}

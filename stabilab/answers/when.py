@@ -293,7 +293,7 @@ def of_tilt(case: Any, angle: float | None, ask: dict[str, Any] | None, steady: 
            "for the angle of an axis" if ask and "tilt" in ask
            else "" if any(case.scene.vector("constant_torque")) else "without a torque")
     if why:
-        return Spread(angle or 0.0, "the torque", 0, because=why) if tilts else None
+        return Spread(angle or 0.0, "the torque", 0, omitted=why) if tilts else None
     if on_axis and (tilts or ask is not None or not sized):
         return tilt(case.scene, case.state, angle, None, case, case.exact_state, ask)
     return spread(case.scene, case.state, cone_of(case.scene, case, angle), ask, case.exact_state)

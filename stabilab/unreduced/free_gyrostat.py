@@ -30,9 +30,12 @@ from ..reasons import Reasoned, Sentence
 from .evidence import STEP_BUDGET
 from .near_rest import beside_rest, small_loop
 
-NO_BRANCHES = (
+NO_BRANCHES = Sentence(
+    "no-branches-of-free-gyrostat",
     "not known: the separatrix of a free gyrostat whose moment has no zero component is known by its energy "
-    "on each momentum sphere, not as branches")
+    "on each momentum sphere, not as branches")()
+NO_SEPARATRIX_OF_SPHERE = Sentence(
+    "no-separatrix-three-equal-moments", "with three equal moments there is no separatrix")()
 # Two points of a closed orbit are the same where they agree to this share of the orbit's size.
 SAME_POINT = 1e-9
 
@@ -204,11 +207,11 @@ def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL) -> Mot
     state = three_floats(state)
     given = exact or state
     decided = free_fate(scene, given)
-    fields: dict[str, Any] = {"velocity_because": NO_BRANCHES}
+    fields: dict[str, Any] = {"velocity_reason": NO_BRANCHES}
     if decided.label == Fate.SEPARATRIX:
         fields = {"margin_velocity": 0.0, "velocity_bounds": (0.0, 0.0), "velocity_witness": state}
     elif has_no_saddle(scene):
-        fields = {"velocity_because": "with three equal moments there is no separatrix"}
+        fields = {"velocity_reason": NO_SEPARATRIX_OF_SPHERE}
     lost, open_ = ["the margin in energy"] if math.isnan(decided.margin) else [], None
     if rests(scene.quadratic(), given):
         decided = at_rest(scene, decided)
