@@ -7,12 +7,11 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from ..errors import Caveat
 from ..numbers.balls import Unclear, settled
 from ..numbers.vectors import Float3, dot
 from ..orbit.result import Fate
 from ..reasons import Reasoned, Sentence
-from ..representation import Shown
+from ..representation import Answer
 
 LONG, SHORT, SEPARATRIX, STEADY, TOP = "long-axis", "short-axis", "separatrix", "steady", "heavy top"
 
@@ -21,7 +20,7 @@ CLOSED_ERROR = 1e-15  # relative, of numbers from balls
 
 
 @dataclass(frozen=True, repr=False)
-class Attitude(Shown, Reasoned):
+class Attitude(Answer, Reasoned):
     """How one motion turns in space; vectors along the principal axes of the scene.
 
     mode: "long-axis" or "short-axis" (which the angular momentum goes round, seen from the body; without
@@ -53,7 +52,6 @@ class Attitude(Shown, Reasoned):
     turn_axis: Float3 | None = None
     error: float | None = None
     decimals: Mapping[str, str] | None = None
-    caveats: tuple[Caveat, ...] = ()
 
 
 BODY_AT_REST = Sentence("body-at-rest", "the body is at rest")()

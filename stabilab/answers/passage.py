@@ -47,7 +47,7 @@ from ..physics.scene import AnyScene, Scene, slices
 from ..physics.states import equations_and_start, moved_row, to_space
 from ..physics.to_numpy import Form, form, to_numpy
 from ..reasons import Quantity, Reasoned, Sentence
-from ..representation import Compared, Shown
+from ..representation import Answer, Compared
 from .limit import Limit
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ if TYPE_CHECKING:
 
 # --- What is known of the first time at which a limit is reached
 @dataclass(frozen=True, repr=False, eq=False)
-class TimeTo(Shown, Compared):
+class TimeTo(Answer, Compared):
     """The first times (...,) at which states (..., 3) reach a limit, in the scene's time: each is between low
     and high.
 
@@ -76,7 +76,6 @@ class TimeTo(Shown, Compared):
     quantity: str = ""
     scene: Any = field(default=None, repr=False, compare=False)
     states: np.ndarray | None = field(default=None, repr=False, compare=False)
-    caveats: tuple[Caveat, ...] = ()
     ending: Any = field(default=None, compare=False)
     tilt: Any = field(default=None, repr=False, compare=False)
 

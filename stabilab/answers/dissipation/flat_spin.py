@@ -25,7 +25,7 @@ equal parts; in the nutation angle, or in the strength of the damper, the bands 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import reduce
 from operator import getitem
@@ -42,7 +42,7 @@ from ...numbers.units import ANGLE, in_si
 from ...numbers.vectors import Float3, cross, dot
 from ...physics.states import moved_row
 from ...reasons import Angle, Axis, Quantity, Reason, Reasoned, Sentence
-from ...representation import Compared, Shown
+from ...representation import Answer, Compared
 from ..caveats import caveats_of
 from ..passage import MOVED, WIDER
 from .changes import Span, spans_of
@@ -97,7 +97,7 @@ class Time:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class FlatSpin(Shown, Compared, Reasoned):
+class FlatSpin(Answer, Compared, Reasoned):
     """What internal dissipation makes of a spin.
 
     outcome: "positive major axis", "negative major axis", "across the minor axis" (two greatest moments are
@@ -136,7 +136,6 @@ class FlatSpin(Shown, Compared, Reasoned):
     decay: float | None = None
     spans: tuple[Span, ...] = ()
     steps: int = 0
-    caveats: tuple[Caveat, ...] = field(default=(), repr=False)
 
     @property
     def lost(self) -> float:

@@ -9,7 +9,7 @@ from typing import Any
 
 from ...orbit.result import Fate
 from ...reasons import Reasoned
-from ...representation import Shown
+from ...representation import Answer
 
 WIDER = 1e-12  # relative widening of what is told: the rounding of these few lines
 
@@ -126,7 +126,7 @@ class SteadyTrap:
 
 
 @dataclass(frozen=True, repr=False)
-class SpinUp(Shown, Reasoned):
+class SpinUp(Answer, Reasoned):
     """The fate of one motion as far as spin-up decides it.
 
     fate: SPIN_UP, BOUNDED (exact cases alone) or UNDECIDED. axis: 1, 2, 3 of the body, 0 where it is none;
