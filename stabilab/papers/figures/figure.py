@@ -144,7 +144,7 @@ class Difference:
     """One panel of a figure. quantity: what is drawn upwards, with its unit; column: the panel's heading;
     largest: distance of the printed curve from the exact motion at equal times, the largest over the time
     that both have, in the quantity's unit; reach: range of the exact motion (of a plane its diagonal), in the
-    same unit; at: s; status: "compared", or "no curve" with the reason in words."""
+    same unit; at: s; status: "compared", or "no curve", which `note` explains."""
 
     quantity: str
     column: str
@@ -152,7 +152,7 @@ class Difference:
     reach: float | None
     at: float | None
     status: str
-    reason: str = ""
+    note: str = ""
 
     @property
     def share(self) -> float | None:
@@ -201,7 +201,7 @@ def _words(d: Difference) -> str:
     quantity, unit = (quantity, " " + unit.rstrip(")")) if quantity else (unit, "")
     head = f"{quantity}, {plain(d.column)}: "
     if d.status != "compared":
-        return head + d.reason
+        return head + d.note
     part = f" ({share(d.share)} the exact motion's range)" if d.share is not None else ""
     return f"{head}{short(d.largest)}{unit}{part} at t = {d.at:.3g} s"
 
