@@ -19,17 +19,13 @@ from ..numbers.vectors import Number
 from ..orbit.result import Motion, Stability
 from ..physics.coefficients import effective
 from ..physics.scene import AnyScene
-from ..reasons import Reason, Sentence
 from .equilibria import equilibria
 
 NEAR = 1e-9  # of the size of a state: an equilibrium that is found in doubles is the same as the state
 ON_CURVE = 1e-7  # the same for a curve, along which the nearest place is searched
 LOOKS, HALVINGS = 400, 60  # along a piece of a curve of equilibria; of the interval round the nearest look
 GROWS = 1e-7  # of the size of the Jacobian: a real part below it may be rounding
-NOT_FOUND = ("undecided", Sentence(
-    "not-among-equilibria", "the state was not found among the equilibria that are known of this scene")())
-GROWS_BY_JACOBIAN = Sentence(
-    "grows-by-jacobian", "an eigenvalue of the Jacobian of the full equations has a positive real part")()
+NOT_FOUND = ("undecided", "the state was not found among the equilibria that are known of this scene")
 
 
 def with_stability(scene: AnyScene, found: Motion, exact: Sequence[Number] | None = None) -> Motion:
@@ -50,23 +46,22 @@ def of_gyrostat(scene: AnyScene, x: Sequence[Number]) -> Stability:
             growth = max(z.real for z in eigenvalues(m, n))
         except OverflowError:
             growth = math.inf
-        return Stability("unstable", growth, reason=because)
+        return Stability("unstable", because, growth)
     found = equilibria(scene)
     if found.kind == "all":
-        return Stability("stable", reason=found.reason)
-    verdict, because = _without_growth(found, tuple(map(float, x)), "stable" if m else "degenerate")
-    return Stability(verdict, reason=because)
+        return Stability("stable", found.reason)
+    return Stability(*_without_growth(found, tuple(map(float, x)), "stable" if m else "degenerate"))
 
 
 def of_scene(scene: AnyScene, at: Sequence[float]) -> Stability:
     """Of a state of equilibrium, its blocks in a row, whatever acts."""
-    verdict, because = _looked_up(equilibria(scene), at)
-    if verdict in ("stable", "asymptotically stable"):
-        return Stability(verdict, reason=because)
+    verdict = _looked_up(equilibria(scene), at)
+    if verdict[0] in ("stable", "asymptotically stable"):
+        return Stability(*verdict)
     growth = _growth(scene, at)
-    if verdict == "undecided" and growth is not None:
-        verdict, because = "unstable", GROWS_BY_JACOBIAN
-    return Stability(verdict, growth, reason=because)
+    if verdict[0] == "undecided" and growth is not None:
+        verdict = "unstable", "an eigenvalue of the Jacobian of the full equations has a positive real part"
+    return Stability(*verdict, growth)
 
 
 def _growth(scene: AnyScene, at: Sequence[float]) -> float | None:
@@ -84,7 +79,7 @@ def _growth(scene: AnyScene, at: Sequence[float]) -> float | None:
     return largest if largest > GROWS * float(np.abs(jacobian).max()) else None
 
 
-def _without_growth(found: Equilibria, at: Sequence[float], linear: str) -> tuple[str, Reason | str]:
+def _without_growth(found: Equilibria, at: Sequence[float], linear: str) -> tuple[str, str]:
     """The verdict where no eigenvalue has a positive real part: that of the same state, else of the pieces of
     curves of the same linear kind, where these agree."""
     near = _nearest((*found.points, *(one for curve in found.curves for one in curve.samples)), at)
@@ -95,7 +90,7 @@ def _without_growth(found: Equilibria, at: Sequence[float], linear: str) -> tupl
     return alike.popitem()[1] if len(alike) == 1 else NOT_FOUND
 
 
-def _looked_up(found: Equilibria, at: Sequence[float]) -> tuple[str, Reason | str]:
+def _looked_up(found: Equilibria, at: Sequence[float]) -> tuple[str, str]:
     """The verdict on the equilibrium that is at the state."""
     if found.kind == "all":
         return "stable", found.reason

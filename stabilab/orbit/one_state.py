@@ -182,7 +182,7 @@ def apart_fields(orbit: Orbit, state, decided) -> dict:
         return {"margin_velocity": 0.0, "velocity_bounds": (0.0, 0.0), "velocity_witness": state}
     found = distance_of(orbit.reduction, orbit.state, orbit)
     if not math.isfinite(found.upper):
-        return {"velocity_reason": found.reason}
+        return {"velocity_because": found.because}
     return {"margin_velocity": found.value, "velocity_bounds": (found.lower, found.upper),
             "velocity_witness": found.witness,
-            "velocity_reason": found.reason}
+            "velocity_because": found.because}

@@ -104,12 +104,13 @@ BOX, ROUND = Needs.EXTREMES | Needs.LARGEST | Needs.FLIPS, Needs.PERIOD | Needs.
 
 
 @dataclass(frozen=True)
-class Stability(Reasoned):
+class Stability:
     """Of a state of equilibrium. verdict: "stable", "asymptotically stable", "unstable" or "undecided"
-    (Lyapunov, for the full nonlinear motion); reason: its proof; growth: rate of the fastest growing
-    disturbance, 1/s (1/tau when scaled), None where none grows exponentially."""
+    (Lyapunov, for the full nonlinear motion); because: its proof in words; growth: rate of the fastest
+    growing disturbance, 1/s (1/tau when scaled), None where none grows exponentially."""
 
     verdict: str
+    because: str
     growth: float | None = None
 
     @property
@@ -147,11 +148,10 @@ class Motion(Answer, Reasoned):
     this value of the invariant); without a torque the kinetic energy of the nearest saddle of the same
     momentum minus the motion's. margin_velocity: smallest change of the state that reaches the
     separatrix, at whatever value of the invariant, to 1e-6, or where that is not reached a number that it
-    is proved not to be below (None where the scene has none, or nothing is known: then velocity_reason
+    is proved not to be below (None where the scene has none, or nothing is known: then velocity_because
     says why). velocity_bounds: (proved lower bound, distance of velocity_witness), velocity_witness: a
-    state on the separatrix as near as that; velocity_reason: why the two bounds are apart, or nothing is
-    known, velocity_because: the same in words. period: None where the motion does not repeat, or is
-    undecided. extremes: ((min, max),) * 3 over t >= 0, entries
+    state on the separatrix as near as that; velocity_because: why the two bounds are apart. period: None
+    where the motion does not repeat, or is undecided. extremes: ((min, max),) * 3 over t >= 0, entries
     +-inf where unbounded, None where unknown; extremes_over: "all time" or the span they were searched
     over. validity: of an approximate law (`stabilab.physics.law_limits`), with its largest value along
     the motion; None where all laws are exact. tilt: what a tilt of its torque off the axis does to a
@@ -178,7 +178,7 @@ class Motion(Answer, Reasoned):
     margin_velocity: float | None = None
     velocity_bounds: tuple[float, float] | None = None
     velocity_witness: Float3 | None = None
-    velocity_reason: Reason | None = None
+    velocity_because: str = ""
     period: float | None = None
     extremes: tuple[tuple[float, float], ...] | None = None
     extremes_over: str = "all time"
@@ -204,11 +204,6 @@ class Motion(Answer, Reasoned):
     def extremes_side(self) -> int:
         """1 where its extremes are bounds, which are rounded outward; 0 where they are values."""
         return int(self.extremes_over == AS_BOUNDS)
-
-    @property
-    def velocity_because(self) -> str:
-        """Why the distance from the separatrix is not known better, in words and SI units; else empty."""
-        return "" if self.velocity_reason is None else self.velocity_reason.text()
 
     @property
     def cause(self) -> str:

@@ -26,7 +26,6 @@ from ..orbit.reduction import reduce
 from ..orbit.result import Fate, Motion, Needs, finite, judged, pairs, repeats
 from ..physics.coefficients import three_floats
 from ..physics.scene import aligned, rests
-from ..reasons import Sentence
 from . import growth
 from .evidence import extremes_over, seen_over
 from .growth import captured_fate, unbounded
@@ -36,7 +35,6 @@ TURN_ROUNDINGS = 16  # units of rounding that turning a state costs: nine produc
 NO_SPAN = (
     "this motion does not repeat, and its torque acts between the axes: give span=T ({unit}), or a span in "
     "the case's [motion]")
-DISTANCE_UNKNOWN = Sentence("distance-unknown", "not known: {why}")
 TURN_SHARE = 1e-36  # of the energies: half the digits of a turn by irrational numbers
 
 
@@ -71,7 +69,7 @@ def turned_apart(turn, orbit, state, decided) -> dict:
     """The fields of a Motion that tell the distance from the separatrix: that of the twin, as a turn keeps
     distances."""
     if decided.label == Fate.UNDECIDED:
-        return {"velocity_reason": DISTANCE_UNKNOWN(why=decided.reason)}
+        return {"velocity_because": f"not known: {decided.because}"}
     found = apart_fields(orbit, state, decided)
     witness = found.get("velocity_witness")
     if witness in (None, state):

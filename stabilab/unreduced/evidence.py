@@ -16,7 +16,7 @@ from ..physics.coefficients import limits_of
 from ..physics.scene import Scene
 from ..physics.states import equations_and_start, three_numbers
 from ..physics.to_numpy import equations_of, to_numpy
-from ..reasons import Quantity, Reason, Reasoned, Sentence
+from ..reasons import Quantity, Reason, Sentence, old
 from ..validation import reach_of
 
 # A run that has not shown what is asked after this many steps (seconds of work) gives up and says so.
@@ -42,12 +42,13 @@ SIZES = Sentence("size-over-span", "over the span the size of its rates went fro
 
 
 @dataclass(frozen=True)
-class Growth(Reasoned):
+class Growth:
     """Axis (1, 2, 3; 0 where unclear) and sense of the growing spin at the end of a run of length `span`."""
 
     axis: int
     sense: int
     span: float
+    reason: Reason
     steps: int
 
 
@@ -103,7 +104,7 @@ def growth(scene, state, t_max: float) -> Growth:
     while t < t_max and steps < STEP_BUDGET:
         run = integrated(scene, here, np.linspace(0, span, 257)[1:])
         if run.status == "stopped":
-            return Growth(0, 0, t, steps, reason=run.reason)
+            return Growth(0, 0, t, old(run.reason), steps)
         t, here, steps = t + span, run.states[-1], steps + run.counters["steps"]
         squares = run.states**2
         share = (squares / squares.sum(axis=1, keepdims=True)).min(axis=0)
@@ -113,9 +114,9 @@ def growth(scene, state, t_max: float) -> Growth:
             i = int(share.argmax())
         if i is not None and abs(stages[-1][0][i]) == 1:
             least = Quantity(float(stages[-1][1][i]), "" if scene.variables == "scaled" else "rad/s", 4)
-            return Growth(i + 1, int(stages[-1][0][i]), t, steps, reason=GROWS_ALONE(least=least))
+            return Growth(i + 1, int(stages[-1][0][i]), t, GROWS_ALONE(least=least), steps)
         span = min(t, t_max - t)
-    return Growth(0, 0, t, steps, reason=NO_AXIS_HOLDS)
+    return Growth(0, 0, t, NO_AXIS_HOLDS, steps)
 
 
 def _holder(stages, begin):

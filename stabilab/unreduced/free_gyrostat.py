@@ -26,16 +26,13 @@ from ..orbit.separatrix.distance import has_no_saddle
 from ..physics.coefficients import three_floats
 from ..physics.scene import rests
 from ..physics.states import equilibrium_mask, three_numbers
-from ..reasons import Reasoned, Sentence
+from ..reasons import Reason, Sentence
 from .evidence import STEP_BUDGET
 from .near_rest import beside_rest, small_loop
 
-NO_BRANCHES = Sentence(
-    "no-branches-of-free-gyrostat",
+NO_BRANCHES = (
     "not known: the separatrix of a free gyrostat whose moment has no zero component is known by its energy "
-    "on each momentum sphere, not as branches")()
-NO_SEPARATRIX_OF_SPHERE = Sentence(
-    "no-separatrix-three-equal-moments", "with three equal moments there is no separatrix")()
+    "on each momentum sphere, not as branches")
 # Two points of a closed orbit are the same where they agree to this share of the orbit's size.
 SAME_POINT = 1e-9
 
@@ -51,13 +48,14 @@ CLOSED_MOTION = Sentence("closed-motion", "no torque: the motion is closed and p
 
 
 @dataclass(frozen=True)
-class PeriodExtremes(Reasoned):
+class PeriodExtremes:
     """extremes: (3, 2) over `over` ("all time" or the span searched); period: inf on a separatrix, NaN where
     no return was found."""
 
     extremes: np.ndarray
     period: float
     over: str
+    reason: Reason
 
 
 def extremes_over_period(scene, state) -> PeriodExtremes:
@@ -76,7 +74,7 @@ def extremes_over_period(scene, state) -> PeriodExtremes:
         raise InputError("the period by return is for motions without torque; this scene has one")
     exact = [Fraction(v) for v in given]
     if not any(form.rate(exact)):
-        return PeriodExtremes(np.stack([state, state], axis=1), 0.0, "all time", reason=RESTS)
+        return PeriodExtremes(np.stack([state, state], axis=1), 0.0, "all time", RESTS)
     k, mass = _own_exponent(form, exact), mass_unit(scene)
     if k or mass != 1:
         unit = Fraction(2) ** k
@@ -88,7 +86,7 @@ def extremes_over_period(scene, state) -> PeriodExtremes:
         period, swings = loop
         return PeriodExtremes(np.array([[scaled_double(v, k) for v in pair] for pair in swings]),
                               _no_double_is_nan(scaled_double(period, -k)),
-                              "all time", reason=CLOSED_SMALL)
+                              "all time", CLOSED_SMALL)
     tied = scene.variables == "physical" and free_fate(scene, exact).label == Fate.SEPARATRIX
     follow = _without_return if tied else _by_return
     return _in_scene_unit(follow(scene, form, state, k), k)
@@ -132,7 +130,7 @@ def _by_return(scene, form, state, k) -> PeriodExtremes:
         span *= 4
     return PeriodExtremes(roots.extremes(), math.nan,
                           f"{scene.time_unit} in [0, {powered(roots.t_reached, -k):g}]",
-                          reason=NO_RETURN(steps=roots.steps))
+                          NO_RETURN(steps=roots.steps))
 
 
 def _without_return(scene, form, state, k) -> PeriodExtremes:
@@ -140,7 +138,7 @@ def _without_return(scene, form, state, k) -> PeriodExtremes:
     roots = roots_of_rates(scene, state, _first_span(form, state))
     return PeriodExtremes(roots.extremes(), math.inf,
                           f"{scene.time_unit} in [0, {powered(roots.t_reached, -k):g}]",
-                          reason=DOES_NOT_RETURN)
+                          DOES_NOT_RETURN)
 
 
 def _first_span(form, x):
@@ -171,7 +169,7 @@ def _one_period(scene, roots, closing):
         if values.size:
             extremes[i] = values.min(), values.max()
     return PeriodExtremes(extremes, float(abs(roots.t[closing] - roots.t[0])), "all time",
-                          reason=CLOSED_MOTION)
+                          CLOSED_MOTION)
 
 
 def _quadrics(scene):
@@ -207,11 +205,11 @@ def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL) -> Mot
     state = three_floats(state)
     given = exact or state
     decided = free_fate(scene, given)
-    fields: dict[str, Any] = {"velocity_reason": NO_BRANCHES}
+    fields: dict[str, Any] = {"velocity_because": NO_BRANCHES}
     if decided.label == Fate.SEPARATRIX:
         fields = {"margin_velocity": 0.0, "velocity_bounds": (0.0, 0.0), "velocity_witness": state}
     elif has_no_saddle(scene):
-        fields = {"velocity_reason": NO_SEPARATRIX_OF_SPHERE}
+        fields = {"velocity_because": "with three equal moments there is no separatrix"}
     lost, open_ = ["the margin in energy"] if math.isnan(decided.margin) else [], None
     if rests(scene.quadratic(), given):
         decided = at_rest(scene, decided)

@@ -62,9 +62,7 @@ def ranges_until(scene, state, t: float, steps: int | None = None) -> np.ndarray
 __all__ = ["extremes", "fates", "motion", "periods"]
 
 
-NO_BRANCHES = Sentence(
-    "no-branches-off-axis",
-    "not known: the torque is off the principal axes, and no separatrix is known there")()
+NO_BRANCHES = "not known: the torque is off the principal axes, and no separatrix is known there"
 PATIENCE = 600_000  # steps for which a motion is followed where nobody says how long: seconds
 AS_WRITTEN = 120  # times fewer steps where numba is not installed
 ENDLESS = 10**9     # steps where the caller names a time
@@ -87,12 +85,12 @@ def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL, follow
     if rests(scene.quadratic(), exact or state):
         decided = at_rest(scene, OneFate(Fate.UNDECIDED, Basis.OFF_AXIS, math.nan))
         return Motion(**judged(state, decided), margin_energy=finite(decided.margin),
-                      extremes=tuple((v, v) for v in state), velocity_reason=NO_BRANCHES)
+                      extremes=tuple((v, v) for v in state), velocity_because=NO_BRANCHES)
     start = list(exact or state) if proof else state
     found = spin_up(scene, start, **_limits(follow), tell=tell, proof=proof)
     decided = OneFate(found.fate, REASON[found.level], math.nan, found.axis, found.sense)
     bounds = bounds_for_ever(scene, start, found) if needs & Needs.EXTREMES else None
-    fields = {**judged(state, decided), "velocity_reason": NO_BRANCHES, "level": found.level,
+    fields = {**judged(state, decided), "velocity_because": NO_BRANCHES, "level": found.level,
               "finding": found.reason, "bounds": bounds,
               "extremes": bounds, "extremes_over": AS_BOUNDS if bounds
               else NO_SPAN.format(unit=scene.time_unit)}

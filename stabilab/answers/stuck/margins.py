@@ -19,7 +19,7 @@ from ...numbers.vectors import Float3, Number
 from ...orbit.reduction import Reduction
 from ...orbit.result import Fate, Motion
 from ...physics.scene import Scene
-from ...reasons import DIGITS, Momentum, Quantity, Rate, Reason, Reasoned, Sentence, Torque
+from ...reasons import DIGITS, Momentum, Quantity, Rate, Reason, Reasoned, Sentence, Torque, as_reason
 from ...representation import Shown
 from ..caveats import STEADY
 from ..tilt import Spread, Tilt
@@ -210,11 +210,11 @@ def margins(scenario: Scenario, scene: Scene, seen: Outcome) -> dict[str, Margin
 def _rate(scenario: Scenario, motion: Motion, family: Family | None) -> Margin:
     """To the nearest separatrix as the motion knows it, and how far beyond it the fate is another."""
     if motion.margin_velocity is None or motion.velocity_witness is None:
-        return Margin(reason=motion.velocity_reason if motion.velocity_reason
+        return Margin(reason=as_reason(motion.velocity_because) if motion.velocity_because
                       else NO_SEPARATRIX_NEAR)
     change = [b - a for a, b in zip(scenario.start, motion.velocity_witness)]
     direction = _unit(scenario.in_file(change)) if any(change) else None
-    reason = motion.velocity_reason
+    reason = as_reason(motion.velocity_because) if motion.velocity_because else None
     if _walled(family):
         return Margin(motion.margin_velocity, direction, motion.margin_velocity,
                       reason=reason.then(ALONE) if reason else ALONE)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from math import acos, atan, atan2, copysign, cos, inf, log, nan, pi, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
-from ...reasons import Reason, Reasoned, Sentence
+from ...reasons import Reasoned
 from ...representation import Answer, Compared
 
 if TYPE_CHECKING:
@@ -60,14 +60,14 @@ class Apart(NamedTuple):
     """The distance of a state from the separatrix lies in [lower, upper]; witness: a point of it (three
     rates) at `upper`.
 
-    inf, inf, None where the scene has no separatrix. reason: why the two are apart by more than AGREE, else
-    None.
+    inf, inf, None where the scene has no separatrix. because: why the two are apart by more than AGREE, else
+    empty.
     """
 
     lower: float
     upper: float
     witness: tuple[float, float, float] | None
-    reason: Reason | None = None
+    because: str = ""
     boxes: int = 0
 
     @property
@@ -82,12 +82,10 @@ class Apart(NamedTuple):
 
 
 NO_SEPARATRIX = Apart(math.inf, math.inf, None)
-UNKNOWN = Apart(0.0, math.inf, None, Sentence(
-    "separatrix-beyond-search",
-    "the numbers of this scene are beyond what the search for the nearest point of the separatrix holds")())
-ENDED = Sentence(
-    "separatrix-search-ended",
-    "the search ended before its proved lower bound met the nearest point found")()
+UNKNOWN = Apart(0.0, math.inf, None,
+                "the numbers of this scene are beyond what the search for the nearest point of the "
+                "separatrix holds")
+ENDED = "the search ended before its proved lower bound met the nearest point found"
 
 
 EPS = 2.0**-52

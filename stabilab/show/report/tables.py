@@ -95,7 +95,7 @@ def _distance(motion, units):
         return height, "of energy, to the barrier"
     if motion.fate.word == "separatrix":
         return "none", "the smallest change decides"
-    return "not known", units.said(motion.velocity_reason).removeprefix("not known: ")
+    return "not known", units.words(motion.velocity_because).removeprefix("not known: ")
 
 
 # --- Tables
@@ -213,15 +213,14 @@ def _of_motion(scene, motion, units):
     if motion.margin_velocity is None or motion.velocity_witness is None:
         return []
     change = [b - a for a, b in zip(motion.at[:3], motion.velocity_witness)]
-    size = math.hypot(*change)
-    because = [units.said(motion.velocity_reason)] if motion.velocity_reason else []
+    size, because = math.hypot(*change), [units.words(motion.velocity_because)]
     along = [v / size for v in change] if size else None
     reduced = reduce(effective(scene))
     if reduced is not None and reduced.geometry.centred and (not reduced.sense or potential(reduced).walled):
         because.append("this does not change the fate: beyond the separatrix motions are bounded too, "
                        "about other centres or round the axis")
-    size = units.rate(motion.margin_velocity, side=-bool(motion.velocity_reason))
-    return [_change("rate", size, along, "; ".join(because))]
+    size = units.rate(motion.margin_velocity, side=-bool(motion.velocity_because))
+    return [_change("rate", size, along, "; ".join(filter(None, because)))]
 
 
 def _tilt(case, answer, units):

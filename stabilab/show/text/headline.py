@@ -311,7 +311,7 @@ def rate_and_height(motion: Motion, units: Units) -> tuple[str, str]:
 
 def rate_margin(motion: Motion, units: Units, digits: int) -> str:
     """The distance from the separatrix, or its bounds where it is not one to 1e-6; empty where unknown."""
-    if motion.velocity_reason and motion.velocity_bounds:
+    if motion.velocity_because and motion.velocity_bounds:
         return bracketed(*motion.velocity_bounds, units.rates, digits)
     return "" if motion.margin_velocity is None else units.rate(motion.margin_velocity, digits)
 

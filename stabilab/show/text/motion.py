@@ -143,9 +143,9 @@ def why(case, motion, units: Units, proofs: bool) -> list[str]:
     lines = [f"why: {units.said(motion.reason)}"]
     if motion.ending is not None:
         lines.append(f"  its end: {units.said(motion.ending.reason)}")
-    if proofs and motion.velocity_reason:
+    if proofs and motion.velocity_because:
         rate = "" if motion.velocity_bounds else "margin, rate: "
-        lines.append(f"  {rate}{units.said(motion.velocity_reason)}")
+        lines.append(f"  {rate}{reason(motion.velocity_because, units)}")
     if proofs:
         lines += [row(*fact) for fact in constants(motion, units)]
     return lines
