@@ -12,7 +12,6 @@ from ..answers.caveats import of_case, seen
 from ..answers.motion import Needs, motion
 from ..case.limit_options import stated_tilt
 from ..case.read import Case, blamed_on, load_all
-from ..equilibrium.result import Equilibria
 from ..errors import InputError, Kind, printable
 from ..numbers.units import NONE, TIME, quantity, split
 from ..show import terminal
@@ -192,10 +191,11 @@ def tell_all(answered, systems, text, swept=None, laws=None, boxes=None, between
 
 
 def _caveats(row):
-    """Those of what was found, and of the case where it is about equilibria alone."""
+    """Those of what was found last, as a motion says more than the equilibria; of the case where that has
+    none."""
     case, *found = row
-    return next((one.caveats for one in found if getattr(one, "caveats", None) is not None
-                 and not isinstance(one, Equilibria)), of_case(case))
+    return next((one.caveats for one in reversed(found) if getattr(one, "caveats", None) is not None),
+                of_case(case))
 
 
 def swept_motions(motions, units):
