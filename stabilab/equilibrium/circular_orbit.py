@@ -200,7 +200,7 @@ def _attitude(satellite: Satellite, line: Line, index: int, family: Family | Non
             _doubles(cross(normal, up)), _doubles(normal), _doubles(up), linear, verdict, because,
             signs.minimum, _eigenvalues(squares),
             tuple(sorted(sqrt(-m.real) for m in squares if not m.imag and m.real < 0)),
-            _doubles([potential / size])[0] * float(size), family.label if family else "",
+            _doubles([potential / size])[0] * float(size), family.words if family else "",
             axis and tuple(v / hypot(*axis) for v in axis)), signs, potential)
     return settled(asked, BITS)
 

@@ -283,7 +283,7 @@ class Family(NamedTuple):
 
     line: Line
     axis: Exact3 | None
-    label: str
+    words: str
 
 
 def symmetry(satellite: Satellite) -> int | None:

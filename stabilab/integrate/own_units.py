@@ -142,7 +142,7 @@ def in_units(equations: Equations, units: Units) -> Equations:
     for law in equations.balances:
         quantity, change = law.quantity.xreplace(put), law.rate.xreplace(put) / pace
         size = named(f"unit_of_{len(laws)}", _size(made, quantity))
-        laws.append(Balance(law.name, law.description, quantity / size, change / size))
+        laws.append(Balance(law.name, law.words, quantity / size, change / size))
     return replace(made, parameters=parameters, symbols=symbols, balances=tuple(laws))
 
 

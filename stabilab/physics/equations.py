@@ -28,11 +28,11 @@ Symbols: TypeAlias = dict[str, Symbolic]
 
 @dataclass(frozen=True)
 class Balance:
-    """A law grad(quantity) . rhs == rate, identically in state and parameters; `name` says which,
-    `description` what."""
+    """A law grad(quantity) . rhs == rate, identically in state and parameters; `name` says which, `words`
+    what."""
 
     name: str
-    description: str
+    words: str
     quantity: Symbolic
     rate: Symbolic
 

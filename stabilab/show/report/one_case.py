@@ -233,7 +233,7 @@ def equations(case) -> dict:
     return {"equations": html.equations_of_motion(made), "latex": latex(made),
             "parameters": [(html.symbol(name), printed(number(float(value), DIGITS) + unit(name)))
                            for name, value in made.parameters.items()],
-            "laws": [(printed(axes_of(case).sentence(law.description)), html.law(law))
+            "laws": [(printed(axes_of(case).sentence(law.words)), html.law(law))
                      for law in invariants(case.scene)]}
 
 

@@ -178,7 +178,7 @@ def of_all(cases) -> str:
     kinds: dict[tuple, list] = {}
     for case in cases:
         equations, own = derive(case.scene), invariants(case.scene)
-        kinds.setdefault((*lines(equations), *(law.description for law in (*equations.balances, *own))),
+        kinds.setdefault((*lines(equations), *(law.words for law in (*equations.balances, *own))),
                          []).append((case, equations, own))
     parts = []
     for alike in kinds.values():
@@ -205,11 +205,11 @@ def _whole(case, equations, own) -> str:
              "Jacobian, the derivatives of each rate by the state", *_jacobian(case, equations), "",
              "In LaTeX", latex(equations), "", "Laws that hold for every value of the parameters"]
     axes = axes_of(case)
-    parts += [f"  {lettered(axes.sentence(law.description))}" for law in equations.balances]
+    parts += [f"  {lettered(axes.sentence(law.words))}" for law in equations.balances]
     parts += ["", "Laws of this scene: first integrals, and what changes at a known rate"]
     for law in own:
         rate = "" if law.rate == 0 else f"   at the rate {_short(law.rate)}"
-        parts += [f"  {lettered(axes.sentence(law.description))}", f"    {_short(law.quantity)}{rate}"]
+        parts += [f"  {lettered(axes.sentence(law.words))}", f"    {_short(law.quantity)}{rate}"]
     effects = listed([effect_words(effect.name) for effect in case.scene.effects] or ["no effect"])
     scene = "scaled gyrostat" if case.variables == "scaled" else f"body with {effects}"
     return "\n".join([f"{case.name}: a {scene}; laws known of this scene: {len(own)}", *parts,
