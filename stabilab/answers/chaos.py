@@ -16,7 +16,7 @@ from ..physics.scene import AnyScene, hold_on, judge_starts, slices
 from ..physics.states import checked_starts, float_array
 from ..physics.states import row_of as row_of
 from ..physics.to_numpy import equations_of
-from ..representation import Shown
+from ..representation import Answer
 from ..unreduced.chaos import TURNS, growth, turn_of
 from ..validation import checked_scene
 from .motion import motion
@@ -31,7 +31,7 @@ DOUBLES = 1.5     # ... and goes on growing, by so much at least while the time 
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Chaos(Shown):
+class Chaos(Answer):
     """labels (...): of `Order`; megno (...): at the last time, nan of motions that spin up or could not be
     followed; times (k,): in the scene's time, each twice the one before; history (..., k): MEGNO at them;
     lyapunov (...): the rate at which neighbours part, per time of the scene, 0 of regular motions and nan

@@ -32,12 +32,12 @@ SIGN = " (it is a size: give it without a sign)"
 class Limit:
     """kind: "rate", "component", "energy" or "tilt". parts: ((weights and vectors, limit), ...): sum c (a .
     omega)^2 reaches the limit's value `most`, the first of the parts counts; for a tilt vector and angle,
-    rad. words: for the reader, in SI. origin: of a tilt, the direction in space that it counts from; None:
+    rad. label: for the reader, in SI. origin: of a tilt, the direction in space that it counts from; None:
     that of its body axis at the start."""
 
     kind: str
     parts: tuple[Any, ...]
-    words: str
+    label: str
     origin: Float3 | None = None
 
     def thresholds(self, unit: Fraction) -> list[Threshold]:

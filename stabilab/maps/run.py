@@ -234,13 +234,13 @@ WORTH = 3.0  # seconds of work for which another process is worth its start
 @dataclass(frozen=True)
 class Swept:
     """records: of the shape of the plan's sweep; resumed: points that an earlier run had finished; broken:
-    numbers that make no case, with why (of the first)."""
+    numbers that make no case; fault: of the first of them."""
 
     plan: Plan
     records: np.ndarray
     resumed: int = 0
     broken: int = 0
-    why: str = ""
+    fault: str = ""
 
 
 @contextmanager

@@ -167,7 +167,7 @@ def of_parts(parts: Mapping[str, Any], time: str = "time",
     their components, where known, of a matrix row by row as files take it."""
     known = errors or {}
     return {name: ((time, *_across(name, np.asarray(values))), np.asarray(values),
-                   {"units": PARTS[name].unit or "1", "long_name": PARTS[name].words}
+                   {"units": PARTS[name].unit or "1", "long_name": PARTS[name].description}
                    | ({"error": np.ravel(known[name]) if np.ndim(known[name]) > 1 else known[name]}
                       if name in known else {}))
             for name, values in parts.items()}
@@ -244,8 +244,8 @@ def _values_words(found):
     told = f" {found.unit}".rstrip()
     if not found.answer.one:
         return f"{found.name}{told and ','}{told}: {found.values}"
-    if found.why:
-        return f"{found.name}: {found.why}"
+    if found.missing:
+        return f"{found.name}: {found.missing}"
     over = f" over {found.over}" if found.over else ""
     numbers = f"{found.values:.9g}" if found.decimals is None and found.values.ndim == 0 else str(found)
     return f"{found.name}{over}: {numbers}{told}"
@@ -368,7 +368,7 @@ def _flat_spin(found):
 
 def _separatrix_words(found):
     return ("; ".join(f"{s.name}, {s.points.shape[0]} x {s.points.shape[1]} points" for s in found.branches)
-            or f"no branches: {found.reason}")
+            or f"no branches: {found.because}")
 
 
 def _separatrix(found):
@@ -383,7 +383,7 @@ def _separatrix(found):
               "residual": (("point",), residual,
                            {"long_name": "distance from the surface in energy, relative"})}
     shapes = "; ".join(f"{s.name}: {s.points.shape[0]} x {s.points.shape[1]}" for s in found.branches)
-    return Variables(("point",), values, AXIS, {"reason": found.reason, "grids": shapes})
+    return Variables(("point",), values, AXIS, {"reason": found.because, "grids": shapes})
 
 
 def _comparison_words(found):

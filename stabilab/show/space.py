@@ -171,7 +171,7 @@ def numbers(ticks: list[float]) -> list[str]:
 class Space:
     """names: labels of the axes, in a unit of which `rate` make one of the scene's; branches: (colour,
     branch) of the separatrix; curves and marks: (words of the legend, places or place); path: of the motion;
-    arrows: (place, step) along it; view: elevation and azimuth of the eye, deg; words: what the separatrix
+    arrows: (place, step) along it; view: elevation and azimuth of the eye, deg; caption: what the separatrix
     parts, or why none is drawn; part: what is said where the path is a part of the motion."""
 
     names: tuple[str, ...]
@@ -183,7 +183,7 @@ class Space:
     path: list[Point]
     arrows: tuple[tuple[Point, Point], ...]
     view: tuple[float, float]
-    words: str
+    caption: str
     part: str = ""
 
     @property
@@ -408,11 +408,12 @@ def branches_of(scene: AnyScene, box: Box | None = None, shape: tuple[int, int] 
 
 def _surface(scene, reach, shape, plain) -> tuple[Sequence[PlainBranch], str]:
     if plain is not None or not present("numpy"):
-        return plain_separatrix(scene, reach, *(plain or (40, 33)))
+        branches, reason = plain_separatrix(scene, reach, *(plain or (40, 33)))
+        return branches, reason.text()
     from ..orbit.separatrix.branches import separatrix
     found = separatrix(scene, reach=reach, shape=shape)
     return [PlainBranch(branch.name, *branch.points.shape[:2], branch.points.reshape(-1, 3).tolist())
-            for branch in found.branches], found.reason
+            for branch in found.branches], found.because
 
 
 def curves_of(found: Equilibria | None, box: Box, coarse: int = PLACES[0],

@@ -28,6 +28,7 @@ from ..errors import InputError
 from ..numbers.vectors import Number
 from ..physics.effects.base import effect_words
 from ..physics.equations import derive
+from ..reasons import Reasoned
 
 ORDERS = 3  # X0, X1, X2
 ALLOWED = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity"}
@@ -222,16 +223,15 @@ def _harmonics(f, Z, Zc, shift, m, K, S):
 
 
 @dataclass(frozen=True)
-class SteadyState:
+class SteadyState(Reasoned):
     """A steady state of the averaged motion: amplitude A and spin r (rad/s), kind "attracting", "repelling",
     "saddle" or "neutral"; rates: the two eigenvalues of the linearised averaged equations, 1/s (negative real
-    part: decays); because: in words."""
+    part: decays); reason: what it is."""
 
     amplitude: float
     spin: float
     kind: str
     rates: tuple[complex, complex]
-    because: str
 
 
 @dataclass(frozen=True)
@@ -291,7 +291,7 @@ def _state(alpha, rho0, rho1, r, S) -> SteadyState:
         first, second = (down + root) / 2, (down - root) / 2
         because = "regular precession: the liquid feeds the amplitude as fast as the rest takes it"
     rates = (complex(Integer(0) + first), complex(Integer(0) + second))
-    return SteadyState(float(sqrt(S)), float(r), _kind(rates), rates, because)
+    return SteadyState(float(sqrt(S)), float(r), _kind(rates), rates, reason=because)
 
 
 def _kind(rates):

@@ -149,7 +149,7 @@ def test_the_cone_of_a_thruster_is_that_of_its_force(case_file):
     case = package.load(path)
     cone, arm, force = cone_of(case.scene, case), np.array([0.5, 0, 0]), np.array([0, 0.04, 0])
     side, (low, high) = cone.reach()
-    assert np.allclose(cone.torque, [0, 0, 0.02]) and cone.words == "the force of A"
+    assert np.allclose(cone.torque, [0, 0, 0.02]) and cone.subject == "the force of A"
     for azimuth in np.linspace(0, 6, 7):
         torque = cone.at(azimuth)
         # arm x F' = torque has the solutions F' = (torque x arm)/arm^2 + c arm; the one in the cone has |F'|

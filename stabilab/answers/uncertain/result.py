@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from ...orbit.result import Fate
-from ...reasons import Quantity, Reason, Sentence
+from ...reasons import Quantity, Reason, Reasoned, Sentence
 from .boxes import Box, Numbers, Point, Proof
 from .verdicts import ALSO_ANOTHER, joined, reason_of
 
@@ -251,12 +251,12 @@ class Sampled:
 
 
 @dataclass(frozen=True)
-class Over:
+class Over(Reasoned):
     """A verdict over a box.
 
     answer: "holds" (proved for the whole box), "depends" (with a witness on each side), "sampled" (no proof
     is to be had, and all points of `samples` do as the middle does) or "undecided". verdict: the middle's.
-    reason: how it is known, or why not; because: the same in words, in SI units. exception: the set of
+    reason: how it is known, or why not. exception: the set of
     measure zero that "holds" leaves out, None where it leaves out none; but: the same in words. Every change
     of the numbers by less than `proved` times the stated uncertainties is proved to leave the verdict;
     `changes_at` times these flips it (an upper bound of the least such factor: found by search and checked;
@@ -266,7 +266,6 @@ class Over:
 
     answer: str
     verdict: str | None
-    reason: Reason
     exception: Reason | None = None
     proved: float = 0.0
     changes_at: float | None = None
@@ -274,11 +273,6 @@ class Over:
     parts: int = 0
     samples: Sampled | None = None
     neighbours: Any = None
-
-    @property
-    def because(self) -> str:
-        """How it is known, or why not, in words and SI units."""
-        return self.reason.text()
 
     @property
     def but(self) -> str:
@@ -322,11 +316,11 @@ def bracketed(box: Box, here: Any, answer: Answer, change: Change | None,
     found: dict[str, Any] = {"proved": proved, "changes_at": change and change.stretch, "witnesses": sides,
                              "parts": parts}
     if proved >= 1:
-        return Over("holds", here, reason, **found)
+        return Over("holds", here, reason=reason, **found)
     if change is not None and change.stretch <= 1:
-        return Over("depends", here, BOTH_SIDES(middle=reason_of(sides[0].verdict),
-                                                elsewhere=reason_of(sides[1].verdict)), **found)
-    return Over("undecided", here, NEITHER(parts=parts), **found)
+        return Over("depends", here, reason=BOTH_SIDES(middle=reason_of(sides[0].verdict),
+                                                       elsewhere=reason_of(sides[1].verdict)), **found)
+    return Over("undecided", here, reason=NEITHER(parts=parts), **found)
 
 
 def _farthest(change: Change | None, attempt: Callable[[float, int], Proof],

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from math import acos, atan, atan2, copysign, cos, inf, log, nan, pi, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
-from ...representation import Compared, Shown
+from ...reasons import Reasoned
+from ...representation import Answer, Compared
 
 if TYPE_CHECKING:
     import numpy as np
@@ -43,12 +44,11 @@ class Branch(Compared):
 
 
 @dataclass(frozen=True, repr=False)
-class Separatrix(Shown):
+class Separatrix(Answer, Reasoned):
     """Every branch of the separatrix inside the range; reason says why there is none or what bounds
     it."""
 
     branches: tuple[Branch, ...]
-    reason: str
 
     @property
     def sheets(self) -> tuple[Branch, ...]:

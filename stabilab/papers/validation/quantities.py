@@ -28,11 +28,11 @@ from ...numbers.vectors import CYCLE, cross, dot
 
 
 def reproduced(printed, time: float, rates=None) -> list[float]:
-    """The quantity (omega or sigma) at a time as the method and step of `printed.cause` leave it. rates: the
+    """The quantity (omega or sigma) at a time as the method and step of `printed.scheme` leave it. rates: the
     exact ones there, for the leapfrog rule."""
-    motion, step = printed.motion, float(printed.cause["step"])
+    motion, step = printed.motion, float(printed.scheme["step"])
     degrees = 180 / math.pi if motion.unit == "deg/s" else 1.0
-    if printed.cause["method"] == "leapfrog":
+    if printed.scheme["method"] == "leapfrog":
         return [w * degrees for w in _half_a_step_later(_rates(motion), [w / degrees for w in rates], step)]
     start = [float(w) / degrees for w in motion.omega]
     if printed.quantity == "sigma":
@@ -40,7 +40,7 @@ def reproduced(printed, time: float, rates=None) -> list[float]:
                     round(time / step), rk4, shortest)
         return state[:3]
     return [w * degrees for w in run(_rates(motion), start, step, round(time / step),
-                                     RULES[printed.cause["method"]])]
+                                     RULES[printed.scheme["method"]])]
 
 
 def run(rates, state, step, count, rule, after=None) -> list[float]:

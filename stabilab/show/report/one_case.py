@@ -47,7 +47,7 @@ def space(one, at_rest, units) -> dict:
     """What the script draws of a subject, the legend, and words on the separatrix. at_rest: equilibria."""
     found = space_of(one, map(printed, one.scene.components), units.rates, at_rest, reaching=True)
     drawn = data(found, lambda places: b64encode(places).decode("ascii"))
-    reason = "; ".join(filter(None, (found.words, found.part)))
+    reason = "; ".join(filter(None, (found.caption, found.part)))
     return {"drawn": drawn, "legend": drawn["legend"], "reason": printed(units.words(reason)),
             "clipped": any(max(map(abs, found.box.share(at))) > 1 + 1e-9 for _, branch in found.branches
                            for at in branch.points)}
