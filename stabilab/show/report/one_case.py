@@ -37,7 +37,7 @@ from ..text.headline import headline, judged, lines_of, look
 from ..text.motion import constants, margins, shown, state
 from ..text.scene import fates, key_columns, latex, of_motions
 from ..units import DIGITS, but_for_rounding, number, parameter_unit, units_of, with_unit
-from . import html
+from . import formulas, html
 from .html import picture
 from .tables import equilibrium_table, sensitivity, tiles
 
@@ -230,10 +230,10 @@ def equations(case) -> dict:
     """Equations of motion, parameters and laws, typeset."""
     made, physical = derive(case.scene), case.variables == "physical"
     unit = lambda name: f" {parameter_unit(name)}".rstrip() if physical else ""
-    return {"equations": html.equations_of_motion(made), "latex": latex(made),
-            "parameters": [(html.symbol(name), printed(number(float(value), DIGITS) + unit(name)))
+    return {"equations": formulas.equations_of_motion(made), "latex": latex(made),
+            "parameters": [(formulas.symbol(name), printed(number(float(value), DIGITS) + unit(name)))
                            for name, value in made.parameters.items()],
-            "laws": [(printed(axes_of(case).sentence(law.words)), html.law(law))
+            "laws": [(printed(axes_of(case).sentence(law.words)), formulas.law(law))
                      for law in invariants(case.scene)]}
 
 
