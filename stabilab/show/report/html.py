@@ -6,13 +6,15 @@ from __future__ import annotations
 
 import re
 from functools import lru_cache
-from html import escape, unescape
+from html import escape
+from html.parser import HTMLParser
+from itertools import accumulate
 from pathlib import Path
 
 from ...files import write_text
 from .. import style
 from ..names import around
-from ..terminal import ALPHABET, written
+from ..terminal import ALPHABET, but_for_commands, minus, written
 
 TEMPLATES = Path(__file__).parents[1] / "templates"
 ALONE = {"nav": (), "here": "", "below": "", "up": "", "title": ""}  # of a page that is no part of a folder
@@ -28,48 +30,45 @@ def _environment():
     return environment
 
 
-# -5, 1e-5, (-h, = -a
-MINUS = re.compile(r"(?<![\w)])-(?=\d)|(?<=\de)-(?=\d)|(?<=[(\[])-(?=\s?\w)|(?<=[(,=] )-(?=\w)"
-                   # (b-a), b - a, r0 - W
-                   r"|(?<=\b[a-z])-(?=[a-z]\))|(?:(?<=\b\w )|(?<=\b\w\d ))-(?= \w\d?\b)")
-EXPONENT = re.compile(r"(?<=\de)([-−])0+(?=\d)")  # 1e-08, as Python prints it
-MEASURED = re.compile(r"(?<=\d) (?=(?:deg/s|rad/s|deg|rad|days?|min|h|s|J|τ|N m)\b)")
-COMPOUND = re.compile(r"(?<=\d\u00a0)N m(?: s)?\b")
-INDEXED = re.compile(r"(?<![\w/.])([A-Za-zΑ-Ωα-ω]|" + "|".join(ALPHABET) + r")_(\w+)")  # I_omega, x_j, mu_j
-# b - a, (-M2, x = -y
-SUBTRACTED = re.compile(r"(?<=[\w)²³*;]) - (?=[\w(])|(?:(?<=[(=,\[] )|(?<=[(\[=])|^)-(?=[\w(])")
-HEADING = re.compile(r'<h([23])(?: id="([^"]*)")?>(.*?)</h\1>', re.S)
-RAISED = re.compile(r"\^(?:\(([^()]*)\)|([-−]?\w+))")
+UNITS = ("deg/s", "rad/s", "deg", "rad", "days?", "min", "h", "s", "J", "τ", "N m(?: s)?")
+MEASURED = re.compile(rf"(?<=\d) ({'|'.join(UNITS)})\b")
+# I_omega, x_j, mu_j; e^(i r0 t), but for a power of one digit, which has a letter of its own
+MARKED = re.compile(rf"(?<![\w/.])([A-Za-zΑ-Ωα-ω]|{'|'.join(ALPHABET)})_(\w+)"
+                    r"|\^(?!\d(?!\d))(?:\(([^()]*)\)|([-−]?\w+))")
 
 
 @around
 def book(text: str):
     """Words as a book sets them: I_omega with the index ω below, the exponent of e^(i r0 t) raised."""
     from markupsafe import Markup, escape
-    below = INDEXED.sub(
-        lambda found: f"{ALPHABET.get(found[1], found[1])}<sub>{ALPHABET.get(found[2], found[2])}</sub>",
-        str(escape(text)))
-    below = SUBTRACTED.sub(lambda found: found[0].replace("-", "−"),
-                           below.replace("&gt;=", "≥").replace("&lt;=", "≤"))
-    # escaped above
-    return Markup(RAISED.sub(lambda found: f"<sup>{(found[1] or found[2]).replace('-', '−')}</sup>",
-                             written(below)))
+    marked = MARKED.sub(_marked, str(escape(text))).replace("&gt;=", "≥").replace("&lt;=", "≤")
+    return Markup(written(marked))  # escaped above
+
+
+def _marked(found):
+    letter, below, *raised = found.groups()
+    if letter:
+        return f"{ALPHABET.get(letter, letter)}<sub>{ALPHABET.get(below, below)}</sub>"
+    return f"<sup>{(raised[0] or raised[1]).replace('-', '−')}</sup>"
 
 
 @around
 def signed(text: str) -> str:
-    """The text with the minus of a book: before numbers and in their exponents, which begin with no zero,
-    before a name and between two. Commands stay as they are typed."""
-    parts = re.split(r"(<code>.*?</code>)", text)
-    # what is escaped stays so
-    return type(text)("".join(part if part.startswith("<code>") else MINUS.sub("−", EXPONENT.sub(r"\1", part))
-                              for part in parts))
+    """The text with the minus of a book; commands stay as they are typed."""
+    first, *others = text.split("<code>")
+    parts = [part.partition("</code>") for part in others]
+    made = "".join(f"<code>{command}{end}{_signed(rest)}" for command, end, rest in parts)
+    return type(text)(_signed(first) + made)  # what is escaped stays so
+
+
+def _signed(text):
+    return but_for_commands(str(text), minus)
 
 
 @around
 def together(text: str) -> str:
     """The text with no end of a line between a number and its unit, or within one."""
-    return COMPOUND.sub(lambda unit: unit[0].replace(" ", "\u00a0"), MEASURED.sub("\u00a0", text))
+    return MEASURED.sub(lambda found: found[0].replace(" ", "\u00a0"), text)
 
 
 def formula(text):
@@ -83,7 +82,8 @@ def sentence(text: str):
     """Words for a page: with a capital at their head, and what stands between backquotes as code."""
     from markupsafe import Markup, escape
     # no formula, no name of a file
-    text = text[:1].upper() + text[1:] if re.match("[a-z]+( |$)", text) else text
+    first = text.partition(" ")[0]
+    text = text[:1].upper() + text[1:] if first.isascii() and first.isalpha() and first.islower() else text
     parts = text.split("`")
     found = [escape(part) if n % 2 == 0 or n == len(parts) - 1 else typed(part) for n,
              part in enumerate(parts)]
@@ -120,19 +120,56 @@ def render(template: str, **values) -> str:
 
 def anchored(page: str) -> str:
     """The page with a link to itself in every heading, which gets an id of its words where it has none."""
-    used = set(re.findall(r' id="([^"]*)"', page))
-
-    def linked(found):
-        level, name, inside = found[1], found[2], found[3]
-        words = " ".join(unescape(re.sub("<[^>]*>", "", inside)).split())
+    read = _Headings(page)
+    used, parts, last = {*read.ids}, [], 0
+    for start, inside, end, name, words in read.headings:
+        opening = page[start:inside]
         if not name:
-            name = first = re.sub(r"[^a-z0-9]+", "-", words.lower()).strip("-") or "part"
+            letters = "".join(one if one.isascii() and one.isalnum() else " " for one in words.lower())
+            name = first = "-".join(letters.split()) or "part"
             while name in used:
                 name = f"{first}-{len(used)}"
             used.add(name)
-        return (f'<h{level} id="{name}">{inside} <a class="anchor" href="#{name}" '
-                f'aria-label="Link to: {escape(words)}">#</a></h{level}>')
-    return HEADING.sub(linked, page)
+            opening = f'{opening[:3]} id="{name}"{opening[3:]}'
+        parts += [page[last:start], opening, page[inside:end],
+                  f' <a class="anchor" href="#{name}" aria-label="Link to: {escape(words)}">#</a>']
+        last = end
+    return "".join([*parts, page[last:]])
+
+
+class _Headings(HTMLParser):
+    """Of a page: ids, and of every heading of the second or third level (where it starts, where its inside
+    starts and ends, its id or "", its words)."""
+
+    def __init__(self, page: str):
+        super().__init__()
+        self.ids: list[str] = []
+        self.headings: list[tuple[int, int, int, str, str]] = []
+        self._lines = [0, *accumulate(len(line) + 1 for line in page.split("\n"))]
+        self._open: tuple[int, int, str] | None = None
+        self._words: list[str] = []
+        self.feed(page)
+        self.close()
+
+    def handle_starttag(self, tag, attrs):
+        name = dict(attrs).get("id") or ""
+        self.ids += [name] if name else []
+        if tag in ("h2", "h3"):
+            self._open, self._words = (self._at(), self._at() + len(self.get_starttag_text()), name), []
+
+    def handle_data(self, data):
+        self._words.append(data)
+
+    def handle_endtag(self, tag):
+        if tag in ("h2", "h3") and self._open:
+            start, inside, name = self._open
+            words = " ".join("".join(self._words).split())
+            self.headings.append((start, inside, self._at(), name, words))
+            self._open = None
+
+    def _at(self):
+        line, column = self.getpos()
+        return self._lines[line - 1] + column
 
 
 def write(path, template: str, **values) -> Path:
