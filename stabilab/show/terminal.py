@@ -34,7 +34,6 @@ NOTATION = re.compile(
 # and the zeros of an exponent, which a book leaves out
 MINUS = re.compile(r"(?<=\de)[+-]?0*(?=[1-9])|(?<![\w)\]./-])-(?=[\d.∞])|(?:(?<=[ (\[=])|^)-(?=[\w(])"
                    r"|(?<=[(\[])-(?= \w)|(?<=[\w)²³*;]) - (?=[\w(])|(?<=\b[a-z])-(?=[a-z]\))")
-LONG = re.compile(r"(?<![\w.])\d+\.\d{6,}(?:e[+-]?\d+)?")
 UNIT = re.compile(
     r"(?<![\w\\^])(kg m|rad/s|deg/s|m/s|1/s|N m s|s|m|\((?:deg/s|rad/s|N m s)\))\^([2-9])(?!\w)")
 INDICES = str.maketrans("ijk", "ᵢⱼₖ")
@@ -55,8 +54,8 @@ def written(text: str) -> str:
 
 @around
 def lettered(text: str) -> str:
-    """Words of the analysis at a terminal: letters as `written`, numbers with six digits."""
-    return _in_letters(LONG.sub(lambda found: f"{float(found[0]):.6g}", text))
+    """Words of the analysis at a terminal: letters as `written`."""
+    return _in_letters(text)
 
 
 @around
