@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
@@ -19,15 +18,14 @@ from ..physics.scene import PARTS
 from ..reasons import number
 from ..representation import values_of
 from .axes import direction
-from .names import around, spare
-from .terminal import MINUS, some
+from .names import spare
+from .terminal import minus, some
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
 MOST = 10  # rows of a page
-EXPONENT = re.compile(r"(?<=\de)-(?=\d)")
 
 
 @dataclass(frozen=True)
@@ -644,9 +642,4 @@ def _cell(value: Any) -> str:
 
 def _text(words: str) -> str:
     """Words as text; the minus of a number as print has it, the hyphens of words as they are."""
-    return escape(_with_minus(words))
-
-
-@around
-def _with_minus(words: str) -> str:
-    return EXPONENT.sub("−", MINUS.sub("−", words))
+    return escape(minus(words))

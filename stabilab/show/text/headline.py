@@ -93,6 +93,12 @@ def lines_of(judged, units: Units = SI) -> list[str]:
     return together([_of_alike(group, cases, units) for group in groups])
 
 
+def exceeded(judged, units: Units) -> str:
+    """By how much the first law of `lines_of` is left; empty where none is."""
+    group = next(iter(_alike([one for one in judged if one[1] is not None and not one[1].held])), ())
+    return units.said(worst(*(found for _, found in group)).brief) if group else ""
+
+
 def _told(found, units) -> str:
     return units.said(found.reason)
 
