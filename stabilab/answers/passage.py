@@ -38,11 +38,11 @@ import numpy as np
 
 from ..errors import Caveat
 from ..integrate.events import zeros_passed
-from ..integrate.quadratic_series import in_unit, mass_unit, own_unit
 from ..integrate.to_heyoka import TAYLOR_TOLERANCE
 from ..numbers.vectors import CYCLE, Float3
 from ..physics.coefficients import limits_of
 from ..physics.equations import Equations, derive, rotation
+from ..physics.own_unit import in_unit, mass_unit, own_unit
 from ..physics.scene import AnyScene, Scene, slices
 from ..physics.states import equations_and_start, moved_row, to_space
 from ..physics.to_numpy import Form, form, to_numpy

@@ -30,6 +30,7 @@ from ..answers.motions.rows import fates
 from ..errors import InputError, StabilabError, printable
 from ..files import whole_file
 from ..interrupt import end_with_parent, undoing
+from ..numbers.bracket import halved_each
 from ..orbit.result import Fate
 from ..packages import demand
 from ..physics.coefficients import effective
@@ -349,10 +350,9 @@ def changes(plan: Plan, index: tuple[int, ...], dimension: int, lower: np.ndarra
     shape = [plan.shape[n] for n in plan.outer]
     case = case_of(plan, int(np.ravel_multi_index([index[n] for n in plan.outer], shape)) if shape else 0)
     places = [lower[:, n] for n in plan.inner]
-    low, high = np.zeros(len(lower)), np.ones(len(lower))
-    for _ in range(halvings):
-        middle = 0.5 * (low + high)
-        states = states_at(plan, case, places, dimension, middle)
-        same = (fates(case.scene, states).labels == Fate.SPIN_UP) == spun
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
+
+    def same_at(shares: np.ndarray) -> np.ndarray:
+        states = states_at(plan, case, places, dimension, shares)
+        return (fates(case.scene, states).labels == Fate.SPIN_UP) == spun
+    low, high = halved_each(same_at, np.zeros(len(lower)), np.ones(len(lower)), halvings)
     return 0.5 * (low + high)

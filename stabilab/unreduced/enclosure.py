@@ -30,10 +30,11 @@ from ..integrate.crossing import Piece
 from ..numbers.exact import exact_vector
 from ..numbers.numba_door import compiled, installed
 from ..physics.coefficients import effective
+from ..physics.own_unit import natural
 from ..reasons import Quantity, Reasoned, Sentence
 from ..validation import checked_scene
 from . import enclosure_kernel
-from .spin_up.certificate import natural, tests_of
+from .spin_up.certificate import tests_of
 from .spin_up.result import SpinUp, Trap
 
 # --- The enclosed motion

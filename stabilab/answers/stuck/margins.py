@@ -13,6 +13,7 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 
 from ...errors import Caveat
+from ...numbers.bracket import LAST_PLACE, Bracket, first_bracket, narrowed
 from ...numbers.exact import unit_vector
 from ...numbers.polynomial import golden_section
 from ...numbers.vectors import Float3, Number
@@ -25,7 +26,7 @@ from ..caveats import STEADY
 from ..tilt import Spread, Tilt
 from ..uncertain.fate import Uncertainty
 from .fate import Outcome, Scenario, across, loose
-from .line import TRIES, Family, Line, candidates, change_between, family_of, nearest_change, pieces, rise
+from .line import Family, Line, candidates, family_of, nearest_change, pieces, rise
 
 
 # --- The answer
@@ -275,7 +276,9 @@ def _torque(scenario: Scenario, family: Family, steady: bool) -> Margin:
         ends = ((sign, _least_torque(family, sign, size)) for sign in (-now, now))
         changes, until = [sign * end - family.torque for sign, end in ends if end is not None], math.inf
     else:
-        less = change_between(lambda m: family.clearly(False, torque=now * m), size, Fraction(0), size)[1]
+        clearly = lambda m: -family.clearly(torque=now * m)
+        whole = Bracket(size, Fraction(0), (clearly(size), clearly(Fraction(0))))
+        less = narrowed(clearly, whole, scale=size).other
         opposite = _least_torque(family, -now, size)
         changes = [now * less - family.torque]
         until = math.inf if opposite is None else float(size + opposite)
@@ -291,12 +294,9 @@ def _torque(scenario: Scenario, family: Family, steady: bool) -> Margin:
 
 def _least_torque(family: Family, sign: int, size: Fraction) -> Fraction | None:
     """The least size of a torque in this direction that spins the start up."""
-    steady = Fraction(0)
-    for _ in range(TRIES):
-        if family.fate(torque=sign * size) == Fate.SPIN_UP:
-            return change_between(lambda m: family.clearly(torque=sign * m), steady, size, size)[1]
-        steady, size = size, 2 * size
-    return None
+    clearly = lambda m: family.clearly(torque=sign * m)
+    found = first_bracket(clearly, size, least=size * LAST_PLACE**2)
+    return None if found is None else narrowed(clearly, found, scale=size).other
 
 
 def _wheel(scenario: Scenario, family: Family, steady: bool) -> Margin:

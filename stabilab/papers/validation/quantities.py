@@ -21,10 +21,11 @@ from operator import mul
 
 from ...answers.attitude import attitude
 from ...answers.circular_orbit import circular_orbit
-from ...answers.limit import flow_of, own_unit
+from ...answers.limit import flow_of
 from ...case.read import load
 from ...numbers.balls import working
 from ...numbers.vectors import CYCLE, cross, dot
+from ...physics.own_unit import exact_unit
 
 
 def reproduced(printed, time: float, rates=None) -> list[float]:
@@ -213,7 +214,7 @@ def _run(motion, times, axis):
 
 def _attempt(motion, times, axis, bits):
     scene = motion.scene
-    unit = own_unit(scene, motion.omega)
+    unit = exact_unit(scene, motion.omega)
     flow = flow_of(scene, motion.omega, bits, unit, tuple(map(Fraction, axis)))
     found, lost = [], 0
     with working(BALL_BITS) as numbers:

@@ -61,7 +61,6 @@ from typing import Any
 
 import numpy as np
 
-from ...integrate.quadratic_series import in_unit
 from ...numbers.exact import sqrt_fraction
 from ...numbers.numba_door import compiled
 from ...numbers.vectors import dot
@@ -314,26 +313,6 @@ def _distinct(a, b):
         return np.zeros((2, 1), np.int64), np.zeros(0, np.int64)
     pairs, which = np.unique(np.stack([a, b]), axis=1, return_inverse=True)
     return np.ascontiguousarray(pairs), which.ravel()
-
-
-@lru_cache(maxsize=32)
-def natural(scene):
-    """(scene in natural units, unit of rates): powers of two near the mean moment and near the root of torque
-    over moment. Kept, for a certificate and its proof ask for it in turn."""
-    if scene.variables == "scaled":
-        torque, mass = max(map(abs, scene.exact_mu)), 1
-    else:
-        torque, mass = max(map(abs, scene.vector("constant_torque"))), sum(scene.body.exact) / 3
-    if not torque:
-        return scene, 1.0
-    weight = 2.0 ** round(_log2(mass))
-    unit = 2.0 ** round((_log2(torque) - _log2(mass)) / 2)
-    return scene if unit == weight == 1 else in_unit(scene, unit, weight), unit
-
-
-def _log2(value):
-    return (math.log2(value.numerator) - math.log2(value.denominator) if hasattr(value, "numerator")
-            else math.log2(value))
 
 
 class Tests:

@@ -21,12 +21,13 @@ from ...orbit import one_state
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate, Needs
 from ...physics.coefficients import effective, three_floats
+from ...physics.own_unit import natural
 from ...physics.scene import AnyScene
 from ...physics.states import checked_states
 from ...reasons import Axis, Quantity, Sentence, old
 from ...validation import checked_scene
 from ..enclosure import proved
-from .certificate import Tests, exactly, loaded, natural, stored, tests_of
+from .certificate import Tests, exactly, loaded, stored, tests_of
 from .drift import Leaps, Runs
 from .form import island, recurs, seen
 from .result import SpinUp, Trap
