@@ -7,10 +7,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import stabilab
-from stabilab import cli
 from stabilab.answers.chaos import Chaos, Order
 from stabilab.errors import InputError
 from stabilab.maps.plan import planned
@@ -76,19 +74,6 @@ def test_a_sweep_asks_the_same_of_each_state():
     expected = stabilab.chaos(scene, [[2.5, 4, 0.1], [2.5, 4, 3]], until=200)
     assert found.records["chaos"].tolist() == expected.labels.tolist() == [Order.REGULAR, Order.SPIN_UP]
     assert found.records["megno"] == pytest.approx(expected.megno, nan_ok=True)
-
-
-def test_the_command_says_it_in_words_json_and_csv():
-    path = str(CASES / "minor-axis-100.toml")
-    say = lambda *more: CliRunner().invoke(cli.whole(), ["chaos", path, "--until", "300", *more]).stdout
-    assert say().startswith(
-        "minor-axis-100: REGULAR as far as it was followed: after ") and "no proof" in say()
-    told = json.loads(say("--json"))
-    one = case("minor-axis-100")
-    assert told["schema"] == "stabilab.chaos/1" and told["answer"] == "regular" and told["megno"] == float(
-        stabilab.chaos(one.scene, one.state, 300).megno)
-    assert say("--csv").splitlines()[0] == "case,answer,time,megno,caveats" and len(
-        say("--csv").splitlines()) == 7
 
 
 SWEPT = """

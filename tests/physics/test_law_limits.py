@@ -139,15 +139,6 @@ def test_a_number_that_is_not_known_leaves_the_law_open_unless_another_is_exceed
     assert several.holds.tolist() == [True, False]  # of the first row no known number is exceeded
 
 
-@pytest.mark.parametrize("command", ["fate", "classify", "extremes", "period"])
-def test_a_constant_angle_is_judged_along_the_run_of_a_case_that_gives_an_attitude(stabilab, command):
-    code, out, _ = stabilab(command, CASES / "charged-body.toml", "--json")
-    found = json.loads(out)
-    held = (found[0] if isinstance(found, list) else found)["validity"]
-    assert code == 0 and held["holds"] is False and held["value"] == pytest.approx(1.86, abs=0.01)  # as `simulate` over the same span
-    assert stabilab(command, CASES / "charged-body.toml", "--strict")[0] == 3
-
-
 # -- along a motion
 
 

@@ -10,6 +10,7 @@ import json
 import math
 import re
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 from stabilab import cli
@@ -43,7 +44,10 @@ SEVERAL = {  # from the repository's root
     "certificates": [["classify", "cases/minor-axis-100.toml", "--certify", "--out", "{}/certificate.json"],
                      ["verify", "{}/certificate.json", "--json"],
                      ["classify", "cases/off-axis-one.toml", "--certify", "--out", "{}/spin-up.json"],
-                     ["verify", "{}/spin-up.json", "--json"]],
+                     ["verify", "{}/spin-up.json", "--json"],
+                     ["fate", "cases/off-axis-two.toml", "--certify"],
+                     ["classify", "cases/torque-free-gyrostat.toml", "--certify", "--out", "{}/free.json"],
+                     ["verify", "{}/free.json"], ["verify", "{}/certificate.json"]],
     "bifurcation": [["bifurcation", "cases/wheel-and-thruster.toml", "--vary", "torque[3]=0:2000", "--json"],
                     ["bifurcation", "cases/wheel-and-thruster.toml", "--vary", "torque[3]=0:2000"],
                     ["bifurcation", "cases/minor-axis-100.toml", "--vary",
@@ -63,9 +67,27 @@ SEVERAL = {  # from the repository's root
               ["stuck", "cases/geostationary-22n.toml", "--all-thrusters"],
               ["classify", "cases/liquid-sensible.toml", "--units", "si"],
               ["classify", "cases/charged-body-attitude.toml", "--why"],
+              ["classify", "cases/charged-body.toml", "--strict"], ["fate", "cases/charged-body.toml", "--strict"],
+              ["extremes", "cases/charged-body.toml", "--strict"], ["period", "cases/charged-body.toml", "--strict"],
               ["extremes", "cases/charged-body.toml"], ["extremes", "cases/charged-sweep.toml"],
               ["when", "cases/cubesat-3u.toml"], ["when", "cases/geostationary-22n.toml"],
               ["when", "cases/liquid-base.toml", "--rate", "2 rad/s"],
+              ["when", "cases/liquid-base.toml", "--rate", "2 rad/s", "--strict"],
+              ["when", "cases/uncertain-separatrix.toml", "--rate", "1.5"],
+              ["when", "cases/charged-body.toml", "--tilt", "z = 20 deg"],
+              ["when", "cases/charged-body.toml", "--rate", "5"],
+              ["when", "cases/charged-sweep.toml", "--rate", "3", "--csv"],
+              ["when", "cases/cubesat-3u.toml", "--until", "5 s"],
+              ["when", "cases/cubesat-3u.toml", "--until", "5 s", "--strict"],
+              ["when", "cases/thruster-stuck-major-axis.toml", "--rate", "5", "--strict"],
+              ["stuck", "cases/geostationary-22n.toml", "--all-thrusters", "--csv"],
+              ["compare", "cases/minor-axis-100.toml"],
+              ["simulate", "cases/charged-body.toml", "--model", "printed", "--at", "0,1"],
+              ["simulate", "cases/charged-body.toml", "--model", "linear", "--at", "0,1"],
+              ["chaos", "cases/minor-axis-100.toml", "--until", "300", "--csv"],
+              ["chaos", "cases/minor-axis-100.toml", "--until", "300", "--json"],
+              ["sweep", "cases/minor-axis-100.toml", "--vary", "inertia[1]=2000,2001,-9000"],
+              ["sweep", "cases/minor-axis-100.toml", "--vary", "x[1]=2.5"],
               ["when", "cases/cubesat-3u.toml", "--component", "z = 30 deg/s", "--units", "si"],
               ["simulate", "cases/minor-axis-100.toml", "--at", "0,1"],
               ["simulate", "cases/cubesat-3u.toml", "--at", "0,1", "--attitude"],
@@ -114,17 +136,17 @@ def run(*arguments: str) -> dict:
     return {"exit": code, "answer": text, "message": err.getvalue()}
 
 
-def now(record: str, folder: Path) -> dict:
-    """{case, or command line: what is said of it} of one of the records."""
+def now(record: str, folder: Path, wanted: Callable[[str], bool] = lambda key: True) -> dict:
+    """{case, or command line: what is said of it} of one of the records, of the wanted ones."""
     if record in SEVERAL:
-        lines = [[word.format(folder) for word in line] for line in SEVERAL[record]]
-        return {" ".join(line): _without(run(*filled), folder)
-                for line, filled in zip(SEVERAL[record], lines)}
+        lines = {" ".join(line): [word.format(folder) for word in line] for line in SEVERAL[record]}
+        return {key: _without(run(*line), folder) for key, line in lines.items() if wanted(key)}
     if record in VIEWS:
         return {path.stem: _without(VIEWS[record](path), folder, path)
-                for path in sorted((ROOT / "cases").glob("*.toml"))}
+                for path in sorted((ROOT / "cases").glob("*.toml")) if wanted(path.stem)}
     command, *options = ONE_CASE[record]
-    return {path.stem: _without(run(command, str(path), *options), folder, path) for path in written(folder)}
+    return {path.stem: _without(run(command, str(path), *options), folder, path)
+            for path in written(folder) if wanted(path.stem)}
 
 
 def _without(found: dict, folder: Path, *paths: Path) -> dict:

@@ -1,13 +1,39 @@
 """The program says of every case what it said when it was recorded: words, labels and levels exactly, numbers
-to their tolerance."""
+to their tolerance. The default suite looks at a few cases of each command; the slow one at all."""
 import pytest
 
 from . import answers
-from .answers import ALL, RELATIVE, USUAL, differences, now, record, recorded
+from .answers import ALL, ONE_CASE, RELATIVE, SEVERAL, USUAL, differences, now, record, recorded
 
 # The words of these are made from the JSON of the same command: long
 LONG = {"audit",  # which tests/papers/test_audit.py holds against the equations
         "classify-text", "fate-text", "period-text", "stuck-text"}
+
+# What the default suite looks at: of every command these cases, of some commands others too; of command lines
+# those that take less than a second
+FEW = {"minor-axis-100", "torque-free-body", "wheel-and-thruster", "uncertain-separatrix"}
+ALSO = {"attitude-text": {"middle-axis-double-well", "liquid-base", "top-lx30-lz30", "phone"},
+        "extremes": {"symmetric-spin-up", "charged-body"}, "extremes-csv": {"symmetric-spin-up", "off-axis-two"},
+        "period": {"charged-body"}, "fate": {"charged-body"}, "classify": {"charged-body"},
+        "fate-text": {"uncertain-minor-axis", "charged-body", "cubesat-3u-detumbling"},
+        "classify-text": {"charged-body", "uncertain-minor-axis"}, "simulate": {"charged-body"}}
+QUICK = [(name, line) for name in ("words", "certificates") for line in map(" ".join, SEVERAL[name])
+         if not line.startswith(("atlas", "bifurcation", "compare", "stuck cases/upper-stage"))]
+
+
+@pytest.mark.parametrize("name", ONE_CASE)
+def test_a_command_says_of_a_few_cases_what_is_recorded(name, tmp_path):
+    wanted = FEW | ALSO.get(name, set())
+    before = {key: one for key, one in recorded(name).items() if key in wanted}
+    assert before.keys() == wanted
+    assert differences(before, now(name, tmp_path, wanted.__contains__), RELATIVE.get(name, USUAL)) == []
+
+
+@pytest.mark.parametrize("name", ["words", "certificates"])
+def test_quick_command_lines_say_what_is_recorded(name, tmp_path):
+    wanted = {line for record, line in QUICK if record == name}
+    before = {key: one for key, one in recorded(name).items() if key in wanted}
+    assert differences(before, now(name, tmp_path, wanted.__contains__), USUAL) == [] and before.keys() == wanted
 
 
 @pytest.mark.slow

@@ -103,11 +103,6 @@ def test_the_first_time_of_an_error_is_where_the_error_passes_it():
             assert gap[0] <= level * departure.scale * 1.001 and gap[1] >= level * departure.scale * 0.999
 
 
-def test_compare_without_an_analytic_model_says_so(stabilab):
-    code, _, err = stabilab("compare", CASES / "minor-axis-100.toml")
-    assert code == 2 and "no analytic model" in err
-
-
 PLAIN = """[body]
 inertia = [8.7, {}, 11.1]
 [motion]
@@ -151,14 +146,6 @@ def test_compare_and_simulate_name_resonances_and_the_unstable_band(stabilab, tm
         assert row["values"]["growth_rate"] == pytest.approx(np.sqrt(-a * b / 8.7 / 8.6), rel=1e-10)
 
 
-def test_the_model_printed_says_what_is_misprinted(stabilab):
-    code, out, _ = stabilab("simulate", CHARGED, "--model", "printed", "--at", "0,1")
-    assert code == 0 and "misprint, (46): I2 ω: sign of both exponential terms; a second ζ" in out
-    assert "the phase is off; the model corrected takes it as it stands" in out
-    assert "right: as printed" not in out
-    assert "misprint" not in stabilab("simulate", CHARGED, "--model", "linear", "--at", "0,1")[1]
-
-
 def test_compare_names_the_attracting_spin_of_a_body_with_a_liquid():
     """By hand: M3 = zeta D3 r holds the spin: r = -0.06/(0.02*9) = -1/3 rad/s, reached at the rate zeta."""
     from stabilab.theories.theory import theory
@@ -199,13 +186,6 @@ def test_every_effect_and_the_runs_of_models_have_public_names():
     assert {effect_class(name).__name__ for name in REGISTRY} <= set(package.__all__)
     assert all(getattr(package, name) is not None
                for name in package.__all__) and {"simulate", "compare", "theory"} <= set(package.__all__)
-
-
-def test_simulate_gives_every_block_of_the_state_by_name(stabilab):
-    code, out, _ = stabilab("simulate", CHARGED, "--at", "0,1", "--json")
-    answer = json.loads(out)
-    assert code == 0 and set(answer["state"]) == {"omega", "angles", "momentum", "velocity", "position"}
-    assert answer["state"]["angles"][0] == [0, 0, 0] and answer["model"] == "exact"
 
 
 # --- sweeps
@@ -263,16 +243,6 @@ def test_a_charge_of_constant_angle_is_judged_as_the_gyrostat_that_turns_alike()
     told, same = (stabilab.motion(scene, states[0]) for scene in (charged, twin))
     assert told.fate == same.fate and told.extremes == same.extremes and "-k e3" in told.because
     assert stabilab.equilibria(charged).kind == stabilab.equilibria(twin).kind
-
-
-@pytest.mark.parametrize("command", [["classify"], ["fate"], ["when", "--tilt", "z = 20 deg"],
-                                     ["when", "--rate", "5"]], ids=" ".join)
-def test_a_verdict_says_that_it_rests_on_the_constant_angle_of_a_charge(stabilab, command):
-    """Along this motion cos sigma changes by 1.86 of itself (compare says BEYOND THE LAW), which a verdict on
-    the rates alone cannot see."""
-    code, out, _ = stabilab(*command, CASES / "charged-body.toml")
-    assert code == 0 and "as long as the angle of the z axis to the field is the constant one" in " ".join(
-        out.split())
 
 
 def test_kernels_of_many_starts_refuse_a_scene_that_none_covers_by_name():

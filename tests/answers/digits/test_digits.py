@@ -137,9 +137,6 @@ def test_commands_tell_digits_and_write_out_what_doubles_cannot_hold(stabilab):
     rows = stabilab("extremes", path, "--digits", "20", "--csv")[1].splitlines()
     assert len(rows) == 4 and all(len(cell.strip("-").replace(".", "")) >= 19 for row in rows[1:]
                                   for cell in row.split(",")[2:4])
-    assert stabilab("period",
-                    CASES / "wheel-and-thruster.toml")[
-                        1].strip() == "wheel-and-thruster: the motion does not repeat (spin-up)"
 
 
 def test_ten_digits_are_the_default_and_cost_nothing_where_formulas_bound_their_error(stabilab, monkeypatch):

@@ -45,12 +45,6 @@ def test_json_tells_never_unknown_and_the_time(stabilab):
     assert rows[2]["time"] is None and rows[2]["not_before"] == 5 and rows[2]["level"] == "proved"
 
 
-def test_strict_ends_with_3_where_the_time_is_not_known(stabilab):
-    assert stabilab("when", CUBESAT, "--until", "5 s")[0] == 0
-    assert stabilab("when", CUBESAT, "--until", "5 s", "--strict")[0] == 3
-    assert stabilab("when", MAJOR, "--rate", "5", "--strict")[0] == 0  # never is an answer
-
-
 def test_a_component_counts_in_the_frame_of_the_file_or_along_principal_axes(stabilab):
     case = package.load(CUBESAT)
     file, principal = (time_of_case(case, stated_limit(case, component=f"{axis} = 30 deg/s").ask)
@@ -72,19 +66,6 @@ def test_limits_of_three_components_are_those_of_the_file(case_file):
     each = [time_of_case(case, stated_limit(case, component=one).ask).low
             for one in ("x = 90 deg/s", "y = 40 deg/s", "z = 2 deg/s")]
     assert whole.low == min(each)
-
-
-def test_a_sweep_answers_row_by_row(stabilab):
-    code, out, _ = stabilab("when", CASES / "charged-sweep.toml", "--rate", "3", "--csv")
-    assert code == 0 and len(out.splitlines()) == 28 and out.splitlines()[1].startswith(
-        "charged-sweep-1-1-1,|omega|,3.0,7.25")
-
-
-def test_an_approximate_law_is_told_first(stabilab):
-    code, out, _ = stabilab("when", CASES / "liquid-base.toml", "--rate", "2 rad/s")
-    assert code == 0 and out.startswith(
-        "BEYOND THE LAW; by that law: liquid-base: NEVER reaches ") and "\nlaw: liquid cavity: " in out
-    assert stabilab("when", CASES / "liquid-base.toml", "--rate", "2 rad/s", "--strict")[0] == 3
 
 
 @pytest.mark.parametrize("option, text, words", [

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab import Fate, fate, load
 from stabilab.show.maps import shades as labels
 from tests.shared import CASES
 
@@ -64,24 +63,6 @@ def test_short_names_are_those_that_tell_the_keys_apart():
     assert labels.names(["wheels.W1.momentum", "wheels.W2.momentum",
                          "motion.x[1]"]) == ["W1_momentum", "W2_momentum", "motion_x_1"]
     assert labels.names(["motion.x[1]"]) == ["x_1"]
-
-
-def test_the_first_line_is_the_answer(stabilab):
-    code, out, err = stabilab("sweep", MINOR, "--vary", "x[1]=-4:4:21", "--vary", "x[3]=-3:3:21")
-    first, third = np.meshgrid(np.linspace(-4, 4, 21), np.linspace(-3, 3, 21))
-    labels = fate(load(MINOR).scene, np.stack([first, np.full(first.shape, 4.0), third], axis=-1)).labels
-    spun = round(100 * (labels == Fate.SPIN_UP).mean())
-    assert code == 0 and not err and out.splitlines()[
-        0] == f"minor-axis-100: {spun} % of 441 points spin up, {100 - spun} % stay bounded"
-
-
-def test_words_speak_of_one_point_in_the_singular_and_of_cases_alone(stabilab):
-    out = stabilab("sweep", MINOR, "--vary", "inertia[1]=2000,2001,-9000")[1].splitlines()
-    assert out[0] == "minor-axis-100: 2 of 3 points stay bounded, 1 is no case"
-    assert out[1] == "  the fate is known as exact (2)" and "not known" not in out[2]
-    assert out[3].startswith("  caveat: holds only while the torque is exactly along ") and out[4].startswith(
-        "  one point is no case: ")
-    assert "all" not in stabilab("sweep", MINOR, "--vary", "x[1]=2.5")[1].splitlines()[0]
 
 
 def test_csv_and_json_hold_every_point(stabilab):
