@@ -11,6 +11,7 @@ import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from tests.oracles import energy
 from tests.oracles.pairs import WORDS, assert_extremes, barrier_ahead, model_of
+from tests.shared import later
 
 # 2e-18 rad/s inside a separatrix, below the spacing of doubles there
 BESIDE = {"body": {"inertia": ["73669999999999992633/10000000000000000000", "1261/500", "7367/1000"]},
@@ -93,15 +94,10 @@ def test_rationals_in_a_scene_are_not_rounded():
     assert agrees(scene, state) == found.fate.word
 
 
-@pytest.mark.parametrize("place", range(4))
-def test_random_starts_beside_separatrices_are_answered_as_written(place):
-    agrees(*some(4, 13)[place])
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("place", range(122))
-def test_many_random_starts_beside_separatrices_are_answered_as_written(place):
-    agrees(*some(122, 31)[place])
+@pytest.mark.parametrize("count, seed, place", [*((4, 13, n) for n in range(4)),
+                                                *later((122, 31, n) for n in range(122))])
+def test_random_starts_beside_separatrices_are_answered_as_written(count, seed, place):
+    agrees(*some(count, seed)[place])
 
 
 def test_all_digits_of_a_period_are_there():

@@ -5,9 +5,9 @@ import pytest
 from . import answers
 from .answers import ALL, ONE_CASE, RELATIVE, SEVERAL, USUAL, differences, now, record, recorded
 
-# The words of these are made from the JSON of the same command: long
+# The words of these are made from the JSON of the same command, of which the default suite has some: long
 LONG = {"audit",  # which tests/papers/test_audit.py holds against the equations
-        "classify-text", "fate-text", "period-text", "stuck-text"}
+        *(name for name in ALL if name.endswith(("-text", "-csv")))}
 
 # What the default suite looks at: of every command these cases, of some commands others too; of command lines
 # those that take less than a second

@@ -11,6 +11,7 @@ from stabilab.answers.uncertain.fate import look_at, uncertain
 from stabilab.answers.uncertain.result import CORNERS, corners, worst
 from stabilab.case.read import load
 from tests.answers.uncertain.test_verdicts import numbers_at, walls_ahead
+from tests.shared import later
 
 TEXT = """[body]
 inertia = [{}]
@@ -93,8 +94,7 @@ def nested(seed):
     return rows, inner, outer
 
 
-@pytest.mark.parametrize("seed", [0, 5, 6, *(pytest.param(n, marks=pytest.mark.slow)
-                                              for n in (1, 2, 3, 4, *range(7, 80)))])
+@pytest.mark.parametrize("seed", [0, 5, 6, *later((1, 2, 3, 4, *range(7, 80)))])
 def test_a_box_around_another_is_never_the_safer_one(case_file, seed):
     rows, *boxes = nested(seed)
     inner, outer = (uncertain(load(case_file(written(rows, half))), ("fate",)).fate for half in boxes)
