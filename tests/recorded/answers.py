@@ -102,7 +102,7 @@ SEVERAL = {  # from the repository's root
               ["sweep", "cases/charged-body.toml", "--vary", "charge=0.002,0.003"],
               ["basin", "cases/minor-axis-100.toml", "--vary", "x[1]=-4:4:9", "--vary", "x[3]=-3:3:9",
                "--depth", "2"],
-              ["atlas", "cases/thruster-stuck-major-axis.toml", "--level", "1"],
+              ["atlas", "cases/thruster-stuck-major-axis.toml", "--level", "0", "--refine", "1"],
               ["bifurcation", "cases/middle-axis-double-well.toml", "--vary", "b=0:4", "--vary", "x[1]=-3:3"],
               ["bifurcation", "cases/off-axis-two.toml", "--vary", "torque[3]=-1:1"],
               ["example"]],
