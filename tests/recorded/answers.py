@@ -57,7 +57,7 @@ SEVERAL = {  # from the repository's root
     "maps": [["sweep", "cases/minor-axis-100.toml", "--vary", "x[1]=-4:4:9", "--vary", "x[3]=-3:3:7",
               "--answer",
               "fate,level,reason,margin,distance,extremes,period,equilibria", "--csv"],
-             ["atlas", "cases/thruster-stuck-major-axis.toml", "--level", "1", "--csv"],
+             ["atlas", "cases/thruster-stuck-major-axis.toml", "--level", "0", "--refine", "1", "--csv"],
              ["basin", "cases/minor-axis-100.toml", "--vary", "x[1]=-4:4:17", "--vary", "x[3]=-3:3:17",
               "--json"]],
     "words": [["compare", "cases/top-lx30-lz30.toml"], ["compare", "cases/charged-body.toml"],
