@@ -68,9 +68,9 @@ def texts(said):
 @pytest.mark.parametrize("record", RECORDS)
 def test_the_answers_about_all_cases_have_none_of_our_own_words(record):
     for command, said in recorded(record).items():
-        words = "\n".join(texts(said))
-        words = words.partition("\n")[2] if command.endswith("--csv") else words  # names of columns are keys
-        assert ours(words, SAID) == [], command
+        if command.endswith("--csv"):  # names of columns are keys
+            said = said | {"answer": said["answer"].partition("\n")[2]}
+        assert ours("\n".join(texts(said)), SAID) == [], command
 
 
 @pytest.mark.parametrize("case", ["phone", "upper-stage", "wheel-and-thruster"])
