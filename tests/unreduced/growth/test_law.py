@@ -67,7 +67,8 @@ def onto_boundary(c, y, rng):
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("count", [500, pytest.param(3000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [500, pytest.param(1500, marks=pytest.mark.slow), pytest.param(
+    3000, marks=[pytest.mark.slow, pytest.mark.long])])
 def test_no_certificate_misfires_against_brute_force(brute, count):
     fired = {"spin-up": 0, "well": 0}
     for c, y in random_states(20240, count):
