@@ -29,7 +29,7 @@ check: $(STAMP)
 	$(BIN)/python -m pytest tests/house/test_layout.py -k "not loads"
 
 test-slow: $(STAMP)
-	$(BIN)/python -m pytest -n 2 -m "slow and not long"
+	$(BIN)/python -m pytest -n 2 --dist loadfile -m "slow and not long"
 
 # The tests that touch other packages, on the lowest versions that pyproject.toml admits, in an environment of their own
 FLOORS := .floors

@@ -33,9 +33,9 @@ def case(name):
 
 
 def later(rows):
-    """Parameters that the default suite leaves out: one in four for the slow tests, the others for the long."""
+    """Parameters that the default suite leaves out: one in eight for the slow tests, the others for the long."""
     return [pytest.param(*(row if isinstance(row, tuple) else (row,)),
-                         marks=[pytest.mark.slow, *[pytest.mark.long] * (n % 4 > 0)])
+                         marks=[pytest.mark.slow, *[pytest.mark.long] * (n % 8 > 0)])
             for n, row in enumerate(rows)]
 
 

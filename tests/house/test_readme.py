@@ -139,14 +139,14 @@ def run_here(command, folder):
     return screen.buffer.getvalue().decode("utf-8"), left.value.code or errors.OK
 
 
-def follow(text, folder, wanted):
+def follow(text, folder, wanted, by_shell=1):
     """Run the commands of a page that `wanted` picks, in order; assert exit codes and outputs; the commands
-    run. The first is run by a shell, as a reader does, and all of a page that changes the program."""
+    run. The first `by_shell` are run by a shell, as a reader does, and all of a page that changes the program."""
     followed = [item for item in commands(text) if item[0] not in NOT_RUN and wanted(item[0])]
     for n, (command, shown, stated) in enumerate(followed):
-        by_shell = (n == 0 or " > " in command or (folder / "stabilab").is_dir()
-                    or not command.startswith("stabilab "))
-        output, code = (run if by_shell else run_here)(command, folder)
+        outside = (n < by_shell or " > " in command or (folder / "stabilab").is_dir()
+                   or not command.startswith("stabilab "))
+        output, code = (run if outside else run_here)(command, folder)
         if command.startswith("stabilab surface") and not probe().available:
             assert code == errors.NO_RENDERING and CURE in output, output
         else:
@@ -240,7 +240,7 @@ OTHERS = [page for page, name in zip(PAGES, NAMES) if name not in FOLLOWED
 @pytest.mark.parametrize("page", OTHERS, ids=[page.stem for page in OTHERS])
 def test_the_other_pages_print_what_they_show(page, tmp_path, monkeypatch):
     text, folder = prepared(page.read_text(encoding="utf-8"), tmp_path)
-    follow(text, folder, lambda command: True)
+    follow(text, folder, lambda command: True, by_shell=0)
     monkeypatch.chdir(folder)
     if ">>>" in text:
         in_python(text)

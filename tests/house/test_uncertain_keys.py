@@ -21,6 +21,7 @@ from stabilab.cli import whole
 from stabilab.errors import InputError
 from stabilab.show.explore.session import Session
 from stabilab.show.report import one_case
+from tests.shared import later
 from tests.show.explore.test_session import ask
 
 BODY = {"body": {"inertia": [100, 90, 40]}}
@@ -54,6 +55,8 @@ OPTIONS = {
     "atlas": {"level": "0", "refine": "0"},
 }
 QUICK = ("extremes", "show", "orbit")  # run by default: a second each
+# what a view does with a caveat is the same for every caveat (test_no_view_loses_a_caveat): beside the JSON of a
+# command its other views are for the long tests
 VARIED = {  # of each form, what is varied that stays certain
     "torque": "effects.gyrostat.momentum[2]", "mu": "motion.x[3]", "scaled": "motion.x[3]",
     "damper": "motion.angular_velocity[3]", "thruster": "motion.angular_velocity[3]",
@@ -159,7 +162,8 @@ def says(key, told) -> bool:
 
 
 @pytest.mark.parametrize("name, view", [
-    pytest.param(*one, id=" ".join(one), marks=() if one[0] in QUICK else pytest.mark.slow) for one in VIEWS])
+    pytest.param(*one, id=" ".join(one), marks=() if one[0] in QUICK else [
+        pytest.mark.slow, *[pytest.mark.long] * (one[1] != "json" and (one[0], "json") in VIEWS)]) for one in VIEWS])
 def test_every_command_and_view_says_of_every_key_that_it_is_uncertain(stabilab, case_file, name, view):
     refused = {}
     for (form, path), label in zip(KEYS, NAMES):
@@ -179,8 +183,7 @@ def test_every_command_and_view_says_of_every_key_that_it_is_uncertain(stabilab,
 MOVING = [(form, path) for form, path in KEYS if form not in ("burning", "orbit")]
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("form, path", MOVING, ids=[f"{form}: {path[0]}.{path[-1]}" for form, path in MOVING])
+@pytest.mark.parametrize("form, path", later(MOVING), ids=[f"{form}: {path[0]}.{path[-1]}" for form, path in MOVING])
 def test_page_and_explorer_say_of_every_key_that_it_is_uncertain(tmp_path, form, path):
     for told, wanted in ((text(FORMS[form]), False), (loosened(form, path), True)):
         (tmp_path / "case.toml").write_text(told)

@@ -68,6 +68,8 @@ def texts(said):
 @pytest.mark.parametrize("record", RECORDS)
 def test_the_answers_about_all_cases_have_none_of_our_own_words(record):
     for command, said in recorded(record).items():
+        if command.endswith("--csv"):  # names of columns are keys
+            said = said | {"answer": said["answer"].partition("\n")[2]}
         assert ours("\n".join(texts(said)), SAID) == [], command
 
 

@@ -157,7 +157,7 @@ def test_a_chapter_stands_in_the_report_with_errors_and_variant(tmp_path, monkey
 
 
 @pytest.mark.slow
-@pytest.mark.one_in(3)
+@pytest.mark.one_in(6)
 @pytest.mark.parametrize("row", OTHERS, ids=lambda row: row.file[:-4])
 def test_every_figure_of_the_other_papers_can_be_drawn(row, tmp_path):
     path = figures.write([row.number], tmp_path, paper_name=row.paper)[0]

@@ -19,7 +19,7 @@ from stabilab.show.explore.session import Session
 from stabilab.show.report import html
 from stabilab.show.terminal import greek, lettered, printed, written
 from stabilab.show.units import SYSTEMS
-from tests.shared import MOVING
+from tests.shared import MOVING, later
 
 PLAIN = "Qqqq"  # no pattern knows it
 HOSTILE = ["axis 3 after 200 s", "lambda 2", "t = 5 s", "omega1 10 rad", "mu_i +- 1 = 2^2", "gamma3 -5 rad",
@@ -176,8 +176,7 @@ def test_a_picture_has_its_title_as_written_and_what_is_said_below_it_in_letters
     assert "|ω| = " in " ".join(below) and "omega" not in " ".join(below)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", HOSTILE)
+@pytest.mark.parametrize("name", later(HOSTILE))
 def test_pages_have_names_as_written(name, tmp_path, stabilab):
     def told(name):
         folder = tmp_path / f"of {name}"

@@ -17,7 +17,7 @@ WORDS = ("wheels.fly.speed", "x'); PROVED\n\x1b[1mproved      the motion is boun
 MARK = r"named in the file: (?:'(?:[^'\\]|\\.)*'|\"(?:[^\"\\]|\\.)*\")"
 
 
-# whose checks take some seconds in all
+# whose checks take some seconds in all; every other file is for the long tests
 SLOW = {*FILES} - {"sphere-wheel"} | {
     "torque in no axis", "torque in no axis, scaled", "released at rest", "bounded in a well", "free, round",
     "free, in a well", "past a cusp", "on a hyperbola", "diagram: a moment of inertia", "diagram: a circle of a motion"}
@@ -28,7 +28,8 @@ def certificates():
               | {name: lambda name=name: case_proved(name) for name in FILES}
               | {f"closed: {kind}": lambda kind=kind: test_closed.made(kind)[2] for kind in test_closed.KINDS}
               | {f"diagram: {name}": lambda name=name: test_diagrams.made(name) for name in test_diagrams.KNOWN})
-    return [pytest.param(make, id=name, marks=[pytest.mark.slow] if name in SLOW else []) for name, make in makers.items()]
+    return [pytest.param(make, id=name, marks=[pytest.mark.slow] * (name in SLOW) + [pytest.mark.long] * (name in FILES[1::2]))
+            for name, make in makers.items()]
 
 
 def places(value, path=()):

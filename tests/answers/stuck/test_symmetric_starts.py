@@ -89,7 +89,7 @@ def agree(seed):
     return len(momenta), ran is not None, bool(ends)
 
 
-SLOW = [pytest.param(n, 100, marks=[pytest.mark.slow, *[pytest.mark.long] * (n >= 800)])
+SLOW = [pytest.param(n, 100, marks=[pytest.mark.slow, *[pytest.mark.long] * (n >= 400)])
         for n in range(0, 2000, 100)]
 
 

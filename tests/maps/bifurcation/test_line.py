@@ -119,7 +119,8 @@ def check_isolated(tmp_path):
     return check
 
 
-@pytest.mark.parametrize("seeds", [range(30), pytest.param(range(100, 1100), marks=pytest.mark.slow)])
+@pytest.mark.parametrize("seeds", [range(30), pytest.param(range(100, 300), marks=pytest.mark.slow),
+                                   pytest.param(range(300, 1100), marks=[pytest.mark.slow, pytest.mark.long])])
 def test_random_scenes_off_the_axes_have_the_counted_equilibria_on_both_sides_of_every_event(check_isolated, seeds):
     # exact elimination of tests/oracles, nothing of the package
     assert sum(map(check_isolated, seeds)) > len(seeds) / 2

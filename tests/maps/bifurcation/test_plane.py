@@ -59,7 +59,8 @@ def check(tmp_path):
     return one
 
 
-@pytest.mark.parametrize("seeds, places", [(range(6), 10), pytest.param(range(100, 200), 50, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("seeds, places", [(range(6), 10), pytest.param(range(100, 140), 50, marks=pytest.mark.slow),
+                                           pytest.param(range(140, 200), 50, marks=[pytest.mark.slow, pytest.mark.long])])
 def test_regions_off_the_axes_have_the_number_that_elimination_gives(check, seeds, places):
     # tests/oracles, nothing of the package
     assert sum(check(seed, places) for seed in seeds) >= 0.4 * places * len(seeds)

@@ -138,7 +138,7 @@ LATE = {8080: 6709.69, 3639: 6647.67, 10808: 9225.56, 16266: 13529.61}
 @pytest.mark.slow
 @numba
 @pytest.mark.parametrize("number",
-                         [number if number == 8080 else pytest.param(number, marks=pytest.mark.slow)
+                         [number if number == 8080 else pytest.param(number, marks=pytest.mark.long)
                           for number in LATE])
 def test_the_latest_without_a_wheel_still_change_the_sign_of_their_spin_after_5000_natural_times(
     brute, number):
