@@ -58,7 +58,7 @@ def rows_of_axes(case) -> list[tuple[str, str]]:
         found.append((f"{number}, {names.name(number)}",
                       f"({', '.join(f'{float(v):.6g}' for v in axis)}), {math.degrees(angle):.6g} deg from "
                       f"{'+' if axis[nearest] > 0 else '-'}{'xyz'[nearest]}, moment {float(moment):.6g} "
-                      f"kg m^2"))
+                      f"kg m²"))
     return found
 
 
@@ -75,7 +75,7 @@ def components(case, names=None) -> str:
     if _turned(case) is None:
         return ""
     names = names or axes_of(case)
-    return "; ".join(f"omega{n} about {names.whole(n).removesuffix(IN_FILE)}" for n in (1, 2, 3)) + IN_FILE
+    return "; ".join(f"ω{n} about {names.whole(n).removesuffix(IN_FILE)}" for n in (1, 2, 3)) + IN_FILE
 
 
 def note(case) -> list[str]:

@@ -1,8 +1,7 @@
 """Text for people on stdout and stderr: width, colour, columns, and letters such as ω.
 
-It is wrapped to a terminal and coloured there, with tables in columns, and plain lines anywhere else. Names
-such as omega1 and lambda3 are printed as people write them, and plain where an encoding has no such
-letters."""
+It is wrapped to a terminal and coloured there, with tables in columns, and plain lines anywhere else. Letters
+are written out where an encoding has none of them."""
 from __future__ import annotations
 
 import os
@@ -13,18 +12,9 @@ from collections.abc import Callable, Sequence
 from ..reasons import ASCII
 from .names import around
 
-GREEK = {"omega": "ω", "lambda": "λ", "Lambda": "Λ", "mu": "μ", "gamma": "γ", "alpha": "α", "sigma": "σ",
-         "zeta": "ζ", "tau": "τ"}
-# What papers write in captions and formulas, where no key, path or option can stand: every Greek letter, with
-# or without its number, and powers.
-ALPHABET = GREEK | {"beta": "β", "delta": "δ", "eps": "ε", "eta": "η", "theta": "θ", "kappa": "κ", "nu": "ν",
-                    "Pi": "Π", "pi": "π", "phi": "φ",
-                    "psi": "ψ", "rho": "ρ", "Gamma": "Γ", "Delta": "Δ", "Omega": "Ω"}
-# A name with its number, between bars, or the time of a scaled case; not part of a path, a key or an option.
-NAMES = re.compile(r"(?<![\w./\\])(?<![\w-]-)(omega|lambda|Lambda|mu|gamma|alpha|sigma|zeta)"
-                   r"(?=(?:[123]|_[ijk])\b(?!\\|/[A-Za-z]|\.\w))"
-                   r"|(?<=\|)(?:omega|gamma)(?= ?[xyz]?\|)|\bomega(?= \. \()|\bgamma(?= = \()|(?<=[\d )=] "
-                   r")tau\b|(?<=\bin )tau\b(?! \[)|(?<=\bof )tau\b")
+# What papers write in captions and formulas, where no key, path or option can stand
+ALPHABET = {name: letter for letter, name in ASCII.items() if letter.isalpha() and name[:2].isalpha()
+            and name[1:]}
 # A formula as it is typed: a Greek letter with or without its number, an index, a power, a root
 NOTATION = re.compile(
     r"(?<![A-Za-z_])(?P<letter>" + "|".join(sorted(ALPHABET, key=len, reverse=True)) + r")"
@@ -34,8 +24,7 @@ NOTATION = re.compile(
 # and the zeros of an exponent, which a book leaves out
 MINUS = re.compile(r"(?<=\de)[+-]?0*(?=[1-9])|(?<![\w)\]./-])-(?=[\d.∞])|(?:(?<=[ (\[=])|^)-(?=[\w(])"
                    r"|(?<=[(\[])-(?= \w)|(?<=[\w)²³*;]) - (?=[\w(])|(?<=\b[a-z])-(?=[a-z]\))")
-UNIT = re.compile(
-    r"(?<![\w\\^])(kg m|rad/s|deg/s|m/s|1/s|N m s|s|m|\((?:deg/s|rad/s|N m s)\))\^([2-9])(?!\w)")
+LONG = re.compile(r"(?<![\w.])\d+\.\d{6,}(?:e[+-]?\d+)?")  # in notes of theories
 INDICES = str.maketrans("ijk", "ᵢⱼₖ")
 SIGNS = {"+-": "±", "-+": "∓", "<=": "≤", ">=": "≥", "-inf ": "-∞ ", " inf ": " ∞ "}
 # what a book sets otherwise than a terminal: infinity, a transpose, the products of vectors
@@ -54,16 +43,16 @@ def written(text: str) -> str:
 
 @around
 def lettered(text: str) -> str:
-    """Words of the analysis at a terminal: letters as `written`."""
-    return _in_letters(text)
+    """Words of the analysis at a terminal: letters as `written`, numbers with six digits."""
+    return _in_letters(LONG.sub(lambda found: f"{float(found[0]):.6g}", text))
 
 
 @around
 def printed(text: str) -> str:
     """Words of the analysis for a page: letters as `lettered`, minus, products and powers of ten as a book
     sets them. What stands between backquotes is a command and stays as it is."""
-    return but_for_commands(text, lambda part: greek(minus(
-        PRINTED.sub(lambda sign: PRINTED_AS[sign[0]], lettered(part)))))
+    return but_for_commands(text, lambda part: minus(
+        PRINTED.sub(lambda sign: PRINTED_AS[sign[0]], lettered(part))))
 
 
 def but_for_commands(text: str, change: Callable[[str], str]) -> str:
@@ -105,14 +94,6 @@ def listed(words: Sequence[str], last: str = "and") -> str:
     return f" {last} ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
 
-@around
-def greek(text: str) -> str:
-    """The text with the names of angular velocities, momenta and torques as letters, omega1 becomes ω1, and
-    with powers of units raised."""
-    return UNIT.sub(lambda found: found[1] + found[2].translate(RAISED),
-                    NAMES.sub(lambda found: GREEK[found[0]], text))
-
-
 def plain(text: str) -> str:
     """The text in ASCII as far as its letters have names: ω1 becomes omega1."""
     return "".join(ASCII.get(letter, letter) for letter in text)
@@ -142,7 +123,7 @@ STABLE = {r"\bunstable\b": "red", r"(?<!un)\b(?:asymptotically )?stable\b": "gre
 def tell(text: str) -> None:
     """Write text for people to stdout."""
     out = sys.stdout
-    text = encodable(greek(text), getattr(out, "encoding", None)).rstrip("\n") + "\n"
+    text = encodable(text, getattr(out, "encoding", None)).rstrip("\n") + "\n"
     columns = width()
     text = by_clauses(text)
     if columns is not None:

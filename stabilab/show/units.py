@@ -75,9 +75,9 @@ class Units:
         return f"{' to '.join(bracket(low, high, unit[1]))} {unit[0]}"
 
     def moment(self, value: float, digits: int = DIGITS, side: int = 0) -> str:
-        """A point in time: "t = 2.5 s", or "tau = 2.5" of a scaled case."""
+        """A point in time: "t = 2.5 s", or "τ = 2.5" of a scaled case."""
         if self.scaled:
-            return f"tau = {number(as_bound(value, 1.0, digits, side), digits)}"
+            return f"τ = {number(as_bound(value, 1.0, digits, side), digits)}"
         return f"t = {self.time(value, digits, side)}"
 
     def torque(self, value: float, digits: int = DIGITS) -> str:
@@ -126,7 +126,7 @@ class Units:
 
     def span(self, unit: str, start: float, end: float) -> str:
         """A span of time, given in s, or in tau of a scaled case."""
-        name, one = ("tau", 1.0) if unit == "tau" else self.times(max(abs(start), abs(end)))
+        name, one = ("τ", 1.0) if unit == "tau" else self.times(max(abs(start), abs(end)))
         digits = SHORT if max(abs(start), abs(end)) * one < 10**SHORT else DIGITS
         return f"{number(start * one, digits)} to {number(end * one, digits)} {name}"
 
@@ -154,8 +154,8 @@ class Units:
         """The unit in which numbers of this SI unit are printed; those of a scaled case have none."""
         name, one = self.rates
         turns = {"rad/s": self.rates, "rad": self.angles,
-                 "(rad/s)^2": (f"({name})^2" if name else "", one * one)}
-        return turns.get(unit, ("" if self.scaled and unit != "1" else unit, 1.0))
+                 "(rad/s)^2": (f"({name})²" if name else "", one * one)}
+        return turns.get(unit, ("" if self.scaled and unit != "1" else lettered(unit), 1.0))
 
     def vector(self, values, unit: Unit, digits: int = DIGITS) -> str:
         """Several numbers in one unit: "(1, 2, 3) deg/s"."""
@@ -167,7 +167,7 @@ CLOCK = ((172800.0, ("day", 1 / 86400)), (7200.0, ("h", 1 / 3600)), (120.0, ("mi
          (0.0, ("s", 1.0)))
 DEG = Units("deg", ("deg/s", TURN), ("deg", TURN), CLOCK)
 SI = Units("si", ("rad/s", 1.0), ("rad", 1.0), ((0.0, ("s", 1.0)),))
-SCALED = Units("scaled", ("", 1.0), ("rad", 1.0), ((0.0, ("tau", 1.0)),))
+SCALED = Units("scaled", ("", 1.0), ("rad", 1.0), ((0.0, ("τ", 1.0)),))
 SYSTEMS = {"deg": DEG, "deg/day": replace(DEG, name="deg/day", rates=("deg/day", 86400 * TURN)),
            "rpm": replace(DEG, name="rpm", rates=("rpm", 30 / math.pi)),
            "rev/s": replace(DEG, name="rev/s", rates=("rev/s", 0.5 / math.pi)), "si": SI}
@@ -191,10 +191,10 @@ def suited(case: Case) -> str:
     return "deg/day" if slow and free else "deg"
 
 
-PARAMETERS = (("lambda", "N m s"), ("D", "kg m^2"), ("M", "N m"), ("mass", "kg"), ("f", "N"), ("k", "N m s"),
+PARAMETERS = (("lambda", "N m s"), ("D", "kg m²"), ("M", "N m"), ("mass", "kg"), ("f", "N"), ("k", "N m s"),
               ("eHl2", "N m s"),
-              ("kappa", "N m s^3"), ("zeta", "1/s"), ("Mgx", "N m"), ("Mgy", "N m"), ("Mgz", "N m"),
-              ("N", "1/s^2"))
+              ("kappa", "N m s³"), ("zeta", "1/s"), ("Mgx", "N m"), ("Mgy", "N m"), ("Mgz", "N m"),
+              ("N", "1/s²"))
 
 
 def parameter_unit(name: str) -> str:

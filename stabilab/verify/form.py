@@ -95,7 +95,7 @@ def _strangers(value, known, where):
 # a case
 WORDS = {"inertia": "moments", "momentum": "wheel"}
 # of a scene that is not scaled
-UNITS = {"inertia": "kg m^2", "momentum": "N m s", "torque": "N m", "state": "rad/s"}
+UNITS = {"inertia": "kg m²", "momentum": "N m s", "torque": "N m", "state": "rad/s"}
 
 
 def about(certificate: dict) -> dict:

@@ -36,7 +36,7 @@ def test_a_bounded_motion_is_told_with_the_rate_and_the_period_that_a_run_has(ow
     case = own()
     line = headline(case, told(case))
     found = re.fullmatch(r"BOUNDED only while the torque is exactly along z \(minor axis\); largest rate "
-                         r"\|omega\| = "
+                         r"\|ω\| = "
                          r"(\S+) deg/s \((\S+) deg/s about ([xyz])\); (\S+) deg/s from the separatrix \((\S+) J\); "
                          r"period "
                          r"(\S+) s", line)

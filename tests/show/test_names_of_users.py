@@ -17,7 +17,7 @@ from stabilab.show.axes import Axes
 from stabilab.show.explore.pictures import unframed
 from stabilab.show.explore.session import Session
 from stabilab.show.report import html
-from stabilab.show.terminal import greek, lettered, printed, written
+from stabilab.show.terminal import lettered, printed, written
 from stabilab.show.units import SYSTEMS
 from tests.shared import MOVING, later
 
@@ -191,7 +191,7 @@ def test_pages_have_names_as_written(name, tmp_path, stabilab):
 def test_no_pattern_changes_a_name_that_is_spared(name):
     units = replace(SYSTEMS["deg"], axes=Axes(("x", "y", "z"), ("major", "intermediate", "minor")))
     names.spare([name])
-    for change in (greek, lettered, printed, written, units.words):
+    for change in (lettered, printed, written, units.words):
         for text in ("the tilt of {}, {}", "{}: {} and another: {}", "{}"):
             assert change(text.format(name, name, name)) == text.format(name, name, name)
     assert lettered(f"{name}: omega1, lambda3") == f"{name}: ω1, λ3"

@@ -91,7 +91,7 @@ def test_a_case_without_a_motion_has_its_equilibria_alone(tmp_path):
 
 
 @pytest.mark.parametrize("plain, shown", [
-    ("omega1 lambda3 |gamma| alpha_i", "ω1 λ3 |γ| αᵢ"),
+    ("omega1 lambda3 |gamma| alpha_i: 0.26666666666666666", "ω1 λ3 |γ| αᵢ: 0.266667"),
     ("1.5e-12 - x, -inf, 5e+20", "1.5e−12 − x, −∞, 5e20"),
     ("gammas omegaX, `plot --kind time`", "gammas omegaX, `plot --kind time`"),
     ("omega = Omega gamma, (Omega^2 - N) D", "ω = Ω γ, (Ω² − N) D"),

@@ -23,8 +23,8 @@ def test_rates_angles_and_their_squares_are_those_of_the_degree():
     assert DEG.rate(math.pi) == "180 deg/s" and SI.rate(math.pi) == "3.14159 rad/s" and SCALED.rate(
         math.pi) == "3.14159"
     assert DEG.angle(math.pi / 6) == "30 deg"
-    assert DEG.told(math.pi**2, DEG.of("(rad/s)^2")) == "32400 (deg/s)^2"
-    assert SI.told(0.7, SI.of("(rad/s)^2")) == "0.7 (rad/s)^2"
+    assert DEG.told(math.pi**2, DEG.of("(rad/s)^2")) == "32400 (deg/s)²"
+    assert SI.told(0.7, SI.of("(rad/s)^2")) == "0.7 (rad/s)²"
     assert DEG.vector((0, math.pi, -math.pi), DEG.rates) == "(0, 180, -180) deg/s"
 
 
@@ -32,7 +32,7 @@ def test_quantities_without_a_turn_are_the_same_in_both_systems():
     for units in (DEG, SI):
         assert (units.energy(0.5), units.torque(2.0)) == ("0.5 J", "2 N m")
     assert (SCALED.energy(0.5), SCALED.told(4.0, SCALED.of("(rad/s)^2")), SCALED.time(7.0)) == (
-        "0.5", "4", "7 tau")
+        "0.5", "4", "7 τ")
 
 
 def test_a_sentence_has_its_angles_rates_and_times_in_these_units():

@@ -39,7 +39,7 @@ from ..axes import with_moments
 from ..names import around
 from ..report.tables import tiles
 from ..space import natural, seen
-from ..terminal import greek, lettered, written
+from ..terminal import lettered, written
 from ..text.headline import headline, judged, look
 from ..text.motion import margins
 from ..units import SHORT, Units, but_for_rounding, units_of
@@ -56,7 +56,7 @@ def rows(case: Case, motion: Motion, units: Units) -> list[list[str]]:
     when, until = next(rest for name, *rest in tiles(motion, units) if name == "when")
     found = [*([["limit", f"{when}: {until}"]] if motion.first else []),
              ["start", units.vector(motion.at[:3], units.rates)],
-             *([name, greek(words)] for name, words in margins(motion, units))]
+             *([name, words] for name, words in margins(motion, units))]
     if motion.extremes is not None and not any(map(math.isnan, sum(map(list, motion.extremes), []))):
         for component, pair in zip(case.scene.components,
                                    but_for_rounding(motion.extremes, motion.tolerance)):
@@ -171,7 +171,7 @@ class Session:
         holds = None if found is None else found.validity  # of an approximate law
         notes = [note, self._swept, cut, holds and units.said(holds.reason),
                  *limiting.beside((case if found is None else found).caveats, units, words)]
-        made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word,
+        made = {"headline": words, "fate": "undecided" if found is None else found.fate.word,
                 "look": "conditional" if found is None else look(found),
                 "moving": moving, "start": clicked,
                 "note": " ".join(map(_capital, filter(None, notes))),

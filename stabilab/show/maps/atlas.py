@@ -23,6 +23,7 @@ from ...packages import demand
 from .. import limiting, style
 from ..axes import axes_of
 from ..data import as_json, csv_lines, endless
+from ..terminal import lettered
 from ..units import SHORT, Units, with_unit
 from .shades import FATES, light, limits_of, of_every_point, spinning, unit
 from .sweep import COUNTS, checked, column_in, finished, origin, per_cent, write
@@ -178,7 +179,7 @@ def limit_words(atlas: Atlas, units: Units) -> str:
     if limit.kind == "tilt":
         return f"{limit.names[0]} by {units.angle(limit.limits[0], SHORT)}"
     told = " or ".join(dict.fromkeys(units.rate(one, SHORT) for one in limit.limits))
-    return told if limit.kind == "rate" else f"{' or '.join(limit.names)} = {told}"
+    return told if limit.kind == "rate" else f"{' or '.join(map(lettered, limit.names))} = {told}"
 
 
 def _wheels(atlas: Atlas, units: Units) -> list[str]:

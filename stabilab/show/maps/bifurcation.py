@@ -11,7 +11,7 @@ from ...maps.bifurcation.equations import BORDERS, CURVES, ENDLESS, Diagram, Eve
 from ...maps.bifurcation.plane import Plane, rows
 from .. import frame, limiting, terminal
 from ..data import as_json, csv_lines
-from ..terminal import greek, listed
+from ..terminal import lettered, listed
 from ..units import Units, units_of, with_unit
 
 SCHEMA = "stabilab.bifurcation/1"
@@ -136,7 +136,7 @@ def _events_told(found: Diagram) -> str:
 def _table(found: Diagram) -> list[str]:
     span = found.family.spans[0]
     units, digits = units_of(found.family.case), _digits(found)
-    name = with_unit(span.label, greek(span.shown_unit))
+    name = with_unit(span.label, lettered(span.shown_unit))
     rows = [[name, "changes" if found.kind == BORDERS else "equilibria",
              *([] if found.kind == BORDERS else ["stable"]), "what"]]
     for _, one in _in_order(found):

@@ -25,7 +25,7 @@ from ...version import __version__
 from .. import endings, limiting, terminal
 from ..axes import Axes, axes_of
 from ..data import as_json, csv_lines, endless
-from ..terminal import greek
+from ..terminal import lettered
 from ..text import headline
 from ..units import Unit, as_bound, units_of, with_unit
 from .shades import SAMPLE, dimensions, limits_of, names, of_every_point, said, unit
@@ -239,12 +239,12 @@ def _table(found: Swept) -> list[str]:
     names = said([key for key, _ in keys + sampled])
     titles = names[:len(keys)] + ([SAMPLE, *names[len(keys):]] if sampled else [])
     units = [of for _, of in keys] + (["1", *(of for _, of in sampled)] if sampled else [])
-    units = ["" if of == "1" else greek(of) for of in units]
+    units = ["" if of == "1" else lettered(of) for of in units]
     factors, kinds = [1.0] * len(units), [""] * len(units)
     for column in columns:
         (of, one), name = _unit(plan, column), SHORT.get(column.name, column.name.replace("_", " "))
-        titles += ([f"{greek(component)} {name}" for component in plan.case.scene.components] if column.shape
-                   else [name])
+        titles += ([f"{lettered(component)} {name}" for component in plan.case.scene.components]
+                   if column.shape else [name])
         places = math.prod(column.shape)
         units, factors = units + [of] * places, factors + [one] * places
         kinds += [column.name] * places

@@ -31,7 +31,7 @@ from ..plot.over_time import file_axes
 from ..plot.path import along
 from ..plot.subject import subject
 from ..space import data
-from ..terminal import greek, printed, some
+from ..terminal import printed, some
 from ..text.classification import open_fate, uncertain_text, what_changes
 from ..text.headline import exceeded, headline, judged, lines_of, look
 from ..text.motion import constants, margins, shown, state
@@ -169,7 +169,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
         absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
         page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(one, units))
     page["space"] = _tried(absent, "Space of the rates", lambda: space(one, found, units))
-    page["uncertain"] = greek(uncertain_text(box, units))
+    page["uncertain"] = uncertain_text(box, units)
     if certify:
         page["certificate"] = _tried(absent, "Certificate", lambda: _certificate(case, folder, stem))
     return page | {"absent": [(what, printed(units.words(why))) for what, why in absent]}
@@ -198,7 +198,7 @@ def facts(case, motion, units) -> list[tuple[str, str]]:
     validity, axes, words = motion.validity, frame.rows_of_axes(case), units.words
     found = [("law", units.said(validity.reason))] if validity is not None and validity.held else []
     at = state(motion.at, units, case.scene.blocks)
-    found += [("start", f"{at} at {'tau' if units.scaled else 't'} = 0")]
+    found += [("start", f"{at} at {'τ' if units.scaled else 't'} = 0")]
     found += [("because", units.said(motion.reason).removeprefix("undecided: "))]
     found += [] if motion.ending is None else [("its end", units.said(motion.ending.reason))]
     explained = EXPLAINED | ({"margin, rate": ""} if motion.velocity_because else {})

@@ -298,7 +298,7 @@ def _scaled(words, one, rate):
 SUBJECTS = {"equilibria": ("hold", "depend"), "fate": ("holds", "depends")}
 LONG = 8  # letters of a number in a line
 # of the numbers of a witness
-UNITS = {"inertia": "kg m^2", "products": "kg m^2", "momentum": "N m s", "torque": "N m", "force": "N"}
+UNITS = {"inertia": "kg m²", "products": "kg m²", "momentum": "N m s", "torque": "N m", "force": "N"}
 
 
 def uncertain_dict(found) -> dict:

@@ -252,7 +252,7 @@ def largest(motion: Motion, units: Units) -> str:
         late = motion.invariants.get("late_rate_bound")
         end = ("" if late is None or late >= bound else f", {units.rate(late, SHORT, 1)} in the end" if late
                else ", tends to rest")
-        return f"{'|x|' if units.scaled else '|omega|'} at most {units.rate(bound, SHORT, 1)}{end}"
+        return f"{'|x|' if units.scaled else '|ω|'} at most {units.rate(bound, SHORT, 1)}{end}"
     found = greatest(motion, units)
     return f"largest rate {found}" if found else ""
 
@@ -264,7 +264,7 @@ def greatest(motion: Motion, units: Units) -> str:
     if len(sizes) < 3 or not all(map(math.isfinite, sizes.values())):
         return ""
     axis = max(sizes, key=sizes.__getitem__)
-    name, bound = "|x|" if units.scaled else "|omega|", math.hypot(*sizes.values())
+    name, bound = "|x|" if units.scaled else "|ω|", math.hypot(*sizes.values())
     sharp = motion.largest is not None and not over
     told = (f"{name} = {units.rate(motion.largest, SHORT)}" if sharp
             else f"{name} at most {units.rate(bound, SHORT, 1)}")

@@ -13,7 +13,7 @@ from ...reasons import outward
 from ...representation import values_of
 from .. import frame, limiting
 from ..axes import axes_of
-from ..terminal import greek, lettered
+from ..terminal import lettered
 from ..units import DEG, DIGITS, SHORT, Units, as_bound, but_for_rounding, number, vector
 from .headline import largest_key, rate_margin, span_words
 
@@ -89,8 +89,8 @@ def state(at, units: Units, blocks=("omega", "gamma")) -> str:
     """The rates of a state with their unit; the vertical, and the rates of a damper, after them, where they
     are part of it. blocks: of the scene."""
     rest = at[3:]
-    vertical = f", gamma = {units.vector(rest[:3], ('', 1.0))}" if rest and "gamma" in blocks else ""
-    damper = f", sigma = {units.vector(rest[-3:], units.rates)}" if rest and "damper" in blocks else ""
+    vertical = f", γ = {units.vector(rest[:3], ('', 1.0))}" if rest and "gamma" in blocks else ""
+    damper = f", σ = {units.vector(rest[-3:], units.rates)}" if rest and "damper" in blocks else ""
     return units.vector(at[:3], units.rates) + vertical + damper
 
 
@@ -118,7 +118,7 @@ def _head(when: str) -> list[str]:
 def pair_lines(case, pairs, units: Units, side: int = 0) -> list[str]:
     """A line a component: its name, least, greatest, unit. side: 1 of bounds, which are rounded outward."""
     name, one = units.rates
-    return [f"    {greek(component):<{WIDE - 2}}{shown(low, one, side=-side):>12}"
+    return [f"    {lettered(component):<{WIDE - 2}}{shown(low, one, side=-side):>12}"
             f"{shown(high, one, side=side):>14}  {name}".rstrip()
             for component, (low, high) in zip(case.scene.components, pairs)]
 
@@ -180,7 +180,7 @@ def quantity(kind: str, value, units: Units, side: int = 0) -> str:
         return number(value, DIGITS) if isinstance(value, float) else MEANINGS.get(str(value), str(value))
     if kind == "s":
         return units.time(value)
-    per = " per unit of tau" * (units.scaled and kind.endswith(")^2/s"))
+    per = " per unit of τ" * (units.scaled and kind.endswith(")^2/s"))
     return units.told(value, units.of(kind), side=side) + per
 
 
@@ -191,7 +191,7 @@ def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
         asked = found is None and not units.scaled and limiting.condition(motion.caveats, units)
         return [row("off that axis", TILTED)] if asked else []
     stated = "" if found.stated else ", twice the largest of this motion (no limit is stated)"
-    limit = f"|omega| = {units.rate(found.limit)}{stated}"
+    limit = f"|ω| = {units.rate(found.limit)}{stated}"
     lines = [f"  tilted by {DEG.angle(found.angle)}: {found.of}, to {limit}"]
     if found.ends:
         lines.append(f"    shortest time found   {units.clock(found.low, found.high)} ({found.level})")

@@ -12,7 +12,7 @@ from ...representation import values_of
 from .. import ending, frame, limiting
 from ..axes import axes_of
 from ..data import csv_lines
-from ..terminal import greek, lettered, listed
+from ..terminal import lettered, listed
 from ..units import DIGITS, Units, bracket, number
 from .headline import cause, flips, largest, outcome, rate_margin, verdict
 from .motion import (
@@ -111,11 +111,11 @@ def _answer(limit, found, low, high, units):
 
 
 def asked(limit, units):
-    """A limit in words: "|omega| = 60 deg/s", of several "|ωx| or |ωy| = 5 deg/s" where it is one number."""
+    """A limit in words: "|ω| = 60 deg/s", of several "|ωx| or |ωy| = 5 deg/s" where it is one number."""
     unit = {"energy": units.of("J"), "tilt": units.angles}.get(limit.kind, units.rates)
     # the rate about an axis as everywhere else: "|omega 3|" is |ω3|, and "|omega z|" |ωz|
-    names = [name.replace(" ", "") if limit.kind == "component" else units.axes.sentence(name)
-             for name in limit.names]
+    names = [lettered(name).replace(" ", "") if limit.kind == "component"
+             else lettered(units.axes.sentence(name)) for name in limit.names]
     told = [units.told(most, unit, DIGITS) for most in limit.limits]
     if len(set(told)) == 1:
         return f"{listed(names, 'or')} = {told[0]}"
@@ -177,7 +177,7 @@ def _all_digits(case, motion, told):
     unit = "" if case.variables == "scaled" else "rad/s"
     pairs = told.decimals or [[number(v, max(SHOWN, told.asked)) for v in pair] for pair in motion.extremes]
     wide, word = max(24, told.asked + 8), lambda end: "unbounded" if end in ("inf", "-inf") else end
-    rows = (f"  {greek(name):<8}{word(low):>{wide}}{word(high):>{wide}}  {unit}".rstrip()
+    rows = (f"  {lettered(name):<8}{word(low):>{wide}}{word(high):>{wide}}  {unit}".rstrip()
             for name, (low, high) in zip(case.scene.components, pairs))
     return [f"  over {motion.extremes_over}, least and greatest:", *rows]
 

@@ -19,7 +19,7 @@ from ...physics.effects.base import effect_words
 from ...physics.equations import Equations, Symbolic, derive, invariants
 from .. import ending, frame, limiting, terminal
 from ..axes import axes_of
-from ..terminal import greek, lettered, listed, some, table, width, written
+from ..terminal import lettered, listed, some, table, width, written
 from ..units import DEG, DIGITS, SHORT, Units, as_bound, but_for_rounding, number, parameter_unit, units_of
 from .headline import known_as, rate_margin
 from .motion import shown
@@ -77,7 +77,9 @@ def _unit(key: str, values) -> str:
     """The unit of plain numbers of a key; nothing where they bring their own."""
     path = key.split(".")
     of = DIMENSIONS.get(".".join([path[0], path[-1]]) if path[0] in ("thrusters", "wheels") else key)
-    return "" if of is None or not all(map(_bare, values)) else greek(NAMES[of].partition("(")[2].rstrip(")"))
+    if of is None or not all(map(_bare, values)):
+        return ""
+    return lettered(NAMES[of].partition("(")[2].rstrip(")"))
 
 
 def _bare(value) -> bool:
@@ -159,7 +161,7 @@ def of_extremes(motions: Sequence, names: Sequence[str],
     columns: list[Column] = [("fate", "", lambda m: m.fate.word + known_as(m))]
     for i, component in enumerate(names):
         for end, word in enumerate(("least", "most")):
-            columns.append((f"{greek(component)} {word}", name, lambda m, i=i,
+            columns.append((f"{lettered(component)} {word}", name, lambda m, i=i,
                             end=end: "" if m.extremes is None else shown(
                                 m.extremes[i][end], one, side=m.extremes_side * (2 * end - 1))))
     return filled(columns, motions)
@@ -226,10 +228,10 @@ def _whole(case, equations, own) -> str:
 def _head(case) -> str:
     rows = [written(case.title) or case.name, f"  from {case.place}"]
     rows += [f"  source: {case.source}"] if case.source else []
-    rows += [
-        f"  variables: {case.variables} ({', '.join(case.scene.components)}; time in {case.scene.time_unit})"]
+    components = ", ".join(map(lettered, case.scene.components))
+    rows += [f"  variables: {case.variables} ({components}; time in {lettered(case.scene.time_unit)})"]
     if case.physical:
-        rows.append(f"  body with inertia {_triple(case.physical.body.inertia)} kg m^2")
+        rows.append(f"  body with inertia {_triple(case.physical.body.inertia)} kg m²")
         for effect in case.physical.effects:
             values = [f"{written(name)} = {_number(v)} {parameter_unit(name)}".rstrip()
                       for name, v in effect.parameters().items()]
@@ -255,9 +257,9 @@ def _scaled(case) -> list[str]:
     except InputError:  # no torque, or a wheel off axis 1
         return [f"  scaled variables of Amer et al. 2024: {names}"]
     return [f"  scaled variables of Amer et al. 2024: {names}, u = {_number(change.u)}, "
-            f"a = {_number(twin.a)}, b = {_number(twin.b)}, mu = {_triple(twin.exact_mu)}",
-            f"  one unit of tau is {float(change.time):.6g} s; "
-            f"omega_j = {', '.join(f'{float(r):.6g}' for r in change.rate)} times x_j (rad/s)"]
+            f"a = {_number(twin.a)}, b = {_number(twin.b)}, μ = {_triple(twin.exact_mu)}",
+            f"  one unit of τ is {float(change.time):.6g} s; "
+            f"ωⱼ = {', '.join(f'{float(r):.6g}' for r in change.rate)} times xⱼ (rad/s)"]
 
 
 def _craft(case) -> list[str]:
@@ -272,7 +274,7 @@ def _craft(case) -> list[str]:
     lines += [f"wheel {w.name}: {_number(w.momentum)} N m s about {_triple(w.axis)} in the frame of the file"
               for w in case.wheels]
     if case.limits and case.limits.rate is not None:
-        lines.append(f"limit: |omega| up to {DEG.rate(case.limits.rate)}")
+        lines.append(f"limit: |ω| up to {DEG.rate(case.limits.rate)}")
     elif case.limits:
         rates = ", ".join(map(DEG.rate, case.limits.rates))
         lines.append(f"limit: components up to {rates} in the frame of the file")

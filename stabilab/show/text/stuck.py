@@ -86,7 +86,7 @@ def text(case, found, units: Units) -> str:
     names = [units.axes.name(n) for n in (1, 2, 3)]
     lines += ["", "principal axes, unit vectors in the frame of the file:"]
     wide = max(map(len, names))
-    lines += [f"  {name:<{wide}}  moment {number(moment, DIGITS)} kg m^2  {vector(axis)}"
+    lines += [f"  {name:<{wide}}  moment {number(moment, DIGITS)} kg m²  {vector(axis)}"
               for name, moment, axis in zip(names, found.principal.moments, found.principal.axes)]
     return "\n".join(lines)
 

@@ -15,7 +15,6 @@ from stabilab import load, motion
 from stabilab.answers.certificate import certificate
 from stabilab.case.read import read_text
 from stabilab.show.explore import serve
-from stabilab.show.terminal import greek
 from stabilab.show.text.headline import headline
 from tests.browser import CHROMIUM, Browser
 
@@ -71,7 +70,7 @@ def page(pyodide, tmp_path_factory):
 
 def test_the_verdict_in_the_browser_is_that_of_the_program(page):
     case = load(CASE)
-    assert page.run(HEADLINE) == greek(headline(case, motion(case.scene, case.state, exact=case.exact_state)))
+    assert page.run(HEADLINE) == headline(case, motion(case.scene, case.state, exact=case.exact_state))
 
 
 def test_sliders_move_verdict_and_surface(page):
@@ -81,8 +80,8 @@ def test_sliders_move_verdict_and_surface(page):
         page.until(ANSWERED)
     page.until(f"{RESTS} && {ANSWERED}", 60)
     case = read_text("saved.toml", page.run("shown.toml"))
-    assert page.run(HEADLINE) == greek(headline(case, motion(case.scene, case.state,
-                                                             exact=case.exact_state))) != said
+    assert page.run(HEADLINE) == headline(case, motion(case.scene, case.state,
+                                                       exact=case.exact_state)) != said
     assert page.run(mesh) != drawn
 
 
