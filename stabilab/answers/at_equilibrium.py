@@ -15,6 +15,7 @@ from typing import Any
 from ..equilibrium.result import Equilibria, EquilibriumCurve, EquilibriumPoint
 from ..equilibrium.stability import POSITIVE_EIGENVALUE, eigenvalues, invariants, isolated_verdict, pencil
 from ..errors import InputError
+from ..numbers.polynomial import compass_search
 from ..numbers.vectors import Number
 from ..orbit.result import Motion, Stability
 from ..physics.coefficients import effective
@@ -127,9 +128,6 @@ def _beside(curve: EquilibriumCurve, piece: tuple[float, float], at: Sequence[fl
         except InputError:  # an end of the piece
             return math.inf
     looks = [low + (high - low) * (n + 0.5) / LOOKS for n in range(LOOKS)]
-    best = min(looks, key=apart)
-    step = (high - low) / LOOKS
-    for _ in range(HALVINGS):
-        best = min((best - step, best, best + step), key=lambda u: apart(min(max(u, low), high)))
-        best, step = min(max(best, low), high), step / 2
-    return apart(best)
+    tried = [(apart(u), u) for u in looks]
+    closer = compass_search(apart, tried, (high - low) / LOOKS, HALVINGS, lambda u: min(max(u, low), high))
+    return min(closer)[0]

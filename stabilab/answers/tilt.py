@@ -21,6 +21,7 @@ from typing import Any, ClassVar, NamedTuple, TypeAlias
 import numpy as np
 
 from ..errors import InputError
+from ..numbers.polynomial import compass_search
 from ..numbers.vectors import Exact3
 from ..orbit.result import OUTCOMES, Motion, Needs
 from ..physics.coefficients import three_floats
@@ -484,9 +485,5 @@ def _bends(*times: tuple[float, ...]) -> bool:
 def nearest_round(value: Callable[[float], float], tried: Tried) -> Tried:
     """The (value, azimuth) of a function round the edge of a cone that were tried, and more of them, closer
     and closer to the least."""
-    step = math.pi / AZIMUTHS
-    for _ in range(REFINED):
-        beside = [(min(tried)[1] + way) % (2 * math.pi) for way in (-step, step)]
-        tried = [*tried, *((value(azimuth), azimuth) for azimuth in beside)]
-        step /= 2
-    return tried
+    once_round = lambda azimuth: azimuth % (2 * math.pi)
+    return compass_search(value, tried, math.pi / AZIMUTHS, REFINED, once_round)

@@ -2,7 +2,8 @@
 doubles.
 
 The exact roots are python-flint's, which knows no Fraction. Functions in doubles have Newton's method
-inside a bracket, for arrays and for floats, and the golden section."""
+inside a bracket, for arrays and for floats; least values are found by the golden section, or by steps that
+are halved."""
 from __future__ import annotations
 
 import math
@@ -185,6 +186,21 @@ def golden_section(size_of: Callable[[float], float], low: float, high: float,
             b = low + golden * (high - low)
             at_b = size_of(b)
     return (a, at_a), (b, at_b)
+
+
+def compass_search(size_of: Callable[[float], float], tried: list[tuple[float, float]], step: float,
+                   halvings: int, inside: Callable[[float], float]) -> list[tuple[float, float]]:
+    """The (size, place) that were tried, and more of them beside the least yet, closer and closer: each step
+    is half of the one before (Hooke and Jeeves 1961, in one dimension). Sizes may be infinite.
+
+    inside(place): the place itself, or where it is in the range that is searched.
+    """
+    for _ in range(halvings):
+        best = min(tried)[1]
+        places = [inside(best + shift) for shift in (-step, step)]
+        tried = [*tried, *((size_of(place), place) for place in places)]
+        step /= 2
+    return tried
 
 
 def held_newton(look: Callable[[float], tuple[float, float, bool | None]], low: float, high: float,

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from stabilab.numbers.polynomial import EPS, between, bracketed_newton, halved
+from stabilab.numbers.polynomial import EPS, between, bracketed_newton, compass_search, halved
 
 # name -> (f, f', bracket, root by hand, rising, most evaluations from the middle)
 FUNCTIONS = {
@@ -103,3 +103,19 @@ def test_a_point_between_lies_between_and_midway_in_decades_where_the_ends_are_d
         assert x == pytest.approx((lo + hi) / 2, rel=1e-15)
     else:
         assert 0 < abs(x) < 1e-3  # towards zero: roots there are found in decades
+
+
+@pytest.mark.parametrize("least", [0.01, 2.0, 6.28])
+def test_the_least_value_on_a_circle_is_drawn_nearer_by_half_steps(least):
+    looks = [2 * math.pi * n / 12 for n in range(12)]
+    size = lambda u: 1 - math.cos(u - least) if math.cos(u - least) > 0 else math.inf
+    tried = compass_search(size, [(size(u), u) for u in looks], math.pi / 12, 20, lambda u: u % (2 * math.pi))
+    found, place = min(tried)
+    assert len(tried) == 12 + 2 * 20 and 0 <= place < 2 * math.pi
+    # by hand: 2^-20 pi/6 from it at the most, twice the last step; the size is the half of its square
+    assert abs(math.remainder(place - least, 2 * math.pi)) <= 2.0**-20 * math.pi / 6 and found < 1e-12
+
+
+def test_a_least_value_at_an_end_stays_in_the_range():
+    tried = compass_search(lambda u: u, [(u, u) for u in (0.5, 1.5)], 1.0, 5, lambda u: min(max(u, 0.25), 2.0))
+    assert min(tried) == (0.25, 0.25)

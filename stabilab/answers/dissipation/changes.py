@@ -20,7 +20,7 @@ from ...numbers.bracket import Bracket, first_bracket, narrowed, side
 from ...physics.scene import Scene, slices
 from .spinner import Spinner, after_the_separatrix
 
-THREE_DIGITS = Fraction(1, 1 << 11)  # of an end: between two places so near
+HALVINGS = 10  # of an interval with one change of the outcome: three digits of its end
 RUNS = 24  # for one end, about
 WEAKER = 0.5  # of nutation or damping: the least that is tried
 FINEST = 2.0**-30  # of the first change tried: a closer one is the second run's
@@ -141,5 +141,5 @@ def _edge(flips: Callable[[float], bool], first: float, most: float) -> float:
         if judge(place := found.same * n / BETWEEN) < 0:
             found = Bracket(found.same * (n - 1) / BETWEEN, place)
             break
-    found = narrowed(judge, found, THREE_DIGITS)
+    found = narrowed(judge, found, Fraction(0), steps=HALVINGS)
     return float(found.same + found.other) / 2
