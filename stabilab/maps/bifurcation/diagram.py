@@ -28,8 +28,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from flint import arb, fmpq_mpoly
 
+from ...equilibrium.description import clauses
 from ...equilibrium.gyrostat import WELL, gyrostat_equilibria
-from ...equilibrium.result import Equilibria
+from ...equilibrium.result import Equilibria, Verdict
 from ...equilibrium.stability import POSITIVE_EIGENVALUE, invariants, isolated_verdict, linear_word
 from ...errors import InputError
 from ...numbers.algebraic import Algebraic, Cut, between, cuts, gaps, univariate
@@ -37,7 +38,7 @@ from ...numbers.balls import Unclear, evaluated, rational, settled, sign
 from ...numbers.vectors import CYCLE, Float3, dot, nearest_first
 from ...physics.coefficients import effective
 from ...physics.scene import QuadraticForm, euler_form
-from ...reasons import Axis, Reason, Sentence, as_reason
+from ...reasons import Axis, Reason, Sentence
 from ...version import __version__
 from .eliminated import Eliminated, Leant, Root
 from .equations import (
@@ -62,9 +63,13 @@ if TYPE_CHECKING:
 
 
 # --- The diagram
-BORDER = ("border", "m = 0 on the curve of equilibria: stability changes here")
+BORDER = Verdict("border", Sentence(
+    "stability-changes-here",
+    "m = 0 on the curve of equilibria: stability changes here")())
 SMALL = 1e-17  # radius of a ball over one plus its size
-CROSSES = ("undecided", "the curve that the motion stays on crosses itself here")
+CROSSES = Verdict("undecided", Sentence(
+    "curve-crosses-itself",
+    "the curve that the motion stays on crosses itself here")())
 
 
 def ball_form(family: Family, values: list) -> tuple[QuadraticForm, list[arb]]:
@@ -102,18 +107,20 @@ def judged_state(family: Family, kind: str, values: list, root: Root, after: int
     x = state_of(family, root.y, u)
     at = doubles(x)
     if kind == BORDERS:
-        return State(at, root.times, "degenerate", *BORDER)
+        return State(at, root.times, "degenerate", BORDER.word, reason=BORDER.reason)
     m, n = invariants(form, x)
     if kind == ISOLATED:
         n_sign = sign(n) if root.times == 1 else 0
         m_sign = 0 if flat or (n_sign and m.contains(0)) else sign(m)
-        return State(at, root.times, linear_word(m_sign, n_sign), *isolated_verdict(m_sign, n_sign))
+        verdict = isolated_verdict(m_sign, n_sign)
+        return State(at, root.times, linear_word(m_sign, n_sign), verdict.word, reason=verdict.reason)
     if root.times == 1:
         m_sign = sign(m)
-        return State(at, 1, linear_word(m_sign, 0), *(WELL.positive if m_sign > 0 else POSITIVE_EIGENVALUE))
+        verdict = WELL.positive if m_sign > 0 else POSITIVE_EIGENVALUE
+        return State(at, 1, linear_word(m_sign, 0), verdict.word, reason=verdict.reason)
     verdict = (WELL.odd if root.times % 2 == 0 else WELL.minimum if after > 0 else WELL.maximum if after < 0
                else CROSSES)
-    return State(at, root.times, "degenerate", *verdict)
+    return State(at, root.times, "degenerate", verdict.word, reason=verdict.reason)
 
 
 def general_states(family: Family, kind: str, eliminated: Eliminated, value: Fraction, digits: Any,
@@ -176,8 +183,7 @@ def _curves_at(family: Family, value: Fraction) -> There:
 
 def _names(found: Equilibria) -> Reason | None:
     """The curves by their names; None where there are none."""
-    names = ", ".join(curve.name for curve in found.curves)
-    return as_reason(names) if names else None
+    return clauses(curve.description.name for curve in found.curves) if found.curves else None
 
 
 def _change_of_curves(family: Family, cut: Cut, named: list[tuple[fmpq_mpoly, Reason]]) -> Event:
@@ -278,8 +284,9 @@ def _on_an_axis(family: Family, system: OnLine | Conics, cut: Cut) -> tuple[int,
         load = cut.number.reduced(univariate(system.load, 2)) == 0
         return (ENDLESS, (), CURVE_ON_AXIS) if load else (0, (), NONE_ON_AXIS)
     found = gyrostat_equilibria(effective(family.at((value,)).scene))
-    states = tuple(State(point.at, 1, point.linear, point.verdict, point.because) for point in found.points)
-    why, names = as_reason(found.reason), _names(found)
+    states = tuple(State(point.at, 1, point.linear, point.verdict, reason=point.reason)
+                   for point in found.points)
+    why, names = found.reason, _names(found)
     reason = (NONE_BECAUSE(why=why) if found.kind == "none" else why if names is None
               else CURVES_BECAUSE(curves=names, why=why))
     count = ENDLESS if found.curves or found.kind == "all" else len(states)
