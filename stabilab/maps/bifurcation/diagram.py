@@ -150,7 +150,7 @@ class There(NamedTuple):
     """What there is at one value: how many equilibria, and which curves, None where there are none."""
 
     number: int
-    reason: Reason | None
+    curves: Reason | None
 
 
 def of_curves(family: Family, counted: Reason) -> Diagram:
@@ -168,7 +168,7 @@ def of_curves(family: Family, counted: Reason) -> Diagram:
             if same and pieces and there == (pieces[-1].count, pieces[-1].reason):
                 pieces[-1] = replace(pieces[-1], high=gap.high)
                 continue
-            pieces.append(Piece(*gap[:2], there.number, gap.sample, (), reason=there.reason))
+            pieces.append(Piece(*gap[:2], there.number, gap.sample, (), reason=there.curves))
         if event is not None:
             events.append(event)
     return Diagram(family, CURVES, counted, tuple(pieces), tuple(events))
@@ -190,8 +190,9 @@ def _change_of_curves(family: Family, cut: Cut, named: list[tuple[fmpq_mpoly, Re
     number, exact = cut.number, cut.number.rational
     here = _curves_at(family, exact) if exact is not None else There(ENDLESS, None)
     first, *others = dict.fromkeys(why for f, why in named if number.reduced(univariate(f, 2)) == 0)
-    reason = here.reason or reduce(Reason.then, others, first)
-    return Event(float(number), exact, number.whole, number.index, ("curve",), here.number, (), reason)
+    reason = here.curves or reduce(Reason.then, others, first)
+    return Event(float(number), exact, number.whole, number.index, ("curve",), here.number, (),
+                 reason=reason)
 
 
 def _named(family: Family) -> Iterator[tuple[fmpq_mpoly, Reason]]:
@@ -239,17 +240,18 @@ def _event(family: Family, kind: str, eliminated: Eliminated, cut: Cut,
     system, number = eliminated.system, cut.number
     make = partial(Event, float(number), number.rational, number.whole, number.index)
     if number.reduced(univariate(system.special, 2)) == 0:
-        return make(("axis",), *_on_an_axis(family, system, cut))
+        count, states, reason = _on_an_axis(family, system, cut)
+        return make(("axis",), count, states, reason=reason)
     roots = settled(lambda digits: [eliminated.at_algebraic(number, digits.bits)])[0]
     if roots is None:
-        return make(("curve",), ENDLESS, (), ALL_POINTS)
+        return make(("curve",), ENDLESS, (), reason=ALL_POINTS)
     kinds = _kinds(roots, sides)
     if not kinds:
         return None
     states = settled(lambda digits: _states_at(family, kind, eliminated, cut, digits.bits, sides))
     things = "points" if kind == BORDERS else "equilibria"
     first, *others = (EVENTS[one](things=things) for one in kinds)
-    return make(kinds, len(roots), states, reduce(Reason.then, others, first))
+    return make(kinds, len(roots), states, reason=reduce(Reason.then, others, first))
 
 
 def _kinds(roots: Sequence[Root], sides: Sequence[Piece | None]) -> tuple[str, ...]:
@@ -395,6 +397,9 @@ def _solved(diagram: Diagram, eliminated: Eliminated, value: Fraction, count: in
 # --- Its certificate
 SCHEMA = "stabilab.diagram-certificate/1"
 BITS = 128  # of the bounds about an irrational value
+CONNECTIONS = Sentence(
+    "connections-uncertified",
+    "{number} connections: the heights of saddles hold an angle and are isolated by balls alone")
 MOST = 64  # events that a certificate may hold
 
 
@@ -425,9 +430,7 @@ def diagram_certificate(found: Diagram) -> dict[str, Any]:
             "pieces": [{"equilibria": _count(piece.count), "stable": _stable(found, piece)}
                        for piece in pieces],
             "events": [{"t": _bounds(event), "equilibria": _count(event.count)} for event in events],
-            "uncertified": [f"{len(found.connections)} connections: the heights of saddles hold an angle and "
-                            "are isolated by balls alone"]
-            if found.connections else []}
+            "uncertified": [CONNECTIONS(number=len(found.connections)).text()] if found.connections else []}
 
 
 def _changes(found: Diagram) -> tuple[list[Piece], list[Event]]:

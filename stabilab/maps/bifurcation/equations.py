@@ -134,7 +134,7 @@ class State(Reasoned):
 
 
 @dataclass(frozen=True)
-class Event:
+class Event(Reasoned):
     """A value at which something happens. value: a double, in the unit of the range; exact: the number itself
     where it is rational; polynomial: whole coefficients, lowest power first, of which it is the real root
     number `index` (in rising order, from 0); kinds: "fold", "pitchfork", "crossing", "touch", "infinity",
@@ -148,7 +148,6 @@ class Event:
     kinds: tuple[str, ...]
     count: int
     states: tuple[State, ...]
-    reason: Reason
 
     @property
     def words(self) -> str:
