@@ -93,11 +93,16 @@ class Coefficient:
     def text(self, of: Of | None, letters: bool) -> str:
         """Rounded to six digits but in SI."""
         one = 1.0 if of is None else of(self.unit)[1]
-        if one == 1.0:
-            found = decimal(self.value) if self.digits is None else number(self.value, self.digits)
-            if of is None or len(found) <= DIGITS + 2:
-                return found.replace("inf", "∞") if letters else found
-        return number(self.value * one, DIGITS).replace("inf", "∞" if letters else "inf")
+        found = decimal(self.value) if self.digits is None else number(self.value, self.digits)
+        if one != 1.0 or of is not None and len(found) > DIGITS + 2:
+            found = self._rounded(one)
+        return found.replace("inf", "∞") if letters else found
+
+    def _rounded(self, one: float) -> str:
+        """To six digits in a unit of which so many make one in SI."""
+        top, bottom = one.as_integer_ratio()
+        value = self.value * top / bottom
+        return number(float(value), DIGITS) if in_doubles(value) else decimal(value)
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,7 +129,7 @@ class Power:
 
 @dataclass(frozen=True, slots=True)
 class Formula:
-    """Symbols and signs with numbers between them, such as "ω1 - 0.4"."""
+    """Symbols and signs with numbers between them, such as "ω1 - 0.4"; in JSON a list of both."""
 
     parts: tuple[str | Coefficient | Unit, ...]
 
@@ -256,9 +261,11 @@ def plain(value: Any) -> Any:
     if isinstance(value, Axis):
         return value.number
     if isinstance(value, Coefficient):
-        return float(value.value)
+        return float(value.value) if in_doubles(value.value) else decimal(value.value)
     if isinstance(value, Power):
         return value.exponent
+    if isinstance(value, Formula) and not all(isinstance(part, str) for part in value.parts):
+        return [part.translate(_PLAIN) if isinstance(part, str) else plain(part) for part in value.parts]
     if isinstance(value, Symbolic):
         return value.text(None, False)
     if isinstance(value, Reason):
@@ -284,15 +291,19 @@ def number(value: float, digits: int = DIGITS, side: int = 0) -> str:
 def decimal(value: Any) -> str:
     """An exact number or a double: the shortest decimal that reads back as the same double; six digits beyond
     the doubles."""
-    try:
-        near = float(value)
-    except OverflowError:
-        near = 0.0
-    if value and not near:
+    if not in_doubles(value):
         digits = Context(prec=6, Emin=-10**6, Emax=10**6)
         ratio = digits.divide(*map(digits.create_decimal, (value.numerator, value.denominator)))
         return f"{ratio:e}"
-    return repr(near + 0.0).removesuffix(".0")
+    return repr(float(value) + 0.0).removesuffix(".0")
+
+
+def in_doubles(value: Any) -> bool:
+    """Whether a number is zero or has a double near it that is not."""
+    try:
+        return bool(float(value)) or not value
+    except OverflowError:
+        return False
 
 
 def outward(value: float, digits: int, side: int) -> float:

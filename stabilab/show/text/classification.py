@@ -20,7 +20,7 @@ from ...reasons import Quantity, Reason
 from ...representation import values_of
 from .. import ending, frame, limiting
 from ..axes import axes_of
-from ..terminal import lettered, written
+from ..terminal import lettered, plain, written
 from ..units import DIGITS, SI, Unit, Units, as_bound, number
 from . import questions
 from .headline import largest_key, verdict
@@ -213,12 +213,12 @@ def _input(case, at) -> dict:
 
 
 def _curve_dict(case, curve) -> dict:
-    """With its words as sentences under `description`, and the unit in SI of its parameter."""
+    """With its words as sentences under `description`, and its parameter with the unit in SI."""
     told = curve.description
     return values_of(curve, "name equation parametrisation") | {
         "description": {name: getattr(told, name).as_dict()
                         for name in ("name", "equation", "parametrisation")},
-        "parameter": {"symbol": told.symbol, "unit": told.unit},
+        "parameter": {"symbol": plain(told.symbol), "unit": told.unit * (case.variables != "scaled")},
         "samples": [_point_dict(case, p) for p in curve.samples], "folds": curve.folds,
         "segments": [values_of(s, "t linear verdict because") | {"reason": s.reason.as_dict()}
                      for s in curve.segments]}
