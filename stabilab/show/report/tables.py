@@ -5,7 +5,6 @@ their verdicts, and what change gives the motion another fate."""
 from __future__ import annotations
 
 import math
-import re
 from typing import Any
 
 from ...case.limit_options import stated_limit
