@@ -270,9 +270,9 @@ def _curve(field, number, branch, cuts) -> EquilibriumCurve:
     name = BRANCH(number=number).then(
         A_CIRCLE(axis=Axis(6 - sum(i + 1 for i in circle))) if circle else None, ", ")
     first, last = (Coefficient(end, RATE, 6) for end in (segments[0].t[0], segments[-1].t[1]))
-    run = OVER_RATE(low=first, high=last, unit=Unit(RATE)).then(GAMMA_OF_RATE)
+    parametrisation = OVER_RATE(low=first, high=last, unit=Unit(RATE)).then(GAMMA_OF_RATE)
     about = Description(name, BALANCE.then(WITH_CHARGE if field.E != 0 else None, " "),
-                        run.then(ALL_TURNS if circle else None, ", "), "Ω")
+                        parametrisation.then(ALL_TURNS if circle else None, ", "), "Ω")
     return EquilibriumCurve(about, _point_function(field, branch), tuple(segments), tuple(changes),
                             tuple(samples))
 
