@@ -102,7 +102,7 @@ def test_json_has_every_number_of_a_curve_beside_its_words(D, lam, M, tmp_path):
     case = stabilab.load(path)
     found = equilibria(case)
     written = json.loads(json.dumps(as_dict(case, found, None)["equilibria"], default=str))
-    assert written["completeness"] == {"code": found.reason.code, "text": found.because}
+    assert written["why"] == {"code": found.reason.code, "text": found.because}
     for told, curve in zip(written["curves"], found.curves):
         assert told["parameter"] == {"symbol": "t", "unit": curve.description.unit}
         for part in ("name", "equation", "parametrisation"):

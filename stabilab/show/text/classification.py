@@ -199,7 +199,7 @@ def as_dict(case, equilibria, motion) -> dict:
     """One object of `stabilab classify --json`."""
     return {"schema": "stabilab.classify/1", "case": case.name, "variables": case.variables,
             "equilibria": {"kind": equilibria.kind, "reason": equilibria.because,
-                           "completeness": equilibria.reason.as_dict(),
+                           "why": equilibria.reason.as_dict(),
                            "points": [_point_dict(case, p) | _input(case, p.at) for p in equilibria.points],
                            "curves": [_curve_dict(case, c) for c in equilibria.curves]},
             "motion": None if motion is None else _motion_dict(case, motion) | _input(case, motion.at)

@@ -328,7 +328,7 @@ def circular_orbit_dict(case, found) -> dict:
     result = found.equilibria
     return {"schema": "stabilab.orbit/1", "case": case.name, **values_of(found, "rate period moments"),
             "momentum": in_file(case, found.momentum), "kind": result.kind, "reason": result.because,
-            "completeness": result.reason.as_dict(),
+            "why": result.reason.as_dict(),
             "equilibria": [_object(case, found, one) for one in result.points],
             "families": [_object(case, found, one)
                          | {"family": one.family, "consists": one.consists.as_dict(),
