@@ -19,8 +19,8 @@ ASCII = {"ω": "omega", "λ": "lambda", "Λ": "Lambda", "μ": "mu", "γ": "gamma
          "ζ": "zeta", "τ": "tau", "β": "beta", "δ": "delta", "ε": "eps", "η": "eta", "θ": "theta", "κ":
          "kappa", "ν": "nu", "Π": "Pi", "π": "pi", "φ": "phi", "ψ": "psi", "ρ": "rho", "Γ": "Gamma", "Δ":
          "Delta", "Ω": "Omega", "ᵢ": "_i", "ⱼ": "_j", "ₖ": "_k", "∞": "inf", "²": "^2", "³": "^3", "⁴": "^4",
-         "±": "+-", "∓": "-+", "−": "-", "–": "-", "≤": "<=", "≥": ">=", "≠": "!=", "√": "sqrt", "×": "x",
-         "·": ".", "µ": "u", "°": " deg", "…": "..."}
+         "⁵": "^5", "⁶": "^6", "⁷": "^7", "⁸": "^8", "⁹": "^9", "±": "+-", "∓": "-+", "−": "-", "–": "-",
+         "≤": "<=", "≥": ">=", "≠": "!=", "√": "sqrt", "×": "x", "·": ".", "µ": "u", "°": " deg", "…": "..."}
 _PLAIN = str.maketrans(ASCII)
 
 
@@ -78,8 +78,72 @@ class Axis:
     number: int
 
 
+Of: TypeAlias = Callable[[str], tuple[str, float]]  # an SI unit -> the unit shown, and how many make one
+
+
+@dataclass(frozen=True, slots=True)
+class Coefficient:
+    """A number of a formula, whose unit stands beside the formula. unit: in SI; digits: in SI, None for all
+    (the shortest decimal)."""
+
+    value: Any
+    unit: str = ""
+    digits: int | None = None
+
+    def text(self, of: Of | None, letters: bool) -> str:
+        """Rounded to six digits but in SI."""
+        one = 1.0 if of is None else of(self.unit)[1]
+        found = decimal(self.value) if self.digits is None else number(self.value, self.digits)
+        if one != 1.0 or of is not None and len(found) > DIGITS + 2:
+            found = self._rounded(one)
+        return found.replace("inf", "∞") if letters else found
+
+    def _rounded(self, one: float) -> str:
+        """To six digits in a unit of which so many make one in SI."""
+        top, bottom = one.as_integer_ratio()
+        value = self.value * top / bottom
+        return number(float(value), DIGITS) if in_doubles(value) else decimal(value)
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """The name of a unit, by its SI symbol."""
+
+    name: str
+
+    def text(self, of: Of | None, letters: bool) -> str:
+        """Its name for the reader."""
+        return self.name if of is None else of(self.name)[0]
+
+
+@dataclass(frozen=True, slots=True)
+class Power:
+    """An exponent from 2 to 9."""
+
+    exponent: int
+
+    def text(self, of: Of | None, letters: bool) -> str:
+        """Raised where there are letters."""
+        return "⁰¹²³⁴⁵⁶⁷⁸⁹"[self.exponent] if letters else f"^{self.exponent}"
+
+
+@dataclass(frozen=True, slots=True)
+class Formula:
+    """Symbols and signs with numbers between them, such as "ω1 - 0.4"; in JSON a list of both."""
+
+    parts: tuple[str | Coefficient | Unit, ...]
+
+    def text(self, of: Of | None, letters: bool) -> str:
+        """Its parts in a row."""
+        plain_of = (lambda part: part) if letters else (lambda part: part.translate(_PLAIN))
+        return "".join(plain_of(part) if isinstance(part, str) else part.text(of, letters)
+                       for part in self.parts)
+
+
+Symbolic = (Coefficient, Unit, Power, Formula)
 # str: a user's name, or a word without a number
-Filling: TypeAlias = "Quantity | Axis | Level | int | str | Reason | tuple[Filling, ...]"
+Filling: TypeAlias = ("Quantity | Axis | Level | int | str | Reason | Coefficient | Unit | Power | Formula "
+                      "| tuple[Filling, ...]")
 
 
 @dataclass(frozen=True)
@@ -98,7 +162,7 @@ class Sentence:
         return tuple(dict.fromkeys(name for _, name, *_ in Formatter().parse(self.template) if name))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Reason:
     """A sentence with its quantities, and the clauses that follow it, each behind its joint."""
 
@@ -137,8 +201,12 @@ class Reason:
         return any(one.sentence in sentences for _, one in self.clauses())
 
     def without(self, sentence: Sentence) -> Reason:
-        """Without the clauses behind the first that are this sentence."""
-        return replace(self, rest=tuple((joint, one) for joint, one in self.rest if one.sentence != sentence))
+        """Without the clauses that are this sentence, as far as others are left."""
+        rest = tuple((joint, one) for joint, one in self.rest if one.sentence != sentence)
+        if self.sentence != sentence or not rest:
+            return replace(self, rest=rest)
+        (_, first), *others = rest
+        return replace(first, rest=(*first.rest, *others))
 
     def text(self, fill: Callable[[Any], str] | None = None, letters: bool = False) -> str:
         """The words. fill: a filling as text, in SI without it; letters: whether it is printed with letters
@@ -154,6 +222,9 @@ class Reason:
 
     def __bool__(self) -> bool:
         return bool(self.sentence.template)
+
+    def __repr__(self) -> str:
+        return f"Reason({self.code!r}, {self.text()!r})"
 
     def as_dict(self, fill: Callable[[Any], str] | None = None) -> dict[str, Any]:
         """An object of JSON: "code", "text" and each quantity by its name in SI; "then": the clauses that
@@ -189,6 +260,14 @@ def plain(value: Any) -> Any:
         return [*map(float, value.value)] if isinstance(value.value, tuple) else float(value.value)
     if isinstance(value, Axis):
         return value.number
+    if isinstance(value, Coefficient):
+        return float(value.value) if in_doubles(value.value) else decimal(value.value)
+    if isinstance(value, Power):
+        return value.exponent
+    if isinstance(value, Formula) and not all(isinstance(part, str) for part in value.parts):
+        return [part.translate(_PLAIN) if isinstance(part, str) else plain(part) for part in value.parts]
+    if isinstance(value, Symbolic):
+        return value.text(None, False)
     if isinstance(value, Reason):
         return value.as_dict() if value.code else value.text()
     return [*map(plain, value)] if isinstance(value, tuple) else value
@@ -209,6 +288,24 @@ def number(value: float, digits: int = DIGITS, side: int = 0) -> str:
     return f"{outward(float(value), digits, side) + 0.0:.{digits}g}"
 
 
+def decimal(value: Any) -> str:
+    """An exact number or a double: the shortest decimal that reads back as the same double; six digits beyond
+    the doubles."""
+    if not in_doubles(value):
+        digits = Context(prec=6, Emin=-10**6, Emax=10**6)
+        ratio = digits.divide(*map(digits.create_decimal, (value.numerator, value.denominator)))
+        return f"{ratio:e}"
+    return repr(float(value) + 0.0).removesuffix(".0")
+
+
+def in_doubles(value: Any) -> bool:
+    """Whether a number is zero or has a double near it that is not."""
+    try:
+        return bool(float(value)) or not value
+    except OverflowError:
+        return False
+
+
 def outward(value: float, digits: int, side: int) -> float:
     """The value rounded to so many significant digits, up (side +1) or down (-1); itself for side 0."""
     if not side or value - value != 0 or float(f"{value:.{digits}g}") == value:  # which is read back as it is
@@ -226,6 +323,8 @@ def in_si(value: Any, axis: Callable[[int], str] = "axis {}".format) -> str:
             f"{numbers} {value.unit}".rstrip())
     if isinstance(value, Axis):
         return axis(value.number)
+    if isinstance(value, Symbolic):
+        return value.text(None, False)
     if isinstance(value, Reason):
         return value.text(partial(in_si, axis=axis))
     if isinstance(value, tuple):

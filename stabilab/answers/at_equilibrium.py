@@ -12,7 +12,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-from ..equilibrium.result import Equilibria, EquilibriumCurve, EquilibriumPoint
+from ..equilibrium.result import Equilibria, EquilibriumCurve, EquilibriumPoint, Verdict
 from ..equilibrium.stability import POSITIVE_EIGENVALUE, eigenvalues, invariants, isolated_verdict, pencil
 from ..errors import InputError
 from ..numbers.polynomial import compass_search
@@ -20,13 +20,18 @@ from ..numbers.vectors import Number
 from ..orbit.result import Motion, Stability
 from ..physics.coefficients import effective
 from ..physics.scene import AnyScene
+from ..reasons import Sentence
 from .equilibria import equilibria
 
 NEAR = 1e-9  # of the size of a state: an equilibrium that is found in doubles is the same as the state
 ON_CURVE = 1e-7  # the same for a curve, along which the nearest place is searched
 LOOKS, HALVINGS = 400, 60  # along a piece of a curve of equilibria; of the interval round the nearest look
 GROWS = 1e-7  # of the size of the Jacobian: a real part below it may be rounding
-NOT_FOUND = ("undecided", "the state was not found among the equilibria that are known of this scene")
+GROWS_LINEARLY = Verdict("unstable", Sentence(
+    "grows-linearly", "an eigenvalue of the Jacobian of the full equations has a positive real part")())
+NOT_FOUND = Verdict("undecided", Sentence(
+    "not-among-equilibria",
+    "the state was not found among the equilibria that are known of this scene")())
 
 
 def with_stability(scene: AnyScene, found: Motion, exact: Sequence[Number] | None = None) -> Motion:
@@ -42,27 +47,30 @@ def of_gyrostat(scene: AnyScene, x: Sequence[Number]) -> Stability:
     p = pencil(scene)
     m, n = (Fraction(v) for v in invariants(p.form, tuple(map(Fraction, x))))
     if n or m < 0:
-        _, because = isolated_verdict((m > 0) - (m < 0), (n > 0) - (n < 0)) if n else POSITIVE_EIGENVALUE
+        verdict = isolated_verdict((m > 0) - (m < 0), (n > 0) - (n < 0)) if n else POSITIVE_EIGENVALUE
         try:
             growth = max(z.real for z in eigenvalues(m, n))
         except OverflowError:
             growth = math.inf
-        return Stability("unstable", because, growth)
+        return Stability("unstable", growth, reason=verdict.reason)
     found = equilibria(scene)
     if found.kind == "all":
-        return Stability("stable", found.reason)
-    return Stability(*_without_growth(found, tuple(map(float, x)), "stable" if m else "degenerate"))
+        return Stability("stable", reason=found.reason)
+    return _stability(_without_growth(found, tuple(map(float, x)), "stable" if m else "degenerate"))
 
 
 def of_scene(scene: AnyScene, at: Sequence[float]) -> Stability:
     """Of a state of equilibrium, its blocks in a row, whatever acts."""
     verdict = _looked_up(equilibria(scene), at)
-    if verdict[0] in ("stable", "asymptotically stable"):
-        return Stability(*verdict)
+    if verdict.word in ("stable", "asymptotically stable"):
+        return _stability(verdict)
     growth = _growth(scene, at)
-    if verdict[0] == "undecided" and growth is not None:
-        verdict = "unstable", "an eigenvalue of the Jacobian of the full equations has a positive real part"
-    return Stability(*verdict, growth)
+    return _stability(GROWS_LINEARLY if verdict.word == "undecided" and growth is not None else verdict,
+                      growth)
+
+
+def _stability(verdict: Verdict, growth: float | None = None) -> Stability:
+    return Stability(verdict.word, growth, reason=verdict.reason)
 
 
 def _growth(scene: AnyScene, at: Sequence[float]) -> float | None:
@@ -80,31 +88,31 @@ def _growth(scene: AnyScene, at: Sequence[float]) -> float | None:
     return largest if largest > GROWS * float(np.abs(jacobian).max()) else None
 
 
-def _without_growth(found: Equilibria, at: Sequence[float], linear: str) -> tuple[str, str]:
+def _without_growth(found: Equilibria, at: Sequence[float], linear: str) -> Verdict:
     """The verdict where no eigenvalue has a positive real part: that of the same state, else of the pieces of
     curves of the same linear kind, where these agree."""
     near = _nearest((*found.points, *(one for curve in found.curves for one in curve.samples)), at)
     if near is not None:
-        return near.verdict, near.because
-    alike = {one.verdict: (one.verdict, one.because) for curve in found.curves for one in curve.segments
+        return Verdict(near.verdict, near.reason)
+    alike = {one.verdict: Verdict(one.verdict, one.reason) for curve in found.curves for one in curve.segments
              if one.linear == linear}
     return alike.popitem()[1] if len(alike) == 1 else NOT_FOUND
 
 
-def _looked_up(found: Equilibria, at: Sequence[float]) -> tuple[str, str]:
+def _looked_up(found: Equilibria, at: Sequence[float]) -> Verdict:
     """The verdict on the equilibrium that is at the state."""
     if found.kind == "all":
-        return "stable", found.reason
+        return Verdict("stable", found.reason)
     samples = [*found.points, *(one for curve in found.curves for one in curve.samples)]
     near = _nearest(samples, at)
     if near is not None:
-        return near.verdict, near.because
+        return Verdict(near.verdict, near.reason)
     pieces = [(_beside(curve, piece.t, at), n, piece) for curve in found.curves
               for n, piece in enumerate(curve.segments)]
     apart, _, piece = min(pieces, default=(math.inf, 0, None))
     if piece is not None and apart <= ON_CURVE:
-        return piece.verdict, piece.because
-    return ("undecided", found.reason) if found.kind == "undecided" else NOT_FOUND
+        return Verdict(piece.verdict, piece.reason)
+    return Verdict("undecided", found.reason) if found.kind == "undecided" else NOT_FOUND
 
 
 def _apart(one: Sequence[float], at: Sequence[float]) -> float:

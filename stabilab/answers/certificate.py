@@ -10,17 +10,15 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from ..equilibrium.gyrostat import (
+from ..equilibrium.gyrostat import balance_fails, conic_curves, isolated_states
+from ..equilibrium.stability import curve_with_verdicts, cuts_of, isolated_point, pencil
+from ..equilibrium.torque_free import (
     DRIFT,
-    balance_fails,
-    conic_curves,
-    isolated_states,
     plane_centre,
     plane_moments,
     plane_of_equal_moments,
     torque_free_curves,
 )
-from ..equilibrium.stability import curve_with_verdicts, cuts_of, isolated_point, pencil
 from ..numbers.balls import fraction
 from ..orbit.extremes import extreme_balls, period_ball
 from ..orbit.fate import fate_of

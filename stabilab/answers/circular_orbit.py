@@ -31,7 +31,8 @@ MIDDLES = Caveat(Kind.UNCERTAIN,
                  Sentence("of-the-middles-alone", "of the middles of the uncertain numbers")())
 MOST = Fraction(10)**50
 BITS = 64  # more than doubles have; of 240, as a case has them, elimination makes numbers of pages
-ROUNDED = "as some numbers are irrational ({}), all are taken to 64 bits"
+ROUNDED = Sentence("numbers-rounded",
+                   "as some numbers are irrational ({names}), all are taken to {bits} bits")
 
 
 @dataclass(frozen=True)
@@ -79,8 +80,8 @@ def circular_orbit(orbiting: Any, up_to: Amount | None = None) -> CircularOrbit:
         satellite = satellite.rounded(BITS)
     equilibria = orbit_equilibria(satellite)
     if irrational:
-        words = ROUNDED.format(", ".join(irrational))
-        equilibria = replace(equilibria, reason=f"{equilibria.reason}; {words}")
+        equilibria = replace(equilibria, reason=equilibria.reason.then(
+            ROUNDED(names=", ".join(irrational), bits=BITS)))
     rate = math.sqrt(orbiting.rate_squared)
     return CircularOrbit(rate, 2 * math.pi / rate, tuple(map(float, satellite.moments)),
                          tuple(map(float, satellite.momentum)), equilibria,

@@ -12,6 +12,7 @@ from ..equilibrium.result import Equilibria
 from ..physics.coefficients import content, limits_of
 from ..physics.effects import effect_class
 from ..physics.scene import AnyScene, ScaledGyrostat, Scene
+from ..reasons import Reason, Sentence
 from .caveats import answered
 
 # kind of a scene's torques -> (module of `equilibrium`, its function of their coefficients); one that no
@@ -25,14 +26,18 @@ BY_KIND = {
     "wheel motor": ("wheel_motor", "equilibria_with_a_motor"),
 }
 
-STOPPED = ("of the body once the motor has stopped, where its wheel had the momentum of the gyrostat when it "
-           "started")
-STARTED = "of the body once the motor has stopped, from the momentum of its wheel in [motion] on"
+STOPPED = Sentence(
+    "once-motor-stopped",
+    "of the body once the motor has stopped, where its wheel had the momentum of the gyrostat when it "
+    "started")()
+STARTED = Sentence(
+    "once-motor-stopped-from-start",
+    "of the body once the motor has stopped, from the momentum of its wheel in [motion] on")()
 
 
-def once_stopped(found: Equilibria) -> str:
-    """Of which body they are, where a motor stops; else nothing."""
-    return next((words for words in (STOPPED, STARTED) if found.reason.endswith(words)), "")
+def once_stopped(found: Equilibria) -> Reason | None:
+    """Of which body they are, where a motor stops; else None."""
+    return next((one for one in (STOPPED, STARTED) if found.reason.says(one.sentence)), None)
 
 
 def equilibria(scene: Given) -> Equilibria:
@@ -50,7 +55,8 @@ def equilibria(scene: Given) -> Equilibria:
     of: Any = scene if case is None else case.scene
     if case is not None and of.ending and any(given := case.blocks.get("wheel", ())):
         found = equilibria(_with_wheel(of, given))
-        return answered(replace(found, reason=found.reason.replace(STOPPED, STARTED)), case, found.validity)
+        found = replace(found, reason=found.reason.without(STOPPED.sentence).then(STARTED))
+        return answered(found, case, found.validity)
     found = (None if of.plain else other_equilibria(of)) or gyrostat_equilibria(of)
     limits = limits_of(of)
     found = replace(found, frame=of.frame, validity=limits.at_equilibria(of, found) if limits else None)
@@ -79,5 +85,4 @@ def other_equilibria(scene: AnyScene) -> Equilibria | None:
     parts = parts.without_motor if stops else parts
     module, answer = BY_KIND[parts.kind]
     found = getattr(import_module(f"..equilibrium.{module}", __package__), answer)(parts)
-    words = (found.reason, str(parts.note or ""), STOPPED if stops else "")
-    return replace(found, reason="; ".join(filter(None, words)))
+    return replace(found, reason=found.reason.then(parts.note).then(STOPPED if stops else None))

@@ -28,6 +28,7 @@ from ..numbers.algebraic import coefficients, cuts, gaps, univariate
 from ..numbers.balls import Digits, Unclear, rational, settled
 from ..numbers.vectors import CYCLE, Float3, cross, dot, nearest_first
 from ..physics.circular_orbit import Satellite
+from ..reasons import Reason, Reasoned, Sentence
 from .circular_orbit_places import (
     FLAT,
     Family,
@@ -50,16 +51,17 @@ from .circular_orbit_places import (
 
 # --- The answer
 @dataclass(frozen=True)
-class OrbitEquilibrium:
+class OrbitEquilibrium(Reasoned):
     """An attitude at rest in the orbital frame.
 
     velocity, normal, vertical: unit vectors of the orbital frame (along the velocity, normal to the orbit in
     the sense of the angular momentum, up) in the body frame: the rows of the matrix of direction cosines.
     linear: "stable" (all eigenvalues imaginary, none zero), "unstable" or "degenerate"; verdict: "stable",
-    "unstable" or "undecided" (Lyapunov's sense, for the full motion), because: its proof. minimum: whether
-    the dynamic potential has a definite minimum here. eigenvalues: six, 1/s; frequencies: of librations,
-    rad/s, rising. potential: the dynamic potential, J. family: of one attitude of a continuous family, what
-    it consists of; "" of an isolated one. axis: of the body, about which the family turns, or None.
+    "unstable" or "undecided" (Lyapunov's sense, for the full motion), reason: its proof, because: the same in
+    words. minimum: whether the dynamic potential has a definite minimum here. eigenvalues: six, 1/s;
+    frequencies: of librations, rad/s, rising. potential: the dynamic potential, J. consists: of one attitude
+    of a continuous family, what the family consists of, None of an isolated one; family: the same in words.
+    axis: of the body, about which the family turns, or None.
     """
 
     velocity: Float3
@@ -67,13 +69,17 @@ class OrbitEquilibrium:
     vertical: Float3
     linear: str
     verdict: str
-    because: str
     minimum: bool
     eigenvalues: tuple[complex, ...]
     frequencies: tuple[float, ...]
     potential: float
-    family: str = ""
+    consists: Reason | None = None
     axis: Float3 | None = None
+
+    @property
+    def family(self) -> str:
+        """What the family consists of, in words; empty of an isolated one."""
+        return "" if self.consists is None else self.consists.text()
 
     @property
     def angles(self) -> Float3:
@@ -82,14 +88,14 @@ class OrbitEquilibrium:
 
 
 @dataclass(frozen=True)
-class OrbitEquilibria:
+class OrbitEquilibria(Reasoned):
     """All of them. kind: "points" (isolated ones alone), "curves" (continuous families, perhaps with isolated
-    ones) or "all" (every attitude); reason: why these and no others. points: isolated, in pairs that a half
-    turn about the orbit normal leads into each other, the stable ones first; families: one attitude of each.
+    ones) or "all" (every attitude); reason: why these and no others, because: the same in words. points:
+    isolated, in pairs that a half turn about the orbit normal leads into each other, the stable ones first;
+    families: one attitude of each.
     """
 
     kind: str
-    reason: str
     points: tuple[OrbitEquilibrium, ...] = ()
     families: tuple[OrbitEquilibrium, ...] = ()
 
@@ -115,15 +121,23 @@ def yaw_pitch_roll(velocity: Float3, normal: Float3, vertical: Float3) -> Float3
 BITS = 256  # of the numbers behind the doubles of an answer, at first
 NOTHING, ENOUGH = 2.0**-150, 2.0**-100  # of a number of the size of 1; of a ball's width, relative
 ORDER = ("stable", "undecided", "unstable")
-EVERY = "all moments are equal and there is no wheel momentum: no torque acts, every attitude is an " \
-        "equilibrium"
-COMPLETE = "each line of the vertical is a real root of polynomials with exact coefficients, none is " \
-           "missed; a half turn about the orbit normal leads to the other of each pair"
-SPREAD = "turns about an axis of the body change nothing"
-ON_CURVE = "on a curve of equilibria, or next to one"
-LEAST = "the dynamic potential is flat to second order here, but less than at any other equilibrium: the " \
-        "Jacobi integral is a Lyapunov function"
-CURVED = "the equations have a common factor at exactly this wheel momentum"
+EVERY = Sentence(
+    "orbit-every-attitude",
+    "all moments are equal and there is no wheel momentum: no torque acts, every attitude is an "
+    "equilibrium")()
+COMPLETE = Sentence(
+    "orbit-complete",
+    "each line of the vertical is a real root of polynomials with exact coefficients, none is missed; a "
+    "half turn about the orbit normal leads to the other of each pair")()
+SPREAD = Sentence("orbit-turns-change-nothing", "turns about an axis of the body change nothing")()
+ON_CURVE = Sentence("orbit-on-curve", "on a curve of equilibria, or next to one")()
+LEAST = Sentence(
+    "orbit-least",
+    "the dynamic potential is flat to second order here, but less than at any other equilibrium: the Jacobi "
+    "integral is a Lyapunov function")()
+CURVED = Sentence(
+    "orbit-common-factor",
+    "the equations have a common factor at exactly this wheel momentum")()
 
 
 class _Solved(NamedTuple):
@@ -138,21 +152,22 @@ def orbit_equilibria(satellite: Satellite) -> OrbitEquilibria:
     """Every equilibrium in the orbital frame, none missed and none invented."""
     k = symmetry(satellite)
     if k == 3 and not any(satellite.momentum):
-        return OrbitEquilibria("all", EVERY)
+        return OrbitEquilibria("all", reason=EVERY)
     if k is not None:
-        return OrbitEquilibria("curves", f"{SPREAD}; {COMPLETE}", (), _of(satellite, turned(satellite, k)))
+        return OrbitEquilibria("curves", (), _of(satellite, turned(satellite, k)),
+                               reason=SPREAD.then(COMPLETE))
     places = isolated(satellite)
     points = [one for line in places.lines for one in _solved(satellite, line)]
     families = () if places.curve is None else _of(satellite, along_curve(satellite, *places.curve))
     if families:
-        on = [replace(solved.one, family=ON_CURVE) for solved in points if not solved.signs.determinant]
+        on = [replace(solved.one, consists=ON_CURVE) for solved in points if not solved.signs.determinant]
         families, points = _sorted([*on, *families]), [one for one in points if one.signs.determinant]
     else:
         points = [_with_least(solved, points) for solved in points]
-    return OrbitEquilibria("curves" if families else "points",
-                           f"{CURVED}; {COMPLETE}" if families else COMPLETE,
-                           tuple(other for one in _sorted([solved.one for solved in points])
-                                 for other in (one, _half_turned(one))), families)
+    pairs = tuple(other for one in _sorted([solved.one for solved in points])
+                  for other in (one, _half_turned(one)))
+    return OrbitEquilibria("curves" if families else "points", pairs, families,
+                           reason=CURVED.then(COMPLETE) if families else COMPLETE)
 
 
 def _of(satellite: Satellite, families: Iterable[Family]) -> tuple[OrbitEquilibrium, ...]:
@@ -166,10 +181,10 @@ def _sorted(found: Iterable[OrbitEquilibrium]) -> tuple[OrbitEquilibrium, ...]:
 def _with_least(solved: _Solved, points: Iterable[_Solved]) -> _Solved:
     """Stable where the dynamic potential, flat to second order, is less than at all others: it is least
     somewhere on the compact set of attitudes, and an isolated place of that kind is a strict minimum."""
-    if solved.one.because != FLAT or not all(solved.potential < other.potential for other in points
+    if solved.one.reason != FLAT or not all(solved.potential < other.potential for other in points
                                              if other is not solved):
         return solved
-    return solved._replace(one=replace(solved.one, verdict="stable", because=LEAST))
+    return solved._replace(one=replace(solved.one, verdict="stable", reason=LEAST))
 
 
 def _half_turned(one: OrbitEquilibrium) -> OrbitEquilibrium:
@@ -185,7 +200,7 @@ def _solved(satellite: Satellite, line: Line, family: Family | None = None) -> l
 
 def _attitude(satellite: Satellite, line: Line, index: int, family: Family | None) -> _Solved:
     signs = signs_at(satellite, line, index, family is not None)
-    linear, verdict, because = verdict_of(signs, family is not None)
+    linear, verdict, reason = verdict_of(signs, family is not None)
     axis = None if family is None or family.axis is None else tuple(map(float, family.axis))
     size = rational(satellite.rate_squared * max(satellite.moments))
 
@@ -197,11 +212,11 @@ def _attitude(satellite: Satellite, line: Line, index: int, family: Family | Non
         _, cubic = characteristic_coefficients(satellite, omega, X, reciprocal)
         squares = _squares(satellite, cubic, signs)
         return _Solved(OrbitEquilibrium(
-            _doubles(cross(normal, up)), _doubles(normal), _doubles(up), linear, verdict, because,
+            _doubles(cross(normal, up)), _doubles(normal), _doubles(up), linear, verdict,
             signs.minimum, _eigenvalues(squares),
             tuple(sorted(sqrt(-m.real) for m in squares if not m.imag and m.real < 0)),
-            _doubles([potential / size])[0] * float(size), family.words if family else "",
-            axis and tuple(v / hypot(*axis) for v in axis)), signs, potential)
+            _doubles([potential / size])[0] * float(size), family.consists if family else None,
+            axis and tuple(v / hypot(*axis) for v in axis), reason=reason), signs, potential)
     return settled(asked, BITS)
 
 

@@ -71,6 +71,7 @@ from ..numbers.balls import (
 )
 from ..numbers.vectors import CYCLE, Exact3, Number, Triple, cross, dot
 from ..physics.circular_orbit import Satellite
+from ..reasons import Reason, Sentence
 
 # --- Isolated attitudes at rest
 Matrix: TypeAlias = tuple[tuple[int, ...], ...]
@@ -279,11 +280,24 @@ def _at(f: fmpq_mpoly, number: Algebraic, v: fmpq_poly) -> fmpq_poly:
 # --- Continuous families
 class Family(NamedTuple):
     """One for each real root of the line's polynomial, which stands for one attitude of it; axis: of the
-    body, about which it turns, None of a curve that is no turn."""
+    body, about which it turns, None of a curve that is no turn; consists: of what."""
 
     line: Line
     axis: Exact3 | None
-    words: str
+    consists: Reason
+
+
+WHEEL_NORMAL = Sentence("family-wheel-normal",
+                        "the wheel's momentum normal to the orbit, any turn about it")()
+AXIS_NORMAL = Sentence("family-cylindrical",
+                       "the axis of symmetry normal to the orbit, any turn about it")()
+AXIS_ACROSS_VERTICAL = Sentence("family-hyperbolic",
+                                "the axis of symmetry across the vertical, any turn about it")()
+AXIS_ALONG_VERTICAL = Sentence("family-along-vertical",
+                               "the axis of symmetry along the vertical, any turn about it")()
+AXIS_ACROSS_VELOCITY = Sentence("family-conical",
+                                "the axis of symmetry across the velocity, any turn about it")()
+NO_TURN = Sentence("family-no-turn", "one of a curve of equilibria that is no turn about an axis")()
 
 
 def symmetry(satellite: Satellite) -> int | None:
@@ -305,26 +319,24 @@ def turned(satellite: Satellite, k: int) -> Iterator[Family]:
         for polynomial, _ in (dot(wheel, wheel) * t**2 - n2).factor()[1]:
             yield Family(Line(polynomial, tuple(v * one for v in vertical),
                               tuple(v * t % polynomial for v in wheel), one), satellite.momentum,
-                         "the wheel's momentum normal to the orbit, any turn about it")
+                         WHEEL_NORMAL)
         return
     (i, j), h = CYCLE[k], rational(satellite.momentum[k])
     A, C = (rational(satellite.moments[n]) for n in (i, k))
     axis = _placed({k: Fraction(1)})
     for polynomial, x, y in plane(C, A, h, 0, 1, 1, n2):
-        words = "normal to the orbit" if y == 0 else "across the vertical"
         yield Family(Line(polynomial, _placed({j: one}, one * 0), _placed({k: x, i: y}, one * 0), one), axis,
-                     f"the axis of symmetry {words}, any turn about it")
-    along = "the axis of symmetry along the vertical, any turn about it"
+                     AXIS_NORMAL if y == 0 else AXIS_ACROSS_VERTICAL)
     if h == 0:
         for polynomial, _ in (t**2 - n2).factor()[1]:
             yield Family(Line(polynomial, _placed({k: t % polynomial}, one * 0),
-                              _placed({i: t % polynomial}, one * 0), one), axis, along)
+                              _placed({i: t % polynomial}, one * 0), one), axis, AXIS_ALONG_VERTICAL)
     elif 16 * n2 * (C - A)**2 > h**2:
         for polynomial, _ in (h**2 * (1 + t**2) - 16 * n2 * (C - A)**2).factor()[1]:
             X = _placed({i: one, k: t % polynomial}, one * 0)
             line = line_through(satellite, Algebraic(polynomial, 0), X)
             if line is not None:
-                yield Family(line, axis, "the axis of symmetry across the velocity, any turn about it")
+                yield Family(line, axis, AXIS_ACROSS_VELOCITY)
 
 
 def _placed(parts: dict[int, Any], zero: Any = Fraction(0)) -> tuple[Any, ...]:
@@ -348,21 +360,31 @@ def along_curve(satellite: Satellite, common: fmpq_mpoly, matrix: Matrix) -> Ite
                 X = tuple(v % piece for v in plane_of(matrix, fmpq_poly([u]), fmpq_poly([0, 1])))
                 line = line_through(satellite, Algebraic(piece, 0), X)
                 if line is not None and line.roots(START_BITS):
-                    yield Family(line, None, "one of a curve of equilibria that is no turn about an axis")
+                    yield Family(line, None, NO_TURN)
 
 
 # --- Stability
-LYAPUNOV = "the second variation of the dynamic potential is positive definite: the Jacobi integral is a " \
-           "Lyapunov function"
-SPREAD = "the second variation of the dynamic potential is positive definite across the family: the Jacobi " \
-         "integral is a Lyapunov function of the family as a whole, along which the attitude may drift"
-GROWING = "an eigenvalue of the linear motion has a positive real part"
-GYROSCOPIC = "the dynamic potential has no minimum here, but all eigenvalues are imaginary and different: " \
-             "gyroscopic stability, which energy does not prove and any complete dissipation destroys"
-FLAT = "the second variation of the dynamic potential is singular and a frequency is zero: terms of " \
-       "higher order decide"
-DOUBLE = "the dynamic potential has no minimum here and two frequencies are equal: terms that linear " \
-         "motion leaves out decide"
+LYAPUNOV = Sentence(
+    "orbit-lyapunov",
+    "the second variation of the dynamic potential is positive definite: the Jacobi integral is a Lyapunov "
+    "function")()
+SPREAD = Sentence(
+    "orbit-lyapunov-family",
+    "the second variation of the dynamic potential is positive definite across the family: the Jacobi "
+    "integral is a Lyapunov function of the family as a whole, along which the attitude may drift")()
+GROWING = Sentence("orbit-growing", "an eigenvalue of the linear motion has a positive real part")()
+GYROSCOPIC = Sentence(
+    "orbit-gyroscopic",
+    "the dynamic potential has no minimum here, but all eigenvalues are imaginary and different: gyroscopic "
+    "stability, which energy does not prove and any complete dissipation destroys")()
+FLAT = Sentence(
+    "orbit-flat",
+    "the second variation of the dynamic potential is singular and a frequency is zero: terms of higher "
+    "order decide")()
+DOUBLE = Sentence(
+    "orbit-two-frequencies",
+    "the dynamic potential has no minimum here and two frequencies are equal: terms that linear motion "
+    "leaves out decide")()
 
 
 class Signs(NamedTuple):
@@ -392,8 +414,8 @@ class Signs(NamedTuple):
         return self.discriminant < 0 or min(self.c2, self.c1, self.determinant) < 0
 
 
-def verdict_of(signs: Signs, family: bool) -> tuple[str, str, str]:
-    """(linear, verdict, because)."""
+def verdict_of(signs: Signs, family: bool) -> tuple[str, str, Reason]:
+    """(linear, verdict, reason)."""
     if signs.growing:
         return "unstable", "unstable", GROWING
     if signs.minimum:

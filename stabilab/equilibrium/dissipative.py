@@ -36,35 +36,56 @@ from ..numbers.principal import SLACK, principal_minors
 from ..numbers.vectors import CYCLE, Exact3, cross, cross_matrix, dot
 from ..physics.coefficients import Content
 from ..physics.scene import ZERO3, euler_form
+from ..reasons import Axis, Formula, Power, Reason, Sentence, Unit
+from .description import ANGLE, RATE, Description
 from .field_balance import Field, blocks, rotations_at
-from .field_states import around
+from .field_states import ANGLE_IN_PLANE, around
 from .liquid import balanced_equilibria, damped_equilibria, liquid_equilibria
-from .result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint, T
+from .result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint, T, Verdict
 from .stability import eigenvalues, ordered, sign_at
 
 # --- Eddy currents
-REASON = ("eddy currents take energy wherever omega is across the field: only rotations about a principal "
-          "axis along the field, in either direction, and rest in every attitude are equilibria, and every "
-          "motion tends to them (LaSalle)")
-EQUAL = "; of two equal moments every axis in their plane is one"
-LEAST = ("the kinetic energy is least here at its angular momentum along the field, which stays, and it only "
-         "falls")
-MORE = ("at its angular momentum along the field, which stays, rotation about the axis of the largest moment "
-        "has less energy, and so have states next to this one: they leave, for energy only falls")
-LOST = ("next to it are states with some angular momentum along the field: they end in rotation about a "
-        "principal axis along it, however slow (open where the axis of the largest moment is along it)")
-SPHERE = "all moments are equal: rotation across the field decays, and the attitude moves no further than it"
+REASON = Sentence(
+    "eddy-complete",
+    "eddy currents take energy wherever ω is across the field: only rotations about a principal axis along "
+    "the field, in either direction, and rest in every attitude are equilibria, and every motion tends to "
+    "them (LaSalle)")()
+EQUAL = Sentence("eddy-equal-moments", "of two equal moments every axis in their plane is one")()
+LEAST = Verdict("stable", Sentence(
+    "eddy-least-energy",
+    "the kinetic energy is least here at its angular momentum along the field, which stays, and it only "
+    "falls")())
+MORE = Verdict("unstable", Sentence(
+    "eddy-more-energy",
+    "at its angular momentum along the field, which stays, rotation about the axis of the largest moment "
+    "has less energy, and so have states next to this one: they leave, for energy only falls")())
+LOST = Verdict("unstable", Sentence(
+    "eddy-rest-left",
+    "next to it are states with some angular momentum along the field: they end in rotation about a "
+    "principal axis along it, however slow (open where the axis of the largest moment is along it)")())
+SPHERE = Verdict("stable", Sentence(
+    "eddy-sphere",
+    "all moments are equal: rotation across the field decays, and the attitude moves no further than it")())
+EDDY_BESIDE = Sentence(
+    "eddy-beside",
+    "undecided: of eddy currents beside wheels, a torque, a medium, a damper, a liquid or another field not "
+    "all equilibria are known")()
+ALONG_FIELD = Sentence("rotation-along-field", "rotation about {axis} along the field")
+AGAINST_FIELD = Sentence("rotation-against-field", "rotation about {axis} against the field")
+TURNS_WITH_FIELD = Sentence("turns-with-field", "{component} = {sign}, ω = t γ")
+RATE_ABOUT_FIELD = Sentence("rate-about-field", "t: rate about the field, {unit}")
+REST_EVERYWHERE = Sentence("rest-in-every-attitude", "rest in every attitude")()
+AT_REST = Sentence("rates-vanish", "ω = 0")()
 
 
 def eddy_equilibria(parts: Content) -> Equilibria:
     """Rotations about the field and rest, of the body alone; undecided beside anything else."""
     if (any(parts.M) or any(parts.Lambda) or parts.c or parts.damped or parts.inside or parts.kappa
             or any(parts.s) or parts.N or parts.E):
-        return Equilibria("undecided", "undecided: of eddy currents beside wheels, a torque, a medium, a "
-                                       "damper, a liquid or another field not all equilibria are known")
+        return Equilibria("undecided", reason=EDDY_BESIDE)
     curves = [_rotations(parts, i, sign) for i in range(3) for sign in (1, -1)]
-    reason = REASON + EQUAL if len(set(parts.D)) < 3 else REASON
-    return Equilibria("curves", reason, curves=(*curves, _eddy_rest(parts)))
+    return Equilibria("curves", curves=(*curves, _eddy_rest(parts)),
+                      reason=REASON.then(EQUAL if len(set(parts.D)) < 3 else None))
 
 
 def _rotations(parts: Content, i: int, sign: int) -> EquilibriumCurve:
@@ -72,23 +93,25 @@ def _rotations(parts: Content, i: int, sign: int) -> EquilibriumCurve:
     def at(t: float) -> tuple[float, ...]:
         gamma = tuple(float(sign * (n == i)) for n in range(3))
         return (*(t * g for g in gamma), *gamma)
-    verdict = ("stable", LEAST) if parts.D[i] == max(parts.D) else ("unstable", MORE)
-    segment = CurveSegment((-inf, inf), verdict[0], *verdict)
-    samples = tuple(EquilibriumPoint(at(t), _eddy_spectrum(parts, at(t)), verdict[0], *verdict)
-                    for t in (-1.0, 1.0))
-    name = f"rotation about axis {i + 1} {'along' if sign > 0 else 'against'} the field"
-    return EquilibriumCurve(name, f"gamma{i + 1} = {sign}, omega = t gamma",
-                            "t: rate about the field, rad/s", at, (segment,), (), samples)
+    verdict = LEAST if parts.D[i] == max(parts.D) else MORE
+    samples = tuple(EquilibriumPoint(at(t), _eddy_spectrum(parts, at(t)), verdict.word, verdict.word,
+                                     reason=verdict.reason) for t in (-1.0, 1.0))
+    about = Description((ALONG_FIELD if sign > 0 else AGAINST_FIELD)(axis=Axis(i + 1)),
+                        TURNS_WITH_FIELD(component=Formula((f"γ{i + 1}",)), sign=sign),
+                        RATE_ABOUT_FIELD(unit=Unit(RATE)))
+    return EquilibriumCurve(about, at, (CurveSegment.like(samples[0], (-inf, inf)),), (), samples)
 
 
 def _eddy_rest(parts: Content) -> EquilibriumCurve:
-    verdict = ("stable", SPHERE) if len(set(parts.D)) == 1 else ("unstable", LOST)
+    verdict = SPHERE if len(set(parts.D)) == 1 else LOST
 
     def at(t: float) -> tuple[float, ...]:
         return (0.0, 0.0, 0.0, cos(t), sin(t), 0.0)
-    sample = EquilibriumPoint(at(0.5), _eddy_spectrum(parts, at(0.5)), "degenerate", *verdict)
-    return EquilibriumCurve("rest in every attitude", "omega = 0", "t: angle in the plane of gamma1, gamma2",
-                            at, (CurveSegment((-inf, inf), "degenerate", *verdict),), (), (sample,))
+    sample = EquilibriumPoint(at(0.5), _eddy_spectrum(parts, at(0.5)), "degenerate", verdict.word,
+                              reason=verdict.reason)
+    run = ANGLE_IN_PLANE(first=Formula(("γ1",)), second=Formula(("γ2",)))
+    return EquilibriumCurve(Description(REST_EVERYWHERE, AT_REST, run, unit=ANGLE), at,
+                            (CurveSegment.like(sample, (-inf, inf)),), (), (sample,))
 
 
 def _eddy_spectrum(parts: Content, at: tuple[float, ...]) -> tuple[complex, ...]:
@@ -105,17 +128,47 @@ def _eddy_spectrum(parts: Content, at: tuple[float, ...]) -> tuple[complex, ...]
 
 # --- Medium and linear damper
 BITS = 256
-GLOBAL = "every motion tends to it: "
-REST = (GLOBAL + "T' = -2 c T without a torque, so the energy and with it every rate decays as exp(-c t)")
-ALL_LEFT = (
-    "asymptotically stable: p0 > 0 and p2 p1 - p0 > 0 in z^3 + p2 z^2 + p1 z + p0 (Routh and Hurwitz), so "
-    "all roots lie on the left")
-SADDLE = "p0 < 0: the product of the roots is positive, so one of them is"
-FOCUS = "p2 p1 - p0 < 0 (Routh and Hurwitz): a root with positive real part"
-RUBBED = "T' = -omega . R omega without a torque, R = c D + C, positive definite, of what resists"
-PARTLY = "undecided: the damper resists rotation about some axes alone, and about others it may go on"
-DIES_OUT = ("T' = -omega . C omega vanishes about one axis alone, about which no rotation goes on by "
-            "itself, so that the motion tends to rest (LaSalle)")
+GLOBAL = Sentence("every-motion-tends-to-it", "every motion tends to it")()
+REST = GLOBAL.then(Sentence(
+    "energy-decays",
+    "T' = -2 c T without a torque, so the energy and with it every rate decays as exp(-c t)")(), ": ")
+ALL_LEFT = Sentence(
+    "medium-all-left",
+    "asymptotically stable: p0 > 0 and p2 p1 - p0 > 0 in z³ + p2 z² + p1 z + p0 (Routh and Hurwitz), so all "
+    "roots lie on the left")()
+SADDLE = Sentence("medium-saddle", "p0 < 0: the product of the roots is positive, so one of them is")()
+FOCUS = Sentence("medium-focus", "p2 p1 - p0 < 0 (Routh and Hurwitz): a root with positive real part")()
+RUBBED = Sentence(
+    "resisted-without-torque",
+    "T' = -ω . R ω without a torque, R = c D + C, positive definite, of what resists")()
+PARTLY = Sentence(
+    "damper-partly",
+    "undecided: the damper resists rotation about some axes alone, and about others it may go on")()
+DIES_OUT = Sentence(
+    "damper-dies-out",
+    "T' = -ω . C ω vanishes about one axis alone, about which no rotation goes on by itself, so that the "
+    "motion tends to rest (LaSalle)")()
+RESISTANCE_ALONE = Sentence("resistance-alone", "resistance without a torque: T' = -2 c T")()
+ONLY_REST = Sentence("only-rest", "so only rest is an equilibrium")()
+NOT_DETERMINED = Sentence(
+    "rates-not-determined",
+    "undecided: on every axis the elimination meets a rate at which the other two are not determined")()
+ONE_POLYNOMIAL = Sentence(
+    "one-polynomial",
+    "{component} determines the other two rates, and it is a root of a polynomial of degree {degree} with "
+    "exact coefficients, whose real roots are {roots} by Sturm's theorem")
+NEGATIVE_FORM = Sentence(
+    "negative-form",
+    "V = δ . D δ/2, δ the departure, has V' = -δ . R δ + ω* . (δ x D δ), a negative definite form")()
+IMAGINARY_PAIR = Sentence("imaginary-pair",
+                          "a pair of eigenvalues on the imaginary axis: the next order decides")()
+DOUBLE_ZERO = Sentence("double-zero", "a double zero eigenvalue: the next order decides")()
+FOLD = Sentence(
+    "medium-fold",
+    "fold: eigenvalue 0, the others on the left; on the centre manifold z' = a z{power} + ...")
+EVEN_POWER = Sentence("even-power", "with an even power: motions leave on one side")()
+RESTORING_POWER = Sentence("restoring-power", "with an odd power that restores")()
+DRIVING_POWER = Sentence("driving-power", "with an odd power that drives away")()
 
 
 def resisted_equilibria(parts: Content) -> Equilibria:
@@ -124,33 +177,30 @@ def resisted_equilibria(parts: Content) -> Equilibria:
         return _left_free(parts)
     form = euler_form(parts.D, parts.Lambda, parts.M)
     if not any(parts.M):
-        return (_rest_alone(parts, RUBBED, f"{GLOBAL}{RUBBED}") if parts.damped
-                else _rest_alone(parts, "resistance without a torque: T' = -2 c T", REST))
+        return (_rest_alone(parts, RUBBED, GLOBAL.then(RUBBED, ": ")) if parts.damped
+                else _rest_alone(parts, RESISTANCE_ALONE, REST))
     chosen = next((found for e in _axes(parts.D) if (found := elimination(parts, form, e)) is not None), None)
     if chosen is None:
-        return Equilibria("undecided",
-                          "undecided: on every axis the elimination meets a rate at which the other two are "
-                          "not determined")
+        return Equilibria("undecided", reason=NOT_DETERMINED)
     numerators, q, P, e = chosen
     points = [_point(parts, form, numerators, q, P, t) for t in real_roots(P, BITS)]
-    reason = (f"omega{e + 1} determines the other two rates, and it is a root of a polynomial of degree "
-              f"{P.degree} with exact coefficients, whose real roots are {len(points)} by Sturm's theorem")
-    return Equilibria("points", reason, tuple(points))
+    return Equilibria("points", tuple(points), reason=ONE_POLYNOMIAL(
+        component=Formula((f"ω{e + 1}",)), degree=P.degree, roots=len(points)))
 
 
-def _rest_alone(parts: Content, reason: str, because: str, linear: str = "stable") -> Equilibria:
+def _rest_alone(parts: Content, why: Reason, reason: Reason, linear: str = "stable") -> Equilibria:
     """Those of a body whose motions all tend to rest."""
     J = _jacobian(parts, euler_form(parts.D, parts.Lambda, parts.M), ZERO3, Fraction(1))
-    rest = EquilibriumPoint((0.0,) * 3, _spectrum_of(J), linear, "asymptotically stable", because)
-    return Equilibria("points", f"{reason}, so only rest is an equilibrium", (rest,))
+    rest = EquilibriumPoint((0.0,) * 3, _spectrum_of(J), linear, "asymptotically stable", reason=reason)
+    return Equilibria("points", (rest,), reason=why.then(ONLY_REST, ", "))
 
 
 def _left_free(parts: Content) -> Equilibria:
     """Of a linear damper that resists rotation about some axes alone."""
     axis = None if any(parts.M) else free_axis(parts)
     if axis is None or goes_on(parts, axis) != ():
-        return Equilibria("undecided", PARTLY)
-    return _rest_alone(parts, DIES_OUT, f"{GLOBAL}{DIES_OUT}",
+        return Equilibria("undecided", reason=PARTLY)
+    return _rest_alone(parts, DIES_OUT, GLOBAL.then(DIES_OUT, ": "),
                        "stable" if any(cross(parts.Lambda, axis)) else "degenerate")
 
 
@@ -244,32 +294,30 @@ def _point(parts, form, numerators, q, P, t) -> EquilibriumPoint:
     hurwitz = side * sign_at(three - one * two, P, t)
     bottom = q(t)
     omega = tuple(top(t) / bottom for top in numerators)
-    linear, verdict, because = _verdict(p0, hurwitz, side, P, t)
+    linear, verdict, reason = _verdict(p0, hurwitz, side, P, t)
     if verdict == "asymptotically stable" and draws_all(parts, omega):
-        because += ("; " + GLOBAL
-                    + "V = delta . D delta/2, delta the departure, has V' = -delta . R delta + omega* . "
-                      "(delta x D delta), a negative definite form")
+        reason = reason.then(GLOBAL.then(NEGATIVE_FORM, ": "))
     return EquilibriumPoint(tuple(float(v) for v in omega),
                             _spectrum_of(_jacobian(parts, form, omega, Fraction(1))), linear, verdict,
-                            because)
+                            reason=reason)
 
 
-def _verdict(p0, hurwitz, side, P, t):
+def _verdict(p0: int, hurwitz: int, side: int, P: Poly, t: Fraction) -> tuple[str, str, Reason]:
+    """(linear, verdict, reason) by the signs of Routh and Hurwitz, and of P next to its root."""
     if p0 < 0 or hurwitz < 0:
         return "unstable", "unstable", SADDLE if p0 < 0 else FOCUS
     if p0 and hurwitz:
         return "stable", "asymptotically stable", ALL_LEFT
     if not hurwitz:
-        which = "a pair of eigenvalues on the imaginary axis" if p0 else "a double zero eigenvalue"
-        return "degenerate", "undecided", f"{which}: the next order decides"
+        return "degenerate", "undecided", IMAGINARY_PAIR if p0 else DOUBLE_ZERO
     order, slope = _crossing(P, t)
-    words = f"fold: eigenvalue 0, the others on the left; on the centre manifold z' = a z^{order} + ... "
+    fold = FOLD(power=Power(order))
     if order % 2 == 0:
-        return "degenerate", "unstable", words + "with an even power: motions leave on one side"
+        return "degenerate", "unstable", fold.then(EVEN_POWER, " ")
     # p0 = -det J and P' = (det J/det J_ij) q^2 ..., so p0 has the sign of -P' q near the root
     if -slope * side > 0:
-        return "degenerate", "asymptotically stable", words + "with an odd power that restores"
-    return "degenerate", "unstable", words + "with an odd power that drives away"
+        return "degenerate", "asymptotically stable", fold.then(RESTORING_POWER, " ")
+    return "degenerate", "unstable", fold.then(DRIVING_POWER, " ")
 
 
 def _crossing(P: Poly, t) -> tuple[int, int]:
@@ -309,17 +357,45 @@ def decay(parts: Content) -> Fraction:
     return least if least > SLACK * max(max(row) for row in parts.drag) / min(parts.D) else Fraction(0)
 
 
-MINIMUM = ("asymptotically stable",
-           "the potential energy has a strict minimum here and the medium takes energy at every rotation "
-           "(LaSalle)")
-NO_MINIMUM = ("unstable",
-              "the potential energy is not least here and the medium takes energy at every rotation: states "
-              "of less energy next to this one leave and do not come back")
-CONTINUUM = ("stable",
-             "rest positions of one energy, strictly least across them: they attract their neighbourhood "
-             "(the others of the eigenvalues lie on the left), so each of them is stable")
-OPEN = ("undecided",
-        "the second variation of the potential energy is degenerate: a term of higher order decides")
+MINIMUM = Verdict("asymptotically stable", Sentence(
+        "rest-minimum",
+        "the potential energy has a strict minimum here and the medium takes energy at every rotation "
+        "(LaSalle)")())
+NO_MINIMUM = Verdict("unstable", Sentence(
+    "rest-no-minimum",
+    "the potential energy is not least here and the medium takes energy at every rotation: states of less "
+    "energy next to this one leave and do not come back")())
+CONTINUUM = Verdict("stable", Sentence(
+    "rest-continuum",
+    "rest positions of one energy, strictly least across them: they attract their neighbourhood (the others "
+    "of the eigenvalues lie on the left), so each of them is stable")())
+OPEN = Verdict("undecided", Sentence(
+    "rest-degenerate",
+    "the second variation of the potential energy is degenerate: a term of higher order decides")())
+LIQUID_BESIDE_DAMPER = Sentence("liquid-beside-damper",
+                                "undecided: a liquid beside a linear damper, a torque or a wheel")()
+TAKES_R = Sentence("takes-what-resists", "T' ≤ -ω . R ω")()
+TAKES_C = Sentence("takes-what-medium-does", "T' ≤ -2 c T")()
+SO_DOES_OTHER = Sentence("liquid-and-what-resists",
+                         "since the liquid only takes energy and so does what resists")()
+MEDIUM_TAKES = Sentence("liquid-and-medium",
+                        "since the liquid only takes energy and the medium takes 2 c T")()
+DAMPER_IN_FIELD = Sentence("damper-in-field",
+                           "undecided: equilibria with a damper are known of a free body alone")()
+LIQUID_IN_FIELD = Sentence(
+    "equilibria-liquid-in-field",
+    "undecided: where the body carries a liquid, the torque of a field or of a turning charge enters the "
+    "liquid's own torque, and equilibria beyond those of the body without liquid are not excluded")()
+TORQUE_IN_FIELD = Sentence(
+    "torque-in-field-and-medium",
+    "undecided: a constant torque and a field hold a turning body against the medium only where four "
+    "equations in ω and γ meet; no closed form is known")()
+REST_IN_FIELD = Sentence(
+    "rest-in-field",
+    "the medium takes energy at every rotation, so only rest is an equilibrium: γ where the torque of the "
+    "field vanishes, (N D + μ) γ = s, by one polynomial in μ whose real roots are certified")()
+EVERY_DIRECTION = Sentence("every-direction", "every direction")()
+CIRCLE_OF_REST = Sentence("circle-of-rest", "circle of rest positions")()
 
 
 def dissipative_equilibria(parts: Content) -> Equilibria:
@@ -330,34 +406,27 @@ def dissipative_equilibria(parts: Content) -> Equilibria:
     if not parts.kappa:
         return resisted_equilibria(parts)
     if parts.damped and (any(parts.M) or any(parts.Lambda) or not decay(parts)):
-        return Equilibria("undecided", "undecided: a liquid beside a linear damper, a torque or a wheel")
-    if parts.unproved_loss:
-        return Equilibria("undecided", parts.unproved_loss)
+        return Equilibria("undecided", reason=LIQUID_BESIDE_DAMPER)
+    if parts.unproved_loss is not None:
+        return Equilibria("undecided", reason=parts.unproved_loss)
     if not parts.c and not any(parts.M) and not parts.damped:
         return liquid_equilibria(parts)
     if not any(parts.M) and not any(parts.Lambda):
-        takes = "T' <= -omega . R omega" if parts.damped else "T' <= -2 c T"
-        other = "so does what resists" if parts.damped else "the medium takes 2 c T"
-        return _rest_alone(parts, takes,
-                           f"{GLOBAL}{takes}, since the liquid only takes energy and {other}")
+        takes, other = (TAKES_R, SO_DOES_OTHER) if parts.damped else (TAKES_C, MEDIUM_TAKES)
+        return _rest_alone(parts, takes, GLOBAL.then(takes, ": ").then(other, ", "))
     return balanced_equilibria(parts)
 
 
 def held_in_a_field(parts: Content) -> Equilibria:
     """Equilibria of a body in a field that a liquid or a medium takes energy from."""
     if parts.inside:
-        return Equilibria("undecided", "undecided: equilibria with a damper are known of a free body alone")
+        return Equilibria("undecided", reason=DAMPER_IN_FIELD)
     if parts.kappa:
-        return Equilibria("undecided",
-                          "undecided: where the body carries a liquid, the torque of a field or of a turning "
-                          "charge enters the liquid's own torque, and equilibria beyond those of the body "
-                          "without liquid are not excluded")
+        return Equilibria("undecided", reason=LIQUID_IN_FIELD)
     if parts.damped and not decay(parts):
-        return Equilibria("undecided", PARTLY)
+        return Equilibria("undecided", reason=PARTLY)
     if any(parts.M):
-        return Equilibria("undecided",
-                          "undecided: a constant torque and a field hold a turning body against the medium "
-                          "only where four equations in omega and gamma meet; no closed form is known")
+        return Equilibria("undecided", reason=TORQUE_IN_FIELD)
     return rest_positions(parts)
 
 
@@ -368,10 +437,7 @@ def rest_positions(parts: Content) -> Equilibria:
         found = [(rotation, _rest(parts, field, rotation)) for rotation in rotations_at(field, Fraction(0))]
     points = tuple(point for rotation, point in found if not rotation.circle)
     curves = tuple(_continuum(rotation, point) for rotation, point in found if rotation.circle)
-    reason = ("the medium takes energy at every rotation, so only rest is an equilibrium: gamma where the "
-              "torque of the field vanishes, "
-              "(N D + mu) gamma = s, by one polynomial in mu whose real roots are certified")
-    return Equilibria("curves" if curves else "points", reason, points, curves)
+    return Equilibria("curves" if curves else "points", points, curves, reason=REST_IN_FIELD)
 
 
 def _rest(parts, field, rotation) -> EquilibriumPoint:
@@ -391,7 +457,7 @@ def _rest(parts, field, rotation) -> EquilibriumPoint:
         word, verdict = "unstable", NO_MINIMUM
     else:
         word, verdict = "degenerate", OPEN
-    return EquilibriumPoint(at, _spectrum(parts, field, rotation), word, *verdict)
+    return EquilibriumPoint(at, _spectrum(parts, field, rotation), word, verdict.word, reason=verdict.reason)
 
 
 def _spectrum(parts, field, rotation):
@@ -405,7 +471,7 @@ def _spectrum(parts, field, rotation):
 
 
 def _continuum(rotation, point: EquilibriumPoint) -> EquilibriumCurve:
-    name = "every direction" if len(rotation.circle) == 3 else "circle of rest positions"
-    segment = CurveSegment((float("-inf"), float("inf")), point.linear, point.verdict, point.because)
-    equation, parametrisation, run = around(Fraction(0), rotation)
-    return EquilibriumCurve(name, equation, parametrisation, run, (segment,), (), (point,))
+    segment = CurveSegment.like(point, (-inf, inf))
+    equation, run, at = around(Fraction(0), rotation)
+    name = EVERY_DIRECTION if len(rotation.circle) == 3 else CIRCLE_OF_REST
+    return EquilibriumCurve(Description(name, equation, run, unit=ANGLE), at, (segment,), (), (point,))

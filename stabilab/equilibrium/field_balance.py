@@ -32,7 +32,8 @@ from ..numbers.balls import MANY_BITS, rational, working
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import Number, cross, cross_matrix, dot
 from ..physics.coefficients import linear_rates
-from .result import EquilibriumPoint
+from ..reasons import Sentence
+from .result import EquilibriumPoint, Verdict
 
 
 @dataclass(frozen=True)
@@ -194,33 +195,49 @@ def rounded_gamma(rotation):
     return tuple(float(g.mid()) for g in rotation.gamma)
 
 
-MINIMUM = ("stable",
-           "energy-Casimir: at constant area integral the energy has a strict minimum on |gamma| = 1 (K "
-           "positive definite), and it persists as the area changes")
-SADDLE = ("unstable", "det K < 0: b < 0 in z^4 + a z^2 + b, a positive eigenvalue")
-SPIRAL = ("unstable", "a^2 < 4 b in z^4 + a z^2 + b: four eigenvalues off the imaginary axis")
-REAL = ("unstable", "a < 0 < b, a^2 > 4 b in z^4 + a z^2 + b: two positive eigenvalues")
-NEGATIVE = ("unstable", "a < 0 in z^4 + a z^2 + b: the squares of its roots sum to -2 a, so not all of "
-                        "them are imaginary")
-GYROSCOPIC = ("undecided",
-              "K is negative definite and all eigenvalues are imaginary: the gyroscopic terms stabilise the "
-              "linear motion, and the energy, a saddle here, does not decide for the full one")
-SLEEPING = ("stable",
-            "sleeping top: the spin about the axis of symmetry is a third integral; with distinct "
-            "frequencies a combination of the three integrals is definite (Chetaev)")
-TURNS_BACK = ("stable",
-              "sleeping top: u'^2 = (1 - u)^2 G(u) by its three integrals, u the cosine of its lean; G < 0 "
-              "for all u below and near 1, which bounds the lean of its neighbours too (Lagrange)")
-LEANS = ("unstable",
-         "sleeping top: u'^2 = (1 - u)^2 G(u) by its three integrals, u the cosine of its lean; G >= 0 for "
-         "all u below and near 1, so motions from nearby lean further (Lagrange)")
-CIRCLE = ("unstable",
-          "one of a circle of rotations about the axis of symmetry: with any small change of the spin about "
-          "it gamma drifts round the circle, so neighbours leave this point")
-OPEN = ("undecided", "a coefficient of the spectrum vanishes here: the next order decides")
-SHELL = ("undecided",
-         "a continuum of rotations at one Omega, and a coefficient of the spectrum vanishes here: a term of "
-         "higher order decides")
+MINIMUM = Verdict("stable", Sentence(
+    "field-minimum",
+    "energy-Casimir: at constant area integral the energy has a strict minimum on |γ| = 1 (K positive "
+    "definite), and it persists as the area changes")())
+SADDLE = Verdict("unstable", Sentence(
+    "field-saddle",
+    "det K < 0: b < 0 in z⁴ + a z² + b, a positive eigenvalue")())
+SPIRAL = Verdict("unstable", Sentence(
+    "field-spiral",
+    "a² < 4 b in z⁴ + a z² + b: four eigenvalues off the imaginary axis")())
+REAL = Verdict("unstable", Sentence(
+    "field-real",
+    "a < 0 < b, a² > 4 b in z⁴ + a z² + b: two positive eigenvalues")())
+NEGATIVE = Verdict("unstable", Sentence(
+    "field-negative",
+    "a < 0 in z⁴ + a z² + b: the squares of its roots sum to -2 a, so not all of them are imaginary")())
+GYROSCOPIC = Verdict("undecided", Sentence(
+    "field-gyroscopic",
+    "K is negative definite and all eigenvalues are imaginary: the gyroscopic terms stabilise the linear "
+    "motion, and the energy, a saddle here, does not decide for the full one")())
+SLEEPING = Verdict("stable", Sentence(
+    "sleeping-definite",
+    "sleeping top: the spin about the axis of symmetry is a third integral; with distinct frequencies a "
+    "combination of the three integrals is definite (Chetaev)")())
+TURNS_BACK = Verdict("stable", Sentence(
+    "sleeping-turns-back",
+    "sleeping top: u'² = (1 - u)² G(u) by its three integrals, u the cosine of its lean; G < 0 for all u "
+    "below and near 1, which bounds the lean of its neighbours too (Lagrange)")())
+LEANS = Verdict("unstable", Sentence(
+    "sleeping-leans",
+    "sleeping top: u'² = (1 - u)² G(u) by its three integrals, u the cosine of its lean; G ≥ 0 for all u "
+    "below and near 1, so motions from nearby lean further (Lagrange)")())
+CIRCLE = Verdict("unstable", Sentence(
+    "field-circle-drifts",
+    "one of a circle of rotations about the axis of symmetry: with any small change of the spin about it γ "
+    "drifts round the circle, so neighbours leave this point")())
+OPEN = Verdict("undecided", Sentence(
+    "field-coefficient-vanishes",
+    "a coefficient of the spectrum vanishes here: the next order decides")())
+SHELL = Verdict("undecided", Sentence(
+    "field-continuum-open",
+    "a continuum of rotations at one Ω, and a coefficient of the spectrum vanishes here: a term of higher "
+    "order decides")())
 
 
 def judged(field: Field, Omega: Fraction | arb, rotation) -> EquilibriumPoint:
@@ -231,13 +248,14 @@ def judged(field: Field, Omega: Fraction | arb, rotation) -> EquilibriumPoint:
     determinant, trace = second_variation(field, O, rotation.mu, gamma, one)
     at = tuple(float(v.mid()) for v in (*(O * g for g in gamma), *gamma))
     if len(rotation.circle) == 2 and _symmetric(field, 3 - sum(rotation.circle)):
-        return EquilibriumPoint(at, spectrum(a, 0 * b), "unstable" if a < 0 else "degenerate", *CIRCLE)
-    linear, reason = _verdict(a, b, determinant, trace)
-    if reason in (GYROSCOPIC, OPEN) and (lean := _lean_of_sleeping(field, O, gamma)) is not None:
-        reason = LEANS if lean >= 0 else SLEEPING if reason is GYROSCOPIC else TURNS_BACK
-    if rotation.circle and reason is OPEN:
-        reason = SHELL
-    return EquilibriumPoint(at, spectrum(a, b), linear, *reason)
+        return EquilibriumPoint(at, spectrum(a, 0 * b), "unstable" if a < 0 else "degenerate", CIRCLE.word,
+                                reason=CIRCLE.reason)
+    linear, verdict = _verdict(a, b, determinant, trace)
+    if verdict in (GYROSCOPIC, OPEN) and (lean := _lean_of_sleeping(field, O, gamma)) is not None:
+        verdict = LEANS if lean >= 0 else SLEEPING if verdict is GYROSCOPIC else TURNS_BACK
+    if rotation.circle and verdict is OPEN:
+        verdict = SHELL
+    return EquilibriumPoint(at, spectrum(a, b), linear, verdict.word, reason=verdict.reason)
 
 
 def _symmetric(field: Field, k: int) -> bool:

@@ -1,5 +1,5 @@
 """Permanent rotations omega = Omega gamma of a body in a field (gravity, Newtonian, charge that follows the
-attitude; gyrostat), and its steady states under a constant torque along a principal axis, as curves.
+attitude; gyrostat), as curves.
 
 gamma' = 0 makes omega parallel to gamma, and the rest is (S - mu) gamma = -b with the diagonal S(Omega) and
 b(Omega) of `field_balance`: for each Omega the real roots mu of
@@ -13,45 +13,33 @@ coefficients, all of whose real roots are isolated (python-flint). So the branch
 in the middle of an interval holds all over it. Where S is the same on axes that carry no b, there are circles
 and spheres of rotations at single rates besides.
 
-With a torque (S gamma + b) x gamma = -M asks for M . gamma = 0. With M along axis i, and neither wheel nor
-weight along it, gamma = (0, cos t, sin t) on the axes (i, j, k) solves all but one equation, a quadratic in
-Omega:
-
-    A (Omega^2 - N) + B Omega + C = 0,   A = (D_j - D_k) cos t sin t,   C = s_j sin t - s_k cos t + M_i,
-    B = Lambda_j sin t - Lambda_k cos t -+ E cos t sin t    (- where j is axis 3, + where k is)
-
-So the steady states are two closed curves over t, real where the discriminant, a polynomial in tau =
-tan(t/2), is not negative. Linear motion: z^2 (z^4 + e2 z^2 - e3 z + e4), for |gamma| is kept, the state lies
-on a curve of others, and the flow keeps volume (no z^3 term). The four roots sum to zero, so any root off the
-imaginary axis brings one with positive real part. The verdict changes along them
-only at zeros in tau of resultants with e3, e4 and e2^2 - 4 e4 (e2 where one of these vanishes all along).
+`steady_states` has those under a torque.
 """
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations, pairwise
-from math import atan, cos, inf, pi, sin, tan
+from math import atan, cos, inf, pi, sin
 from typing import Any
 
-from flint import Ordering, arb, arb_mat, arb_poly, fmpq_mpoly_ctx
+from flint import arb, arb_poly
 
 from ..errors import InputError
 from ..numbers.balls import MANY_BITS, fraction, rational, working
 from ..numbers.exact import sqrt_fraction
 from ..numbers.polynomial import Poly, real_roots
-from ..numbers.vectors import CYCLE, cross_matrix, nearest_first
+from ..numbers.vectors import nearest_first
 from ..physics.coefficients import Content
+from ..reasons import Axis, Coefficient, Formula, Reason, Sentence, Unit
+from .description import ANGLE, OVER_RATE, RATE, Description
 from .field_balance import (
     NEXT_TO,
     Field,
     Rotation,
-    blocks,
-    changes,
     coefficients,
     cuts_of,
     judged,
-    roots_in,
     rotations_at,
     rounded_gamma,
     separated,
@@ -66,7 +54,7 @@ from .result import (
     sample_parameters,
     values_inside,
 )
-from .stability import ordered
+from .steady_states import steady_states
 
 
 def circles(field: Field, parts: Content):
@@ -126,17 +114,18 @@ def _symbolic_groups(parts: Content):
 
 def _isolated(field, Omega: Fraction, rotation: Rotation) -> EquilibriumCurve:
     """A circle or sphere of permanent rotations at one Omega, cut where the verdict may change."""
-    equation, parametrisation, point = around(Omega, rotation)
+    equation, run, point = around(Omega, rotation)
     O, S0 = (v + arb(0, abs(float(v)) * float(NEXT_TO))  # Omega may be irrational, rounded
              for v in (arb(rational(Omega)), arb(rotation.mu).mid()))
     ends, segments, samples = _cuts_round(field, O, replace(rotation, mu=S0)), [], []
     for lo, hi in pairwise(ends):
         middle = GENERIC if lo == -inf else (lo + hi) / 2
         samples.append(judged(field, O, _turned(replace(rotation, mu=S0), middle)))
-        segments.append(CurveSegment((lo, hi), *_words(samples[-1])))
-    name = f"{'sphere' if len(rotation.circle) == 3 else 'circle'} at Omega = {float(Omega):.12g}"
-    return EquilibriumCurve(name, equation, parametrisation, point, tuple(segments),
-                            tuple(point(t) for t in ends[1:-1]), tuple(samples))
+        segments.append(CurveSegment.like(samples[-1], (lo, hi)))
+    name = SPHERE_AT if len(rotation.circle) == 3 else CIRCLE_AT
+    about = Description(name(rate=Coefficient(float(Omega), RATE, 12)), equation, run, unit=ANGLE)
+    return EquilibriumCurve(about, point, tuple(segments), tuple(point(t) for t in ends[1:-1]),
+                            tuple(samples))
 
 
 def _cuts_round(field, Omega: arb, rotation: Rotation) -> list[float]:
@@ -176,24 +165,36 @@ def around(Omega: Fraction, rotation: Rotation):
     """(equation, parametrisation, point(t)) of the turns of a rotation within its circle; of a sphere one
     great circle."""
     axes, gamma, rate = rotation.circle, rounded_gamma(rotation), float(Omega)
-    radius, names = gamma[axes[0]], ", ".join(f"gamma{i + 1}" for i in axes)
+    radius, names = gamma[axes[0]], [f"γ{i + 1}" for i in axes]
 
     def point(t: float):
         turned = list(gamma)
         turned[axes[0]], turned[axes[1]] = radius * cos(t), radius * sin(t)
         return (*(rate * g for g in turned), *turned)
-    return (f"Omega = {rate:.12g}, ({names}) of length {radius:.12g}",
-            f"t: angle in the plane of gamma{axes[0] + 1}, gamma{axes[1] + 1}", point)
+    return (AROUND(rate=Coefficient(rate, RATE, 12), components=Formula((", ".join(names),)),
+                   length=Coefficient(radius, digits=12)),
+            ANGLE_IN_PLANE(first=Formula((names[0],)), second=Formula((names[1],))), point)
 
 
 # far above the 2**-45 by which a branch differs on the two sides of a cut, far below the distance of two
 # branches
 SAME = 2.0**-30
 NEAR = 1e-6    # of a zero of a polynomial: how far from the real line doubles may put a double one
+SPHERE_AT = Sentence("sphere-at-rate", "sphere at Ω = {rate}")
+CIRCLE_AT = Sentence("circle-at-rate", "circle at Ω = {rate}")
+AROUND = Sentence("turns-at-rate", "Ω = {rate}, ({components}) of length {length}")
+ANGLE_IN_PLANE = Sentence("angle-in-plane", "t: angle in the plane of {first}, {second}")
+BRANCH = Sentence("branch-number", "branch {number}")
+A_CIRCLE = Sentence("a-circle-about", "a circle about {axis}")
+BALANCE = Sentence("balance-of-rotation", "ω = Ω γ, ((Ω² - N) D γ + Ω Λ + s) x γ = 0")()
+WITH_CHARGE = Sentence("with-charge-term", "with the charge's term")()
+GAMMA_OF_RATE = Sentence("gamma-of-rate", "γᵢ = -bᵢ/(Sᵢ - μ)")()
+ALL_TURNS = Sentence("all-turns-in-circle", "and all its turns in the circle")()
 GENERIC = 0.7  # rad: an angle on a circle that nothing singles out
-REASON = ("omega = Omega gamma, and (S - mu) gamma = -b with S = (Omega^2 - N) D - Omega E e3 e3^T, b = "
-          "Omega Lambda + s: for each Omega one "
-          "polynomial in mu; its discriminant and all its real roots are certified")
+REASON = Sentence(
+    "permanent-rotations-complete",
+    "ω = Ω γ, and (S - μ) γ = -b with S = (Ω² - N) D - Ω E e3 e3^T, b = Ω Λ + s: for each Ω one polynomial "
+    "in μ; its discriminant and all its real roots are certified")()
 
 
 def permanent_rotations(parts: Content) -> Equilibria:
@@ -205,7 +206,7 @@ def permanent_rotations(parts: Content) -> Equilibria:
         curves = tuple(_curve(field, number, branch, cuts)
                        for number, branch in enumerate(_branches(field, cuts), 1))
         curves += circles(field, parts)
-    return Equilibria("curves", REASON, curves=curves)
+    return Equilibria("curves", curves=curves, reason=REASON)
 
 
 def _branches(field, cuts):
@@ -255,29 +256,29 @@ def _curve(field, number, branch, cuts) -> EquilibriumCurve:
     pieces = [(lo, hi, index, _sample(field, values_inside(lo, hi, size), index)) for lo, hi, index in branch]
     runs: list[list[Any]] = []
     for piece in pieces:
-        same = runs and _words(runs[-1][-1][3]) == _words(piece[3])
+        same = runs and _judgement(runs[-1][-1][3]) == _judgement(piece[3])
         runs[-1].append(piece) if same else runs.append([piece])
     segments, samples, changes = [], [], []
     for run in runs:
         lo, hi, middle = run[0][0], run[-1][1], run[len(run) // 2][3]
-        segments.append(CurveSegment(float_ends(lo, hi), middle.linear, middle.verdict, middle.because))
+        segments.append(CurveSegment.like(middle, float_ends(lo, hi)))
         samples += [_at(field, branch, t) for t in _chosen(lo, hi, size, cuts)]
         if run is not runs[-1]:
             changes.append(_at(field, branch, hi - step_at(cuts, hi)).at)
     inside = values_inside(*branch[0][:2], size)  # type: ignore[call-arg]
     circle = rotations_at(field, inside)[branch[0][2]].circle
-    name = f"branch {number}" + (f", a circle about axis {6 - sum(i + 1 for i in circle)}" if circle else "")
-    first, last = segments[0].t[0], segments[-1].t[1]
-    return EquilibriumCurve(
-        name, "omega = Omega gamma, ((Omega^2 - N) D gamma + Omega Lambda + s) x gamma = 0"
-        + (" with the charge's term" if field.E != 0 else ""),
-        f"t = Omega from {first:.6g} to {last:.6g} rad/s; gamma_i = -b_i/(S_i - mu)"
-        + (", and all its turns in the circle" if circle else ""),
-        _point_function(field, branch), tuple(segments), tuple(changes), tuple(samples))
+    name = BRANCH(number=number).then(
+        A_CIRCLE(axis=Axis(6 - sum(i + 1 for i in circle))) if circle else None, ", ")
+    first, last = (Coefficient(end, RATE, 6) for end in (segments[0].t[0], segments[-1].t[1]))
+    parametrisation = OVER_RATE(low=first, high=last, unit=Unit(RATE)).then(GAMMA_OF_RATE)
+    about = Description(name, BALANCE.then(WITH_CHARGE if field.E != 0 else None, " "),
+                        parametrisation.then(ALL_TURNS if circle else None, ", "), "Ω")
+    return EquilibriumCurve(about, _point_function(field, branch), tuple(segments), tuple(changes),
+                            tuple(samples))
 
 
-def _words(sample):
-    return sample.linear, sample.verdict, sample.because
+def _judgement(sample: EquilibriumPoint) -> tuple[str, str, Reason]:
+    return sample.linear, sample.verdict, sample.reason
 
 
 def _chosen(lo, hi, size, cuts):
@@ -308,188 +309,7 @@ def _point_function(field, branch):
     return point
 
 
-COS, SIN, ONE = Poly((1, 0, -1)), Poly((0, 2)), Poly((1, 0, 1))  # times 1 + tau^2
-OFF_AXIS = ("undecided: a constant torque off the principal axes, or one with a wheel or weight along it, "
-            "holds a turning body only where "
-            "three equations in Omega and gamma meet; no closed form is known")
-SKEW = ("unstable",
-        "e3 != 0 in z^4 + e2 z^2 - e3 z + e4: the four roots sum to zero and are not all imaginary, so one "
-        "has positive real part")
-PAIR = ("unstable",
-        "e4 < 0, e2 < 0 or e2^2 < 4 e4 in z^4 + e2 z^2 - e3 z + e4: roots off the imaginary axis, whose sum "
-        "is zero")
-CENTRE = ("undecided",
-          "all eigenvalues are imaginary, and with a torque that does work no integral is known that would "
-          "decide the full motion")
-OPEN = ("undecided", "a coefficient of the spectrum vanishes here: the next order decides")
-
-
-@dataclass(frozen=True)
-class Plane:
-    """The quadratic in Omega for a torque along axis i, in tau = tan(t/2): coefficients times (1 + tau^2)^2.
-    """
-
-    i: int
-    square: Poly
-    linear: Poly
-    constant: Poly
-
-    @property
-    def discriminant(self) -> Poly:
-        return self.linear * self.linear - 4 * self.square * self.constant
-
-
 def directed_equilibria(parts: Content) -> Equilibria:
     """Equilibria in a field or with a charge that follows the attitude: permanent rotations, and under a
     constant torque the steady states."""
     return steady_states(parts) if any(parts.M) else permanent_rotations(parts)
-
-
-def steady_states(parts: Content) -> Equilibria:
-    """All steady states of a body in a field with a constant torque, where they have a closed form."""
-    acting = [i for i in range(3) if parts.M[i]]
-    i = acting[0]
-    if len(acting) > 1 or parts.s[i] or parts.Lambda[i]:
-        return Equilibria("undecided", OFF_AXIS)
-    plane = _plane(parts, i)
-    cuts, sides = _changes(parts, plane), (-1, 1) if plane.square else (-1,)
-    curves = tuple(_steady_curve(parts, plane, lo, hi, side, cuts) for lo, hi in _pieces(plane)
-                   for side in sides)
-    reason = (f"torque . gamma = 0 puts gamma across axis {i + 1}, and one quadratic in Omega remains; the "
-              "intervals where it is real are those of a polynomial in tan(t/2) with exact coefficients")
-    return (Equilibria("curves", reason, curves=curves) if curves
-            else Equilibria("none", reason + ": there are none"))
-
-
-def _plane(parts: Content, i: int) -> Plane:
-    j, k = CYCLE[i]
-    product, side = COS * SIN, (j == 2) - (k == 2)
-    square = (parts.D[j] - parts.D[k]) * product
-    linear = (parts.Lambda[j] * SIN - parts.Lambda[k] * COS) * ONE - parts.E * side * product
-    constant = (parts.s[j] * SIN - parts.s[k] * COS) * ONE + parts.M[i] * ONE * ONE - parts.N * square
-    return Plane(i, square, linear, constant)
-
-
-def _pieces(plane: Plane):
-    """Intervals of tau on which the quadratic has two real roots (one where D_j = D_k)."""
-    cuts = {t for p in (plane.discriminant, plane.square, plane.linear if not plane.square else Poly(()))
-            if p.degree > 0 for t in real_roots(p, MANY_BITS)}
-    ends = [None, *separated({*cuts, Fraction(0)}), None]
-    for lo, hi in zip(ends, ends[1:]):
-        middle = values_inside(lo, hi, Fraction(1))
-        if plane.discriminant(middle) > 0:
-            yield lo, hi
-
-
-def _omega(plane: Plane, tau: Fraction, side: int):
-    """The root Omega at tau, where there is one, as a ball."""
-    a, b, c = (rational(p(tau)) for p in (plane.square, plane.linear, plane.constant))
-    if a == 0:
-        return arb(-c / b)
-    root = arb(b * b - 4 * a * c).sqrt()
-    # the root without cancellation is near/a, the other c/near
-    near = -(b + root) / 2 if b >= 0 else (root - b) / 2
-    first, second = near / a, c / near if near != 0 else near / a
-    low, high = (first, second) if first < second else (second, first)
-    return low if side < 0 else high
-
-
-def _state(plane: Plane, tau: Fraction, side: int):
-    """(Omega, gamma) as balls."""
-    j, k = CYCLE[plane.i]
-    gamma = [arb(0)] * 3
-    gamma[j], gamma[k] = (arb(rational(p(tau) / ONE(tau))) for p in (COS, SIN))
-    return _omega(plane, tau, side), tuple(gamma)
-
-
-def _point(parts: Content, plane: Plane, tau: Fraction, side: int) -> EquilibriumPoint:
-    Omega, gamma = _state(plane, tau, side)
-    _, _, e4, e3, e2, *_ = arb_mat(_jacobian(Field.of(parts), Omega, gamma)).charpoly().coeffs()
-    e3 = -e3
-    at = tuple(float(v.mid()) for v in (*(Omega * g for g in gamma), *gamma))
-    return EquilibriumPoint(at, _eigenvalues(e2, e3, e4), *_verdict(e2, e3, e4))
-
-
-def _jacobian(field: Field, Omega, gamma, q=1):
-    """Rows of q times the derivative of the rates of (omega, gamma) at gamma/q."""
-    A, B = blocks(field, Omega, gamma, q)
-    return ([[*a, *b] for a, b in zip(A, B)]
-            + [[*row, *(-Omega * v for v in row)] for row in cross_matrix(gamma)])
-
-
-def _verdict(e2, e3, e4):
-    if e3 != 0:  # a ball without 0
-        return "unstable", *SKEW
-    if e4 < 0 or e2 < 0 or e2 * e2 < 4 * e4:
-        return "unstable", *PAIR
-    if e4 > 0 and e2 > 0 and e2 * e2 > 4 * e4:
-        return "stable", *CENTRE
-    return "degenerate", *OPEN
-
-
-def _eigenvalues(e2, e3, e4):
-    import numpy as np
-    roots = np.roots([1.0, 0.0, *(float(v.mid()) for v in (e2, -e3, e4))])
-    return (0j, 0j, *ordered(roots))
-
-
-def _changes(parts: Content, plane: Plane) -> list[Fraction]:
-    """The tau at which the verdict on a root Omega of the quadratic may change: zeros of resultants of
-    its irreducible factors with e3, e4, e2^2 - 4 e4, and with e2 where one of these vanishes all along."""
-    O, tau = fmpq_mpoly_ctx.get(("O", "tau"), Ordering.lex).gens()
-    of = lambda p: sum((rational(c) * tau**n for n, c in enumerate(p.c)), 0 * tau)
-    (j, k), q, gamma = CYCLE[plane.i], of(ONE), [0 * tau] * 3
-    gamma[j], gamma[k] = of(COS), of(SIN)
-    J = _jacobian(Field.of(parts), O, gamma, q)
-    J2 = [[sum((J[i][n] * J[n][m] for n in range(6)), 0 * tau) for m in range(6)] for i in range(6)]
-    # traces of its powers; that of J itself is 0
-    second, third, fourth = (sum((first[i][n] * rows[n][i] for i in range(6) for n in range(6)), 0 * tau)
-                             for first, rows in ((J, J), (J2, J), (J2, J2)))
-    e2, e3, e4 = -second / 2, third / 3, second * second / 8 - fourth / 4
-    found = changes(of(plane.square) * O * O + of(plane.linear) * O + of(plane.constant),
-                    (e4, e2 * e2 - 4 * e4, e3), (e2,), "O")
-    return [root for f in found for root in roots_in(f, 1)]
-
-
-def _steady_curve(parts, plane: Plane, lo, hi, side, cuts) -> EquilibriumCurve:
-    """One side of the quadratic over one interval of tau, in segments of one verdict."""
-    j, k = CYCLE[plane.i]
-    fixed = [t for t in (lo, hi) if t is not None]
-    inner = [t for t in separated([*cuts, *fixed]) if (lo is None or t > lo) and (hi is None or t < hi)
-             and len(separated([t, *fixed])) > len(fixed)]
-    segments, samples = [], []
-    with working(MANY_BITS):
-        for low, high in pairwise([lo, *inner, hi]):
-            found = [_point(parts, plane, tau, side) for tau in _steady_samples(low, high)]
-            words = _words(_point(parts, plane, values_inside(low, high, Fraction(1)), side))
-            segments.append(CurveSegment((_angle(low, -1), _angle(high, 1)), *words))
-            samples += found
-        changed = tuple(_at_tau(plane, tau, side) for tau in inner)
-    ends = _angle(lo, -1), _angle(hi, 1)
-
-    def point(t: float):
-        if not ends[0] < t < ends[1]:
-            raise InputError(f"t = {t!r} lies at an end of this curve of steady states or outside it")
-        with working(MANY_BITS):
-            return _at_tau(plane, Fraction(tan(t / 2)), side)
-    which = "lesser" if side < 0 else "greater"
-    return EquilibriumCurve(
-        f"{which} Omega for t in ({ends[0]:.6g}, {ends[1]:.6g})",
-        f"gamma{plane.i + 1} = 0, A (Omega^2 - N) + B Omega + C = 0",
-        f"gamma{j + 1} = cos t, gamma{k + 1} = sin t, omega = Omega gamma with the {which} root Omega", point,
-        tuple(segments), changed, tuple(samples))
-
-
-def _at_tau(plane: Plane, tau: Fraction, side: int):
-    Omega, gamma = _state(plane, tau, side)
-    return tuple(float(v.mid()) for v in (*(Omega * g for g in gamma), *gamma))
-
-
-def _angle(tau, otherwise) -> float:
-    from math import atan, pi
-    return otherwise * pi if tau is None else 2 * atan(float(tau))
-
-
-def _steady_samples(lo, hi):
-    some = sample_parameters(lo, hi, Fraction(1)) or [values_inside(lo, hi, Fraction(1))]
-    return sorted({some[0], some[len(some) // 2], some[-1]})

@@ -21,39 +21,94 @@ a hyperbola; two crossing lines where it passes through its own centre; one line
 lambda, or nothing, where d_P = d_Q. A torque oblique in a plane of equal moments is as good as one on a
 principal axis.
 
-Without a torque: momentum parallel to rotation, D y + lambda = s y: the curve y(s) = lambda/(s - D) between
-its poles and, for each D_i with lambda_i = 0, a line y_i arbitrary at s = D_i. With s = D_p + 1/t for one
-axis p that carries lambda the curve is rational and whole. lambda = 0: the principal axes, planes for equal
-moments, everything for a sphere."""
+`torque_free` has those without a torque.
+"""
 from __future__ import annotations
 
 from fractions import Fraction
 
-from ..numbers.exact import sign_of, sqrt_fraction
+from ..numbers.exact import sqrt_fraction
 from ..numbers.polynomial import Poly
 from ..numbers.vectors import CYCLE, Exact3, Number, Triple, cross, dot
 from ..physics.coefficients import Content, gyrostat_scene
 from ..physics.scene import AnyScene, QuadraticForm
+from ..reasons import Coefficient, Formula, Power, Reason, Sentence
+from .description import (
+    ARBITRARY,
+    HYPERBOLA,
+    IS,
+    LINE,
+    LINE_ALONG,
+    OBLIQUE_PLANE,
+    PRODUCT_IS,
+    RATE,
+    RATE_SQUARED,
+    Description,
+    clauses,
+    component,
+    line_text,
+    over_parameter,
+    shifted,
+)
 from .result import (
     ONE_POLY,
-    CurveSegment,
     Equilibria,
-    EquilibriumCurve,
     EquilibriumPoint,
     Grounds,
     RationalCurve,
     T,
     Verdict,
-    decimal,
-    line_text,
-    sample_parameters,
-    shifted,
     size_of,
     straight_line,
-    sum_of,
 )
 from .stability import ONE, ZERO, Isolated, Pencil, curve_with_verdicts, isolated_point, pencil, unit
+from .torque_free import torque_free_equilibria
 
+LEAD = "M is no eigenvector of D: the planes of the two balance conditions meet in a line, "
+WHOLE_LINE = Sentence("whole-line", LEAD + "and every point of it is an equilibrium")()
+ON_LINE_NOTHING = Sentence(
+    "on-line-no-solution",
+    LEAD + "and on it the remaining condition has no solution (its coefficients of t² and t vanish)")()
+ON_LINE_LINEAR = Sentence(
+    "on-line-linear", LEAD + "on which the remaining condition is linear: one isolated equilibrium")()
+ON_LINE_NONE = Sentence(
+    "on-line-no-roots",
+    LEAD + "on which a quadratic without real roots remains (discriminant {discriminant})")
+ON_LINE_FOLD = Sentence(
+    "on-line-fold",
+    LEAD + "on which a quadratic with a double root remains: one equilibrium, the fold of two")()
+ON_LINE_TWO = Sentence(
+    "on-line-two",
+    LEAD + "on which a quadratic with a positive discriminant remains: two isolated equilibria")()
+SCALED_CONTRADICTION = Sentence(
+    "scaled-conditions-contradict",
+    "an equilibrium needs μ1 (x1+a) = 0 and μ1 (x1+b) = 0: impossible, as μ1 is not zero and a differs from "
+    "b")()
+WHEEL_ALONG_TORQUE = Sentence(
+    "conditions-contradict",
+    "an equilibrium needs M.ω = 0 and M.(D ω + λ) = 0; M is an eigenvector of D, so these contradict each "
+    "other unless λ.M = 0, and here λ.M = {product}")
+NOTHING_BALANCES = Sentence(
+    "nothing-balances-torque",
+    "across the torque the two moments of inertia are equal and there is no gyrostatic moment: nothing "
+    "balances the torque, and the rate about its axis grows steadily")()
+ONE_CONIC = Sentence(
+    "one-conic",
+    "the torque is along an eigenvector of D with no gyrostatic moment along it: the two balance conditions "
+    "are one plane, and in it one conic remains")()
+CROSSING_MINIMUM = Sentence(
+    "crossing-minimum",
+    "crossing of two lines of equilibria; U ~ {sign}α{power} along the motion's own curve: a degenerate but "
+    "strict minimum")
+CROSSING_NO_MINIMUM = Sentence(
+    "crossing-no-minimum",
+    "crossing of two lines of equilibria; U ~ {sign}α{power} along the motion's own curve: no minimum of the "
+    "reduced potential")
+CROSSING_FLAT = Verdict("undecided", Sentence(
+    "crossing-flat",
+    "crossing of two lines of equilibria; the reduced potential is flat to the eighth order")())
+UNPROVED = Verdict("undecided", Sentence(
+    "line-triple-zero", "triple zero eigenvalue on a line of equilibria: no proof is given")())
 # Line of equilibria along axis 1 (x1 = X, the others at y2, y3): deltas obey d2' = -P(X) d3, d3' = Q(X) d2,
 # X' = e d2 d3 + f d2 + g d3 with P, Q linear in X and m = P Q. Removing the terms linear in d from X' by X ->
 # X - (f/Q) d3 + (g/P) d2 leaves a mean drift X' = const f g (Q'P - P'Q) r^2; the bracket is lambda1 (D3 -
@@ -61,56 +116,67 @@ from .stability import ONE, ZERO, Isolated, Pencil, curve_with_verdicts, isolate
 # Jordan block is left, and m = -b z + ... along the line, b != 0: `stability.isolated_verdict` has the
 # argument.
 DRIFTING = Grounds(
-    positive=("unstable",
-              "line of equilibria with eigenvalues 0, +-i sqrt(m): at second order in the amplitude r the "
-              "mean motion is X' = k r^2 along the line with k != 0 (three different moments), r' = O(r^3), "
-              "so neighbours travel a finite way along it"),
-    odd=("unstable",
-         "triple zero eigenvalue on a line of equilibria, where m changes sign: z''' = b z z' + ... with b "
-         "!= 0, and blown up with weights 2, 3, 4 it has a motion z ~ 12/(b t^2) that comes out of the "
-         "point"),
-    minimum=("undecided", "triple zero eigenvalue on a line of equilibria: no proof is given"),
-    maximum=("undecided", "triple zero eigenvalue on a line of equilibria: no proof is given"))
+    positive=Verdict("unstable", Sentence(
+        "line-drifts",
+        "line of equilibria with eigenvalues 0, ±i √(m): at second order in the amplitude r the mean motion "
+        "is X' = k r² along the line with k != 0 (three different moments), r' = O(r³), so neighbours "
+        "travel a finite way along it")()),
+    odd=Verdict("unstable", Sentence(
+        "line-changes-sign",
+        "triple zero eigenvalue on a line of equilibria, where m changes sign: z''' = b z z' + ... with b "
+        "!= 0, and blown up with weights 2, 3, 4 it has a motion z ~ 12/(b t²) that comes out of the "
+        "point")()),
+    minimum=UNPROVED, maximum=UNPROVED)
 # Two equal moments D1 = D2: with alpha' = d3, p(alpha) = d3^2 obeys p'' = -((D1-D3)/D1)^2 p - 2 m(X0 + c
 # alpha), linear, so the motion is that of one degree of freedom in the potential -p/2: concave p (m > 0)
 # turns, a cubic p escapes.
 CONCAVE = Grounds(
-    positive=("stable",
-              "symmetric body: d3^2 = p(alpha) with alpha' = d3 and p'' = -k^2 p - 2 m < 0 near the line, so "
-              "alpha turns back and neighbours stay"),
-    odd=("unstable",
-         "symmetric body: d3^2 = p(alpha) with alpha' = d3 has a cubic term here, and motions run off on its "
-                     "rising side"),
-    minimum=("undecided", "triple zero eigenvalue on a line of equilibria: no proof is given"),
-    maximum=("undecided", "triple zero eigenvalue on a line of equilibria: no proof is given"))
+    positive=Verdict("stable", Sentence(
+        "line-turns-back",
+        "symmetric body: d3² = p(α) with α' = d3 and p'' = -k² p - 2 m < 0 near the line, so α turns back "
+        "and neighbours stay")()),
+    odd=Verdict("unstable", Sentence(
+        "line-runs-off",
+        "symmetric body: d3² = p(α) with α' = d3 has a cubic term here, and motions run off on its rising "
+        "side")()),
+    minimum=UNPROVED, maximum=UNPROVED)
+WELL = Grounds(
+    positive=Verdict("stable", Sentence(
+        "well-minimum",
+        "non-degenerate minimum of the reduced potential (U'' = m > 0): energy keeps nearby motions in the "
+        "well, and the well persists as the invariant changes")()),
+    odd=Verdict("unstable", Sentence(
+        "well-inflection",
+        "fold: the reduced potential has an inflection here (its first non-zero derivative is of odd "
+        "order), and motions released on its downhill side run away")()),
+    minimum=Verdict("stable", Sentence(
+        "well-degenerate-minimum",
+        "degenerate but strict minimum of the reduced potential (m > 0 on both sides along the curve): its "
+        "walls stand for nearby values of the invariant too")()),
+    maximum=Verdict("unstable", Sentence(
+        "well-degenerate-maximum",
+        "degenerate maximum of the reduced potential (m < 0 on both sides along the curve)")()))
 
 
-def off_axis_equilibria(p: Pencil) -> tuple[str, list[EquilibriumPoint], list[RationalCurve]]:
+def off_axis_equilibria(p: Pencil) -> tuple[Reason, list[EquilibriumPoint], list[RationalCurve]]:
     """(reason, isolated points, curves) for M != 0 not an eigenvector of D."""
     reason, states, curves = isolated_states(p)
     return reason, sorted((isolated_point(p.form, x) for x in states), key=lambda e: e.at), curves
 
 
-def isolated_states(p: Pencil) -> tuple[str, list[Isolated], list[RationalCurve]]:
+def isolated_states(p: Pencil) -> tuple[Reason, list[Isolated], list[RationalCurve]]:
     """The same with each isolated equilibrium before its verdict."""
     start, v = meeting_line(p)
     q2, q1, q0 = quadratic_on_line(p, start, v)
-    lead = "M is no eigenvector of D: the planes of the two balance conditions meet in a line, "
     P = Poly((q0, q1, q2))
     if not P:
-        return lead + "and every point of it is an equilibrium", [], [_whole_line(p, start, v)]
+        return WHOLE_LINE, [], [_whole_line(p, start, v)]
     found = Isolated.all_of(p.state(straight_line(start, v)), P)
-    if P.degree == 0:
-        why = "and on it the remaining condition has no solution (its coefficients of t^2 and t vanish)"
-    elif P.degree == 1:
-        why = "on which the remaining condition is linear: one isolated equilibrium"
-    else:
-        why = (f"on which a quadratic without real roots remains (discriminant "
-               f"{decimal(q1 * q1 - 4 * q2 * q0)})",
-               "on which a quadratic with a double root remains: one equilibrium, the fold of two",
-               "on which a quadratic with a positive discriminant remains: two isolated equilibria"
-               )[len(found)]
-    return lead + why, found, []
+    if P.degree < 2:
+        return ON_LINE_LINEAR if P.degree else ON_LINE_NOTHING, found, []
+    if not found:
+        return ON_LINE_NONE(discriminant=Coefficient(q1 * q1 - 4 * q2 * q0)), found, []
+    return (ON_LINE_FOLD, ON_LINE_TWO)[len(found) - 1], found, []
 
 
 def meeting_line(p: Pencil) -> tuple[Exact3, Exact3]:
@@ -137,36 +203,18 @@ def _whole_line(p: Pencil, start: Exact3, v: Exact3) -> RationalCurve:
         v = unit(along[0])
         x = tuple(Fraction(0) if i == along[0] else c for i, c in enumerate(x))
     grounds = DRIFTING if len(set(p.D)) == 3 else CONCAVE
-    return RationalCurve("equilibrium line", *line_text(p.names, x, v), straight_line(x, v), grounds,
+    return RationalCurve(Description(LINE, *line_text(p.names, x, v)), straight_line(x, v), grounds,
                          scale=size_of(x) / size_of(v))
 
 
-WELL = Grounds(
-    positive=("stable",
-              "non-degenerate minimum of the reduced potential (U'' = m > 0): energy keeps nearby motions in "
-              "the well, and the well persists as the invariant changes"),
-    odd=("unstable",
-         "fold: the reduced potential has an inflection here (its first non-zero derivative is of odd "
-         "order), and motions released on its downhill side run away"),
-    minimum=("stable",
-             "degenerate but strict minimum of the reduced potential (m > 0 on both sides along the curve): "
-             "its walls stand for nearby values of the invariant too"),
-    maximum=("unstable", "degenerate maximum of the reduced potential (m < 0 on both sides along the curve)"))
-
-
-def balance_fails(p: Pencil) -> str | None:
+def balance_fails(p: Pencil) -> Reason | None:
     """Why a torque along an eigenvector of D has no equilibrium at all; None where it has some."""
     if dot(p.lam, p.M):
-        if p.scaled:
-            return ("an equilibrium needs mu1 (x1+a) = 0 and mu1 (x1+b) = 0: impossible, as mu1 is not zero "
-                    "and a differs from b")
-        return ("an equilibrium needs M.omega = 0 and M.(D omega + lambda) = 0; M is an eigenvector of D, so "
-                "these "
-                "contradict each other unless lambda.M = 0, and here lambda.M = " + decimal(dot(p.lam, p.M)))
+        return SCALED_CONTRADICTION if p.scaled else WHEEL_ALONG_TORQUE(
+            product=Coefficient(dot(p.lam, p.M)))
     first, second, _ = plane_basis(p)
     if first[1] == second[1] and not any(p.lam):
-        return ("across the torque the two moments of inertia are equal and there is no gyrostatic moment: "
-                "nothing balances the torque, and the rate about its axis grows steadily")
+        return NOTHING_BALANCES
     return None
 
 
@@ -200,9 +248,8 @@ def _single_line(p: Pencil) -> RationalCurve:
     along = [i for i in range(3) if p.lam[i]]
     direction = unit(along[0]) if len(along) == 1 else p.lam
     scale = size_of(start) / size_of(direction)
-    return RationalCurve("equilibrium line", *line_text(p.names, start, direction),
-                         straight_line(start, direction), WELL,
-                         scale=scale)
+    return RationalCurve(Description(LINE, *line_text(p.names, start, direction)),
+                         straight_line(start, direction), WELL, scale=scale)
 
 
 class _Plane:
@@ -215,7 +262,7 @@ class _Plane:
         self.stretch = (ONE, ONE) if self.oblique else (p.A[jp], p.A[jq])
         shift = (ZERO, ZERO) if self.oblique else (p.u[jp], p.u[jq])
         self.centre = tuple((c - s) / f for c, s, f in zip((alpha0, beta0), shift, self.stretch))
-        self.names = ("alpha", p.names[jq]) if self.oblique else (p.names[jp], p.names[jq])
+        self.names = ("α", p.names[jq]) if self.oblique else (p.names[jp], p.names[jq])
         # the parameter is the component that theory and paper use: the second axis if it lies in the plane
         self.leading = 1 if self.oblique or jq == 1 or (jp != 1 and jq == 2) else 0
 
@@ -229,13 +276,14 @@ class _Plane:
         y = [a * P + b * Q for P, Q in zip(self.P, self.Q)]
         return tuple((c - bottom * s) * (1 / f) for c, s, f in zip(y, self.p.u, self.p.A))
 
-    def plane_text(self) -> str:
+    def plane_text(self) -> Reason:
         """The plane in symbols."""
         if self.oblique:
-            k = self.p.names[self.Q.index(ONE)]
-            return f"omega = alpha N + {k} e, N = e x M = ({', '.join(map(decimal, self.P))})"
+            first, second, third = map(Coefficient, self.P)
+            return OBLIQUE_PLANE(component=component(self.p.names[self.Q.index(ONE)]),
+                                 normal=Formula(("(", first, ", ", second, ", ", third, ")")))
         i = next(n for n in range(3) if not self.P[n] and not self.Q[n])
-        return f"{self.p.names[i]} = {decimal(-self.p.u[i] / self.p.A[i])}"
+        return IS(component=component(self.p.names[i]), value=Coefficient(-self.p.u[i] / self.p.A[i], RATE))
 
     def hyperbola(self, power: Fraction) -> RationalCurve:
         """(u - u0)(v - v0) = K with t the distance of one component from its centre."""
@@ -244,14 +292,14 @@ class _Plane:
         parts = [T * T + T * self.centre[lead], T * self.centre[other] + K]
         if lead:
             parts.reverse()
-        text = ["", ""]
-        text[lead] = sum_of(self.centre[lead], "t")
-        text[other] = sum_of(self.centre[other], f"{decimal(K)}/t")
-        left = " ".join(shifted(n, c) for n, c in zip(self.names, self.centre))
-        return RationalCurve("equilibrium hyperbola", f"{self.plane_text()}, {left} = {decimal(K)}",
-                             ", ".join([self.plane_text(),
-                                        *(f"{n} = {v}" for n, v in zip(self.names, text))]),
-                             self.state(parts[0], parts[1], T), WELL, T, (ZERO,), {},
+        along = {lead: over_parameter(self.centre[lead], ONE),
+                 other: over_parameter(self.centre[other], K, "/t", RATE_SQUARED)}
+        first, second = (shifted(n, c) for n, c in zip(self.names, self.centre))
+        product = PRODUCT_IS(first=first, second=second, product=Coefficient(K, RATE_SQUARED))
+        run = [IS(component=component(name), value=along[n]) for n, name in enumerate(self.names)]
+        about = Description(HYPERBOLA, clauses([self.plane_text(), product]),
+                            clauses([self.plane_text(), *run]))
+        return RationalCurve(about, self.state(parts[0], parts[1], T), WELL, T, (ZERO,), {},
                              sqrt_fraction(abs(K), 60))
 
     def crossing_lines(self) -> list[RationalCurve]:
@@ -262,12 +310,12 @@ class _Plane:
         for free in (0, 1):
             parts = [Poly((v,)) for v in self.centre]
             parts[free] = T
-            fixed = f"{self.names[1 - free]} = {decimal(self.centre[1 - free])}"
-            lines.append(RationalCurve(
-                f"equilibrium line along {self.names[free]}",
-                f"{self.plane_text()}, {fixed}, {self.names[free]} arbitrary",
-                f"{self.plane_text()}, {fixed}, {self.names[free]} = t", self.state(*parts), WELL,
-                crossings={self.centre[free]: verdict}, scale=size_of(self.centre)))
+            along, across = component(self.names[free]), component(self.names[1 - free])
+            fixed = [self.plane_text(), IS(component=across, value=Coefficient(self.centre[1 - free], RATE))]
+            about = Description(LINE_ALONG(component=along), clauses([*fixed, ARBITRARY(component=along)]),
+                                clauses([*fixed, IS(component=along, value=component("t"))]))
+            lines.append(RationalCurve(about, self.state(*parts), WELL,
+                                       crossings={self.centre[free]: verdict}, scale=size_of(self.centre)))
         return lines
 
 
@@ -277,14 +325,11 @@ def crossing_verdict(form: QuadraticForm, x: Exact3, e: Exact3) -> Verdict:
     coefficients)."""
     for power, slope in enumerate(_potential_slope(form, x, e, 8)):
         if slope:
-            order = f"U ~ {'+' if slope > 0 else '-'}alpha^{power + 1} along the motion's own curve"
+            sign, exponent = "+" if slope > 0 else "-", Power(power + 1)
             if power % 2 and slope > 0:
-                return ("stable",
-                        f"crossing of two lines of equilibria; {order}: a degenerate but strict minimum")
-            return ("unstable",
-                    f"crossing of two lines of equilibria; {order}: no minimum of the reduced potential")
-    return ("undecided",
-            "crossing of two lines of equilibria; the reduced potential is flat to the eighth order")
+                return Verdict("stable", CROSSING_MINIMUM(sign=sign, power=exponent))
+            return Verdict("unstable", CROSSING_NO_MINIMUM(sign=sign, power=exponent))
+    return CROSSING_FLAT
 
 
 def _potential_slope(form: QuadraticForm, x: Exact3, e: Exact3, terms: int) -> list[Fraction]:
@@ -306,149 +351,6 @@ def _potential_slope(form: QuadraticForm, x: Exact3, e: Exact3, terms: int) -> l
     return slope
 
 
-CASIMIR = Grounds(
-    positive=("stable",
-              "energy-Casimir: on its momentum sphere the energy has a non-degenerate extremum (m > 0); "
-              "where the momentum or the rotation vanishes, that integral is itself definite"),
-    odd=("unstable",
-         "fold: on its momentum sphere the energy has an inflection here, no extremum, and motions leave "
-         "along it"),
-    minimum=("stable",
-             "energy-Casimir: on its momentum sphere the energy has a degenerate but strict extremum (m > 0 "
-             "on both sides along the curve)"),
-    maximum=("unstable",
-             "on its momentum sphere the energy has a degenerate saddle (m < 0 on both sides along the "
-             "curve)"))
-CROSSING = {
-    1: ("stable",
-        "crossing of two curves of equilibria; energy-Casimir: on its momentum sphere the energy has a "
-        "quartic but strict extremum"),
-    -1: ("unstable",
-         "crossing of two curves of equilibria; on its momentum sphere the energy has a degenerate saddle")}
-REST = ("stable",
-        "a positive definite combination of the integrals is stationary here (for a body at rest: the "
-        "energy)")
-SYMMETRY_AXIS = ("stable",
-                 "the rate about the axis of symmetry and the size of the rate across it are both constant")
-DRIFT = ("unstable",
-         "m = n = 0: with any small change of the rate along the symmetry axis the state runs round the "
-         "circle of equilibria, so neighbours leave")
-
-
-def torque_free_curves(p: Pencil) -> tuple[list[RationalCurve], list[EquilibriumCurve]]:
-    """(exact curves, planes of equilibria) for M = 0, for anything but lambda = 0 on a sphere."""
-    axes = [_axis_line(p, i) for i in range(3) if not p.lam[i] and p.D.count(p.D[i]) == 1]
-    planes = [_plane(p, d) for d in plane_moments(p)]
-    if not any(p.lam):
-        return axes, planes
-    return [_main_curve(p), *axes], planes
-
-
-def _line_sign(p: Pencil, i: int) -> int:
-    """Sign of m on the line y_i arbitrary, s = D_i, away from the crossing: that of (D_j - D_i)(D_k - D_i) up
-    to the sign that the change of variables x -> y carries."""
-    j, k = CYCLE[i]
-    e = p.form
-    return -sign_of(e.kappa[j] * e.kappa[k])
-
-
-def _axis_line(p: Pencil, i: int) -> RationalCurve:
-    """The line y_i arbitrary, D_i simple and lambda_i = 0."""
-    y = tuple(ZERO if n == i else p.lam[n] / (p.D[i] - p.D[n]) for n in range(3))
-    start = tuple(ZERO if n == i else v for n, v in enumerate(p.state(y)))
-    meeting = -p.u[i] / p.A[i]
-    return RationalCurve(f"line along {p.names[i]}", *line_text(p.names, start, unit(i)),
-                         straight_line(start, unit(i)), CASIMIR,
-                         crossings={meeting: _crossing(p, i)}, scale=size_of(start, (meeting,)))
-
-
-def _crossing(p: Pencil, i: int) -> Verdict:
-    return CROSSING[_line_sign(p, i)] if any(p.lam) else REST
-
-
-def _main_curve(p: Pencil) -> RationalCurve:
-    support = [i for i in range(3) if p.lam[i]]
-    if len({p.D[i] for i in support}) == 1:
-        return _along_lambda(p, support)
-    lead = support[0]
-    factors = {i: Poly((1, p.D[lead] - p.D[i])) for i in support}  # s - D_i, times t
-    distinct = list({p.D[i]: f for i, f in factors.items() if f.degree}.values())
-    bottom = ONE_POLY
-    for f in distinct:
-        bottom = bottom * f
-    tops = tuple(bottom * T * p.lam[i] // factors[i] if i in factors else Poly(()) for i in range(3))
-    poles = tuple(sorted({-f.c[0] / f.c[1] for f in distinct}))
-    crossings = {1 / (p.D[i] - p.D[lead]): _crossing(p, i) for i in range(3) if not p.lam[i]
-                 and p.D.count(p.D[i]) == 1}
-    name = p.names[lead]
-    return RationalCurve(
-        "curve of momentum along rotation", "D omega + lambda = s omega",
-        f"omega_i = lambda_i/(s - D_i), s = D{lead + 1} + 1/t, t = {name}/lambda{lead + 1}",
-        tops, CASIMIR, bottom, poles, crossings,
-        size_of(tuple(1 / (d - p.D[lead]) for d in p.D if d != p.D[lead])))
-
-
-def _along_lambda(p: Pencil, support: list[int]) -> RationalCurve:
-    """lambda in one eigenspace (moment d): the line through rest along lambda."""
-    d, lead = p.D[support[0]], support[0]
-    direction = unit(lead) if len(support) == 1 else p.lam
-    start = tuple(ZERO if n == lead and len(support) == 1 else v for n, v in enumerate(p.state((ZERO,) * 3)))
-    per_t = direction[lead] * p.A[lead]  # y_lead = per_t t + u_lead
-    crossings = {}
-    for i in range(3):
-        if p.D[i] != d:
-            where = (p.lam[lead] / (p.D[i] - d) - p.u[lead]) / per_t
-            crossings[where] = _crossing(p, i) if p.D.count(p.D[i]) == 1 else SYMMETRY_AXIS
-    scale = size_of(tuple(crossings)) if crossings else ONE
-    return RationalCurve("line along the gyrostatic moment", *line_text(p.names, start, direction),
-                         straight_line(start, direction), CASIMIR, crossings=crossings, scale=scale)
-
-
-def plane_moments(p: Pencil) -> list[Fraction]:
-    """The moments that two axes share and that carry no gyrostatic moment: a plane of equilibria each."""
-    return [d for d in sorted(set(p.D))
-            if p.D.count(d) == 2 and not any(l for l, m in zip(p.lam, p.D) if m == d)]
-
-
-def plane_of_equal_moments(p: Pencil, d: Fraction) -> tuple[int, int, int, Exact3]:
-    """(i, j, k, centre): axes i and j span the plane of equilibria, k is the axis of symmetry, through the
-    exact centre."""
-    i, j = (n for n in range(3) if p.D[n] == d)
-    k = 3 - i - j
-    return i, j, k, tuple(p.lam[k] / (d - p.D[k]) if n == k else ZERO for n in range(3))
-
-
-def plane_centre(p: Pencil) -> Verdict:
-    """The verdict on the centre of such a plane."""
-    return SYMMETRY_AXIS if any(p.lam) else REST
-
-
-def _plane(p: Pencil, d: Fraction) -> EquilibriumCurve:
-    """The plane of equilibria across the symmetry axis k of a body with two moments d. The curve's point(t)
-    runs along one straight line through its centre; by the symmetry every other line through the centre is
-    alike (samples lie on three)."""
-    i, j, k, start = plane_of_equal_moments(p, d)
-    height = start[k]
-    centre_verdict = plane_centre(p)
-    rays = [unit(i), unit(j),
-            tuple(Fraction(3, 5) * a + Fraction(4, 5) * b for a, b in zip(unit(i), unit(j)))]
-    curve = RationalCurve("", "", "", straight_line(start, rays[0]), CASIMIR)
-    zero = (0j, 0j, 0j)
-    at = lambda ray, t: tuple(float(s + t * r) for s, r in zip(start, ray))
-    half = sample_parameters(ZERO, None, size_of((height,)))
-    outer = [EquilibriumPoint(at(ray, t), zero, "degenerate", *DRIFT) for ray in rays
-             for t in (*(-v for v in half), *half)]
-    middle = EquilibriumPoint(at(rays[0], ZERO), zero, "degenerate", *centre_verdict)
-    segments = tuple(CurveSegment(t, "degenerate", *DRIFT)
-                     for t in ((float("-inf"), 0.0), (0.0, float("inf"))))
-    names = p.names
-    return EquilibriumCurve(
-        f"plane {names[k]} = {decimal(height)}",
-        f"{names[k]} = {decimal(height)}, {names[i]} and {names[j]} arbitrary",
-        f"{names[i]} = t, {names[j]} = 0, {names[k]} = {decimal(height)} and its turns about axis {k + 1}",
-        curve.rounded_point, segments, (middle.at,), (*outer, middle))
-
-
 def twin_equilibria(parts: Content) -> Equilibria:
     """Equilibria of a scene whose effects turn the body as a wheel and a constant torque do."""
     return gyrostat_equilibria(gyrostat_scene(parts))
@@ -459,18 +361,17 @@ def gyrostat_equilibria(scene: AnyScene) -> Equilibria:
     stability, as `answers.equilibria` tells them. Raises InputError for other effects."""
     p = pencil(scene)
     if not any(p.M):
-        return _torque_free(p)
+        return torque_free_equilibria(p)
     if p.torque_axis_moment() is None:
         reason, points, curves = off_axis_equilibria(p)
         exact = tuple(curve_with_verdicts(p.form, c) for c in curves)
-        return Equilibria("curves" if exact else "points" if points else "none", reason, tuple(points), exact)
+        return Equilibria("curves" if exact else "points" if points else "none", tuple(points), exact,
+                          reason=reason)
     missing = balance_fails(p)
-    if missing:
-        return Equilibria("none", missing)
+    if missing is not None:
+        return Equilibria("none", reason=missing)
     conic = tuple(curve_with_verdicts(p.form, c) for c in conic_curves(p))
-    return Equilibria("curves",
-                      "the torque is along an eigenvector of D with no gyrostatic moment along it: the two "
-                      "balance conditions are one plane, and in it one conic remains", curves=conic)
+    return Equilibria("curves", curves=conic, reason=ONE_CONIC)
 
 
 def number_of_equilibria(scene: AnyScene) -> int | None:
@@ -483,17 +384,3 @@ def number_of_equilibria(scene: AnyScene) -> int | None:
         return None
     _, points, curves = isolated_states(p)
     return None if curves else len(points)
-
-
-def _torque_free(p: Pencil) -> Equilibria:
-    if not any(p.lam) and len(set(p.D)) == 1:
-        return Equilibria("all",
-                          "no torque, no gyrostatic moment and three equal moments: every rate of rotation "
-                          "is constant, so every state is an equilibrium, and stable: it stays where "
-                          "it is put")
-    exact, planes = torque_free_curves(p)
-    curves = (*(curve_with_verdicts(p.form, c) for c in exact), *planes)
-    return Equilibria("curves",
-                      "without a torque a state is an equilibrium exactly where momentum and rotation are "
-                      "parallel",
-                      curves=curves)

@@ -39,59 +39,86 @@ from ..numbers.exact import sqrt_fraction
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import CYCLE, cross, cross_matrix, dot
 from ..physics.coefficients import Content, gyrostat_scene, linear_rates, liquid_torque
-from ..reasons import number
-from .gyrostat import torque_free_curves
+from ..reasons import Energy, Quantity, Rate, Reason, Sentence
 from .result import (
     CurveSegment,
     Equilibria,
     EquilibriumCurve,
     EquilibriumPoint,
     RationalCurve,
+    Verdict,
     float_ends,
     sample_parameters,
     values_inside,
 )
 from .stability import ordered, pencil
+from .torque_free import torque_free_curves
 
-ATTRACTING = ("stable",
-              "c1, c2 > 0 in z (z^2 + c2 z + c1): the curve of permanent rotations attracts, so this "
-              "rotation is stable and every motion from nearby tends to a permanent rotation of the curve")
-REPELLED = ("unstable", "c1 < 0 or c2 < 0 in z (z^2 + c2 z + c1): a root with positive real part")
-LARGEST = ("stable",
-           "asymptotically stable at its angular momentum |H|: the liquid keeps |H|, and on the sphere of "
-           "constant |H| the energy is least here and falls everywhere else (LaSalle): motions from nearby "
-           "tend to rotation about this axis")
-NOT_LARGEST = ("unstable",
-               "the energy on the sphere of constant |H| is not least here and the liquid makes it fall "
-               "wherever the motion is no permanent rotation: states of less energy next to this one leave "
-               "and do not come back")
-REST = ("stable", "the kinetic energy is positive definite and never grows")
-EDGE = ("undecided", "the linear motion is degenerate (c1 c2 = 0): a term of higher order decides")
+THE_LIQUID, THE_DAMPER = Sentence("the-liquid", "the liquid")(), Sentence("the-damper", "the damper")()
+PRINTED_TORQUE = Sentence(
+    "printed-torque-of-liquid",
+    "the printed torque of the liquid leaves out terms of its own order where a wheel or a charge acts, so "
+    "it vanishes on no permanent rotation: undecided; choose torque = \"consistent\"")()
+PRINCIPAL_ALONE = Sentence(
+    "principal-rotations-alone",
+    "{inner} takes energy at every rotation that is not about a principal axis, so the equilibria are the "
+    "permanent rotations of the free body and no others")
+INVERTIBLE_BELOW = Sentence(
+    "invertible-below",
+    "momentum along rotation: the rates are (D + κ L) a with a the rates without liquid, and D + κ L is "
+    "invertible wherever |ω| < {limit}, so there are no others; beyond that the torque of the liquid is as "
+    "large as the body's own and its derivation does not hold")
+INVERTIBLE_IN_LIMIT = Sentence(
+    "invertible-in-limit",
+    "momentum along rotation: the rates are (D + κ L) a with a the rates without liquid, and D + κ L is "
+    "invertible only in the limit of small κ, so there are no others; beyond that the torque of the liquid "
+    "is as large as the body's own and its derivation does not hold")()
+ATTRACTING = Verdict("stable", Sentence(
+    "curve-attracts",
+    "c1, c2 > 0 in z (z² + c2 z + c1): the curve of permanent rotations attracts, so this rotation is "
+    "stable and every motion from nearby tends to a permanent rotation of the curve")())
+REPELLED = Verdict("unstable", Sentence(
+    "curve-repels",
+    "c1 < 0 or c2 < 0 in z (z² + c2 z + c1): a root with positive real part")())
+LARGEST = Verdict("stable", Sentence(
+    "largest-attracts",
+    "asymptotically stable at its angular momentum |H|: {inner} keeps |H|, and on the sphere of constant "
+    "|H| the energy is least here and falls everywhere else (LaSalle): motions from nearby tend to "
+    "rotation about this axis")(inner=THE_LIQUID))
+NOT_LARGEST = Verdict("unstable", Sentence(
+    "not-largest-leaves",
+    "the energy on the sphere of constant |H| is not least here and {inner} makes it fall wherever the "
+    "motion is no permanent rotation: states of less energy next to this one leave and do not come "
+    "back")(inner=THE_LIQUID))
+REST = Verdict("stable", Sentence(
+    "liquid-rest",
+    "the kinetic energy is positive definite and never grows")())
+EDGE = Verdict("undecided", Sentence(
+    "liquid-edge",
+    "the linear motion is degenerate (c1 c2 = 0): a term of higher order decides")())
+PLANE_ATTRACTS = Verdict("stable", Sentence(
+    "plane-attracts",
+    "the plane of permanent rotations attracts (the third eigenvalue is negative), so each of its points is "
+    "stable and motions from nearby tend to a point of the plane")())
+PLANE_REPELS = Verdict("unstable", Sentence(
+    "plane-repels", "the eigenvalue across the plane of permanent rotations is positive")())
 
 
 def liquid_equilibria(parts: Content) -> Equilibria:
     """Every permanent rotation of a body with a liquid (no torque, no resistance), with its stability."""
     if parts.printed and any(parts.Lambda):
-        return Equilibria("undecided",
-                          "the printed torque of the liquid leaves out terms of its own order where a wheel "
-                          "or a charge acts, so it vanishes on no permanent rotation: undecided; choose "
-                          "torque = \"consistent\"")
+        return Equilibria("undecided", reason=PRINTED_TORQUE)
     p = pencil(gyrostat_scene(parts))
     exact, planes = torque_free_curves(p)
     curves = (*(_judged(parts, curve) for curve in exact), *(_plane(parts, plane) for plane in planes))
-    return Equilibria("curves", _reason(parts), curves=curves)
+    return Equilibria("curves", curves=curves, reason=_reason(parts))
 
 
-def _reason(parts: Content) -> str:
+def _reason(parts: Content) -> Reason:
     if not any(parts.Lambda):
-        return ("the liquid takes energy at every rotation that is not about a principal axis, so the "
-                "equilibria are the permanent rotations of the free body and no others")
+        return PRINCIPAL_ALONE(inner=THE_LIQUID)
     limit = validity(parts)
-    where = (f"wherever |omega| < {number(float(limit), side=-1)} rad/s" if limit > 0
-             else "only in the limit of small kappa")
-    return ("momentum along rotation: the rates are (D + kappa L) a with a the rates without liquid, and D + "
-            f"kappa L is invertible {where}, so there are no others; beyond that the torque of the liquid is "
-            "as large as the body's own and its derivation does not hold")
+    return INVERTIBLE_BELOW(limit=Rate(float(limit)).lower) if limit > 0 else INVERTIBLE_IN_LIMIT
 
 
 def validity(parts: Content) -> Fraction:
@@ -134,18 +161,19 @@ def _word(c2, c1) -> str:
     return "unstable" if c2 < 0 or c1 < 0 else "degenerate"
 
 
-def _verdict(parts, word):
+def _verdict(parts: Content, word: str) -> Verdict:
     if any(parts.Lambda):
         return {"stable": ATTRACTING, "unstable": REPELLED, "degenerate": EDGE}[word]
     return {"stable": LARGEST, "unstable": NOT_LARGEST, "degenerate": EDGE}[word]
 
 
-def point(parts: Content, omega, verdict=None) -> EquilibriumPoint:
+def point(parts: Content, omega, verdict: Verdict | None = None) -> EquilibriumPoint:
     """A permanent rotation (exact) with spectrum and verdict."""
     c2, c1 = coefficients(jacobian(parts, omega))
     word = _word(c2, c1)
-    return EquilibriumPoint(tuple(float(v) for v in omega), roots(c2, c1), word,
-                            *(verdict or _verdict(parts, word)))
+    verdict = verdict or _verdict(parts, word)
+    return EquilibriumPoint(tuple(float(v) for v in omega), roots(c2, c1), word, verdict.word,
+                            reason=verdict.reason)
 
 
 def _judged(parts: Content, curve: RationalCurve) -> EquilibriumCurve:
@@ -163,9 +191,10 @@ def _judged(parts: Content, curve: RationalCurve) -> EquilibriumCurve:
     def segment(lo, hi):
         middle = values_inside(lo, hi, curve.scale)
         word = _word(*coefficients(jacobian(parts, curve.exact_point(middle))))
+        verdict = _verdict(parts, word)
         chosen = sample_parameters(lo, hi, curve.scale) or [middle]
         samples = [point(parts, curve.exact_point(t)) for t in chosen]
-        return CurveSegment(float_ends(lo, hi), word, *_verdict(parts, word)), samples
+        return CurveSegment(float_ends(lo, hi), word, verdict.word, reason=verdict.reason), samples
     return curve.cut(cuts, segment, lambda t, *_: fixed[t])
 
 
@@ -180,7 +209,9 @@ def _cut(parts, curve, t) -> EquilibriumPoint:
     near = [Fraction(0) if abs(v) < Fraction(1, 2**120) * scale else v
             for v, scale in zip((c2, c1), _sizes(parts, omega))]
     word = _word(*near)
-    return EquilibriumPoint(tuple(float(v) for v in omega), roots(*near), word, *_verdict(parts, word))
+    verdict = _verdict(parts, word)
+    return EquilibriumPoint(tuple(float(v) for v in omega), roots(*near), word, verdict.word,
+                            reason=verdict.reason)
 
 
 def _sizes(parts, omega):
@@ -193,59 +224,77 @@ def _sizes(parts, omega):
 def _plane(parts: Content, plane: EquilibriumCurve) -> EquilibriumCurve:
     """A plane of equilibria (two equal moments): eigenvalues 0, 0 along it and one across it, q t^2 at
     distance t from its centre."""
-    across = ("stable",
-              "the plane of permanent rotations attracts (the third eigenvalue is negative), so each of its "
-              "points is stable and motions from nearby tend to a point of the plane")
-    away = ("unstable", "the eigenvalue across the plane of permanent rotations is positive")
     centre = REST if not any(parts.Lambda) else EDGE
 
     def judged(at):
         omega = tuple(Fraction(v) for v in at)
         if at == plane.folds[0]:
-            return EquilibriumPoint(at, (0j, 0j, 0j), "degenerate", *centre)
+            return EquilibriumPoint(at, (0j, 0j, 0j), "degenerate", centre.word, reason=centre.reason)
         trace = -coefficients(jacobian(parts, omega))[0]
-        return EquilibriumPoint(at, (0j, 0j, complex(float(trace), 0.0)),
-                                "unstable" if trace > 0 else "stable",
-                                *(away if trace > 0 else across))
+        verdict = PLANE_REPELS if trace > 0 else PLANE_ATTRACTS
+        return EquilibriumPoint(at, (0j, 0j, complex(float(trace), 0.0)), verdict.word, verdict.word,
+                                reason=verdict.reason)
     samples = tuple(judged(s.at) for s in plane.samples)
     side = next(s for s in samples if s.linear != "degenerate")
-    segments = tuple(CurveSegment(s.t, side.linear, side.verdict, side.because) for s in plane.segments)
+    segments = tuple(CurveSegment.like(side, s.t) for s in plane.segments)
     return replace(plane, segments=segments, samples=samples)
 
 
 ROUND = 1 + 1e-9  # more than all roundings of a bound
 RADIUS = 1e-45    # relative radius of the ball in which the sharpened zero is proved to lie
-EVERYWHERE = "the kinetic energy T lies below the value from which it falls (above it there is none)"
-STABLE = ("asymptotically stable",
-          "p2, p0 > 0 and p2 p1 > p0 in z^3 + p2 z^2 + p1 z + p0 (Routh and Hurwitz): all roots lie on "
-          "the left")
-UNSTABLE = ("unstable",
-            "p0 < 0, p2 < 0 or p2 p1 < p0 in z^3 + p2 z^2 + p1 z + p0 (Routh and Hurwitz): a root with "
-            "positive real part")
-OPEN = ("undecided",
-        "Routh and Hurwitz leave the roots open: one of the conditions is an equality to some forty digits")
+EVERYWHERE = Sentence(
+    "energy-falls-below",
+    "the kinetic energy T lies below the value from which it falls (above it there is none)")()
+STABLE = Verdict("asymptotically stable", Sentence(
+    "liquid-all-left",
+    "p2, p0 > 0 and p2 p1 > p0 in z³ + p2 z² + p1 z + p0 (Routh and Hurwitz): all roots lie on the "
+    "left")())
+UNSTABLE = Verdict("unstable", Sentence(
+    "liquid-not-left",
+    "p0 < 0, p2 < 0 or p2 p1 < p0 in z³ + p2 z² + p1 z + p0 (Routh and Hurwitz): a root with positive real "
+    "part")())
+OPEN = Verdict("undecided", Sentence(
+    "liquid-roots-open",
+    "Routh and Hurwitz leave the roots open: one of the conditions is an equality to some forty digits")())
+REST_IS_ONE = Sentence("rest-is-one", "rest is one, as no torque acts on it")()
+NOT_SETTLED = Sentence(
+    "search-not-settled",
+    "undecided: {boxes} boxes did not settle the search where {where}; the equilibria found are proved, "
+    "others are not excluded")
+EVERY_BOX = Sentence(
+    "every-box-settled",
+    "every box of angular velocities where {where} was proved empty or to hold exactly one equilibrium "
+    "(Krawczyk)")
+BELOW_ENERGY = Sentence(
+    "below-energy", "T < {energy} (beyond it the torque of the liquid may outweigh the medium's)")
+LIQUID_MAY_OUTWEIGH = Sentence(
+    "liquid-may-outweigh",
+    "undecided: the torque of the liquid may outweigh the body's own at every rate, and nothing bounds the "
+    "equilibria")()
+BELOW_RATES = Sentence(
+    "below-rates",
+    "|ωᵢ| < {reach} (where |ω| > {limit} the torque of the liquid may be as large as the body's own: its "
+    "derivation does not hold there)")
+DAMPER_FREE_ALONE = Sentence(
+    "damper-free-alone",
+    "undecided: with a damper the stability of equilibria is known of a free body without wheels")()
 
 
 def balanced_equilibria(parts: Content) -> Equilibria:
     """Equilibria with a liquid and resistance or torque: all of them below a bound that the reason names."""
     from ..numbers.krawczyk import zeros
-    reach, words = _region(parts)
+    reach, where = _region(parts)
     torques = balance(parts)
     if reach is None:
         rest = () if any(parts.M) else (_point(parts, torques, (0.0, 0.0, 0.0)),)
-        return Equilibria("undecided", f"{words}; rest is one, as no torque acts on it" if rest else words,
-                          rest)
+        return Equilibria("undecided", rest, reason=where.then(REST_IS_ONE if rest else None))
     found = zeros([_dictionary(f) for f in torques], reach)
     points = tuple(_point(parts, torques, x) for x in sorted(map(tuple, found.points.tolist())))
     if not found.complete:
-        return Equilibria("undecided",
-                          f"undecided: {found.boxes} boxes did not settle the search where {words}; the "
-                          "equilibria found are proved, others are not excluded", points)
-    everywhere = words == EVERYWHERE
-    kind = "points" if points else "none" if everywhere else "undecided"
-    return Equilibria(kind,
-                      f"every box of angular velocities where {words} was proved empty or to hold exactly "
-                      f"one equilibrium (Krawczyk)", points)
+        return Equilibria("undecided", points,
+                          reason=NOT_SETTLED(boxes=Quantity(found.boxes, digits=15), where=where))
+    kind = "points" if points else "none" if where == EVERYWHERE else "undecided"
+    return Equilibria(kind, points, reason=EVERY_BOX(where=where))
 
 
 def _in_polynomials(parts: Content):
@@ -297,28 +346,22 @@ def trap(parts: Content) -> tuple[float, float] | None:
     return 2 * push / (net + root) * ROUND, (net + root) / (2 * beta) / ROUND
 
 
-def _region(parts: Content):
-    """(reach of omega, words), or (None, why not)."""
+def _region(parts: Content) -> tuple[list[float] | None, Reason]:
+    """(reach of omega, where that is), or (None, why not)."""
     found = trap(parts)
     if found is not None:
         x1, x2 = found
         if x1 == 0:
             x1 = min(1.0, x2 / 2)  # rest alone lies below x2; the search proves it again
-        words = (EVERYWHERE if x2 == inf
-                 else f"T < {number(x2 * x2 / 2, side=-1)} J (beyond it the torque of the liquid may "
-                      f"outweigh the medium's)")
-        return [x1 / sqrt(float(d)) * ROUND for d in parts.D], words
+        where = EVERYWHERE if x2 == inf else BELOW_ENERGY(energy=Energy(x2 * x2 / 2).lower)
+        return [x1 / sqrt(float(d)) * ROUND for d in parts.D], where
     limit = max(float(validity(parts)), 0.0)
     balance = (sqrt(sum(float(m / d) ** 2 for m, d in zip(parts.M, parts.D))) / float(parts.c) if parts.c
                else 0.0)
     if not max(limit, balance):
-        return (None,
-                "undecided: the torque of the liquid may outweigh the body's own at every rate, and nothing "
-                "bounds the equilibria")
+        return None, LIQUID_MAY_OUTWEIGH
     reach = max(limit, 3 * balance)
-    return [reach] * 3, (f"|omega_i| < {number(reach, side=-1)} rad/s (where |omega| > {limit:.6g} rad/s "
-                         "the torque of "
-                         "the liquid may be as large as the body's own: its derivation does not hold there)")
+    return [reach] * 3, BELOW_RATES(reach=Rate(reach).lower, limit=Rate(limit))
 
 
 def _point(parts: Content, torques, x) -> EquilibriumPoint:
@@ -337,7 +380,7 @@ def _point(parts: Content, torques, x) -> EquilibriumPoint:
         else:
             word, verdict = "degenerate", OPEN
         at = tuple(0.0 if v.contains(0) else float(v.mid()) for v in ball)
-    return EquilibriumPoint(at, ordered(np.linalg.eigvals(middle)), word, *verdict)
+    return EquilibriumPoint(at, ordered(np.linalg.eigvals(middle)), word, verdict.word, reason=verdict.reason)
 
 
 def _slopes(torques):
@@ -369,28 +412,28 @@ def damped_equilibria(parts: Content) -> Equilibria:
     """Every permanent rotation with its stability; undecided beside a torque, a medium, a liquid or a wheel.
     """
     if any(parts.M) or parts.c or parts.damped or parts.kappa or any(parts.Lambda):
-        return Equilibria("undecided",
-                          "undecided: with a damper the stability of equilibria is known of a free body "
-                          "without wheels")
+        return Equilibria("undecided", reason=DAMPER_FREE_ALONE)
     found = liquid_equilibria(replace(parts, inside=Fraction(0), kappa=Fraction(1)))  # verdicts of any liquid
-    return Equilibria(found.kind, _of_damper(found.reason),
-                      tuple(_with_damper(parts, point) for point in found.points),
-                      tuple(_curve_with_damper(parts, curve) for curve in found.curves))
+    return Equilibria(found.kind, tuple(_with_damper(parts, point) for point in found.points),
+                      tuple(_curve_with_damper(parts, curve) for curve in found.curves),
+                      reason=_of_damper(found.reason))
 
 
-def _of_damper(words: str) -> str:
-    return words.replace("the liquid", "the damper")
+def _of_damper(reason: Reason) -> Reason:
+    """The same, where the damper takes the energy."""
+    inner = {name: THE_DAMPER if value == THE_LIQUID else value for name, value in reason.filled}
+    return reason.sentence(**inner)
 
 
 def _curve_with_damper(parts: Content, curve: EquilibriumCurve) -> EquilibriumCurve:
     return replace(curve, samples=tuple(_with_damper(parts, point) for point in curve.samples),
-                   segments=tuple(replace(one, because=_of_damper(one.because)) for one in curve.segments))
+                   segments=tuple(replace(one, reason=_of_damper(one.reason)) for one in curve.segments))
 
 
 def _with_damper(parts: Content, point: EquilibriumPoint) -> EquilibriumPoint:
     import numpy as np
     return replace(point, eigenvalues=ordered(np.linalg.eigvals(damper_jacobian(parts, point.at))),
-                   because=_of_damper(point.because))
+                   reason=_of_damper(point.reason))
 
 
 def damper_jacobian(parts: Content, omega: Sequence[float]) -> Any:

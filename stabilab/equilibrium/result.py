@@ -11,26 +11,28 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ..errors import InputError
 from ..numbers.polynomial import Poly
 from ..numbers.principal import PrincipalAxes
-from ..numbers.vectors import Exact3, Float3, Number
+from ..numbers.vectors import Exact3, Float3
+from ..reasons import Reason, Reasoned
 from ..representation import Answer
+from .description import PLANE, Description
 
 if TYPE_CHECKING:
     from ..physics.law_limits import Validity
 
+
 @dataclass(frozen=True)
-class EquilibriumPoint:
+class EquilibriumPoint(Reasoned):
     """One equilibrium with its verdicts.
 
     at: three components in the scene's variables. eigenvalues: of the Jacobian there (1/s, or 1/tau when
     scaled). linear: "stable" (centre), "unstable", "degenerate". verdict: "stable", "unstable", "undecided"
-    (Lyapunov sense, for the full nonlinear motion), because: its proof in words.
+    (Lyapunov sense, for the full nonlinear motion), reason: its proof, because: the same in words.
     """
 
     at: Float3
     eigenvalues: tuple[complex, ...]
     linear: str
     verdict: str
-    because: str
 
     @property
     def characteristic(self) -> tuple[float, ...]:
@@ -43,42 +45,65 @@ class EquilibriumPoint:
 
 
 @dataclass(frozen=True)
-class CurveSegment:
+class CurveSegment(Reasoned):
     """A piece of an equilibrium curve with one verdict; `t` is the open parameter interval (ends may be
     infinite)."""
 
     t: tuple[float, float]
     linear: str
     verdict: str
-    because: str
+
+    @classmethod
+    def like(cls, sample: EquilibriumPoint, t: tuple[float, float]) -> CurveSegment:
+        """A piece all of whose points are judged as this one is."""
+        return cls(t, sample.linear, sample.verdict, reason=sample.reason)
 
 
 @dataclass(frozen=True)
 class EquilibriumCurve:
     """A curve of equilibria: point(t) -> (x1, x2, x3) for t inside the segments' intervals.
 
-    equation and parametrisation in symbols; folds are the points between segments where the linear verdict is
-    degenerate; samples are equilibria spread over every segment.
+    description: what it is called, its equation and its parametrisation, with their numbers; folds are the
+    points between segments where the linear verdict is degenerate; samples are equilibria spread over every
+    segment.
     """
 
-    name: str
-    equation: str
-    parametrisation: str
+    description: Description
     point: Callable[[float], Float3] = field(repr=False, compare=False)
     segments: tuple[CurveSegment, ...] = ()
     folds: tuple[Float3, ...] = ()
     samples: tuple[EquilibriumPoint, ...] = ()
 
+    @property
+    def plane(self) -> bool:
+        """Whether it stands for a plane of equilibria, through whose centre it runs."""
+        return self.description.name.says(PLANE)
+
+    @property
+    def name(self) -> str:
+        """What it is called, in words and SI units."""
+        return self.description.name.text()
+
+    @property
+    def equation(self) -> str:
+        """Its equation in symbols, in SI units."""
+        return self.description.equation.text()
+
+    @property
+    def parametrisation(self) -> str:
+        """Its points over the parameter, in symbols and SI units."""
+        return self.description.parametrisation.text()
+
 
 @dataclass(frozen=True, repr=False)
-class Equilibria(Answer):
+class Equilibria(Answer, Reasoned):
     """All equilibria of a scene. kind: "none", "points", "curves" (curves, possibly with points) or "all"
-    (every state is one); reason: why these and no others. validity: of an approximate law
-    (`stabilab.physics.law_limits`), at the points; None where all laws are exact. frame: the principal axes,
-    along which states are, in the frame of the tensor that was given; None where the two are one."""
+    (every state is one); reason: why these and no others, because: the same in words. validity: of an
+    approximate law (`stabilab.physics.law_limits`), at the points; None where all laws are exact. frame: the
+    principal axes, along which states are, in the frame of the tensor that was given; None where the two are
+    one."""
 
     kind: str
-    reason: str
     points: tuple[EquilibriumPoint, ...] = ()
     curves: tuple[EquilibriumCurve, ...] = ()
     validity: Validity | None = None
@@ -87,7 +112,13 @@ class Equilibria(Answer):
 
 T = Poly((0, 1))
 ONE_POLY = Poly((1,))
-Verdict = tuple[str, str]  # (word, because)
+
+
+class Verdict(NamedTuple):
+    """On the stability of an equilibrium, and why."""
+
+    word: str
+    reason: Reason
 
 
 class Grounds(NamedTuple):
@@ -106,9 +137,7 @@ class RationalCurve:
     verdict. poles: zeros of the denominator, rising, all rational. scale: a parameter size at which something
     happens."""
 
-    name: str
-    equation: str
-    parametrisation: str
+    description: Description
     numerators: tuple[Poly, ...]
     grounds: Grounds
     denominator: Poly = ONE_POLY
@@ -128,7 +157,8 @@ class RationalCurve:
             return tuple(float(v) for v in self.exact_point(Fraction(t)))
         except (ZeroDivisionError, OverflowError, ValueError):
             raise InputError(
-                f"t = {t!r} lies at an end of the curve ({self.name}): no equilibrium there") from None
+                f"t = {t!r} lies at an end of the curve ({self.description.name}): no equilibrium there"
+            ) from None
 
     def cut(self, cuts: Sequence[Fraction], segment: Callable[..., Any],
             fold: Callable[..., EquilibriumPoint]) -> EquilibriumCurve:
@@ -142,9 +172,8 @@ class RationalCurve:
                 folds.append(fold(t, before, after))
                 samples.append(folds[-1])
             samples += points
-        return EquilibriumCurve(self.name, self.equation, self.parametrisation, self.rounded_point,
-                                tuple(s for s, _ in pieces), tuple(point.at for point in folds),
-                                tuple(samples))
+        return EquilibriumCurve(self.description, self.rounded_point, tuple(s for s, _ in pieces),
+                                tuple(point.at for point in folds), tuple(samples))
 
 
 def straight_line(start: Sequence[Fraction], direction: Sequence[Fraction]) -> tuple[Poly, ...]:
@@ -192,46 +221,3 @@ def sample_parameters(lo: Fraction | None, hi: Fraction | None, scale: Fraction)
         except OverflowError:
             continue
     return [t for t in dict.fromkeys(rounded) if (lo is None or t > lo) and (hi is None or t < hi)]
-
-
-def decimal(value: Number) -> str:
-    """A number for the user's eye: the shortest decimal that reads back as the same double; six digits beyond
-    the doubles."""
-    try:
-        number = float(value)
-    except OverflowError:
-        number = 0.0
-    if value and not number:
-        from decimal import Context
-        digits, value = Context(prec=6, Emin=-10**6, Emax=10**6), Fraction(value)
-        ratio = digits.divide(*map(digits.create_decimal, (value.numerator, value.denominator)))
-        return f"{ratio:e}"
-    return repr(number + 0.0).removesuffix(".0")
-
-
-def shifted(name: str, centre: Fraction) -> str:
-    """"x1", "(x1 + 0.4)" or "(x1 - 0.4)" for the distance of a component from its centre."""
-    return name if not centre else f"({name} {'-' if centre > 0 else '+'} {decimal(abs(centre))})"
-
-
-def sum_of(*terms: Number | str) -> str:
-    """A readable sum of numbers and strings such as "2 + t", without zero terms."""
-    out = ""
-    for term in terms:
-        text = term if isinstance(term, str) else decimal(term) if term else ""
-        if text:
-            out += text if not out else f" - {text[1:]}" if text.startswith("-") else f" + {text}"
-    return out or "0"
-
-
-def line_text(names: Sequence[str], start: Sequence[Fraction],
-              direction: Sequence[Fraction]) -> tuple[str, str]:
-    """(equation, parametrisation) of start + t direction."""
-    fixed = [f"{n} = {decimal(s)}" for n, s, d in zip(names, start, direction) if not d]
-    free = [n for n, d in zip(names, direction) if d]
-    moving = []
-    for s, d in zip(start, direction):
-        term = "t" if d == 1 else "-t" if d == -1 else f"{decimal(d)} t" if d else ""
-        moving.append(sum_of(s, term))
-    along = f"{free[0]} arbitrary" if len(free) == 1 else f"({', '.join(free)}) on a straight line"
-    return ", ".join(fixed + [along]), ", ".join(f"{n} = {v}" for n, v in zip(names, moving))

@@ -27,6 +27,7 @@ from ..numbers.exact import sign_of, sqrt_fraction
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import Exact3, Number, Triple
 from ..physics.scene import AnyScene, QuadraticForm
+from ..reasons import Sentence
 from .result import (
     CurveSegment,
     EquilibriumCurve,
@@ -39,6 +40,27 @@ from .result import (
 )
 
 ONE, ZERO = Fraction(1), Fraction(0)
+POSITIVE_EIGENVALUE = Verdict("unstable", Sentence(
+        "positive-eigenvalue",
+        "n = 0 and m < 0 in z³ + m z + n: the eigenvalue √(-m) is positive")())
+N_POSITIVE = Verdict("unstable", Sentence(
+    "n-positive",
+    "n > 0 in z³ + m z + n, whose roots sum to zero: a negative real root, so the other two have a positive "
+    "real part, whatever m is")())
+N_NEGATIVE = Verdict("unstable", Sentence(
+    "n-negative",
+    "n < 0 in z³ + m z + n, whose roots sum to zero: a real root with a positive real part, whatever m is")())
+FOLD_WITH_CENTRE = Verdict("unstable", Sentence(
+    "fold-with-centre",
+    "fold of two isolated equilibria, eigenvalues 0, ±i √(m): the averaged motion is z' = a z² + b r², "
+    "r' = -a z r with a != 0, and V = z² - k² r² is a Chetaev function")())
+FOLD_TRIPLE_ZERO = Verdict("unstable", Sentence(
+    "fold-triple-zero",
+    "fold of two isolated equilibria with a triple zero eigenvalue: z''' = a z² + ... with a != 0, and "
+    "blown up with weights 3, 4, 5 it has a motion z ~ -60/(a t³) that comes out of the point")())
+DEGENERATE_CURVE = Verdict("undecided", Sentence(
+    "degenerate-curve",
+    "m and n vanish all along this curve: the linear motion is degenerate and no proof is known here")())
 
 
 class Pencil(NamedTuple):
@@ -54,8 +76,8 @@ class Pencil(NamedTuple):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the three components of the state."""
-        return tuple(f"{self.form.symbol}{i}" for i in (1, 2, 3))
+        """Letters of the three components of the state."""
+        return tuple(f"{'x' if self.scaled else 'ω'}{i}" for i in (1, 2, 3))
 
     def turned(self, y: Sequence[Number]) -> Exact3:
         """D y."""
@@ -140,9 +162,6 @@ def ordered(values: Iterable[complex]) -> tuple[complex, ...]:
     return tuple(sorted(map(complex, values), key=lambda z: (z.imag != 0, abs(z), -z.real, -z.imag)))
 
 
-POSITIVE_EIGENVALUE = ("unstable", "n = 0 and m < 0 in z^3 + m z + n: the eigenvalue sqrt(-m) is positive")
-
-
 def linear_word(m_sign: int, n_sign: int) -> str:
     """The linear verdict from exact signs: "stable" (centre with a simple zero), "unstable" or "degenerate".
     """
@@ -159,18 +178,10 @@ def isolated_verdict(m_sign: int, n_sign: int) -> Verdict:
     Proofs: docs/mathematics/stability.md.
     """
     if n_sign:
-        where = "a negative real root, so the other two have" if n_sign > 0 else "a real root with"
-        return "unstable", (f"n {'>' if n_sign > 0 else '<'} 0 in z^3 + m z + n, whose roots sum to zero: "
-                            f"{where} a positive real part, whatever m is")
+        return N_POSITIVE if n_sign > 0 else N_NEGATIVE
     if m_sign < 0:
         return POSITIVE_EIGENVALUE
-    if m_sign > 0:
-        return "unstable", ("fold of two isolated equilibria, eigenvalues 0, +-i sqrt(m): the averaged "
-                            "motion is z' = a z^2 "
-                            "+ b r^2, r' = -a z r with a != 0, and V = z^2 - k^2 r^2 is a Chetaev function")
-    return "unstable", ("fold of two isolated equilibria with a triple zero eigenvalue: z''' = a z^2 + ... "
-                        "with a != 0, and blown up "
-                        "with weights 3, 4, 5 it has a motion z ~ -60/(a t^3) that comes out of the point")
+    return FOLD_WITH_CENTRE if m_sign > 0 else FOLD_TRIPLE_ZERO
 
 
 class Isolated(NamedTuple):
@@ -214,14 +225,14 @@ def isolated_point(form: QuadraticForm, point: Isolated) -> EquilibriumPoint:
     """An isolated equilibrium with spectrum and verdicts."""
     both = invariants(form, point.x)
     signs = [sign_at(v, point.P, point.t) for v in both]
-    verdict, because = isolated_verdict(*signs)
+    verdict = isolated_verdict(*signs)
     try:
         at = tuple(map(float, point.at))
         spectrum = eigenvalues(*(v(point.t) if sign else ZERO for v, sign in zip(both, signs)))
     except OverflowError:
         raise InputError(
             "an equilibrium or its eigenvalues lie beyond the largest double: choose other units") from None
-    return EquilibriumPoint(at, spectrum, linear_word(*signs), verdict, because)
+    return EquilibriumPoint(at, spectrum, linear_word(*signs), verdict.word, reason=verdict.reason)
 
 
 def curve_with_verdicts(form: QuadraticForm, curve: RationalCurve) -> EquilibriumCurve:
@@ -243,38 +254,35 @@ def _segment(form: QuadraticForm, curve: RationalCurve, lo: Fraction | None,
     """The segment between two neighbouring cuts (None: infinite) and its samples."""
     middle = values_inside(lo, hi, curve.scale)
     m_sign = sign_of(_m_at(form, curve, middle))
-    word, (verdict, because) = linear_word(m_sign, 0), _regular_verdict(curve, m_sign)
+    word, verdict = linear_word(m_sign, 0), _regular_verdict(curve, m_sign)
     samples = []
     for t in sample_parameters(lo, hi, curve.scale) or [middle]:
         try:
             at = tuple(float(v) for v in curve.exact_point(t))
             samples.append(EquilibriumPoint(at, eigenvalues(_m_at(form, curve, t), Fraction(0)), word,
-                                            verdict, because))
+                                            verdict.word, reason=verdict.reason))
         except OverflowError:  # a far sample beyond the largest double is left out
             continue
-    return CurveSegment(float_ends(lo, hi), word, verdict, because), samples
+    return CurveSegment(float_ends(lo, hi), word, verdict.word, reason=verdict.reason), samples
 
 
 def _regular_verdict(curve: RationalCurve, m_sign: int) -> Verdict:
     if m_sign < 0:
         return POSITIVE_EIGENVALUE
-    if m_sign > 0:
-        return curve.grounds.positive
-    return ("undecided",
-            "m and n vanish all along this curve: the linear motion is degenerate and no proof is known here")
+    return curve.grounds.positive if m_sign > 0 else DEGENERATE_CURVE
 
 
 def _fold(curve: RationalCurve, t: Fraction, before: CurveSegment, after: CurveSegment) -> EquilibriumPoint:
     """The equilibrium at a zero of m: three exact zero eigenvalues."""
     signs = {before.linear, after.linear}
     if t in curve.crossings:
-        verdict, because = curve.crossings[t]
+        verdict = curve.crossings[t]
     elif len(signs) == 2:
-        verdict, because = curve.grounds.odd
+        verdict = curve.grounds.odd
     else:
-        verdict, because = curve.grounds.minimum if signs == {"stable"} else curve.grounds.maximum
+        verdict = curve.grounds.minimum if signs == {"stable"} else curve.grounds.maximum
     at = tuple(float(v) for v in curve.exact_point(t))
-    return EquilibriumPoint(at, (0j, 0j, 0j), "degenerate", verdict, because)
+    return EquilibriumPoint(at, (0j, 0j, 0j), "degenerate", verdict.word, reason=verdict.reason)
 
 
 def _m_at(form: QuadraticForm, curve: RationalCurve, t: Fraction) -> Fraction:

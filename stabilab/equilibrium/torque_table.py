@@ -18,6 +18,23 @@ from ..numbers.vectors import Given
 SIGN = {-1: "-", 0: "0", 1: "+"}
 WELL = "stable: minimum of the reduced potential; unstable elsewhere, folds included"
 UNSTABLE = "unstable: an eigenvalue with positive real part (n != 0)"
+NO_X = "X = x1 + a = 0 forces x2 x3 = 0 when a = b, and x1' = mu1 does not vanish"
+NO_Y = "Y = x1 + b = 0 forces x2 x3 = 0 when a = b, and x1' = mu1 does not vanish"
+ONE_WITH_SECOND = dict(
+    form="(-b, mu1 (b-a)/mu2, -mu2/(b-a))",
+    polynomial="z^3 + m z + n, m = mu2^2/(b-a)^2 - mu1^2 (b-a)^2/mu2^2, n = mu1 (b-a)",
+    spectrum="one real root of the sign of -mu1 (b-a); the real parts of the other two sum to its opposite")
+ONE_WITH_THIRD = dict(
+    form="(-a, -mu3/(b-a), mu1 (b-a)/mu3)",
+    polynomial="z^3 + m z + n, m = mu1^2 (b-a)^2/mu3^2 - mu3^2/(b-a)^2, n = -mu1 (b-a)",
+    spectrum="one real root of the sign of mu1 (b-a); the real parts of the other two sum to its opposite")
+TWO_OF_EQUAL = dict(
+    form="x1 = -a +- sqrt(mu2 mu3/mu1), x2 = -mu3/(x1 + a), x3 = mu2/(x1 + a)",
+    polynomial="z^3 + m z + n, m = mu2 mu3/mu1 - x2^2 + x3^2, n = -+2 mu1 sqrt(mu2 mu3/mu1)")
+TWO = dict(
+    form="x1 = -(a+b)/2 +- (1/2) sqrt((b-a)^2 + 4 mu2 mu3/mu1), x2 = -mu3/(x1 + b), x3 = mu2/(x1 + a)",
+    polynomial="z^3 + m z + n, m = mu2 mu3/mu1 - x2^2 + x3^2, n = -+2 mu1 (1/2) sqrt((b-a)^2 + 4 mu2 "
+               "mu3/mu1)")
 
 
 @dataclass(frozen=True)
@@ -122,39 +139,27 @@ def _two_torques(signs: Sequence[int], acting: Sequence[int], same: bool) -> dic
     if 0 not in acting:
         return _none("mu1 = 0 leaves mu2 x2 = 0 and mu3 x3 = 0, so x2 = x3 = 0, where x2' = mu2 and x3' = "
                      "mu3 do not vanish")
-    held, free, form = {2: ("X = x1 + a = 0", "mu1 (b-a)", "(-a, -mu3/(b-a), mu1 (b-a)/mu3)"),
-                        1: ("Y = x1 + b = 0", "-mu1 (b-a)", "(-b, mu1 (b-a)/mu2, -mu2/(b-a))")}[acting[1]]
+    with_third = acting[1] == 2
     if same:
-        return _none(f"{held} forces x2 x3 = 0 when a = b, and x1' = mu1 does not vanish")
-    n = "-mu1 (b-a)" if acting[1] == 2 else "mu1 (b-a)"
-    m = "mu1^2 (b-a)^2/mu3^2 - mu3^2/(b-a)^2" if acting[1] == 2 else "mu2^2/(b-a)^2 - mu1^2 (b-a)^2/mu2^2"
-    return dict(kinds=("points",), counts=(1,), number="one", form=form, condition="a != b",
-                polynomial=f"z^3 + m z + n, m = {m}, n = {n}",
-                spectrum=f"one real root of the sign of {free}; the real parts of the other two sum to its "
-                         f"opposite",
-                linear="unstable (n != 0)", nonlinear=UNSTABLE)
+        return _none(NO_X if with_third else NO_Y)
+    return dict(kinds=("points",), counts=(1,), number="one", condition="a != b", linear="unstable (n != 0)",
+                nonlinear=UNSTABLE) | (ONE_WITH_THIRD if with_third else ONE_WITH_SECOND)
 
 
 def _three_torques(signs: Sequence[int], acting: Sequence[int], same: bool) -> dict[str, Any]:
     """X Y = p = mu2 mu3/mu1, so X^2 + c X - p = 0, x2 = -mu3/Y, x3 = mu2/X, n = -+mu1 sqrt(c^2 + 4 p)."""
     positive = signs[0] * signs[1] * signs[2] > 0
-    product_text = "mu2 mu3/mu1"
     if same and not positive:
-        return _none(f"(x1 + a)^2 = {product_text} is negative")
-    root = f"sqrt({product_text})" if same else f"(1/2) sqrt((b-a)^2 + 4 {product_text})"
+        return _none("(x1 + a)^2 = mu2 mu3/mu1 is negative")
     facts = dict(
-        kinds=("points",), counts=(2,), number="two",
-        form=(f"x1 = -a +- {root}, x2 = -mu3/(x1 + a), x3 = mu2/(x1 + a)" if same else
-              f"x1 = -(a+b)/2 +- {root}, x2 = -mu3/(x1 + b), x3 = mu2/(x1 + a)"),
-        condition=f"always ({product_text} > 0)",
-        polynomial=f"z^3 + m z + n, m = {product_text} - x2^2 + x3^2, n = -+2 mu1 {root}",
+        kinds=("points",), counts=(2,), number="two", condition="always (mu2 mu3/mu1 > 0)",
         spectrum="one real root of the sign of -n; the real parts of the other two sum to its opposite",
-        linear="unstable (n != 0)", nonlinear=UNSTABLE)
+        linear="unstable (n != 0)", nonlinear=UNSTABLE) | (TWO_OF_EQUAL if same else TWO)
     if positive:
         return facts
     return facts | dict(
         kinds=("none", "points"), counts=(0, 1, 2), number="two, one or none",
-        condition=f"(b-a)^2 > 4 |{product_text}|: two; equal: one (fold, x1 = -(a+b)/2, n = 0); less: none",
+        condition="(b-a)^2 > 4 |mu2 mu3/mu1|: two; equal: one (fold, x1 = -(a+b)/2, n = 0); less: none",
         linear="unstable (n != 0); at the fold n = 0: unstable for m < 0, centre for m > 0, degenerate for m "
                "= 0, with m = 4 (mu2^2 - mu3^2)/(b-a)^2 - (b-a)^2/4",
         nonlinear="unstable: an eigenvalue with positive real part (n != 0); the fold too (m > 0: Chetaev "

@@ -16,7 +16,7 @@ from functools import lru_cache
 import numpy as np
 
 from ..errors import InputError
-from ..physics.equations import Balance, Equations, Symbolic
+from ..physics.equations import Equations, Symbolic
 from ..physics.own_unit import FAST, HEAVY, LIGHT, SLOW, exponent
 from ..physics.scene import BLOCKS
 from ..physics.to_numpy import to_numpy
@@ -142,7 +142,7 @@ def in_units(equations: Equations, units: Units) -> Equations:
     for law in equations.balances:
         quantity, change = law.quantity.xreplace(put), law.rate.xreplace(put) / pace
         size = named(f"unit_of_{len(laws)}", _size(made, quantity))
-        laws.append(Balance(law.name, law.words, quantity / size, change / size))
+        laws.append(replace(law, quantity=quantity / size, rate=change / size))
     return replace(made, parameters=parameters, symbols=symbols, balances=tuple(laws))
 
 

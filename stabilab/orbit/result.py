@@ -104,13 +104,12 @@ BOX, ROUND = Needs.EXTREMES | Needs.LARGEST | Needs.FLIPS, Needs.PERIOD | Needs.
 
 
 @dataclass(frozen=True)
-class Stability:
+class Stability(Reasoned):
     """Of a state of equilibrium. verdict: "stable", "asymptotically stable", "unstable" or "undecided"
-    (Lyapunov, for the full nonlinear motion); because: its proof in words; growth: rate of the fastest
-    growing disturbance, 1/s (1/tau when scaled), None where none grows exponentially."""
+    (Lyapunov, for the full nonlinear motion); reason: its proof, because: the same in words; growth: rate of
+    the fastest growing disturbance, 1/s (1/tau when scaled), None where none grows exponentially."""
 
     verdict: str
-    because: str
     growth: float | None = None
 
     @property

@@ -46,6 +46,9 @@ CHARGE_AS_WHEEL = Sentence(
 FORCE_ASIDE = Sentence(
     "force-aside", "the force at the centre of mass does not turn the body: the rotation is judged as if it "
     "were absent")()
+LOSS_UNPROVED = Sentence(
+    "liquid-loss-unproved",
+    "undecided: the liquid takes energy for the moments of a rigid body alone, and no rigid body has these")()
 TAKE = ("viscous_damper", "liquid_cavity")  # energy, and keep the angular momentum
 TAKE_BOTH = ("resistance", "rate_damper", "eddy_currents")
 ZERO = Fraction(0)
@@ -104,14 +107,11 @@ class Content:
                     or (self.kappa and len(set(self.D)) + any(self.Lambda) + self.directed > 1))
 
     @property
-    def unproved_loss(self) -> str:
+    def unproved_loss(self) -> Reason | None:
         """Why the liquid may give energy: T' = -kappa/(D1 D2 D3) sum (Di - Dj)^2 (Di + Dj - Dk) wi^2 wj^2
-        falls for the moments of a mass distribution alone. Empty where it only takes energy, as far as this
-        sum goes, or there is none."""
-        broken = self.kappa and 2 * max(self.D) > sum(self.D)
-        return (
-            "undecided: the liquid takes energy for the moments of a rigid body alone, and no rigid body "
-            "has these" if broken else "")
+        falls for the moments of a mass distribution alone. None where it only takes energy, as far as this
+        sum goes, or there is no liquid."""
+        return LOSS_UNPROVED if self.kappa and 2 * max(self.D) > sum(self.D) else None
 
     @property
     def kind(self) -> str:

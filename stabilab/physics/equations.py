@@ -19,20 +19,77 @@ from typing import Any, TypeAlias
 from ..errors import InputError
 from ..numbers.exact import exact
 from ..numbers.vectors import Number, Triple, cross, dot
+from ..reasons import Axis, Reason, Reasoned, Sentence
 from ..validation import checked_scene
 from .scene import BLOCKS, AnyScene, ScaledGyrostat, Scene, ordered
 
 Symbolic: TypeAlias = Any  # an expression or a symbol of SymPy, which is loaded by none who only reads
 Symbols: TypeAlias = dict[str, Symbolic]
 
+WORK = Sentence("law-energy", "work and energy: T' = ω . (torques that do work)")()
+WORK_AND_POTENTIAL = Sentence(
+    "law-energy-with-potential",
+    "work and energy: (T + potential)' = ω . (other torques that do work)")()
+TURNING = Sentence("law-momentum", "angular momentum: (|H|²/2)' = H . (outer torques)")()
+AREA = Sentence(
+    "law-area",
+    "angular momentum along γ: (H . γ - shares of the torques)' = γ . (other torques)")()
+VERTICAL = Sentence("law-gamma", "γ is a unit vector fixed in space: |γ|² is constant")()
+LENGTH = Sentence("law-quaternion", "the quaternion keeps its length")()
+CIRCLE = Sentence("law-circle", "((x1+a)² + x2²)' = 2 μ1 (x1+a) + 2 μ2 x2")()
+HYPERBOLA = Sentence("law-hyperbola", "((x1+b)² - x3²)' = 2 μ1 (x1+b) - 2 μ3 x3")()
+SCALED_WORK = Sentence(
+    "law-scaled-energy",
+    "work and energy, (b circle - a hyperbola)/2: T' = (b-a) μ1 x1 + b μ2 x2 + a μ3 x3")()
+ENERGY_KEPT = Sentence("law-energy-constant", "no torque does work: kinetic energy is constant")()
+POTENTIAL_KEPT = Sentence(
+    "law-total-energy-constant",
+    "all torques that do work have a potential: kinetic plus potential energy is constant")()
+MOMENTUM_KEPT = Sentence(
+    "law-momentum-constant",
+    "no outer torque: the size of the angular momentum is constant")()
+AREA_KEPT = Sentence(
+    "law-area-constant",
+    "no torque along γ but the part accounted for: this area integral is constant")()
+VERTICAL_KEPT = Sentence("law-gamma-fixed", "γ is a unit vector fixed in space")()
+LENGTH_KEPT = Sentence("law-quaternion-constant", "the quaternion of the attitude has length one")()
+NO_TORQUE_IN_IT = Sentence("law-constant", "no torque acts in it: the {name} is constant")
+ENERGY_WITH_TURNS = Sentence(
+    "law-energy-with-turn-angles",
+    "constant torque: T - M . (turn angles) is constant, αᵢ' = ωᵢ")()
+QUADRATIC_KEPT = Sentence(
+    "law-quadratic-constant",
+    "torque along a principal axis (or in a plane of equal moments), no gyrostatic component along it: "
+    "the quadratic invariant C is constant")()
+QUADRATIC_GROWS = Sentence(
+    "law-quadratic-grows",
+    "torque along a principal axis: |H|²/2 - D_M T grows by λ . M each second, so there is no equilibrium "
+    "and no bounded motion")()
+MOMENTUM_WITH_TURNS = Sentence(
+    "law-momentum-with-turn-angles",
+    "constant torque: |H|²/2 - (D M) . (turn angles) changes by λ . M each second")()
+SPIN = Sentence("law-spin", "symmetric body: the spin about {axis} changes by its torque alone")
+CIRCLE_WITH_TURNS = Sentence(
+    "law-circle-with-turn-angles",
+    "((x1+a)² + x2²)/2 - μ1 α1 - μ2 α2 changes by μ1 a per unit of τ, αᵢ' = xᵢ")()
+HYPERBOLA_WITH_TURNS = Sentence(
+    "law-hyperbola-with-turn-angles",
+    "((x1+b)² - x3²)/2 - μ1 α1 + μ3 α3 changes by μ1 b per unit of τ, αᵢ' = xᵢ")()
+ACROSS_KEPT = Sentence("law-j-constant", "a = b, torque on {axis}: x2² + x3² is constant")
+J_CHANGES = Sentence(
+    "law-j-changes",
+    "torque on {axis}: J = x2² + x3² - 2(b-a) x1 changes by -2(b-a) μ1 per unit of τ, so there is no "
+    "equilibrium and no bounded motion")
+PLANE_OF_SUM = Sentence("law-plane", "μ1 = μ3: the plane x1 + b = x3 is invariant")()
+PLANE_OF_DIFFERENCE = Sentence("law-opposite-plane", "μ1 = -μ3: the plane x1 + b = -x3 is invariant")()
+
 
 @dataclass(frozen=True)
-class Balance:
-    """A law grad(quantity) . rhs == rate, identically in state and parameters; `name` says which, `words`
-    what."""
+class Balance(Reasoned):
+    """A law grad(quantity) . rhs == rate, identically in state and parameters; `name` says which, `reason`
+    what, because: the same in words."""
 
     name: str
-    words: str
     quantity: Symbolic
     rate: Symbolic
 
@@ -61,9 +118,9 @@ class Equations:
     blocks: tuple[str, ...] = ("omega",)
 
     def __repr__(self) -> str:
-        balances = ", ".join(balance.name for balance in self.balances)
-        state, torques = ", ".join(map(str, self.state)), ", ".join(self.torques)
-        return f"Equations({state}; torques: {torques}; first integrals and balances: {balances})"
+        parts = (("", map(str, self.state)), ("torques: ", self.torques),
+                 ("first integrals and balances: ", (balance.name for balance in self.balances)))
+        return f"Equations({'; '.join(head + ', '.join(names) for head, names in parts)})"
 
     @cached_property
     def jacobian(self) -> Symbolic:
@@ -174,18 +231,14 @@ def _derived(scene: Scene, names: tuple[str, ...]) -> Equations:
     energy = dot(motion.spin, motion.omega) / 2 + inside
     H = reduce(add_terms, (carried, relative), motion.spin)
     balances = [
-        Balance("energy", "work and energy: T' = omega . (torques that do work)" if potential == 0 else
-                "work and energy: (T + potential)' = omega . (other torques that do work)",
-                energy + potential,
-                dot(motion.omega, working) - loss),
-        Balance("momentum", "angular momentum: (|H|^2/2)' = H . (outer torques)", dot(H, H) / 2,
-                dot(H, outer))]
+        Balance("energy", energy + potential, dot(motion.omega, working) - loss,
+                reason=WORK if potential == 0 else WORK_AND_POTENTIAL),
+        Balance("momentum", dot(H, H) / 2, dot(H, outer), reason=TURNING)]
     if "gamma" in blocks:
         balances += _gamma_laws(scene, motion, p, H)
     if "attitude" in blocks:
         q = blocks["attitude"]
-        balances.append(Balance("quaternion", "the quaternion keeps its length", sum(a**2 for a in q),
-                                Integer(0)))
+        balances.append(Balance("quaternion", sum(a**2 for a in q), Integer(0), reason=LENGTH))
     return Equations("physical", state, parameters, symbols, inertia, torques, rhs, energy, tuple(balances),
                      names)
 
@@ -201,12 +254,8 @@ def _gamma_laws(scene: Scene, motion: MotionView, symbols: Symbols, H: Triple) -
             rest = add_terms(rest, effect.torque_along(motion, symbols) or zero)
         else:
             quantity -= area
-    yield Balance("area",
-                  "angular momentum along gamma: (H . gamma - shares of the torques)' = gamma . (other "
-                  "torques)",
-                  quantity, dot(rest, gamma))
-    yield Balance("gamma", "gamma is a unit vector fixed in space: |gamma|^2 is constant", dot(gamma, gamma),
-                  Integer(0))
+    yield Balance("area", quantity, dot(rest, gamma), reason=AREA)
+    yield Balance("gamma", dot(gamma, gamma), Integer(0), reason=VERTICAL)
 
 
 class MotionView:
@@ -306,14 +355,11 @@ def _scaled(scene: ScaledGyrostat) -> Equations:
                "constant_torque": tuple(mu)}
     rhs = reduce(add_terms, torques.values())
     X, Y = x1 + a, x1 + b
-    circle = Balance("circle", "((x1+a)^2 + x2^2)' = 2 mu1 (x1+a) + 2 mu2 x2", X**2 + x2**2,
-                     2 * mu[0] * X + 2 * mu[1] * x2)
-    hyperbola = Balance("hyperbola", "((x1+b)^2 - x3^2)' = 2 mu1 (x1+b) - 2 mu3 x3", Y**2 - x3**2,
-                        2 * mu[0] * Y - 2 * mu[2] * x3)
+    circle = Balance("circle", X**2 + x2**2, 2 * mu[0] * X + 2 * mu[1] * x2, reason=CIRCLE)
+    hyperbola = Balance("hyperbola", Y**2 - x3**2, 2 * mu[0] * Y - 2 * mu[2] * x3, reason=HYPERBOLA)
     energy = ((b - a) * x1**2 + b * x2**2 + a * x3**2) / 2
-    work = Balance("energy",
-                   "work and energy, (b circle - a hyperbola)/2: T' = (b-a) mu1 x1 + b mu2 x2 + a mu3 x3",
-                   energy, (b - a) * mu[0] * x1 + b * mu[1] * x2 + a * mu[2] * x3)
+    work = Balance("energy", energy, (b - a) * mu[0] * x1 + b * mu[1] * x2 + a * mu[2] * x3,
+                   reason=SCALED_WORK)
     return Equations("scaled", x, parameters, symbols, (Integer(1),) * 3, torques, rhs, energy,
                      (circle, hyperbola, work))
 
@@ -332,22 +378,18 @@ def invariants(scene: AnyScene) -> tuple[Balance, ...]:
     laws += _scaled_laws(equations) if scene.variables == "scaled" else _physical_laws(scene, equations)
     return tuple(laws)
 
-CONSERVED = {
-    "energy": "no torque does work: kinetic energy is constant",
-    "momentum": "no outer torque: the size of the angular momentum is constant",
-    "area": "no torque along gamma but the part accounted for: this area integral is constant",
-    "gamma": "gamma is a unit vector fixed in space",
-    "quaternion": "the quaternion of the attitude has length one"}
+CONSERVED: dict[str, Reason] = {"energy": ENERGY_KEPT, "momentum": MOMENTUM_KEPT, "area": AREA_KEPT,
+                                "gamma": VERTICAL_KEPT, "quaternion": LENGTH_KEPT}
 
 
 def conserved(equations: Equations) -> Iterator[Balance]:
-    """The laws whose quantity is constant and not zero throughout, with the reason in words."""
+    """The laws whose quantity is constant and not zero throughout, with the reason."""
     for law in equations.balances:
         if equations.numeric(law.rate) == 0 and (quantity := equations.numeric(law.quantity)) != 0:
-            words = CONSERVED.get(law.name, f"no torque acts in it: the {law.name} is constant")
+            reason = CONSERVED.get(law.name) or NO_TORQUE_IN_IT(name=law.name)
             if law.name == "energy" and law.quantity != equations.energy:
-                words = "all torques that do work have a potential: kinetic plus potential energy is constant"
-            yield Balance(law.name, words, quantity, law.rate * 0)
+                reason = POTENTIAL_KEPT
+            yield Balance(law.name, quantity, law.rate * 0, reason=reason)
 
 
 def _outer(scene: Scene, equations: Equations) -> tuple[Triple, ...] | None:
@@ -372,28 +414,18 @@ def _physical_laws(scene: Scene, equations: Equations) -> Iterator[Balance]:
     D = [equations.numeric(d) for d in equations.inertia]
     T, half_H2 = (equations.numeric(law.quantity) for law in equations.balances[:2])
     if any(M):
-        yield Balance("energy with turn angles",
-                      "constant torque: T - M . (turn angles) is constant, alpha_i' = omega_i",
-                      T - dot(M, alpha), T * 0)
+        yield Balance("energy with turn angles", T - dot(M, alpha), T * 0, reason=ENERGY_WITH_TURNS)
     moments = {D[i] for i in range(3) if M[i]}
     if len(moments) == 1:
         d, rate = moments.pop(), dot(M, lam)
-        words = ("torque along a principal axis (or in a plane of equal moments), no gyrostatic component "
-                 "along it: "
-                 "the quadratic invariant C is constant" if rate == 0
-                 else "torque along a principal axis: |H|^2/2 - D_M T grows by lambda . M each second, "
-                                   "so there is no equilibrium and no bounded motion")
-        yield Balance("quadratic", words, half_H2 - d * T, rate)
+        yield Balance("quadratic", half_H2 - d * T, rate,
+                      reason=QUADRATIC_KEPT if rate == 0 else QUADRATIC_GROWS)
     elif moments:
         turned = dot(tuple(d * m for d, m in zip(D, M)), alpha)
-        yield Balance("momentum with turn angles",
-                      "constant torque: |H|^2/2 - (D M) . (turn angles) changes by lambda . M "
-                      "each second", half_H2 - turned, dot(M, lam))
+        yield Balance("momentum with turn angles", half_H2 - turned, dot(M, lam), reason=MOMENTUM_WITH_TURNS)
     for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
         if D[j] == D[k] and lam[j] == lam[k] == 0:
-            yield Balance(f"spin {i + 1}",
-                          f"symmetric body: the spin about axis {i + 1} changes by its torque alone",
-                          omega[i], M[i] / D[i])
+            yield Balance(f"spin {i + 1}", omega[i], M[i] / D[i], reason=SPIN(axis=Axis(i + 1)))
 
 
 def _scaled_laws(equations: Equations) -> Iterator[Balance]:
@@ -402,22 +434,16 @@ def _scaled_laws(equations: Equations) -> Iterator[Balance]:
     alpha = turn_angles()
     if mu1 != 0 or mu2 != 0:
         yield Balance("circle with turn angles",
-                      "((x1+a)^2 + x2^2)/2 - mu1 alpha1 - mu2 alpha2 changes by mu1 a per unit "
-                      "of tau, alpha_i' = x_i", ((x1 + a)**2 + x2**2) / 2 - mu1 * alpha[0] - mu2 * alpha[1],
-                      mu1 * a)
+                      ((x1 + a)**2 + x2**2) / 2 - mu1 * alpha[0] - mu2 * alpha[1], mu1 * a,
+                      reason=CIRCLE_WITH_TURNS)
     if mu1 != 0 or mu3 != 0:
         yield Balance("hyperbola with turn angles",
-                      "((x1+b)^2 - x3^2)/2 - mu1 alpha1 + mu3 alpha3 changes by mu1 b per "
-                      "unit of tau, alpha_i' = x_i",
-                      ((x1 + b)**2 - x3**2) / 2 - mu1 * alpha[0] + mu3 * alpha[2], mu1 * b)
+                      ((x1 + b)**2 - x3**2) / 2 - mu1 * alpha[0] + mu3 * alpha[2], mu1 * b,
+                      reason=HYPERBOLA_WITH_TURNS)
     if mu2 == 0 and mu3 == 0 and mu1 != 0:
-        words = ("a = b, torque on axis 1: x2^2 + x3^2 is constant" if a == b else
-                 "torque on axis 1: J = x2^2 + x3^2 - 2(b-a) x1 changes by -2(b-a) mu1 per unit of tau, "
-                 "so there is no equilibrium and no bounded motion")
-        yield Balance("J", words, x2**2 + x3**2 - 2 * (b - a) * x1, -2 * (b - a) * mu1)
+        yield Balance("J", x2**2 + x3**2 - 2 * (b - a) * x1, -2 * (b - a) * mu1,
+                      reason=(ACROSS_KEPT if a == b else J_CHANGES)(axis=Axis(1)))
     if mu1 == mu3:
-        yield Balance("plane x1 + b = x3", "mu1 = mu3: the plane x1 + b = x3 is invariant", x1 + b - x3,
-                      -x2 * (x1 + b - x3))
+        yield Balance("plane x1 + b = x3", x1 + b - x3, -x2 * (x1 + b - x3), reason=PLANE_OF_SUM)
     if mu1 == -mu3:
-        yield Balance("plane x1 + b = -x3", "mu1 = -mu3: the plane x1 + b = -x3 is invariant", x1 + b + x3,
-                      x2 * (x1 + b + x3))
+        yield Balance("plane x1 + b = -x3", x1 + b + x3, x2 * (x1 + b + x3), reason=PLANE_OF_DIFFERENCE)

@@ -309,7 +309,7 @@ def _equilibria(found):
               "verdict": of["verdict"], "linear": of["linear"],
               "curve": _texts(("point",), (name for name, _ in rows)), "because": of["because"]}
     return Variables(("point",), values, AXIS if across == "axis" else {},
-                     {"kind": found.kind, "reason": found.reason})
+                     {"kind": found.kind, "reason": found.because})
 
 
 def _motion_words(m):

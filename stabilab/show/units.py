@@ -10,7 +10,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, printable
-from ..reasons import Axis, Quantity, Reason, listed, outward
+from ..reasons import Axis, Quantity, Reason, Symbolic, listed, outward
 from .axes import PLAIN, Axes, axes_of
 from .names import around
 from .terminal import lettered
@@ -114,6 +114,8 @@ class Units:
             return (self.axes.whole if whole else self.axes.short)(value.number)
         if isinstance(value, Reason):
             return self.said(value, digits, whole)
+        if isinstance(value, Symbolic):
+            return value.text(self.of, True)
         if isinstance(value, tuple):
             return listed(tuple(self.filled(one, digits, whole) for one in value))
         if not isinstance(value, Quantity):

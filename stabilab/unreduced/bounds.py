@@ -38,7 +38,6 @@ from ..reasons import (
     Sentence,
     Time,
     Torque,
-    as_reason,
 )
 
 NO_BOUND = Sentence("no-bound", "no bound is proved")()
@@ -218,8 +217,8 @@ def judged(parts: Content, omega, gamma, sigma=(0.0,) * 3,
     and gamma at the end of a run."""
     if parts.inside:
         return _damped(parts, omega, sigma)
-    if parts.unproved_loss:
-        return Fate.UNDECIDED, as_reason(parts.unproved_loss), {}
+    if parts.unproved_loss is not None:
+        return Fate.UNDECIDED, parts.unproved_loss, {}
     if gamma:
         return _directed(parts, omega, gamma, end)
     T0, x0 = _energy(parts, omega)
@@ -319,7 +318,7 @@ def _resisted(parts: Content, T0, x0) -> tuple[Fate, Reason, dict]:
     if parts.kappa:
         return Fate.BOUNDED, reason.then(WHERE_OPEN), bounds
     found = resisted_equilibria(parts)
-    drawn = [p for p in found.points if GLOBAL in p.because]
+    drawn = [p for p in found.points if p.reason.says(GLOBAL.sentence)]
     if drawn:
         where = TENDS_TO_EQUILIBRIUM(rates=Rate(drawn[0].at))
     else:
@@ -338,7 +337,7 @@ def _partly(parts: Content, T0, x0, least) -> tuple[Fate, Reason, dict]:
         return Fate.BOUNDED, PARTLY_DAMPED, bounds
     rates = goes_on(parts, axis)
     if rates == ():
-        return Fate.BOUNDED, as_reason(DIES_OUT), bounds | {"late_rate_bound": 0.0}
+        return Fate.BOUNDED, DIES_OUT, bounds | {"late_rate_bound": 0.0}
     place = "any rate" if rates is None else Rate(tuple(float(rates[0] * v) for v in axis))
     return Fate.BOUNDED, ONE_AXIS_FREE(rates=place), bounds
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ScaledGyrostat, Scene, equilibria
+from stabilab.equilibrium.description import LINE, Description
 from stabilab.equilibrium.gyrostat import WELL
 from stabilab.equilibrium.result import RationalCurve, straight_line
 from stabilab.equilibrium.stability import curve_with_verdicts
@@ -107,7 +108,7 @@ def test_the_free_scaled_body_without_a_wheel_rests_where_its_three_axes_meet(a)
 
 def test_a_line_on_which_the_motion_is_degenerate_all_along_is_left_undecided():
     """A free sphere at any rate: the Jacobian is 0, and no ground was given for such a curve."""
-    line = RationalCurve("line", "", "", straight_line((F(0),) * 3, (F(1), F(0), F(0))), WELL)
+    line = RationalCurve(Description(LINE, LINE, LINE), straight_line((F(0),) * 3, (F(1), F(0), F(0))), WELL)
     found = curve_with_verdicts(Scene(Body((1, 1, 1))).quadratic(), line)
     assert {(s.linear, s.verdict) for s in (*found.segments, *found.samples)} == {("degenerate", "undecided")}
     assert all(p.eigenvalues == (0, 0, 0)

@@ -82,7 +82,7 @@ def test_every_stated_invariant_is_one(scene):
     """Identically in the state, this scene's numbers put in; turn angles differentiate to the rates they integrate."""
     equations = derive(scene)
     for law in invariants(scene):
-        assert vanishes(equations.numeric(equations.derivative(law.quantity)) - equations.numeric(law.rate)), law.words
+        assert vanishes(equations.numeric(equations.derivative(law.quantity)) - equations.numeric(law.rate)), law.because
 
 
 def test_scaled_work_and_energy_is_the_combination_of_its_two_laws():

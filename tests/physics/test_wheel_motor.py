@@ -213,7 +213,7 @@ def test_equilibria_with_an_end_are_those_of_the_gyrostat_that_is_left():
     found = equilibria(Scene(Body(D), Gyrostat((0, 0, 1)), WheelMotor(("0.1", 0, 0), 5)))
     plain = equilibria(Scene(Body(D), Gyrostat(("0.5", 0, 1))))
     assert [p.at for c in found.curves for p in c.samples] == [p.at for c in plain.curves for p in c.samples]
-    assert "once the motor has stopped" in found.reason
+    assert "once the motor has stopped" in found.because
 
 
 @pytest.mark.parametrize("beside", [ViscousDamper("0.1", "0.3"), ConstantTorque((0, 0, 3)), RateDamper((0, "0.5", 1))])
@@ -358,7 +358,7 @@ def test_equilibria_of_a_case_are_those_of_the_wheel_as_the_motor_leaves_it():
     found = load(TURNING.format(-20)).equilibria()
     plain = equilibria(Scene(Body((118, 96, 152)), Gyrostat((0, -10, 0))))
     assert [p.at for c in found.curves for p in c.samples] == [p.at for c in plain.curves for p in c.samples]
-    assert "from the momentum of its wheel in [motion] on" in found.reason
+    assert "from the momentum of its wheel in [motion] on" in found.because
 
 
 def test_a_wheel_across_the_line_of_its_motor_is_refused_with_what_to_do():

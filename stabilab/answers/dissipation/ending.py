@@ -201,7 +201,7 @@ def _drawn(parts: Content) -> Float3 | None:
     """The equilibrium that draws every motion under resistance and a torque; None where none is proved to."""
     if parts.inside or parts.kappa or parts.directed or any(parts.u) or not decay(parts):
         return None
-    points = [one for one in resisted_equilibria(parts).points if GLOBAL in one.because]
+    points = [one for one in resisted_equilibria(parts).points if one.reason.says(GLOBAL.sentence)]
     return tuple(map(float, points[0].at[:3])) if points else None
 
 

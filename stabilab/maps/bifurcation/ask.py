@@ -124,7 +124,7 @@ def _places(family: Family, eliminated: Eliminated, saddles: list[int], value: F
 def _event(family: Family, eliminated: Eliminated, piece: Piece, value: Fraction) -> Event:
     value = Fraction(float(value))
     return Event(float(value), None, (), 0, ("connection",), piece.count,
-                 _states_at(family, eliminated, piece, value), CONNECTED)
+                 _states_at(family, eliminated, piece, value), reason=CONNECTED)
 
 
 def _states_at(family: Family, eliminated: Eliminated, piece: Piece, value: Fraction) -> tuple[State, ...]:

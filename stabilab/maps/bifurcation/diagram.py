@@ -28,8 +28,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from flint import arb, fmpq_mpoly
 
+from ...equilibrium.description import clauses
 from ...equilibrium.gyrostat import WELL, gyrostat_equilibria
-from ...equilibrium.result import Equilibria
+from ...equilibrium.result import Equilibria, Verdict
 from ...equilibrium.stability import POSITIVE_EIGENVALUE, invariants, isolated_verdict, linear_word
 from ...errors import InputError
 from ...numbers.algebraic import Algebraic, Cut, between, cuts, gaps, univariate
@@ -37,7 +38,7 @@ from ...numbers.balls import Unclear, evaluated, rational, settled, sign
 from ...numbers.vectors import CYCLE, Float3, dot, nearest_first
 from ...physics.coefficients import effective
 from ...physics.scene import QuadraticForm, euler_form
-from ...reasons import Axis, Reason, Sentence, as_reason
+from ...reasons import Axis, Reason, Sentence
 from ...version import __version__
 from .eliminated import Eliminated, Leant, Root
 from .equations import (
@@ -62,9 +63,13 @@ if TYPE_CHECKING:
 
 
 # --- The diagram
-BORDER = ("border", "m = 0 on the curve of equilibria: stability changes here")
+BORDER = Verdict("border", Sentence(
+    "stability-changes-here",
+    "m = 0 on the curve of equilibria: stability changes here")())
 SMALL = 1e-17  # radius of a ball over one plus its size
-CROSSES = ("undecided", "the curve that the motion stays on crosses itself here")
+CROSSES = Verdict("undecided", Sentence(
+    "curve-crosses-itself",
+    "the curve that the motion stays on crosses itself here")())
 
 
 def ball_form(family: Family, values: list) -> tuple[QuadraticForm, list[arb]]:
@@ -102,18 +107,20 @@ def judged_state(family: Family, kind: str, values: list, root: Root, after: int
     x = state_of(family, root.y, u)
     at = doubles(x)
     if kind == BORDERS:
-        return State(at, root.times, "degenerate", *BORDER)
+        return State(at, root.times, "degenerate", BORDER.word, reason=BORDER.reason)
     m, n = invariants(form, x)
     if kind == ISOLATED:
         n_sign = sign(n) if root.times == 1 else 0
         m_sign = 0 if flat or (n_sign and m.contains(0)) else sign(m)
-        return State(at, root.times, linear_word(m_sign, n_sign), *isolated_verdict(m_sign, n_sign))
+        verdict = isolated_verdict(m_sign, n_sign)
+        return State(at, root.times, linear_word(m_sign, n_sign), verdict.word, reason=verdict.reason)
     if root.times == 1:
         m_sign = sign(m)
-        return State(at, 1, linear_word(m_sign, 0), *(WELL.positive if m_sign > 0 else POSITIVE_EIGENVALUE))
+        verdict = WELL.positive if m_sign > 0 else POSITIVE_EIGENVALUE
+        return State(at, 1, linear_word(m_sign, 0), verdict.word, reason=verdict.reason)
     verdict = (WELL.odd if root.times % 2 == 0 else WELL.minimum if after > 0 else WELL.maximum if after < 0
                else CROSSES)
-    return State(at, root.times, "degenerate", *verdict)
+    return State(at, root.times, "degenerate", verdict.word, reason=verdict.reason)
 
 
 def general_states(family: Family, kind: str, eliminated: Eliminated, value: Fraction, digits: Any,
@@ -143,7 +150,7 @@ class There(NamedTuple):
     """What there is at one value: how many equilibria, and which curves, None where there are none."""
 
     number: int
-    reason: Reason | None
+    curves: Reason | None
 
 
 def of_curves(family: Family, counted: Reason) -> Diagram:
@@ -161,7 +168,7 @@ def of_curves(family: Family, counted: Reason) -> Diagram:
             if same and pieces and there == (pieces[-1].count, pieces[-1].reason):
                 pieces[-1] = replace(pieces[-1], high=gap.high)
                 continue
-            pieces.append(Piece(*gap[:2], there.number, gap.sample, (), reason=there.reason))
+            pieces.append(Piece(*gap[:2], there.number, gap.sample, (), reason=there.curves))
         if event is not None:
             events.append(event)
     return Diagram(family, CURVES, counted, tuple(pieces), tuple(events))
@@ -176,16 +183,16 @@ def _curves_at(family: Family, value: Fraction) -> There:
 
 def _names(found: Equilibria) -> Reason | None:
     """The curves by their names; None where there are none."""
-    names = ", ".join(curve.name for curve in found.curves)
-    return as_reason(names) if names else None
+    return clauses(curve.description.name for curve in found.curves) if found.curves else None
 
 
 def _change_of_curves(family: Family, cut: Cut, named: list[tuple[fmpq_mpoly, Reason]]) -> Event:
     number, exact = cut.number, cut.number.rational
     here = _curves_at(family, exact) if exact is not None else There(ENDLESS, None)
     first, *others = dict.fromkeys(why for f, why in named if number.reduced(univariate(f, 2)) == 0)
-    reason = here.reason or reduce(Reason.then, others, first)
-    return Event(float(number), exact, number.whole, number.index, ("curve",), here.number, (), reason)
+    reason = here.curves or reduce(Reason.then, others, first)
+    return Event(float(number), exact, number.whole, number.index, ("curve",), here.number, (),
+                 reason=reason)
 
 
 def _named(family: Family) -> Iterator[tuple[fmpq_mpoly, Reason]]:
@@ -233,17 +240,18 @@ def _event(family: Family, kind: str, eliminated: Eliminated, cut: Cut,
     system, number = eliminated.system, cut.number
     make = partial(Event, float(number), number.rational, number.whole, number.index)
     if number.reduced(univariate(system.special, 2)) == 0:
-        return make(("axis",), *_on_an_axis(family, system, cut))
+        count, states, reason = _on_an_axis(family, system, cut)
+        return make(("axis",), count, states, reason=reason)
     roots = settled(lambda digits: [eliminated.at_algebraic(number, digits.bits)])[0]
     if roots is None:
-        return make(("curve",), ENDLESS, (), ALL_POINTS)
+        return make(("curve",), ENDLESS, (), reason=ALL_POINTS)
     kinds = _kinds(roots, sides)
     if not kinds:
         return None
     states = settled(lambda digits: _states_at(family, kind, eliminated, cut, digits.bits, sides))
     things = "points" if kind == BORDERS else "equilibria"
     first, *others = (EVENTS[one](things=things) for one in kinds)
-    return make(kinds, len(roots), states, reduce(Reason.then, others, first))
+    return make(kinds, len(roots), states, reason=reduce(Reason.then, others, first))
 
 
 def _kinds(roots: Sequence[Root], sides: Sequence[Piece | None]) -> tuple[str, ...]:
@@ -278,8 +286,9 @@ def _on_an_axis(family: Family, system: OnLine | Conics, cut: Cut) -> tuple[int,
         load = cut.number.reduced(univariate(system.load, 2)) == 0
         return (ENDLESS, (), CURVE_ON_AXIS) if load else (0, (), NONE_ON_AXIS)
     found = gyrostat_equilibria(effective(family.at((value,)).scene))
-    states = tuple(State(point.at, 1, point.linear, point.verdict, point.because) for point in found.points)
-    why, names = as_reason(found.reason), _names(found)
+    states = tuple(State(point.at, 1, point.linear, point.verdict, reason=point.reason)
+                   for point in found.points)
+    why, names = found.reason, _names(found)
     reason = (NONE_BECAUSE(why=why) if found.kind == "none" else why if names is None
               else CURVES_BECAUSE(curves=names, why=why))
     count = ENDLESS if found.curves or found.kind == "all" else len(states)
@@ -388,6 +397,9 @@ def _solved(diagram: Diagram, eliminated: Eliminated, value: Fraction, count: in
 # --- Its certificate
 SCHEMA = "stabilab.diagram-certificate/1"
 BITS = 128  # of the bounds about an irrational value
+CONNECTIONS = Sentence(
+    "connections-uncertified",
+    "{number} connections: the heights of saddles hold an angle and are isolated by balls alone")
 MOST = 64  # events that a certificate may hold
 
 
@@ -418,9 +430,7 @@ def diagram_certificate(found: Diagram) -> dict[str, Any]:
             "pieces": [{"equilibria": _count(piece.count), "stable": _stable(found, piece)}
                        for piece in pieces],
             "events": [{"t": _bounds(event), "equilibria": _count(event.count)} for event in events],
-            "uncertified": [f"{len(found.connections)} connections: the heights of saddles hold an angle and "
-                            "are isolated by balls alone"]
-            if found.connections else []}
+            "uncertified": [CONNECTIONS(number=len(found.connections)).text()] if found.connections else []}
 
 
 def _changes(found: Diagram) -> tuple[list[Piece], list[Event]]:

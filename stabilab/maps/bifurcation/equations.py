@@ -32,7 +32,7 @@ from ...errors import Caveat, InputError, printable
 from ...numbers.balls import rational
 from ...numbers.vectors import CYCLE, Float3, cross, dot
 from ...physics.coefficients import effective
-from ...reasons import Axis, Reason, Sentence
+from ...reasons import Axis, Reason, Reasoned, Sentence
 from ...representation import Shown
 from ..axes import Span, with_values
 
@@ -123,19 +123,18 @@ ENDLESS = -1  # in the place of a count: equilibria without number, curves of th
 
 
 @dataclass(frozen=True)
-class State:
+class State(Reasoned):
     """An equilibrium: at in the case's variables along the principal axes; times: how many branches meet in
-    it; linear, verdict, because: as those of `equilibrium.result.EquilibriumPoint`."""
+    it; linear, verdict, reason: as those of `equilibrium.result.EquilibriumPoint`."""
 
     at: Float3
     times: int
     linear: str
     verdict: str
-    because: str
 
 
 @dataclass(frozen=True)
-class Event:
+class Event(Reasoned):
     """A value at which something happens. value: a double, in the unit of the range; exact: the number itself
     where it is rational; polynomial: whole coefficients, lowest power first, of which it is the real root
     number `index` (in rising order, from 0); kinds: "fold", "pitchfork", "crossing", "touch", "infinity",
@@ -149,7 +148,6 @@ class Event:
     kinds: tuple[str, ...]
     count: int
     states: tuple[State, ...]
-    reason: Reason
 
     @property
     def words(self) -> str:

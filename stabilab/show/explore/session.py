@@ -40,6 +40,7 @@ from ..names import around
 from ..report.tables import tiles
 from ..space import natural, seen
 from ..terminal import lettered, written
+from ..text.classification import called
 from ..text.headline import headline, judged, look
 from ..text.motion import margins
 from ..units import SHORT, Units, but_for_rounding, units_of
@@ -79,10 +80,10 @@ def equilibrium_rows(found: Equilibria, units: Units) -> dict[str, Any]:
     for curve in found.curves:
         for verdict, samples in groupby(curve.samples, lambda sample: sample.verdict):
             slowest = min(samples, key=lambda sample: max(map(abs, sample.at[:3])))
-            where = f"{units.axes.sentence(curve.name)}, such as {units.vector(slowest.at[:3], units.rates)}"
-            told.append([lettered(where), verdict])
+            name = called(curve.description.name, units)
+            told.append([f"{name}, such as {units.vector(slowest.at[:3], units.rates)}", verdict])
     more = len(told) - MOST
-    return {"reason": lettered(units.words(found.reason)),
+    return {"reason": units.said(found.reason),
             "rows": told[:MOST] + ([[f"and {more} more", ""]] if more > 0 else [])}
 
 

@@ -209,7 +209,7 @@ def _states(count: int, states: tuple[State, ...]) -> dict[str, Any]:
     return {"equilibria": None if count == ENDLESS else count, "curves": count == ENDLESS,
             "stable": sum(s.verdict == "stable" for s in states),
             "states": [{"at": list(s.at), "branches": s.times, "linear": s.linear, "verdict": s.verdict,
-                        "because": s.because} for s in states]}
+                        "because": s.because, "reason": s.reason.as_dict()} for s in states]}
 
 
 # --- Over two numbers

@@ -45,7 +45,7 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
     if not found.points and not found.curves:
         raise InputError(f"plot equilibria: there is nothing to draw: {found.reason}")
     scale, per = measures(one, units), measures(one, units).rate[1]
-    planes = [curve for curve in found.curves if curve.name.startswith("plane")]
+    planes = [curve for curve in found.curves if curve.plane]
     bent = replace(found, curves=tuple(curve for curve in found.curves if curve not in planes))
     folds = np.array([fold[:3] for curve in bent.curves for fold in curve.folds], float).reshape(-1, 3)
     number = MANY if one.twin.plain else FEW
@@ -76,7 +76,8 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
                  else "start of the motion, seen along the axis"] = style.MARKER["start"]
         constant = ("" if flat is None else f"all have {scale.plain(flat)} = "
                  f"{drawn.curves[0][1][0][flat] * per + 0.0:.4g} {scale.rate[0]}".rstrip())
-        words = "; ".join(filter(None, (constant, once_stopped(found))))
+        stopped = once_stopped(found)
+        words = "; ".join(filter(None, (constant, stopped and stopped.text(letters=True))))
         return canvas.explained(target, list(rows.items()) if legend else [], ax is None, one.heading, words)
 
 
@@ -85,7 +86,7 @@ def _box(found: Equilibria, folds: np.ndarray, one: Subject, number: int) -> Box
     marks = [at for _, at in marks_of(one.state, None, found)] + folds.tolist()
     near = [min(size for t in spread(*segment.t, number)
                 if math.isfinite(size := math.hypot(*curve.point(t)[:3])))
-            for curve in found.curves if not curve.name.startswith("plane") for segment in curve.segments]
+            for curve in found.curves if not curve.plane for segment in curve.segments]
     size = max([*(abs(v) for at in marks for v in at), *near], default=0.0) or 1.0
     return Box((0.0,) * 3, (size * (BEYOND if found.curves else 1.1),) * 3)
 

@@ -239,7 +239,7 @@ def bodily(one: Subject) -> Any:
 def _equilibria(one: Subject) -> str:
     # there always are some with other effects, and they take longer
     found = equilibria(one.scene) if one.twin.plain else None
-    return (f"there is none: {found.reason}" if found is not None and not found.points and not found.curves
+    return (f"there is none: {found.because}" if found is not None and not found.points and not found.curves
             else "")
 
 

@@ -182,7 +182,7 @@ def _rest(one, D, wheel, size):
     excess = lambda curve: lambda t: float(np.linalg.norm(np.array(curve.point(float(t)), float) * D
                                                           + wheel)) - size
     for curve in equilibria(one.twin).curves:
-        if curve.name.startswith("plane"):
+        if curve.plane:
             if not wheel.any():
                 circles.append((style.kind_of(curve.segments[0]), disc(plane_of(curve), size)))
             continue

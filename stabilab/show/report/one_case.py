@@ -23,7 +23,6 @@ from ...physics.equations import derive, invariants
 from ...theories.follow import models_of
 from ...verify import verify_file
 from .. import certification, frame, limiting, style
-from ..axes import axes_of
 from ..plot import subject as subjects
 from ..plot import to_file
 from ..plot.in_space import space_of
@@ -234,7 +233,7 @@ def equations(case) -> dict:
     return {"equations": formulas.equations_of_motion(made), "latex": latex(made),
             "parameters": [(formulas.symbol(name), printed(number(float(value), DIGITS) + unit(name)))
                            for name, value in made.parameters.items()],
-            "laws": [(printed(axes_of(case).sentence(law.words)), formulas.law(law))
+            "laws": [(printed(units_of(case).said(law.reason)), formulas.law(law))
                      for law in invariants(case.scene)]}
 
 

@@ -5,10 +5,13 @@ their verdicts, and what change gives the motion another fate."""
 from __future__ import annotations
 
 import math
-import re
 from typing import Any
 
 from ...case.limit_options import stated_limit
+from ...equilibrium.description import FOR_ANGLES, OVER_RATE, holds_rates
+from ...equilibrium.dissipative import FOLD
+from ...equilibrium.gyrostat import WELL
+from ...equilibrium.torque_free import CASIMIR
 from ...errors import InputError, Kind
 from ...orbit.potential import potential
 from ...orbit.reduction import reduce
@@ -17,7 +20,7 @@ from ...physics.coefficients import effective
 from .. import ending, limiting
 from ..terminal import listed, printed
 from ..text import headline
-from ..text.classification import in_units
+from ..text.classification import called
 from ..text.headline import cause, fate_parts, largest, rate_and_height
 from ..text.motion import tilt_lines
 from ..text.questions import asked
@@ -99,6 +102,7 @@ def _distance(motion, units):
 
 
 # --- Tables
+FOLDS = (WELL.odd.reason.sentence, CASIMIR.odd.reason.sentence, FOLD)
 ROUNDING = 1e-12  # of a unit vector from the difference of two states in doubles
 ASK_TILT = "`stabilab fate CASE --tilt \"1 deg\"` says what a tilt does."
 
@@ -108,20 +112,21 @@ def equilibrium_table(found, units) -> dict:
     rows = [_row(units.vector(p.at[:3], units.rates), p, units) for p in found.points]
     for curve in found.curves:
         for part in curve.segments:
-            rows.append(_row(f"{_name(curve, units)}, {_piece(curve, part.t, units)}", part, units))
+            where = f"{_name(curve.description, units)}, {_piece(curve.description, part.t, units)}"
+            rows.append(_row(where, part, units))
         for fold in curve.folds:
             row = _fold(curve, fold, units)
             rows += [] if row in rows else [row]  # a point where curves meet is one of each
     groups: dict = {}
     for curve in found.curves:
-        groups.setdefault(curve.equation, []).append(curve)
-    return {"kind": found.kind, "reason": printed(units.words(found.reason)), "rows": rows,
+        groups.setdefault(curve.equation, []).append(curve.description)
+    return {"kind": found.kind, "reason": printed(units.said(found.reason)), "rows": rows,
             "curves": [_equation(group, units) for group in groups.values()]}
 
 
 def _row(where, part, units):
     return {"where": printed(where), "linear": part.linear, "verdict": part.verdict,
-            "because": printed(units.words(part.because)), "css": css(part.verdict)}
+            "because": printed(units.said(part.reason)), "css": css(part.verdict)}
 
 
 def _fold(curve, at, units):
@@ -132,34 +137,27 @@ def _fold(curve, at, units):
     if found is None:
         blank = dict.fromkeys(("verdict", "because", "css"), "")
         return {"where": printed(f"fold at {where}"), "linear": "degenerate"} | blank
-    return _row(f"{'fold' if found.because.startswith('fold') else 'meeting point'} at {where}", found, units)
+    return _row(f"{'fold' if found.reason.says(*FOLDS) else 'meeting point'} at {where}", found, units)
 
 
-def _name(curve, units):
+def _name(told, units):
     """The name of a curve without the range of its parameter, which its pieces tell."""
-    return units.axes.sentence(re.sub(r" for t in \(.*\)$", "", in_units(curve, units).name))
+    return called(told.name.without(FOR_ANGLES), units)
 
 
 def _equation(group, units):
     """(names, the equation that curves share with its unit, their parametrisations without ranges)."""
-    told = [in_units(curve, units) for curve in group]
-    names = list(dict.fromkeys(_name(curve, units) for curve in group))
-    words = [re.sub(r"^t = Omega from \S+ to \S+ rad/s; ", "", curve.parametrisation) for curve in told]
-    measured = told[0].unit and re.search(r"(?<![\w.^])(?!0(?![\d.]))\d", told[0].equation)
+    names = list(dict.fromkeys(_name(told, units) for told in group))
+    words = [units.said(told.parametrisation.without(OVER_RATE)) for told in group]
+    measured = not units.scaled and holds_rates(group[0].equation)
     return (printed(" and ".join(names) if len(names) < 3 else f"{names[0]} to {names[-1]}"),
-            printed(told[0].equation) + (f" (ω in {told[0].unit})" if measured else ""),
+            printed(units.said(group[0].equation)) + (f" (ω in {units.rates[0]})" if measured else ""),
             list(dict.fromkeys(map(printed, words))))
 
 
-def _piece(curve, pair, units):
+def _piece(told, pair, units):
     """Between which values of its parameter a piece of a curve lies, with the parameter's name and unit."""
-    if curve.parametrisation.startswith("t = Omega from "):  # the rate about the vertical
-        return _between("Ω", pair, *units.rates)
-    if re.search(r"\b(?:omega|x)\d = [^,]*\bt\b", curve.parametrisation):
-        told = in_units(curve, units)
-        return _between("t", pair, told.unit, told.one)
-    turns = not units.scaled and re.search(r"cos t\b|: angle", curve.parametrisation)
-    return _between("t", pair, *(units.angles if turns else ("", 1.0)))
+    return _between(told.symbol, pair, *(units.of(told.unit) if told.unit else ("", 1.0)))
 
 
 def _between(name, pair, unit, one):

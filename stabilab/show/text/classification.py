@@ -5,27 +5,26 @@ equilibria with their numbers in the unit of rates; and what uncertain numbers d
 from __future__ import annotations
 
 import math
-import re
 from collections import Counter
 from dataclasses import asdict, replace
 from fractions import Fraction
 from itertools import groupby
-from typing import NamedTuple
 
 from ...answers.equilibria import once_stopped
 from ...answers.uncertain.verdicts import ALSO_ANOTHER, reason_of
+from ...equilibrium.description import GREATER, LESSER, RATE, Description, holds_rates
 from ...errors import printable
 from ...numbers.units import unit_of_key
 from ...numbers.vectors import CYCLE
-from ...reasons import Quantity
+from ...reasons import Quantity, Reason
 from ...representation import values_of
 from .. import ending, frame, limiting
 from ..axes import axes_of
-from ..terminal import lettered, written
-from ..units import DIGITS, SI, Units, as_bound, number
+from ..terminal import lettered, plain, written
+from ..units import DIGITS, SI, Unit, Units, as_bound, number
 from . import questions
 from .headline import largest_key, verdict
-from .motion import attitude_rows, flips_dict, followed, reason, row, state, table, tilt_lines, why
+from .motion import attitude_rows, flips_dict, followed, row, state, table, tilt_lines, why
 
 FEW = 3  # curves that one line has room for
 WORDS = ("stable", "asymptotically stable", "unstable", "undecided")
@@ -56,12 +55,12 @@ def resting(equilibria, units: Units) -> str:
         return {"none": "none", "all": "every state is one"}[equilibria.kind]
     parts = ([f"{len(equilibria.points)} isolated ({_count(p.verdict for p in equilibria.points)})"]
              if equilibria.points else [])
-    told = [(curve.name, _along(curve)) for curve in equilibria.curves]
+    told = [(curve.description.name, _along(curve)) for curve in equilibria.curves]
     if len(told) > FEW:
         counts = Counter(words for _, words in told)
         return "; ".join([*parts,
                           f"{len(told)} curves ({', '.join(f'{n} {words}' for words, n in counts.items())})"])
-    return "; ".join([*parts, *(f"{reason(name, units)} ({words})" for name, words in told)])
+    return "; ".join([*parts, *(f"{called(name, units)} ({words})" for name, words in told)])
 
 
 def _along(curve) -> str:
@@ -81,18 +80,17 @@ def _ordered(verdicts):
 
 
 def _equilibria(case, equilibria, units, proofs):
-    lines = [f"  {reason(equilibria.reason, units)}"] if proofs or equilibria.kind == "undecided" else []
+    lines = [f"  {units.said(equilibria.reason)}"] if proofs or equilibria.kind == "undecided" else []
     if not lines and (stopped := once_stopped(equilibria)):
-        lines.append(f"  {stopped}")
+        lines.append(f"  {units.said(stopped)}")
     if case.scene.plain and equilibria.kind != "none" and (units.scaled or units.name == SI.name):
         lines.append(_jacobian(case, units))  # its entries are 1/s for rates in rad/s alone
     for point in equilibria.points:
         lines += _point(case, point, units, proofs)
-    if not proofs and (turning := [curve for curve in equilibria.curves if " Omega for t" in curve.name]):
-        lines.append(
-            lettered(
-                f"  {turning[0].parametrisation.split(', omega')[0]}: the vertical gamma, about which the "
-                f"body turns at the rate Omega"))
+    if not proofs and (turning := [curve for curve in equilibria.curves
+                                   if curve.description.name.says(LESSER.sentence, GREATER.sentence)]):
+        lines.append(f"  {units.said(turning[0].description.parametrisation.alone)}: the vertical γ, about "
+                     "which the body turns at the rate Ω")
     for curve in equilibria.curves:
         lines += _curve(curve, units, proofs)
     return lines
@@ -126,7 +124,7 @@ def _point(case, point, units, proofs):
         lines.append(f"    Jacobian ({found}){per_second(units)}")
     lines.append(f"    {spectrum(point, units)}")
     if proofs:
-        lines += [f"    linear: {point.linear}", f"    {reason(point.because, units)}"]
+        lines += [f"    linear: {point.linear}", f"    {units.said(point.reason)}"]
     return lines
 
 
@@ -158,18 +156,19 @@ def _samples(curve, units):
 
 
 def _curve(curve, units, proofs):
-    """Its equation and states along it, with proofs also all pieces with their reasons; equations in rates
-    are in the unit of rates, those of a field in rad/s and s."""
-    told = in_units(curve, units)
-    words = lettered(f"{units.axes.sentence(told.name)}: {told.equation}")
+    """Its equation and states along it, with proofs also all pieces with their reasons; numbers that are
+    rates are in the unit of rates, angles in rad."""
+    told = curve.description
+    words = f"{called(told.name, units)}: {units.said(told.equation)}"
     if not proofs:
         return [f"  {words}, along it:", *_samples(curve, units)]
-    lines = [f"  {words}" + (f"  (ω in {told.unit})" if told.unit else ""),
-             f"    {lettered(told.parametrisation)}"]
+    lines = [f"  {words}" + ("" if units.scaled else f"  (ω in {rates_of(told, units)[0]})"),
+             f"    {units.said(told.parametrisation)}"]
+    one = units.rates[1] if told.unit == RATE else 1.0
     for piece in curve.segments:
-        low, high = (number(t * told.one, 6).replace("unbounded", "∞") for t in piece.t)
+        low, high = (number(t * one, 6).replace("unbounded", "∞") for t in piece.t)
         lines += [f"    t from {low} to {high}: {piece.verdict} (linear: {piece.linear})",
-                  f"      {reason(piece.because, units)}"]
+                  f"      {units.said(piece.reason)}"]
     return [*lines, *(f"    fold at {state(fold, units)}" for fold in curve.folds), *_samples(curve, units)]
 
 
@@ -199,14 +198,10 @@ def _complex(z) -> str:
 def as_dict(case, equilibria, motion) -> dict:
     """One object of `stabilab classify --json`."""
     return {"schema": "stabilab.classify/1", "case": case.name, "variables": case.variables,
-            "equilibria": {"kind": equilibria.kind, "reason": equilibria.reason,
+            "equilibria": {"kind": equilibria.kind, "reason": equilibria.because,
+                           "why": equilibria.reason.as_dict(),
                            "points": [_point_dict(case, p) | _input(case, p.at) for p in equilibria.points],
-                           "curves": [values_of(c, "name equation parametrisation")
-                                      | {"samples": [_point_dict(case, p) for p in c.samples],
-                                         "folds": c.folds,
-                                         "segments": [values_of(s, "t linear verdict because")
-                                                      for s in c.segments]}
-                                      for c in equilibria.curves]},
+                           "curves": [_curve_dict(case, c) for c in equilibria.curves]},
             "motion": None if motion is None else _motion_dict(case, motion) | _input(case, motion.at)
             } | ({} if motion is None else limiting.key(case, motion.caveats)) | frame.key(case)
 
@@ -217,12 +212,24 @@ def _input(case, at) -> dict:
     return {} if found is None else {"at_input": found}
 
 
+def _curve_dict(case, curve) -> dict:
+    """With its words as sentences under `description`, and its parameter with the unit in SI."""
+    told = curve.description
+    return values_of(curve, "name equation parametrisation") | {
+        "description": {name: getattr(told, name).as_dict()
+                        for name in ("name", "equation", "parametrisation")},
+        "parameter": {"symbol": plain(told.symbol), "unit": told.unit * (case.variables != "scaled")},
+        "samples": [_point_dict(case, p) for p in curve.samples], "folds": curve.folds,
+        "segments": [values_of(s, "t linear verdict because") | {"reason": s.reason.as_dict()}
+                     for s in curve.segments]}
+
+
 def _point_dict(case, p) -> dict:
     """With the Jacobian, row by row, where the state is the three rates alone, and the coefficients of its
     characteristic polynomial, highest power first."""
     jacobian = case.scene.quadratic().jacobian(tuple(map(float, p.at))) if case.scene.plain else None
     return {"at": p.at, "jacobian": jacobian} | values_of(
-        p, "characteristic eigenvalues linear verdict because")
+        p, "characteristic eigenvalues linear verdict because") | {"reason": p.reason.as_dict()}
 
 
 def _motion_dict(case, m) -> dict:
@@ -246,53 +253,14 @@ def undecided(equilibria, motion) -> bool:
 
 
 # --- A curve in the unit of rates
-TABLE_DIGITS = 6
-RATE = r"(?:omega|x)\d"
-NUMBER = r"(?<![\w.])\d+(?:\.\d+)?(?:e[-+]?\d+)?"
-# what is left of a clause once names, numbers, the parameter and signs are taken out; an oblique plane or a
-# field has other symbols
-KNOWN = re.compile(
-    rf"{RATE}|{NUMBER}|\bt\b|\b(?:arbitrary|and|on a straight "
-    rf"line|plane|line|along|equilibrium|hyperbola|the gyrostatic moment)\b|[-+=/(), ]")
-TURNS = re.compile(r" and its turns about axis \d$")
-TERM = re.compile(rf"({NUMBER})(/t| t\b)?")
+def called(name: Reason, units: Units) -> str:
+    """The name of a curve, with the unit of the rate at its end where it has one."""
+    return f"{units.said(name)} {units.rates[0] if holds_rates(name) else ''}".rstrip()
 
 
-class Told(NamedTuple):
-    """A curve in words. one: how many of `unit` make one in its variables; no unit where these are scaled."""
-
-    name: str
-    equation: str
-    parametrisation: str
-    unit: str
-    one: float
-
-
-def in_units(curve, units: Units) -> Told:
-    """The name, the equation and the parametrisation of a curve whose numbers are all rates, or products of
-    two, in the unit of rates; those of any other as they are, in rad/s."""
-    words = (curve.name, curve.equation, TURNS.sub("", curve.parametrisation))
-    name, one = units.rates
-    if units.scaled or one == 1.0 or any(KNOWN.sub("", part) for part in words):
-        return Told(curve.name, curve.equation, curve.parametrisation, "" if units.scaled else "rad/s", 1.0)
-    title, equation, run = (", ".join(_clause(clause, one) for clause in part.split(", ")) for part in words)
-    return Told(title, equation, run + curve.parametrisation[len(words[2]):], name, one)
-
-
-def _clause(clause, one):
-    """"omega1 = 0.4 + t", "(omega1 + 0.4) omega2 = 2" or "omega1 = 0.4 + 2/t" with its numbers in another
-    unit of rates."""
-    left, equals, right = clause.partition(" = ")
-    product = len(re.findall(RATE, left)) == 2 and bool(equals)
-    return _scaled(left, one, one) + equals + _scaled(right, one * one if product else one, one)
-
-
-def _scaled(words, one, rate):
-    """A number that stands alone times `one`; one over t, a product of two rates, times the square of that of
-    a rate; one times t as it is."""
-    factors = {"": one, "/t": rate * rate, " t": 1.0}
-    return TERM.sub(lambda found: (f"{float(found[1]) * factors[found[2] or '']:.{TABLE_DIGITS}g}"
-                                   f"{found[2] or ''}"), words)
+def rates_of(told: Description, units: Units) -> Unit:
+    """The unit of the rates in the formulas of a curve; rad/s where they have no number that is one."""
+    return units.rates if told.measured else SI.rates
 
 
 SUBJECTS = {"equilibria": ("hold", "depend"), "fate": ("holds", "depends")}

@@ -327,11 +327,12 @@ def circular_orbit_dict(case, found) -> dict:
     """The object of `stabilab orbit --json`: SI units, vectors in the frame of the file."""
     result = found.equilibria
     return {"schema": "stabilab.orbit/1", "case": case.name, **values_of(found, "rate period moments"),
-            "momentum": in_file(case, found.momentum), **values_of(result, "kind reason"),
+            "momentum": in_file(case, found.momentum), "kind": result.kind, "reason": result.because,
+            "why": result.reason.as_dict(),
             "equilibria": [_object(case, found, one) for one in result.points],
-            "families": [_object(case, found, one) | {"family": one.family,
-                                                      "axis": one.axis and in_file(case, one.axis)}
-                         for one in result.families],
+            "families": [_object(case, found, one)
+                         | {"family": one.family, "consists": one.consists.as_dict(),
+                            "axis": one.axis and in_file(case, one.axis)} for one in result.families],
             "momentum_spans": None if found.spans is None else
             [{"low": one.low, "high": one.high, "families" if one.families else "equilibria": one.count,
               "minima": one.minima} for one in found.spans]} | limiting.key(case, found.caveats)
@@ -341,6 +342,7 @@ def _object(case, found, one) -> dict:
     frame = _frame(case, one)
     return {**dict(zip(("velocity", "normal", "vertical"), frame)), "yaw_pitch_roll": yaw_pitch_roll(*frame),
             **values_of(one, "linear verdict because minimum eigenvalues frequencies"),
+            "reason": one.reason.as_dict(),
             "per_orbit": [f / found.rate for f in one.frequencies], "potential": one.potential}
 
 
@@ -359,13 +361,14 @@ def circular_orbit_text(case, found, units: Units) -> str:
         lines += _lines(case, found, one, units, f"{2 * number_ + 1} and {2 * number_ + 2}",
                         result.points[2 * number_ + 1])
     for one in result.families:
-        lines += [row("family", one.family), *_lines(case, found, one, units, "one of it")]
+        lines += [row("family", units.said(one.consists)), *_lines(case, found, one, units, "one of it")]
     for span in found.spans or ():
         kind = "families" if span.families else "equilibria"
         lines.append(row("momentum", f"{number(span.low, DIGITS)} to {number(span.high, DIGITS)} N m s: "
                                      f"{span.count} {kind}, {span.minima} of them stable (Lyapunov)"))
-    reasons = dict.fromkeys((one.verdict, one.because) for one in (*result.points, *result.families))
-    lines += [f"why: {result.reason}", *(f"  {verdict}: {because}" for verdict, because in reasons),
+    reasons = dict.fromkeys((one.verdict, one.reason) for one in (*result.points, *result.families))
+    lines += [f"why: {units.said(result.reason)}",
+              *(f"  {verdict}: {units.said(because)}" for verdict, because in reasons),
               f"assumed: {ASSUMED}"]
     return limiting.noted(found.caveats, "\n".join(lines), units)
 

@@ -18,7 +18,6 @@ from ...physics.coefficients import shape_factors, to_scaled
 from ...physics.effects.base import effect_words
 from ...physics.equations import Equations, Symbolic, derive, invariants
 from .. import ending, frame, limiting, terminal
-from ..axes import axes_of
 from ..terminal import lettered, listed, some, table, width, written
 from ..units import DEG, DIGITS, SHORT, Units, as_bound, but_for_rounding, number, parameter_unit, units_of
 from .headline import known_as, rate_margin
@@ -187,7 +186,7 @@ def of_all(cases) -> str:
     kinds: dict[tuple, list] = {}
     for case in cases:
         equations, own = derive(case.scene), invariants(case.scene)
-        kinds.setdefault((*lines(equations), *(law.words for law in (*equations.balances, *own))),
+        kinds.setdefault((*lines(equations), *(law.because for law in (*equations.balances, *own))),
                          []).append((case, equations, own))
     parts = []
     for alike in kinds.values():
@@ -213,12 +212,12 @@ def _whole(case, equations, own) -> str:
              "Equations of motion", *(f"  {lettered(_products(line))}" for line in lines(equations)), "",
              "Jacobian, the derivatives of each rate by the state", *_jacobian(case, equations), "",
              "In LaTeX", latex(equations), "", "Laws that hold for every value of the parameters"]
-    axes = axes_of(case)
-    parts += [f"  {lettered(axes.sentence(law.words))}" for law in equations.balances]
+    said = units_of(case).said
+    parts += [f"  {said(law.reason)}" for law in equations.balances]
     parts += ["", "Laws of this scene: first integrals, and what changes at a known rate"]
     for law in own:
         rate = "" if law.rate == 0 else f"   at the rate {_short(law.rate)}"
-        parts += [f"  {lettered(axes.sentence(law.words))}", f"    {_short(law.quantity)}{rate}"]
+        parts += [f"  {said(law.reason)}", f"    {_short(law.quantity)}{rate}"]
     effects = listed([effect_words(effect.name) for effect in case.scene.effects] or ["no effect"])
     scene = "scaled gyrostat" if case.variables == "scaled" else f"body with {effects}"
     return "\n".join([f"{case.name}: a {scene}; laws known of this scene: {len(own)}", *parts,

@@ -91,6 +91,6 @@ def test_uncertain_numbers_and_irrational_ones_are_said():
                                                                                    'period = "100 min"'))
     assert [one.words for one in found.caveats] == ["of the middles of the uncertain numbers"]
     assert len(found.equilibria.points) == 16
-    assert "irrational (circular_orbit.period), all are taken to 64 bits" in found.equilibria.reason
+    assert "irrational (circular_orbit.period), all are taken to 64 bits" in found.equilibria.because
     turned = package.circular_orbit(PLAIN.replace('altitude = "800 km"', 'rate = "0.06 deg/s"'))
-    assert "irrational (circular_orbit.rate)" in turned.equilibria.reason
+    assert "irrational (circular_orbit.rate)" in turned.equilibria.because

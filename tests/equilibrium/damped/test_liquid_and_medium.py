@@ -304,7 +304,7 @@ def test_rest_is_told_where_the_list_of_equilibria_is_undecided():
     """
     scene = Scene(Body((3, 2, "1.5")), Gyrostat((0, 10, 10)), LiquidCavity(1, "0.1", 10), Resistance("0.001"))
     found = equilibria(scene)
-    assert found.kind == "undecided" and "nothing bounds the equilibria; rest is one" in found.reason
+    assert found.kind == "undecided" and "nothing bounds the equilibria; rest is one" in found.because
     (rest,) = found.points
     h = 1e-6
     parts = content(scene)

@@ -134,7 +134,7 @@ def test_no_rate_determines_the_others_where_on_each_axis_two_equations_are_one(
         # a line of solutions: the axis determines nothing
         assert matrix.rank() == matrix.row_join(right).rank() == 1
     found = equilibria(scene(D, wheel, torque, c))
-    assert found.kind == "undecided" and not found.points and "not determined" in found.reason
+    assert found.kind == "undecided" and not found.points and "not determined" in found.because
     beside = equilibria(scene(D, wheel, (torque[0] + sp.Rational(1, 10**9), *torque[1:]), c))
     # the degree of the map at infinity is that of -c D omega
     assert beside.kind == "points" and len(beside.points) % 2 == 1

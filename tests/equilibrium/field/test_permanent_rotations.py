@@ -336,7 +336,7 @@ def test_steady_states_of_a_torque_are_all_that_newton_finds():
                                      (WEIGHT, ConstantTorque((1, 0, 0)), Resistance("0.1"))])
 def test_what_has_no_closed_form_is_undecided_with_a_reason(effects):
     rest = equilibria(Scene(Body((5, 6, 7)), *effects))
-    assert rest.kind == "undecided" and rest.reason.startswith("undecided: ")
+    assert rest.kind == "undecided" and rest.because.startswith("undecided: ")
     assert classification.undecided(rest, None)
 
 
@@ -365,7 +365,7 @@ def test_a_sphere_with_its_weight_along_the_wheel_sleeps_upside_down_but_for_slo
 def test_steady_states_of_a_torque_are_told_by_their_quartic(e2, e3, e4):
     from flint import arb
 
-    from stabilab.equilibrium.field_states import _verdict
+    from stabilab.equilibrium.steady_states import _verdict
     roots = np.roots([1, 0, e2, -e3, e4])
     simple = min(abs(a - b) for n, a in enumerate(roots) for b in roots[:n]) > 1e-3
     word = "unstable" if roots.real.max() > 1e-3 else "stable" if simple else "degenerate"

@@ -108,7 +108,7 @@ def test_the_least_dynamic_potential_is_stable_though_it_is_flat():
 def test_a_curve_of_equilibria_at_one_wheel_momentum_of_three_different_moments():
     # with h^2 = 4 n^2 (B - A)(B - C) along B the vertical may move with (A - s)(C - s) = 3 p^2, by hand
     found = orbit_equilibria(satellite((30, 55, 51), (0, 20, 0)))
-    assert found.kind == "curves" and "common factor" in found.reason and len(found.points) == 8
+    assert found.kind == "curves" and "common factor" in found.because and len(found.points) == 8
     for one in found.families:
         (pull,) = newton.torque(np.array([30., 55, 51]), np.array([0, 20., 0]), 1.0, frames([one]))
         assert np.abs(pull).max() < 1e-12
