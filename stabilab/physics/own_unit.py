@@ -88,7 +88,7 @@ def natural(scene: AnyScene) -> tuple[AnyScene, float]:
     if scene.variables == "scaled":
         torque, mass = max(map(abs, scene.exact_mu)), Fraction(1)
     else:
-        torque, mass = max(map(abs, scene.vector("constant_torque"))), sum(scene.body.exact) / 3
+        torque, mass = max(map(abs, scene.vector("constant_torque"))), sum(scene.body.exact, Fraction()) / 3
     if not torque:
         return scene, 1.0
     weight, unit = 2.0 ** (exponent(mass * mass) // 2), 2.0 ** (exponent(torque / mass) // 2)
