@@ -7,10 +7,11 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import asdict, replace
 from fractions import Fraction
 from itertools import groupby
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...answers.equilibria import once_stopped
 from ...answers.uncertain.verdicts import ALSO_ANOTHER, reason_of
@@ -27,11 +28,18 @@ from . import questions
 from .headline import largest_key, verdict
 from .motion import attitude_rows, flips_dict, followed, reason, row, state, table, tilt_lines, why
 
+if TYPE_CHECKING:
+    from ...answers.attitude_result import Attitude
+    from ...case.read import Case
+    from ...equilibrium.result import Equilibria, EquilibriumCurve, EquilibriumPoint
+    from ...orbit.result import Motion
+
 FEW = 3  # curves that one line has room for
 WORDS = ("stable", "asymptotically stable", "unstable", "undecided")
 
 
-def text(case, equilibria, motion, turning, units: Units, proofs: bool = False) -> str:
+def text(case: Case, equilibria: Equilibria, motion: Motion | None, turning: Attitude | None, units: Units,
+         proofs: bool = False) -> str:
     """The lines for one case. turning: its `Attitude`, where that takes no run. proofs: with eigenvalues,
     equations of curves, reasons of every verdict and the principal axes."""
     answer = (f"{resting(equilibria, units)}; no [motion], so no fate" if motion is None
@@ -47,7 +55,7 @@ def text(case, equilibria, motion, turning, units: Units, proofs: bool = False) 
     return "\n".join(line for line in lines if line)
 
 
-def resting(equilibria, units: Units) -> str:
+def resting(equilibria: Equilibria, units: Units) -> str:
     """How many states of equilibrium there are, and how many of them are stable, in one line."""
     if equilibria.kind == "undecided":
         return (f"UNDECIDED, {len(equilibria.points)} known ({_count(p.verdict for p in equilibria.points)})"
@@ -64,7 +72,7 @@ def resting(equilibria, units: Units) -> str:
     return "; ".join([*parts, *(f"{reason(name, units)} ({words})" for name, words in told)])
 
 
-def _along(curve) -> str:
+def _along(curve: EquilibriumCurve) -> str:
     verdicts = _ordered({piece.verdict for piece in curve.segments})
     if len(verdicts) == 1 and any(sample.verdict != verdicts[0] for sample in curve.samples):
         return f"{verdicts[0]} but at single points"
@@ -76,11 +84,11 @@ def _count(verdicts) -> str:
     return ", ".join(f"{counts[word]} {word}" for word in _ordered(counts))
 
 
-def _ordered(verdicts):
+def _ordered(verdicts: set[str] | Counter[Any]):
     return sorted(verdicts, key=lambda word: (WORDS.index(word) if word in WORDS else len(WORDS), word))
 
 
-def _equilibria(case, equilibria, units, proofs):
+def _equilibria(case: Case, equilibria: Equilibria, units: Units, proofs: bool):
     lines = [f"  {reason(equilibria.reason, units)}"] if proofs or equilibria.kind == "undecided" else []
     if not lines and (stopped := once_stopped(equilibria)):
         lines.append(f"  {stopped}")
@@ -98,7 +106,7 @@ def _equilibria(case, equilibria, units, proofs):
     return lines
 
 
-def _jacobian(case, units) -> str:
+def _jacobian(case: Case, units: Units) -> str:
     """The Jacobian of the rates with the numbers of the case, row by row; the matrix (11) of the paper."""
     form, rows = case.scene.quadratic(), [["0"] * 3 for _ in range(3)]
     kappa, rho, sigma, _ = form.coefficients
@@ -118,7 +126,7 @@ def _linear(slope, name, constant) -> str:
     return f"{factor}{name} {'-' if constant < 0 else '+'} {number(abs(constant), 6)}"
 
 
-def _point(case, point, units, proofs):
+def _point(case: Case, point: EquilibriumPoint, units: Units, proofs: bool):
     lines = [row(point.verdict, state(point.at, units))]
     if case.scene.plain:
         rows = case.scene.quadratic().jacobian(tuple(map(float, point.at)))
@@ -130,7 +138,7 @@ def _point(case, point, units, proofs):
     return lines
 
 
-def spectrum(point, units) -> str:
+def spectrum(point: EquilibriumPoint, units: Units) -> str:
     """The characteristic polynomial of three rates where its coefficients are doubles; the eigenvalues."""
     told = f"eigenvalues {', '.join(_pairs(map(complex, point.eigenvalues)))}{per_second(units)}"
     if len(point.eigenvalues) != 3 or not all(map(math.isfinite, point.characteristic)):
@@ -140,12 +148,12 @@ def spectrum(point, units) -> str:
     return f"z³{''.join(terms)}, {told}"
 
 
-def per_second(units) -> str:
+def per_second(units: Units) -> str:
     """The unit of an eigenvalue after a blank; nothing in scaled variables."""
     return "" if units.scaled else " 1/s"
 
 
-def _samples(curve, units):
+def _samples(curve: EquilibriumCurve, units: Units):
     """States on every piece with verdict and eigenvalues: of all that are as good, the slowest."""
     rows = []
     for known, samples in groupby(curve.samples, lambda sample: sample.verdict):
@@ -157,7 +165,7 @@ def _samples(curve, units):
     return [f"    {known:<22}{place:<{wide}}  {roots}" for known, place, roots in rows]
 
 
-def _curve(curve, units, proofs):
+def _curve(curve: EquilibriumCurve, units: Units, proofs: bool):
     """Its equation and states along it, with proofs also all pieces with their reasons; equations in rates
     are in the unit of rates, those of a field in rad/s and s."""
     told = in_units(curve, units)
@@ -188,7 +196,7 @@ def _pairs(roots):
             yield _complex(z)
 
 
-def _complex(z) -> str:
+def _complex(z: complex) -> str:
     z = complex(z)
     if z.imag == 0:
         return f"{z.real + 0.0:.6g}"
@@ -196,7 +204,7 @@ def _complex(z) -> str:
 
 
 # --- As JSON
-def as_dict(case, equilibria, motion) -> dict:
+def as_dict(case: Case, equilibria: Equilibria, motion: Motion | None) -> dict:
     """One object of `stabilab classify --json`."""
     return {"schema": "stabilab.classify/1", "case": case.name, "variables": case.variables,
             "equilibria": {"kind": equilibria.kind, "reason": equilibria.reason,
@@ -211,13 +219,13 @@ def as_dict(case, equilibria, motion) -> dict:
             } | ({} if motion is None else limiting.key(case, motion.caveats)) | frame.key(case)
 
 
-def _input(case, at) -> dict:
+def _input(case: Case, at: Sequence[float]) -> dict:
     """The same vector in the frame of the file, where that is another one."""
     found = frame.back(case, at[:3])
     return {} if found is None else {"at_input": found}
 
 
-def _point_dict(case, p) -> dict:
+def _point_dict(case: Case, p: EquilibriumPoint) -> dict:
     """With the Jacobian, row by row, where the state is the three rates alone, and the coefficients of its
     characteristic polynomial, highest power first."""
     jacobian = case.scene.quadratic().jacobian(tuple(map(float, p.at))) if case.scene.plain else None
@@ -225,7 +233,7 @@ def _point_dict(case, p) -> dict:
         p, "characteristic eigenvalues linear verdict because")
 
 
-def _motion_dict(case, m) -> dict:
+def _motion_dict(case: Case, m: Motion) -> dict:
     return {"at": m.at, "fate": m.fate.word, **axes_of(case).key(m.axis), "because": m.because,
             "reason": m.reason.as_dict(),
             "margin": {"energy": m.margin_energy, "angular_velocity": m.margin_velocity,
@@ -268,7 +276,7 @@ class Told(NamedTuple):
     one: float
 
 
-def in_units(curve, units: Units) -> Told:
+def in_units(curve: EquilibriumCurve, units: Units) -> Told:
     """The name, the equation and the parametrisation of a curve whose numbers are all rates, or products of
     two, in the unit of rates; those of any other as they are, in rad/s."""
     words = (curve.name, curve.equation, TURNS.sub("", curve.parametrisation))
@@ -279,7 +287,7 @@ def in_units(curve, units: Units) -> Told:
     return Told(title, equation, run + curve.parametrisation[len(words[2]):], name, one)
 
 
-def _clause(clause, one):
+def _clause(clause: str, one: float):
     """"omega1 = 0.4 + t", "(omega1 + 0.4) omega2 = 2" or "omega1 = 0.4 + 2/t" with its numbers in another
     unit of rates."""
     left, equals, right = clause.partition(" = ")
@@ -287,7 +295,7 @@ def _clause(clause, one):
     return _scaled(left, one, one) + equals + _scaled(right, one * one if product else one, one)
 
 
-def _scaled(words, one, rate):
+def _scaled(words: str, one: float, rate: float):
     """A number that stands alone times `one`; one over t, a product of two rates, times the square of that of
     a rate; one times t as it is."""
     factors = {"": one, "/t": rate * rate, " t": 1.0}
