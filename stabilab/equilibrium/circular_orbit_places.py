@@ -327,7 +327,7 @@ def turned(satellite: Satellite, k: int) -> Iterator[Family]:
                 yield Family(line, axis, "the axis of symmetry across the velocity, any turn about it")
 
 
-def _placed(parts: dict[int, Any], zero: Any = Fraction(0)) -> tuple[Any, ...]:
+def _placed(parts: dict[int, Any], zero: Fraction | fmpq_poly = Fraction(0)) -> tuple[Any, ...]:
     """A vector with these components, zero besides."""
     return tuple(parts.get(n, zero) for n in range(3))
 
