@@ -48,7 +48,7 @@ from ..errors import InputError, ToleranceNotMet
 from ..numbers.balls import Digits, Unclear, settled
 from ..numbers.vectors import CYCLE, dot
 from ..orbit.result import Fate, Motion, Needs
-from ..physics.scene import Scene
+from ..physics.scene import AnyScene, Scene
 from ..reasons import Sentence
 from .attitude_result import (
     LONG,
@@ -231,7 +231,7 @@ def _physical(case: Any) -> tuple[Any, Any, Any]:
     return case.physical, tuple(map(float, rates)), rates
 
 
-def in_closed_form(scene: Any) -> bool:
+def in_closed_form(scene: AnyScene) -> bool:
     """Whether it is a body alone, whose attitude takes no run."""
     return scene.variables == "physical" and scene.plain and not any(scene.vector("gyrostat")) and not any(
         scene.vector("constant_torque"))

@@ -258,7 +258,7 @@ def each_firing(case: Case) -> Case:
     return replace(case, caveats=without(case.caveats, Kind.THRUSTERS))
 
 
-def _chosen(case: Any, scenario: Scenario, all_thrusters: bool) -> list[tuple[Any, ...]]:
+def _chosen(case: Case, scenario: Scenario, all_thrusters: bool) -> list[tuple[Any, ...]]:
     """The combinations of thrusters that are asked about, a tuple each."""
     if all_thrusters:
         if not case.thrusters:
