@@ -10,7 +10,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any
 
 from ..equilibrium.result import Equilibria, EquilibriumCurve, EquilibriumPoint, Verdict
 from ..equilibrium.stability import POSITIVE_EIGENVALUE, eigenvalues, invariants, isolated_verdict, pencil
@@ -121,7 +120,7 @@ def _apart(one: Sequence[float], at: Sequence[float]) -> float:
     return math.dist(one, here) / (math.hypot(*here) or 1.0) if len(one) <= len(at) else math.inf
 
 
-def _nearest(samples: Any, at: Sequence[float]) -> EquilibriumPoint | None:
+def _nearest(samples: Sequence[EquilibriumPoint], at: Sequence[float]) -> EquilibriumPoint | None:
     near = min(samples, key=lambda one: _apart(one.at, at), default=None)
     return near if near is not None and _apart(near.at, at) <= NEAR else None
 

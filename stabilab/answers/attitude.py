@@ -48,8 +48,8 @@ from ..errors import InputError, ToleranceNotMet
 from ..numbers.balls import Digits, Unclear, settled
 from ..numbers.vectors import CYCLE, dot
 from ..orbit.result import Fate, Motion, Needs
-from ..physics.scene import Scene
-from ..reasons import Sentence
+from ..physics.scene import AnyScene, Scene
+from ..reasons import Sentence, as_reason
 from .attitude_result import (
     LONG,
     ROUND_AXIS,
@@ -231,7 +231,7 @@ def _physical(case: Any) -> tuple[Any, Any, Any]:
     return case.physical, tuple(map(float, rates)), rates
 
 
-def in_closed_form(scene: Any) -> bool:
+def in_closed_form(scene: AnyScene) -> bool:
     """Whether it is a body alone, whose attitude takes no run."""
     return scene.variables == "physical" and scene.plain and not any(scene.vector("gyrostat")) and not any(
         scene.vector("constant_torque"))
@@ -241,7 +241,8 @@ def _at_start(scene: Scene, omega: Sequence[Fraction], found: Motion) -> Attitud
     H = [d * w + l for d, w, l in zip(scene.body.exact, omega, scene.vector("gyrostat"))]
     size = math.hypot(*map(float, H))
     along = tuple(float(v) / size for v in H) if size else None
-    return Attitude(found.at[:3], found.fate, None, size, along, reason=None, caveats=found.caveats)
+    return Attitude(found.at[:3], found.fate, None, size, along, reason=as_reason(None),
+                    caveats=found.caveats)
 
 
 def _of_free_body(D: Sequence[Fraction], omega: Sequence[Fraction], base: Attitude,

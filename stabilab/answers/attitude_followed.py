@@ -10,7 +10,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 
@@ -104,7 +103,7 @@ def _small_nutation(scene: Scene, found: Motion, e: int, across: float) -> tuple
     return (mean, mean * (1 + 10 * left)) if mean else None
 
 
-def _winding(h: Any, i: int) -> int:
+def _winding(h: np.ndarray, i: int) -> int:
     """How often the directions h, a closed row of them, go round axis i."""
     z = h[:, (i + 1) % 3] + 1j * h[:, (i + 2) % 3]
     return round(float(np.angle(np.roll(z, -1) / z).sum()) / (2 * math.pi))

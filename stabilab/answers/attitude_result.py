@@ -5,13 +5,16 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..numbers.balls import Unclear, settled
 from ..numbers.vectors import Float3, dot
 from ..orbit.result import Fate
 from ..reasons import Reasoned, Sentence
 from ..representation import Answer
+
+if TYPE_CHECKING:
+    from flint import arb
 
 LONG, SHORT, SEPARATRIX, STEADY, TOP = "long-axis", "short-axis", "separatrix", "steady", "heavy top"
 
@@ -60,7 +63,7 @@ ROUND_AXIS = Sentence(
     "momentum-round-axis", "no torque: the angular momentum goes round the {axis} axis in the body")
 
 
-def narrow(ball: Any, digits: int | None = None) -> Any:
+def narrow(ball: arb, digits: int | None = None) -> Any:
     """The ball; raises Unclear where it is too wide for a double, or for so many digits."""
     if not (ball.rad() <= abs(ball.mid()) * min(2.0**-54, 0.1 ** ((digits or 0) + 2))):
         raise Unclear

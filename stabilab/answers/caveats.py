@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..errors import Caveat, Kind, without
 from ..orbit.result import Fate, Motion, Stability
@@ -14,6 +14,10 @@ from ..physics.coefficients import effective
 from ..physics.scene import AnyScene, aligned, torque_axis
 from ..reasons import DIGITS, Angle, Axis, Quantity, Rate, Reason, Sentence, Time
 from ..representation import Answer
+
+if TYPE_CHECKING:
+    from ..case.read import Case
+    from ..physics.law_limits import Validity
 
 Limited = TypeVar("Limited", bound=Answer)
 STEADY = (Fate.BOUNDED, Fate.EQUILIBRIUM)
@@ -70,12 +74,12 @@ def caveats_of(scene: AnyScene, steady: bool = False, tilt: Any = None,
     return tuple(dict.fromkeys(one for make in CAVEATS for one in make(known)))
 
 
-def of_case(case: Any, validity: Any = None) -> tuple[Caveat, ...]:
+def of_case(case: Case, validity: Validity | None = None) -> tuple[Caveat, ...]:
     """The caveats of an answer about a case that is no motion's. validity: of its approximate laws."""
     return caveats_of(case.scene, validity=validity, file=case.caveats)
 
 
-def answered(found: Limited, case: Any, validity: Any = None) -> Limited:
+def answered(found: Limited, case: Case, validity: Validity | None = None) -> Limited:
     """What was found of a case, and is no motion, with all that limits it. validity: of its approximate laws.
     """
     return replace(found, caveats=of_case(case, validity))
@@ -111,12 +115,12 @@ def limited(motion: Motion, scene: AnyScene, case: Any = None) -> Motion:
                                               motion.validity, file, motion.stability))
 
 
-def misaligned(case: Any) -> tuple[str, ...]:
+def misaligned(case: Case) -> tuple[str, ...]:
     """The thrusters that fire for ever and state by how much they may point elsewhere."""
     return tuple(thruster.name for thruster in case.thrusters if thruster.stuck and thruster.misalignment)
 
 
-def loose_forces(case: Any) -> tuple[str, ...]:
+def loose_forces(case: Case) -> tuple[str, ...]:
     """The thrusters that fire for ever with a force of some tolerance."""
     return tuple(thruster.name for thruster in case.thrusters if thruster.stuck and thruster.force_tolerance)
 

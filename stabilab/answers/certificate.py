@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..equilibrium.gyrostat import balance_fails, conic_curves, isolated_states
 from ..equilibrium.stability import curve_with_verdicts, cuts_of, isolated_point, pencil
@@ -25,8 +25,12 @@ from ..orbit.fate import fate_of
 from ..orbit.one_orbit import Orbit
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate
-from ..physics.scene import AnyScene
+from ..physics.scene import AnyScene, QuadraticForm
 from ..version import __version__
+
+if TYPE_CHECKING:
+    from ..equilibrium.result import RationalCurve
+    from ..numbers.vectors import Number
 
 SCHEMA = "stabilab.certificate/1"
 ROOT_BITS = 150  # roots are known to 160 bits and more (`polynomial.real_roots`)
@@ -93,7 +97,7 @@ def _equilibria(scene: AnyScene) -> dict[str, Any]:
             "planes": [_plane(p, d) for d in ([] if any(p.M) else plane_moments(p))]}
 
 
-def _exact_equilibria(p: Any) -> tuple[str, list[Any], list[Any]]:
+def _exact_equilibria(p: Pencil) -> tuple[str, list[Any], list[Any]]:
     """(kind, isolated states, exact curves), by the cases of `equilibria`; planes come on their own.
     """
     if not any(p.M):
@@ -106,13 +110,13 @@ def _exact_equilibria(p: Any) -> tuple[str, list[Any], list[Any]]:
     return ("none", [], []) if balance_fails(p) else ("curves", [], conic_curves(p))
 
 
-def _point(form: Any, x: Any) -> dict[str, Any]:
+def _point(form: QuadraticForm, x: Isolated) -> dict[str, Any]:
     point, middle = isolated_point(form, x), x.at
     reach = Fraction(0) if x.exact else (max(map(abs, middle)) or Fraction(1)) / 2**BOX_BITS
     return {"box": [_bracket(v, reach) for v in middle], "linear": point.linear, "verdict": point.verdict}
 
 
-def _curve(form: Any, curve: Any) -> dict[str, Any]:
+def _curve(form: QuadraticForm, curve: RationalCurve) -> dict[str, Any]:
     found, cuts = curve_with_verdicts(form, curve), cuts_of(form, curve)
     exact = {*curve.poles, *curve.crossings}
     marks = [_bracket(t, Fraction(0) if t in exact else abs(t) / 2**ROOT_BITS) for t in cuts]
@@ -126,7 +130,7 @@ def _curve(form: Any, curve: Any) -> dict[str, Any]:
                       for (_, mark), place in zip(folds, found.folds)]}
 
 
-def _plane(p: Any, d: Any) -> dict[str, Any]:
+def _plane(p: Pencil, d: Fraction) -> dict[str, Any]:
     i, j, k, centre = plane_of_equal_moments(p, d)
     unit = lambda axis: [str(int(n == axis)) for n in range(3)]
     at = list(map(_text, centre))
@@ -170,7 +174,7 @@ def _without_reduction(scene: AnyScene, state: tuple[Fraction, ...], claims: dic
                       "spin_up": found})
 
 
-def _ends(value: Any, digits: int = DIGITS) -> Any:
+def _ends(value: Number, digits: int = DIGITS) -> Any:
     """A bracket round a ball, twice as wide so that another's ball has room in it; None for what is not
     finite."""
     if isinstance(value, float) or not value.is_finite():

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -23,8 +23,11 @@ from ..physics.scene import AnyScene
 from ..reasons import number
 from ..unreduced import enclosure_kernel
 from ..unreduced.enclosure import Course, allowed
-from ..unreduced.spin_up.certificate import closed, tests_of
+from ..unreduced.spin_up.certificate import Tests, closed, tests_of
 from ..unreduced.spin_up.follow import spin_up
+
+if TYPE_CHECKING:
+    from ..unreduced.spin_up.result import SpinUp
 
 # relative, of what is claimed of gain and size: another's rounding of the roots in them
 ROOM = Fraction(1, 10**9)
@@ -80,7 +83,7 @@ def certified_spin_up(scene: AnyScene, state: Sequence[Any]) -> tuple[dict[str, 
             f"{times[-1]:.6g}")
 
 
-def _inequalities(tests: Any, found: Any) -> Iterator[tuple[str, Any, tuple[int, int]]]:
+def _inequalities(tests: Tests, found: SpinUp) -> Iterator[tuple[str, Any, tuple[int, int]]]:
     """(what it is about, field, orders) of those that say what was found, in the order in which they are
     asked."""
     if not found.axis:
@@ -104,7 +107,7 @@ def _box(course: Course | None, t: float, state: Sequence[Any]) -> Any:
             * (1 + 2.0**-40)) if course.status == enclosure_kernel.DONE else None
 
 
-def _holding(tests: Any, ways: list[tuple[str, Any, tuple[int, int]]], box: Any,
+def _holding(tests: Tests, ways: list[tuple[str, Any, tuple[int, int]]], box: tuple[np.ndarray, float],
              unit: float) -> dict[str, Any] | None:
     """The first inequality that holds for the ball, its orders and constants in the scene's units; None where
     none does."""

@@ -7,8 +7,9 @@ short is done again in another way, at last in many digits, rounded once.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -34,11 +35,14 @@ from ..physics.to_numpy import to_numpy
 from .digits_asked import CAUTION, DEFAULT, MOST, NEAR, checked_digits, digits_of
 from .simulate import LOST, STIFF_METHOD, Simulation, errors_of, in_quaternions, simulated
 
+if TYPE_CHECKING:
+    from ..case.read import Case
+
 # --- The reduced form as one of the ways to follow a motion: `reduced_motion` at a given resolution
 POINTS = (2, 4, 6, 8, 12, 16)  # of Gauss's rule on each panel
 
 
-def ladder(scene: AnyScene, state: Any) -> tuple[int, ...]:
+def ladder(scene: AnyScene, state: np.ndarray | Sequence[float]) -> tuple[int, ...]:
     """Resolutions worth trying for this motion."""
     if reduced_motion(scene, state).period == 0:
         raise InputError("the state is an equilibrium: there is nothing to follow")
@@ -85,7 +89,7 @@ def missed(case: Any, found: Any) -> str:
             "ask for fewer or for a shorter span")
 
 
-def best_reached(case: Any, times: np.ndarray, digits: int = DEFAULT, aim: bool = False) -> Reached:
+def best_reached(case: Case, times: np.ndarray, digits: int = DEFAULT, aim: bool = False) -> Reached:
     """The exact motion of a case at the times (as of `simulate`) to 1 to 15 decimal digits, relative to the
     largest size of each part of the state over the times. Where nothing reaches them, the motion that comes
     nearest.
@@ -191,7 +195,7 @@ def _told(run: Simulation, asked: int, error: float, because: str, gaps: np.ndar
     return Reached(known, asked, digits, because, gaps)
 
 
-def _checked_reduced(case: Any, times: np.ndarray, run: Simulation, nodes: float,
+def _checked_reduced(case: Case, times: np.ndarray, run: Simulation, nodes: float,
                      asked: int) -> Reached | None:
     """By twice the nodes, and from a start moved by so many last places that the period, rounded, moves with
     it: what a period is off by grows with the number of periods, and two runs that round it alike would not
@@ -224,7 +228,7 @@ def _moved(case: Any, places: float = 1.0) -> Any:
                            for name, row in case.blocks.items()})
 
 
-def _distances(one: Any, two: Any) -> np.ndarray:
+def _distances(one: Simulation, two: Simulation) -> np.ndarray:
     """(n,) how far two runs are apart at each time, relative to the largest size of each part."""
     worst = np.zeros(len(one.t))
     for name, values in one.state.items():
@@ -238,7 +242,7 @@ def _integrated(case: Any, times: np.ndarray, method: str | None, rtol: float | 
     return simulated(case.scene, case.state, times, case.blocks, method, rtol)
 
 
-def _reduced(case: Any, times: np.ndarray, method: str, nodes: float) -> Simulation:
+def _reduced(case: Case, times: np.ndarray, method: str, nodes: float) -> Simulation:
     orbit = reduced_motion(case.scene, case.state, int(nodes))
     counters = {"evaluations": int(orbit.evaluations)}  # of the integrand in its preparation
     return Simulation(times, {_first(case): orbit.states(times)}, "exact", REDUCED_FORM, None,
@@ -246,7 +250,7 @@ def _reduced(case: Any, times: np.ndarray, method: str, nodes: float) -> Simulat
                       reason=f"time as an integral over the reduced coordinate, {int(nodes)} nodes")
 
 
-def _first(case: Any) -> str:
+def _first(case: Case) -> str:
     return "x" if case.scene.variables == "scaled" else "omega"
 
 

@@ -65,7 +65,7 @@ class Limit:
             return False
         sizes = [max(abs(low), abs(high)) * (1 + slack) for low, high in extremes]
 
-        def below(terms: Any, most: Fraction) -> bool:
+        def below(terms: Sequence[tuple[Fraction, tuple[Fraction, ...]]], most: Fraction) -> bool:
             """In exact numbers, as squares of doubles may be none."""
             own = [size if any(vector[n] for _, vector in terms) else 0.0 for n, size in enumerate(sizes)]
             return all(map(math.isfinite, own)) and most > sum(
@@ -171,7 +171,7 @@ def _direction(axis: Any, name: str) -> tuple[Exact3, str]:
     return unit, f"({', '.join(f'{float(v):.6g}' for v in unit)})"
 
 
-def _positive(value: Any, name: str) -> Fraction:
+def _positive(value: float | Fraction, name: str) -> Fraction:
     try:
         number = exact(value)
     except InputError as error:

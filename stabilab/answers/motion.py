@@ -5,7 +5,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..integrate.quadratic_series import largest
 from ..orbit.one_state import in_range
@@ -18,6 +18,9 @@ from ..unreduced.flips import flips_of
 from ..validation import checked_span, is_case, scene_and_state
 from .caveats import limited
 from .kinds import following, one
+
+if TYPE_CHECKING:
+    from ..case.read import Case
 
 
 def motion(scene: Any, state: Any = None, span: Any = None, needs: Needs = Needs.ALL,
@@ -57,7 +60,7 @@ def motion(scene: Any, state: Any = None, span: Any = None, needs: Needs = Needs
     return found if own is None or not needs & Needs.ENDING else with_ending(own, found)
 
 
-def with_ending(case: Any, found: Motion) -> Motion:
+def with_ending(case: Case, found: Motion) -> Motion:
     """The motion of a case with how it ends and when, where something takes energy from it."""
     if found.ending is not None or not loses(case.scene):
         return found

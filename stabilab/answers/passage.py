@@ -280,7 +280,7 @@ def run_once(scene: AnyScene, state: Sequence[float], limit: Limit, t_max: float
     return math.inf, t_max if not found.reason and math.isfinite(t_max) else found.t / unit
 
 
-def _search(scene: AnyScene, start: Any, limit: Limit) -> tuple[Form, np.ndarray, Any, float]:
+def _search(scene: AnyScene, start: Sequence[float], limit: Limit) -> tuple[Form, np.ndarray, Any, float]:
     """(rates followed by what vanishes at the limit, in the motion's own unit of rates; the start and its
     rates in it; that unit)."""
     if limit.kind == "tilt" or not scene.plain:

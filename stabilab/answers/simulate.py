@@ -41,6 +41,7 @@ from .caveats import answered
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
+    from ..case.read import Case
     from ..physics.law_limits import Validity
 
 
@@ -226,7 +227,7 @@ def simulated(scene: AnyScene, omega: Any, times: ArrayLike,
     return _simulation(run, in_quaternions(scene, parts) if "attitude" in parts else parts, why)
 
 
-def with_quaternion(case: Any) -> Any:
+def with_quaternion(case: Case) -> Any:
     """The case with its own attitude, that of its vertical with theta = 0, or identity, as a unit quaternion
     with its scalar last.
 
@@ -330,7 +331,8 @@ def _with_attitude(scene: Scene, start: Any, first: Any, times: np.ndarray, meth
     return _simulation(replace(run, t=run.t[at]), state, why, doubtful)
 
 
-def _grid(scene: Scene, start: Any, times: np.ndarray, method: str, rtol: float | None) -> np.ndarray:
+def _grid(scene: Scene, start: Mapping[str, tuple[float, ...]], times: np.ndarray, method: str,
+          rtol: float | None) -> np.ndarray:
     """The asked-for times, zero, and the method's own steps with points inside each: between the points of a
     step the body turns by less than a radian or so, however it hurries between the asked-for times."""
     base = np.unique(np.concatenate([[0.0], times]))

@@ -158,7 +158,7 @@ def _roots(curve: _Curve, i: int, order: int, first: bool) -> tuple[list[Any], b
     return found, True
 
 
-def tabulated(scene: Any, start: Sequence[Any], exact: Sequence[Fraction], times: Sequence[Fraction],
+def tabulated(scene: AnyScene, start: Sequence[Any], exact: Sequence[Fraction], times: Sequence[Fraction],
               digits: int = 30, work: int | None = None, events: bool = True) -> Tabulated:
     """The motion at increasing times from 0 on. start: all of the state; exact: its first three components,
     as they are meant; work: multiplications of a run at most; events: look for them."""
@@ -176,7 +176,7 @@ def tabulated(scene: Any, start: Sequence[Any], exact: Sequence[Fraction], times
     return again if again.t else found
 
 
-def _enclosed(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: int, work: int,
+def _enclosed(scene: AnyScene, start: Sequence[Fraction], times: Sequence[Fraction], digits: int, work: int,
               asked: bool) -> Tabulated:
     """By as many bits as the digits take, while the motion lets that many be enough."""
     need = int(digits * 3.33) + SPARE
@@ -200,7 +200,7 @@ def _enclosed(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: in
                      because, reached, events, words)
 
 
-def _attempt(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: int, bits: int,
+def _attempt(scene: AnyScene, start: Sequence[Fraction], times: Sequence[Fraction], digits: int, bits: int,
              work: int) -> Any:
     """(how many times were reached to the digits, states, pieces with their unit, why it ended, bits that the
     error grew by)."""

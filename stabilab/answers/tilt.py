@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise, product
-from typing import Any, ClassVar, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -34,6 +34,9 @@ from .limit import Limit, asked
 from .motion import motion
 from .passage import run_once, stays_below
 from .time_to import time_to
+
+if TYPE_CHECKING:
+    from ..case.read import Case
 
 DEGREE = math.pi / 180  # taken where nothing states an angle
 AZIMUTHS, REFINED = 12, 4  # looked at round the edge of the cone; halvings of the interval about the nearest
@@ -177,7 +180,7 @@ def cone_of(scene: Scene, case: Any = None, angle: float | None = None) -> Cone:
                 angle, within)
 
 
-def cone_of_forces(case: Any, torque: np.ndarray, firing: Sequence[Any], tilts: bool = True) -> Cone:
+def cone_of_forces(case: Case, torque: np.ndarray, firing: Sequence[Any], tilts: bool = True) -> Cone:
     """What the thrusters that fire may add to a torque (3,) within what they state: sizes, and directions
     where `tilts`; a part for each that states any, in their order."""
     sized = [t for t in firing if t.force_tolerance]
@@ -379,7 +382,7 @@ def _twice_the_largest(known: Motion) -> dict[str, Any]:
     return {"rate": TWICE * math.hypot(*(max(map(abs, pair)) for pair in known.extremes or ()))}
 
 
-def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None,
+def spread(scene: Scene, state: Sequence[float], cone: Cone, ask: dict[str, Any] | None,
            exact: Exact3 | None = None) -> Spread:
     """The range over the torque itself and those at the edge of its cone, with forces of every size in
     `Cone.corners`. ask: the limit, by its name as of `time_to`; None: the fates."""

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 LISTS = ("thrusters", "wheels")  # tables that come several times
@@ -219,7 +220,8 @@ def named(key: str) -> str:
     return UNIFORM.get(bare(key), key) if not re.fullmatch(r"[A-Za-z0-9_.]+", key) else key
 
 
-def cure_of_key(path: tuple[Any, ...], key: str, data: dict[str, Any], allowed: Any) -> str:
+def cure_of_key(path: tuple[Any, ...], key: str, data: dict[str, Any],
+                allowed: Sequence[str] | Mapping[str, tuple[str, str]]) -> str:
     """What to write in place of a key that is not known, with its value; "" where nothing is known. path: of
     its table; data: that table."""
     table, name, value = ".".join(p for p in path if isinstance(p, str)), bare(key), data[key]
@@ -270,7 +272,7 @@ def misnamed(path: tuple[Any, ...], key: str, data: dict[str, Any], *wanted: str
     return cure_of_key(path, key, data, wanted).startswith(tuple(f"write {one} =" for one in wanted))
 
 
-def _key(table: str, name: str, allowed: Any) -> str:
+def _key(table: str, name: str, allowed: Sequence[str] | Mapping[str, tuple[str, str]]) -> str:
     same = next((one for one in allowed if bare(one) == name), "")
     found = same or KEYS.get(table, {}).get(name, "")
     return found if found in allowed else ""

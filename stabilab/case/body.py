@@ -3,7 +3,7 @@ against the principal axes."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
@@ -117,7 +117,7 @@ def _with_products(table: Table):
     return rows
 
 
-def _good(table: Table, moments) -> bool:
+def _good(table: Table, moments: Sequence[Fraction]) -> bool:
     """Whether three principal moments are positive, within their uncertainties too; the faults of both."""
     negative = [index for index, moment in enumerate(moments) if moment <= 0]
     for index in negative:
@@ -126,7 +126,7 @@ def _good(table: Table, moments) -> bool:
     return not negative and _possible(table, moments)
 
 
-def _possible(table: Table, moments) -> bool:
+def _possible(table: Table, moments: Sequence[Fraction]) -> bool:
     """Whether all moments within the uncertainties are positive; a fault where not."""
     for index, moment in enumerate(moments):
         given = table.faults.uncertain.get(table.path + ("inertia", index))
@@ -299,7 +299,7 @@ def _too_low(table: Table, which: str, limit, now, degrees, hint: str, *place):
         f"start slower{hint}", *place)
 
 
-def _told_apart(tables: list[Table], key: str, allowed):
+def _told_apart(tables: list[Table], key: str, allowed: Sequence[str]):
     """Note what is no key, and names that two of them share."""
     seen = set()
     for table in tables:
@@ -373,7 +373,7 @@ def _force(table: Table):
     return force, tolerance
 
 
-def _tolerance(table: Table, force):
+def _tolerance(table: Table, force: Fraction | None):
     """In N, or in per cent of the force: "5 %"."""
     value = table.data.get("force_tolerance")
     if not isinstance(value, str) or not value.rstrip().endswith("%"):
@@ -444,7 +444,7 @@ REFUSED = {"x": f"{OBLIQUE} x counts along principal axes: give angular_velocity
            "position": f"{OBLIQUE} a position is not turned to principal axes: give principal moments"}
 
 
-def added(effects: list, thrusters, wheels) -> list:
+def added(effects: list, thrusters: Sequence[Thruster], wheels: Sequence[Wheel]) -> list:
     """The effects with the torques of stuck thrusters and the momenta of wheels, all in the input frame."""
     torques, momenta = [t.torque for t in thrusters if t.stuck], [w.vector for w in wheels]
     return _with(_with(effects, "gyrostat", momenta), "constant_torque", torques)

@@ -5,7 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from importlib import import_module
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 class Importer(NamedTuple):
@@ -19,7 +22,7 @@ class Importer(NamedTuple):
     files: str = ""
     bodies: bool = False
 
-    def read(self, text: str, path: Any, body: int | None = None) -> Any:
+    def read(self, text: str, path: Path, body: int | None = None) -> Any:
         """What the file says of its spacecraft. Raises InputError where that makes no case."""
         return import_module(f".{self.module}", __package__).read(text, path, body)
 

@@ -17,7 +17,7 @@ import math
 import re
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -25,6 +25,9 @@ from ..errors import InputError
 from ..numbers.exact import precise
 from .imported import Craft
 from .orbit_42 import Unknown, add_orbit, from_quaternion
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 # Matrices (3, 3) and vectors (3,) are arrays of Fractions: products of these are exact.
 ONE = np.array([[Fraction(i == j) for j in range(3)] for i in range(3)])
@@ -134,7 +137,7 @@ class Entry(NamedTuple):
     line: int
 
 
-def read(text: str, path, body: int | None = None) -> Craft:
+def read(text: str, path: Path, body: int | None = None) -> Craft:
     """What the file says of all its bodies as one, or of one of them alone, in that body's frame. Raises
     InputError where it says no inertia."""
     entries = _used(_entries(text))
@@ -170,7 +173,7 @@ def read(text: str, path, body: int | None = None) -> Craft:
     return craft
 
 
-def _alone(craft: Craft, rows, at_joint: bool, path):
+def _alone(craft: Craft, rows: Sequence[Entry], at_joint: bool, path: Path):
     """One body as the file writes it."""
     craft.mass = (_numbers(rows, "mass", 1, path) or [None])[0]
     craft.inertia = _moments(rows, path)
@@ -197,7 +200,7 @@ def _rows(part: Part) -> list:
     return flat[::4] if not any(float(flat[i]) for i in (1, 2, 5)) else [flat[i:i + 3] for i in (0, 3, 6)]
 
 
-def _moments(rows, path) -> list[str]:
+def _moments(rows: Sequence[Entry], path: Path) -> list[str]:
     found = _numbers(rows, "moments of inertia", 3, path)
     if found is None:
         raise InputError(
@@ -217,16 +220,16 @@ def _part(rows, at_joint: bool, path) -> Part:
                 _exact(rows, "constant embedded momentum", 3, path))
 
 
-def _exact(rows, label: str, count: int, path) -> np.ndarray:
+def _exact(rows: Sequence[Entry], label: str, count: int, path: Path) -> np.ndarray:
     """The numbers of a line, zeros where it is missing."""
     return np.array([Fraction(v) for v in _numbers(rows, label, count, path) or ["0"] * count])
 
 
-def _at_joint(entries) -> bool:
+def _at_joint(entries: Sequence[Entry]) -> bool:
     return _value(entries, "dynamics", "mass props") == "REFPT_JOINT"
 
 
-def _places(entries, count: int, path):
+def _places(entries: Sequence[Entry], count: int, path: Path):
     """Of every body, what turns components of body 0 to its own, and its origin. Raises InputError where no
     joint leads to it."""
     found = (places([_joint(rows, path) for _, rows in _blocks(entries, "joint")], count) if count > 1
@@ -259,7 +262,7 @@ def _static(rows, label, path):
     return turn(angles, str(sequence))
 
 
-def _on(rows, count: int, path) -> int:
+def _on(rows: Sequence[Entry], count: int, path: Path) -> int:
     """The body that a wheel or a thruster stands on."""
     found = int(_exact(rows, "body", 1, path)[0])
     if not 0 <= found < count:
@@ -326,7 +329,7 @@ def _entries(text: str) -> list[Entry]:
     return found
 
 
-def _used(entries):
+def _used(entries: Sequence[Entry]):
     """Without the samples that follow a number of none, and joints of a single body."""
     none = {e.section for e in entries if e.label.lower().startswith("number of") and e.value == "0"}
     one = any(e.label.lower().startswith("number of bodies") and e.value == "1" for e in entries)
@@ -334,19 +337,19 @@ def _used(entries):
             if not (e.block and (e.section in none or (one and e.section.startswith("joint"))))]
 
 
-def _blocks(entries, kind):
+def _blocks(entries: Sequence[Entry], kind: str):
     """(title, entries) of every block of the section that begins so."""
     titles = dict.fromkeys(e.block for e in entries if e.section.startswith(kind) and e.block)
     return [(title, [e for e in entries if e.section.startswith(kind) and e.block == title])
             for title in titles]
 
 
-def _value(entries, section, label):
+def _value(entries: Sequence[Entry], section: str, label: str):
     return next((e.value for e in entries if e.section.startswith(section)
                  and e.label.lower().startswith(label)), None)
 
 
-def _numbers(entries, label, count, path):
+def _numbers(entries: Sequence[Entry], label: str, count: int, path: Path):
     entry = next((e for e in entries if e.label.lower().startswith(label)), None)
     if entry is None:
         return None
@@ -366,11 +369,11 @@ def _written(word: str) -> str:
     return f"{sign}{whole.lstrip('0') or '0'}{f'.{rest or 0}' if point else ''}{mark}{power}"
 
 
-def _acting(vector):
+def _acting(vector: Sequence[str] | None):
     return vector if vector and any(float(v) for v in vector) else None
 
 
-def _relative(craft: Craft, entries, place, path) -> None:
+def _relative(craft: Craft, entries: Sequence[Entry], place: Sequence[np.ndarray], path: Path) -> None:
     """Rates relative to the orbit frame as those relative to inertial space; where these are not known the
     craft has no motion and every answer says why. place: of the body of the case, from body 0."""
     frames = (_value(entries, "", "ang vel wrt") or "").strip().upper()
@@ -391,7 +394,7 @@ def _relative(craft: Craft, entries, place, path) -> None:
         craft.rate = None
 
 
-def _left(entries) -> list[str]:
+def _left(entries: Sequence[Entry]) -> list[str]:
     """What was not used, a line a section."""
     sections: dict[str, Any] = {}
     for e in entries:

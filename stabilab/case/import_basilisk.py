@@ -8,12 +8,16 @@ from __future__ import annotations
 import ast
 import json
 import re
+from collections.abc import Sequence
 from decimal import Decimal
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, printable
 from .formats import BY_HAND, FORMATS, READ, seems
 from .imported import Craft, case_of_tables
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 HUB = {"mass": ("mHub", "mass"), "centre": ("r_BcB_B",), "inertia": ("IHubPntBc_B", "inertia"),
        "rate": ("omega_BN_BInit", "omega_BN_B", "angular_velocity", "omega")}
@@ -25,14 +29,14 @@ MOTION = re.compile("omega|rate|angvel|velocity|spin|motion", re.IGNORECASE)  # 
 WHEEL = {"name": ("label", "name"), "axis": ("gsHat_B",), "inertia": ("Js",), "speed": ("Omega",)}
 
 
-def read(text: str, path: Any, body: None = None) -> Craft | str:
+def read(text: str, path: Path, body: None = None) -> Craft | str:
     """The craft, or the case as TOML of a file that has the tables of one."""
     data = dictionary(text, printable(str(path)))
     own = case_of_tables(data, path)
     return from_dictionary(data, path) if own is None else own
 
 
-def from_dictionary(data: dict, path="the dictionary") -> Craft:
+def from_dictionary(data: dict, path: str | Path = "the dictionary") -> Craft:
     """The same of a dictionary."""
     if not isinstance(data, dict):
         raise InputError(f"{path}: expected a dictionary with Basilisk's names, got {type(data).__name__}")
@@ -89,7 +93,7 @@ def _part(craft, parts, otherwise, keys, item, path):
                       if key not in {pair[0] for pair in pairs.values() if pair}]
 
 
-def dictionary(text: str, path) -> Any:
+def dictionary(text: str, path: str) -> Any:
     """The dictionary of a text in JSON or Python. Raises InputError, with what the text seems to be, where it
     is neither."""
     format = seems(text)
@@ -147,11 +151,11 @@ def _flat(data: dict) -> dict:
     return flat
 
 
-def _found(data: dict, names):
+def _found(data: dict, names: Sequence[str]):
     return next(((name, data[name]) for name in names if name in data), None)
 
 
-def _first(data: dict, names):
+def _first(data: dict, names: Sequence[str]):
     pair = _found(data, names)
     return pair and pair[1]
 
@@ -161,7 +165,7 @@ def _plain(value):
     return [one for item in value for one in _plain(item)] if isinstance(value, (list, tuple)) else [value]
 
 
-def _tensor(value, path):
+def _tensor(value: Sequence[int], path: Path | str):
     numbers = [_number(v, "IHubPntBc_B", path) for v in _plain(value)]
     if len(numbers) == 3:
         return numbers
@@ -171,7 +175,7 @@ def _tensor(value, path):
     return [numbers[i:i + 3] for i in (0, 3, 6)]
 
 
-def _three(value, name, path):
+def _three(value: Sequence[int | Decimal], name: str, path: Path | str):
     numbers = [_number(v, name, path) for v in _plain(value)]
     if len(numbers) != 3:
         raise InputError(f"{path}: {name}: expected three numbers, got {len(numbers)}")

@@ -3,13 +3,16 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, printable
 from .read import load_orbiting, read_text
 from .write import plain, text_of
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 # names of another program: a dictionary that has one of them is its own
 ELSEWHERE = {"mHub", "r_BcB_B", "IHubPntBc_B", "omega_BN_BInit", "omega_BN_B", "thrLoc_B", "thrDir_B",
@@ -96,7 +99,7 @@ def _keys(data: Any) -> Iterator[Any]:
             yield from _keys(value)
 
 
-def faults_of(text: str, path) -> list[str]:
+def faults_of(text: str, path: Path) -> list[str]:
     """What a reader of the case would refuse."""
     try:
         if "\n[circular_orbit]" in text:
@@ -108,12 +111,12 @@ def faults_of(text: str, path) -> list[str]:
     return []
 
 
-def _pairs(part):
+def _pairs(part: Mapping[str, Any]):
     return [f"{key} = {_text(value) if key == 'name' else _list(value) if isinstance(value, list) else value}"
             for key, value in part.items()]
 
 
-def _list(values) -> str:
+def _list(values: Sequence[str] | map[str]) -> str:
     return f"[{', '.join(values)}]"
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -66,7 +67,7 @@ def angle_of(tilt: object) -> float:
     return stated_tilt(tilt if isinstance(tilt, str) else str(tilt))
 
 
-def _of_case(case):
+def _of_case(case: Case):
     """The fields of `StatedLimit` but `until` by [limits] of the case; those of an option below."""
     if case.limits is None:
         raise InputError(f'{case.place}: no limit: give --rate "30 deg/s", --component "z = 30 deg/s", '
@@ -79,12 +80,12 @@ def _of_case(case):
     return {"component": pairs}, "component", names, tuple(map(float, case.limits.rates))
 
 
-def _rate(case, text, dimension):
+def _rate(case: Case, text: str, dimension: Sequence[int]):
     most = _number(text, dimension, "rate")
     return {"rate": most}, "rate", ("|x|" if dimension is NONE else "|omega|",), (float(most),)
 
 
-def _component(case, text, dimension):
+def _component(case: Case, text: str, dimension: Sequence[int]):
     axis, most = _pair(text, dimension, "component")
     name = f"|{'x' if dimension is NONE else 'omega'} {axis}|"
     return {"component": (along(case, axis), most)}, "component", (name,), (float(most),)
@@ -100,7 +101,7 @@ def _tilt(case, text, _):
     return {"tilt": (along(case, axis), angle)}, "tilt", (f"the tilt of axis {axis}",), (float(angle),)
 
 
-def _pair(text, dimension, option):
+def _pair(text: str, dimension: Sequence[int], option: str):
     """(axis, number) of "z = 30 deg/s"."""
     axis, equals, rest = text.partition("=")
     axis = axis.strip().lower()

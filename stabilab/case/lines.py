@@ -148,17 +148,17 @@ class _Scan:
         self.counted = self.at
         return self.lines
 
-    def skip(self, pattern) -> int:
+    def skip(self, pattern: re.Pattern[str]) -> int:
         self.at = pattern.match(self.text, self.at).end()
         return self.at
 
-    def peek(self, pattern) -> str:
+    def peek(self, pattern: re.Pattern[str]) -> str:
         self.skip(pattern)
         if self.at >= len(self.text):
             raise _NotToml
         return self.text[self.at]
 
-    def take(self, pattern) -> str:
+    def take(self, pattern: re.Pattern[str]) -> str:
         found = pattern.match(self.text, self.at)
         if not found:
             raise _NotToml

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
@@ -16,7 +16,7 @@ from ..numbers.principal import PrincipalAxes, oblique
 from ..numbers.vectors import Exact3, Float3, dot
 from ..physics.coefficients import Scaling, to_scaled, torque_from_mu
 from ..physics.effects import REGISTRY, effect_class
-from ..physics.effects.base import effect_words
+from ..physics.effects.base import Effect, effect_words
 from ..physics.scene import INSIDE, Body, ScaledGyrostat, Scene
 from ..reasons import Reason, Sentence
 from ..validation import came, checked_span
@@ -373,7 +373,7 @@ def _scheduled(data: dict, faults: Faults) -> list[tuple[Table, list[str]]]:
             if isinstance(one, dict) and (keys := [key for key in BURN_KEYS if key in one])]
 
 
-def load_all(path) -> list[Case]:
+def load_all(path: str | Path) -> list[Case]:
     """The case in the file, or, where it has [sweep], one case for every combination of the values there.
 
     [sweep] has keys such as "effects.gyrostat.momentum" = [[0, 0, 1], [0, 0, 2]]; each must stand in the file
@@ -396,24 +396,24 @@ def read_all(path: str, text: str) -> list[Case]:
                     swept=_swept(data["sweep"], suffix)) for suffix, values in found]
 
 
-def _swept(sweep, suffix) -> tuple:
+def _swept(sweep: Mapping[str, Any], suffix: str) -> tuple:
     """(key, value) of a combination: "-2-1" is the second value of the first key and the first of the second.
     """
     return tuple((key, values[int(n) - 1]) for (key, values), n in zip(sweep.items(), suffix.split("-")[1:]))
 
 
-def read_text(path, text: str) -> Case:
+def read_text(path: str | Path, text: str) -> Case:
     """The case in a text that is not a file yet; `path` is named in its faults."""
     return _built(path := os.fspath(path), text, *parsed(path, text))
 
 
-def with_data(path, text: str, data: dict) -> Case:
+def with_data(path: str, text: str, data: dict) -> Case:
     """The case in TOML data that is the text's but for numbers that were put in; its faults are
     reported as of the text."""
     return _built(path, text, data, Faults(key_lines(text)))
 
 
-def _read(path):
+def _read(path: str | os.PathLike[str]):
     path = os.fspath(path)
     text = source_text(path)
     return path, text, *parsed(path, text)
@@ -509,7 +509,7 @@ class _Context(NamedTuple):
     body: Body
     stand_in: bool = False  # the body itself is at fault: judge nothing by it
 
-    def torque_from_mu(self, mu):
+    def torque_from_mu(self, mu: Sequence[Fraction]):
         return torque_from_mu(self.body, mu)
 
 
@@ -545,7 +545,7 @@ def _physical(top: Table, craft: _Craft,
     return _scene(body, whole, frame), mu, frame
 
 
-def _scene(body: Body, effects: Any, frame: PrincipalAxes | None) -> Scene:
+def _scene(body: Body, effects: Sequence[Effect], frame: PrincipalAxes | None) -> Scene:
     """The scene, which knows where its axes lie in the frame of the file."""
     scene = Scene(body, *effects)
     if frame is not None and not frame.as_given:
@@ -667,7 +667,8 @@ def _judge_blocks(motion: _Motion, scene):
     judge_attitude(table, given, scene)
 
 
-def _variables(top: Table, motion: _Motion, physical, scaled, mu):
+def _variables(top: Table, motion: _Motion, physical: Scene | None, scaled: ScaledGyrostat | None,
+               mu: Sequence[Fraction] | None):
     """(scene, "physical" or "scaled", change of variables or None), by the rule in `load`."""
     if physical is None:
         return _in_range(top, scaled), "scaled", None
@@ -700,7 +701,7 @@ def _in_range(top: Table, scene):
     return scene
 
 
-def _too_large(effect, body) -> bool:
+def _too_large(effect: Effect, body: Body) -> bool:
     try:
         return not all(math.isfinite(float(v)) and math.isfinite(float(v / min(body.exact)))
                        for v in effect.parameters().values())

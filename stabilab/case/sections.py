@@ -10,7 +10,7 @@ and `propellant` with its `mass_flow` say it; exact times."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
@@ -18,14 +18,14 @@ from typing import NamedTuple
 from ..numbers.units import pi
 from ..numbers.vectors import Float3
 from ..physics.effects.base import Effect
-from ..physics.scene import ordered
+from ..physics.scene import AnyScene, ordered
 from .table import Table
 
 # --- The attitude at t = 0
 SLACK = 1e-6  # of a component: a direction given to six decimals is consistent
 
 
-def vertical_of(psi, phi, theta=0.0) -> Float3:
+def vertical_of(psi: float, phi: float, theta: float = 0.0) -> Float3:
     """Inertial axis 3 in the body frame at 3-1-2 angles, rad: the third row of R = Rz(theta) Rx(psi) Ry(phi).
     """
     return (-math.cos(psi) * math.sin(phi), math.sin(psi), math.cos(psi) * math.cos(phi))
@@ -37,7 +37,7 @@ def attitude_of(vertical) -> Float3:
     return math.atan2(y, math.hypot(x, z)), math.atan2(-x, z), 0.0
 
 
-def judge_attitude(table, given, scene):
+def judge_attitude(table: Table, given: Mapping[str, Float3], scene: AnyScene | None):
     """Note a vertical and an attitude of [motion] that contradict each other. given: the blocks that the file
     gives; the zero angles that an attitude starts at where the file gives none count too."""
     needed = ordered((*getattr(scene, "blocks", ()), *given))

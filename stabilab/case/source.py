@@ -6,7 +6,9 @@ import os
 import re
 import stat
 import tomllib
+from collections.abc import Mapping
 from itertools import product
+from typing import TYPE_CHECKING, Any
 
 from ..errors import CaseError, InputError, Problem, printable
 from .aliases import LISTS
@@ -14,6 +16,9 @@ from .formats import BY_HAND, READ, seems
 from .lines import KeyLines, key_lines
 from .repairs import repair
 from .table import Faults, Table, Written, described, did_you_mean, dotted
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 # --- The text of a case file and its TOML data; whatever is no such file is refused with the line where it
 # goes wrong
@@ -61,7 +66,7 @@ def source_text(path) -> str:
                                        line)]) from None
 
 
-def _neighbour(path) -> str:
+def _neighbour(path: str | Path) -> str:
     """"; ..." with what may have been meant by a path without a file: an example, a file of a like name, a
     case of the package."""
     from difflib import get_close_matches
@@ -92,7 +97,7 @@ def command_of(name: str) -> str:
     return QUESTIONS.get(EXAMPLES[name].rpartition("/")[0], "classify")
 
 
-def parsed(path, text: str) -> tuple[dict, Faults]:
+def parsed(path: str, text: str) -> tuple[dict, Faults]:
     """The TOML data and an empty list of faults that knows the lines. Raises CaseError where the text is not
     TOML."""
     text = text.removeprefix("\ufeff")
@@ -186,7 +191,7 @@ def swept(top: Table) -> tuple[list[tuple], list[list]]:
     return paths, choices
 
 
-def place(data, key: str) -> tuple:
+def place(data: Mapping[str, Any], key: str) -> tuple:
     """The path of a key of [sweep]; a thruster or wheel is named, and stands at its index."""
     path = tuple(key.split("."))
     if len(path) == 3 and isinstance(data.get(path[0]), list):

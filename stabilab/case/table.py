@@ -8,7 +8,7 @@ classify`."""
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from datetime import date, time
 from fractions import Fraction
 from typing import NamedTuple
@@ -167,7 +167,7 @@ class Table:
                  ] if instead_of else []
         self.faults.add(self.path + keys, message, meant)
 
-    def known(self, allowed, what: str = "key"):
+    def known(self, allowed: Sequence[str], what: str = "key"):
         """Note every key that is not in `allowed`."""
         said: set[str] = set()
         for key in self.data:
@@ -294,7 +294,7 @@ class Table:
                        instead_of=(key,))
         return not missing
 
-    def _exact(self, value, *keys, cure: str = "") -> Fraction | None:
+    def _exact(self, value: float | str | Written, *keys, cure: str = "") -> Fraction | None:
         try:
             if isinstance(value, str) and not isinstance(value, Written) and states_uncertainty(value):
                 return self._middle(value, keys)
@@ -305,7 +305,7 @@ class Table:
             self.fault(row + number + str(error) + _then(cure), *keys)
             return None
 
-    def _middle(self, text: str, keys) -> Fraction:
+    def _middle(self, text: str, keys: tuple[str, int]) -> Fraction:
         """The middle of an uncertain number, which is noted."""
         if self.path + keys[:1] not in UNCERTAIN or len(keys) > 2:
             raise InputError(f"takes no uncertainty, got {described(text)}; one may stand in inertia, "
@@ -400,7 +400,7 @@ def _in_brackets(value, count: int) -> str:
     return f"; write [{', '.join(map(printable, ['0'] * (count - len(whole)) + whole))}]"
 
 
-def did_you_mean(word: str, allowed) -> str:
+def did_you_mean(word: str, allowed: Iterable[str]) -> str:
     """"; did you mean ...?" where a known word is near, else in which table it stands, and the list of what
     may stand here."""
     from difflib import get_close_matches
@@ -430,7 +430,7 @@ def expected(table: Table | None) -> dict:
     return {key: READERS[key](table, key) for key in table.data if key in KEYS}
 
 
-def _word(words):
+def _word(words: Sequence[str]):
     def read(table: Table, key: str):
         value = table.data[key]
         if value not in words or isinstance(value, Written):
@@ -464,7 +464,7 @@ def _extremes(table: Table, key: str):
     return [[_float(table, v, key) for v in pair] for pair in value]
 
 
-def _float(table: Table, value, key: str) -> float | None:
+def _float(table: Table, value: Written, key: str) -> float | None:
     """A number, or inf; a string is read as an exact number."""
     if isinstance(value, Written) and value.lstrip("+-") == "inf":
         return float(value)

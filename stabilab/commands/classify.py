@@ -91,7 +91,7 @@ def answer(question, cases, json, digits, strict, units, why, csv=False, follow=
     hold_laws(strict, (motion.validity for _, motion, _ in answered), loaded)
 
 
-def _needed(question, whole):
+def _needed(question: str, whole: bool):
     """What of a motion the question prints. whole: with a table of all margins, or what `--why` adds."""
     if question == "period" and not whole:
         return Needs.PERIOD | Needs.FLIPS

@@ -9,12 +9,13 @@ motion, and at what cost.
 from __future__ import annotations
 
 from functools import partial
+from typing import TYPE_CHECKING
 
 from ..answers.caveats import of_case
 from ..answers.motion import Needs
 from ..case.formats import IMPORTERS, importer_of
 from ..case.imported import case_text, faults_of
-from ..case.read import blamed_on
+from ..case.read import Case, blamed_on
 from ..case.source import EXAMPLES, command_of, source_text
 from ..case.source import example as text_of
 from ..case.write import data_of
@@ -32,8 +33,11 @@ from ..theories.theory import compare as set_side_by_side
 from .common import answers_of, load_cases, motion_of, one_by_one, time_asked, units_asked
 from .writing import all_reached, hold_laws, write, write_each, write_json
 
+if TYPE_CHECKING:
+    from pathlib import Path
 
-def show(case):
+
+def show(case: Path):
     """Equations and laws of a case, of every combination where it has a [sweep]."""
     tell(of_all(load_cases([case])))
 
@@ -131,7 +135,7 @@ def precision(case, json, csv, out, until, quick, all_settings, strict):
     hold_laws(strict, (found.validity for found in measured), [found.case for found in measured])
 
 
-def _end(case, until):
+def _end(case: Case, until: str | None):
     """The end of the span, None for the case's own; as pictures have it where there is neither."""
     if until is not None or case.span is not None:
         return time_asked(until, case, "until")

@@ -7,10 +7,10 @@ from functools import partial
 
 from ..answers.caveats import of_case
 from ..answers.digits_asked import DEFAULT
-from ..answers.digits_run import best_reached, missed
-from ..answers.simulate import in_matrices, with_quaternion
+from ..answers.digits_run import Reached, best_reached, missed
+from ..answers.simulate import Simulation, in_matrices, with_quaternion
 from ..answers.stuck.chain import simulate_burn
-from ..case.read import blamed_on, fires_on_schedule, load_burning
+from ..case.read import Case, blamed_on, fires_on_schedule, load_burning
 from ..errors import InputError, ToleranceNotMet
 from ..show import endings, terminal
 from ..show import reference as shown
@@ -87,7 +87,7 @@ def _followed(case, times, model, method, rtol, order, digits):
         return reached.run, reached
 
 
-def _as_dict(case, run, reached) -> dict:
+def _as_dict(case: Case, run: Simulation, reached: Reached) -> dict:
     told = reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because}
     return (simulation.as_dict(case, run) | {"digits": told} | {"theory": _theory(case, run)}
             | headline.key(run.validity, case))
@@ -103,7 +103,7 @@ def _as_text(case, run, reached, digits, units, width) -> str:
     return headline.first(run.validity, table + last + told, units, of_case(case))
 
 
-def _theory(case, run) -> list:
+def _theory(case: Case, run: Simulation) -> list:
     """What the theory of an analytic model says, as rows; nothing of an exact run."""
     return ([] if run.model == "exact"
             else theory(case, model=run.model, end=max(map(float, run.t), key=abs, default=None)))

@@ -3,6 +3,8 @@ an answer falls short."""
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -11,6 +13,13 @@ from ..show.data import as_json
 from ..show.endings import labelled
 from ..show.terminal import say, tell
 from ..show.text import headline
+
+if TYPE_CHECKING:
+    from pathlib import Path
+    from types import ModuleType
+
+    from ..case.read import Case
+    from ..maps.bifurcation.equations import Diagram
 
 
 def write(text: str):
@@ -27,7 +36,7 @@ def either(json: bool, data, words):
         tell(words())
 
 
-def write_answer(shown, found, json: bool, csv: bool, *more):
+def write_answer(shown: ModuleType, found: Diagram, json: bool, csv: bool, *more):
     """What was found by json, csv or text of `shown`; `more`: for all but csv."""
     if json or csv:
         write(shown.json(found, *more) if json else shown.csv(found))
@@ -35,22 +44,22 @@ def write_answer(shown, found, json: bool, csv: bool, *more):
         tell(shown.text(found, *more))
 
 
-def write_json(cases, rows):
+def write_json(cases: Sequence[Case], rows: Sequence[dict[str, str]]):
     """An object for a case, a list of them for the combinations of a [sweep]."""
     write(as_json(rows if any(case.variant for case in cases) else rows[0]))
 
 
-def write_each(out, writers):
+def write_each(out: Path, writers: Sequence[tuple[Case, Callable[..., Any]]]):
     """Let write(path) of every (case, write) make its file; each is named."""
     say_written(written(out, writers))
 
 
-def written(out, writers) -> list:
+def written(out: Path, writers: Sequence[tuple[Case, Callable[..., Any]]]) -> list:
     """Let write(path) of every (case, write) make its file where `out` is a name: the files."""
     return [writer(labelled(out, case)) for case, writer in writers] if out else []
 
 
-def say_written(files):
+def say_written(files: Sequence[Path]):
     """Name files that were written, a line each."""
     for file in files:
         say(f"written: {file}")
@@ -67,7 +76,7 @@ def hold_laws(strict: bool, validities, cases=()):
     leave_undecided(strict, strict and (headline.beyond(*validities) or unphysical(cases)))
 
 
-def unphysical(cases) -> bool:
+def unphysical(cases: Sequence[Case]) -> bool:
     """Whether no rigid body has the tensor of one of the cases."""
     return any(one.kind is Kind.UNPHYSICAL for case in cases for one in case.caveats)
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
@@ -19,7 +20,7 @@ from ..errors import InputError
 from ..integrate.reference import WORK, Recursion, Reference, one_run, pairs, reference, relative_errors
 from ..integrate.trajectory import SCIPY_METHODS
 from ..physics.coefficients import limits_of
-from .methods import Method, Problem, answer_methods, fate_methods, known_period, methods, problem
+from .methods import Answer, Method, Problem, answer_methods, fate_methods, known_period, methods, problem
 
 TIMES = 16  # states over the span
 QUESTIONS = {"span": "states over the span", "end": "state at the end", "extremes": "extremes",
@@ -124,7 +125,7 @@ class Precision:
         return limits.along(self.case.scene, {name: self.reference.states[:, part] for name,
                                               part in self.task.slices.items()}, "at the times compared")
 
-    def of(self, question, method=None) -> list[Point]:
+    def of(self, question: str, method: Method | str | None = None) -> list[Point]:
         """The points of a question (and a method), coarse to fine."""
         return [p for p in self.points if p.question == question and method in (None, p.method)]
 
@@ -132,7 +133,7 @@ class Precision:
     def questions(self) -> list[str]:
         return [q for q in QUESTIONS if self.of(q)]
 
-    def front(self, question="end") -> list[Point]:
+    def front(self, question: str = "end") -> list[Point]:
         """The points that no other beats in both error and time, cheapest first. The batch stands apart: it
         needs several motions at once."""
         return pareto(p for p in self.of(question) if p.lanes == 1 and not p.parts)
@@ -206,7 +207,7 @@ def precision(case, effort: str = "full", until: float | None = None, progress=N
                      tuple(left_out), effort, took)
 
 
-def _timed(call, effort):
+def _timed(call: Callable[..., Any], effort: Effort):
     """(answer of the first run, fastest, slowest, repeats) of the runs after it."""
     answer, seconds, (most, enough) = call(), [], effort.repeats
     while len(seconds) < most and (not seconds or sum(seconds) < enough):
@@ -216,7 +217,8 @@ def _timed(call, effort):
     return answer, min(seconds), max(seconds), len(seconds)
 
 
-def _measured(task, method: Method, exact, effort, spans, points, left_out):
+def _measured(task: Problem, method: Method, exact: Reference, effort: Effort, spans: Sequence[np.ndarray],
+              points: list[Point], left_out: list[tuple[str, float, str]]):
     """Put what every rung of a method's ladder reaches into `points`, or into `left_out`. spans: times of its
     runs, rising to the end; None of a run that answers with period and extremes."""
     last, growth = 0, 1.0
@@ -243,7 +245,7 @@ def _measured(task, method: Method, exact, effort, spans, points, left_out):
         growth, last = max(1.0, used / last) if last and used else 1.0, used
 
 
-def _state_error(task, answer, exact, count) -> float:
+def _state_error(task: Problem, answer: Answer, exact: Reference, count: int) -> float:
     """Largest relative error over the last `count` times, inf where an answer is missing; never below the
     reference's own."""
     worst = float(exact.error[-count:].max())
@@ -258,7 +260,7 @@ def _state_error(task, answer, exact, count) -> float:
     return worst
 
 
-def _answer_errors(answer, exact) -> dict[str, float]:
+def _answer_errors(answer: Answer, exact: Reference) -> dict[str, float]:
     """Of the period and of the extremes, never below the reference's own; inf where an answer is missing."""
     high, low, own = exact.period
     period = abs((answer.parts["period"][0] - high) - low) / high
@@ -268,7 +270,7 @@ def _answer_errors(answer, exact) -> dict[str, float]:
             for name, error, least in (("period", period, own), ("extremes", extremes, exact.extremes_error))}
 
 
-def _sensitivity(task, exact) -> float | None:
+def _sensitivity(task: Problem, exact: Reference) -> float | None:
     """Largest relative change of the state over the span per relative change of the start, for one change of
     every component by about a unit in its last place."""
     if not len(exact.t):

@@ -12,7 +12,7 @@ A run follows the motion a little further than one period, notes where each rate
 the plane through the start across the first velocity; the passage nearest the known period is its period."""
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -129,14 +129,14 @@ def thinned(method: Method, every: int) -> Method:
             else method)
 
 
-def _split(task, states) -> dict:
+def _split(task: Problem, states: np.ndarray) -> dict:
     return {name: states[:, part] for name, part in task.slices.items()}
 
 
-def _taylor(task, tolerance):
+def _taylor(task: Problem, tolerance: float):
     integrator = to_taylor(task.equations, (), tolerance)
 
-    def run(times):
+    def run(times: np.ndarray):
         integrator.time = 0.0
         integrator.state[:] = task.start
         _, _, _, steps, *_, out = integrator.propagate_grid(np.concatenate([[0.0], times]))
@@ -145,7 +145,7 @@ def _taylor(task, tolerance):
     return run
 
 
-def _batch(task, tolerance):
+def _batch(task: Problem, tolerance: float):
     """One lane is the motion, the others start next to it; cost is counted for one lane."""
     rates = form(task.equations, task.equations.rhs)
     variables, expressions = heyoka_form(rates.state, rates.symbols, rates.expressions)
@@ -154,7 +154,7 @@ def _batch(task, tolerance):
                                                 tol=tolerance,
                                               pars=np.repeat(np.array(rates.numbers)[:, None], LANES, axis=1))
 
-    def run(times):
+    def run(times: np.ndarray):
         integrator.set_time(0.0)
         integrator.state[:] = spread
         _, out = integrator.propagate_grid(np.repeat(np.concatenate([[0.0], times])[:, None], LANES, axis=1))
@@ -163,13 +163,13 @@ def _batch(task, tolerance):
     return run
 
 
-def _scipy(name):
-    def prepare(task, rtol):
+def _scipy(name: str):
+    def prepare(task: Problem, rtol: float):
         from scipy import integrate
         rate, floor = task.system.rate, rtol * ATOL_SHARE * (np.abs(task.start).max() or 1.0)
         options = {"jac": lambda _, y: task.system.jacobian(y)} if name in IMPLICIT else {}
 
-        def run(times):
+        def run(times: np.ndarray):
             solver = getattr(integrate, name)(lambda _, y: rate(y.tolist()), 0.0, task.start, times[-1],
                                               rtol=rtol, atol=floor, **options)
             out, done, steps = np.full((len(times), task.start.size), np.nan), 0, 0
@@ -187,7 +187,7 @@ def _scipy(name):
     return prepare
 
 
-def _reduced(task) -> list[Method]:
+def _reduced(task: Problem) -> list[Method]:
     if task.times[-1] < 0 or task.equations.blocks != ("omega",):
         return []
     try:
@@ -195,8 +195,8 @@ def _reduced(task) -> list[Method]:
     except InputError:
         return []
 
-    def prepare(task, nodes):
-        def run(times):
+    def prepare(task: Problem, nodes: int):
+        def run(times: np.ndarray):
             # its series belong to the cost of an answer
             orbit = reduced_motion(task.scene, task.start, nodes)
             counts = orbit.evaluations
@@ -205,7 +205,7 @@ def _reduced(task) -> list[Method]:
     return [Method("reduced", "nodes", rungs, prepare)]
 
 
-def _models(task) -> list[Method]:
+def _models(task: Problem) -> list[Method]:
     """The analytic models of the case that have an answer for this motion."""
     found = []
     for name in models_of(task.scene)[1:]:
@@ -220,7 +220,7 @@ def _models(task) -> list[Method]:
 
 def _model(name):
     def prepare(task, setting):
-        def run(times):
+        def run(times: np.ndarray):
             answer = follow(task.case, times, name, order=setting if name == "lindstedt" else None)
             known = {part: _filled(answer.state[part], len(times)) for part in task.slices
                      if part in answer.state}
@@ -252,8 +252,8 @@ def answer_methods(task: Problem, period: float, every: int = 1) -> list[Method]
     return found + [Method("reduced", "formula", (1,), _roots), Method("balls", "formula", (1,), _balls)]
 
 
-def _taylor_events(period) -> Callable:
-    def prepare(task, tolerance):
+def _taylor_events(period: float) -> Callable:
+    def prepare(task: Problem, tolerance: float):
         from sympy import Rational
         state, start = task.equations.state, [Rational(float(v)) for v in task.start]
         velocity = [Rational(float(v)) for v in task.system(task.start)]
@@ -262,7 +262,7 @@ def _taylor_events(period) -> Callable:
         with taylor_events(forms, tolerance):
             pass  # compiles
 
-        def run(times):
+        def run(times: np.ndarray):
             with taylor_events(forms, tolerance) as (integrator, found):
                 integrator.time = 0.0
                 integrator.state[:] = task.start
@@ -272,7 +272,7 @@ def _taylor_events(period) -> Callable:
     return prepare
 
 
-def _scipy_events(name, period) -> Callable:
+def _scipy_events(name: str, period: float) -> Callable:
     def prepare(task, rtol):
         from scipy.integrate import solve_ivp
         velocity, rate = task.system(task.start), task.system.rate
@@ -282,7 +282,7 @@ def _scipy_events(name, period) -> Callable:
         events.append(lambda t, y: float(velocity @ (y - task.start)) if t > EARLY * period else 1.0)
         options = {"jac": lambda _, y: task.system.jacobian(y)} if name in IMPLICIT else {}
 
-        def run(times):
+        def run(times: np.ndarray):
             try:
                 run = solve_ivp(lambda _, y: rate(y.tolist()), (0.0, OVERRUN * period), task.start,
                                 method=name, rtol=rtol,
@@ -295,7 +295,8 @@ def _scipy_events(name, period) -> Callable:
     return prepare
 
 
-def _answer(task, period, found, steps, evaluations) -> Answer:
+def _answer(task: Problem, period: float, found: Sequence[tuple[float, int, np.ndarray]], steps: int,
+            evaluations: int) -> Answer:
     """Period and extremes of the events (time, index, state); nan where the motion was not seen to come home.
     """
     velocity = task.system(task.start)
@@ -309,12 +310,12 @@ def _answer(task, period, found, steps, evaluations) -> Answer:
     return Answer({"period": np.array([home]), "extremes": extremes}, int(steps), int(evaluations))
 
 
-def _roots(task, _):
+def _roots(task: Problem, _: int):
     return lambda times: Answer({"period": np.array([float(periods(task.scene, task.start))]),
                                  "extremes": extremes(task.scene, task.start)})
 
 
-def _balls(task, _):
+def _balls(task: Problem, _: int):
     reduction = landscape(task.scene).reduction
 
     def run(times):

@@ -339,7 +339,7 @@ def turned(satellite: Satellite, k: int) -> Iterator[Family]:
                 yield Family(line, axis, AXIS_ACROSS_VELOCITY)
 
 
-def _placed(parts: dict[int, Any], zero: Any = Fraction(0)) -> tuple[Any, ...]:
+def _placed(parts: dict[int, Any], zero: Fraction | fmpq_poly = Fraction(0)) -> tuple[Any, ...]:
     """A vector with these components, zero besides."""
     return tuple(parts.get(n, zero) for n in range(3))
 

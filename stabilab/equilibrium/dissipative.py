@@ -26,6 +26,7 @@ them (LaSalle). At one p the least T is p^2/(2 D1), of rotation about an axis of
 T >= |H|^2/(2 D1) >= p^2/(2 D1)."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from math import cos, inf, sin
 from typing import Any
@@ -33,7 +34,7 @@ from typing import Any
 from ..numbers.balls import MANY_BITS, working
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.principal import SLACK, principal_minors
-from ..numbers.vectors import CYCLE, Exact3, cross, cross_matrix, dot
+from ..numbers.vectors import CYCLE, Exact3, Number, cross, cross_matrix, dot
 from ..physics.coefficients import Content
 from ..physics.scene import ZERO3, euler_form
 from ..reasons import Axis, Formula, Power, Reason, Sentence, Unit
@@ -231,26 +232,26 @@ def goes_on(parts: Content, axis: Exact3) -> tuple[Fraction, ...] | None:
     return (size,) if any(wheel) and not any(cross(across, wheel)) else ()
 
 
-def minors(rows):
+def minors(rows: Sequence[Sequence[Poly | Fraction]]):
     """Sums of the principal minors of a 3 x 3 matrix of any numbers, of the orders 1, 2 and 3."""
     found = list(principal_minors(rows))
     return [sum(v for n, v in found if n == order) for order in (1, 2, 3)]
 
 
-def _jacobian(parts: Content, form, x, q):
+def _jacobian(parts: Content, form: QuadraticForm, x: Sequence[Number], q: Number):
     """Rows of q times the derivative of omega' at omega = x/q, in any numbers."""
     return [[free - q * (v / d) for free, v in zip(rates, row)]
             for rates, row, d in zip(form.jacobian(x, q), parts.drag, parts.D)]
 
 
-def _spectrum_of(J):
+def _spectrum_of(J: Sequence[list[Fraction]]):
     """The eigenvalues of a matrix of fractions: roots of (z - s)^3 + m (z - s) + n, 3 s its trace."""
     one, two, three = minors(J)
     s = one / 3
     return eigenvalues(two - 3 * s * s, s * two - three - 2 * s**3, s)
 
 
-def _axes(D):
+def _axes(D: Sequence[Fraction]):
     """Axes of the largest and smallest moment first: there q > 0 where the axis carries no gyrostatic moment.
     """
     order = sorted(range(3), key=lambda i: D[i])
@@ -287,7 +288,8 @@ def _without_common(P: Poly, q: Poly) -> Poly:
     return P
 
 
-def _point(parts, form, numerators, q, P, t) -> EquilibriumPoint:
+def _point(parts: Content, form: QuadraticForm, numerators: Sequence[Poly], q: Poly, P: Poly,
+           t: Fraction) -> EquilibriumPoint:
     one, two, three = minors(_jacobian(parts, form, numerators, q))  # times q, q^2, q^3
     side = sign_at(q, P, t)
     p0 = side * sign_at(-three, P, t)
@@ -328,7 +330,7 @@ def _crossing(P: Poly, t) -> tuple[int, int]:
     return order, found
 
 
-def draws_all(parts: Content, omega) -> bool:
+def draws_all(parts: Content, omega: Sequence[Fraction]) -> bool:
     """Whether -delta . R delta + omega . (delta x D delta) is negative definite (by principal minors)."""
     D, S = parts.D, [list(row) for row in parts.drag]
     for i, (j, k) in enumerate(CYCLE):  # (delta x D delta)_i = (D_k - D_j) delta_j delta_k

@@ -10,6 +10,7 @@ import os
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,12 +19,15 @@ from ..errors import InputError
 from ..physics.coefficients import limits_of
 from ..physics.scene import AnyScene, judge_starts, slices, time_left
 from ..physics.states import checked_rtol, checked_starts, checked_times
-from ..physics.to_numpy import equations_of, to_numpy
+from ..physics.to_numpy import System, equations_of, to_numpy
 from ..representation import Answer, Compared
 from .guard import FARTHEST
 from .own_units import Units, are_ordinary, in_units, scale_of, units_of
 from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 from .trajectory import REPORT, integrated
+
+if TYPE_CHECKING:
+    from ..physics.equations import Equations
 
 # Motions in step: eight doubles fill the widest vectors there are, and narrower ones two or four at a time.
 # Not asked of the machine, so that every machine groups alike.
@@ -99,7 +103,7 @@ def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float |
                     scene)
 
 
-def _by_units(equations, starts):
+def _by_units(equations: Equations, starts: np.ndarray):
     """(units, numbers of the motions that have them), see `own_units`; those with ordinary rates first."""
     odd = ~are_ordinary(equations, starts)
     found = {Units(): np.flatnonzero(~odd).tolist()}
@@ -109,13 +113,13 @@ def _by_units(equations, starts):
     return [(units, np.array(numbers)) for units, numbers in found.items() if numbers]
 
 
-def _workers(workers):
+def _workers(workers: int):
     if isinstance(workers, bool) or not isinstance(workers, (int, np.integer)) or workers < 0:
         raise InputError(f"workers: expected a whole number, 0 for all cores, got {workers!r:.80}")
     return int(workers) or os.cpu_count() or 1
 
 
-def _groups(system, starts):
+def _groups(system: System, starts: np.ndarray):
     """Rows of LANES motions of similar pace: the slowest of a row keeps the others waiting. The last row is
     filled up."""
     with np.errstate(all="ignore"):
@@ -125,7 +129,7 @@ def _groups(system, starts):
     return order.reshape(-1, LANES)
 
 
-def _turned(system, starts, times):
+def _turned(system: System, starts: np.ndarray, times: np.ndarray):
     """(n,) radians or so that motions turn through, by their rates or the roots of these rates' changes."""
     with np.errstate(all="ignore"):
         rates, changes = np.abs(starts[:, :3]).max(axis=1), np.abs(system(starts)[:, :3]).max(axis=1)
@@ -136,7 +140,8 @@ class _Rows:
     """Called with rows of LANES numbers of motions, it puts their states into `out` and answers the steps
     they took."""
 
-    def __init__(self, scene, equations, units, rtol, starts, times):
+    def __init__(self, scene: AnyScene, equations: Equations, units: Units, rtol: float, starts: np.ndarray,
+                 times: np.ndarray):
         self.scene, self.rtol, self.starts, self.times = scene, rtol, starts, times
         self.scale, own = scale_of(equations, units), units.times(times)
         self.forms = to_numpy(in_units(equations, units)).rhs
@@ -151,7 +156,7 @@ class _Rows:
                 self.grids.append((way,
                                    np.repeat(np.concatenate([[0.0], own[way]])[:, None], LANES, axis=1)))
 
-    def __call__(self, groups) -> int:
+    def __call__(self, groups: np.ndarray) -> int:
         with borrowed_taylor(self.forms, self.rtol, LANES) as ta:
             return sum(self._row(ta, group, way, grid) for group in groups for way, grid in self.grids)
 
@@ -172,7 +177,7 @@ class _Rows:
                 self._follow_alone(number)
         return 0
 
-    def _together(self, lanes):
+    def _together(self, lanes: np.ndarray):
         """A row of those that are not followed alone; none where there is none."""
         good = [number for number in lanes if int(number) not in self.alone]
         return np.resize(good, LANES if good else 0)
@@ -183,12 +188,12 @@ class _Rows:
         points = ta.propagate_grid(grid, max_steps=REPORT)[1]
         return points, [result[3] for result in ta.propagate_res]
 
-    def _follow_alone(self, number):
+    def _follow_alone(self, number: int):
         why, run = _single(self.scene, self.starts[number], self.times, self.rtol, self.out[number])
         self.alone[number] = why, run.counters["steps"]
 
 
-def _single(scene, start, times, rtol, out):
+def _single(scene: AnyScene, start: np.ndarray, times: np.ndarray, rtol: float, out: np.ndarray):
     """(why it stopped or "", run) of one motion, its states put into `out` (m, N), inf where it did not get.
     """
     run = integrated(scene, start, times, "taylor", rtol, laws=False)

@@ -7,7 +7,9 @@ step, and can miss two roots that are closer.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,6 +19,10 @@ from .guard import Guard, full
 from .own_units import in_units, scale_of, units_of
 from .to_heyoka import TAYLOR_TOLERANCE, heyoka_available, taylor_events
 from .trajectory import FALLBACK_RTOL, floor, root_between, sign_changes, stand_in
+
+if TYPE_CHECKING:
+    from ..numbers.vectors import Float3
+    from ..physics.scene import AnyScene
 
 SUBSAMPLES = 16
 STEP_LIMIT = 1_000_000  # each of which costs ten times one of a run, for its roots are searched
@@ -48,19 +54,22 @@ class Passed:
         return float(self.times[0]) if len(self.times) else None
 
 
-def _passed(zeros, t, state, steps, reason) -> Passed:
+def _passed(zeros: Sequence[tuple[float, int, np.ndarray]], t: float, state: np.ndarray, steps: int,
+            reason: str) -> Passed:
     """zeros: (time, which of the expressions, state) each."""
     return Passed(*_columns(zeros, len(state)), t, state, steps, reason)
 
 
-def _columns(zeros, n) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _columns(zeros: Sequence[tuple[float, int, np.ndarray]],
+             n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(times, which, states) of (time, which, state)s: numbers in rows take a tenth of the memory."""
     times, which, states = zip(*zeros) if zeros else ((), (), ())
     return np.array(times, float), np.array(which, int), np.array(states, float).reshape(-1, n)
 
 
-def zeros_passed(forms: Form, state, rates, t_end: float, steps: int,
-                 tolerance: float = TAYLOR_TOLERANCE, first: bool = False, whole: bool = False) -> Passed:
+def zeros_passed(forms: Form, state: np.ndarray, rates: np.ndarray | Sequence[float], t_end: float,
+                 steps: int, tolerance: float = TAYLOR_TOLERANCE, first: bool = False,
+                 whole: bool = False) -> Passed:
     """The motion from `state` (N,) at t = 0 to t_end, of either sign, and the zeros on its way of those
     expressions of a form that stand behind its N rates; those of the start itself do not count.
 
@@ -74,7 +83,8 @@ def zeros_passed(forms: Form, state, rates, t_end: float, steps: int,
         return _by_scipy(forms, state, float(t_end), steps, tolerance, first, whole)
 
 
-def _by_taylor(forms, state, t_end, steps, tolerance, first, whole, longest) -> Passed:
+def _by_taylor(forms: Form, state: np.ndarray, t_end: float, steps: int, tolerance: float, first: bool,
+               whole: bool, longest: float) -> Passed:
     parts, done, noted, why, size = [], 0, 0, "", len(forms.state)
     guard = Guard(t_end, steps, SETTLED, PATIENCE)
     with taylor_events(forms, tolerance) as (integrator, found):
@@ -105,7 +115,7 @@ def _by_taylor(forms, state, t_end, steps, tolerance, first, whole, longest) -> 
     return Passed(times, which, states, now, end, done, reason)
 
 
-def _longest(rates, state) -> float:
+def _longest(rates: np.ndarray | Sequence[float], state: np.ndarray) -> float:
     """The longest step, by the size of the first three components and the roots of their rates."""
     changes = np.abs(rates[:3])
     size = max(float(np.abs(state[:3]).max()),
@@ -113,13 +123,14 @@ def _longest(rates, state) -> float:
     return LONGEST / size if size > 0 else math.inf
 
 
-def _by_scipy(forms, state, t_end, steps, tolerance, first, whole) -> Passed:
+def _by_scipy(forms: Form, state: np.ndarray, t_end: float, steps: int, tolerance: float, first: bool,
+              whole: bool) -> Passed:
     n, rtol = len(forms.state), max(tolerance, FALLBACK_RTOL)
     atol = floor(state, rtol)
     moving, behind = (Form(forms.state, part, forms.symbols, forms.numbers)
                       for part in (forms.expressions[:n], forms.expressions[n:]))
 
-    def run(t, y, end):
+    def run(t: float, y: np.ndarray, end: float):
         return stand_in(lambda x: moving.function(*x, *moving.numbers), y, end, t, rtol, atol)
 
     if t_end == 0:
@@ -153,7 +164,7 @@ def _zeros_of_step(behind, solver, before, run):
     return zeros
 
 
-def _land(run, t, y, t_end):
+def _land(run: Callable[[float, np.ndarray, float], Any], t: float, y: np.ndarray, t_end: float):
     """The state at t_end by steps of the method that end there (free of the interpolant's error)."""
     if t == t_end:
         return y
@@ -182,7 +193,7 @@ class RateRoots:
     steps: int
     reason: str
 
-    def extremes(self, components=(0, 1, 2)):
+    def extremes(self, components: Sequence[int] = (0, 1, 2)):
         """(m, 2) smallest and largest value of the components over the span, its two ends included."""
         result = np.sort(np.stack([self.start[list(components)], self.end[list(components)]], axis=1), axis=1)
         for n, i in enumerate(components):
@@ -192,7 +203,8 @@ class RateRoots:
         return result
 
 
-def roots_of_rates(scene, state, t_end: float, tolerance: float = TAYLOR_TOLERANCE) -> RateRoots:
+def roots_of_rates(scene: AnyScene, state: np.ndarray | Sequence[float] | Mapping[str, Float3], t_end: float,
+                   tolerance: float = TAYLOR_TOLERANCE) -> RateRoots:
     """Every root of x_i' for 0 < |t| < |t_end|, for the motion that is at `state` (as `trajectory` takes it)
     at t = 0.
 
@@ -218,6 +230,6 @@ def roots_of_rates(scene, state, t_end: float, tolerance: float = TAYLOR_TOLERAN
     return _roots(passed, state, "taylor" if heyoka_available() else "DOP853")
 
 
-def _roots(passed: Passed, start, method: str) -> RateRoots:
+def _roots(passed: Passed, start: np.ndarray, method: str) -> RateRoots:
     return RateRoots(passed.times, passed.which, passed.states, np.array(start), np.array(passed.state),
                      passed.t, method, passed.steps, passed.reason)

@@ -20,11 +20,16 @@ n' = n x omega, and its error grows by that of omega alone: |e_n|' <= |n| |e_ome
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from fractions import Fraction
 from operator import mul
+from typing import TYPE_CHECKING
 
 from ..numbers.vectors import CYCLE
 from .crossing import Piece
+
+if TYPE_CHECKING:
+    from ..physics.scene import QuadraticForm
 
 CLOCK = 40  # bits of a step's length: a multiple of 2^-40 in the motion's own time
 SLACK = 16  # bits by which the last coefficient of a step may exceed the last place
@@ -44,7 +49,8 @@ class IntegerFlow:
     fast); direction: n at the start, three rationals, or None. work: multiplications done.
     """
 
-    def __init__(self, form, weights, start, bits: int, unit: Fraction = Fraction(1), direction=None):
+    def __init__(self, form: QuadraticForm, weights: Sequence[Fraction], start: Sequence[Fraction], bits: int,
+                 unit: Fraction = Fraction(1), direction: Sequence[Fraction] | None = None):
         self.bits, self.order, self.work, self.unit = bits, 6 + int(0.35 * bits), 0, unit
         self.kappa, self.rho, self.sigma, self.m = (_rounded(row, bits, by) for row, by in (
             (form.kappa, 1), (form.rho, unit), (form.sigma, unit), (form.m, unit * unit)))
@@ -113,7 +119,7 @@ class IntegerFlow:
         return (pairs + [(3 + a, b) for j, k in CYCLE for a, b in ((j, k), (k, j))] if len(self.x) > 3
                 else pairs)
 
-    def _series(self, length):
+    def _series(self, length: Fraction):
         """(coefficients of each component times the step's powers, those of every product)."""
         bits, h, over = self.bits, length.numerator, length.denominator
         rows, pairs = [[v] for v in self.x], self._pairs()
@@ -132,7 +138,8 @@ class IntegerFlow:
         self.work += self.order * (self.order + 8) // 2 * len(pairs)
         return rows, products
 
-    def _widen(self, rows, products, sizes, h):
+    def _widen(self, rows: Sequence[list[int]], products: Sequence[list[int]], sizes: Sequence[int],
+               h: float):
         """Let the error grow over a step: the defect is taken as if all of it stood at the start."""
         N, pairs, one = self.order, self._pairs(), 2.0**-self.bits
         tails = [_tail(rows[a], rows[b], N, self.bits) for a, b in pairs]
@@ -155,17 +162,17 @@ class IntegerFlow:
                       + h * (self.turns + 2.0**-40) * self.error / self.least)
             self.turned = math.ceil(turned * MORE)
 
-    def _growth(self, sizes):
+    def _growth(self, sizes: Sequence[int]):
         """Bound of mu over a step."""
         total = sum((a * size * 2.0**-self.bits + b) ** 2 for (a, b), size in zip(self.shear, sizes))
         return math.sqrt(4 / 3 * total) * MORE
 
 
-def _rounded(values, bits, by=1):
+def _rounded(values: Sequence[Fraction], bits: int, by: int | Fraction = 1):
     return [round(Fraction(v) / by * (1 << bits)) for v in values]
 
 
-def _shear(form, q, unit, i, j, k):
+def _shear(form: QuadraticForm, q: Sequence[Fraction], unit: Fraction, i: int, j: int, k: int):
     """(a, b) with |S_jk| (q_j q_k)^(-1/2) <= a |x_i| + b."""
     root = 2 * math.sqrt(float(q[j] * q[k])) / MORE
     through = q[j] * form.kappa[j] + q[k] * form.kappa[k]
@@ -173,7 +180,7 @@ def _shear(form, q, unit, i, j, k):
     return abs(float(through)) / root * MORE, abs(float(constant)) / root * MORE
 
 
-def _tail(first, second, order, bits):
+def _tail(first: Sequence[int], second: Sequence[int], order: int, bits: int):
     """Bound of the sum of |first_i| |second_j| over i + j >= order, in units of 2^-bits."""
     total, rest = 0, 0
     # a is first's coefficient order - j where b is second's j; rest gathers |first_i|, i >= order - j

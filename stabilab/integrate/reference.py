@@ -8,18 +8,23 @@ factors'. The numbers are midpoints of python-flint's balls.
 """
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from operator import mul
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..errors import InputError
-from ..numbers.balls import DOUBLE_BITS, working
+from ..numbers.balls import DOUBLE_BITS, Digits, working
 from ..numbers.vectors import Number
-from ..physics.equations import derive
-from ..physics.scene import hold_on, slices
+from ..physics.equations import Equations, derive
+from ..physics.scene import AnyScene, hold_on, slices
 from .guard import too_far
+
+if TYPE_CHECKING:
+    from flint import arb
 
 RETURNED = 1e-12  # a passage through the starting plane within this share of the orbit's size is a return
 PIECES = 6  # of a step, each searched for one root
@@ -32,7 +37,7 @@ class Exhausted(Exception):
 class Recursion:
     """The Taylor recursion of polynomial rates: which products to form, and the rates as sums of them."""
 
-    def __init__(self, equations):
+    def __init__(self, equations: Equations):
         from sympy import Poly, PolynomialError
         self.size, self.products, self._at = len(equations.state), [], {}
         self.rates = []
@@ -44,12 +49,12 @@ class Recursion:
             self.rates.append([(self._place(powers), Fraction(int(c.p), int(c.q)))
                                for powers, c in terms if c != 0])
 
-    def _place(self, powers):
+    def _place(self, powers: Sequence[int]):
         """Row of the monomial's series (-1: the number 1), forming the products it needs."""
         factors = tuple(i for i, n in enumerate(powers) for _ in range(n))
         return self._row(factors) if factors else -1
 
-    def _row(self, factors):
+    def _row(self, factors: Sequence[int]):
         if len(factors) == 1:
             return factors[0]
         if factors not in self._at:
@@ -58,7 +63,7 @@ class Recursion:
             self.products.append((first, second))
         return self._at[factors]
 
-    def in_balls(self, numbers):
+    def in_balls(self, numbers: Digits):
         """The rates with their coefficients as balls of this kind."""
         return [[(row, numbers.ball(c).mid()) for row, c in rate] for rate in self.rates]
 
@@ -74,7 +79,7 @@ class Recursion:
                 into.append((total / (n + 1) + x[0] * 0).mid())
         return rows[:self.size]
 
-    def cost(self, order):
+    def cost(self, order: int):
         """Multiplications of one series."""
         return order * (order + 1) // 2 * len(self.products) + order * sum(len(rate) for rate in self.rates)
 
@@ -87,11 +92,11 @@ class Step:
     length: Number
     rows: list
 
-    def at(self, s, derivative=0):
+    def at(self, s: arb, derivative: int = 0):
         return [value(row, s, derivative) for row in self.rows]
 
 
-def value(row, s, derivative=0):
+def value(row: Sequence[arb], s: arb, derivative: int = 0):
     """The series, or its first derivative, at s, by Horner's rule."""
     total = s * 0
     for n in range(len(row) - 1, derivative - 1, -1):
@@ -99,7 +104,8 @@ def value(row, s, derivative=0):
     return total
 
 
-def steps(recursion, start, digits, budget, numbers, sense=1, swing=False):
+def steps(recursion: Recursion, start: Sequence[float | Fraction] | np.ndarray, digits: int,
+          budget: list[int], numbers: Digits, sense: int = 1, swing: bool = False):
     """Steps from the start at time 0, without end; raises Exhausted where the budget (a list of one count) is
     used up.
 
@@ -120,7 +126,7 @@ def steps(recursion, start, digits, budget, numbers, sense=1, swing=False):
         x, now = step.at(length), (now + length).mid()
 
 
-def _length(rows, order, digits):
+def _length(rows: Sequence[list[arb]], order: int, digits: int):
     """The last two coefficients bound the tail: it is 10^-digits of the state's size."""
     from flint import arb
     size, shortest = max(abs(row[0]) for row in rows), arb(10) ** 9
@@ -132,7 +138,7 @@ def _length(rows, order, digits):
     return shortest.mid()
 
 
-def _length_of_change(rows, order, digits):
+def _length_of_change(rows: Sequence[list[arb]], order: int, digits: int):
     """Twice the step whose tail is 10^-digits of the largest of its first terms: a swing may be as small as
     it likes beside the state."""
     from flint import arb
@@ -150,7 +156,7 @@ class Loop:
     def __init__(self):
         self.closed, self.period, self.extremes = False, None, None
 
-    def take(self, step):
+    def take(self, step: Step):
         if self.extremes is None:
             self.home, self.normal = step.at(step.length * 0), [row[1] for row in step.rows]
             self.extremes = [[v, v] for v in self.home[:3]]
@@ -162,7 +168,7 @@ class Loop:
                 break
         widen(self.extremes, step, end)
 
-    def _passages(self, step):
+    def _passages(self, step: Step):
         """Later passages, in the direction of the motion, of the plane across the first velocity."""
         row = [sum(map(mul, self.normal, column)) for column in zip(*step.rows)]
         row[0] = row[0] - sum(map(mul, self.normal, self.home))
@@ -170,7 +176,7 @@ class Loop:
         return [s for s in _roots(row, step.length) if s > step.length * after and value(row, s, 1) > 0]
 
 
-def widen(pairs, step, end):
+def widen(pairs: Sequence[list[arb]], step: Step, end: arb):
     """Let the least and greatest values of the first components take in a step as far as `end` after its
     start. The multiplications that this took."""
     work = 0
@@ -184,7 +190,7 @@ def widen(pairs, step, end):
     return work
 
 
-def _roots(row, length, tried=None):
+def _roots(row: Sequence[arb], length: arb, tried: Sequence[int] | None = None):
     """Simple roots of a series inside (0, length]: bracketed by pieces, closed in on by Newton's method.
     tried: a list whose one number counts the steps of that."""
     ends = [length * k / PIECES for k in range(PIECES + 1)]
@@ -259,7 +265,8 @@ class Reference:
     work: int = 0
 
 
-def one_run(recursion, start, times, digits, budget, orbit=False):
+def one_run(recursion: Recursion, start: Sequence[float | Fraction] | np.ndarray,
+            times: np.ndarray | Sequence[Fraction], digits: int, budget: list[int], orbit: bool = False):
     """(states at the times reached, (period, extremes) or None) as balls at `digits` decimal digits.
 
     times: of one sign, moving away from 0. orbit: the motion is known to repeat: its return is found, and
@@ -290,21 +297,22 @@ def one_run(recursion, start, times, digits, budget, orbit=False):
         return found, (loop.period, loop.extremes) if loop and loop.closed else None
 
 
-def hopeless(left, length, taken, begun, budget) -> bool:
+def hopeless(left: arb | int, length: arb, taken: int, begun: int, budget: int) -> bool:
     """Whether the time left, a ball, at steps of the length of the last, is farther than what is left of the
     budget comes by far. taken, begun: steps so far, and the budget before them."""
     cost = max(1, begun - budget) / taken
     return too_far(taken, float(abs(left / length)), budget / cost, begun / cost / SETTLED)
 
 
-def _folded(passed, time, period):
+def _folded(passed: Sequence[Step], time: arb, period: arb):
     """State at a time beyond the first return."""
     within = (time - (time / period).floor() * period).mid()
     step = next((s for s in passed if s.start <= within and within - s.start <= s.length), passed[-1])
     return step.at((within - step.start).mid())
 
 
-def relative_errors(values, states, rest, slices) -> np.ndarray:
+def relative_errors(values: np.ndarray, states: np.ndarray, rest: np.ndarray,
+                    slices: Mapping[str, slice]) -> np.ndarray:
     """(n,) error of states (n, N): in each block the largest component's distance over the block's largest
     size in the run, the worst block counting."""
     worst = np.zeros(len(states))
@@ -315,7 +323,9 @@ def relative_errors(values, states, rest, slices) -> np.ndarray:
     return worst
 
 
-def reference(scene, start, times, blocks=(), orbit=False, work: int = WORK) -> Reference:
+def reference(scene: AnyScene, start: Sequence[float | Fraction] | np.ndarray,
+              times: np.ndarray | Sequence[float], blocks: Sequence[str] = (), orbit: bool = False,
+              work: int = WORK) -> Reference:
     """The motion from `start` (N numbers, taken as exact) at increasing (or decreasing) times of one sign.
 
     blocks: blocks of state beyond those the scene needs. orbit: the motion is known to repeat: find its
@@ -372,7 +382,7 @@ def _compared(times, before, now, parts, work) -> Reference:
                      extremes_error, "agrees" if ok else "stopped", why, work)
 
 
-def pairs(rows):
+def pairs(rows: Sequence[list[arb]]):
     """Lists of balls as two arrays of doubles whose sum they are."""
     with working(DOUBLE_BITS):
         high = np.array([[float(v) for v in row] for row in rows])
@@ -380,7 +390,7 @@ def pairs(rows):
     return high, low
 
 
-def _orbits(low, high):
+def _orbits(low: tuple[arb, list[list[arb]]] | None, high: tuple[arb, list[list[arb]]] | None):
     """((period, rest, relative error), extremes (3, 2, 2), their relative error) of two runs, or three Nones.
     """
     if low is None or high is None:

@@ -2,16 +2,21 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import lru_cache, reduce
 from operator import mul
 from threading import RLock
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..physics.equations import Equations
-from ..physics.to_numpy import Form, equations_of, form
+from ..physics.to_numpy import Form, Structure, equations_of, form
+
+if TYPE_CHECKING:
+    from sympy import Expr
 
 # Default tolerance of the Taylor series: half an ulp of 1. In a spin-up the phase grows as t^2, so a relative
 # 1e-12 per step would cost 2e-5 at t = 1000; a tighter step costs a few per cent.
@@ -66,7 +71,7 @@ MOST_FREE = 8
 class _Borrowed:
     """A context by itself: one made of a generator costs a short run a hundredth of its time."""
 
-    def __init__(self, forms, tolerance, lanes):
+    def __init__(self, forms: Form, tolerance: float, lanes: int):
         self.key = forms.structure, tolerance, lanes
         self.numbers = np.reshape(forms.numbers, (-1, 1)) if lanes else forms.numbers
 
@@ -85,7 +90,7 @@ class _Borrowed:
 
 
 @lru_cache(maxsize=64)
-def _free(structure, tolerance, lanes) -> list:
+def _free(structure: Structure, tolerance: float, lanes: int) -> list:
     """The integrators of this kind that nobody uses."""
     return []
 
@@ -112,7 +117,8 @@ class _Recorder:
     def __init__(self):
         self.found = []
 
-    def __deepcopy__(self, memo):  # heyoka copies its callbacks; the list must stay the same one
+    # heyoka copies its callbacks; the list must stay the same one
+    def __deepcopy__(self, memo: Mapping[int, Any]):
         return self
 
 
@@ -129,13 +135,13 @@ class _Note:
         self.recorder.found.append((time, self.index, integrator.d_output[:self.size].copy()))
 
 
-def heyoka_form(state, symbols, expressions):
+def heyoka_form(state: Sequence[Expr], symbols: Sequence[Expr], expressions: Sequence[Expr]):
     variables = heyoka().make_vars(*map(str, state))
     swap = dict(zip(state, variables)) | {s: heyoka().par[i] for i, s in enumerate(symbols)}
     return variables, [_from_sympy(e, swap) for e in expressions]
 
 
-def _from_sympy(expression, swap):
+def _from_sympy(expression: Expr, swap: dict[Expr, Any]):
     """heyoka.from_sympy turns away ratios and lone numbers; `form` has left only integers and symbols. Its
     series of a power divides by the base, which may be zero, but for squares: powers are products."""
     from sympy import Dummy, Pow
@@ -147,7 +153,7 @@ def _from_sympy(expression, swap):
 
 
 @lru_cache(maxsize=64)
-def _integrator(structure, tolerance, lanes=0):
+def _integrator(structure: Structure, tolerance: float, lanes: int = 0):
     n, count = len(structure.state), len(structure.expressions)
     variables, rates = heyoka_form(structure.state, structure.symbols, structure.expressions)
     extra = heyoka().make_vars(*(f"quadrature{i}" for i in range(count - n))) if count > n else []
@@ -159,7 +165,7 @@ def _integrator(structure, tolerance, lanes=0):
 
 
 @lru_cache(maxsize=64)
-def _event_integrator(structure, tolerance):
+def _event_integrator(structure: Structure, tolerance: float):
     n, recorder = len(structure.state), _Recorder()
     variables, everything = heyoka_form(structure.state, structure.symbols, structure.expressions)
     events = [heyoka().nt_event(e, _Note(i, recorder, n)) for i, e in enumerate(everything[n:])

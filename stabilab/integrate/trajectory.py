@@ -17,20 +17,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..physics.coefficients import limits_of
-from ..physics.scene import slices, stopped, time_left
+from ..physics.scene import AnyScene, slices, stopped, time_left
 from ..physics.states import checked_rtol, checked_times, equations_and_start
-from ..physics.to_numpy import to_numpy
+from ..physics.to_numpy import System, to_numpy
 from ..representation import Answer, Compared
 from .guard import PATIENCE, Guard, full
 from .own_units import Units, in_units, scale_of, units_of
 from .to_heyoka import FEATHER, TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 
 if TYPE_CHECKING:
+    from ..physics.equations import Equations
     from ..physics.law_limits import Validity
 
 
 # --- Past the end of an effect
-def through_the_end(scene: Any, state: Any, times: Any, follow: Callable[..., Any],
+def through_the_end(scene: AnyScene, state: np.ndarray, times: np.ndarray, follow: Callable[..., Any],
                     steps: list[float] | None) -> Any:
     """The run at times of which some are later than the end of an effect; None where there is no such effect
     or time. follow(scene, state, times, steps): a run in which all effects act."""
@@ -170,7 +171,7 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
                       slices(equations.blocks), watch and watch.result())
 
 
-def parted(times) -> tuple[np.ndarray, int, np.ndarray]:
+def parted(times: np.ndarray) -> tuple[np.ndarray, int, np.ndarray]:
     """(those before 0, how many are 0: one or none, those after it) of times in a row either way; before and
     after begin next to 0."""
     rising = times if times.size < 2 or times[1] > times[0] else times[::-1]
@@ -178,7 +179,7 @@ def parted(times) -> tuple[np.ndarray, int, np.ndarray]:
     return rising[:first][::-1], int(last - first), rising[last:]
 
 
-def watcher(scene, equations, state):
+def watcher(scene: AnyScene, equations: Equations, state: np.ndarray):
     """What looks at each step of a run under an approximate law; None where all laws are exact."""
     limits = limits_of(scene) if hasattr(scene, "approximate") else None  # equations may stand for a scene
     if limits is None:
@@ -188,7 +189,7 @@ def watcher(scene, equations, state):
     return watch
 
 
-def departures(system, state, points) -> dict[str, float]:
+def departures(system: System, state: np.ndarray, points: np.ndarray) -> dict[str, float]:
     """Law name -> largest |Q(t) - Q(0) - integral of its rate| over the largest size of its terms in the run.
     """
     if not len(points):
@@ -207,7 +208,7 @@ def steps_left(passed, ahead, steps=None) -> float:
     return float(abs(ahead) / (abs(passed) or 1e-300) * (steps or REPORT))
 
 
-def _crawling(last, now, left, steps) -> str:
+def _crawling(last: float, now: float, left: float, steps: int) -> str:
     return (f"the last {steps} steps went from t = {last:.9g} to {now:.9g}, the rest would take some "
             f"{left:.1g} steps")
 
@@ -215,7 +216,7 @@ def _crawling(last, now, left, steps) -> str:
 class _Taylor:
     """Runs of the Taylor series; counters add up over the runs. pace: of the times over those returned."""
 
-    def __init__(self, system, rtol, laws=True, pace=1.0):
+    def __init__(self, system: System, rtol: float, laws: bool = True, pace: float = 1.0):
         self.forms, self.rtol = system.motion_and_laws if laws else system.rhs, rtol
         self.pace = pace
         self.counters = {"steps": 0}
@@ -312,7 +313,7 @@ class _SciPy:
     """Runs of a SciPy method; counters add up over the runs. landing: end a step on each asked-for time
     (costs a step, saves the interpolant's error)."""
 
-    def __init__(self, system, method, rtol, landing=False):
+    def __init__(self, system: System, method: str, rtol: float, landing: bool = False):
         self.system, self.method, self.rtol, self.landing = system, method, rtol, landing
         self.counters = {"steps": 0, "rate evaluations": 0, "jacobian evaluations": 0}
         self.most = IMPLICIT_LIMIT if method in ("Radau", "BDF") else STEP_LIMIT
@@ -370,12 +371,12 @@ class _SciPy:
         self.counters["jacobian evaluations"] += int(solver.njev)
         return solver.y, h, None
 
-    def _solver(self, t, y, end, h):
+    def _solver(self, t: float, y: np.ndarray, end: float, h: float | None):
         from scipy import integrate
         n = len(self.system.equations.state)
         weight = np.where(np.arange(y.size) < n, 1.0, FEATHER)
 
-        def rates(_, y):
+        def rates(_: float, y: np.ndarray):
             return weight * self.system.rate_and_laws(y[:n].tolist())
 
         floor = self.rtol * ATOL_SHARE * (np.abs(y[:n]).max() or 1.0)
@@ -392,7 +393,7 @@ class _SciPy:
         return jacobian
 
 
-def _stopped(points, grid, why):
+def _stopped(points: np.ndarray, grid: np.ndarray, why: str):
     last = f"t = {grid[len(points) - 1]:.17g}" if len(points) else "the start"
     return f"the run stopped after {last}: {why}"
 
@@ -426,7 +427,8 @@ class Trajectory(Answer, Compared):
 
 # --- SciPy's DOP853 in the place of the Taylor series, where heyoka is not installed: its steps, and roots
 # on their interpolants
-def stand_in(rate, state, end: float, t: float = 0.0, rtol: float = FALLBACK_RTOL, atol: float | None = None):
+def stand_in(rate: Callable[[list[float]], np.ndarray | list[float]], state: np.ndarray, end: float,
+             t: float = 0.0, rtol: float = FALLBACK_RTOL, atol: float | None = None):
     """The solver from a state (n,) at time t until `end`; rate: of a list of floats. atol: by default `floor`
     of the state."""
     from scipy.integrate import DOP853
@@ -434,12 +436,12 @@ def stand_in(rate, state, end: float, t: float = 0.0, rtol: float = FALLBACK_RTO
                   atol=floor(state, rtol) if atol is None else atol)
 
 
-def floor(state, rtol: float) -> float:
+def floor(state: np.ndarray, rtol: float) -> float:
     """The absolute tolerance that keeps a relative one meaningful at zero crossings."""
     return rtol * ATOL_SHARE * (np.abs(state).max() or 1.0)
 
 
-def sign_changes(values) -> np.ndarray:
+def sign_changes(values: np.ndarray) -> np.ndarray:
     """The places n of a row at which entries n and n + 1 have opposite signs."""
     return np.nonzero(np.sign(values[:-1]) * np.sign(values[1:]) < 0)[0]
 

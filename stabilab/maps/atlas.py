@@ -208,7 +208,7 @@ def _along(case: Case, axis: str) -> Exact3:
     return along_axes(case, tuple(Fraction(n == FILE_AXES.index(axis)) for n in range(3)))
 
 
-def _judge_cells(level: Any, refine: Any, wheels: int) -> None:
+def _judge_cells(level: int, refine: int, wheels: int) -> None:
     for name, value in (("level", level), ("refine", refine)):
         if isinstance(value, bool) or not isinstance(value, int) or value < 0:
             raise InputError(f"{name}: expected a whole number that is not negative, got {value!r:.40}")

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import copy
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Context, Decimal, localcontext
 from difflib import SequenceMatcher, get_close_matches
@@ -63,7 +63,7 @@ def _tight(text: str) -> str:
     return "".join(text.split())
 
 
-def value_at(data: Any, path: Iterable[Any]) -> Any:
+def value_at(data: Mapping[str, Any], path: Iterable[Any]) -> Any:
     """What stands there."""
     for part in path:
         data = data[part]
@@ -163,7 +163,7 @@ def si_unit(path: tuple[Any, ...]) -> str:
     return "" if of == NONE else NAMES.get(of, "").partition("(")[2].rstrip(")")
 
 
-def axis_of(key: Key, asked: Any) -> Axis:
+def axis_of(key: Key, asked: str) -> Axis:
     """The values asked for: a text, or numbers in SI units. Raises InputError that names the key."""
     try:
         values, unit = _of_text(asked) if isinstance(asked, str) else (_of_numbers(asked), "")
@@ -175,7 +175,7 @@ def axis_of(key: Key, asked: Any) -> Axis:
     return Axis(key, tuple(values), unit)
 
 
-def _of_numbers(asked: Any) -> list[float]:
+def _of_numbers(asked: str) -> list[float]:
     try:
         return [_double(exact(value)) for value in asked]
     except TypeError:
@@ -298,7 +298,7 @@ def each_once(keys: Iterable[Key]) -> None:
         taken |= dict.fromkeys(key.paths, key.name)
 
 
-def span_of(key: Key, asked: Any) -> Span:
+def span_of(key: Key, asked: str) -> Span:
     """The range of one number: a text, or two numbers in SI units. Raises InputError that names the key."""
     try:
         low, high, unit = _range_of(asked)

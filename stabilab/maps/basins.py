@@ -403,7 +403,7 @@ def _command(coarse: Plan, depth: int) -> str:
     return shlex.join(["stabilab", "basin", os.path.basename(coarse.path), *words])
 
 
-def _range(name: str, text: Any) -> str:
+def _range(name: str, text: str) -> str:
     """START:STOP:COUNT of what is given, with CELLS + 1 points where no count is."""
     if not isinstance(text, str) or ":" not in text:
         raise InputError(f'vary {printable(str(name))[:80]}: expected a range such as "-60:60 deg/s" or '

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from itertools import product
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -12,6 +12,9 @@ from ..answers.caveats import CONDITIONS, HOLDS, NO_SUCH_BODY, UNSTABLE_POINT
 from ..errors import InputError, printable
 from ..orbit.fate import Basis
 from ..orbit.result import Fate, Order
+
+if TYPE_CHECKING:
+    from ..answers.passage import TimeTo
 
 LEVELS = ("undecided", "certified", "exact", "proved")
 LIMIT_LEVELS = ("run", "exact", "proved")
@@ -66,7 +69,7 @@ def _ends(which: int) -> Callable[[Any], Any]:
     return lambda motion: motion.extremes and [pair[which] for pair in motion.extremes]
 
 
-def _limit_level(found: Any) -> list[int]:
+def _limit_level(found: TimeTo) -> list[int]:
     """How well each time to a limit is known."""
     return [LIMIT_LEVELS.index(word) if word in LIMIT_LEVELS else 0 for word in np.ravel(found.level)]
 

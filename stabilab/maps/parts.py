@@ -18,7 +18,7 @@ from functools import partial
 from glob import escape
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -34,6 +34,9 @@ from ..physics.coefficients import effective
 from .axes import Key, with_values
 from .columns import ANSWERS, CAVEATS, Column, columns_of, record
 from .plan import Chunk, Plan
+
+if TYPE_CHECKING:
+    from types import ModuleType
 
 
 # --- The cases and states of a sweep's points: a case for every scene, rows of rates for the states of one
@@ -126,7 +129,7 @@ def _filling(answer: str) -> Any:
     return import_module(f".filling.{ANSWERS[answer].module}", __package__)
 
 
-def _fill(module: Any, plan: Plan, case: Case, states: np.ndarray, columns: Sequence[Column],
+def _fill(module: ModuleType, plan: Plan, case: Case, states: np.ndarray, columns: Sequence[Column],
           out: np.ndarray) -> None:
     """Put what a module finds into its columns: of all states at once, or of one after another where their
     scene has no arrays."""

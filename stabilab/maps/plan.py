@@ -259,7 +259,7 @@ class Plan:
         return shlex.join(words)
 
 
-def _as_text(asked: Any) -> str:
+def _as_text(asked: str) -> str:
     return asked if isinstance(asked, str) else ",".join(map(repr, asked))
 
 
@@ -308,7 +308,7 @@ def planned(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Seque
     return plan
 
 
-def _plain(name: str, asked: Any) -> list[float]:
+def _plain(name: str, asked: str) -> list[float]:
     try:
         return [float(value) for value in asked]
     except (TypeError, ValueError):

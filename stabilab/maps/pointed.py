@@ -48,7 +48,7 @@ def count(level: int) -> int:
     return FACES * 4**level
 
 
-def area(level: Any) -> Any:
+def area(level: float | np.ndarray) -> Any:
     """The solid angle of a cell of a level, sr; a share of the sphere."""
     return WHOLE / (FACES * 4.0 ** np.asarray(level))
 

@@ -17,7 +17,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
@@ -286,7 +286,7 @@ def _makers(plan: Plan, folder: Path, left: list[int], workers: int | None,
     return by_workers(plan, folder, left, number) if number > 1 else _here(plan, folder, left)
 
 
-def _here(plan, folder, left):
+def _here(plan: Plan, folder: Path, left: Sequence[int]):
     for number in left:
         parts.write(plan, folder, number, answered(plan, number).tobytes())
         yield number

@@ -8,10 +8,16 @@ barriers and wells of every orbit complete and vectorised.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from fractions import Fraction
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from ..numbers.polynomial import Poly, bracketed_newton, real_roots
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from .reduction import Reduction
 
 SHORT = 1e-9  # a last step of Newton's method that leaves its square
 FOLD_BITS = 200
@@ -46,7 +52,7 @@ class Conic:
     e: int  # of the invariant Z^2 - e X^2
     planes: tuple[float, ...] = ()  # invariants at which an orbit falls apart
 
-    def __init__(self, reduction):
+    def __init__(self, reduction: Reduction):
         g, self.place = reduction.exact_constants, reduction.geometry.place
         self.G, self.c, self.d, self.mu = (reduction.constants[n] for n in ("G", "c", "d", "mu"))
         self.pieces: tuple[Piece, ...] = ()
@@ -77,37 +83,38 @@ class Conic:
         self.exact_folds = {float(h): h for h in real_roots(quartic, FOLD_BITS)}
         self.folds = tuple(self.exact_folds)
 
-        def exact_at(h):
+        def exact_at(h: Fraction):
             return (K / h - c) / G, h - d / G
         self.pieces = tuple(self._pieces(exact_at, G, c, d))
         exact_places = [exact_at(h) for h in self.exact_folds.values()]
         self.fold_invariants = tuple(float(z * z - self.e * x * x) for x, z in exact_places)
 
-    def sharp_ends(self, piece):
+    def sharp_ends(self, piece: Piece):
         """|h| of the ends of a piece, those at folds to FOLD_BITS."""
         return tuple(abs(self.exact_folds[piece.sign * end]) if 0 < end < math.inf else end
                      for end in (piece.inner, piece.outer))
 
-    def at(self, h):
+    def at(self, h: float | np.ndarray):
         """(X, Z) on the hyperbola."""
         return (self.K / h - self.c) / self.G, h - self.shift
 
-    def invariant(self, h):
+    def invariant(self, h: float):
         return self.invariant_at(*self.at(h))
 
-    def invariant_at(self, x, z):
+    def invariant_at(self, x: float | np.ndarray, z: float | np.ndarray):
         """Q of (X, Z), free of cancellation."""
         raise NotImplementedError
 
-    def within(self, limit) -> tuple[float, ...]:
+    def within(self, limit: float) -> tuple[float, ...]:
         """The invariants of size `limit`."""
         raise NotImplementedError
 
-    def sides(self, sense) -> tuple[tuple[int, str], ...]:
+    def sides(self, sense: int) -> tuple[tuple[int, str], ...]:
         """Which way loops leave a saddle under a torque of this sense (0: none), and the word for it."""
         return (-1, ", left loop"), (1, ", right loop")
 
-    def _pieces(self, exact_at, G, c, d):
+    def _pieces(self, exact_at: Callable[[Fraction], tuple[Fraction, Fraction]], G: Fraction, c: Fraction,
+                d: Fraction):
         """The pieces by exact signs: of two almost equal moments the terms of the slope cancel to the last
         digit."""
         e = self.e
@@ -119,7 +126,7 @@ class Conic:
                 rising = far_z * far_z - e * far_x * far_x > z * z - e * x * x
                 yield Piece(sign, inner, outer, rising, slope > 0)
 
-    def critical_places(self, Q, wanted=None):
+    def critical_places(self, Q: np.ndarray, wanted: bool | None = None):
         """Every equilibrium on the orbits Q (n,): a list of (rows of Q, X, Z, barrier), of each branch of
         equilibria where it meets which of the orbits; barrier None where it is to be decided from the slope.
         wanted: True for barriers only."""
@@ -138,19 +145,19 @@ class Conic:
                 found.append((rows[exists], x[exists], z[exists], None))
         return found
 
-    def _nearly_straight(self, Q):
+    def _nearly_straight(self, Q: np.ndarray):
         """(n,) True where the conic differs so little from a line that the line is the better guess."""
         import numpy as np
         return np.zeros(Q.shape, bool)
 
-    def reach(self, piece):
+    def reach(self, piece: Piece):
         """The invariants between which a piece meets an orbit."""
         at = lambda size: float(self.invariant(piece.sign * size))
         ends = (at(piece.inner) if piece.inner else -self.e * math.inf,
                 at(piece.outer) if math.isfinite(piece.outer) else math.inf)
         return ends if piece.rising else ends[::-1]
 
-    def _solve(self, piece, Q):
+    def _solve(self, piece: Piece, Q: np.ndarray):
         """|h| with invariant Q on a piece: plain Newton, longer next to a fold; the safe search for the rest.
         """
         import numpy as np
@@ -163,7 +170,7 @@ class Conic:
         size[rest] = self._solve_safely(piece, Q[rest])
         return size
 
-    def _solve_fast(self, piece, Q, steps):
+    def _solve_fast(self, piece: Piece, Q: np.ndarray, steps: int):
         """(|h|, converged) by a quicker way, where there is one."""
         import numpy as np
         return np.empty(Q.shape), np.zeros(Q.shape, bool)
@@ -187,7 +194,7 @@ class Conic:
 
         # measured from the lower end by 1 and more: where log|h| itself is near 0, no step would ever be
         # short against it
-        def fun(t, Q, lo):
+        def fun(t: np.ndarray, Q: np.ndarray, lo: np.ndarray):
             h = sign * lo * np.exp(t - 1)
             x, z = (K / h - c) / G, h - s
             return self.invariant_at(x, z) - Q, 2 * (z * h + self.e * x * K / (h * G))
@@ -201,7 +208,7 @@ class Conic:
             t[near] = bracketed_newton(fun, *some[:3], some[3:], rising=piece.rising)
         return lo * np.exp(t - 1)
 
-    def _meet_line(self, line, Q):
+    def _meet_line(self, line: Line, Q: np.ndarray):
         """Both points of a line where the invariant is Q: a quadratic in t."""
         import numpy as np
         e = self.e
@@ -225,17 +232,17 @@ class CircleConic(Conic):
 
     e = -1
 
-    def invariant_at(self, x, z):
+    def invariant_at(self, x: float | np.ndarray, z: float | np.ndarray):
         return z * z + x * x
 
-    def within(self, limit):
+    def within(self, limit: float):
         return (limit,)
 
-    def sides(self, sense):
+    def sides(self, sense: int):
         """On a tilted circle against the torque alone."""
         return ((-1, ""),) if sense else super().sides(sense)
 
-    def _nearly_straight(self, Q):
+    def _nearly_straight(self, Q: np.ndarray):
         """(n,) True where, inside the circle, the conic differs so little from a line that the line is the
         better guess (two moments equal to many digits): X = (K/h - c)/G would lose all digits. The caller
         polishes along the orbit."""
@@ -244,7 +251,7 @@ class CircleConic(Conic):
             return super()._nearly_straight(Q)
         return abs(self.G) * np.sqrt(Q) < 1e-6 * np.hypot(self.c, self.d)
 
-    def _solve_fast(self, piece, Q, steps):
+    def _solve_fast(self, piece: Piece, Q: np.ndarray, steps: int):
         """(|h|, converged) by Newton's method from the asymptote of an open-ended piece."""
         import numpy as np
         if (piece.inner > 0) == np.isfinite(piece.outer):
@@ -281,22 +288,22 @@ class HyperbolaConic(Conic):
 
     e, planes = 1, (0.0,)
 
-    def invariant_at(self, x, z):
+    def invariant_at(self, x: float | np.ndarray, z: float | np.ndarray):
         return (z - x) * (z + x)
 
-    def within(self, limit):
+    def within(self, limit: float):
         return limit, -limit
 
 
 GEOMETRIES = {-1: CircleConic, 1: HyperbolaConic}
 
 
-def conic_of(reduction) -> Conic:
+def conic_of(reduction: Reduction) -> Conic:
     """The equilibria of a reduction with circles or hyperbolas."""
     return GEOMETRIES[reduction.e](reduction)
 
 
-def _inside(inner, outer):
+def _inside(inner: float, outer: float):
     """Two points inside (inner, outer), the first nearer to `inner`."""
     if inner == 0 and math.isinf(outer):
         return 0.5, 2.0
@@ -307,7 +314,7 @@ def _inside(inner, outer):
     return inner + (outer - inner) / 3, inner + (outer - inner) / 1.5
 
 
-def _conic_degenerates(reduction) -> bool:
+def _conic_degenerates(reduction: Reduction) -> bool:
     """True iff c d = G mu exactly: with cj = rho - kappa sj, ck = sigma - kappa sk, torque T this is cj ck =
     kappa T."""
     r = reduction
@@ -315,7 +322,7 @@ def _conic_degenerates(reduction) -> bool:
     return across_j * across_k == r.kappa * r.torque
 
 
-def planes_touched(reduction) -> tuple[int, ...]:
+def planes_touched(reduction: Reduction) -> tuple[int, ...]:
     """(+1 or -1) or (): the hyperbola of equilibria touches the invariant plane Z = -X or Z = X, exactly: (c
     + flip d)^2 = 4 flip (c d - G mu).
 

@@ -5,13 +5,18 @@ motion passes, where the rate is least or largest."""
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 from ..numbers.balls import FIRST_BITS, START_BITS, Unclear, sign, working
 from .fate import as_double, scaled_double
-from .one_orbit import TIE_BITS, Orbit
+from .one_orbit import TIE_BITS, BallCircle, BallOrbit, Orbit
 from .result import Fate, without_return
+
+if TYPE_CHECKING:
+    from flint import arb
 
 # --- Extremes
 CERTAIN_BITS = 56  # the balls of the extremes are this much narrower than the component is large
@@ -43,7 +48,7 @@ def extreme_balls(orbit: Orbit, label: int, certain: int = CERTAIN_BITS):
     return orbit.settled(question, start)
 
 
-def turning_points(orbit):
+def turning_points(orbit: BallOrbit):
     """Offsets of both turning points as balls; None for a torque-free rotation over all barriers."""
     ends = [turning_point(orbit, side) for side in (-1, 1)]
     return None if None in ends else ends
@@ -70,13 +75,13 @@ def turning_point(orbit, side, tie=False):
     return None if outer is None else solve(orbit, inner, outer)
 
 
-def _spots_towards(orbit, side):
+def _spots_towards(orbit: BallOrbit, side: int):
     """The equilibria on one side, nearest first."""
     ahead = [s for s in orbit.all_spots if (s.y > 0 if side > 0 else s.y < 0)]
     return ahead if side > 0 else ahead[::-1]
 
 
-def solve(orbit, inner, outer):
+def solve(orbit: BallOrbit, inner: arb, outer: arb):
     """The offset between inner (potential below the energy) and outer (above) where they are equal, as a
     ball.
 
@@ -134,12 +139,12 @@ def _between_scales(lo, hi, times):
             else None)
 
 
-def _bounded(orbit):
+def _bounded(orbit: BallOrbit):
     ends = turning_points(orbit)
     return _round_the_circle(orbit) if ends is None else _between(orbit, *ends)
 
 
-def _between(orbit, left, right):
+def _between(orbit: BallOrbit, left: arb, right: arb):
     """Offsets and rates that bound a motion between two turning points."""
     top = (2 * _fastest(orbit, left, right)).sqrt()
     return [left, right, *_tops_between(orbit, left, right), orbit.energy * 0], (-top, top)
@@ -172,7 +177,7 @@ def _asymptotic(orbit):
     return [low, high, *_tops_between(orbit, low, high), orbit.energy * 0], rates
 
 
-def _asymptote(orbit, side):
+def _asymptote(orbit: BallCircle, side: int):
     """(offset, W^2/2 there) of the equilibrium or plane's end that the motion would tend to on that side, or
     None."""
     zero = orbit.energy * 0
@@ -185,7 +190,7 @@ def _asymptote(orbit, side):
     return orbit.end_of_plane(side)
 
 
-def _fastest(orbit, low, high):
+def _fastest(orbit: BallOrbit, low: arb, high: arb):
     """Largest W^2/2 between two offsets, the state's own included."""
     fastest = orbit.energy
     for spot in orbit.all_spots:
@@ -239,7 +244,7 @@ def _ranges(orbit, offsets, rates, certain):
     return out
 
 
-def _range(values, certain, bits):
+def _range(values: Sequence[arb], certain: int, bits: int):
     """(least, largest) of balls."""
     low = high = values[0]
     for value in values[1:]:
@@ -286,7 +291,7 @@ def precise_period(orbit: Orbit, label: int) -> float:
 def period_ball(orbit: Orbit, digits: int = DIGITS):
     """Period of a bounded motion as a ball that is at most 10^-digits of it wide: two steps of the rule agree
     to `digits`."""
-    def question(orbit):
+    def question(orbit: BallOrbit):
         ends = turning_points(orbit)
         found = _rotation(orbit, digits) if ends is None else _libration(orbit, *ends, digits)
         if not 10 ** digits * found.rad() < found:
@@ -304,7 +309,7 @@ def _bits(digits: int) -> int:
     return int(2 * math.pi * math.sinh(last) / math.log(2) + 3.33 * (digits + 2 * SPARE))
 
 
-def _libration(orbit, left, right, digits):
+def _libration(orbit: BallOrbit, left: arb, right: arb, digits: int):
     """Twice the time between the turning points; y = middle - half cos(phi) removes the roots at both ends.
     """
     from flint import arb
@@ -312,7 +317,7 @@ def _libration(orbit, left, right, digits):
     inside = [s.y for s in orbit.all_spots if s.y > left and s.y < right]
     knots = [arb(0), *(((middle - y) / half).acos() for y in inside), arb.pi()]
 
-    def integrand(near, a, b):
+    def integrand(near: arb, a: arb, b: arb):
         """At phi = a + near (near > 0) or b + near (near < 0), accurate next to both ends of [0, pi]."""
         phi = ((a if near > 0 else b) + near).mid()
         y = middle - half * phi.cos()
@@ -320,7 +325,7 @@ def _libration(orbit, left, right, digits):
     return 2 * _sum_over(integrand, knots, digits)
 
 
-def _rotation(orbit, digits):
+def _rotation(orbit: BallOrbit, digits: int):
     """Once round the circle without torque."""
     from flint import arb
     spots = [s.y for s in orbit.spots]
@@ -328,18 +333,18 @@ def _rotation(orbit, digits):
     return _sum_over(lambda near, a, b: 1 / _rate(orbit, (a if near > 0 else b) + near), knots, digits)
 
 
-def _rate(orbit, y):
+def _rate(orbit: BallOrbit, y: arb):
     kinetic = orbit.energy - orbit.height(y)
     if sign(kinetic) <= 0:
         raise Unclear
     return (2 * kinetic).sqrt()
 
 
-def _sum_over(integrand, knots, digits):
+def _sum_over(integrand: Callable[[arb, arb, arb], arb], knots: Sequence[arb], digits: int):
     return sum(_tanh_sinh(integrand, a.mid(), b.mid(), digits) for a, b in zip(knots, knots[1:]))
 
 
-def _tanh_sinh(integrand, a, b, digits):
+def _tanh_sinh(integrand: Callable[[arb, arb, arb], arb], a: arb, b: arb, digits: int):
     """Integral over (a, b); the step is halved until two results agree, each row goes on until its terms
     vanish."""
     from flint import arb
@@ -365,11 +370,11 @@ def _tanh_sinh(integrand, a, b, digits):
     raise Unclear
 
 
-def _power_of_ten(value, least) -> float:
+def _power_of_ten(value: arb, least: int) -> float:
     return max(least, float(value.log_base(10))) if value > 0 else least
 
 
-def power_of_error(first, middle, last) -> float:
+def power_of_error(first: float, middle: float, last: float) -> float:
     """Power of ten of the error of a sum over nodes, given the powers of ten of its last three changes as its
     nodes were doubled.
 
@@ -382,7 +387,7 @@ def power_of_error(first, middle, last) -> float:
 
 
 @lru_cache(maxsize=64)
-def _nodes(level, side, digits):
+def _nodes(level: int, side: int, digits: int):
     """Nodes as (distance from the nearer end / length, signed by the end; weight), outward from the middle.
     """
     from flint import arb
@@ -401,5 +406,5 @@ def _nodes(level, side, digits):
     return tuple(nodes)
 
 
-def _rows(level, digits):
+def _rows(level: int, digits: int):
     return _nodes(level, 1, digits), _nodes(level, -1, digits)

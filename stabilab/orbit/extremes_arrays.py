@@ -7,25 +7,41 @@ up. Librations go to the kernels (`rows_kernel`, `parabola_kernel`), which numba
 Balls take what doubles would lose, next to a separatrix or far from the centre of the orbits."""
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import lru_cache, partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..errors import InputError
-from ..numbers.double_double import TURN
+from ..numbers.double_double import TURN, Twofold
 from ..numbers.numba_door import compiled, installed, twins
 from ..physics.coefficients import effective
 from ..physics.states import checked_states
 from . import parabola_kernel, rows_kernel
 from .extremes import precise_extremes, precise_period
-from .fate_arrays import CHUNK, fate_on_orbit, fates, rows_beyond_doubles
-from .landscape import CENTRE, Landscape, landscape, spots_along, twofold_constant
+from .fate_arrays import CHUNK, FateResult, fate_on_orbit, fates, rows_beyond_doubles
+from .landscape import (
+    CENTRE,
+    CircleLandscape,
+    ConicLandscape,
+    HyperbolaLandscape,
+    Landscape,
+    ParabolaLandscape,
+    Spots,
+    landscape,
+    spots_along,
+    twofold_constant,
+)
 from .one_orbit import Orbit
 from .one_state import far_numbers
 from .reduction import reduce
 from .result import Fate, without_return
 from .rows_kernel import BOX, PERIOD
+
+if TYPE_CHECKING:
+    from ..physics.scene import AnyScene
 
 # --- Rows by NumPy: at rest, round a circle without torque, spinning up
 # closer to the separatrix than this share of the energy terms, rounding costs extremes 1e-12
@@ -42,13 +58,13 @@ AGREE = 1e-12
 MOST_NODES = 1 << 15  # more than the peaks of the integrand ask for at `PERIOD_SHARE`
 
 
-def trapped_rows(land, decided):
+def trapped_rows(land: Landscape, decided: FateResult):
     """(n,) True for motions between two turning points."""
     trapped = decided.labels == Fate.BOUNDED
     return trapped & (decided.margins >= 0) if land.may_rotate else trapped
 
 
-def needs_digits(land: Landscape, states):
+def needs_digits(land: Landscape, states: np.ndarray):
     """(n,) True where the canonical shift is so large that doubles would lose digits (nearly equal moments,
     or a wheel on the axis of symmetry of a body that hardly turns about it)."""
     r = land.reduction
@@ -59,14 +75,15 @@ def needs_digits(land: Landscape, states):
     return lost | (along > SHIFT_LIMIT * np.abs(states[:, r.axis])) if along else lost
 
 
-def on_top(land: Landscape, place):
+def on_top(land: Landscape, place: Sequence[np.ndarray]):
     """(n,) True where the state is at the place of a barrier to rounding: before it or behind, doubles do not
     tell."""
     pot = land.potential
     return (np.abs(pot.force(place)) <= ON_TOP * pot.terms(place)) & (pot.slope(place) > 0)
 
 
-def near_separatrix(land, place, w, margins, share):
+def near_separatrix(land: Landscape, place: Sequence[np.ndarray], w: np.ndarray, margins: np.ndarray,
+                    share: float | np.ndarray):
     """(n,) True where the margin is below `share` of the energy's terms: turning points and periods magnify
     its rounding there."""
     return np.abs(margins) <= share * land.reduction.energy_unit * land.energy_terms(place, w)
@@ -85,7 +102,9 @@ def open_extremes(land: Landscape, states, labels, margins):
                 | near_separatrix(land, place, w, margins, share))
     doubtful |= on_top(land, place)
     values = np.full((len(states), 3, 2), np.nan)
-    for label, extremes in ((Fate.BOUNDED, _rotating), (Fate.SPIN_UP, SPINNING[land.e])):
+    ranges: tuple[tuple[Fate, Callable[..., np.ndarray]], ...] = (
+        (Fate.BOUNDED, _rotating), (Fate.SPIN_UP, SPINNING[land.e]))
+    for label, extremes in ranges:
         rows = (labels == label) & ~doubtful
         if rows.any():
             values[rows] = extremes(land, tuple(v[rows] for v in place), w[rows])
@@ -93,7 +112,7 @@ def open_extremes(land: Landscape, states, labels, margins):
     return out
 
 
-def rotation_periods(land: Landscape, states, margins):
+def rotation_periods(land: Landscape, states: np.ndarray, margins: np.ndarray):
     """Periods (n,) of motions without torque over all barriers of a circle; NaN where these are left to
     balls."""
     place, w, _ = land.start(states)
@@ -115,13 +134,14 @@ def rotation_periods(land: Landscape, states, margins):
     return values
 
 
-def _components(land, low, high, w_low, w_high):
+def _components(land: ConicLandscape, low: Sequence[np.ndarray], high: Sequence[np.ndarray],
+                w_low: np.ndarray, w_high: np.ndarray):
     """(n, 3, 2) from canonical ranges, whatever signs the change of variables has."""
     a, b = land.components(low, w_low), land.components(high, w_high)
     return np.stack([np.minimum(a, b), np.maximum(a, b)], axis=2)
 
 
-def _rotating(land, place, w):
+def _rotating(land: CircleLandscape, place: Sequence[np.ndarray], w: np.ndarray):
     """Torque-free motions over all barriers of the circle: the whole circle, one sign of W."""
     spots = spots_along(land, place, w)
     energy = np.where(spots.there, spots.energy, np.nan)
@@ -133,14 +153,14 @@ def _rotating(land, place, w):
     return _components(land, (-radius, -radius), (radius, radius), sign * slow, sign * fast)
 
 
-def _spinning_round(land, place, w):
+def _spinning_round(land: CircleLandscape, place: Sequence[np.ndarray], w: np.ndarray):
     """Over the future of a spin-up, W -> +inf, on a circle: all of it, from the slowest rate on."""
     radius = np.hypot(*place)
     return _components(land, (-radius, -radius), (radius, radius), _slowest_ahead(land, place, w),
                        np.full(len(w), np.inf))
 
 
-def _slowest_ahead(land, place, w):
+def _slowest_ahead(land: CircleLandscape, place: Sequence[np.ndarray], w: np.ndarray):
     """The least W over the future: over the barriers ahead, or on the way to the turning point behind if W <
     0."""
     spots = spots_along(land, place, w)
@@ -153,13 +173,13 @@ def _slowest_ahead(land, place, w):
     return slowest
 
 
-def _over_barriers_ahead(spots, w):
+def _over_barriers_ahead(spots: Spots, w: np.ndarray):
     ahead = np.where(spots.there & (spots.offset > 0), spots.energy, np.inf)
     with np.errstate(all="ignore"):
         return np.minimum(w, np.sqrt(2 * np.maximum(ahead.min(axis=1, initial=np.inf), 0)))
 
 
-def _fastest_behind(land, place, w):
+def _fastest_behind(land: CircleLandscape, place: Sequence[np.ndarray], w: np.ndarray):
     """Largest W^2/2 between the turning point behind and the state, for W < 0 on a tilted circle.
 
     Wells further back than one turn are higher by 2 pi mu, so the first turn behind decides.
@@ -174,7 +194,7 @@ def _fastest_behind(land, place, w):
     return best
 
 
-def _spinning_on_plane(land, place, w):
+def _spinning_on_plane(land: HyperbolaLandscape, place: Sequence[np.ndarray], w: np.ndarray):
     """On the decaying plane xi = 0: eta shrinks to 0. Balls tell the excursion back to a turning point
     behind."""
     eta, zero = place[1], np.zeros(len(w))
@@ -184,7 +204,7 @@ def _spinning_on_plane(land, place, w):
                        np.full(len(w), np.inf))
 
 
-def _spinning_purely(land, place, w):
+def _spinning_purely(land: ParabolaLandscape, place: Sequence[np.ndarray], w: np.ndarray):
     """Along a parabola whose force does not change: both other rates stay."""
     sense, start = land.sense, land.components(place, w)
     spun = np.arange(3) == land.reduction.axis
@@ -192,7 +212,8 @@ def _spinning_purely(land, place, w):
     return np.stack([np.where(spun, low, start), np.where(spun, high, start)], axis=2)
 
 
-SPINNING = {-1: _spinning_round, 1: _spinning_on_plane, 0: _spinning_purely}
+SPINNING: dict[int, Callable[..., np.ndarray]] = {
+    -1: _spinning_round, 1: _spinning_on_plane, 0: _spinning_purely}
 
 
 # --- Librations row by row, by the kernels
@@ -211,7 +232,8 @@ LAST_LEVEL = 8  # of these nodes, whose steps are 2^-level
 HALVED = 8, 16, 32, 64  # intervals whose midpoints are added to the trapezoidal nodes of eight
 
 
-def settle_rows(land: Landscape, states, boxes, periods, left_open, by_numba: bool | None = None):
+def settle_rows(land: Landscape, states: np.ndarray, boxes: np.ndarray, periods: np.ndarray,
+                left_open: np.ndarray, by_numba: bool | None = None):
     """Fill boxes (n, 3, 2) and periods (n,), each unless it is empty, of the librations of states (n, 3) that
     are open.
 
@@ -281,7 +303,7 @@ def kernel_input(land: Landscape):
             rules())
 
 
-def _parts(numbers):
+def _parts(numbers: Sequence[Twofold]):
     """(n, 2) high and low parts of twofold numbers."""
     return np.array([(float(number.high), float(number.low)) for number in numbers])
 
@@ -298,7 +320,7 @@ def rules():
     return np.sin(0.5 * phi) ** 2, near, weights, np.cumsum([0] + [len(way) for way, _ in levels])
 
 
-def double_exponential_nodes(level):
+def double_exponential_nodes(level: int):
     """(signed distances over the length, weights) of the nodes that a level adds."""
     k = np.arange(-int(REACH * 2**level), int(REACH * 2**level) + 1)
     if level:
@@ -311,7 +333,8 @@ def double_exponential_nodes(level):
 
 
 # --- All rows in one pass
-def extremes_and_periods(scene, states, *, box=True, period=True, by_numba: bool | None = None):
+def extremes_and_periods(scene: AnyScene, states: np.ndarray, *, box: bool = True, period: bool = True,
+                         by_numba: bool | None = None):
     """(extremes (..., 3, 2), periods (...,)) in one go, each as the function of its name gives it; None for
     one that is not asked for. For scenes with a reduction only (InputError for others, and as `extremes`
     raises it).
@@ -341,7 +364,7 @@ def extremes_and_periods(scene, states, *, box=True, period=True, by_numba: bool
                          + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None
 
 
-def _of_chunk(scene, states, box, period, by_numba):
+def _of_chunk(scene: AnyScene, states: np.ndarray, box: bool, period: bool, by_numba: bool | None):
     """(boxes (n, 3, 2), periods (n,)) of one chunk, each empty where it is not asked for."""
     land = landscape(scene)
     decided = fate_on_orbit(scene, land, states)
@@ -375,7 +398,7 @@ def extremes(scene, states, span=None, fast: bool | None = None):
     return extremes_and_periods(scene, states, period=False)[0]
 
 
-def periods(scene, states, fast: bool | None = None):
+def periods(scene: AnyScene, states: np.ndarray, fast: bool | None = None):
     """(n,); inf where the motion does not repeat, 0 at an equilibrium, NaN where it is undecided; `fast` is
     not needed."""
     return extremes_and_periods(scene, states, box=False)[1]

@@ -24,15 +24,17 @@ Proofs: docs/mathematics/separatrix.md.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Mapping, Sequence
 from enum import IntEnum
 from fractions import Fraction
 from math import isinf, nan
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from ..numbers.balls import (
     DOUBLE_BITS,
     FIRST_BITS,
     START_BITS,
+    Digits,
     Unclear,
     polynomial,
     rational,
@@ -43,13 +45,19 @@ from ..numbers.balls import (
 )
 from ..numbers.polynomial import Poly
 from ..numbers.vectors import Number
-from ..physics.scene import rests
+from ..physics.scene import AnyScene, rests
 from ..reasons import Reason, Sentence
-from .one_orbit import MOST_BITS, Orbit
+from .one_orbit import MOST_BITS, BallOrbit, Orbit
 from .result import Fate
 
+if TYPE_CHECKING:
+    import numpy as np
+    from flint import arb, fmpq_poly
 
-def exact_tie(orbit) -> bool:
+    from .reduction import Reduction
+
+
+def exact_tie(orbit: BallOrbit) -> bool:
     """Whether each barrier that the balls of `orbit` (a BallOrbit) cannot tell from the energy equals it
     exactly.
 
@@ -83,7 +91,7 @@ def _on_conic(orbit, spot) -> bool:
     at_u, at_v = orbit.components(spot.y)
     U, V = at_u + orbit.shift_j, at_v + orbit.shift_k
 
-    def excess(u, v, one):
+    def excess(u: fmpq_poly, v: fmpq_poly, one: fmpq_poly):
         """Height minus energy, with u, v polynomials over the polynomial `one`, times its square; in units of
         w^2/(ap aq)."""
         q = rational
@@ -143,7 +151,7 @@ def decide(orbit: Orbit, bits: int = START_BITS) -> Tie:
     return orbit.settled(question, bits)
 
 
-def _ties(orbit, margin) -> bool:
+def _ties(orbit: BallOrbit, margin: arb) -> bool:
     """Whether a margin that cannot be distinguished from zero is zero; where algebra denies it, the
     most bits settle the matter."""
     if not any(0 in m for m in orbit.margins_to_tie(margin)):
@@ -188,7 +196,7 @@ def on_separatrix(orbit) -> bool:
     return decide(orbit, FIRST_BITS).sign == 0
 
 
-def _force(r, u, v):
+def _force(r: Reduction, u: Fraction, v: Fraction):
     """The rate of omega_i over its factor at components u, v, and its first three derivatives along the
     orbit, exactly."""
     along = [(u, v)]
@@ -202,7 +210,7 @@ def _force(r, u, v):
             r.kappa * (u3 * v + 3 * u2 * v1 + 3 * u1 * v2 + u * v3) + r.rho * v3 + r.sigma * u3)
 
 
-def _saddle(first, second, third) -> bool:
+def _saddle(first: Fraction, second: Fraction, third: Fraction) -> bool:
     """Whether a place without force is a maximum of the potential or a fold, where a branch of maxima ends.
     """
     return first > 0 or first == 0 and (second != 0 or third > 0)
@@ -212,13 +220,13 @@ EQUAL_BITS = 512  # two distances in energy that agree to so many bits count as 
 FREE_SHARE = 1e-12  # of the margin: with less certainty 64 bits do not settle it
 
 
-def is_free(scene) -> bool:
+def is_free(scene: AnyScene) -> bool:
     """Whether a scene is a body with its moments and no torque; scaled variables have no moments, and no
     sphere."""
     return scene.variables == "physical" and not any(scene.vector("constant_torque"))
 
 
-def free_middle(D, lam) -> Fraction | None:
+def free_middle(D: Sequence[Fraction], lam: Sequence[Fraction]) -> Fraction | None:
     """The moment strictly between the other two, where the gyrostatic moment has no component about it; else
     None."""
     middle = sorted(D)[1]
@@ -242,7 +250,8 @@ class FreeMargin(NamedTuple):
         return nan if self.ball is not None and not self.tie and (height == 0 or isinf(height)) else height
 
 
-def free_margin(scene, state, digits: int = 17, doubles: bool = False) -> FreeMargin:
+def free_margin(scene: AnyScene, state: np.ndarray | Sequence[float | Fraction], digits: int = 17,
+                doubles: bool = False) -> FreeMargin:
     """The margin of one state (three floats or Fractions, taken exactly) to `digits` decimal digits, in J.
 
     scene: physical, with no torque. doubles: 64 bits will do where the margin is certain to twelve digits.
@@ -269,7 +278,7 @@ def free_margin(scene, state, digits: int = 17, doubles: bool = False) -> FreeMa
     return settled(question, FIRST_BITS if doubles else START_BITS)
 
 
-def _nearest(excesses, bits):
+def _nearest(excesses: Sequence[arb], bits: int):
     """The one of least size; the greater where `EQUAL_BITS` do not tell two sizes apart."""
     best = excesses[0]
     for other in excesses[1:]:
@@ -297,7 +306,7 @@ class _Momenta:
                 self.w[d] = self.w.get(d, 0) + l * l
         self.sphere = self._numerator(self.w, Poly((0, 0, 1)), self.squared)
 
-    def _numerator(self, weights, top, value) -> Poly:
+    def _numerator(self, weights: Mapping[Fraction, Fraction], top: Poly, value: Fraction | float) -> Poly:
         """sum weights_d top/(s - d)^2 - value, times prod (s - d)^2 over the moments d with a gyrostatic
         moment."""
         square = {d: Poly((d * d, -2 * d, 1)) for d in self.w}
@@ -311,7 +320,7 @@ class _Momenta:
             whole = whole + part
         return whole
 
-    def saddles(self, numbers):
+    def saddles(self, numbers: Digits):
         """[(energy as a ball, whether it is the motion's)], the second a function without arguments."""
         level = self._numerator({d: d * w for d, w in self.w.items()}, Poly((1,)), 2 * self.energy)
         same = lambda s: lambda: shares_root(polynomial(*self.sphere.c), polynomial(*level.c), s)
@@ -331,7 +340,7 @@ class _Momenta:
         along = (self.squared - across) / middle  # D_i omega_i^2
         return (along + sum(d * w / (middle - d) ** 2 for d, w in self.w.items())) / 2
 
-    def _speeds(self, numbers) -> list:
+    def _speeds(self, numbers: Digits) -> list:
         """The speeds s of the other saddles, as balls."""
         roots = numbers.real_roots(self.sphere.c) if self.w else []
         gaps = [b - a for (a, _), (b, _) in zip(roots, roots[1:])]
@@ -344,7 +353,7 @@ class _Momenta:
                 beyond = -beyond
         return found
 
-    def _is_saddle(self, s, beyond, ball) -> bool:
+    def _is_saddle(self, s: arb, beyond: int, ball: Callable[[float | Fraction], arb]) -> bool:
         if s.is_zero():
             return False
         side = beyond * sign(s)
@@ -355,7 +364,7 @@ class _Momenta:
             side *= sign(gap)
         return side > 0
 
-    def _height(self, s, ball):
+    def _height(self, s: arb, ball: Callable[[float | Fraction], arb]):
         """Kinetic energy of the permanent rotation of speed s."""
         gaps = [(s - ball(d), d * w) for d, w in self.w.items()]
         return sum((ball(weight) / (gap * gap) for gap, weight in gaps), ball(0)) / 2
@@ -424,7 +433,7 @@ REASONS: dict[Basis, Reason] = {
 }
 
 
-def margin_at_rest(scene, margin: float) -> float:
+def margin_at_rest(scene: AnyScene, margin: float) -> float:
     """The margin of an equilibrium from the barriers that `margin` knows, those beyond the state itself.
 
     Where these are lower and a torque acts, its neighbours on one side are released and it is not: it lies on
@@ -454,7 +463,7 @@ class OneFate(NamedTuple):
         return self.reason.text()
 
 
-def fate_of(scene, orbit: Orbit, near: Orbit | None = None) -> OneFate:
+def fate_of(scene: AnyScene, orbit: Orbit, near: Orbit | None = None) -> OneFate:
     """The fate of one state of a scene with this orbit.
 
     near: the orbit in a unit in which to compare energies; the margin is in it then.
@@ -470,18 +479,18 @@ def fate_of(scene, orbit: Orbit, near: Orbit | None = None) -> OneFate:
     return at_rest(scene, found) if rests(scene.quadratic(), state) else found
 
 
-def at_rest(scene, found: OneFate) -> OneFate:
+def at_rest(scene: AnyScene, found: OneFate) -> OneFate:
     """The fate of an equilibrium, given what its energy alone says."""
     return OneFate(Fate.EQUILIBRIUM, Basis.AT_REST, margin_at_rest(scene, found.margin))
 
 
-def free_fate(scene, state) -> OneFate:
+def free_fate(scene: AnyScene, state: Sequence[float | Fraction]) -> OneFate:
     """The fate without a torque: bounded, whatever the margin, or on a separatrix of the momentum sphere."""
     margin = free_margin(scene, state, doubles=True)
     return _tie() if margin.tie else OneFate(Fate.BOUNDED, Basis.TORQUE_FREE, margin.double)
 
 
-def _spin_up(r, basis, margin) -> OneFate:
+def _spin_up(r: Reduction, basis: Basis, margin: float) -> OneFate:
     return OneFate(Fate.SPIN_UP, basis, margin, r.axis + 1, r.sense)
 
 
@@ -489,7 +498,7 @@ def _tie() -> OneFate:
     return OneFate(Fate.SEPARATRIX, Basis.TIE, 0.0)
 
 
-def _on_circle(orbit) -> OneFate:
+def _on_circle(orbit: Orbit) -> OneFate:
     r = orbit.reduction
     if _shifted(orbit) == (0, 0):  # the circle is a point: pure spin, and nothing stands in its way
         found = None
@@ -505,14 +514,14 @@ def _on_circle(orbit) -> OneFate:
     return _spin_up(r, Basis.NO_BARRIER if margin == -INF else Basis.ABOVE_BARRIER, margin)
 
 
-def _shifted(orbit) -> tuple[Fraction, Fraction]:
+def _shifted(orbit: Orbit) -> tuple[Fraction, Fraction]:
     """(omega_j + s_j, omega_k + s_k), exactly."""
     r, state = orbit.reduction, orbit.state
     sj, sk = r.centre
     return Fraction(state[r.j]) + sj, Fraction(state[r.k]) + sk
 
 
-def _valley(orbit) -> OneFate:
+def _valley(orbit: Orbit) -> OneFate:
     """Between walls: bounded on either side of a barrier, if there is one."""
     tie = decide(orbit, FIRST_BITS)
     if tie.sign == 0:
@@ -520,7 +529,7 @@ def _valley(orbit) -> OneFate:
     return OneFate(Fate.BOUNDED, Basis.WALLS, INF if tie.margin == -INF else tie.margin)
 
 
-def _on_hyperbola(orbit) -> OneFate:
+def _on_hyperbola(orbit: Orbit) -> OneFate:
     r, (u, v) = orbit.reduction, _shifted(orbit)
     if v * v * abs(r.p) != u * u * abs(r.q):
         return _valley(orbit)
@@ -548,7 +557,7 @@ def as_double(value: Fraction) -> float:
         return math.nan
 
 
-def scaled_double(value, k: int) -> float:
+def scaled_double(value: Number, k: int) -> float:
     """The double nearest to 2^k times a ball or float; its own double may have underflowed in the other unit.
     """
     if not k or isinstance(value, float):

@@ -17,7 +17,7 @@ between the least and the greatest moment, on a branch on either side of the mid
 one way; s is measured from the middle moment, so that its distance from the pole there keeps its digits."""
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -29,7 +29,7 @@ from ..numbers.double_double import EPS, TURN
 from ..numbers.polynomial import bracketed_newton
 from ..physics.coefficients import limits_of
 from ..physics.own_unit import far_exponent
-from ..physics.scene import AnyScene
+from ..physics.scene import AnyScene, Scene
 from ..physics.states import equilibrium_mask
 from ..representation import Compared, Shown
 from .fate import REASONS, Basis, decide, fate_of, free_middle, is_free, margin_at_rest
@@ -37,8 +37,8 @@ from .landscape import ROUNDINGS, ConicLandscape, Landscape, in_doubles, landsca
 from .margins import MARGIN_SHARE, valley_margins
 from .one_orbit import Orbit
 from .one_state import LOST, far_fate, far_rows
-from .potential import derivatives_on_parabola
-from .reduction import reduce
+from .potential import Hyperbola, Parabola, derivatives_on_parabola
+from .reduction import Reduction, reduce
 from .result import Fate, spins_about
 from .separatrix.distance import separatrix_distance
 
@@ -134,25 +134,25 @@ def _cause(row) -> str:
     return "" if row is None else f"; {row.cause}"
 
 
-def _told(reason, label, margin, axis, sense) -> str:
+def _told(reason: int, label: int, margin: float, axis: int, sense: int) -> str:
     known = (margin == margin or reason in (Basis.OFF_AXIS, Basis.TURN_ROUNDS, Basis.CERTIFIED,
                                             Basis.CLOSED_FORM) or label == Fate.EQUILIBRIUM)
     return str(REASONS[Basis(reason)].then(spins_about(label, int(axis), int(sense)))
                .then(None if known else LOST(what="the margin in energy")))
 
 
-def empty_columns(n) -> dict[str, np.ndarray]:
+def empty_columns(n: int) -> dict[str, np.ndarray]:
     """Columns of a FateResult for n states, to be filled."""
     return {"labels": np.empty(n, np.int8), "margins": np.empty(n), "axis": np.zeros(n, np.int8),
             "sense": np.zeros(n, np.int8), "reasons": np.empty(n, np.int8)}
 
 
-def chunks(count) -> list[slice]:
+def chunks(count: int) -> list[slice]:
     """Slices of so many states, `CHUNK` at a time."""
     return [slice(start, start + CHUNK) for start in range(0, count, CHUNK)]
 
 
-def in_chunks(label, states) -> FateResult:
+def in_chunks(label: Callable[[np.ndarray, dict[str, np.ndarray]], int], states: np.ndarray) -> FateResult:
     """The fates of states (n, 3) by a labeller: it fills the columns of a chunk and returns how many needed
     many digits."""
     out, precise = empty_columns(len(states)), 0
@@ -161,7 +161,8 @@ def in_chunks(label, states) -> FateResult:
     return FateResult(**out, precise=precise)  # type: ignore[arg-type]  # the columns alone
 
 
-def write_row(out, index, label, reason, margin, axis=0, sense=0) -> None:
+def write_row(out: Mapping[str, np.ndarray], index: int | np.integer, label: Fate, reason: Basis,
+              margin: float, axis: int = 0, sense: int = 0) -> None:
     """Put the fate of one state into the columns."""
     spin = label == Fate.SPIN_UP
     out["labels"][index], out["reasons"][index], out["margins"][index] = label, reason, margin
@@ -205,7 +206,7 @@ class Saddles(NamedTuple):
 
 
 @lru_cache(maxsize=64)
-def saddles_of(scene) -> Saddles:
+def saddles_of(scene: Scene) -> Saddles:
     """The saddles of a torque-free scene (cached)."""
     D, lam, middle = scene.body.exact, scene.vector("gyrostat"), sorted(scene.body.exact)[1]
     largest = float(max(map(abs, lam)))
@@ -219,24 +220,24 @@ def saddles_of(scene) -> Saddles:
         return found._replace(branches=tuple(filter(None, (_branch(found, side) for side in (-1, 1)))))
 
 
-def _parts(saddles, t):
+def _parts(saddles: Saddles, t: np.ndarray):
     """(s - D_i, omega*_i), each (3, n), for s = middle + t."""
     gap = t + saddles.gaps[:, None]
     return gap, np.where(saddles.lam[:, None] == 0, 0.0, saddles.lam[:, None] / gap)
 
 
-def _momentum(saddles, t):
+def _momentum(saddles: Saddles, t: np.ndarray):
     """|H| (n,) of the permanent rotations of speed middle + t."""
     return (saddles.middle + t) * np.sqrt((_parts(saddles, t)[1] ** 2).sum(axis=0))
 
 
-def _fall(saddles, t):
+def _fall(saddles: Saddles, t: np.ndarray):
     """sum lambda_i^2 D_i/(s - D_i)^3: (|H|^2)' over -2 s, falling in s between two poles."""
     gap, omega = _parts(saddles, t)
     return np.where(saddles.lam[:, None] == 0, 0.0, saddles.D[:, None] * omega * omega / gap).sum(axis=0)
 
 
-def _branch(saddles, side) -> Branch | None:
+def _branch(saddles: Saddles, side: int) -> Branch | None:
     """The branch on one side of the middle moment: where `side` times the fall is positive."""
     reach = float((-side * saddles.gaps).max())
     pole = bool((saddles.lam[saddles.gaps == 0] != 0).any())
@@ -249,7 +250,7 @@ def _branch(saddles, side) -> Branch | None:
     return Branch(side, end, low, np.inf if pole else high)
 
 
-def _fold(rising, reach) -> float:
+def _fold(rising: Callable[[float], bool], reach: float) -> float:
     """r below `reach` up to which |H| falls, to rounding."""
     low, high = 0.0, reach
     for power in range(1, 1000):
@@ -263,7 +264,7 @@ def _fold(rising, reach) -> float:
     return low
 
 
-def free_margins(scene, states):
+def free_margins(scene: AnyScene, states: np.ndarray):
     """(margins (n,) in J, doubtful (n,)) of states (n, 3): inf where the momentum sphere has no saddle;
     doubtful where rounding may cost the sign, or a margin its twelve digits against the kinetic energies of
     the motion and of the saddle."""
@@ -290,7 +291,7 @@ def free_margins(scene, states):
         return margins, doubtful | ~known | lost
 
 
-def _candidates(saddles, omega, size, blur):
+def _candidates(saddles: Saddles, omega: np.ndarray, size: np.ndarray, blur: np.ndarray):
     """(there, unsure whether, margin, rounding), arrays (n,), of each kind of saddle."""
     if np.isfinite(saddles.least):
         there = size >= saddles.least
@@ -307,13 +308,13 @@ def _candidates(saddles, omega, size, blur):
         yield there, unsure, margin, error
 
 
-def _solved(saddles, branch, size):
+def _solved(saddles: Saddles, branch: Branch, size: np.ndarray):
     """r (n,) on a branch where |H| is `size`: Newton's method in 1/|H|, which is nearly linear in r next to
     the pole."""
     pole = float(np.hypot.reduce(saddles.lam[saddles.gaps == 0])) if np.isinf(branch.high) else 0.0
     least = (saddles.middle - branch.end if branch.side < 0 else saddles.middle) * pole / size
 
-    def fun(r, size):
+    def fun(r: np.ndarray, size: np.ndarray):
         t = branch.side * r
         here = _momentum(saddles, t)
         return 1 / here - 1 / size, branch.side * (saddles.middle + t) * _fall(saddles, t) / here**3
@@ -323,7 +324,7 @@ def _solved(saddles, branch, size):
     return bracketed_newton(fun, low, np.full(size.shape, branch.end), np.maximum(start, low), (size,))
 
 
-def _margin(saddles, omega, t, residue):
+def _margin(saddles: Saddles, omega: np.ndarray, t: np.ndarray, residue: np.ndarray):
     """(margin, rounding), (n,) each, over the square of the unit; residue: error of |H|^2/2, and so of s."""
     gap, star = _parts(saddles, t)
     s = saddles.middle + t
@@ -336,7 +337,7 @@ def _margin(saddles, omega, t, residue):
 
 
 # --- Fates of many states
-def fates(scene, states, fast=None) -> FateResult:
+def fates(scene: AnyScene, states: np.ndarray, fast: bool | None = None) -> FateResult:
     """Fates and margins of states (n, 3) of a scene with an orbit, or of a free body: `answers.fate` for one
     shape; `fast` is not needed.
 
@@ -355,7 +356,7 @@ def fates(scene, states, fast=None) -> FateResult:
     return FateResult(**out, precise=precise)  # type: ignore[arg-type]  # the columns alone
 
 
-def rows_beyond_doubles(scene, states):
+def rows_beyond_doubles(scene: AnyScene, states: np.ndarray):
     """Return (n,) booleans that mark which of the states (n, 3) have to be answered one at a time.
 
     Those are states whose squares may leave the range of doubles; where the numbers of the scene's landscape
@@ -365,7 +366,7 @@ def rows_beyond_doubles(scene, states):
     return far if far.all() or in_doubles(scene) else np.ones(len(states), bool)
 
 
-def _label(scene, states, out) -> int:
+def _label(scene: AnyScene, states: np.ndarray, out: Mapping[str, np.ndarray]) -> int:
     """Fill the columns for states (n, 3); returns how many took many digits."""
     if not len(states):  # of a scene whose constants are no doubles, all states are far
         return 0
@@ -384,11 +385,11 @@ def _label(scene, states, out) -> int:
     return len(rows)
 
 
-def _rows_of(columns, rows):
+def _rows_of(columns: Mapping[str, np.ndarray], rows: np.ndarray | slice):
     return {name: column[rows] for name, column in columns.items()}
 
 
-def _label_chunk(scene, land, states, out):
+def _label_chunk(scene: AnyScene, land: Landscape | None, states: np.ndarray, out: Mapping[str, np.ndarray]):
     """Fill the columns for states (n, 3), each clear of a separatrix, and return which are not clear, (n,);
     land: None of a free body."""
     out["axis"][:], out["sense"][:], out["labels"][:] = 0, 0, Fate.BOUNDED
@@ -424,7 +425,7 @@ def _margins(land, place, w, size):
     return margins, doubtful
 
 
-def _settled(land, states, margins, rows, unit=1.0):
+def _settled(land: Landscape, states: np.ndarray, margins: np.ndarray, rows: np.ndarray, unit: float = 1.0):
     """Settle the margins (n,), in this unit, of those of the rows that twofold numbers are enough for; the
     rows that are left."""
     if not land.potential.walled or not len(rows):
@@ -439,7 +440,7 @@ def _settled(land, states, margins, rows, unit=1.0):
     return rows[left]
 
 
-def at_rest(scene, states, out):
+def at_rest(scene: AnyScene, states: np.ndarray, out: Mapping[str, np.ndarray]):
     """Mark the states at which every rate of change vanishes exactly. Their margins are those of
     `margin_at_rest`."""
     found = equilibrium_mask(scene, states)
@@ -449,7 +450,7 @@ def at_rest(scene, states, out):
         out["margins"][found] = [margin_at_rest(scene, margin) for margin in out["margins"][found]]
 
 
-def fate_on_orbit(scene, land, states) -> FateResult:
+def fate_on_orbit(scene: AnyScene, land: Landscape, states: np.ndarray) -> FateResult:
     """Return the fates of `fates`, with margins against the barriers of the reduction's own orbit.
 
     The two margins differ only without a torque: there `fates` compares motions of equal momentum, while the
@@ -468,7 +469,8 @@ def fate_on_orbit(scene, land, states) -> FateResult:
     return replace(found, margins=margins * land.reduction.energy_unit)
 
 
-def circle_margins(land: ConicLandscape, place, w, size):
+def circle_margins(land: ConicLandscape, place: Sequence[np.ndarray], w: np.ndarray,
+                   size: Sequence[np.ndarray]):
     """Return the margins (n,) in canonical units, and which of them are doubtful (n,).
 
     A margin is the height of the highest barrier within one turn ahead, less the energy.
@@ -505,7 +507,7 @@ def circle_margins(land: ConicLandscape, place, w, size):
     return best, doubtful & (radius > 0)
 
 
-def nearest_margins(land: Landscape, place, w, size):
+def nearest_margins(land: Landscape, place: Sequence[np.ndarray], w: np.ndarray, size: Sequence[np.ndarray]):
     """As `circle_margins`, between walls: the margins to the barrier that is nearest in height, +inf where
     the orbit has none. Motions on either side of it are bounded."""
     margins = np.full(len(w), np.inf)
@@ -521,7 +523,8 @@ def nearest_margins(land: Landscape, place, w, size):
     return margins, doubtful
 
 
-def _to_nearest(land, place, w, size, critical):
+def _to_nearest(land: Landscape, place: Sequence[np.ndarray], w: np.ndarray, size: Sequence[np.ndarray],
+                critical: Sequence[np.ndarray]):
     """(margins, which are doubtful), (n,) each, of places whose orbits have barriers, `critical` says where.
     """
     pot, energy, margins = land.potential, 0.5 * w * w, np.full(len(w), np.inf)
@@ -543,14 +546,15 @@ def _to_nearest(land, place, w, size, critical):
     return margins, doubtful
 
 
-def _tilted(pot, spot, offset, margin, energy):
+def _tilted(pot: Hyperbola | Parabola, spot: Sequence[np.ndarray], offset: np.ndarray, margin: np.ndarray,
+            energy: np.ndarray):
     """(n,) True where the force that rounding leaves at an equilibrium costs a margin its twelve digits over
     the way to it."""
     return (2 * EPS * pot.terms(tuple(spot)) * np.abs(offset) > MARGIN_SHARE
             * (np.abs(margin + energy) + energy))
 
 
-def flat_mask(land, states, place):
+def flat_mask(land: Landscape, states: np.ndarray, place: Sequence[np.ndarray]):
     """(n,) True where the force does not change along the parabola at all (exactly): nothing holds the spin
     back."""
     small = land.nearly_flat(states, place)
@@ -559,5 +563,5 @@ def flat_mask(land, states, place):
     return small
 
 
-def _is_flat(r, state) -> bool:
+def _is_flat(r: Reduction, state: np.ndarray) -> bool:
     return not any(derivatives_on_parabola(r, *(Fraction(float(state[a])) for a in (r.j, r.k))))

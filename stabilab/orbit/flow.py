@@ -5,6 +5,7 @@ period (`profile`), what spins up is summed over its turns in closed form (`spin
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from ..physics.states import checked_states
 from .extremes import precise_period
 from .one_orbit import Orbit
 from .one_state import own
-from .profile import TOO_FINE, ByPanels, InOwnUnit, Relief, Resting, relief
+from .profile import TOO_FINE, ByPanels, InOwnUnit, Motion, Relief, Resting, Spot, relief
 from .reduction import reduce
 from .result import Fate
 from .spin_up import POINTS, Panels, Passing, SpinUp, Turn, Turning, turning_offset
@@ -59,7 +60,7 @@ def reduced_motion(scene, state, nodes: int | None = None, backwards: bool = Fal
     return motion
 
 
-def _refuse_another_period(motion, orbit):
+def _refuse_another_period(motion: ByPanels, orbit: Orbit):
     """InputError where the panels of a libration do not add up to its period, which is known by other means.
     """
     expected = precise_period(orbit, Fate.BOUNDED)
@@ -79,7 +80,7 @@ def _motion(ground: Relief, state, nodes, backwards):
     return _libration(ground, nodes)
 
 
-def _refuse_ties(spots):
+def _refuse_ties(spots: Sequence[Spot]):
     """InputError where the energy is a hill's, or the relief is flatter than doubles tell."""
     if any(s.kind > 0 and s.kinetic == 0 for s in spots):
         raise InputError("the motion is on a separatrix: it tends to an equilibrium, and its reduced form "
@@ -90,7 +91,7 @@ def _refuse_ties(spots):
             "about an equilibrium the reduced potential is flatter than doubles tell; take method taylor")
 
 
-def axis_way(motion, times):
+def axis_way(motion: Motion, times: np.ndarray):
     """(states (n, 3), integral of the rate about the torque's axis since time 0 (n,), that axis) at times of
     any sign."""
     times = np.asarray(times, float)
@@ -120,7 +121,7 @@ def _libration(ground: Relief, nodes):
     return _by_panels(chain, nodes, number, -chain[number].spot.at, ground.w, 0.0)
 
 
-def _turn(hill, well, sense):
+def _turn(hill: Spot | None, well: Spot, sense: int):
     """(spot, offset) of the turning point beyond a well on one side, measured from whichever equilibrium is
     nearer in height."""
     reach = None if hill is None else abs(hill.at - well.at)
@@ -132,7 +133,7 @@ def _turn(hill, well, sense):
     return near, offset
 
 
-def _rotation(ground: Relief, nodes):
+def _rotation(ground: Relief, nodes: int | None):
     sense = 1.0 if ground.w > 0 else -1.0
     turn = Turn(ground)
     number, y = turn.where()

@@ -7,17 +7,22 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ..numbers.double_double import TURN, Twofold
 from .conic import Conic, conic_of
 from .potential import potential
-from .reduction import reduce
+from .reduction import Reduction, reduce
+
+if TYPE_CHECKING:
+    from ..numbers.vectors import Number
+    from ..physics.scene import AnyScene
 
 # --- Places to 30 digits
 SURE = 1e-20  # of the terms: a sum that is smaller may be zero, which exact arithmetic decides
@@ -36,7 +41,7 @@ class TwofoldConstants(NamedTuple):
     over_z: Twofold
 
 
-def twofold_constants(reduction) -> TwofoldConstants:
+def twofold_constants(reduction: Reduction) -> TwofoldConstants:
     """Those of a reduction to circles or hyperbolas."""
     g = reduction.exact_constants
     exact = *(g[name] for name in ("G", "c", "d", "mu", "sj", "sk")), g["flip"] / g["rx"], 1 / g["rz"]
@@ -50,7 +55,8 @@ def twofold_constant(value: Fraction) -> Twofold:
     return Twofold(np.float64(high), np.float64(float(value - Fraction(high))))  # type: ignore[arg-type]
 
 
-def twofold_places(constants: TwofoldConstants, j: int, k: int, states) -> tuple[Twofold, Twofold]:
+def twofold_places(constants: TwofoldConstants, j: int, k: int,
+                   states: np.ndarray) -> tuple[Twofold, Twofold]:
     """(X, Z) of states (n, 3), whose components across the axis are j and k."""
     return (constants.sj + states[:, j]) * constants.over_x, (constants.sk + states[:, k]) * constants.over_z
 
@@ -77,7 +83,7 @@ class Landscape:
     unit = 1.0  # turn about the axis per theta, signed as the reflection
     turn = np.inf  # after so much theta an orbit comes to the same place again
 
-    def __init__(self, reduction):
+    def __init__(self, reduction: Reduction):
         self.reduction, self.e = reduction, reduction.e
         self.potential = potential(reduction)
         self.sense = reduction.sense
@@ -87,23 +93,23 @@ class Landscape:
         """Whether a motion may pass over all barriers and stay bounded."""
         return False
 
-    def start(self, states):
+    def start(self, states: np.ndarray):
         """(place, W, size): place a pair of arrays, size a pair with the magnitudes whose rounding limits the
         place."""
         raise NotImplementedError
 
-    def critical(self, place, barriers_only=False):
+    def critical(self, place: Sequence[np.ndarray], barriers_only: bool = False):
         """Equilibria on the orbits of places (n,): (offsets (n, m), place (2, n, m), barrier (n, m) bool).
 
         Offsets on a circle lie in (0, 2 pi]; the same equilibrium recurs every turn.
         """
         raise NotImplementedError
 
-    def invariant(self, place):
+    def invariant(self, place: np.ndarray | Sequence[float | np.ndarray]):
         """Q of each place; of circles and hyperbolas."""
         raise NotImplementedError
 
-    def components(self, place, w):
+    def components(self, place: np.ndarray | Sequence[float | np.ndarray], w: np.ndarray):
         """States (..., 3) at places with rate W."""
         r = self.reduction
         out = np.empty(np.shape(w) + (3,))
@@ -111,23 +117,23 @@ class Landscape:
         out[..., r.axis] = self.rate(w)
         return out
 
-    def pair(self, place):
+    def pair(self, place: np.ndarray | Sequence[float | np.ndarray]):
         """(omega_j, omega_k) at places."""
         raise NotImplementedError
 
-    def rate(self, w):
+    def rate(self, w: Number):
         """omega_i of canonical W."""
         raise NotImplementedError
 
-    def energy_terms(self, place, w):
+    def energy_terms(self, place: Sequence[np.ndarray], w: np.ndarray):
         """(n,) size of the energy's terms, canonical."""
         raise NotImplementedError
 
-    def unrolled(self, place, offset, spot):
+    def unrolled(self, place: Sequence[np.ndarray], offset: np.ndarray, spot: np.ndarray):
         """Offsets of equilibria as near to the state as a turn allows; (n, m)."""
         return offset
 
-    def repeated(self, offset, spot, energy, barrier):
+    def repeated(self, offset: np.ndarray, spot: np.ndarray, energy: np.ndarray, barrier: np.ndarray):
         """Equilibria along the orbit, on a circle those of one turn behind and of one ahead."""
         return offset, spot, energy, barrier
 
@@ -135,24 +141,24 @@ class Landscape:
         """False where no orbit has a barrier."""
         return True
 
-    def nearly_flat(self, states, place=None):
+    def nearly_flat(self, states: np.ndarray, place: Sequence[np.ndarray] | None = None):
         """(n,) True where the force along a parabola may not change at all; False on other reductions."""
         return np.zeros(len(states), bool)
 
-    def beside_fold(self, place):
+    def beside_fold(self, place: Sequence[np.ndarray]):
         """(n,) True where rounding of the place may make or unmake a pair of equilibria of its orbit; of
         hyperbolas and parabolas."""
         raise NotImplementedError
 
-    def roughness(self, size):
+    def roughness(self, size: Sequence[np.ndarray]):
         """Magnitude of the potential's terms, whose rounding limits a height; of these, too."""
         raise NotImplementedError
 
-    def beside_centre(self, place):
+    def beside_centre(self, place: Sequence[np.ndarray]):
         """(n,) True where the doubles do not hold the orbit's own size."""
         return np.zeros(np.shape(place[0]), bool)
 
-    def polished(self, spot):
+    def polished(self, spot: Sequence[np.ndarray]):
         """Newton steps along the orbit: whatever the conic lost, the force regains. Most need one tiny step.
         """
         first, second = spot
@@ -166,7 +172,7 @@ class Landscape:
             rows = tuple(r[np.abs(step) >= ONE_STEP] for r in rows)
         return first, second
 
-    def _newton_step(self, spot):
+    def _newton_step(self, spot: Sequence[np.ndarray]):
         with np.errstate(all="ignore"):
             step = -self.potential.force(spot) / self.potential.slope(spot)
             return np.where(np.abs(step) < 0.5, step, 0.0)  # false for nan too
@@ -184,7 +190,7 @@ class Spots:
     there: np.ndarray
 
 
-def spots_along(land: Landscape, place, w) -> Spots:
+def spots_along(land: Landscape, place: Sequence[np.ndarray], w: np.ndarray) -> Spots:
     """All equilibria near the state along its orbit, on a circle those of one turn behind and one ahead."""
     offset, spot, barrier = land.critical(place)
     energy = np.full(offset.shape, np.nan)
@@ -205,18 +211,19 @@ def spots_along(land: Landscape, place, w) -> Spots:
 class ConicLandscape(Landscape):
     """Circle or hyperbola: orbits of the canonical plane, and a conic of equilibria in it."""
 
-    def __init__(self, reduction):
+    def __init__(self, reduction: Reduction):
         super().__init__(reduction)
         self.conic = conic_of(reduction)
         self.unit = reduction.constants["flip"] / reduction.constants["n"]
 
-    def start(self, states):
+    def start(self, states: np.ndarray):
         g = self.reduction.constants
         x, z, w = self.reduction.canonical(states)
         size = np.abs(x) + abs(g["sj"] / g["rx"]), np.abs(z) + abs(g["sk"] / g["rz"])
         return self._exact_place(x, z, size[0] + size[1], states), w, size
 
-    def _exact_place(self, x, z, size, states):
+    def _exact_place(self, x: float | np.ndarray, z: float | np.ndarray, size: float | np.ndarray,
+                     states: np.ndarray):
         """The place of (X, Z), from exact arithmetic where the shift leaves a few digits of it."""
         raise NotImplementedError
 
@@ -225,7 +232,8 @@ class ConicLandscape(Landscape):
         """The constants in 32 digits."""
         return twofold_constants(self.reduction)
 
-    def _exactly(self, close, states, place, of):
+    def _exactly(self, close: np.ndarray, states: np.ndarray, place: Sequence[float | np.ndarray],
+                 of: Callable[[Number, Number], tuple[Number, Number]]):
         """The place with the rows of `close` formed anew by `of` from (X, Z) to 30 digits; from exact ones
         where these may leave nothing."""
         if not close.any():
@@ -250,17 +258,17 @@ class ConicLandscape(Landscape):
         """The least factor of a component over its canonical variable."""
         return min(abs(self.reduction.constants[name]) for name in ("rx", "rz"))
 
-    def _settle_plane(self, first, second, index, state):
+    def _settle_plane(self, first: np.ndarray, second: np.ndarray, index: Sequence[int], state: np.ndarray):
         """What is exactly on an invariant plane gets exactly there."""
 
-    def pair(self, place):
+    def pair(self, place: np.ndarray | Sequence[float | np.ndarray]):
         x, z = self.potential.xz(place)
         return self.reduction.component_j(x), self.reduction.component_k(z)
 
-    def rate(self, w):
+    def rate(self, w: Number):
         return self.reduction.component_i(w)
 
-    def branches(self, place, barriers_only=False):
+    def branches(self, place: Sequence[np.ndarray], barriers_only: bool = False):
         """Equilibria on the orbits of places (n,), branch by branch: (rows that it meets, offsets, places,
         which are barriers), arrays as long as the rows."""
         Q = self.invariant(place)
@@ -269,7 +277,7 @@ class ConicLandscape(Landscape):
             yield (rows[there], offset, spot,
                    self.potential.slope(spot) > 0 if barrier is None else np.full(len(offset), barrier))
 
-    def critical(self, place, barriers_only=False):
+    def critical(self, place: Sequence[np.ndarray], barriers_only: bool = False):
         found = list(self.branches(place, barriers_only))
         n, m = len(place[0]), len(found)
         offsets, places, barrier = np.full((n, m), np.nan), np.zeros((2, n, m)), np.zeros((n, m), bool)
@@ -277,16 +285,16 @@ class ConicLandscape(Landscape):
             offsets[rows, column], places[:, rows, column], barrier[rows, column] = offset, spot, high
         return offsets, places, barrier
 
-    def located(self, place, Q, x, z):
+    def located(self, place: Sequence[np.ndarray], Q: np.ndarray, x: np.ndarray, z: np.ndarray):
         """(which there are, offsets, places) of equilibria at (X, Z) on the orbits Q of places."""
         raise NotImplementedError
 
-    def way(self, spot, place, near):
+    def way(self, spot: Sequence[np.ndarray], place: Sequence[np.ndarray], near: np.ndarray):
         """theta from a place to another on its orbit, which is rounded; on a circle the turn is that of
         `near`."""
         raise NotImplementedError
 
-    def blurred(self, spot, place, size):
+    def blurred(self, spot: Sequence[np.ndarray], place: Sequence[np.ndarray], size: Sequence[np.ndarray]):
         """(what rounding of a place, of that size of terms, may cost in energy besides; how far, of its size,
         it lies off the orbit of a spot)."""
         return 0.0, 0.0
@@ -294,7 +302,7 @@ class ConicLandscape(Landscape):
     def may_have_barriers(self) -> bool:
         return any(p.barrier for p in self.conic.pieces) or bool(self.conic.lines)
 
-    def energy_terms(self, place, w):
+    def energy_terms(self, place: Sequence[np.ndarray], w: np.ndarray):
         pot, size = self.potential, np.hypot(*place)
         return 0.5 * w * w + abs(pot.mu) + np.abs(pot.G) * size**2 + pot.slopes * size
 
@@ -308,17 +316,17 @@ ROUNDINGS = 64
 CENTRE = 1e-10
 
 
-def angle_between(place, spot):
+def angle_between(place: Sequence[np.ndarray], spot: Sequence[np.ndarray] | np.ndarray):
     """theta from one place on a circle to another, the short way round: in [-pi, pi]."""
     return np.arctan2(spot[0] * place[1] - spot[1] * place[0], spot[0] * place[0] + spot[1] * place[1])
 
 
-def _discriminant(a, b, c, d):
+def _discriminant(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray):
     """The terms of the discriminant of a cubic, highest power first."""
     return 18 * a * b * c * d, -4 * b**3 * d, b**2 * c**2, -4 * a * c**3, -27 * a**2 * d**2
 
 
-def _real_roots(a, b, c, d):
+def _real_roots(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray):
     """(n, 3) the real roots of cubics, to the rounding of their coefficients: three, or one and NaN. Those
     that a cosine gives, or Cardano's formula in the order that does not cancel; eigenvalues of companion
     matrices would cost ten times as much."""
@@ -348,28 +356,29 @@ class CircleLandscape(ConicLandscape):
         """Without a torque a motion over all barriers goes round for ever."""
         return self.sense == 0
 
-    def _exact_place(self, x, z, size, states):
+    def _exact_place(self, x: float | np.ndarray, z: float | np.ndarray, size: float | np.ndarray,
+                     states: np.ndarray):
         return self._exactly(np.hypot(x, z) < LOST * size, states, (x, z), lambda ex, ez: (ex, ez))
 
-    def invariant(self, place):
+    def invariant(self, place: np.ndarray | Sequence[float | np.ndarray]):
         return place[0] ** 2 + place[1] ** 2
 
-    def located(self, place, Q, x, z):
+    def located(self, place: Sequence[np.ndarray], Q: np.ndarray, x: np.ndarray, z: np.ndarray):
         with np.errstate(all="ignore"):
             scale = np.sqrt(Q / (x * x + z * z))
             spot = self.polished((x * scale, z * scale))
             offset = angle_between(place, spot)
         return slice(None), np.where(offset > 0, offset, offset + TURN), spot
 
-    def way(self, spot, place, near):
+    def way(self, spot: Sequence[np.ndarray], place: Sequence[np.ndarray], near: np.ndarray):
         angle = angle_between(spot, place)
         return angle + TURN * np.round((near - angle) / TURN)
 
-    def unrolled(self, place, offset, spot):
+    def unrolled(self, place: Sequence[np.ndarray], offset: np.ndarray, spot: np.ndarray):
         # a turn more would cost the energy over a well just behind its digits
         return np.where(offset > np.pi, angle_between((place[0][:, None], place[1][:, None]), spot), offset)
 
-    def repeated(self, offset, spot, energy, barrier):
+    def repeated(self, offset: np.ndarray, spot: np.ndarray, energy: np.ndarray, barrier: np.ndarray):
         # one turn earlier the tilt has lifted the potential by 2 pi mu
         behind, fall = offset <= 0, TURN * self.potential.mu
         offset = np.concatenate([offset - TURN * ~behind, offset + TURN * behind], axis=1)
@@ -383,7 +392,8 @@ class HyperbolaLandscape(ConicLandscape):
 
     base = "hyperbola"
 
-    def _exact_place(self, x, z, size, states):
+    def _exact_place(self, x: float | np.ndarray, z: float | np.ndarray, size: float | np.ndarray,
+                     states: np.ndarray):
         xi, eta = x + z, x - z
         close = np.minimum(np.abs(xi), np.abs(eta)) < LOST * size
         return self._exactly(close, states, (xi, eta), lambda ex, ez: (ex + ez, ex - ez))
@@ -394,10 +404,10 @@ class HyperbolaLandscape(ConicLandscape):
             small = first if abs(first[index]) < abs(second[index]) else second
             small[index] = 0.0
 
-    def invariant(self, place):
+    def invariant(self, place: np.ndarray | Sequence[float | np.ndarray]):
         return -place[0] * place[1]
 
-    def located(self, place, Q, x, z):
+    def located(self, place: Sequence[np.ndarray], Q: np.ndarray, x: np.ndarray, z: np.ndarray):
         xi, eta = x + z, x - z
         big = np.abs(xi) >= np.abs(eta)
         with np.errstate(all="ignore"):
@@ -409,28 +419,28 @@ class HyperbolaLandscape(ConicLandscape):
             offset = np.where(big[there], np.log(spot[0] / start[0]), -np.log(spot[1] / start[1]))
         return there, offset, spot
 
-    def way(self, spot, place, near):
+    def way(self, spot: Sequence[np.ndarray], place: Sequence[np.ndarray], near: np.ndarray):
         big = np.abs(place[0]) >= np.abs(place[1])
         return np.where(big, np.log(np.abs(place[0] / spot[0])), -np.log(np.abs(place[1] / spot[1])))
 
-    def blurred(self, spot, place, size):
+    def blurred(self, spot: Sequence[np.ndarray], place: Sequence[np.ndarray], size: Sequence[np.ndarray]):
         wide, largest = size[0] + size[1], np.maximum(np.abs(place[0]), np.abs(place[1]))
         beside = (np.abs(place[0] * place[1] - spot[0] * spot[1])
                   / ((np.abs(place[0]) + np.abs(place[1])) * wide))
         # the tilt falls by mu times the logarithm of the place
         return self.potential.mu * wide / largest, beside
 
-    def beside_fold(self, place):
+    def beside_fold(self, place: Sequence[np.ndarray]):
         Q, beside = self.invariant(place), np.zeros(np.shape(place[0]), bool)
         for edge in self.conic.fold_invariants + self.conic.tangents:
             beside |= np.abs(Q - edge) <= ROUNDINGS * EPS * (np.abs(Q) + abs(edge))
         return beside
 
-    def roughness(self, size):
+    def roughness(self, size: Sequence[np.ndarray]):
         pot, s = self.potential, size[0] + size[1]
         return np.abs(pot.G) * s * s + pot.slopes * s + pot.mu
 
-    def beside_centre(self, place):
+    def beside_centre(self, place: Sequence[np.ndarray]):
         """(n,) True where an equilibrium may stand so near the centre of a place's hyperbola that the conic,
         which is known by its distance from its asymptotes, loses or invents it."""
         near = self._near_centre()
@@ -450,21 +460,21 @@ class HyperbolaLandscape(ConicLandscape):
 class ParabolaLandscape(Landscape):
     """place = (omega_j, omega_k)."""
 
-    def start(self, states):
+    def start(self, states: np.ndarray):
         r = self.reduction
         place = states[..., r.j], states[..., r.k]
         return place, states[..., r.axis] + float(r.s), tuple(np.abs(v) for v in place)
 
-    def pair(self, place):
+    def pair(self, place: np.ndarray | Sequence[float | np.ndarray]):
         return place
 
-    def rate(self, w):
+    def rate(self, w: Number):
         return w - float(self.reduction.s)
 
-    def energy_terms(self, place, w):
+    def energy_terms(self, place: Sequence[np.ndarray], w: np.ndarray):
         return 0.5 * w * w
 
-    def critical(self, place, barriers_only=False):
+    def critical(self, place: Sequence[np.ndarray], barriers_only: bool = False):
         force = self.potential.force(place)
         first, second, third = self.potential.derivatives(place)
         cubic = np.array(np.broadcast_arrays(third / 6, second / 2, first, force), float)
@@ -485,7 +495,7 @@ class ParabolaLandscape(Landscape):
         barrier = (self.potential.slope(tuple(spot)) > 0) & ~np.isnan(roots)
         return roots, spot, barrier
 
-    def beside_fold(self, place):
+    def beside_fold(self, place: Sequence[np.ndarray]):
         pot, (first, second, third) = self.potential, self.potential.derivatives(place)
         steep, bent, _ = pot.derivative_terms(place)
         cubic = third / 6, second / 2, first, pot.force(place)
@@ -495,11 +505,11 @@ class ParabolaLandscape(Landscape):
         size = sum(map(np.abs, terms))
         return (np.abs(sum(terms)) <= DOUBLE_ROOT * size + (most - size)) & (most > 0)
 
-    def roughness(self, size):
+    def roughness(self, size: Sequence[np.ndarray]):
         pot, s = self.potential, size[0] + size[1]
         return np.abs(pot.kappa) * s * s + (abs(pot.rho) + abs(pot.sigma)) * s + abs(pot.m)
 
-    def nearly_flat(self, states, place=None):
+    def nearly_flat(self, states: np.ndarray, place: Sequence[np.ndarray] | None = None):
         if not self.sense:
             return super().nearly_flat(states)
         place = self.start(states)[0] if place is None else place
@@ -514,7 +524,7 @@ GEOMETRIES = {-1: CircleLandscape, 1: HyperbolaLandscape, 0: ParabolaLandscape}
 
 
 @lru_cache(maxsize=64)
-def in_doubles(scene) -> bool:
+def in_doubles(scene: AnyScene) -> bool:
     """Whether the constants of a scene's landscape, and their squares, are doubles; they are not where wheel
     and torque are hundreds of decades apart. Arrays of such a scene are answered one motion at a time."""
     try:
@@ -528,7 +538,7 @@ def in_doubles(scene) -> bool:
     return all(v * v < math.inf for v in (conic.K, conic.shift, *itertools.chain(*lines)))
 
 
-def landscape_in_doubles(scene) -> Landscape | None:
+def landscape_in_doubles(scene: AnyScene) -> Landscape | None:
     """`landscape`; raises OverflowError where `in_doubles` says no."""
     if not in_doubles(scene):
         raise OverflowError
@@ -536,7 +546,7 @@ def landscape_in_doubles(scene) -> Landscape | None:
 
 
 @lru_cache(maxsize=64)
-def landscape(scene) -> Landscape | None:
+def landscape(scene: AnyScene) -> Landscape | None:
     """The landscape of a scene's reduction (cached), or None where the scene has none."""
     reduction = reduce(scene)
     return None if reduction is None else GEOMETRIES[reduction.e](reduction)

@@ -3,15 +3,20 @@ numbers: a small motion keeps its digits though the orbit is thousands of times 
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
 from types import SimpleNamespace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..numbers.double_double import EPS, Twofold
-from .landscape import ROUNDINGS, Landscape, twofold_constant, twofold_places
+from .landscape import ROUNDINGS, Landscape, TwofoldConstants, twofold_constant, twofold_places
 from .potential import derivatives_on_parabola
+
+if TYPE_CHECKING:
+    from .reduction import Reduction
 
 # of the kinetic energy and the barrier's height: half of the rounding that `fate` admits
 MARGIN_SHARE = 5e-13
@@ -29,7 +34,7 @@ THIRD = twofold_constant(Fraction(1, 3))
 NAMES = "p", "p0", "q", "q0", "kappa", "rho", "sigma", "m", "s"
 
 
-def valley_margins(land: Landscape, states, critical=None):
+def valley_margins(land: Landscape, states: np.ndarray, critical: Sequence[np.ndarray] | None = None):
     """(margins (n,), +inf without a barrier; which of them are certain (n,)) of states (n, 3) on hyperbolas
     or parabolas, in canonical units.
 
@@ -78,7 +83,7 @@ def _on_hyperbolas(land, states, critical):
     return height[one, nearest], kinetic, error[one, nearest], certain
 
 
-def _barriers(offsets, places, barrier):
+def _barriers(offsets: np.ndarray, places: np.ndarray, barrier: np.ndarray):
     """(offsets (n, m) in ascending order, which are there, (X, Z) there) of the barriers, in as few columns
     as hold them."""
     xi, eta = places
@@ -88,7 +93,7 @@ def _barriers(offsets, places, barrier):
     return offsets, there, (0.5 * (xi + eta), 0.5 * (xi - eta))
 
 
-def _beside_fold(land, place, size):
+def _beside_fold(land: Landscape, place: Sequence[np.ndarray], size: Sequence[np.ndarray]):
     """(n,) True where the rounding of a place, of that size of terms, may make or unmake a pair of equilibria
     of its orbit."""
     Q, rounding, beside = land.invariant(place), (size[0] + size[1]) ** 2, np.zeros(np.shape(place[0]), bool)
@@ -112,11 +117,11 @@ def _settled(land, u, v, X, Z):
     return u, v, _slope(k, u, v), last
 
 
-def _slope(k, u, v):
+def _slope(k: TwofoldConstants, u: Twofold, v: Twofold):
     return (k.G * (v * v + u * u) + k.c * u + k.d * v).value()
 
 
-def _stepped(k, u, v, Q):
+def _stepped(k: TwofoldConstants, u: Twofold, v: Twofold, Q: Twofold):
     """(places, step) after one step of Newton's method from (u, v), brought onto the orbit Q before."""
     off = (v * v - u * u - Q).value() / (2 * (u.high * u.high + v.high * v.high))
     u, v = u + off * u.high, v + -off * v.high
@@ -126,7 +131,8 @@ def _stepped(k, u, v, Q):
     return u + v * step + u * half, v + u * step + v * half, step
 
 
-def _left_over(land, u, v, X, Z, size, last):
+def _left_over(land: Landscape, u: np.ndarray, v: np.ndarray, X: np.ndarray, Z: np.ndarray,
+               size: Sequence[np.ndarray], last: np.ndarray):
     """What 32 digits and Newton's last step leave open, (k,) each: of the force at the equilibria (u, v) and
     of its slope, and of the ways from the states (X, Z), whose coordinates are sums of terms of that
     `size`."""
@@ -142,7 +148,7 @@ def _left_over(land, u, v, X, Z, size, last):
                                                  + steep) * off, TWOFOLD * wide / start + off / end
 
 
-def _way(u, v, X, Z):
+def _way(u: Twofold, v: Twofold, X: Twofold, Z: Twofold):
     """theta from the states (X, Z) to places on their orbits: X + Z grows and X - Z decays like an
     exponential, and the larger of these keeps its digits next to a plane too."""
     side = np.where(X.high * Z.high < 0, -1.0, 1.0)
@@ -151,7 +157,8 @@ def _way(u, v, X, Z):
     return side * np.where(np.abs(grown) < 0.5, np.log1p(grown), np.log(ratio))
 
 
-def _rise(land, y, u, v, slope, pull, tilt):
+def _rise(land: Landscape, y: np.ndarray, u: np.ndarray, v: np.ndarray, slope: np.ndarray, pull: np.ndarray,
+          tilt: np.ndarray):
     """(V(y) - V(0), its error) a way y from equilibria (u, v) with this slope of the force; pull, tilt: what
     the force and its slope may be off by. With S = sinh y, h = sinh(y/2), A = G u v, B = G (u^2 + v^2)/2:
 
@@ -171,12 +178,12 @@ def _rise(land, y, u, v, slope, pull, tilt):
 
 
 @lru_cache(maxsize=64)
-def constants(reduction) -> SimpleNamespace:
+def constants(reduction: Reduction) -> SimpleNamespace:
     """Those of a reduction to parabolas as twofold numbers, of the same names."""
     return SimpleNamespace(**{name: twofold_constant(getattr(reduction, name)) for name in NAMES})
 
 
-def _on_parabolas(land: Landscape, states, critical):
+def _on_parabolas(land: Landscape, states: np.ndarray, critical: Sequence[np.ndarray]):
     """(margins (n,), +inf without a barrier; kinetic energies; errors; where it is certain which equilibria
     there are) of states (n, 3).
 
@@ -205,7 +212,7 @@ def _on_parabolas(land: Landscape, states, critical):
     return np.where(there, margins, np.inf), 0.5 * w * w, np.where(there, error, 0.0), sure
 
 
-def _sum(terms, y, over):
+def _sum(terms: Sequence[np.ndarray], y: np.ndarray, over: Sequence[int]):
     """The polynomial in y whose coefficients are terms, lowest power first, over these numbers."""
     value = 0.0
     for term, number in zip(reversed(terms), reversed(over)):

@@ -9,13 +9,17 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..numbers.balls import FIRST_BITS, START_BITS, Unclear, settled, sign
+from ..numbers.balls import FIRST_BITS, START_BITS, Digits, Unclear, settled, sign
 from ..numbers.polynomial import Poly
 from ..numbers.vectors import Number
 from .potential import derivatives_on_parabola, force_at, rise_at, slope_at
 from .reduction import Reduction
+
+if TYPE_CHECKING:
+    import numpy as np
+    from flint import arb
 
 
 class Spot(NamedTuple):
@@ -53,7 +57,7 @@ class BallOrbit:
         self._set_up(Fraction(self.state[r.axis]) + r.s)
         self.energy = self.w * self.w / 2  # E - V(theta_0)
 
-    def _set_up(self, speed):
+    def _set_up(self, speed: Fraction):
         """flip, n, w, mu and the constants of the geometry; speed: omega_i + s, exactly."""
         raise NotImplementedError
 
@@ -61,7 +65,7 @@ class BallOrbit:
         """omega_i where theta' = w."""
         return w * self.flip / self.n - self.numbers.ball(self.r.s)
 
-    def doubles_at(self, y) -> tuple[float, ...]:
+    def doubles_at(self, y: arb) -> tuple[float, ...]:
         """The place at offset y as floats, in the form that `potential` takes."""
         return tuple(map(float, self.place(y)))
 
@@ -82,7 +86,7 @@ class BallOrbit:
         """[(offset, multiplicity)] of the equilibria, in any order."""
         raise NotImplementedError
 
-    def _kind(self, y, multiplicity, others) -> int:
+    def _kind(self, y: arb, multiplicity: int, others: Sequence[arb]) -> int:
         if multiplicity == 1:
             return sign(self.slope(y))
         if multiplicity % 2 == 0:
@@ -114,12 +118,12 @@ class BallOrbit:
         height; None without a barrier."""
         return min(self.margins(), key=lambda v: abs(v.mid()), default=None)
 
-    def margins_to_tie(self, margin) -> list:
+    def margins_to_tie(self, margin: arb) -> list:
         """The margins of the barriers that a motion of their energy would tend to, given that which decides
         the fate."""
         return [margin]
 
-    def wall(self, inner, side):
+    def wall(self, inner: arb, side: int):
         """An offset on one side of all equilibria, from `inner` on, where the potential is higher than the
         energy; None on a circle."""
         step, outer = 1, inner + side
@@ -142,7 +146,7 @@ class BallOrbit:
 class BallConic(BallOrbit):
     """A circle or a hyperbola: place = (X, Z), Q = Z^2 - e X^2."""
 
-    def _set_up(self, speed):
+    def _set_up(self, speed: Fraction):
         r, ball = self.r, self.numbers.ball
         (self.sj, self.sk), ap, aq = r.centre, abs(r.p), abs(r.q)
         rp, rq = ball(ap).sqrt(), ball(aq).sqrt()
@@ -155,15 +159,15 @@ class BallConic(BallOrbit):
         # the invariant Q = Z^2 - e X^2, exactly
         self.Q = (self.v + self.sk) ** 2 / aq - r.e * (self.u + self.sj) ** 2 / ap
 
-    def _canonical(self, u_shifted, v_shifted):
+    def _canonical(self, u_shifted: arb, v_shifted: arb):
         return u_shifted / self.rx, v_shifted / self.rz
 
     # --- the potential along the orbit
-    def _swing(self, y):
+    def _swing(self, y: arb):
         """(sin y, cos y - 1) on a circle, (sinh y, cosh y - 1) on a hyperbola."""
         raise NotImplementedError
 
-    def components(self, y):
+    def components(self, y: arb):
         """(omega_j, omega_k) at offset y."""
         first, second = self.place(y)
         return self.rx * first - self.shift_j, self.rz * second - self.shift_k
@@ -173,7 +177,7 @@ class BallConic(BallOrbit):
         """Rate about the axis, less the shift, per theta'."""
         return float((self.flip / self.n).mid())
 
-    def height(self, y):
+    def height(self, y: arb):
         """V(theta_0 + y) - V(theta_0)."""
         if abs(y) < 1:
             return self._height_nearby(y)
@@ -181,7 +185,7 @@ class BallConic(BallOrbit):
         return (-self.mu * y - (x - self.x) * (self.G * (x + self.x) / 2 + self.c)
                 - self.r.e * self.d * (z - self.z))
 
-    def _height_nearby(self, y):
+    def _height_nearby(self, y: arb):
         """The same with the exact force at the state taken out, so that a short way keeps its digits."""
         swing = self._swing(y)
         return rise_at(self.G, self.c, self.d, self.mu, self.r.e, (self.x, self.z), swing, y - swing[0],
@@ -192,10 +196,10 @@ class BallConic(BallOrbit):
         """The force at the state."""
         return self.flip * self.n * self.numbers.ball(self.force_here)
 
-    def force(self, y):
+    def force(self, y: arb):
         return force_at(self.G, self.c, self.d, self.mu, *self.place(y))
 
-    def slope(self, y):
+    def slope(self, y: arb):
         """dF/dtheta."""
         return slope_at(self.G, self.c, self.d, self.r.e, *self.place(y))
 
@@ -219,7 +223,7 @@ class BallConic(BallOrbit):
         elif rho:
             yield from self._on_line_v(-m / rho)
 
-    def _on_two_lines(self, u, v):
+    def _on_two_lines(self, u: Fraction, v: Fraction):
         """The equilibria with omega_j + s_j = u or omega_k + s_k = v; one with both counts once, as often as
         on both lines."""
         found = [*self._on_line_v(v), *self._on_line_u(u)]
@@ -230,24 +234,24 @@ class BallConic(BallOrbit):
             found = [one for one, meet in zip(found, meets) if not meet]
         yield from found
 
-    def _on_line_v(self, v):
+    def _on_line_v(self, v: Fraction):
         """The equilibria with omega_k + s_k = v."""
         r = self.r
         for u, many in self.numbers.real_roots([v * v / abs(r.q) - self.Q, 0, Fraction(-r.e) / abs(r.p)]):
             yield u, self.numbers.ball(v), many
 
-    def _on_line_u(self, u):
+    def _on_line_u(self, u: Fraction):
         r = self.r
         for v, many in self.numbers.real_roots([-self.Q - r.e * u * u / abs(r.p), 0, 1 / abs(r.q)]):
             yield self.numbers.ball(u), v, many
 
-    def _offset(self, u, v):
+    def _offset(self, u: arb, v: arb):
         """Offset at which the orbit passes the equilibrium, or None where it is on another branch."""
         (x, z), ball = self._canonical(u, v), self.numbers.ball
         return self._way(x, z, self.force_here == 0 and u.overlaps(ball(self.u + self.sj))
                          and v.overlaps(ball(self.v + self.sk)))
 
-    def _way(self, x, z, here):
+    def _way(self, x: arb, z: arb, here: bool):
         """`_offset` of the equilibrium at (X, Z); here: it is the state itself."""
         raise NotImplementedError
 
@@ -274,16 +278,16 @@ class BallCircle(BallConic):
 
     closed = True
 
-    def _swing(self, y):
+    def _swing(self, y: arb):
         half = (y / 2).sin()
         return y.sin(), -2 * half * half
 
-    def place(self, y):
+    def place(self, y: arb):
         """(X, Z) at offset y."""
         s, c = y.sin_cos()
         return self.x * c + self.z * s, self.z * c - self.x * s
 
-    def _way(self, x, z, here):
+    def _way(self, x: arb, z: arb, here: bool):
         """Angle in (0, 2 pi] from the state to (x, z) on the circle."""
         pi = self.numbers.pi()
         sine, cosine = x * self.z - z * self.x, x * self.x + z * self.z
@@ -303,7 +307,7 @@ class BallCircle(BallConic):
             raise Unclear  # just ahead it would count as passed, just behind as reached
         return behind + self.spots
 
-    def _is_turn(self, y):
+    def _is_turn(self, y: arb):
         return self.force_here == 0 and y.overlaps(2 * self.numbers.pi())
 
     def margin(self):
@@ -315,12 +319,12 @@ class BallCircle(BallConic):
             margin = margin.max(other)
         return margin
 
-    def margins_to_tie(self, margin):
+    def margins_to_tie(self, margin: arb):
         """Without a torque a motion tends to whichever barrier its energy equals, be another one higher or
         not."""
         return [margin] if self.r.sense else self.margins()
 
-    def wall(self, inner, side):
+    def wall(self, inner: arb, side: int):
         return None
 
     def fall(self):
@@ -334,7 +338,7 @@ class BallCircle(BallConic):
         angle, quarter = self.numbers.angle(x, z), self.numbers.pi() / 2
         return [k * quarter - angle for k in range(-8, 9)]
 
-    def swept(self, left) -> list:
+    def swept(self, left: arb | None) -> list:
         """Offsets among which both components are least and greatest on the way of a spin-up, which turned
         back at `left` (or never)."""
         return [self.energy * 0, *self.tops()]
@@ -347,12 +351,12 @@ class BallHyperbola(BallConic):
     """A hyperbola with its two invariant planes, in xi = X + Z and eta = X - Z, which grow and decay like
     exp(+-theta)."""
 
-    def _set_up(self, speed):
+    def _set_up(self, speed: Fraction):
         super()._set_up(speed)
         self.on_plane = self.Q == 0
         self.xi, self.eta = self._light_cone(self.x, self.z)
 
-    def _light_cone(self, x, z):
+    def _light_cone(self, x: arb, z: arb):
         """(xi, eta); on an invariant plane the one that vanishes is exactly zero."""
         xi, eta = x + z, x - z
         if not self.on_plane or (x.is_zero() and z.is_zero()):
@@ -361,25 +365,25 @@ class BallHyperbola(BallConic):
             raise Unclear
         return (xi * 0, eta) if 0 in xi else (xi, eta * 0)
 
-    def _swing(self, y):
+    def _swing(self, y: arb):
         half = (y / 2).sinh()
         return y.sinh(), 2 * half * half
 
-    def _at(self, y):
+    def _at(self, y: arb):
         """(xi, eta) at offset y."""
         grow = y.exp()
         return self.xi * grow, self.eta / grow
 
-    def place(self, y):
+    def place(self, y: arb):
         """(X, Z) at offset y."""
         xi, eta = self._at(y)
         return (xi + eta) / 2, (xi - eta) / 2
 
-    def doubles_at(self, y) -> tuple[float, ...]:
+    def doubles_at(self, y: arb) -> tuple[float, ...]:
         """(xi, eta) at offset y as floats, in the form that `potential` takes."""
         return tuple(map(float, self._at(y)))
 
-    def _way(self, x, z, here):
+    def _way(self, x: arb, z: arb, here: bool):
         xi, eta = self._light_cone(x, z)
         if any(sign(a) != sign(b) for a, b in ((xi, self.xi), (eta, self.eta))):
             return None
@@ -399,7 +403,7 @@ class BallHyperbola(BallConic):
         """Offsets where X or Z is stationary."""
         return [(abs(self.eta) / abs(self.xi)).log() / 2] if sign(self.xi) and sign(self.eta) else []
 
-    def swept(self, left) -> list:
+    def swept(self, left: arb | None) -> list:
         """On the decaying plane: from where it is, or where it turns back, to the plane's end."""
         zero = self.energy * 0
         return [zero, *([] if left is None else [left]), zero + FAR]
@@ -421,7 +425,7 @@ class BallParabola(BallOrbit):
     spin = 1.0
     spins_purely = True  # a parabola without walls has a constant force, and both rates stay
 
-    def _set_up(self, speed):
+    def _set_up(self, speed: Fraction):
         r, u, v, ball = self.r, self.u, self.v, self.numbers.ball
         self.flip, self.n, self.w, self.mu = 1, 1, ball(speed), ball(r.m)
         a, b = r.p * v + r.p0, r.q * u + r.q0
@@ -430,25 +434,25 @@ class BallParabola(BallOrbit):
         self.coefficients = [ball(c) for c in self.taylor]
         self.speeds = [ball(c) for c in (u, a, r.p * b / 2, v, b, r.q * a / 2)]
 
-    def place(self, y):
+    def place(self, y: arb):
         """(omega_j, omega_k) at offset y."""
         u, a, pb, v, b, qa = self.speeds
         return u + y * (a + pb * y), v + y * (b + qa * y)
 
-    def components(self, y):
+    def components(self, y: arb):
         """(omega_j, omega_k) at offset y."""
         return self.place(y)
 
-    def height(self, y):
+    def height(self, y: arb):
         """V(theta_0 + y) - V(theta_0)."""
         f0, f1, f2, f3 = self.coefficients
         return -y * (f0 + y * (f1 / 2 + y * (f2 / 3 + y * f3 / 4)))
 
-    def force(self, y):
+    def force(self, y: arb):
         f0, f1, f2, f3 = self.coefficients
         return f0 + y * (f1 + y * (f2 + y * f3))
 
-    def slope(self, y):
+    def slope(self, y: arb):
         """dF/dtheta."""
         _, f1, f2, f3 = self.coefficients
         return f1 + y * (2 * f2 + y * 3 * f3)
@@ -468,7 +472,8 @@ class BallParabola(BallOrbit):
 GEOMETRIES = {-1: BallCircle, 1: BallHyperbola, 0: BallParabola}
 
 
-def ball_orbit(reduction, state, numbers) -> BallOrbit:
+def ball_orbit(reduction: Reduction, state: np.ndarray | Sequence[float | Fraction],
+               numbers: Digits) -> BallOrbit:
     """The orbit of one state (three doubles or Fractions, taken exactly) in this kind of ball."""
     return GEOMETRIES[reduction.e](reduction, state, numbers)
 
@@ -498,7 +503,7 @@ class Orbit:
         parabola."""
         return self.settled(lambda found: found.invariants(), FIRST_BITS)
 
-    def _in(self, numbers: Any) -> BallOrbit:
+    def _in(self, numbers: Digits) -> BallOrbit:
         if numbers not in self._built:
             self._built[numbers] = ball_orbit(self.reduction, self.state, numbers)
         return self._built[numbers]

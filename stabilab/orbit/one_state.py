@@ -9,20 +9,27 @@ double in the scene's own units in the end is NaN in arrays, and said in words o
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from ..physics.coefficients import three_floats
 from ..physics.own_unit import ORDINARY, far_exponent, scene_exponent
 from ..reasons import Sentence
 from .extremes import extremes_of, precise_period
-from .fate import fate_of, is_free
+from .fate import OneFate, fate_of, is_free
 from .one_orbit import Orbit
 from .reduction import reduce
 from .result import BOX, ROUND, Fate, Motion, Needs, finite, judged, repeats
 from .separatrix.distance import distance_of
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from ..physics.scene import AnyScene
 
 # --- The unit of rate in which numbers are of order one
 BEYOND = "beyond the range of doubles"
@@ -41,7 +48,7 @@ def in_range(what: str = "state"):
             f"other units") from None
 
 
-def far_rows(scene, states):
+def far_rows(scene: AnyScene, states: np.ndarray):
     """(n,) True for the states (n, 3) that `far_exponent` has a unit for."""
     import numpy as np
     own = scene_exponent(scene)
@@ -75,7 +82,7 @@ def powered(value: float, k: int) -> float:
     return found if found or not value else math.nan
 
 
-def far_fate(scene, orbit: Orbit, k: int, near: Orbit | None = None):
+def far_fate(scene: AnyScene, orbit: Orbit, k: int, near: Orbit | None = None):
     """The fate of one state of a scene, as an `OneFate`; near: its orbit in the unit 2^k, where that is at
     hand."""
     found = fate_of(scene, orbit, near or own(orbit, k))
@@ -87,7 +94,7 @@ def in_scene_unit(found: Motion, k: int, state, margin: float) -> Motion:
     start; margin: of its fate, in the scene's unit."""
     lost = ["the margin in energy"] if math.isnan(margin) else []
 
-    def told(name, value, power):
+    def told(name: str, value: float | None, power: int):
         if value is None or not math.isnan(number := powered(value, power * k)):
             return None if value is None else number
         lost.append(name)
@@ -106,12 +113,12 @@ def in_scene_unit(found: Motion, k: int, state, margin: float) -> Motion:
                    **fields)
 
 
-def _finite(pairs):
+def _finite(pairs: Sequence[tuple[float, float]]):
     """The pairs, or None where one is larger than any double."""
     return None if any(map(math.isnan, sum(pairs, ()))) else pairs
 
 
-def far_numbers(scene, state):
+def far_numbers(scene: AnyScene, state: Sequence[float]):
     """((3, 2) extremes, period) of one state of a scene with a reduction, as rows of `extremes` and `period`
     have them; NaN where they are no doubles."""
     orbit, k = Orbit(reduce(scene), state), far_exponent(scene, state) or 0
@@ -121,7 +128,8 @@ def far_numbers(scene, state):
 
 
 # --- The motion
-def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL) -> Motion:
+def motion(scene: AnyScene, state: np.ndarray | Sequence[float | str], span: Sequence[float] | None = None,
+           exact: Sequence[Fraction] | None = None, needs: Needs = Needs.ALL) -> Motion:
     """See `answers.motion`; the scene has a reduction, and `span` is not needed."""
     state = three_floats(state)
     orbit = Orbit(reduce(scene), exact or state)
@@ -151,7 +159,7 @@ def _reduced(orbit, state, decided, needs, k=0) -> Motion:
     return Motion(**fields)
 
 
-def apart_fields(orbit: Orbit, state, decided) -> dict:
+def apart_fields(orbit: Orbit, state: Sequence[float], decided: OneFate) -> dict:
     """The fields of a Motion that tell the distance from the separatrix; state: the doubles of the orbit's.
     """
     if decided.label == Fate.SEPARATRIX or decided.margin == 0:

@@ -10,9 +10,14 @@ left to balls. Every function is plain Python too.
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import acos, acosh, asinh, cos, cosh, pi, sinh, sqrt
+from typing import TYPE_CHECKING
 
 from ..numbers.error_free import add, exact_sum, scaled, times
+
+if TYPE_CHECKING:
+    import numpy as np
 
 EPS = 2.220446049250313e-16
 INFINITY = float("inf")
@@ -30,7 +35,7 @@ POLISH, STEPS, DOUBLINGS = 3, 80, 1100
 MEANS = 8  # of the arithmetic-geometric mean, which doubles its digits with each
 
 
-def speeds(u, v, fine):
+def speeds(u: float, v: float, fine: np.ndarray):
     """(a, b, p b, q a), twofold: at the way y the place is (u + a y + p b y^2/2, v + b y + q a y^2/2)."""
     p, p0, q, q0 = (fine[0, 0], fine[0, 1]), (fine[1, 0],
                                               fine[1, 1]), (fine[2, 0], fine[2, 1]), (fine[3, 0], fine[3, 1])
@@ -38,7 +43,8 @@ def speeds(u, v, fine):
     return a, b, times(p, b), times(q, a)
 
 
-def coefficients(u, v, w, a, b, pb, qa, fine):
+def coefficients(u: float, v: float, w: tuple[float, float], a: tuple[float, float], b: tuple[float, float],
+                 pb: tuple[float, float], qa: tuple[float, float], fine: np.ndarray):
     """Those of K, lowest power first, twofold; u, v: doubles of the place, w: the twofold rate, fine: as of
     `rows`."""
     kappa, rho, sigma, m = (fine[4, 0],
@@ -53,21 +59,21 @@ def coefficients(u, v, w, a, b, pb, qa, fine):
     return scaled(times(w, w), 0.5), f0, scaled(f1, 0.5), times(f2, sixth), scaled(times(f3, sixth), 0.25)
 
 
-def fine_quartic(y, c):
+def fine_quartic(y: float, c: Sequence[tuple[float, float]]):
     """K at the way y, rounded once."""
     total = add(scaled(add(scaled(c[4], y), c[3]), y), c[2])
     total = add(scaled(add(scaled(total, y), c[1]), y), c[0])
     return total[0] + total[1]
 
 
-def fine_cubic(y, c):
+def fine_cubic(y: float, c: Sequence[tuple[float, float]]):
     """The force there."""
     total = add(scaled(add(scaled(c[4], 4 * y), scaled(c[3], 3.0)), y), scaled(c[2], 2.0))
     total = add(scaled(total, y), c[1])
     return total[0] + total[1]
 
 
-def polished(y, c):
+def polished(y: float, c: Sequence[tuple[float, float]]):
     """(an end by Newton's method from its double, what it may be off by)."""
     step = 0.0 * y
     for _ in range(POLISH):
@@ -76,21 +82,21 @@ def polished(y, c):
     return y, abs(step) + EPS * abs(y)
 
 
-def quartic(y, k0, f0, f1, f2, f3):
+def quartic(y: float, k0: float, f0: float, f1: float, f2: float, f3: float):
     """K at the way y."""
     return k0 + y * (f0 + y * (f1 / 2 + y * (f2 / 6 + y * f3 / 24)))
 
 
-def cubic(y, f0, f1, f2, f3):
+def cubic(y: float, f0: float, f1: float, f2: float, f3: float):
     """The force there, K's slope."""
     return f0 + y * (f1 + y * (f2 / 2 + y * f3 / 6))
 
 
-def bend(y, f1, f2, f3):
+def bend(y: float, f1: float, f2: float, f3: float):
     return f1 + y * (f2 + y * f3 / 2)
 
 
-def equilibria(f0, f1, f2, f3, spots):
+def equilibria(f0: float, f1: float, f2: float, f3: float, spots: np.ndarray):
     """(how many, whether that is certain); their ways in ascending order in `spots` (3,): a well, or a well,
     a barrier and a well."""
     if f3 == 0:
@@ -123,7 +129,7 @@ def equilibria(f0, f1, f2, f3, spots):
     return count, count == 1 or spots[0] < spots[1] < spots[2]
 
 
-def crossing(inner, outer, k0, f0, f1, f2, f3):
+def crossing(inner: float, outer: float, k0: float, f0: float, f1: float, f2: float, f3: float):
     """The way between `inner`, where K is not negative, and `outer`, where it is, at which it vanishes; K
     falls from the one to the other."""
     slope, at = abs(bend(inner, f1, f2, f3)), quartic(inner, k0, f0, f1, f2, f3)
@@ -146,7 +152,8 @@ def crossing(inner, outer, k0, f0, f1, f2, f3):
     return y
 
 
-def end(side, k0, f0, f1, f2, f3, count, spots, overs, hazes):
+def end(side: float, k0: float, f0: float, f1: float, f2: float, f3: float, count: int, spots: np.ndarray,
+        overs: np.ndarray, hazes: np.ndarray):
     """(turning point on a side, how certain: E - V over a barrier on the way against its error, the least of
     them)."""
     inner, least = 0.0, INFINITY
@@ -167,24 +174,24 @@ def end(side, k0, f0, f1, f2, f3, count, spots, overs, hazes):
     return crossing(inner, inner + side * way, k0, f0, f1, f2, f3), least
 
 
-def terms_of(y, k0, t0, t1, t2, t3):
+def terms_of(y: float, k0: float, t0: float, t1: float, t2: float, t3: float):
     """Size of the terms of K at the way y, given those of its coefficients' terms."""
     y = abs(y)
     return k0 + y * (t0 + y * (t1 / 2 + y * (t2 / 6 + y * t3 / 24)))
 
 
-def blur_of_force(y, t0, t1, t2, t3):
+def blur_of_force(y: float, t0: float, t1: float, t2: float, t3: float):
     y = abs(y)
     return ROUNDED * EPS * (t0 + y * (t1 + y * (t2 / 2 + y * t3 / 6)))
 
 
-def place_at(at, speed, curve, y):
+def place_at(at: float, speed: tuple[float, float], curve: tuple[float, float], y: float):
     """at + y (speed + curve y/2), rounded once; speed and curve twofold."""
     found = add(scaled(add(scaled(curve, 0.5 * y), speed), y), (at, 0.0 * at))
     return found[0] + found[1]
 
 
-def swept(at, speed, curve, left, right):
+def swept(at: float, speed: tuple[float, float], curve: tuple[float, float], left: float, right: float):
     """(least, most) of `place_at` between two ways."""
     one, other = place_at(at, speed, curve, left), place_at(at, speed, curve, right)
     low, high = min(at, min(one, other)), max(at, max(one, other))
@@ -196,14 +203,15 @@ def swept(at, speed, curve, left, right):
     return low, high
 
 
-def mean(x, y):
+def mean(x: float, y: float):
     """The arithmetic-geometric mean of positive numbers."""
     for _ in range(MEANS):
         x, y = 0.5 * (x + y), sqrt(x * y)
     return 0.5 * (x + y)
 
 
-def period_of(left, right, f3, blurs, pulls, forces):
+def period_of(left: float, right: float, f3: float, blurs: tuple[float, float], pulls: tuple[float, float],
+              forces: tuple[float, float]):
     """(period, what it is off by, relative), given the errors of both ends, the forces inwards there and
     their errors."""
     rho = 0.5 * (right - left)
@@ -222,7 +230,8 @@ def period_of(left, right, f3, blurs, pulls, forces):
     return sqrt(2.0) * pi / mean(sqrt(root), sqrt(second)), max(first, 0.25 * off / second) + 8 * EPS
 
 
-def rows(states, open_rows, axes, fine, spots, overs, hazes, boxes, periods, left_open):
+def rows(states: np.ndarray, open_rows: np.ndarray, axes: Sequence[int], fine: np.ndarray, spots: np.ndarray,
+         overs: np.ndarray, hazes: np.ndarray, boxes: np.ndarray, periods: np.ndarray, left_open: np.ndarray):
     """Fill boxes (n, 3, 2) and periods (n,) of the open rows of states (n, 3), as far as their bits in
     left_open (n,) ask; the bits of what is settled go.
 

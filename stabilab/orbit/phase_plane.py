@@ -2,14 +2,19 @@
 own curve."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..numbers.polynomial import halved
 from .landscape import Landscape, landscape_in_doubles
 from .one_state import in_range
+
+if TYPE_CHECKING:
+    from ..physics.scene import AnyScene
 
 FARTHEST = 30.0  # along an orbit: beyond, where places are e^30 as far, rounding decides on which it lies
 
@@ -44,14 +49,14 @@ class PhasePlane:
         """
         return self.land.unit
 
-    def height(self, y, origin=0.0):
+    def height(self, y: float | np.ndarray, origin: float = 0.0):
         """V(y) - V(origin), free of cancellation near an equilibrium at `origin`."""
         y = np.asarray(y, float)
         place = tuple(np.asarray(v) for v in self.potential.move(self.place, np.float64(origin)))
         force = 0.0 if origin in self.saddles or origin in self.centres else self.potential.force(place)
         return self.potential.rise(y - origin, place, force)
 
-    def rate(self, W):
+    def rate(self, W: np.ndarray | float):
         """omega_i (or x_i) of canonical W."""
         return self.land.rate(np.asarray(W))
 
@@ -59,7 +64,7 @@ class PhasePlane:
         """omega_j, omega_k along the orbit."""
         return self.land.pair(self.potential.move(self.place, np.asarray(y, float)))
 
-    def states(self, y, W):
+    def states(self, y: np.ndarray, W: np.ndarray):
         """States (..., 3) at canonical (y, W)."""
         return self.land.components(self.potential.move(self.place, np.asarray(y, float)), W)
 
@@ -80,7 +85,7 @@ class PhasePlane:
     def centres(self) -> list[float]:
         return [y for y, saddle in self._critical if not saddle]
 
-    def repeated(self, ys, low, high) -> list[float]:
+    def repeated(self, ys: Sequence[float], low: float, high: float) -> list[float]:
         """The places in [low, high]: a circle repeats them every turn."""
         turn = self.land.turn
         if np.isinf(turn):
@@ -108,7 +113,7 @@ class PhasePlane:
         last = int(walls[walls > at].min(initial=len(y)))
         return y[first:last], np.sqrt(2 * np.maximum(drop[first:last], 0))
 
-    def _edge(self, saddle, left, right):
+    def _edge(self, saddle: float, left: float, right: float):
         return halved(lambda y: float(self.height(y, saddle)), left, right)
 
     def loop(self, saddle, low, high):
@@ -121,7 +126,7 @@ class PhasePlane:
         return None
 
 
-def phase_plane(scene, state) -> PhasePlane | None:
+def phase_plane(scene: AnyScene, state: np.ndarray | Sequence[float]) -> PhasePlane | None:
     """The phase plane of the motion from `state`; None where the scene does not reduce. Raises InputError
     beyond doubles."""
     with in_range("phase plane"):
@@ -153,7 +158,7 @@ def window(plane: PhasePlane) -> tuple[float, float]:
                  for edge, sense in ((min(marks), -1), (max(marks), 1)))
 
 
-def _with_motion(plane, low, high):
+def _with_motion(plane: PhasePlane, low: float, high: float):
     """The range with the whole of a motion that turns back on both sides; any other leaves it anyway."""
     ys, Ws = motion_curve(plane, low - 2 * np.pi, high + 2 * np.pi)
     if Ws[[0, -1]].max() > 1e-6 * Ws.max():
@@ -162,7 +167,7 @@ def _with_motion(plane, low, high):
     return min(low, ys[0] - room), max(high, ys[-1] + room)
 
 
-def _side(plane, edge, sense, ceiling, cellar):
+def _side(plane: PhasePlane, edge: float, sense: int, ceiling: float, cellar: float):
     """Where the potential, from `edge` on, leaves the range worth drawing; at most 12 away."""
     step = 1e-6
     while step < 12 and cellar < plane.height(edge + sense * step) < ceiling:
@@ -170,7 +175,7 @@ def _side(plane, edge, sense, ceiling, cellar):
     return edge + sense * step
 
 
-def motion_curve(plane: PhasePlane, low, high, points=4001):
+def motion_curve(plane: PhasePlane, low: float, high: float, points: int = 4001):
     """(y, W >= 0) of the motion through the state: its connected piece of the level curve inside [low, high].
     """
     free = lambda v: plane.W0**2 / 2 - float(plane.height(v))

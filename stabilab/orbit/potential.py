@@ -8,12 +8,19 @@ separatrix. The formulas serve arrays and Python floats alike; floats load no Nu
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from types import SimpleNamespace
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from ..numbers.vectors import Number
 
 EPS = 2.0**-52
 
 
-def sin(y):
+def sin(y: float | np.ndarray):
     """sin of a float or an array."""
     if type(y) is float:
         return math.sin(y)
@@ -21,7 +28,7 @@ def sin(y):
     return np.sin(y)
 
 
-def exp(y):
+def exp(y: float | np.ndarray):
     """exp of a float or an array; inf beyond the largest double."""
     if type(y) is float:
         return math.exp(y) if y < 709.7 else math.inf
@@ -42,7 +49,7 @@ def y_minus_sin(y):
     return result
 
 
-def _odd_series(t):
+def _odd_series(t: float | np.ndarray):
     """t - sin t for |t| < 0.7."""
     t2 = t * t
     return t * t2 / 6 * (1 - t2 / 20 * (1 - t2 / 42 * (1 - t2 / 72 * (1 - t2 / 110 * (1 - t2 / 156)))))
@@ -69,18 +76,19 @@ def _growth_series(t):
     return 0.5 * t * t * (1 + series)
 
 
-def force_at(G, c, d, mu, x, z):
+def force_at(G: Number, c: Number, d: Number, mu: Number, x: Number, z: Number):
     """F at (X, Z) of a circle or hyperbola; numbers of any kind."""
     return mu + G * x * z + c * z + d * x
 
 
-def slope_at(G, c, d, e, x, z):
+def slope_at(G: Number, c: Number, d: Number, e: float, x: Number, z: Number):
     """dF/dtheta there, e the sign of p q; numbers of one state (arrays form the squares' difference as a
     product)."""
     return G * (z * z + e * x * x) + e * c * x + d * z
 
 
-def rise_at(G, c, d, mu, e, place, swing, lag, force):
+def rise_at(G: Number, c: Number, d: Number, mu: Number, e: float, place: np.ndarray | Sequence[Number],
+            swing: Sequence[Number], lag: Number, force: Number):
     """V(theta + y) - V(theta) from (X, Z), free of cancellation; numbers of any kind.
 
     swing: (sin y, cos y - 1), or of sinh and cosh; lag: y less the first of them; force: that at the place,
@@ -108,46 +116,47 @@ class Circle:
         self.slopes = abs(self.c) + abs(self.d)
 
     @staticmethod
-    def place(x, z):
+    def place(x: Number, z: Number):
         """The place of (X, Z)."""
         return x, z
 
     @staticmethod
-    def xz(place):
+    def xz(place: np.ndarray | Sequence[float | np.ndarray]):
         """(X, Z) of a place."""
         return place
 
-    def force(self, place):
+    def force(self, place: Sequence[float | np.ndarray]):
         return force_at(self.G, self.c, self.d, self.mu, *place)
 
-    def terms(self, place):
+    def terms(self, place: Sequence[float | np.ndarray]):
         """Size of the terms of the force: times the unit of rounding, its error."""
         x, z = abs(place[0]), abs(place[1])
         return self.mu + abs(self.G) * x * z + abs(self.c) * z + abs(self.d) * x
 
-    def slope(self, place):
+    def slope(self, place: Sequence[float | np.ndarray]):
         """dF/dtheta; positive at a barrier, negative in a well."""
         x, z = place
         return self.G * (z - x) * (z + x) - self.c * x + self.d * z
 
-    def move(self, place, y):
+    def move(self, place: Sequence[float | np.ndarray], y: float | np.ndarray):
         x, z = place
         half = sin(0.5 * y)
         s, b = sin(y), -2 * half * half
         return x + (z * s + x * b), z + (z * b - x * s)
 
-    def nudge(self, place, y):
+    def nudge(self, place: Sequence[np.ndarray], y: np.ndarray):
         """`move` for |y| < 1e-5, to rounding."""
         x, z = place
         b = -0.5 * y * y
         return x + (z * y + x * b), z + (z * b - x * y)
 
-    def rise(self, y, place, force=0.0):
+    def rise(self, y: float | np.ndarray, place: np.ndarray | Sequence[float | np.ndarray],
+             force: float | np.ndarray = 0.0):
         half = sin(0.5 * y)
         return rise_at(self.G, self.c, self.d, self.mu, -1, place, (sin(y), -2 * half * half), y_minus_sin(y),
                        force)
 
-    def height_over(self, place, spot, offset):
+    def height_over(self, place: Sequence[np.ndarray], spot: Sequence[np.ndarray], offset: np.ndarray):
         """(V at an equilibrium `spot`, `offset` ahead of a place of its circle, above V at the place; its
         rounding), arrays.
 
@@ -189,16 +198,16 @@ class Hyperbola:
         self.slopes = abs(self.e1) + abs(self.e2)
 
     @staticmethod
-    def place(x, z):
+    def place(x: Number, z: Number):
         """The place (X + Z, X - Z) of (X, Z)."""
         return x + z, x - z
 
     @staticmethod
-    def xz(place):
+    def xz(place: np.ndarray | Sequence[np.ndarray]):
         """As of `Circle`."""
         return 0.5 * (place[0] + place[1]), 0.5 * (place[0] - place[1])
 
-    def force(self, place):
+    def force(self, place: Sequence[float | np.ndarray]):
         xi, eta = place
         return self.mu + 0.25 * self.G * (xi - eta) * (xi + eta) + self.e1 * xi + self.e2 * eta
 
@@ -206,19 +215,20 @@ class Hyperbola:
         xi, eta = abs(place[0]), abs(place[1])
         return self.mu + 0.25 * abs(self.G) * (xi * xi + eta * eta) + abs(self.e1) * xi + abs(self.e2) * eta
 
-    def slope(self, place):
+    def slope(self, place: Sequence[float | np.ndarray]):
         xi, eta = place
         return 0.5 * self.G * (xi * xi + eta * eta) + self.e1 * xi - self.e2 * eta
 
-    def move(self, place, y):
+    def move(self, place: Sequence[float | np.ndarray], y: float | np.ndarray):
         return place[0] * exp(y), place[1] * exp(-y)
 
     nudge = move
 
-    def rise(self, y, place, force=0.0):
+    def rise(self, y: float | np.ndarray, place: np.ndarray | Sequence[float | np.ndarray],
+             force: float = 0.0):
         return sum(self._terms(y, place)) - force * y
 
-    def _terms(self, y, place):
+    def _terms(self, y: float | np.ndarray, place: np.ndarray | Sequence[float | np.ndarray]):
         """What `rise` is the sum of; exp(2 y) - 1 - 2 y is the square of exp(y) - 1 and twice exp(y) - 1 - y.
         """
         (xi, eta), up, down = place, exp_minus_two_terms(y), exp_minus_two_terms(-y)
@@ -228,7 +238,8 @@ class Hyperbola:
                 eighth * eta * eta * (decayed * decayed + 2 * down),
                 -self.e1 * xi * up, self.e2 * eta * down)
 
-    def rise_and_rounding(self, y, spot, place, size):
+    def rise_and_rounding(self, y: np.ndarray, spot: Sequence[np.ndarray], place: Sequence[np.ndarray],
+                          size: Sequence[np.ndarray]):
         """`rise` from an equilibrium `spot`, and its rounding, with that of the place y away (by its `size`);
         arrays."""
         terms = self._terms(y, spot)
@@ -251,24 +262,24 @@ class Parabola:
         self.p, self.p0, self.q, self.q0, self.kappa, self.rho, self.sigma, self.m = (
             float(getattr(reduction, name)) for name in names)
 
-    def force(self, place):
+    def force(self, place: Sequence[np.ndarray]):
         u, v = place
         return self.kappa * u * v + self.rho * v + self.sigma * u + self.m
 
-    def terms(self, place):
+    def terms(self, place: Sequence[np.ndarray]):
         u, v = abs(place[0]), abs(place[1])
         return abs(self.kappa) * u * v + abs(self.rho) * v + abs(self.sigma) * u + abs(self.m)
 
-    def derivatives(self, place):
+    def derivatives(self, place: Sequence[np.ndarray]):
         """F', F'', F''' along the orbit."""
         return derivatives_on_parabola(self, *place)
 
-    def derivative_terms(self, place):
+    def derivative_terms(self, place: Sequence[np.ndarray]):
         """Sizes of the terms of F', F'', F''': times the unit of rounding, their errors."""
         sizes = SimpleNamespace(**{name: abs(value) for name, value in vars(self).items()})
         return derivatives_on_parabola(sizes, abs(place[0]), abs(place[1]))
 
-    def slope(self, place):
+    def slope(self, place: Sequence[np.ndarray]):
         return self.derivatives(place)[0]
 
     @staticmethod
@@ -281,16 +292,17 @@ class Parabola:
         """The two components of a place."""
         return place
 
-    def move(self, place, y):
+    def move(self, place: Sequence[np.ndarray], y: np.ndarray):
         u, v = place
         a, b = self.p * v + self.p0, self.q * u + self.q0
         return u + y * (a + 0.5 * self.p * b * y), v + y * (b + 0.5 * self.q * a * y)
 
-    def rise(self, y, place, force=0.0):
+    def rise(self, y: np.ndarray, place: Sequence[np.ndarray], force: float = 0.0):
         first, second, third = self.derivatives(place)
         return -y * (force + y * (first / 2 + y * (second / 6 + y * third / 24)))
 
-    def rise_and_rounding(self, y, spot, place, size):
+    def rise_and_rounding(self, y: np.ndarray, spot: Sequence[np.ndarray], place: Sequence[np.ndarray],
+                          size: Sequence[np.ndarray]):
         """As of `Hyperbola`; the way from the place is a root of a cubic."""
         first, second, third = (abs(v) for v in self.derivatives(spot))
         at, bend, curl = (abs(v) for v in self.derivatives(place))

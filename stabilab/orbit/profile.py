@@ -11,16 +11,19 @@ Motions that repeat are librations between two turning points, and rotations wit
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from ..errors import InputError
 from ..numbers.balls import Unclear
-from .one_orbit import TIE_BITS, Orbit
+from .one_orbit import TIE_BITS, BallCircle, BallHyperbola, BallParabola, Orbit
 from .one_state import BEYOND, powered
+
+if TYPE_CHECKING:
+    from flint import arb
 
 # --- Hills and wells of one orbit
 SURE_BITS = 60  # relative accuracy of a ball that is rounded to a double
@@ -29,29 +32,29 @@ EPS = float(np.finfo(float).eps)
 TURN = 2 * math.pi
 
 
-def over(sine, t):
+def over(sine: float | np.ndarray, t: float | np.ndarray):
     """sine/t, 1 at t = 0; sine = sin(t)."""
     return np.where(t == 0, 1.0, sine / np.where(t == 0, 1.0, t))
 
 
-def _rest(t):
+def _rest(t: float | np.ndarray):
     """1 - sin(t)/t."""
     small = np.abs(t) < 0.7
     return np.where(small, _sinc_series(np.where(small, t * t, 0.0)), 1 - over(np.sin(t), t))
 
 
-def _growth(t):
+def _growth(t: float | np.ndarray):
     """(exp(t) - 1)/t."""
     return over(np.expm1(t), t)
 
 
-def _growth_rest(t):
+def _growth_rest(t: float | np.ndarray):
     """(exp(t) - 1)/t - 1."""
     small = np.abs(t) < 0.7
     return np.where(small, _growth_series(np.where(small, t, 0.0)), _growth(t) - 1)
 
 
-def _sinc_series(t2):
+def _sinc_series(t2: np.ndarray):
     return t2 / 6 * (1 - t2 / 20 * (1 - t2 / 42 * (1 - t2 / 72 * (1 - t2 / 110 * (1 - t2 / 156)))))
 
 
@@ -115,7 +118,7 @@ class OnCircle(Spot):
     def terms(self):
         return abs(self.shape[1])
 
-    def share(self, a, d):
+    def share(self, a: float, d: float | np.ndarray):
         mu, bend, p, q = self.shape
         b, middle = a + d, a + 0.5 * d
         half, low, left, right = np.sin(0.5 * d), np.sin(0.5 * middle), np.sin(0.5 * a), np.sin(0.5 * b)
@@ -127,7 +130,7 @@ class OnCircle(Spot):
             bent = bent + mu * (_rest(0.5 * d) + u_middle * sinc)
         return bent + self.force * (1 - u_middle) * sinc if self.force else bent
 
-    def components(self, y):
+    def components(self, y: np.ndarray):
         jx, jz, kx, kz = self.curve
         half = np.sin(0.5 * y)
         s, b = np.sin(y), 2 * half * half
@@ -145,14 +148,14 @@ class OnHyperbola(Spot):
     def terms(self):
         return sum(s * s * abs(u) for s, u in zip((1, -1, 2, -2), self.shape))
 
-    def share(self, a, d):
+    def share(self, a: float, d: float | np.ndarray):
         total = self.force
         for s, u in zip((1, -1, 2, -2), self.shape):
             if u:
                 total = total - s * u * (np.expm1(s * a) * _growth(s * d) + _growth_rest(s * d))
         return total
 
-    def components(self, y):
+    def components(self, y: np.ndarray):
         jx, je, kx, ke = self.curve  # times xi/2 and eta/2
         up, down = np.expm1(y), np.expm1(-y)
         return self.base[0] + (jx * up + je * down), self.base[1] + (kx * up - ke * down)
@@ -169,13 +172,13 @@ class OnParabola(Spot):
     def terms(self):
         return abs(self.shape[0])
 
-    def share(self, a, d):
+    def share(self, a: float, d: float | np.ndarray):
         f1, f2, f3 = self.shape
         b = a + d
         return (self.force + f1 / 2 * (a + b) + f2 / 3 * (a * a + a * b + b * b)
                 + f3 / 4 * (a + b) * (a * a + b * b))
 
-    def components(self, y):
+    def components(self, y: np.ndarray):
         ju, jb, kv, ka = self.curve
         return self.base[0] + y * (ju + jb * y), self.base[1] + y * (kv + ka * y)
 
@@ -218,7 +221,7 @@ def _relief(orbit) -> Relief:
     return Relief(tuple(spots), _rounded(orbit.w, bits), orbit.closed, float(turn.mid()), here, drops)
 
 
-def _drop(spot, kinetic, turn, bits):
+def _drop(spot: Spot, kinetic: arb, turn: arb, bits: int):
     """(spot, m, kinetic energy m turns behind it): over an equilibrium the first m with a negative one, else
     the last with none."""
     share = kinetic / turn
@@ -229,7 +232,7 @@ def _drop(spot, kinetic, turn, bits):
     return spot, m, _rounded(kinetic - m * turn, bits)
 
 
-def _offset(y):
+def _offset(y: arb):
     if y.is_zero():
         return 0.0
     if y.rel_accuracy_bits() < SURE_BITS:
@@ -237,7 +240,7 @@ def _offset(y):
     return float(y.mid())
 
 
-def _rounded(value, bits):
+def _rounded(value: arb, bits: int):
     """A ball as a double; zero only where it is exactly that, or where no number of bits tells."""
     if value.is_zero():
         return 0.0
@@ -248,7 +251,7 @@ def _rounded(value, bits):
     return float(value.mid())
 
 
-def _sum(terms):
+def _sum(terms: Sequence[arb]):
     """A sum of balls as a double; what cancels beyond `FLOOR_BITS` is zero."""
     total = sum(terms[1:], terms[0])
     size = max(float(abs(t).mid()) for t in terms)
@@ -270,7 +273,7 @@ def _spot(orbit, y, kind, kinetic, bits, force=None) -> Spot:
                 spin)
 
 
-def _circle(orbit, y):
+def _circle(orbit: BallCircle, y: arb):
     x, z = orbit.place(y)
     G, c, d = orbit.G, orbit.c, orbit.d
     shape = (float(orbit.mu.mid()), _sum([G * z * z, -G * x * x, -c * x, d * z]),
@@ -278,7 +281,7 @@ def _circle(orbit, y):
     return shape, tuple(float(v.mid()) for v in (orbit.rx * x, orbit.rx * z, orbit.rz * x, orbit.rz * z))
 
 
-def _hyperbola(orbit, y):
+def _hyperbola(orbit: BallHyperbola, y: arb):
     grow = y.exp()
     xi, eta = orbit.xi * grow, orbit.eta / grow
     up, down = (orbit.c + orbit.d) / 2, (orbit.d - orbit.c) / 2
@@ -289,14 +292,15 @@ def _hyperbola(orbit, y):
                         for v in (orbit.rx * half_x, orbit.rx * half_e, orbit.rz * half_x, orbit.rz * half_e))
 
 
-def _parabola(orbit, y):
+def _parabola(orbit: BallParabola, y: arb):
     f0, f1, f2, f3 = orbit.coefficients
     u, a, pb, v, b, qa = orbit.speeds
     shape = (_sum([f1, 2 * f2 * y, 3 * f3 * y * y]), _sum([f2, 3 * f3 * y]), _sum([f3]))
     return shape, tuple(float(w.mid()) for w in (a + 2 * pb * y, pb, b + 2 * qa * y, qa))
 
 
-SPOTS = {-1: (OnCircle, _circle), 1: (OnHyperbola, _hyperbola), 0: (OnParabola, _parabola)}
+SPOTS: dict[int, tuple[Callable[..., Spot], Callable[..., tuple]]] = {
+    -1: (OnCircle, _circle), 1: (OnHyperbola, _hyperbola), 0: (OnParabola, _parabola)}
 
 
 TOO_FINE = "the reduced form of this motion takes more digits than doubles have; take method taylor"
@@ -313,10 +317,10 @@ class Motion:
     spin: tuple[float, float]
     follow: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
-    def at(self, t):
+    def at(self, t: float):
         return self.follow(np.array([t], float))[0][0].tolist()
 
-    def states(self, times):
+    def states(self, times: np.ndarray):
         """(n, 3)."""
         return self.follow(np.asarray(times, float))[0]
 
@@ -328,7 +332,7 @@ class ByPanels(Motion):
         self.panels, self.sense, self.start = panels, sense, start
         self.period = panels.total if sense else 2 * panels.total
 
-    def _folded(self, times):
+    def _folded(self, times: np.ndarray):
         """(times in the chain, signs of W, turns done) of an array."""
         passed = self.start + (self.sense or 1.0) * np.fmod(times, self.period)
         folded = np.mod(passed, self.period)
@@ -338,7 +342,7 @@ class ByPanels(Motion):
         back = folded > self.panels.total
         return np.where(back, self.period - folded, folded), np.where(back, -1.0, 1.0), 0.0
 
-    def follow(self, times):
+    def follow(self, times: np.ndarray):
         time, sign, turns = self._folded(times)
         states, offsets = self.panels.follow(time, sign)
         return states, offsets + TURN * turns
@@ -349,10 +353,10 @@ class Resting(Motion):
 
     period = 0.0
 
-    def __init__(self, state):
+    def __init__(self, state: Sequence[float]):
         self.state = tuple(map(float, state))
 
-    def follow(self, times):
+    def follow(self, times: np.ndarray):
         return np.tile(self.state, (len(times), 1)), np.zeros(len(times))
 
 
@@ -368,11 +372,11 @@ class InOwnUnit(Motion):
         if math.isnan(self.period):
             raise InputError(f"the period of this motion is {BEYOND}: choose another unit of time")
 
-    def follow(self, times):
+    def follow(self, times: np.ndarray):
         states, way = self.motion.follow(np.array([self._time(t) for t in times.tolist()]))
         return np.ldexp(states, self.k), way
 
-    def _time(self, t):
+    def _time(self, t: float):
         """The time in the own unit. Raises InputError where it is no double."""
         try:
             return math.ldexp(t, self.k)

@@ -40,12 +40,15 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..numbers.exact import sqrt_fraction
 from ..numbers.vectors import CYCLE, Exact3, Number, Triple
 from ..physics.scene import AnyScene, QuadraticForm
 from .potential import GEOMETRIES, Geometry
+
+if TYPE_CHECKING:
+    import numpy as np
 
 
 def _sign(value: Fraction) -> int:
@@ -274,7 +277,7 @@ def reduce(scene: AnyScene) -> Reduction | None:
     return min(found, key=lambda r: (r.geometry.rank, math.hypot(float(r.s), r.parabolic_shift_size)))
 
 
-def shifted(value: Any, shift: float, low: float) -> Any:
+def shifted(value: np.ndarray, shift: float, low: float) -> Any:
     """value + (shift + low) to a rounding of the sum, however much of it cancels (Knuth's two-sum); numbers
     or arrays."""
     whole = value + shift

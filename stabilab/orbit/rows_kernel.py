@@ -8,6 +8,7 @@ products. What 32 digits do not settle is marked and left to balls. Every functi
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from math import factorial
 
@@ -54,7 +55,7 @@ END, FORCE, BLUR, HAZE, LEVEL, END_BEND, END_A, END_B = range(8)
 STOP, STOP_OVER, STOP_FORCE, STOP_BEND, STOP_A, STOP_B = range(6)
 
 
-def _parts(values):
+def _parts(values: Sequence[Fraction]):
     """The high and low parts of rationals."""
     highs = [float(value) for value in values]
     return np.array([(high, float(value - Fraction(high))) for high, value in zip(highs, values)])
@@ -63,7 +64,7 @@ def _parts(values):
 OVER_FACTORIALS = _parts([Fraction(1, factorial(n)) for n in range(2 * SERIES + 1)])
 
 
-def sine_and_lag(y):
+def sine_and_lag(y: float):
     """(sin y, 1 - cos y) of a double, |y| <= 4 pi, as twofold numbers."""
     x = y / 2.0**HALVINGS
     t, s, lag = exact_product(x, x), (0.0 * y, 0.0 * y), (0.0 * y, 0.0 * y)
@@ -79,7 +80,7 @@ def sine_and_lag(y):
     return s, lag
 
 
-def exponential(y):
+def exponential(y: float):
     """exp y of a double as a twofold number."""
     halvings = max(0, int(np.ceil(np.log2(max(abs(y), 0.1) * 10))))
     x, total = y / 2.0**halvings, (0.0 * y, 0.0 * y)
@@ -98,42 +99,44 @@ class Circle:
     WALLED = False  # whether all motions are bounded that are not on a plane
 
     @staticmethod
-    def invariant(x, z):
+    def invariant(x: float, z: float):
         """Z^2 - E X^2."""
         return z * z + x * x
 
     @staticmethod
-    def lost(x, z, xi, eta, wide, conic):
+    def lost(x: float, z: float, xi: float, eta: float, wide: float, conic: Sequence[float]):
         """Whether a place may be one of those that are decided elsewhere."""
         return x * x + z * z <= TINY
 
     @staticmethod
-    def onto(x, z, Q, xi, eta, radius):
+    def onto(x: float, z: float, Q: float, xi: float, eta: float, radius: float):
         """(whether it stands on the orbit's own branch, X, Z) of a place brought onto an orbit."""
         scale = radius / np.sqrt(x * x + z * z)
         return True, x * scale, z * scale
 
     @staticmethod
-    def way_between(u, v, X, Z, Q):
+    def way_between(u: tuple[float, float], v: tuple[float, float], X: tuple[float, float],
+                    Z: tuple[float, float], Q: float):
         """theta from a state (X, Z) to a place (u, v) of its orbit, the short way round; all twofold, Q a
         double."""
         return np.arctan2(value(less(times(u, Z), times(v, X))) / Q, value(add(times(u, X), times(v, Z))) / Q)
 
     @staticmethod
-    def whole_way(u, v, X, Z, Q, way):
+    def whole_way(u: tuple[float, float], v: tuple[float, float], X: tuple[float, float],
+                  Z: tuple[float, float], Q: float, way: float):
         """The same as a twofold number, given its double, be that some turns on."""
         s, lag = sine_and_lag(way)
         across, along = less(times(u, Z), times(v, X)), add(times(u, X), times(v, Z))
         return exact_sum(way, value(less(less(across, times(across, lag)), times(along, s))) / Q)
 
     @staticmethod
-    def moved(X, Z, y):
+    def moved(X: tuple[float, float], Z: tuple[float, float], y: float):
         """The place a way y from (X, Z), twofold."""
         s, lag = sine_and_lag(y)
         return add(X, less(times(Z, s), times(X, lag))), less(Z, add(times(Z, lag), times(X, s)))
 
     @staticmethod
-    def swing(y):
+    def swing(y: float):
         """(sin y, sin(y/2), y less the first without cancellation)."""
         h, t = np.sin(0.5 * y), y * y
         s = 2 * h * np.cos(0.5 * y)
@@ -141,17 +144,17 @@ class Circle:
                       if abs(y) < 0.7 else y - s)
 
     @staticmethod
-    def bent(x, z):
+    def bent(x: float, z: float):
         """Z^2 + E X^2."""
         return (z - x) * (z + x)
 
     @staticmethod
-    def sizes_of_ways(x, z, u, v):
+    def sizes_of_ways(x: float, z: float, u: float, v: float):
         """Sizes of what `way_between` is told from, at a state and at a place of its orbit."""
         return np.sqrt(x * x + z * z), np.sqrt(u * u + v * v)
 
     @staticmethod
-    def repeated(spots, count, mu):
+    def repeated(spots: np.ndarray, count: int, mu: float):
         """The last of so many spots a turn earlier or later too, where the tilt has changed the potential by
         2 pi mu; how many there are then."""
         spot, twin = spots[count - 1], spots[count]
@@ -163,7 +166,7 @@ class Circle:
         return count + 1
 
     @staticmethod
-    def change(x, z, xi, eta, y):
+    def change(x: float, z: float, xi: float, eta: float, y: float):
         """(what X and Z change by on the way y from a state, what rounding of that way's terms leaves of
         either)."""
         s, h = np.sin(y), np.sin(0.5 * y)
@@ -172,7 +175,7 @@ class Circle:
                                                          + abs(x) * down), 4 * (abs(z) * down + abs(x * s))
 
     @staticmethod
-    def stationary(row, x, z, xi, eta, left):
+    def stationary(row: int, x: float, z: float, xi: float, eta: float, left: float):
         """The first offset beyond the left end where X (row 0) or Z (1) is stationary; it is so again half a
         turn later."""
         first = np.arctan(z / x if row == 0 else -x / z)
@@ -180,13 +183,14 @@ class Circle:
         return at if at > left else at + PI
 
     @staticmethod
-    def size_of_terms(conic, x, z, xi, eta):
+    def size_of_terms(conic: Sequence[float], x: float, z: float, xi: float, eta: float):
         """Of the potential, but for its tilt."""
         q = x * x + z * z
         return abs(conic[2]) * q + (abs(conic[0]) + abs(conic[1])) * np.sqrt(q)
 
     @staticmethod
-    def middle_modes(conic, x, z, xi, eta, y, data):
+    def middle_modes(conic: Sequence[float], x: float, z: float, xi: float, eta: float, y: float,
+                     data: np.ndarray):
         """Modes about a place y away from a state, then sizes of what these are sums of."""
         c, d, G = conic[0], conic[1], conic[2]
         dx, dz, _, _ = change(x, z, xi, eta, y)
@@ -197,12 +201,12 @@ class Circle:
         data[6], data[7] = abs(data[2]), abs(data[3])
 
     @staticmethod
-    def whole(rho):
+    def whole(rho: float):
         """What `modes_pair` needs of an interval whatever the node."""
         return np.sin(rho), np.cos(rho)
 
     @staticmethod
-    def modes_pair(data, rho, whole_s, whole_c, share):
+    def modes_pair(data: np.ndarray, rho: float, whole_s: float, whole_c: float, share: float):
         """(even, odd) of modes about the middle, as `pair`."""
         p1, q1, p2, q2 = data[0], data[1], data[2], data[3]
         u = rho * share
@@ -221,7 +225,7 @@ class Circle:
                       + q2 * ((cu * cu - su * su) * fv * cv - fu * cu * (cv * cv - sv * sv))) / rho
 
     @staticmethod
-    def modes_terms(data, first, rho, whole_s, whole_c, left):
+    def modes_terms(data: np.ndarray, first: int, rho: float, whole_s: float, whole_c: float, left: float):
         """Size of what H is the sum of at a share of the interval, by the sizes that begin at `first`."""
         return abs(data[first]) + abs(data[first + 1]) + 4 * (abs(data[first + 2]) + abs(data[first + 3]))
 
@@ -234,15 +238,15 @@ class Hyperbola:
     WALLED = True
 
     @staticmethod
-    def invariant(x, z):
+    def invariant(x: float, z: float):
         return (z - x) * (z + x)
 
     @staticmethod
-    def lost(x, z, xi, eta, wide, conic):
+    def lost(x: float, z: float, xi: float, eta: float, wide: float, conic: Sequence[float]):
         return min(abs(xi), abs(eta)) <= SURE * wide or np.sqrt(abs(xi)) * np.sqrt(abs(eta)) <= conic[6]
 
     @staticmethod
-    def onto(x, z, Q, xi, eta, radius):
+    def onto(x: float, z: float, Q: float, xi: float, eta: float, radius: float):
         first, second = x + z, x - z
         if abs(first) >= abs(second):
             second = -Q / first
@@ -252,7 +256,8 @@ class Hyperbola:
         return there, 0.5 * (first + second), 0.5 * (first - second)
 
     @staticmethod
-    def way_between(u, v, X, Z, Q):
+    def way_between(u: tuple[float, float], v: tuple[float, float], X: tuple[float, float],
+                    Z: tuple[float, float], Q: float):
         # the larger of the growing and the decaying coordinate keeps its digits next to a plane too
         side = -1.0 if X[0] * Z[0] < 0 else 1.0
         start, end = add(X, scaled(Z, side)), add(u, scaled(v, side))
@@ -260,56 +265,58 @@ class Hyperbola:
         return side * (np.log1p(grown) if abs(grown) < 0.5 else np.log(value(end) / value(start)))
 
     @staticmethod
-    def whole_way(u, v, X, Z, Q, way):
+    def whole_way(u: tuple[float, float], v: tuple[float, float], X: tuple[float, float],
+                  Z: tuple[float, float], Q: float, way: float):
         side = -1.0 if X[0] * Z[0] < 0 else 1.0
         start, end = add(X, scaled(Z, side)), add(u, scaled(v, side))
         off = value(less(times(end, exponential(-side * way)), start)) / value(start)
         return exact_sum(way, side * off * (1 - 0.5 * off))
 
     @staticmethod
-    def moved(X, Z, y):
+    def moved(X: tuple[float, float], Z: tuple[float, float], y: float):
         grown, decayed = times(add(X, Z), exponential(y)), times(less(X, Z), exponential(-y))
         return scaled(add(grown, decayed), 0.5), scaled(less(grown, decayed), 0.5)
 
     @staticmethod
-    def swing(y):
+    def swing(y: float):
         h, t = np.sinh(0.5 * y), y * y
         s = 2 * h * np.sqrt(1 + h * h)
         return s, h, (-y * t / 6 * (1 + t / 20 * (1 + t / 42 * (1 + t / 72 * (1 + t / 110)))) if abs(y) < LAG
                       else y - s)
 
     @staticmethod
-    def bent(x, z):
+    def bent(x: float, z: float):
         return z * z + x * x
 
     @staticmethod
-    def sizes_of_ways(x, z, u, v):
+    def sizes_of_ways(x: float, z: float, u: float, v: float):
         side = -1.0 if x * z < 0 else 1.0
         return abs(x + side * z), abs(u + side * v)
 
     @staticmethod
-    def repeated(spots, count, mu):
+    def repeated(spots: np.ndarray, count: int, mu: float):
         return count
 
     @staticmethod
-    def change(x, z, xi, eta, y):
+    def change(x: float, z: float, xi: float, eta: float, y: float):
         grown, decayed = xi * np.expm1(y), eta * np.expm1(-y)
         off = 0.5 * (abs(grown) + abs(decayed)) * (4 + abs(y))
         return 0.5 * (grown + decayed), 0.5 * (grown - decayed), off, off
 
     @staticmethod
-    def stationary(row, x, z, xi, eta, left):
+    def stationary(row: int, x: float, z: float, xi: float, eta: float, left: float):
         near, far = (-z / x, eta / xi) if row == 0 else (-x / z, -eta / xi)
         at = np.arctanh(near) if abs(near) < 0.5 else (0.5 * np.log(far) if far > 0 else INFINITY)
         return at if at > left else INFINITY
 
     @staticmethod
-    def size_of_terms(conic, x, z, xi, eta):
+    def size_of_terms(conic: Sequence[float], x: float, z: float, xi: float, eta: float):
         q = xi * xi + eta * eta
         return abs(conic[2]) * q + 0.5 * (abs(conic[0] + conic[1]) + abs(conic[1] - conic[0])) * np.sqrt(q)
 
     @staticmethod
-    def middle_modes(conic, x, z, xi, eta, y, data):
+    def middle_modes(conic: Sequence[float], x: float, z: float, xi: float, eta: float, y: float,
+                     data: np.ndarray):
         c, d, G = conic[0], conic[1], conic[2]
         xi, eta = xi * np.exp(y), eta * np.exp(-y)
         data[0], data[1] = -0.5 * (c + d) * xi, 0.5 * (d - c) * eta
@@ -318,21 +325,21 @@ class Hyperbola:
             data[4 + k] = abs(data[k])
 
     @staticmethod
-    def whole(rho):
+    def whole(rho: float):
         return np.exp(rho), 0.0
 
     @staticmethod
-    def modes_pair(data, rho, whole_s, whole_c, share):
+    def modes_pair(data: np.ndarray, rho: float, whole_s: float, whole_c: float, share: float):
         return sides_of_exponentials(data[0], data[1], data[2], data[3], rho, whole_s, share)
 
     @staticmethod
-    def modes_terms(data, first, rho, whole_s, whole_c, left):
+    def modes_terms(data: np.ndarray, first: int, rho: float, whole_s: float, whole_c: float, left: float):
         even, odd = sides_of_exponentials(abs(data[first]), abs(data[first + 1]), abs(data[first + 2]),
                                           abs(data[first + 3]), rho, whole_s, min(left, 1 - left))
         return even + odd if left <= 0.5 else even - odd
 
 
-def guessed(piece, conic, Q, xi, eta, radius):
+def guessed(piece: np.ndarray, conic: Sequence[float], Q: float, xi: float, eta: float, radius: float):
     """(whether a piece of the conic meets the orbit, X, Z there by Newton's method in log|h|, held in a
     bracket)."""
     sign, inner, outer, rising, low, high = piece[0], piece[1], piece[2], piece[3] > 0, piece[5], piece[6]
@@ -373,7 +380,7 @@ def guessed(piece, conic, Q, xi, eta, radius):
     return onto(x, z, Q, xi, eta, radius)
 
 
-def on_line(line, Q, xi, eta, radius):
+def on_line(line: np.ndarray, Q: float, xi: float, eta: float, radius: float):
     """As `guessed`, of one of the two points (x0 + t dx, z0 + t dz) in which a line of equilibria meets the
     orbit."""
     x0, z0, dx, dz, side = line[0], line[1], line[2], line[3], line[4]
@@ -391,7 +398,7 @@ def on_line(line, Q, xi, eta, radius):
     return onto(x0 + t * dx, z0 + t * dz, Q, xi, eta, radius)
 
 
-def settled(fine, u0, v0, Q):
+def settled(fine: np.ndarray, u0: float, v0: float, Q: tuple[float, float]):
     """(place u, v of the equilibrium next to a guess on the orbit Q, slope of the force there, last step, the
     way from the guess); u, v and Q twofold."""
     G, c, d, mu = (fine[0], fine[1]), (fine[2], fine[3]), (fine[4], fine[5]), (fine[6], fine[7])
@@ -413,12 +420,13 @@ def settled(fine, u0, v0, Q):
     return u, v, slope_of(G, d, u, v, add(times(G, u), c)), step, whole
 
 
-def slope_of(G, d, u, v, across):
+def slope_of(G: tuple[float, float], d: tuple[float, float], u: tuple[float, float], v: tuple[float, float],
+             across: tuple[float, float]):
     """dF/dtheta at (u, v), across: G u + c."""
     return value(add(times(v, add(times(G, v), d)), scaled(times(u, across), E)))
 
 
-def rise_and_force(mu, y, slope, a, b):
+def rise_and_force(mu: float, y: float, slope: float, a: float, b: float):
     """(V(y) - V(0), F, size of the terms of the first, sin y, sin(y/2)) y away from an equilibrium with this
     slope and modes a, b."""
     s, h, behind = swing(y)
@@ -428,7 +436,7 @@ def rise_and_force(mu, y, slope, a, b):
     return one + two + three + four, force, abs(one) + abs(two) + abs(three) + abs(four), s, h
 
 
-def end_of_modes(mu, slope, a, b, s, h, end):
+def end_of_modes(mu: float, slope: float, a: float, b: float, s: float, h: float, end: np.ndarray):
     """dF/dtheta and modes where sin y and sin(y/2) from an equilibrium are s and h: derivatives of what
     `rise_and_force` says."""
     h2 = h * h
@@ -438,13 +446,14 @@ def end_of_modes(mu, slope, a, b, s, h, end):
                                   + E * s * s) + 2 * b * s * q, b * (q * q + E * s * s) + 2 * E * a * s * q
 
 
-def rounding_of(y, terms, s, h, pull, tilt):
+def rounding_of(y: float, terms: float, s: float, h: float, pull: float, tilt: float):
     """Size of the error of a rise: of its terms, which grow like an exponential of y, and of what the
     equilibrium's force and slope are off by."""
     return (ROUNDED + 2 * abs(y)) * EPS * terms + pull * abs(s) + 2 * tilt * h * h
 
 
-def placed(u, v, X, Z, wide, last, conic, way, slope, spot):
+def placed(u: tuple[float, float], v: tuple[float, float], X: tuple[float, float], Z: tuple[float, float],
+           wide: float, last: float, conic: Sequence[float], way: float, slope: float, spot: np.ndarray):
     """Fill a spot's place, slope, modes and what 32 digits leave open of it."""
     c, d, G, mu = conic[0], conic[1], conic[2], conic[3]
     uh, vh = value(u), value(v)
@@ -458,7 +467,9 @@ def placed(u, v, X, Z, wide, last, conic, way, slope, spot):
     spot[TILT], spot[ASTRAY] = (abs(G) * far + steep) * off, TWOFOLD * wide / start + off / end
 
 
-def spots_of_row(fine, conic, pieces, lines, straight, folds, X, Z, w, wide, spots):
+def spots_of_row(fine: np.ndarray, conic: Sequence[float], pieces: np.ndarray, lines: np.ndarray,
+                 straight: float, folds: np.ndarray, X: tuple[float, float], Z: tuple[float, float], w: float,
+                 wide: float, spots: np.ndarray):
     """(how many equilibria stand along the orbit of a row, in ascending order in `spots`; whether all were
     placed).
 
@@ -506,7 +517,8 @@ def spots_of_row(fine, conic, pieces, lines, straight, folds, X, Z, w, wide, spo
     return count, sure
 
 
-def sharpened(fine, conic, X, Z, turn, wide, count, spots):
+def sharpened(fine: np.ndarray, conic: Sequence[float], X: tuple[float, float], Z: tuple[float, float],
+              turn: tuple[float, float], wide: float, count: int, spots: np.ndarray):
     """E - V at the equilibria along a row's orbit anew, as sums of twofold numbers: next to a separatrix
     doubles leave little of it.
 
@@ -527,7 +539,8 @@ def sharpened(fine, conic, X, Z, turn, wide, count, spots):
             spot[OVER], spot[ERROR] = value(over), FINE * terms + spot[PULL] * spot[PULL] / abs(slope)
 
 
-def sharpened_ends(fine, X, Z, turn, wide, ends, turns):
+def sharpened_ends(fine: np.ndarray, X: tuple[float, float], Z: tuple[float, float],
+                   turn: tuple[float, float], wide: float, ends: np.ndarray, turns: np.ndarray):
     """Fill turns with the ends after steps of Newton's method, E - V there a sum of twofold numbers and the
     force that of the place: where the force is small or the equilibrium far, doubles leave few digits.
 
@@ -558,14 +571,14 @@ def sharpened_ends(fine, X, Z, turn, wide, ends, turns):
                 break
 
 
-def way_of_cosine(psi, near, far):
+def way_of_cosine(psi: float, near: float, far: float):
     """First guess of a turning point between a barrier and a well, as a share of the way: there V is nearly a
     cosine, and in its angle psi (0 to 1) the way is a cubic with the slopes near, far that the curvatures at
     both ends give."""
     return psi * (near * (1 - psi) * (1 - psi) + psi * (3 - 2 * psi) - far * psi * (1 - psi))
 
 
-def turned(mu, count, spots, side, end):
+def turned(mu: float, count: int, spots: np.ndarray, side: int, end: np.ndarray):
     """Where a motion turns on one side: fills an end; whether it was found."""
     b = -1
     for i in range(count):
@@ -625,7 +638,7 @@ def turned(mu, count, spots, side, end):
     return found and abs(end[END]) < INFINITY
 
 
-def spanned(mu, w, count, spots, ends):
+def spanned(mu: float, w: float, count: int, spots: np.ndarray, ends: np.ndarray):
     """(whether the motion's two ends are known, fastest W^2/2, its error, nearest barrier's distance in
     energy)."""
     if count == 0 or not (turned(mu, count, spots, -1, ends[0]) and turned(mu, count, spots, 1, ends[1])):
@@ -655,7 +668,8 @@ def spanned(mu, w, count, spots, ends):
     return clear and (barred or WALLED), fastest, off + EPS * fastest, closest
 
 
-def boxed(form, axes, state, x, z, xi, eta, ends, fastest, haze, box):
+def boxed(form: Sequence[float], axes: Sequence[int], state: np.ndarray, x: float, z: float, xi: float,
+          eta: float, ends: np.ndarray, fastest: float, haze: float, box: np.ndarray):
     """Fill the box (3, 2) of a row; whether it has its digits. form: factors of X and Z, flip/n and the shift
     of the third."""
     j, k, i = axes
@@ -692,7 +706,7 @@ def boxed(form, axes, state, x, z, xi, eta, ends, fastest, haze, box):
     return good and haze <= DIGITS * 2 * fastest and whole < INFINITY
 
 
-def sinc_cos(u):
+def sinc_cos(u: float):
     """sin(u)/u and cos u for 0 <= u <= pi/2."""
     t = u * u
     s = 1 - t * (1 / 6) * (1 - t * (1 / 20) * (1 - t * (1 / 42) * (1 - t * (1 / 72) * (1 - t * (1 / 110) * (
@@ -705,13 +719,13 @@ def sinc_cos(u):
     return s, k
 
 
-def sinc_minus_cos(t):
+def sinc_minus_cos(t: float):
     """sin(u)/u - cos u of t = u^2 <= 1, without cancellation."""
     return t * (1 / 3) * (1 - t * (1 / 10) * (1 - t * (1 / 28) * (1 - t * (1 / 54) * (1 - t * (1 / 88) * (
         1 - t * (1 / 130) * (1 - t * (1 / 180) * (1 - t * (1 / 238) * (1 - t * (1 / 304)))))))))
 
 
-def sinhc_and_rest(t):
+def sinhc_and_rest(t: float):
     """sinh(u)/u and cosh u less it, of t = u^2 <= 1."""
     f = 1 + t * (1 / 6) * (1
                            + t * (1 / 20) * (1 + t * (1 / 42)
@@ -725,7 +739,7 @@ def sinhc_and_rest(t):
     return f, t * (1 / 3) * g
 
 
-def sides_of_exponentials(p1, q1, p2, q2, rho, grown, share):
+def sides_of_exponentials(p1: float, q1: float, p2: float, q2: float, rho: float, grown: float, share: float):
     """(even, odd) of a sum of exp(y), exp(-y), exp(2 y), exp(-2 y) about the middle, grown: exp(rho)."""
     u = rho * share
     v = rho - u
@@ -746,7 +760,7 @@ def sides_of_exponentials(p1, q1, p2, q2, rho, grown, share):
                       + 2 * (p2 + q2) * cu * cv), (0.5 * (p1 - q1) * odd1 + (p2 - q2) * odd2) / rho
 
 
-def converged(now, last, middle, first):
+def converged(now: float, last: float, middle: float, first: float):
     """Whether a sum over nodes is its integral, given what it changed by as its nodes were doubled: the last,
     the middle and the first of three such changes; any numbers.
 
@@ -763,7 +777,7 @@ def converged(now, last, middle, first):
         b2 * b2 * b2 * b <= CONVERGED * a2 * a2 * a2)
 
 
-def summed(data, rho, whole_s, whole_c, nodes):
+def summed(data: np.ndarray, rho: float, whole_s: float, whole_c: float, nodes: np.ndarray):
     """The period by the trapezoidal rule over mirrored pairs of nodes; NaN where that does not settle."""
     total, coarse, half, before, change, earlier, size, first = 0.0, 0.0, 0.0, np.nan, np.nan, np.nan, 8, 0
     while first < len(nodes):
@@ -789,7 +803,8 @@ def summed(data, rho, whole_s, whole_c, nodes):
     return np.nan
 
 
-def timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, data):
+def timed(conic: Sequence[float], x: float, z: float, xi: float, eta: float, w: float, count: int,
+          spots: np.ndarray, ends: np.ndarray, closest: float, nodes: np.ndarray, data: np.ndarray):
     """(period, whether it has its digits) of a motion between two ends, by modes about the middle; not where
     these cancel."""
     mu, left, right = conic[3], ends[0, END], ends[1, END]
@@ -821,7 +836,7 @@ def timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, data):
     return period, period < INFINITY
 
 
-def kinetic_near(mu, stop, y):
+def kinetic_near(mu: float, stop: np.ndarray, y: float):
     """W^2/2 = E - V at the way y from a stop."""
     s, h, behind = swing(y)
     h2 = h * h
@@ -829,7 +844,7 @@ def kinetic_near(mu, stop, y):
             + 2 * E * h2 * (stop[STOP_A] * s + 2 * stop[STOP_B] * h2))
 
 
-def stops_of(count, spots, ends, stops):
+def stops_of(count: int, spots: np.ndarray, ends: np.ndarray, stops: np.ndarray):
     """Fill the stops of a motion in their order; how many there are, 0 where E - V is not known well at one
     of them."""
     many, sure = 1, True
@@ -850,7 +865,8 @@ def stops_of(count, spots, ends, stops):
     return many + 1 if sure else 0
 
 
-def in_pieces(mu, count, spots, ends, near, weights, levels, stops):
+def in_pieces(mu: float, count: int, spots: np.ndarray, ends: np.ndarray, near: np.ndarray,
+              weights: np.ndarray, levels: np.ndarray, stops: np.ndarray):
     """(period, whether it has its digits): dtheta/W by the double-exponential rule from stop to stop, E - V
     told from the nearer one."""
     many, period = stops_of(count, spots, ends, stops), 0.0
@@ -886,7 +902,10 @@ def in_pieces(mu, count, spots, ends, near, weights, levels, stops):
     return period, period < INFINITY
 
 
-def rows(states, open_rows, fine, form, axes, conic, pieces, lines, folds, rules, boxes, periods, left_open):
+def rows(states: np.ndarray, open_rows: np.ndarray, fine: np.ndarray, form: Sequence[float],
+         axes: Sequence[int], conic: Sequence[float], pieces: np.ndarray, lines: np.ndarray,
+         folds: np.ndarray, rules: Sequence[np.ndarray], boxes: np.ndarray, periods: np.ndarray,
+         left_open: np.ndarray):
     """Fill boxes (n, 3, 2) and periods (n,) of the open rows of states (n, 3), as far as their bits in
     left_open (n,) ask; the bits of what is settled go.
 
@@ -946,7 +965,7 @@ def rows(states, open_rows, fine, form, axes, conic, pieces, lines, folds, rules
         left_open[row] = asked
 
 
-def functions_of(geometry):
+def functions_of(geometry: type):
     """{name: function or number} of a geometry, which stand for the names of this module that follow."""
     return {name: getattr(geometry, name) for name in vars(Circle) if not name.startswith("_")}
 

@@ -21,6 +21,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -29,7 +30,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..numbers.polynomial import held_newton
-from .profile import EPS, TOO_FINE, TURN, Motion
+from .profile import EPS, TOO_FINE, TURN, Motion, OnCircle, Relief, Spot
 
 POINTS = 16
 FIXED, MOST_PARTS = TURN / 8, 64  # longest panel of an angle; most of one way before any is cut
@@ -47,23 +48,23 @@ class Passing:
     """Over a spot with kinetic energy `kinetic` there; x is the offset from it, from lo to hi; at: that
     of the spot from the state."""
 
-    def __init__(self, spot, kinetic, lo, hi, at=None):
+    def __init__(self, spot: OnCircle, kinetic: float, lo: float, hi: float, at: float | None = None):
         self.spot, self.kinetic, self.at_zero = spot, kinetic, spot.at if at is None else at
         # about the spot panels shrink, and keep their digits
         self.cuts = (lo, 0.0, hi) if lo < 0 < hi else (lo, hi)
 
-    def energy(self, x):
+    def energy(self, x: np.ndarray):
         return self.kinetic + x * self.spot.share(0.0, x)
 
-    def rate(self, x):
+    def rate(self, x: np.ndarray):
         """dt/dx."""
         return 1 / np.sqrt(2 * self.energy(x))
 
-    def at(self, x):
+    def at(self, x: np.ndarray):
         """(offset, W)."""
         return x, np.sqrt(2 * self.energy(x))
 
-    def x_of(self, y, w):
+    def x_of(self, y: float, w: float):
         return y
 
 
@@ -71,7 +72,7 @@ class Turning:
     """From (sense 1) or to (sense -1) the turning point at offset a of a spot: offset a + sense x^2, to
     `far`; at: as of `Passing`."""
 
-    def __init__(self, spot, a, sense, far, at=None):
+    def __init__(self, spot: Spot, a: float, sense: int, far: float, at: float | None = None):
         self.spot, self.a, self.sense, self.at_zero = spot, a, sense, spot.at if at is None else at
         reach = math.sqrt(max(sense * (far - a), 0.0))
         self.cuts = (0.0, reach) if sense > 0 else (-reach, 0.0)
@@ -79,13 +80,13 @@ class Turning:
     def _share(self, x):
         return 2 * self.sense * self.spot.share(self.a, self.sense * x * x)
 
-    def rate(self, x):
+    def rate(self, x: np.ndarray):
         return 2 / np.sqrt(self._share(x))
 
-    def at(self, x):
+    def at(self, x: np.ndarray):
         return self.a + self.sense * x * x, np.abs(x) * np.sqrt(self._share(x))
 
-    def x_of(self, y, w):
+    def x_of(self, y: float, w: float):
         """From the rate, which keeps its digits next to the turning point."""
         share = self._share(math.sqrt(max(self.sense * (y - self.a), 0.0)))
         return self.sense * abs(w) / math.sqrt(share)
@@ -96,7 +97,7 @@ class Turn:
     one from the state round to itself). Passage m * hills + h is over hill h of turn m, the turn ahead of the
     state being 0."""
 
-    def __init__(self, relief):
+    def __init__(self, relief: Relief):
         self.relief, half = relief, len(relief.spots) // 2
         self.hills = [s for s in relief.spots[half:] if s.kind > 0] or [relief.here]
         self.behind = [s.at for s in relief.spots[:half] if s.kind > 0] or [-TURN]
@@ -123,7 +124,7 @@ class Turn:
                        self.hills[h].at + turn * TURN)
 
 
-def turning_offset(spot, sense, reach=None) -> float | None:
+def turning_offset(spot: Spot, sense: int, reach: float | None = None) -> float | None:
     """Offset from the spot, on the side `sense`, at which W = 0; reach: no further than that (None: search
     outwards).
 
@@ -131,7 +132,7 @@ def turning_offset(spot, sense, reach=None) -> float | None:
     """
     rising = spot.kinetic < 0
 
-    def beyond(t):
+    def beyond(t: float):
         with np.errstate(all="ignore"):
             value = float(spot.energy(sense * t))
         value = -math.inf if math.isnan(value) or value == math.inf else value
@@ -152,7 +153,7 @@ def turning_offset(spot, sense, reach=None) -> float | None:
 
 
 @lru_cache(maxsize=32)
-def rule(points):
+def rule(points: int):
     """(nodes and weights of Gauss, matrix to the Chebyshev coefficients of the integrand, matrix to those of
     its integral from
     -1); both matrices act on rows from the right."""
@@ -162,7 +163,7 @@ def rule(points):
     return nodes, weights, forward.T.copy(), cheb.chebint(forward, lbnd=-1).T.copy()
 
 
-def _edges(cuts):
+def _edges(cuts: Sequence[float]):
     """The cuts and what divides the ways between them into parts no longer than `FIXED`, or `MOST_PARTS`: the
     coordinate of a parabola is no angle, and may run over any length."""
     parts = [np.linspace(a, b, min(math.ceil((b - a) / FIXED), MOST_PARTS) + 1)[:-1]
@@ -179,7 +180,7 @@ def clenshaw(c, x):
     return x * one - two + c[0]
 
 
-def inverted(integral, rate, half, wanted):
+def inverted(integral: np.ndarray, rate: np.ndarray, half: np.ndarray, wanted: np.ndarray):
     """xi in [-1, 1] at which half * (the integral's series) = wanted; coefficients as of `clenshaw`."""
     xi = 2 * wanted / (half * sum(integral)) - 1
     for _ in range(NEWTON):
@@ -200,7 +201,7 @@ class Panels:
     their ends and half lengths; values (n, points): dt/dx at the nodes; rates, integrals: Chebyshev
     coefficients of dt/dx and of t."""
 
-    def __init__(self, chain, points=POINTS):
+    def __init__(self, chain: Sequence[Passing | Turning], points: int = POINTS):
         self.chain, self.points, self.evaluations = chain, points, 0
         found = [self._cut(passage, points >= POINTS) for passage in chain]
         self.owner = [n for n, part in enumerate(found) for _ in part[0]]
@@ -245,14 +246,14 @@ class Panels:
         order = np.argsort(columns[0])
         return [column[order] for column in columns]
 
-    def time_at(self, number, x) -> float:
+    def time_at(self, number: int, x: float) -> float:
         """Time at coordinate x of passage `number`."""
         mine = [n for n, owner in enumerate(self.owner) if owner == number]
         n = mine[max(bisect_right(self.low[mine].tolist(), x) - 1, 0)]
         x = min(max(x, self.low[n]), self.low[n] + 2 * self.half[n])
         return float(self.starts[n] + self._integral(self.chain[number], self.low[n], np.array([x]))[0])
 
-    def _integral(self, passage, low, x):
+    def _integral(self, passage: Passing | Turning, low: float, x: np.ndarray):
         """Times from coordinate low to x (n,), right to their last digits however short."""
         nodes, weights, *_ = rule(self.points)
         half = 0.5 * (x - low)
@@ -260,13 +261,13 @@ class Panels:
         return (half
                 * (passage.rate((low + half[:, None] * (1 + nodes)).ravel()).reshape(len(x), -1) @ weights))
 
-    def _sharpened(self, x, time):
+    def _sharpened(self, x: np.ndarray, time: np.ndarray):
         """Coordinates x (n,) of the first panel, rounded with the panel's own size, as times (n,) since its
         beginning demand."""
         passage, low = self.chain[0], self.low[0]
         return np.maximum(x + (time - self._integral(passage, low, x)) / passage.rate(x), low)
 
-    def follow(self, times, signs):
+    def follow(self, times: np.ndarray, signs: np.ndarray):
         """(states (n, 3) at times in [0, total], W times the signs; offsets of their places (n,))."""
         n = np.maximum(np.searchsorted(self.starts, times, side="right") - 1, 0)
         half, out, offsets = self.half[n], np.empty((len(times), 3)), np.empty(len(times))
@@ -307,7 +308,7 @@ def _terms():
     return out
 
 
-def partial(a):
+def partial(a: np.ndarray):
     """Z(a) for arrays with a >= SMOOTH: Z(a + 1) - Z(a) = a^(-1/2)."""
     x = 1 / a
     x2, total = x * x, 0.0
@@ -322,7 +323,7 @@ class SpinUp(Motion):
 
     period = math.inf
 
-    def __init__(self, relief, points=POINTS, backwards=False):
+    def __init__(self, relief: Relief, points: int = POINTS, backwards: bool = False):
         self.w, self.work, self.round = relief.w, relief.turn, Turn(relief)
         number, y = self.round.where()
         rest = max(relief.drops, key=lambda drop: drop[0].at - TURN * drop[1])
@@ -339,7 +340,7 @@ class SpinUp(Motion):
         self.sense = -1.0 if relief.w < 0 else 1.0
         self.evaluations = self.early.evaluations + self.late.evaluations
 
-    def _rest_passage(self, spot, drop, kinetic):
+    def _rest_passage(self, spot: OnCircle, drop: int, kinetic: float):
         """(passage from the turning point, its number)."""
         if drop > MOST_TURNS:
             raise InputError(f"this motion came from rest {drop:.3g} turns ago: more than doubles can count")
@@ -352,7 +353,7 @@ class SpinUp(Motion):
         return Turning(below, a, 1, self.round.sides[h][1],
                        spot.at - drop * TURN), h - drop * len(self.round.hills)
 
-    def _whole_turn(self, chain, points):
+    def _whole_turn(self, chain: Sequence[Passing], points: int):
         """Panels of the first whole turn: they serve all that follow, which are smoother."""
         self.late = late = Panels(chain, points)
         self.weights = (late.half[:, None] * rule(points)[1]).ravel()
@@ -364,7 +365,7 @@ class SpinUp(Motion):
         self.passed = float(self.weights @ partial(self.a + self.steep))
         self.level = float(self.weights @ self.a) / TURN
 
-    def _time_of(self, number, y):
+    def _time_of(self, number: int, y: float):
         """Time from the start of the chain to offset y of passage `number`."""
         if number < self.turn * len(self.round.hills):
             n = number - self.first
@@ -379,17 +380,17 @@ class SpinUp(Motion):
         return self.run_up + float(self._turns_take(np.array([turns]))[0] + within)
 
     # --- many turns on
-    def _rates(self, turns):
+    def _rates(self, turns: int):
         """dt/dx at the nodes (panels, points)."""
         return (self.unit / np.sqrt(self.a + turns)).reshape(-1, self.late.points)
 
-    def _turns(self, left):
+    def _turns(self, left: np.ndarray):
         """About how many turns are done in times (n,)."""
         root = ((left - self.table[-1]) / self.unit + self.passed) / (2 * TURN)
         return np.where(left < self.table[-1], np.searchsorted(self.table, left, side="right") - 1,
                         np.maximum(np.floor(root * root + 0.5 - self.level), self.steep)).astype(float)
 
-    def follow(self, times):
+    def follow(self, times: np.ndarray):
         passed = self.start + self.sense * times
         signs, passed = np.where(passed >= 0, self.sense, -self.sense), np.abs(passed)
         if not self.from_rest and (times < 0).any():
@@ -423,7 +424,7 @@ class SpinUp(Motion):
                 way[here] = passage.at_zero + x[here] + TURN * turns[here]
         return out, way
 
-    def _whole_turns(self, left):
+    def _whole_turns(self, left: np.ndarray):
         """(turns done at each time, dt/dx at the nodes of the turn after, times at its panels' ends, time
         within it)."""
         turns = self._settled(left, self._turns(left))
@@ -431,7 +432,7 @@ class SpinUp(Motion):
         ends = np.cumsum((rates * self.weights).reshape(len(left), -1, self.late.points).sum(axis=2), axis=1)
         return turns, rates, ends, np.clip(left - self._turns_take(turns), 0.0, ends[:, -1])
 
-    def _settled(self, left, turns):
+    def _settled(self, left: np.ndarray, turns: np.ndarray):
         """The turns done at times (n,), from about so many: by steps that double, then by halves. Where a
         turn's work is small against the hills the guess may be far off."""
         low, high, step, rows = turns, turns + 1, 1.0, np.arange(len(left))
@@ -449,7 +450,7 @@ class SpinUp(Motion):
             middle = np.floor(0.5 * (low + high))
         return low
 
-    def _turns_take(self, turns):
+    def _turns_take(self, turns: np.ndarray):
         """Times of whole turns (n,)."""
         done = self.table[np.minimum(turns, self.steep).astype(int)]
         many = turns > self.steep

@@ -7,6 +7,7 @@ from __future__ import annotations
 import subprocess
 import sys
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -79,7 +80,7 @@ def example(name: str, zero: bool = False):
     return effect_class(name)(*EXAMPLES[name][zero])
 
 
-def ladder(names=tuple(EXAMPLES)) -> list[tuple[str, Scene]]:
+def ladder(names: Sequence[str] = tuple(EXAMPLES)) -> list[tuple[str, Scene]]:
     """(what was added, scene) from the body alone on, each scene with one effect more."""
     effects = [example(name) for name in names]
     return [(names[n - 1] if n else NOTHING, Scene(BODY, *effects[:n])) for n in range(len(effects) + 1)]
@@ -90,7 +91,7 @@ def alone() -> list[tuple[str, Scene]]:
     return [(name, Scene(BODY, example(name))) for name in EXAMPLES]
 
 
-def counted(added: str, scene) -> Cost:
+def counted(added: str, scene: Scene) -> Cost:
     """The counts of a scene's equations."""
     from sympy import Piecewise
     equations = derive(scene)
@@ -108,7 +109,7 @@ def operations(rates: Form) -> int:
     return int(sum(count_ops(e) for e in (*(e for _, e in shared), *rest)))
 
 
-def timed(scene) -> Seconds:
+def timed(scene: Scene) -> Seconds:
     """The least times of REPEATS rounds."""
     equations = derive(scene)
     system, state = to_numpy(equations), np.linspace(0.1, 0.4, len(equations.state))
@@ -162,7 +163,7 @@ def without(name: str) -> Scene:
     return Scene(BODY, *(effect_class(other)(vector) for other, vector in kept.items() if other != name))
 
 
-def answers(scene) -> dict[str, object]:
+def answers(scene: Scene) -> dict[str, object]:
     """Question -> the answer to its last bit, as something that compares equal only to the same bits."""
     runs = {method: trajectory(scene, STATE, TIMES, method) for method in ("taylor", "DOP853")}
     return {"equations": tuple(map(str,

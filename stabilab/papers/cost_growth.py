@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import astuple, dataclass, fields
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -31,6 +31,10 @@ from ..show import style
 from ..show.data import csv_lines
 from ..show.report import html
 from ..show.text.cost import caption, duration
+
+if TYPE_CHECKING:
+    from ..numbers.vectors import Float3
+    from ..physics.scene import Scene
 
 SEED = 4
 STATES = {"fate": (2, 7), "extremes": (2, 5), "period": (2, 5)}  # decades of the number of states
@@ -186,7 +190,7 @@ def with_closeness(case, tell=lambda words: None) -> list[Growth]:
     return found
 
 
-def bits_needed(scene, state) -> int | None:
+def bits_needed(scene: Scene, state: Float3 | np.ndarray) -> int | None:
     """The least working precision at which the balls of every barrier part from the energy's."""
     for bits in BITS:
         try:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..physics.coefficients import shape_factors
 from ..show.report import html
@@ -14,6 +14,11 @@ from . import table
 from .audit.page import anchor, counted
 from .figures.catalogue import FIRST, of_paper
 from .table import EXTREMES
+
+if TYPE_CHECKING:
+    from types import SimpleNamespace
+
+    from ..theories.printed.claims import Paper
 
 SCHEMA = "stabilab.papers/1"
 MODEL = "a sketch, drawn from a case of the paper"
@@ -42,7 +47,7 @@ def items(findings: Sequence[tuple[Any, Sequence[Any]]]) -> list[Item]:
     return [item for paper, group in findings for item in _of_paper(paper, group)]
 
 
-def _of_paper(paper: Any, group: Sequence[Any]) -> list[Item]:
+def _of_paper(paper: Paper, group: Sequence[Any]) -> list[Item]:
     found = []
     for finding in group:
         name = finding.row.equation
@@ -64,7 +69,7 @@ def _of_paper(paper: Any, group: Sequence[Any]) -> list[Item]:
     return found + [_table(paper, finding) for finding in group if finding.row.equation.startswith("table-")]
 
 
-def _table(paper: Any, finding: Any) -> Item:
+def _table(paper: Paper, finding: SimpleNamespace) -> Item:
     number = finding.row.equation.removeprefix("table-")
     says = finding.row.says
     if paper.figures == "constant-torque":
@@ -119,12 +124,12 @@ def page(findings: Sequence[tuple[Any, Sequence[Any]]], folder: Path, **around: 
     return html.write(folder / "where.html", "where.html", title="Where is it?", papers=papers, **around)
 
 
-def _row(paper: Any, row: Item) -> dict[str, str]:
+def _row(paper: Paper, row: Item) -> dict[str, str]:
     return {"item": row.item, "verdict": verdict_words(row), "says": written(row.says),
             "link": link(paper, row)}
 
 
-def link(paper: Any, row: Item) -> str:
+def link(paper: Paper, row: Item) -> str:
     """Where an item is in the report: its figure or table on the page of its paper, else its row of the
     audit."""
     kind, _, number = row.item.partition(" ")
@@ -139,7 +144,7 @@ def link(paper: Any, row: Item) -> str:
     return f"audit.html#{anchor(paper.name, row.item.strip('()').replace('table ', 'table-'))}"
 
 
-def claims(paper: Any, group: Sequence[Any]) -> list[dict[str, Any]]:
+def claims(paper: Paper, group: Sequence[Any]) -> list[dict[str, Any]]:
     """Of every claim of the text that can be checked: what it says, whether it is so, what is so, and the
     anchor of its row on the page of the audit."""
     found = []
@@ -153,7 +158,7 @@ def claims(paper: Any, group: Sequence[Any]) -> list[dict[str, Any]]:
     return found
 
 
-def of_figure(paper: Any, group: Sequence[Any], number: int) -> list[dict[str, str]]:
+def of_figure(paper: Paper, group: Sequence[Any], number: int) -> list[dict[str, str]]:
     """The rows of the audit that concern a figure: equation and link."""
     return [{"equation": one.row.equation, "link": f"audit.html#{anchor(paper.name, one.row.equation)}"}
             for one in group if number in one.row.options.get("figures", ())]

@@ -16,12 +16,12 @@ from pathlib import Path
 import numpy as np
 
 from ..case.given import Given, Span, Start, as_text
-from ..case.read import load_all
+from ..case.read import Case, load_all
 from ..errors import StabilabError
 from ..interrupt import undoing
 from ..packages import demand
 from ..physics.equations import derive
-from ..physics.scene import PARTS, torque_axis
+from ..physics.scene import PARTS, Scene, torque_axis
 from ..show import manifest, style
 from ..show import precision as precision_page
 from ..show.report import html, own
@@ -129,7 +129,7 @@ def drawn(row, folder: Path) -> dict:
                    command=row.command, rows=(), more=[FOLDER + part.name for part in more])
 
 
-def _parameters(case):
+def _parameters(case: Case):
     """Parameters and start of a case in words, with their units."""
     values = ", ".join(f"{PRODUCTS.get(name, name)} = {float(value):.6g} {parameter_unit(name)}".rstrip()
                        for name, value in derive(case.scene).parameters.items())
@@ -279,7 +279,7 @@ OUTCOMES = {"changes": "Spins up, or reaches its limit",
             "bounded": "Bounded for ever", "": "Sweeps, and cases without a motion"}
 
 
-def _acts(scene):
+def _acts(scene: Scene):
     return any(scene.quadratic().m)
 
 

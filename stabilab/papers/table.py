@@ -18,7 +18,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -33,6 +33,9 @@ from ..physics.effects.gyrostat import Gyrostat
 from ..physics.scene import Body, ScaledGyrostat, Scene
 from ..show import style
 from ..show.data import csv_lines
+
+if TYPE_CHECKING:
+    from ..orbit.separatrix.homoclinic import Branch
 
 # --- The data
 PAPER = "Amer et al. 2024, Sci. Rep."
@@ -62,13 +65,13 @@ def physical(axis: str, lambda1: float) -> Scene:
 FIG4 = {100: ((0.0, 6.2), (-3.0, 3.3)), 300: ((0.19, 6.15), (-3.1, 3.29)), 500: ((0.32, 5.8), (-3.13, 3.28))}
 
 
-def height(radius, wheel):
+def height(radius: float, wheel: float):
     """Function of alpha, x^2/2 plus which is constant by (25): printed with F and b, true with A and b -
     a."""
     return lambda alpha: radius**2 * np.cos(alpha) - 4 * radius * wheel * np.sin(alpha / 2) - 2 * alpha
 
 
-def saddle(radius, turn=0.0):
+def saddle(radius: float, turn: float = 0.0):
     """alpha of the saddle before a turn as printed below (25): sin alpha = -2/F^2."""
     return turn - np.arcsin(2 / radius**2)
 
@@ -89,13 +92,13 @@ def circle(radius: float, centre: float = 0.0, count: int = 361) -> tuple[np.nda
     return centre + radius * np.sin(turn), radius * np.cos(turn)
 
 
-def side(branch) -> str:
+def side(branch: Branch) -> str:
     """The paper's name of a surface of the minor axis: the left loop of the phase plane has alpha in (-2 pi,
     0), where x1 + a < 0 about its centre."""
     return "left" if float(np.asarray(branch.centre)[-1, 0]) < 0 else "right"
 
 
-def equilibria(axis: str, scene: ScaledGyrostat, heights):
+def equilibria(axis: str, scene: ScaledGyrostat, heights: np.ndarray):
     """(x1, h, whether stable) along both branches of the true equilibria of a torque on the "minor" axis, h =
     x2 and x1 + b = -1/h, or on the "middle" one, h = x3 and x1 + a = 1/h; heights: sizes of h."""
     for h in (heights, -heights):
@@ -446,7 +449,7 @@ def latex(table: Table) -> str:
                       r"\bottomrule", end, r"\end{table}", ""])
 
 
-def _is_text(table, column):
+def _is_text(table: Table, column: int):
     return any(isinstance(row[column], str) for row in table.rows)
 
 
@@ -464,7 +467,7 @@ def html_fragment(table: Table) -> str:
             f"class=\"note\">{html.escape(table.caption)}</p>\n")
 
 
-def _signed(value) -> str:
+def _signed(value: str) -> str:
     """A cell with the minus of a book before a number."""
     return cell(value) if isinstance(value, str) else cell(value).replace("-", "−")
 

@@ -27,7 +27,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from types import ModuleType
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ..errors import InputError
 from ..numbers.exact import Rounded, exact_vector, sqrt_fraction
@@ -37,6 +37,9 @@ from ..validation import checked_scene, real
 from .effects import effect_class
 from .effects.base import Effect
 from .scene import ZERO3, AnyScene, Body, ScaledGyrostat, Scene
+
+if TYPE_CHECKING:
+    import numpy as np
 
 KNOWN = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity", "newtonian_field", "gravity",
          "body_force", "viscous_damper", "rate_damper", "eddy_currents", "wheel_motor"}
@@ -296,7 +299,7 @@ def _row(values: Any) -> tuple[float, ...]:
     return tuple(map(float, numbers_in_a_row(values, "state")))
 
 
-def three_floats(state: Any) -> Float3:
+def three_floats(state: np.ndarray | Sequence[float | Fraction | str]) -> Float3:
     """Three finite floats; InputError otherwise."""
     try:
         values = tuple(map(float, real(state, "states")))

@@ -206,7 +206,7 @@ def _blocks(scene: AnyScene, states: States) -> Blocks:
     return {name: row[part] for name, part in slices(scene.blocks).items() if part.stop <= len(row)}
 
 
-def _components(values: Any) -> tuple[Number, ...]:
+def _components(values: np.ndarray | Sequence[float]) -> tuple[Number, ...]:
     """Floats of one state; arrays of several."""
     try:
         return tuple(map(float, values))

@@ -21,6 +21,8 @@ from .scene import BLOCKS, INSIDE, ORDER, AnyScene, Scene, judge_start, judge_st
 from .to_numpy import equations_of
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from numpy.typing import ArrayLike
 
 
@@ -94,7 +96,8 @@ def float_array(values: Any, name: str, expected: str = "numbers") -> np.ndarray
         raise InputError(f"{name}: expected {expected}, got {told(values)}") from None
 
 
-def numbers_in_a_row(values: Any, name: str) -> np.ndarray:
+def numbers_in_a_row(values: np.ndarray | Sequence[float | Fraction] | Mapping[str, Any] | None,
+                     name: str) -> np.ndarray:
     array = float_array(values, name)
     array = array if array.ndim else array.reshape(1)
     if array.ndim != 1 or not array.size or not np.isfinite(array).all():
@@ -102,7 +105,7 @@ def numbers_in_a_row(values: Any, name: str) -> np.ndarray:
     return array
 
 
-def three_numbers(state: Any, name: str = "state") -> np.ndarray:
+def three_numbers(state: np.ndarray | Sequence[float | Fraction], name: str = "state") -> np.ndarray:
     array = numbers_in_a_row(state, name)
     if array.size != 3:
         raise InputError(f"{name}: expected three numbers, got {array.size} of them")
@@ -112,7 +115,9 @@ REST = {"gamma": (0.0, 0.0, 1.0), "attitude": (1.0, 0.0, 0.0, 0.0), "velocity": 
         "position": (0.0,) * 3, "damper": (0.0,) * 3, "wheel": (0.0,) * 3}
 
 
-def equations_and_start(scene: AnyScene, state: Any) -> tuple[Equations, np.ndarray]:
+def equations_and_start(
+        scene: AnyScene,
+        state: np.ndarray | Sequence[float] | Mapping[str, Any]) -> tuple[Equations, np.ndarray]:
     """(equations, state as one row) of a start given as numbers or block by block."""
     if not isinstance(state, dict):
         equations, array = equations_of(scene), numbers_in_a_row(state, "state")

@@ -16,6 +16,8 @@ from ..numbers.vectors import Float3
 from .names import around, spare_case
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from ..case.read import Case
 
 NUMBERED = re.compile(
@@ -131,13 +133,13 @@ def axes_of(case: Case) -> Axes:
     return Axes(letters, _ranks(case.scene.body.exact), rows)  # type: ignore[union-attr]
 
 
-def with_moments(axes: Axes, moments: Any) -> Axes:
+def with_moments(axes: Axes, moments: Sequence[Fraction]) -> Axes:
     """The names of the same axes for other moments about them."""
     ranks = _ranks(moments)
     return replace(axes, ranks=ranks, letters=axes.letters if any(axes.letters + ranks) else PLAIN.letters)
 
 
-def _ranks(moments) -> tuple[str, ...]:
+def _ranks(moments: Sequence[Fraction]) -> tuple[str, ...]:
     """Which axis each one is, by moments that are known exactly."""
     alike = len(set(moments))
     if alike == 1:
@@ -148,6 +150,6 @@ def _ranks(moments) -> tuple[str, ...]:
     return tuple(RANKS[order.index(m)] for m in moments)
 
 
-def told(vector) -> str:
+def told(vector: Sequence[float]) -> str:
     """A direction to three decimals: 0.06 deg."""
     return f"({', '.join(f'{v:.3f}' if round(v, 3) else '0.000' for v in map(float, vector))})"

@@ -2,18 +2,22 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..errors import printable
 from ..files import write_text
 from ..representation import values_of
 from .terminal import some
 
+if TYPE_CHECKING:
+    from ..verify import Verification
+
 SCHEMA = "stabilab.verification/1"
 # what the checker, which knows no units, claims of a component x1 -> the same of the rate ω1 of a body
 RATES = {f"{extreme} x{n}": f"{extreme} ω{n}" for extreme in ("least", "greatest") for n in (1, 2, 3)}
 
 
-def write(certificate: dict, path) -> Path:
+def write(certificate: dict, path: Path) -> Path:
     """The certificate as a JSON file, whole or not at all. Raises InputError where it cannot be written."""
     import json
     text = json.dumps(certificate, indent=1, ensure_ascii=False, allow_nan=False)
@@ -37,7 +41,7 @@ def summary(certificate: dict) -> str:
     return "\n".join(lines + [f"not certified: {why}" for why in certificate["uncertified"]])
 
 
-def text(found, first: str, other: str = "", physical: bool = False) -> str:
+def text(found: Verification, first: str, other: str = "", physical: bool = False) -> str:
     """The verdict on the whole, what it is about, then one line a claim. other: the case that it should be of
     and is not. physical: the checker's x1 is a rate in rad/s, which all other commands call ω1."""
     counts = {word: sum(f.status == word for f in found.findings)
@@ -51,7 +55,7 @@ def text(found, first: str, other: str = "", physical: bool = False) -> str:
     return "\n".join([f"{another}{found.status.upper()}: {count}{silent}", first, *lines])
 
 
-def as_dict(found, about: dict) -> dict:
+def as_dict(found: Verification, about: dict) -> dict:
     """The object of `stabilab verify --json`."""
     return {"schema": SCHEMA, "status": found.status, "about": about, "silent": list(found.silent),
             "findings": [values_of(f, "claim status reason") for f in found.findings]}

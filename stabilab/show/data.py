@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 # numbers by JSON's grammar, beyond all doubles: Python, JavaScript and MATLAB read them as infinite
 ENDLESS = {math.inf: "1e999", -math.inf: "-1e999"}
@@ -44,7 +45,7 @@ def plain(value):
     return value
 
 
-def csv_lines(rows) -> str:
+def csv_lines(rows: Iterable[Iterable[float | str]]) -> str:
     """One line per row, each ended: floats with every digit ("inf" where unbounded), an empty cell for None,
     words quoted where needed."""
     import csv  # classify, which shows no table, does without it

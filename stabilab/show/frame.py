@@ -2,13 +2,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from ..reasons import number as in_digits
 from .axes import IN_FILE, axes_of
 
+if TYPE_CHECKING:
+    from ..answers.simulate import Simulation
+    from ..case.read import Case
 
-def key(case) -> dict:
+
+def key(case: Case) -> dict:
     """The key "frame" of a JSON answer: moments (kg m^2) and axes (rows, in the frame of the file), their
     angles (rad) from the nearest axes of the file, how well they are known; nothing where the two frames are
     one."""
@@ -21,14 +27,14 @@ def key(case) -> dict:
                       "exact": frame.exact, "error": float(frame.error)}}
 
 
-def back(case, vector) -> list | None:
+def back(case: Case, vector: Sequence[float] | None) -> list | None:
     """A vector of an answer in the frame of the file; None where the two frames are one."""
     frame = _turned(case)
     return (None if frame is None or vector is None
             else [float(v) for v in frame.back([Fraction(float(v)) for v in vector])])
 
 
-def rows(case, run) -> dict:
+def rows(case: Case, run: Simulation) -> dict:
     """The key "state_input" of a run: its angular velocities in the frame of the file, a row a time."""
     if _turned(case) is None or "omega" not in run.state:
         return {}
@@ -37,7 +43,7 @@ def rows(case, run) -> dict:
     return {"state_input": {"omega": np.asarray(run.state["omega"], float) @ axes}}
 
 
-def lines(case) -> list[str]:
+def lines(case: Case) -> list[str]:
     """The principal axes in words."""
     found = rows_of_axes(case)
     if not found:
@@ -48,7 +54,7 @@ def lines(case) -> list[str]:
             *(f"  {name:<16}{words}" for name, words in found)]
 
 
-def rows_of_axes(case) -> list[tuple[str, str]]:
+def rows_of_axes(case: Case) -> list[tuple[str, str]]:
     """(its name, where it is in the frame of the file) of each principal axis; nothing where the two frames
     are one."""
     frame = _turned(case)
@@ -62,7 +68,7 @@ def rows_of_axes(case) -> list[tuple[str, str]]:
     return found
 
 
-def _nearest(axis) -> tuple[int, float]:
+def _nearest(axis: Sequence[Fraction]) -> tuple[int, float]:
     """(the axis of the file that is nearest to a direction, the angle between them, rad)."""
     nearest = max(range(3), key=lambda j: abs(axis[j]))
     across = math.sqrt(sum(float(v) ** 2 for j, v in enumerate(axis) if j != nearest))
@@ -78,7 +84,7 @@ def components(case, names=None) -> str:
     return "; ".join(f"ω{n} about {names.whole(n).removesuffix(IN_FILE)}" for n in (1, 2, 3)) + IN_FILE
 
 
-def note(case) -> list[str]:
+def note(case: Case) -> list[str]:
     """A line on which axes 1, 2, 3 are, where these are not those of the file."""
     words = components(case)
     return [f"  {words}"] if words else []

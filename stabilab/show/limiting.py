@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .. import errors
 from ..answers.caveats import HOLDS
 from ..errors import Caveat, Kind
-from ..reasons import in_si
+from ..reasons import Reason, in_si
 from .axes import axes_of
 from .units import SHORT, Units
+
+if TYPE_CHECKING:
+    from ..case.read import Case
 
 AHEAD = {Kind.THRUSTERS: "no thruster fires"}  # what a first line says before the answer
 
@@ -29,7 +32,7 @@ def condition(caveats: Iterable[Caveat], units: Units, alone: bool = False) -> s
                                       if alone else _unheld(reason), SHORT, whole=True) for reason in found)
 
 
-def _unheld(reason):
+def _unheld(reason: Reason):
     """What follows "holds", with its clauses."""
     held = reason.quantities["condition"]
     for joint, clause in reason.rest:
@@ -100,7 +103,7 @@ def unstable(caveats: Iterable[Caveat], units: Units) -> str:
     return "; ".join(words(one, units) for one in caveats if one.kind is Kind.UNSTABLE)
 
 
-def key(case: Any, caveats: Iterable[Caveat]) -> dict[str, list[dict]]:
+def key(case: Case, caveats: Iterable[Caveat]) -> dict[str, list[dict]]:
     """The key "caveats" of a JSON object, with the names of the axes of a case."""
     return errors.key(caveats, _filled(case))
 

@@ -16,6 +16,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Mapping
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -69,7 +70,7 @@ def written(out, arguments=None, inputs=(), tolerances=None):
             _write(out, {**run, "earlier": earlier})
 
 
-def read(path) -> list[dict]:
+def read(path: Path) -> list[dict]:
     """The commands of a manifest, the latest last. Raises InputError where the file is none."""
     path = Path(path)
     try:
@@ -97,7 +98,7 @@ def _well_formed(run) -> bool:
     return all(isinstance(text, str) for text in texts)
 
 
-def sha256(path) -> str:
+def sha256(path: str | Path) -> str:
     """The SHA-256 hash of a file, in hexadecimal."""
     with open(path, "rb") as stream:
         return hashlib.file_digest(stream, "sha256").hexdigest()
@@ -144,7 +145,7 @@ def _run(out, arguments, inputs) -> dict:
             "inputs": inputs, **environment(), "seeds": SEEDS}
 
 
-def _kept(out, replaced) -> list[dict]:
+def _kept(out: Path, replaced: set[str]) -> list[dict]:
     """The earlier commands with files of their own here, each with those; none of a bad manifest."""
     try:
         runs = read(out / NAME)
@@ -155,7 +156,7 @@ def _kept(out, replaced) -> list[dict]:
     return [run for run in runs if run["outputs"]]
 
 
-def _write(out, data):
+def _write(out: Path, data: Mapping[str, str | None]):
     files.write_text(out / NAME, json.dumps(data, indent=1, allow_nan=False) + "\n")
 
 

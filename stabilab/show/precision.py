@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ..answers.caveats import of_case
 from ..cost import accuracy
-from ..cost.accuracy import EPS, digit_price
+from ..cost.accuracy import EPS, Point, Precision, digit_price
 from ..errors import InputError
 from ..files import write_text
 from ..packages import demand
@@ -219,7 +219,7 @@ def as_dict(found) -> dict:
             "words": words(found)}
 
 
-def _row(found, p) -> dict:
+def _row(found: Precision, p: Point) -> dict:
     values = (found.case.name, p.question, p.method, p.setting, p.value, p.error, min(p.digits, 99.0),
               p.steps, p.evaluations, p.seconds,
               p.slowest, p.repeats, p.compile, p.lanes, p.parts, any(p is q for q in found.front(p.question)))

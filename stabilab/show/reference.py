@@ -3,9 +3,11 @@ from __future__ import annotations
 
 import math
 import shlex
+from collections.abc import Sequence
 from decimal import Decimal, localcontext
 from fractions import Fraction
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..answers.caveats import limited
 from ..answers.certificate import subject
@@ -19,13 +21,17 @@ from ..physics.coefficients import effective
 from . import endings, manifest
 from .data import as_json, csv_lines
 
+if TYPE_CHECKING:
+    from ..case.read import Case
+
 SCHEMA = "stabilab.reference/1"
 VERSIONS = ("python", "python-flint")
 KINDS = (".csv", ".json")
 BITS = 1100  # more than any run has
 
 
-def as_dict(case, times, digits: int, arguments=()) -> tuple[dict, Tabulated]:
+def as_dict(case: Case, times: Sequence[Fraction], digits: int,
+            arguments: Sequence[str] = ()) -> tuple[dict, Tabulated]:
     """(the reference as JSON has it, the run). times: rationals from 0 on; arguments: of the command line."""
     run = tabulated(case.scene, case.start, case.exact_state, times, digits)
     known = motion(case.scene, case.start, case.span, exact=case.exact_state)
@@ -50,7 +56,7 @@ def as_dict(case, times, digits: int, arguments=()) -> tuple[dict, Tabulated]:
             } | key(limited(known, case.scene, case).caveats), run
 
 
-def _provenance(case, arguments):
+def _provenance(case: Case, arguments: Sequence[str]):
     made = manifest.environment()
     return {"program": made["program"]["name"], "version": made["program"]["version"],
             "sources_sha256": made["program"]["sha256"],
@@ -93,7 +99,7 @@ def _told(told) -> dict:
             "because": told.because}
 
 
-def missing(case, made: dict, run: Tabulated) -> list[tuple]:
+def missing(case: Case, made: dict, run: Tabulated) -> list[tuple]:
     """(case, what falls short of the digits asked for) of a reference."""
     short = [] if run.reached else [f"states: {run.because}"]
     for question in ("period", "extremes"):

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from html import escape
 from typing import TYPE_CHECKING, Any
@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..numbers.principal import PrincipalAxes, oblique
-from ..orbit.result import Fate
+from ..orbit.result import Fate, Motion
 from ..packages import demand
 from ..physics.scene import PARTS
 from ..reasons import number
@@ -24,6 +24,8 @@ from .terminal import minus, some
 if TYPE_CHECKING:
     import pandas
     import xarray
+
+    from ..equilibrium.result import Equilibria
 
 MOST = 10  # rows of a page
 
@@ -42,7 +44,7 @@ class Variables:
 AXIS: dict[str, tuple[Any, dict[str, str]]] = {"axis": ([1, 2, 3], {"long_name": "principal axis"})}
 
 
-def variables(result: Any, frame: str = "file") -> Variables:
+def variables(result: Equilibria | Motion, frame: str = "file") -> Variables:
     """Those of a result, with what limits the whole answer, and of a full tensor the principal axes, among
     the attributes. frame: as of `Shown.to_xarray`."""
     if frame not in FRAMES:
@@ -58,7 +60,7 @@ def variables(result: Any, frame: str = "file") -> Variables:
                    attributes=attributes | frame_attributes(axes, turning))
 
 
-def short(result: Any) -> str:
+def short(result: Equilibria | Motion) -> str:
     """The line of a result: its kind, what it answers in a few words, and all that limits the answer."""
     name = type(result).__name__
     limits = (one.words for one in getattr(result, "caveats", ()))
@@ -133,7 +135,7 @@ def _numbers(dims: tuple[str, ...], values: Iterable[Any], **words: str):
     return dims, np.array([np.nan if v is None else v for v in values], float), words
 
 
-def _along_axes(values: Any, **words: str):
+def _along_axes(values: Sequence[float], **words: str):
     """A vector along the principal axes, NaN where there is none."""
     return ("axis",), np.array(values or (math.nan,) * 3, float), words
 
@@ -146,7 +148,7 @@ def _dims(array) -> tuple[str, ...]:
     return ("state",) if array.ndim == 1 else tuple(f"state_{n + 1}" for n in range(array.ndim))
 
 
-def _named(words, value, side=0):
+def _named(words: str, value: float | None, side: int = 0):
     return "" if value is None else f"{words} {number(value, 6, side)}"
 
 
@@ -154,7 +156,7 @@ def _shares(words):
     return ", ".join(f"{number} {word}" for word, number in Counter(words).items())
 
 
-def _about(found) -> str:
+def _about(found: Motion) -> str:
     return f" about axis {found.axis}, {direction(found.sense)}" if found.axis else ""
 
 
@@ -171,7 +173,7 @@ def of_parts(parts: Mapping[str, Any], time: str = "time",
             for name, values in parts.items()}
 
 
-def _across(name, values) -> tuple[str, ...]:
+def _across(name: str, values: np.ndarray) -> tuple[str, ...]:
     if values.ndim == 3:
         return "inertial_axis", "axis"
     return () if values.ndim < 2 else ("axis",) if values.shape[-1] == 3 else (f"{name}_component",)
@@ -288,7 +290,7 @@ def _time_to(found):
     return Variables(dims, values, AXIS if states.shape[-1] == 3 else {}, {"quantity": found.quantity})
 
 
-def _equilibria_words(found):
+def _equilibria_words(found: Equilibria):
     pieces = [segment.verdict for curve in found.curves for segment in curve.segments]
     told = [f"{some(len(found.points), 'point')} ({_shares(p.verdict for p in found.points)})"
             if found.points else "",
@@ -297,7 +299,7 @@ def _equilibria_words(found):
     return "; ".join([found.kind, *filter(None, told)])
 
 
-def _equilibria(found):
+def _equilibria(found: Equilibria):
     rows = ([("", p) for p in found.points]
             + [(curve.name, p) for curve in found.curves for p in curve.samples])
     at = np.array([p.at for _, p in rows], float).reshape(len(rows), len(rows[0][1].at) if rows else 3)
@@ -312,7 +314,7 @@ def _equilibria(found):
                      {"kind": found.kind, "reason": found.because})
 
 
-def _motion_words(m):
+def _motion_words(m: Motion):
     parts = [m.fate.word + _about(m) + ("" if m.level in ("exact", "undecided") else f", {m.level}"),
              _named("margin in energy", m.margin_energy),
              _named("in rate", m.margin_velocity, -bool(m.velocity_because)), _named("period", m.period),
@@ -320,7 +322,7 @@ def _motion_words(m):
     return "; ".join(filter(None, parts))
 
 
-def _motion(m):
+def _motion(m: Motion):
     over = {"long_name": f"over {m.extremes_over}"}
     values = {"start": _along_axes(m.at[:3])} | {
         name: _numbers(("axis",), (pair[end] for pair in m.extremes or ((None, None),) * 3), **over)
@@ -565,7 +567,7 @@ KINDS: dict[str, tuple[Callable[[Any], str], Callable[[Any], Variables]]] = {
 
 
 # --- Any kind: as a data set, a table, a page
-def dataset(result: Any, frame: str = "file") -> xarray.Dataset:
+def dataset(result: Equilibria | Motion, frame: str = "file") -> xarray.Dataset:
     """The numbers of a result with their dimensions, units and words."""
     demand("xarray")
     import xarray
@@ -575,7 +577,7 @@ def dataset(result: Any, frame: str = "file") -> xarray.Dataset:
                           dict(found.attributes))
 
 
-def table(result: Any, frame: str = "file") -> pandas.DataFrame:
+def table(result: Equilibria | Motion, frame: str = "file") -> pandas.DataFrame:
     """The numbers of a result as a table; a column a component, what belongs to the whole in `attrs`."""
     demand("pandas")
     import pandas
@@ -619,7 +621,7 @@ def _index(found: Variables) -> Any:
                         name=name)
 
 
-def html(result: Any) -> str:
+def html(result: Equilibria | Motion) -> str:
     """The line of a result, and its first rows; what is in it is text and never a tag."""
     found = variables(result)
     rows = columns(found)

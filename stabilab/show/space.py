@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from itertools import accumulate, pairwise, product
 from typing import Any
 
-from ..equilibrium.result import Equilibria
+from ..equilibrium.result import Equilibria, EquilibriumCurve
 from ..errors import InputError, StabilabError
 from ..orbit.result import Fate, Motion
 from ..orbit.separatrix.saddles import REACH, PlainBranch, plain_separatrix
@@ -35,7 +35,7 @@ GROWTH = 1.5  # of the time from which a spin-up is certain, at least
 STRETCHED = 50.0  # times its span: a motion that spins up later than that is not followed so far
 
 
-def natural(scene: Any, state: Any) -> float:
+def natural(scene: AnyScene, state: Sequence[float]) -> float:
     """Some units of the time in which a torque or the rotation itself moves the body."""
     if scene.variables == "scaled":
         return NATURAL
@@ -430,7 +430,7 @@ def curves_of(found: Equilibria | None, box: Box, coarse: int = PLACES[0],
     return [(words, places) for words, places in out if any(map(box.holds, places))]
 
 
-def _place(curve: Any, t: float) -> Point | None:
+def _place(curve: EquilibriumCurve, t: float) -> Point | None:
     """The rates at a place of a curve (a field adds the vertical behind them); None at an end that belongs to
     it no more."""
     try:
@@ -439,7 +439,7 @@ def _place(curve: Any, t: float) -> Point | None:
         return None
 
 
-def _inside(curve: Any, ts: list[float], box: Box) -> list[tuple[float, float]]:
+def _inside(curve: EquilibriumCurve, ts: list[float], box: Box) -> list[tuple[float, float]]:
     """The runs of parameters whose places are in or near the box, each one step longer."""
     near = [at is not None and box.holds(at, 1.05) for at in (_place(curve, t) for t in ts)]
     near = [near[n] or any(near[max(0, n - 1):n + 2]) for n in range(len(ts))]

@@ -6,11 +6,16 @@ import math
 from contextlib import contextmanager
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..files import whole_file
 from ..packages import demand
 from . import endings
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from ..equilibrium.result import CurveSegment, EquilibriumPoint
 
 # The hues of Okabe and Ito, darker: lines in them have a contrast of at least 3 on white, and colour-blind
 # readers tell them apart. YELLOW is for areas alone.
@@ -77,7 +82,7 @@ RC: dict[Any, Any] = {  # of Matplotlib
 }
 
 
-def kind_of(part: Any) -> str:
+def kind_of(part: CurveSegment | EquilibriumPoint) -> str:
     """Which of EQUILIBRIA an equilibrium or a piece of a curve of them is: as its verdict has it."""
     return next(kind for kind in ("undecided", "unstable", "stable") if kind in part.verdict)
 
@@ -111,7 +116,7 @@ _UNDATED = {".svg": {"Date": None, "Creator": None},
             ".pdf": {"CreationDate": None, "Creator": None, "Producer": None}}
 
 
-def save(figure, path, dpi: float | None = None) -> Path:
+def save(figure: Figure, path: Path | str, dpi: float | None = None) -> Path:
     """Write a picture in the format of its ending (.png, .svg, .pdf), whole or not at all, with no date or
     version inside: the same picture gives the same bytes. A .png has 256 colours, which keeps a drawing well
     under 200 kB. dpi: dots an inch, None for those of the house. Raises InputError for other endings."""
@@ -125,7 +130,7 @@ def save(figure, path, dpi: float | None = None) -> Path:
     return path
 
 
-def _drawn(figure, dpi):
+def _drawn(figure: Figure, dpi: float):
     """The figure as a Pillow image. A canvas lays it out and draws it once; savefig would draw it twice."""
     import numpy as np
     from matplotlib.backends.backend_agg import FigureCanvasAgg

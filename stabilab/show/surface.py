@@ -6,10 +6,11 @@ from __future__ import annotations
 
 import json
 import struct
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import groupby, product
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -29,6 +30,9 @@ from .progress import each
 from .render_probe import probe, use
 from .space import Space, across, look, numbers
 from .terminal import some
+
+if TYPE_CHECKING:
+    from ..orbit.separatrix.homoclinic import Branch
 
 
 # --- In words
@@ -58,7 +62,7 @@ class Mesh:
     residual: np.ndarray
 
 
-def triangulate(branch) -> Mesh:
+def triangulate(branch: Branch) -> Mesh:
     """The mesh of a branch. Points of the grid that coincide (a row shrunk to the fold; columns 0 and -1 at
     the saddle) become one vertex, and triangles that lost a corner or their area are dropped."""
     points = np.asarray(branch.points, float) + 0.0  # -0.0 and 0.0 are one place
@@ -73,7 +77,7 @@ def triangulate(branch) -> Mesh:
     return Mesh(branch.name, vertices, triangles[area > 0], residual)
 
 
-def _triangles(where, cut):
+def _triangles(where: np.ndarray, cut: int):
     """(t, 3) triangles of a grid of vertex numbers (n, m), cut as the branch says, without those that lost a
     corner."""
     a, b, c, d = where[:-1, :-1], where[1:, :-1], where[:-1, 1:], where[1:, 1:]
@@ -96,7 +100,7 @@ def normals(mesh: Mesh) -> np.ndarray:
     return np.divide(out, size, out=np.tile([0.0, 0.0, 1.0], (len(out), 1)), where=size > 0)
 
 
-def stl(meshes) -> bytes:
+def stl(meshes: Sequence[Mesh]) -> bytes:
     """Binary STL of all meshes (single precision, as the format has it)."""
     corners = [mesh.points[mesh.triangles] for mesh in meshes]
     corner = np.concatenate(corners) if corners else np.zeros((0, 3, 3))
@@ -107,13 +111,13 @@ def stl(meshes) -> bytes:
     return b"stabilab separatrix".ljust(80) + struct.pack("<I", len(record)) + record.tobytes()
 
 
-def glb(meshes, colours) -> bytes:
+def glb(meshes: Sequence[Mesh], colours: Sequence[str]) -> bytes:
     """glTF 2.0 binary: one node a branch, with normals and a two-sided material (single precision)."""
     document: dict = {"asset": {"version": "2.0", "generator": "stabilab"}, "scene": 0,
                       "scenes": [{"name": "separatrix"}]}
     binary = bytearray()
 
-    def accessor(array, kind, component, target):
+    def accessor(array: np.ndarray, kind: str, component: int, target: int):
         view = {"buffer": 0, "byteOffset": len(binary), "byteLength": array.nbytes, "target": target}
         binary.extend(array.tobytes())
         binary.extend(b"\0" * (-len(binary) % 4))
@@ -353,7 +357,7 @@ def write_meshes(meshes: list[Mesh], out: Path, name: str) -> list[Path]:
     return [out / f"{name}.{kind}" for kind in writers]
 
 
-def _write_vtp(meshes, path):
+def _write_vtp(meshes: Sequence[Mesh], path: Path):
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
     writer = vtkXMLPolyDataWriter()
     writer.SetFileName(str(path))
@@ -364,7 +368,7 @@ def _write_vtp(meshes, path):
         raise OSError(f"{path}: VTK could not write it")
 
 
-def polydata(meshes):
+def polydata(meshes: Sequence[Mesh]):
     """All branches in one vtkPolyData: double-precision points, point arrays "sheet" (int32) and "residual"
     (float64)."""
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray

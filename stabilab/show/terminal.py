@@ -67,7 +67,7 @@ def minus(text: str) -> str:
     return MINUS.sub(lambda found: found[0].rstrip("0").lstrip("+").replace("-", "−"), text)
 
 
-def _in_letters(text):
+def _in_letters(text: str):
     for plain, sign in SIGNS.items():
         text = text.replace(plain, sign)
     return NOTATION.sub(_letter, text)
@@ -183,7 +183,7 @@ def wrapped(text: str, columns: int) -> str:
     return "\n".join(lines).replace(BLANK, " ")
 
 
-def _place_together(line):
+def _place_together(line: str):
     """The line with a file at its head as one word, whatever blanks its name holds."""
     if line.startswith("written: "):
         return line.replace(" ", BLANK)
@@ -235,7 +235,7 @@ def width(stream=None) -> int | None:
         return USUAL
 
 
-def _in_colours(text):
+def _in_colours(text: str):
     from rich.console import Console
     from rich.text import Text
     shown = Text(text, end="")

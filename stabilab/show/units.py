@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
 from functools import partial
@@ -17,6 +17,7 @@ from .terminal import lettered
 
 if TYPE_CHECKING:
     from ..case.read import Case
+    from ..numbers.vectors import Float3
 
 DIGITS = 6  # of a number in a table
 SHORT = 4  # of a number within a sentence
@@ -159,7 +160,7 @@ class Units:
                  "(rad/s)^2": (f"({name})²" if name else "", one * one)}
         return turns.get(unit, ("" if self.scaled and unit != "1" else lettered(unit), 1.0))
 
-    def vector(self, values, unit: Unit, digits: int = DIGITS) -> str:
+    def vector(self, values: Float3 | list[str], unit: Unit, digits: int = DIGITS) -> str:
         """Several numbers in one unit: "(1, 2, 3) deg/s"."""
         name, one = unit
         return f"{vector((float(v) * one for v in values), digits)} {name}".rstrip()
@@ -237,7 +238,7 @@ def as_bound(value: float, one: float, digits: int, side: int) -> float:
     return found
 
 
-def but_for_rounding(pairs, tolerance: float | None):
+def but_for_rounding(pairs: Sequence[tuple[float, float]] | None, tolerance: float | None):
     """Least and greatest of each component, 0 for what is within the tolerance of the largest of them."""
     if pairs is None:
         return None

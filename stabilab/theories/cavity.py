@@ -38,9 +38,10 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -50,8 +51,13 @@ from ..integrate.trajectory import FALLBACK_RTOL
 from ..physics.equations import derive
 from ..physics.states import numbers_in_a_row, three_numbers
 from ..physics.to_numpy import lambdified, to_numpy
-from .cavity_normal_form import NAMES, check, constants, normal_form
+from .cavity_normal_form import NAMES, NormalForm, check, constants, normal_form
 from .printed.evaluate import printed_formulas
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+    from ..physics.scene import Scene
 
 # --- Averaged equations
 RTOL = 1e-10  # the equations themselves are true to eps^2 at best
@@ -93,7 +99,7 @@ class AveragedMotion:
     horizon: str
 
 
-def averaged(scene, state, times, order: int = 1) -> AveragedMotion:
+def averaged(scene: Scene, state: Sequence[float], times: np.ndarray, order: int = 1) -> AveragedMotion:
     """Averaged motion from `state` (three numbers, rad/s, or {"omega": ...}) at t = 0; times: (n,) s, any
     order and sign.
 
@@ -146,7 +152,7 @@ class Smallness:
     slow: float
 
     @classmethod
-    def of(cls, numbers, omega) -> Smallness:
+    def of(cls, numbers: Mapping[str, Fraction], omega: np.ndarray) -> Smallness:
         J, d, h, g, kappa, zeta, *M = (float(numbers[n]) for n in NAMES)
         moment, size = math.hypot(*M), float(np.linalg.norm(omega))
         turn = (abs(d) * size + abs(g)) / J
@@ -175,7 +181,7 @@ class Smallness:
                                  f"below 1 (much "
                                  "below 1 for a close answer); use the exact motion (`trajectory`) here")
 
-    def horizon(self, order) -> str:
+    def horizon(self, order: int) -> str:
         """How far the answer may be trusted, in words."""
         ratios = self.ratios | (self.soft if order == 1 else {})
         largest = max(ratios, key=ratios.get)
@@ -185,14 +191,14 @@ class Smallness:
                 f"{reach} (the time of the slow change), in the phase they grow with time{doubt}")
 
 
-def _over(a, b):
+def _over(a: float, b: float):
     return a / b if b else (math.inf if a else 0.0)
 
 
 class _Model:
     """The averaged equations of one scene as plain numbers."""
 
-    def __init__(self, scene, numbers, omega, order):
+    def __init__(self, scene: Scene, numbers: Mapping[str, Fraction], omega: np.ndarray, order: int):
         self.order = order
         self.parameters = [float(numbers[n]) for n in NAMES]
         J, d, h, g = self.parameters[:4]
@@ -206,7 +212,7 @@ class _Model:
         self.means, self.kept, self.near = _functions(normal_form(scene), order,
                                                       frozenset(n for n in NAMES if not numbers[n]))
 
-    def removal(self, nu):
+    def removal(self, nu: np.ndarray):
         """m = (1 - K)/nu, its derivative, and K = exp(-(nu/width)^4); without a width everything is kept."""
         if not self.width:
             return nu * 0.0, nu * 0.0, nu * 0.0 + 1.0
@@ -216,19 +222,19 @@ class _Model:
         share = np.where(x == 0, 0.0, -np.expm1(-x**4) / safe)
         return share / self.width, (4 * x**2 * kept - share / safe) / self.width**2, kept
 
-    def near_identity(self, Z, r):
+    def near_identity(self, Z: np.ndarray, r: np.ndarray):
         """(U_Z, U_r) at averaged variables; complex and real."""
         uz, ur = self.near(Z, np.conj(Z), r, *self.removal(self.slope * r - self.offset), *self.parameters)
         return uz, np.real(ur)
 
-    def outward(self, Z, r):
+    def outward(self, Z: np.ndarray, r: np.ndarray):
         """(n, 3) angular velocity of the averaged variables Z, r, each (n,)."""
         if self.order == 2:
             uz, ur = self.near_identity(Z, r)
             Z, r = Z + uz, r + ur
         return np.stack([np.real(Z), -np.imag(Z), r], axis=-1)
 
-    def inward(self, omega):
+    def inward(self, omega: np.ndarray):
         """Averaged (p, q, r) of an angular velocity: the change of variables undone. Raises InputError if it
         cannot be."""
         y = omega.copy()
@@ -246,7 +252,7 @@ class _Model:
                          f"values to averaged variables does not converge (off by {np.abs(miss).max():.2g} "
                          "rad/s); use order 1 or the exact motion")
 
-    def rates(self, t, y):
+    def rates(self, t: float, y: np.ndarray):
         """Rates of (Re W, Im W, r, psi), or of (log |W|, arg W, r, psi); none where an amplitude leaves the
         range of doubles."""
         try:
@@ -254,7 +260,7 @@ class _Model:
         except OverflowError:
             return [math.nan] * 4
 
-    def _rates(self, y):
+    def _rates(self, y: np.ndarray):
         W = cmath.exp(complex(max(y[0], LEAST), y[1])) if self.logarithmic else complex(y[0], y[1])
         r, psi = y[2], y[3]
         nu = self.slope * r - self.offset
@@ -270,7 +276,7 @@ class _Model:
         dW = turn.real + kept_W / W if self.logarithmic else W * turn.real + kept_W
         return [dW.real, dW.imag, complex(spin + kept_r).real, nu + turn.imag]
 
-    def run(self, w0, r0, grid, sense):
+    def run(self, w0: complex, r0: float, grid: np.ndarray, sense: int):
         """([(W, r, psi, unwrapped angle of W)] at the times of grid, failure or None); grid > 0, run backward
         for sense -1."""
         from scipy.integrate import solve_ivp
@@ -289,7 +295,7 @@ class _Model:
 
 
 @lru_cache(maxsize=32)
-def _functions(form, order, absent):
+def _functions(form: NormalForm, order: int, absent: frozenset[str]):
     """(means(S, r, m, m1, K, ...), kept(Z, Zc, r, m, m1, K, ...), near(...)) up to an order; absent: names
     that are 0."""
     from sympy import Symbol, expand
@@ -307,7 +313,7 @@ def _functions(form, order, absent):
 # still a double
 
 
-def polar(scene, state, times) -> dict[str, np.ndarray]:
+def polar(scene: Scene, state: Sequence[float], times: np.ndarray) -> dict[str, np.ndarray]:
     """{"amplitude": (n,) rad/s, "spin": (n,) rad/s, "phase": (n,) rad, unwrapped} of the exact motion from
     `state` (as of `averaged`).
 
@@ -321,7 +327,7 @@ def polar(scene, state, times) -> dict[str, np.ndarray]:
     if any(rate([0.0, 0.0, 1.0])[:2]) or not math.hypot(p, q):
         raise InputError("amplitude and phase: expected no torque across axis 3 and a start off that axis")
 
-    def slow(_, y):
+    def slow(_: float, y: np.ndarray):
         A, c, s = math.exp(max(y[0], LEAST)), math.cos(y[1]), math.sin(y[1])
         dp, dq, dr = rate([A * c, -A * s, y[2]])
         return (dp * c - dq * s) / A, -(dp * s + dq * c) / A, dr
@@ -367,7 +373,7 @@ class Polynomials:
     J0: float
 
     @classmethod
-    def of(cls, scene, omega) -> Polynomials:
+    def of(cls, scene: Scene, omega: np.ndarray) -> Polynomials:
         check(scene)
         n = {k: float(v) for k, v in constants(scene).items()}
         exact, (p, q, r) = scene.body.exact, omega
@@ -391,7 +397,7 @@ class Polynomials:
                    (phi, formula("f3_29", values), second[2] / 2), (d1, d2),
                    n["Gamma"], n["J0"])
 
-    def at(self, t):
+    def at(self, t: np.ndarray):
         """(a, r, phi, omega) at the times t (n,); rows of omega are NaN where (14) has no real value."""
         a, r, phi = (np.polyval(c[::-1], t) for c in (self.a, self.r, self.phi))
         x1, x2 = (d * r - self.gamma for d in self.d)
@@ -408,7 +414,7 @@ def formulas():
     return printed_formulas("liquid-cavity")
 
 
-def printed(scene, state, times) -> PrintedMotion:
+def printed(scene: Scene, state: Sequence[float], times: np.ndarray) -> PrintedMotion:
     """The paper's solution from `state` (three numbers, rad/s, or {"omega": ...}) at times (n,) >= 0,
     increasing, s.
 
@@ -433,7 +439,7 @@ def printed(scene, state, times) -> PrintedMotion:
 MODELS = ("averaged1", "averaged2", "printed")
 
 
-def applies(scene) -> bool:
+def applies(scene: Scene) -> bool:
     """Whether averaging covers the scene."""
     if not {e.name for e in scene.effects} & {"liquid_cavity", "resistance"}:
         return False

@@ -21,14 +21,21 @@ precession, the angular velocity going round axis 3 in the body.
 """
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from ..numbers.vectors import Number
 from ..physics.effects.base import effect_words
 from ..physics.equations import derive
-from ..reasons import Reasoned
+from ..reasons import Reasoned, as_reason
+
+if TYPE_CHECKING:
+    from sympy import Expr
+
+    from ..physics.scene import Scene
 
 ORDERS = 3  # X0, X1, X2
 ALLOWED = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity"}
@@ -55,7 +62,7 @@ class NormalForm:
     near: tuple
 
 
-def constants(scene) -> dict:
+def constants(scene: Scene) -> dict:
     """Name of NAMES -> exact number of this scene (J0, D1 - J0 halved into mean d and split h, Gamma =
     lambda3 - k ...)."""
     D1, D2, D3 = scene.body.exact
@@ -65,7 +72,7 @@ def constants(scene) -> dict:
                             resistance.exact if resistance else 0, *scene.vector("constant_torque"))))
 
 
-def check(scene):
+def check(scene: Scene):
     """Raises InputError where the scene is not of the kind that the averaging is about."""
     if scene.variables == "scaled":
         raise InputError("averaging needs a physical scene (a body with a liquid, resistance, small "
@@ -83,7 +90,7 @@ def check(scene):
         raise InputError(f"averaging needs a gyrostatic moment along axis 3, got {tuple(map(float, lam))}")
 
 
-def normal_form(scene) -> NormalForm:
+def normal_form(scene: Scene) -> NormalForm:
     """The averaged equations of the scene's effects, first and second order, in symbols. Raises InputError
     (`check`)."""
     check(scene)
@@ -92,7 +99,7 @@ def normal_form(scene) -> NormalForm:
 
 
 @lru_cache(maxsize=32)
-def _normal_form(state, rhs, items) -> NormalForm:
+def _normal_form(state: Sequence[Expr], rhs: Sequence[Expr], items: Sequence[tuple[str, Expr]]) -> NormalForm:
     from sympy import I, Symbol, expand, symbols
     given = dict(items)
     p, q, r = state
@@ -108,10 +115,10 @@ def _normal_form(state, rhs, items) -> NormalForm:
                          "this scene give another")
     slope = nu.diff(r)
 
-    def by_r(f):  # m depends on r through nu
+    def by_r(f: Expr):  # m depends on r through nu
         return f.diff(r) + slope * m1 * f.diff(m)
 
-    def along(f, v):
+    def along(f: Expr, v: Sequence[Expr]):
         """Derivative of f along the field v = (v_Z, v_r)."""
         return f.diff(Z) * v[0] + f.diff(Zc) * _conjugate(v[0], Z, Zc) + by_r(f) * v[1]
 
@@ -125,7 +132,7 @@ def _normal_form(state, rhs, items) -> NormalForm:
                       (first.kept, second.kept), U)
 
 
-def _orders(rhs, given, names):
+def _orders(rhs: Sequence[Expr], given: Mapping[str, Expr], names: Mapping[str, Expr]):
     """The rates sorted by orders of e: [X0, X1, X2], each a triple in (p, q, r)."""
     from sympy import Integer
     J, d, h, g = (names[n] for n in ("J0", "d", "h", "Gamma"))
@@ -143,7 +150,7 @@ def _orders(rhs, given, names):
     return [tuple(row[n] for row in rows) for n in range(1, ORDERS + 1)]
 
 
-def _series(expression, swap):
+def _series(expression: Expr, swap: Mapping[Expr, list[Expr]]):
     """Coefficients of e^0 ... e^3 of a Laurent polynomial whose symbols are themselves series in e."""
     from sympy import Add, Integer, Mul, expand
     total = [[] for _ in range(ORDERS + 1)]
@@ -159,11 +166,11 @@ def _series(expression, swap):
     return [expand(Add(*parts)) for parts in total]
 
 
-def _times(u, v):
+def _times(u: Sequence[Expr], v: Sequence[Expr]):
     return [sum(u[i] * v[n - i] for i in range(n + 1)) for n in range(ORDERS + 1)]
 
 
-def _power(series, n):
+def _power(series: Sequence[Number], n: int):
     from sympy import Integer
     a = [Integer(0) + c for c in series] + [Integer(0)] * (ORDERS + 1 - len(series))
     one = [Integer(1)] + [Integer(0)] * ORDERS
@@ -177,7 +184,7 @@ def _power(series, n):
     return one
 
 
-def _conjugate(f, Z, Zc):
+def _conjugate(f: Expr, Z: Expr, Zc: Expr):
     from sympy import I
     return f.subs({Z: Zc, Zc: Z, I: -I}, simultaneous=True)
 
@@ -191,14 +198,14 @@ class _Split:
     kept: tuple
     near: tuple
 
-    def field(self, Z):
+    def field(self, Z: Expr):
         from sympy import Symbol
         S = Symbol("S", real=True)
         back = {S: Z * Symbol("Zc")}
         return (Z * self.turn.subs(back) + self.kept[0], self.spin.subs(back) + self.kept[1])
 
 
-def _split(field, Z, Zc, slope, m, K):
+def _split(field: Sequence[Expr], Z: Expr, Zc: Expr, slope: Expr, m: Expr, K: Expr):
     """Mean, kept part and remover of one order; Z^a Zc^b has frequency (a - b) nu in r', (a - b - 1) nu in
     Z'."""
     from sympy import I, Symbol, expand
@@ -209,7 +216,7 @@ def _split(field, Z, Zc, slope, m, K):
     return _Split(turn, spin, (kept_Z, kept_r), (near_Z, near_r))
 
 
-def _harmonics(f, Z, Zc, shift, m, K, S):
+def _harmonics(f: Expr, Z: Expr, Zc: Expr, shift: int, m: Expr, K: Expr, S: Expr):
     from sympy import I, Integer, Poly
     mean = kept = near = Integer(0)
     for (a, b), c in Poly(f, Z, Zc).terms() if f != 0 else ():
@@ -249,7 +256,7 @@ class Attractors:
         return tuple(p for p in self.points if p.kind == "attracting")
 
 
-def attractors(scene) -> Attractors:
+def attractors(scene: Scene) -> Attractors:
     """Steady states of the averaged equations of the scene, first and second order together. Raises
     InputError where the scene is not of the kind (`check`)."""
     from sympy import Poly, Rational, Symbol, expand, re
@@ -291,7 +298,7 @@ def _state(alpha, rho0, rho1, r, S) -> SteadyState:
         first, second = (down + root) / 2, (down - root) / 2
         because = "regular precession: the liquid feeds the amplitude as fast as the rest takes it"
     rates = (complex(Integer(0) + first), complex(Integer(0) + second))
-    return SteadyState(float(sqrt(S)), float(r), _kind(rates), rates, reason=because)
+    return SteadyState(float(sqrt(S)), float(r), _kind(rates), rates, reason=as_reason(because))
 
 
 def _kind(rates):

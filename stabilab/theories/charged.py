@@ -40,8 +40,10 @@ not close, closed as in (46). The short form (Elneklawy) prints the same, but fo
 `corrected` has the integrals that the paper means."""
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -52,6 +54,9 @@ from ..reasons import number
 from .charged_modes import SMALL_ANGLE, ChargedBody, Modes, horizon, modes, spin_words
 from .printed.evaluate import printed_formulas
 
+if TYPE_CHECKING:
+    from ..physics.scene import Scene
+
 # --- Closed forms
 LOPSIDED = 4.0  # a/b beyond which the even split loses less: w - a cancels against 1 by sqrt(a/b)
 
@@ -59,7 +64,7 @@ LOPSIDED = 4.0  # a/b beyond which the even split loses less: w - a cancels agai
 class Terms:
     """The divided differences at the times t and the coefficients in front of them."""
 
-    def __init__(self, body: ChargedBody, t, m: Modes):
+    def __init__(self, body: ChargedBody, t: np.ndarray | float, m: Modes):
         self.body, self.t = body, t
         self.p0, self.q0 = body.rates.tolist()
         self.m1, self.m2 = (body.torque / body.inertia[:2]).tolist()
@@ -70,7 +75,7 @@ class Terms:
         self.share = 0.5 if even else 1.0
         self.above, self.below = map(float, (-m.a, m.b) if even else (m.root - m.a, m.b - m.root))
 
-    def _tables(self, names, counts):
+    def _tables(self, names: str, counts: Sequence[tuple[int, int]] | set[tuple[int, ...]]):
         return divided_differences([self.nodes[n] for n in names], counts, self.t,
                                    [self.low[n] for n in names])
 
@@ -87,7 +92,7 @@ class Terms:
         q = self.q0 * C + (self.m2 + self.b * self.p0) * S + self.b * self.m1 * S2
         return self.vector(p, q, self.body.spin)
 
-    def _sums(self, names, folds, Gamma0):
+    def _sums(self, names: str, folds: Mapping[int, Any], Gamma0: complex):
         """The divided differences of each fold with the coefficients Gamma0, Pi0, mu, k0, k1 of the module's
         formulas."""
         D = self._tables(names, {counts for each in folds.values() for counts in each})
@@ -105,7 +110,7 @@ class Terms:
                   for n in folds}
         return self._sums("0b+-", counts, self.body.tilt)
 
-    def Z(self, *folds, start=None):
+    def Z(self, *folds, start: float | None = None):
         """The n-fold integrals of e^(i r0 t) Gamma, for the n in folds; start: another tilt in place of
         Gamma0."""
         counts = {n: ((n + 1, 0, 0, 0), (n + 1, 0, 1, 0), (n + 1, 0, 0, 1), (n + 1, 1, 1, 0),
@@ -144,7 +149,7 @@ class Terms:
         return body.velocity + moved[0], body.position + body.velocity * t[..., None] + moved[1]
 
 
-def _nodes(m, spin):
+def _nodes(m: Modes, spin: float):
     """Nodes by letter and what rounding took from them: 0, + and - for +-iw, f and b for +-ir0, h and l for i
     nu+-."""
     r0, (w, s) = Fraction(spin), (0, m.root) if m.unstable else (m.root, 0)
@@ -184,7 +189,7 @@ class AxisymmetricMotion:
         return tilt_of(self.angles)
 
 
-def solution(body: ChargedBody, t) -> AxisymmetricMotion:
+def solution(body: ChargedBody, t: float | np.ndarray) -> AxisymmetricMotion:
     """The motion at times t (s, any shape).
 
     Raises InputError where the unstable motion exceeds the largest double.
@@ -194,7 +199,7 @@ def solution(body: ChargedBody, t) -> AxisymmetricMotion:
     return _motion_of(terms, terms.momentum())
 
 
-def corrected(body: ChargedBody, t) -> AxisymmetricMotion:
+def corrected(body: ChargedBody, t: np.ndarray) -> AxisymmetricMotion:
     """The motion with the paper's one frequency, its integrals corrected: momentum by (33), velocity and
     position by the integrals that the paper means. Evaluated without loss at its own resonances too.
 
@@ -222,7 +227,7 @@ def one_frequency(body: ChargedBody) -> Modes:
     return replace(m, b=m.a * zeta2 / zeta1)
 
 
-def momentum(body, omega, angles):
+def momentum(body: ChargedBody, omega: np.ndarray, angles: np.ndarray):
     """(33): G = e^(i theta) [D1 p + i D2 q - i Gamma (D3 r0 + lambda3)]."""
     D1, D2, D3 = body.inertia
     H3 = D3 * body.spin + body.gyrostat
@@ -231,12 +236,12 @@ def momentum(body, omega, angles):
     return np.stack(np.broadcast_arrays(G.real, G.imag, H3), axis=-1)
 
 
-def tilt_of(angles):
+def tilt_of(angles: np.ndarray):
     """|Gamma| = |psi + i phi|."""
     return np.hypot(angles[..., 0], angles[..., 1])
 
 
-def times(t):
+def times(t: float | np.ndarray):
     """t as an array of finite numbers (s); InputError otherwise."""
     t = np.asarray(t, float)
     if not np.all(np.isfinite(t)):
@@ -298,7 +303,7 @@ MISPRINTS = {
 }
 
 
-def printed(body: ChargedBody, t, parts=PARTS) -> AxisymmetricMotion:
+def printed(body: ChargedBody, t: np.ndarray, parts: Sequence[str] = PARTS) -> AxisymmetricMotion:
     """The paper's formulas for the asked-for parts of the state at times t (s, any shape): omega by (13), q
     by its first form; angles (26); momentum (33); velocity (43), (47); position (58), (63).
 
@@ -330,7 +335,7 @@ def circle(body: ChargedBody, t) -> np.ndarray:
     return np.stack([G.real, G.imag], axis=-1)
 
 
-def numbers(body: ChargedBody, t) -> dict:
+def numbers(body: ChargedBody, t: np.ndarray) -> dict:
     """The paper's symbols at the times t, by name: (4), (6), (10) and what the start gives. Errors as of
     `printed`."""
     D1, D2, D3 = body.inertia
@@ -354,13 +359,13 @@ def formulas():
     return printed_formulas("charged-axisymmetric")
 
 
-def _rates(values):
+def _rates(values: Mapping[str, float | np.ndarray]):
     """(11)-(13), q by its first form."""
     Pi1 = formulas()("Pi1_11", values)
     return _three(Pi1.real / np.sqrt(values["zeta2"]), Pi1.imag / np.sqrt(values["zeta1"]), values["r0"])
 
 
-def _angles(body, values):
+def _angles(body: ChargedBody, values: Mapping[str, float | np.ndarray]):
     """(20), (23), (26)."""
     r0, root = values["r0"], np.sqrt(values["zeta1"] * values["zeta2"])
     W = root * (r0 + values["Lam"] / (values["zeta1"] * values["D1"]))
@@ -371,7 +376,7 @@ def _angles(body, values):
     return _three(Gamma.real, Gamma.imag, body.attitude[2] + r0 * values["t"])
 
 
-def _translation(body, values) -> dict:
+def _translation(body: ChargedBody, values: Mapping[str, float | np.ndarray]) -> dict:
     """(43), (47), (58) and (63), with the integrals of (44), (48), (49), (59) and (64)."""
     if body.mass is None:
         raise InputError("the printed translation formulas need a mass: give mass = ... in kg")
@@ -385,13 +390,13 @@ def _translation(body, values) -> dict:
             "position": body.position + _three(eta.real, eta.imag, v3 * t + eta3.real)}
 
 
-def _both(values, first, second):
+def _both(values: Mapping[str, float | np.ndarray], first: str, second: str):
     """(23), (44), (49), (59), (64)."""
     formula = formulas()
     return formula("both_23", values, X1=formula(first, values), X2=formula(second, values))
 
 
-def _three(x, y, z):
+def _three(x: np.ndarray, y: np.ndarray, z: float | np.ndarray):
     return np.stack(np.broadcast_arrays(x, y, z), axis=-1)
 
 
@@ -401,7 +406,7 @@ NEARLY = Fraction(1, 10)  # D1 - D2 over D1 up to which a body counts as nearly 
 COVERED = {"charge", "gyrostat", "constant_torque", "body_force"}
 
 
-def applies(scene) -> bool:
+def applies(scene: Scene) -> bool:
     """Whether the linear model covers the scene: a gyrostatic moment along axis 3, a torque across it, D1
     near D2 (where a charge or a force asks for this theory it is followed beyond, and says how far r is from
     constant). Where the charge's angle follows the attitude the model holds it at its first value, as the
@@ -445,7 +450,7 @@ def follow(model, case, times, order=None) -> Simulation:
                       reason="; ".join(filter(None, (*told, held))))
 
 
-def _motion(model, body, times, wanted):
+def _motion(model: str, body: ChargedBody, times: np.ndarray, wanted: Sequence[str]):
     """The motion by the model, and how it was found."""
     if model == "printed":
         return printed(body, times,

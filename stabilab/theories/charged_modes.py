@@ -197,7 +197,7 @@ def largest_tilt(body: ChargedBody) -> float:
     return inf if parts is None else sum(map(abs, (parts.steady, parts.coning, parts.B, parts.C)))
 
 
-def spin_words(body: ChargedBody, omega, t) -> str:
+def spin_words(body: ChargedBody, omega: np.ndarray, t: np.ndarray) -> str:
     """How far the spin r, held at r0, is from constant: D3 r' = (D1 - D2) p q, so |r - r0| <= |D1 - D2|
     max(p^2 + q^2) |t|/(2 D3) along the rates omega (n, 3) at the times t (n,)."""
     D1, D2, D3 = body.inertia

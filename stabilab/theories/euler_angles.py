@@ -14,11 +14,15 @@ follows by taking off phi. At a sample with sin theta < 1e-8 phi keeps its last 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..errors import InputError
 from .follow import follow
+
+if TYPE_CHECKING:
+    from ..case.read import Case
 
 SINGULAR = 1e-8  # below this sin(theta) rounding decides phi
 AWAY = 0.1  # 1 +- gamma'' beyond this is far enough from the pole for a smooth rate
@@ -41,7 +45,7 @@ class EulerAngles:
     reason: str
 
 
-def euler_angles(t, omega, gamma) -> EulerAngles:
+def euler_angles(t: np.ndarray, omega: np.ndarray, gamma: np.ndarray) -> EulerAngles:
     """Angles along samples of any motion.
 
     t: (n,) strictly increasing, s; omega: (n, 3) rad/s and gamma: (n, 3), body frame. psi is the integral of
@@ -63,18 +67,18 @@ def euler_angles(t, omega, gamma) -> EulerAngles:
     return EulerAngles(t, psi, _theta(gamma), phi, error, *_verdict(t[singular], error))
 
 
-def _unit(gamma):
+def _unit(gamma: np.ndarray):
     length = np.linalg.norm(gamma, axis=1)
     if not (length > 0).all():
         raise InputError("gamma: expected vectors other than zero")
     return gamma / length[:, None]
 
 
-def _theta(gamma):
+def _theta(gamma: np.ndarray):
     return np.arctan2(np.hypot(gamma[:, 0], gamma[:, 1]), gamma[:, 2])
 
 
-def _verdict(times, error):
+def _verdict(times: np.ndarray, error: float):
     if times.size:
         return "singular", (f"theta is 0 or pi at t = {times[0]:.6g} s: there only the sum (or difference) "
                             "of psi and phi means something; phi keeps its last value")
@@ -83,17 +87,17 @@ def _verdict(times, error):
     return "regular", "theta stays away from 0 and pi at all samples"
 
 
-def _moment(omega, gamma):
+def _moment(omega: np.ndarray, gamma: np.ndarray):
     return omega[:, 0] * gamma[:, 0] + omega[:, 1] * gamma[:, 1]
 
 
-def _rates(omega, gamma):
+def _rates(omega: np.ndarray, gamma: np.ndarray):
     """Rates of psi + phi and of psi - phi; each held finite where the other one is in use."""
     m, r, g3 = _moment(omega, gamma), omega[:, 2], gamma[:, 2]
     return r + m / np.maximum(1 + g3, AWAY), -r + m / np.maximum(1 - g3, AWAY)
 
 
-def _phi(t, omega, gamma):
+def _phi(t: np.ndarray, omega: np.ndarray, gamma: np.ndarray):
     """(phi unwrapped along its rate, where it has no value)."""
     phi, sine = np.arctan2(gamma[:, 0], gamma[:, 1]), np.hypot(gamma[:, 0], gamma[:, 1])
     singular = sine < SINGULAR
@@ -110,7 +114,7 @@ def _phi(t, omega, gamma):
     return phi + 2 * np.pi * np.concatenate([[0.0], np.cumsum(turns)]), singular
 
 
-def _psi(t, omega, gamma, phi):
+def _psi(t: np.ndarray, omega: np.ndarray, gamma: np.ndarray, phi: np.ndarray):
     """psi - psi(first), by the integral of psi + phi or psi - phi, whichever is regular."""
     if t.size == 1:
         return np.zeros(1)
@@ -173,7 +177,8 @@ def with_euler_angles(case, run, model: str = "exact", order: int | None = None)
     return replace(run, state=run.state | {"euler": angles}, reason=reason)
 
 
-def angles_along(case, times, model: str = "exact", order: int | None = None) -> EulerAngles:
+def angles_along(case: Case, times: np.ndarray, model: str = "exact",
+                 order: int | None = None) -> EulerAngles:
     """The angles from 0 to the farthest of the times (n,), s, on both sides of 0 where they lie so; at those
     times, at 0, and close enough for psi."""
     times = np.asarray(times, float)

@@ -5,18 +5,25 @@ from __future__ import annotations
 import difflib
 from dataclasses import replace
 from importlib import import_module
+from typing import TYPE_CHECKING
 
 from ..answers.simulate import Simulation, simulated
 from ..errors import InputError
 from ..physics.coefficients import limits_of
 from ..physics.states import vertical
 
+if TYPE_CHECKING:
+    import numpy as np
+
+    from ..case.read import Case
+    from ..physics.scene import AnyScene
+
 # model -> the modules that may have it, each with `applies(scene)` and `follow(model, case, times, order)`
 FAMILIES = ("charged", "cavity", "top")
 MODELS = ("exact", "linear", "corrected", "printed", "averaged1", "averaged2", "lindstedt")
 
 
-def family(scene):
+def family(scene: AnyScene):
     """The module of analytic solutions that applies to a scene, or None."""
     if scene.variables == "scaled":
         return None
@@ -27,14 +34,14 @@ def family(scene):
     return None
 
 
-def models_of(scene) -> tuple[str, ...]:
+def models_of(scene: AnyScene) -> tuple[str, ...]:
     """The models that apply to a scene, the exact one first."""
     found = family(scene)
     return ("exact",) if found is None else ("exact", *found.MODELS)
 
 
-def follow(case, times, model: str = "exact", method: str | None = None, rtol: float | None = None,
-           order: int | None = None) -> Simulation:
+def follow(case: Case, times: np.ndarray, model: str = "exact", method: str | None = None,
+           rtol: float | None = None, order: int | None = None) -> Simulation:
     """The motion of a case by one model at the given times.
 
     order: of the expansion, for "lindstedt" only. Raises InputError for a model that does not apply to the

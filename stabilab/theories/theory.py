@@ -4,6 +4,7 @@ It is said in words and numbers; of a model, how far off it is, and from when on
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,11 +18,23 @@ from ..reasons import number
 from ..representation import Answer, Compared
 from .cavity_normal_form import attractors
 from .charged import MISPRINTS, body_of
-from .charged_modes import SMALL_ANGLE, horizon, largest_tilt, modes, pointing, resonances, spin_drift
+from .charged_modes import (
+    SMALL_ANGLE,
+    ChargedBody,
+    horizon,
+    largest_tilt,
+    modes,
+    pointing,
+    resonances,
+    spin_drift,
+)
 from .euler_angles import COARSE, angles_along, mean_precession
 from .follow import family, follow, models_of
 from .top import ORDER, state_of
 from .top_lindstedt import lindstedt
+
+if TYPE_CHECKING:
+    from ..answers.simulate import Simulation
 
 # --- What the theory says beyond the motion
 GAMMA = (3, 4, 5)  # of the state of a top
@@ -56,7 +69,7 @@ def lines(rows) -> list[str]:
     return [f"{row['about']}: {row['words']}" for row in rows]
 
 
-def _row(about, words, **values):
+def _row(about: str, words: str, **values):
     return {"about": about, "words": words, "values": values}
 
 
@@ -65,7 +78,7 @@ def _misprints():
             for where, (what, wrong, right) in MISPRINTS.items() if wrong]
 
 
-def _pair(z):
+def _pair(z: complex):
     return [complex(z).real, complex(z).imag]
 
 
@@ -92,7 +105,7 @@ def _axisymmetric(case, order, end):
 LINEAR, OUTGROWN = "in the linear model", "; that is not of the exact motion, whose tilt is not small"
 
 
-def _means(body, outgrown):
+def _means(body: ChargedBody, outgrown: str):
     """What the linear model says on average. outgrown: what is added where its angles are not small."""
     rows, aim, drift = [], pointing(body), spin_drift(body)
     if aim.status != "mean exists":
@@ -263,7 +276,7 @@ def side_by_side(case, times, order: int | None = None) -> tuple[dict, dict]:
     return runs, refused
 
 
-def _gap(run, exact, part):
+def _gap(run: Simulation, exact: Simulation, part: str):
     shown = min(len(run.t), len(exact.t))
     gap = np.full(len(exact.t), np.inf)
     gap[:shown] = np.abs(np.asarray(run.state[part])[:shown]

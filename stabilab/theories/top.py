@@ -26,7 +26,9 @@ y1 where P0
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -35,6 +37,11 @@ from ..errors import InputError
 from ..physics.states import numbers_in_a_row
 from .printed.evaluate import printed_formulas
 from .top_lindstedt import LindstedtMotion, fast_top, lindstedt
+
+if TYPE_CHECKING:
+    from ..case.read import Case
+    from ..numbers.vectors import Float3
+    from ..physics.scene import AnyScene, Scene
 
 
 @dataclass(frozen=True)
@@ -54,7 +61,7 @@ class PrintedMotion:
     reason: str
 
 
-def paper_numbers(scene, state) -> dict[str, float]:
+def paper_numbers(scene: AnyScene, state: Mapping[str, Float3]) -> dict[str, float]:
     """The dimensionless numbers of eqs. (4) and (10) as printed, under the names that the formulas have for
     them, for a scene with gravity, gamma0'' > 0 and l_y = 0; t0: the start's place in the paper's time, s
     (its tau = 0 has gamma' = 0); g0: gamma0''. Raises InputError elsewhere, and ZeroDivisionError at the
@@ -92,7 +99,7 @@ def formulas():
     return printed_formulas("newtonian-field-top")
 
 
-def printed(scene, state, times) -> PrintedMotion:
+def printed(scene: AnyScene, state: Mapping[str, Float3], times: np.ndarray) -> PrintedMotion:
     """The paper's (41) and (43) at the times, s, through r and gamma of the state at t = 0 (arguments as of
     `top_lindstedt`; its p, q are not free). Raises InputError without gravity, for gamma0'' not between 0 and
     1, and for l_y."""
@@ -115,14 +122,14 @@ def printed(scene, state, times) -> PrintedMotion:
                          "eqs. (10), (41) and (43) as they stand in print, misprints and all")
 
 
-def _angles(values, t):
+def _angles(values: Mapping[str, float], t: np.ndarray):
     """Eq. (43), csc(eps theta0) and all: psi (0 at t = 0), theta, phi. psi1 = phi1 = 0, phi2 = psi2, phi4 =
     psi3 as printed."""
     if values["th"] == 0:
         raise InputError("the printed angles divide by sin(theta0), which is 0 for this start")
     formula, start = formulas(), values["t0"]
 
-    def gained(name):
+    def gained(name: str):
         """What a term has more than at the start."""
         at = lambda t: formula(f"{name}_43", values, t=t + start, tau=values["r0"] * (t + start))
         return at(t) - at(0.0)
@@ -139,7 +146,7 @@ ORDER = 4
 COVERED = {"gravity", "newtonian_field", "gyrostat"}
 
 
-def applies(scene) -> bool:
+def applies(scene: Scene) -> bool:
     """Whether the expansion covers the scene: gravity or a Newtonian field, a gyrostat perhaps, nothing else.
     """
     names = {e.name for e in scene.effects}
@@ -147,12 +154,12 @@ def applies(scene) -> bool:
             and "attitude" not in scene.blocks)
 
 
-def state_of(case) -> dict:
+def state_of(case: Case) -> dict:
     """The start as the expansion takes it."""
     return {"omega": case.state, "gamma": case.blocks.get("gamma", (0.0, 0.0, 1.0))}
 
 
-def follow(model, case, times, order=None) -> Simulation:
+def follow(model: str, case: Case, times: np.ndarray, order: int | None = None) -> Simulation:
     """The case's motion by the expansion (order 4 unless asked for otherwise), or as printed."""
     state = state_of(case)
     run: PrintedMotion | LindstedtMotion

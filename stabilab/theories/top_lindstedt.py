@@ -27,16 +27,21 @@ leaves out."""
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..errors import InputError, told
 from ..numbers.exact import exact, mpmath_alone
-from ..numbers.vectors import Exact3
+from ..numbers.vectors import Exact3, Float3
 from ..physics.states import numbers_in_a_row
+
+if TYPE_CHECKING:
+    from ..physics.scene import AnyScene
 
 # --- The numbers of the top
 COVERED = ("gravity", "newtonian_field", "gyrostat")
@@ -93,7 +98,7 @@ class FastTop:
         return math.sqrt(math.hypot(*map(float, self.force)) * abs(self.gamma[2]))
 
 
-def fast_top(scene, state) -> FastTop:
+def fast_top(scene: AnyScene, state: Mapping[str, Float3]) -> FastTop:
     """The numbers of a scene and a start.
 
     state: {"omega": (3,) rad/s, "gamma": (3,) unit vector}, body frame, or the six numbers in a row. Raises
@@ -168,7 +173,7 @@ class Expansion:
 
 
 @lru_cache(maxsize=16)
-def expand(top, order: int) -> Expansion:
+def expand(top: FastTop, order: int) -> Expansion:
     """The expansion of a `FastTop` to `order`, kept: a comparison asks for the same one again and again."""
     if _nearly_upright(top):
         digits = 30 + 20 * (order + 1)
@@ -178,7 +183,7 @@ def expand(top, order: int) -> Expansion:
     return _Solver(top, order, float, complex, 16).run()
 
 
-def _nearly_upright(top) -> bool:
+def _nearly_upright(top: FastTop) -> bool:
     rest = [float(y / d) if d else 0.0 for y, d in zip(top.tilt, (top.b * top.beta, top.a * top.alpha))]
     return (float(np.hypot(float(top.gamma[0]),
                            float(top.gamma[1]))) < min(SMALL_TILT, top.size + abs(rest[0]) + abs(rest[1])))
@@ -235,7 +240,7 @@ class _Solver:
         self.set_G(0, {K - 1: self.complex(self.number(g1) + least, self.number(g2))})
         return True
 
-    def set_G(self, n, values):
+    def set_G(self, n: int, values: Mapping[int, complex]):
         """Order n of G, and of its real and imaginary parts g1, g2."""
         for k, value in values.items():
             self.G[n, k] = value
@@ -243,7 +248,7 @@ class _Solver:
         self.g1[n] = (self.G[n] + mirrored) / 2
         self.g2[n] = (self.G[n] - mirrored) / self.complex(0, 2)
 
-    def product(self, f, g, n, first=0):
+    def product(self, f: np.ndarray, g: np.ndarray, n: int, first: int = 0):
         """Order n of f g, the orders of f running from `first` on. Order j holds harmonics up to j + 1 only
         (G; the others up to j), by induction over the products below."""
         K, total = self.K, self.u[0] * 0
@@ -253,14 +258,14 @@ class _Solver:
                 total[K - n - 2:K + n + 3] += np.convolve(low, high)
         return total
 
-    def drift(self, f, n):
+    def drift(self, f: np.ndarray, n: int):
         """Sum of nu_j f'_(n-j) over the orders 0 < j < n, which are known."""
         return sum((self.nu[j] * self.derivative(f[n - j]) for j in range(1, n)), self.u[0] * 0)
 
-    def derivative(self, f):
+    def derivative(self, f: np.ndarray):
         return f * (self.complex(0, 1) * self.m)
 
-    def integral(self, f):
+    def integral(self, f: np.ndarray):
         """Periodic integral of f that is 0 at s = 0; the mean of f vanishes by an integral of the motion."""
         out, K = f * 0, self.K
         self.note(f[K], f)
@@ -270,11 +275,11 @@ class _Solver:
         out[K] = -out.sum()
         return out
 
-    def note(self, number, beside):
+    def note(self, number: complex, beside: np.ndarray):
         size = float(np.abs(beside).sum())
         self.defect = max(self.defect, float(abs(number)) / size if size else 0.0)
 
-    def step(self, n) -> bool:
+    def step(self, n: int) -> bool:
         """Order n from all lower ones; False where a resonance forbids it."""
         P, u, v, g1, g2, g3 = self.product, self.u, self.v, self.g1, self.g2, self.g3
         (y1, y2), (F1, F2, F3), k = self.y, self.F, self.k
@@ -290,7 +295,7 @@ class _Solver:
         self.weight(n)
         return True
 
-    def precession(self, n, Ru, Rv) -> bool:
+    def precession(self, n: int, Ru: np.ndarray, Rv: np.ndarray) -> bool:
         """u, v of order n: u' + alpha v = Ru, v' + beta u = Rv, harmonic by harmonic."""
         K, i = self.K, self.complex(0, 1)
         floor = self.rounding * max(np.abs(Ru).max(), np.abs(Rv).max())
@@ -311,13 +316,14 @@ class _Solver:
             self.v[n, k] = (im * Rv[k] - self.beta * Ru[k]) / divisor
         return True
 
-    def at_rest(self, out, forcing, exact, floor, number) -> bool:
+    def at_rest(self, out: np.ndarray, forcing: complex, exact: Fraction, floor: float,
+                number: float) -> bool:
         """The mean: forcing over alpha or beta, which are 0 for C* = B and C* = A."""
         if exact:
             out[self.K] = forcing / number
         return bool(exact) or abs(forcing) <= floor
 
-    def weight(self, n):
+    def weight(self, n: int):
         """G and nu of order n: G' + iG = R + i nu_n G_0; the harmonic exp(-is) of the right side must vanish.
         """
         K, i = self.K, self.complex(0, 1)
@@ -397,7 +403,8 @@ class LindstedtMotion:
         return _evaluate(self.expansion, self.r0, np.asarray(times, float))
 
 
-def lindstedt(scene, state, times, order: int = 2) -> LindstedtMotion:
+def lindstedt(scene: AnyScene, state: Mapping[str, Float3], times: np.ndarray | Sequence[float],
+              order: int = 2) -> LindstedtMotion:
     """The periodic motion of a fast top with r and gamma of `state` at t = 0, expanded to `order`.
 
     scene: a body with any of gravity, Newtonian field, gyrostat (whatever its direction), spinning about axis
@@ -433,7 +440,7 @@ def lindstedt(scene, state, times, order: int = 2) -> LindstedtMotion:
                            status, reason, r0, expansion)
 
 
-def _evaluate(expansion, r0, times):
+def _evaluate(expansion: Expansion, r0: float, times: np.ndarray):
     if expansion.order < 0:
         return np.empty((0, 3)), np.empty((0, 3))
     nu, coefficients = expansion.sums()
@@ -442,7 +449,7 @@ def _evaluate(expansion, r0, times):
     return omega, np.stack([G.real, G.imag, g3.real], -1)
 
 
-def _fourier(coefficients, s):
+def _fourier(coefficients: np.ndarray, s: np.ndarray):
     """Sums of Fourier coefficients (..., 2K+1) at the phases s (n,): (..., n)."""
     z, total = np.exp(1j * s), np.zeros(coefficients.shape[:-1] + s.shape, complex)
     for k in range(coefficients.shape[-1] - 1, -1, -1):  # by Horner's rule: no array over times and harmonics
@@ -450,7 +457,7 @@ def _fourier(coefficients, s):
     return total * np.exp(-1j * (coefficients.shape[-1] // 2) * s)
 
 
-def _residual(top, expansion) -> float:
+def _residual(top: FastTop, expansion: Expansion) -> float:
     """Largest residual of the six scaled equations on a grid fine enough for every product."""
     nu, fields = expansion.sums()
     K, e = fields.shape[-1] // 2, expansion.size
@@ -468,7 +475,7 @@ def _residual(top, expansion) -> float:
     return float(max(np.abs(r).max() for r in rates))
 
 
-def _resonances(top, order) -> tuple[Resonance, ...]:
+def _resonances(top: FastTop, order: int) -> tuple[Resonance, ...]:
     """Those within NEAR whose harmonic the orders reach; C* = A and C* = B concern every order."""
     found = [Resonance(0, f"C* = {name}", abs(float(top.spin / moment - 1)))
              for name, moment in (("A", top.a), ("B", top.b))]
@@ -481,14 +488,15 @@ def _resonances(top, order) -> tuple[Resonance, ...]:
                         key=lambda r: r.distance))
 
 
-def _condition(top, m) -> str:
+def _condition(top: FastTop, m: int) -> str:
     """For m = 1 the distance Omega^2 - 1 is C*(C* - A - B)/(A B): name the factor that is small."""
     if m != 1:
         return f"Omega = {m}"
     return f"Omega = 1, {'C* = 0' if abs(top.spin) < abs(top.spin - top.a - top.b) else 'C* = A + B'}"
 
 
-def _verdict(top, expansion, near, order, ahead, residual):
+def _verdict(top: FastTop, expansion: Expansion, near: Sequence[Resonance], order: int,
+             ahead: Sequence[float], residual: float):
     r0, reasons, status = abs(float(top.r0)), [], "asymptotic"
     if near:
         status = "near resonance"
@@ -517,7 +525,7 @@ def _verdict(top, expansion, near, order, ahead, residual):
     return status, "; ".join(reasons)
 
 
-def _diverging(terms, ahead, residual) -> str:
+def _diverging(terms: Sequence[float], ahead: Sequence[float], residual: float) -> str:
     """Why the series up to these terms is no approximation, "" where it is: what is left out must be smaller
     than the last terms kept, by the terms of the next two orders and by the residual of the equations of
     motion."""
@@ -535,7 +543,7 @@ def _diverging(terms, ahead, residual) -> str:
     return ""
 
 
-def _how_far(departure, wobble, left_out, r0, status) -> str:
+def _how_far(departure: np.ndarray, wobble: np.ndarray, left_out: float, r0: float, status: str) -> str:
     """What the given p, q say of the start; wobble: their departure from the series two orders further."""
     differ = f"p, q differ by ({departure[0]:.6g}, {departure[1]:.6g}) rad/s"
     if status == "diverging":

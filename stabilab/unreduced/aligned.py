@@ -7,6 +7,7 @@ of their own rates.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
 import numpy as np
@@ -25,7 +26,7 @@ from ..orbit.one_state import apart_fields
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate, Motion, Needs, finite, judged, pairs, repeats
 from ..physics.coefficients import three_floats
-from ..physics.scene import aligned, rests
+from ..physics.scene import Scene, Turn, aligned, rests
 from . import growth
 from .evidence import extremes_over, seen_over
 from .growth import captured_fate, unbounded
@@ -38,7 +39,8 @@ NO_SPAN = (
 TURN_SHARE = 1e-36  # of the energies: half the digits of a turn by irrational numbers
 
 
-def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL) -> Motion:
+def motion(scene: Scene, state: np.ndarray | Sequence[float], span: Sequence[float] | None = None,
+           exact: Sequence[Fraction] | None = None, needs: Needs = Needs.ALL) -> Motion:
     """See `answers.motion`; the extremes of a motion that does not repeat are over the span."""
     state = three_floats(state)
     given = exact or state
@@ -60,12 +62,12 @@ def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL) -> Mot
                                if needs & Needs.DISTANCE else {}))
 
 
-def twin_orbit(turn, state) -> Orbit:
+def twin_orbit(turn: Turn, state: Sequence[float | Fraction]) -> Orbit:
     """The orbit of the turned state; its reduction is None where the twin's motion grows by law."""
     return Orbit(reduce(turn.twin), turn(state))
 
 
-def turned_apart(turn, orbit, state, decided) -> dict:
+def turned_apart(turn: Turn, orbit: Orbit, state: Sequence[float], decided: OneFate) -> dict:
     """The fields of a Motion that tell the distance from the separatrix: that of the twin, as a turn keeps
     distances."""
     if decided.label == Fate.UNDECIDED:
@@ -80,13 +82,13 @@ def turned_apart(turn, orbit, state, decided) -> dict:
                                          for row in back)})
 
 
-def aligned_fate(scene, state, orbit) -> OneFate:
+def aligned_fate(scene: Scene, state: Sequence[float | Fraction], orbit: Orbit) -> OneFate:
     """The fate of one state (floats or Fractions, taken exactly) with this orbit of its twin."""
     found = turned_fate(aligned(scene), state, orbit)
     return rest_of(scene, found) if rests(scene.quadratic(), state) else found
 
 
-def turned_fate(turn, state, orbit) -> OneFate:
+def turned_fate(turn: Turn, state: Sequence[float | Fraction], orbit: Orbit) -> OneFate:
     """Of the twin's motion, whose numbers are exact or good to 240 bits."""
     if orbit.reduction is None:  # a gyrostatic component stands along the torque
         return unbounded(captured_fate(turn.twin, tuple(map(float, orbit.state))))._replace(axis=0, sense=0)
@@ -99,12 +101,12 @@ def turned_fate(turn, state, orbit) -> OneFate:
     return found._replace(axis=0)  # the spin-up is about the torque's direction, not about a body axis
 
 
-def fates(scene, states, fast: bool | None = None) -> FateResult:
+def fates(scene: Scene, states: np.ndarray, fast: bool | None = None) -> FateResult:
     """Fates of states (n, 3)."""
     return in_chunks(lambda rows, out: _label(scene, rows, out), states)
 
 
-def _label(scene, states, out) -> int:
+def _label(scene: Scene, states: np.ndarray, out: Mapping[str, np.ndarray]) -> int:
     """By the twin's formulas in doubles; in many digits where a change of the state in its last places, as
     the turn makes, could matter."""
     turn = aligned(scene)
@@ -132,11 +134,11 @@ def _label(scene, states, out) -> int:
     return int(doubtful.sum())
 
 
-def _twin_fates(twin, states) -> FateResult:
+def _twin_fates(twin: Scene, states: np.ndarray) -> FateResult:
     return growth.fates(twin, states) if landscape(twin) is None else fates_on_orbit(twin, states)
 
 
-def extremes(scene, states, span=None, fast: bool | None = None):
+def extremes(scene: Scene, states: np.ndarray, span: Sequence[float] | None = None, fast: bool | None = None):
     """(n, 3, 2) over all time where the motion repeats, else over the span."""
     labels = fates(scene, states).labels
     times = turned_periods(scene, states, labels)
@@ -160,12 +162,12 @@ def turned_extremes(scene, state, label, time, span):
     return extremes_over(scene, state, span)
 
 
-def periods(scene, states, fast: bool | None = None):
+def periods(scene: Scene, states: np.ndarray, fast: bool | None = None):
     """(n,); inf where the motion does not repeat, 0 at an equilibrium, NaN where it is undecided."""
     return turned_periods(scene, states, fates(scene, states).labels)
 
 
-def turned_period(orbit, label) -> float:
+def turned_period(orbit: Orbit, label: Fate) -> float:
     """The period of one motion with this orbit of its twin; inf where it does not repeat, NaN where it is
     undecided."""
     if orbit.reduction is None:  # its momentum grows by law
@@ -173,7 +175,7 @@ def turned_period(orbit, label) -> float:
     return precise_period(orbit, label)
 
 
-def turned_periods(scene, states, labels):
+def turned_periods(scene: Scene, states: np.ndarray, labels: np.ndarray):
     """(n,) the same of states with these labels."""
     turn = aligned(scene)
     if reduce(turn.twin) is None:

@@ -6,6 +6,7 @@ rates over the span.
 """
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from math import frexp, hypot, inf, isinf, sqrt
@@ -22,11 +23,11 @@ from ..equilibrium.dissipative import (
 )
 from ..equilibrium.liquid import trap
 from ..numbers.exact import sqrt_fraction
-from ..numbers.vectors import dot
+from ..numbers.vectors import Float3, dot
 from ..orbit.fate import REASONS, Basis
 from ..orbit.result import Fate, Motion, Needs
 from ..physics.coefficients import Content, at_rest, content, relative, split, taken_up
-from ..physics.scene import judge_start
+from ..physics.scene import Scene, judge_start
 from ..reasons import (
     Axis,
     Energy,
@@ -173,7 +174,8 @@ ENDLESS = "as large as its own"
 SMALL = 1e-290  # below it a square of doubles has lost digits
 
 
-def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL) -> Motion:
+def motion(scene: Scene, state: Sequence[float] | Mapping[str, Float3], span: Sequence[float] | None = None,
+           exact: Sequence[Fraction] | None = None, needs: Needs = Needs.ALL) -> Motion:
     """See `answers.motion`. state: three numbers; six, omega and gamma, or a dict of blocks, where gamma is
     part of the state.
 
@@ -211,8 +213,8 @@ def _end(seen: dict[str, Any]) -> tuple[float, ...]:
     return (*shown["rate_end"], *shown["vertical_end"]) if "vertical_end" in shown else ()
 
 
-def judged(parts: Content, omega, gamma, sigma=(0.0,) * 3,
-           end: tuple[float, ...] = ()) -> tuple[Fate, Reason, dict]:
+def judged(parts: Content, omega: Sequence[float], gamma: Sequence[float] | None,
+           sigma: Sequence[float] = (0.0,) * 3, end: tuple[float, ...] = ()) -> tuple[Fate, Reason, dict]:
     """(fate, its proof, the numbers in it); sigma: rates of a damper relative to the body; end: omega
     and gamma at the end of a run."""
     if parts.inside:
@@ -231,7 +233,7 @@ def judged(parts: Content, omega, gamma, sigma=(0.0,) * 3,
     return _liquid(parts, omega, T0, x0)
 
 
-def _energy(parts: Content, omega) -> tuple[float, float]:
+def _energy(parts: Content, omega: Sequence[float]) -> tuple[float, float]:
     """T and sqrt(2 T); the root, unlike the energy, is a double wherever the rates are ordinary ones."""
     unit = 2.0 ** (frexp(max(map(abs, omega)))[1] - 1)
     T0 = sum(float(d) * w * w for d, w in zip(parts.D, [w / unit for w in omega])) / 2
@@ -286,7 +288,7 @@ def _motor(parts: Content, omega, gamma, wheel) -> dict[str, Any]:
             "invariants": {} if outer else {"momentum": H}}
 
 
-def _damped(parts: Content, omega, sigma) -> tuple[Fate, Reason, dict]:
+def _damped(parts: Content, omega: Sequence[float], sigma: Sequence[float]) -> tuple[Fate, Reason, dict]:
     """A damper alone, or with wheels: |H| stays, the energy falls."""
     if any(parts.M) or parts.c or parts.damped or parts.kappa or parts.directed:
         return Fate.UNDECIDED, DAMPER_BESIDE, {}
@@ -301,7 +303,7 @@ def _damped(parts: Content, omega, sigma) -> tuple[Fate, Reason, dict]:
         "rate_bound": _sqrt(twice / (min(parts.D) - k))}
 
 
-def _resisted(parts: Content, T0, x0) -> tuple[Fate, Reason, dict]:
+def _resisted(parts: Content, T0: float, x0: float) -> tuple[Fate, Reason, dict]:
     least = sqrt(float(min(parts.D)))
     slowest = decay(parts)
     if not slowest:
@@ -342,7 +344,7 @@ def _partly(parts: Content, T0, x0, least) -> tuple[Fate, Reason, dict]:
     return Fate.BOUNDED, ONE_AXIS_FREE(rates=place), bounds
 
 
-def _liquid(parts: Content, omega, T0, x0) -> tuple[Fate, Reason, dict]:
+def _liquid(parts: Content, omega: Sequence[float], T0: float, x0: float) -> tuple[Fate, Reason, dict]:
     """Liquid alone: |H| stays where no wheel acts, the energy falls."""
     if any(parts.Lambda):  # the printed torque
         return (Fate.BOUNDED, PRINTED_LIQUID,
@@ -352,7 +354,8 @@ def _liquid(parts: Content, omega, T0, x0) -> tuple[Fate, Reason, dict]:
                       sum(d * x * x for d, x in zip(parts.D, w)), "the liquid")
 
 
-def _permanent(parts: Content, H, twice, what: str) -> tuple[Fate, Reason, dict]:
+def _permanent(parts: Content, H: Sequence[Fraction], twice: Fraction | int,
+               what: str) -> tuple[Fate, Reason, dict]:
     """A free body of angular momentum H and kinetic energy twice/2 from which something takes energy."""
     square, order = dot(H, H), sorted(range(3), key=lambda i: -parts.D[i])
     size = _sqrt(square)
@@ -388,7 +391,8 @@ def _wheel_and_liquid(parts: Content, T0, x0) -> tuple[Fate, Reason, dict]:
                                   "late_rate_bound": x1 / least}
 
 
-def _directed(parts: Content, omega, gamma, end) -> tuple[Fate, Reason, dict]:
+def _directed(parts: Content, omega: Sequence[float], gamma: Sequence[float],
+              end: Sequence[float]) -> tuple[Fate, Reason, dict]:
     T0, x0 = _energy(parts, omega)
     s, N = tuple(map(float, parts.s)), float(parts.N)
     V0 = -dot(s, gamma) + N / 2 * sum(float(d) * g * g for d, g in zip(parts.D, gamma))
@@ -443,12 +447,12 @@ def _about_the_field(parts: Content, omega, gamma, end=()) -> Reason:
     return reason
 
 
-def _along(parts: Content, omega, gamma) -> Fraction:
+def _along(parts: Content, omega: Sequence[float], gamma: Sequence[float]) -> Fraction:
     """H . gamma, exact."""
     return dot([d * Fraction(w) for d, w in zip(parts.D, omega)], list(map(Fraction, gamma)))
 
 
-def _on_its_side(parts: Content, omega, gamma, second: int) -> bool:
+def _on_its_side(parts: Content, omega: Sequence[float], gamma: Sequence[float], second: int) -> bool:
     """Whether eddy currents let the axis of the largest moment point no other way: see `_about_the_field`."""
     twice = sum((d * Fraction(w) ** 2 for d, w in zip(parts.D, omega)), Fraction(0))
     g = tuple(map(Fraction, gamma))

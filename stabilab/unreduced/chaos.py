@@ -16,7 +16,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -25,6 +25,9 @@ from ..integrate.trajectory import STEP_LIMIT, stand_in
 from ..physics.equations import Equations
 from ..physics.own_unit import in_unit, own_unit
 from ..physics.to_numpy import equations_of, form, to_numpy
+
+if TYPE_CHECKING:
+    from ..physics.scene import AnyScene, ScaledGyrostat
 
 LANES = 8
 STAGES = 6         # doublings of the time: 1/32 of it is the first
@@ -46,7 +49,7 @@ class Growth:
     stiff: np.ndarray
 
 
-def turn_of(scene: Any, states: np.ndarray) -> float:
+def turn_of(scene: AnyScene, states: np.ndarray) -> float:
     """The time (scene's time) of a turn of a motion of middling pace among states (n, N): 2 pi over rate, or
     over the root of what changes it."""
     with np.errstate(all="ignore"):
@@ -56,7 +59,7 @@ def turn_of(scene: Any, states: np.ndarray) -> float:
     return 2 * math.pi / found if found > 0 else 1.0
 
 
-def growth(scene: Any, states: np.ndarray, until: float, turn: float,
+def growth(scene: AnyScene, states: np.ndarray, until: float, turn: float,
            tell: Callable[[int], Any] | None = None) -> Growth:
     """MEGNO of motions from states (n, N) at `until` and at its halves; turn: `turn_of` them. tell(motions
     done)."""
@@ -142,7 +145,7 @@ def varied(equations: Equations) -> Equations:
     return replace(equations, state=(*equations.state, *change), rhs=(*equations.rhs, *linear))
 
 
-def _by_taylor(scene: Any, x: np.ndarray, grid: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _by_taylor(scene: AnyScene, x: np.ndarray, grid: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The states and changes at the times of `grid`, and which motions took too many steps."""
     equations = varied(equations_of(scene))
     forms = form(equations, equations.rhs)
@@ -158,7 +161,7 @@ def _by_taylor(scene: Any, x: np.ndarray, grid: np.ndarray) -> tuple[np.ndarray,
     return points, slow | fast
 
 
-def _too_fast(scene: Any, x: np.ndarray, grid: np.ndarray) -> np.ndarray:
+def _too_fast(scene: AnyScene, x: np.ndarray, grid: np.ndarray) -> np.ndarray:
     """Which motions change so fast beside the time between two samples that a power series would crawl, or
     overflow."""
     size = x.shape[1] // 2
@@ -168,7 +171,7 @@ def _too_fast(scene: Any, x: np.ndarray, grid: np.ndarray) -> np.ndarray:
     return alive & (pace * grid[1] > 10 * CRAWL)
 
 
-def _by_scipy(scene: Any, x: np.ndarray, grid: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _by_scipy(scene: ScaledGyrostat, x: np.ndarray, grid: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     system, size = to_numpy(scene), x.shape[1] // 2
     rate = lambda y: np.concatenate([system(y[:size]), system.jacobian(y[:size]) @ y[size:]])
     out, slow = np.full((len(grid), *x.shape), np.nan), np.zeros(len(x), bool)

@@ -18,10 +18,11 @@ run that was not enclosed."""
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -36,6 +37,9 @@ from ..validation import checked_scene
 from . import enclosure_kernel
 from .spin_up.certificate import tests_of
 from .spin_up.result import SpinUp, Trap
+
+if TYPE_CHECKING:
+    from ..physics.scene import AnyScene, Scene
 
 # --- The enclosed motion
 # at most, unless others are asked for: compiled some three seconds, else some ten
@@ -174,7 +178,7 @@ class Course:
             rows[:, :3] *= self.unit
         return Band(np.append(begun, times) / self.unit, polynomials, radii)
 
-    def _carried(self, t, t_end, steps, kept):
+    def _carried(self, t: float, t_end: float, steps: int, kept: Sequence[np.ndarray]):
         """(time, steps made) of the set carried on; what is told of each step goes to arrays `kept`."""
         made, plainly = 0, not installed() or self.plain > 0 and not loaded()
         if plainly:
@@ -218,7 +222,7 @@ def twofold(values):
     return high.reshape(values.shape), low.reshape(values.shape)
 
 
-def energy_of(own):
+def energy_of(own: AnyScene):
     """(4,) roots of the moments, and the greatest rate at which the root of the sum of D omega^2 grows; zeros
     for scaled variables."""
     if own.variables == "scaled":
@@ -307,7 +311,7 @@ def proved(scene, state, found: SpinUp, steps: int | None = None, fast: bool = F
 class _Way:
     """The motion at rising times, as the centre and radius of a ball."""
 
-    def __init__(self, scene, state, t_end, plain):
+    def __init__(self, scene: Scene, state: Sequence[float | Fraction], t_end: float, plain: int):
         self.start = exact_vector(state, "state")
         self.course = Course(scene, state, t_end, plain) if t_end else None
         self.t, self.steps, self.why = 0.0, 0, WHY[enclosure_kernel.GOING]
@@ -330,6 +334,6 @@ class _Way:
         return (now.middle, _up(now.radius + np.abs(now.rest))) if now.status == "enclosed" else None
 
 
-def _up(reach) -> float:
+def _up(reach: np.ndarray) -> float:
     """A bound of the length of a vector with components of at most these sizes."""
     return math.hypot(*map(float, reach)) * WIDENED  # squares of small reaches would vanish

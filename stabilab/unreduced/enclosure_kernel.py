@@ -63,14 +63,14 @@ HALVINGS = 12
 DONE, GOING, LOST, ENDLESS = 0, 1, 2, 3
 
 
-def divided(x, n):
+def divided(x: tuple[float, float], n: float):
     """A twofold number over a small whole number."""
     q = x[0] / n
     p, e = exact_product(q, n)
     return exact_sum(q, ((x[0] - p) - e + x[1]) / n)
 
 
-def series(numbers, low_numbers, unit, a, low):
+def series(numbers: np.ndarray, low_numbers: np.ndarray, unit: float, a: np.ndarray, low: np.ndarray):
     """Taylor coefficients a + low, (3, N + 1) each, of the motion from a[:, 0] + low[:, 0], in time over
     `unit` (a power of two)."""
     high, rest = np.empty((3, ORDER + 1)), np.empty((3, ORDER + 1))
@@ -97,7 +97,7 @@ def series(numbers, low_numbers, unit, a, low):
             high[i, n + 1], rest[i, n + 1] = halves(v[0])
 
 
-def variations(numbers, unit, a, B, V):
+def variations(numbers: np.ndarray, unit: float, a: np.ndarray, B: np.ndarray, V: np.ndarray):
     """Taylor coefficients V (N + 1, 3, 3) of the solution of V' = A(w) V, V = B at first, in doubles."""
     for i in range(3):
         for c in range(3):
@@ -120,7 +120,7 @@ def variations(numbers, unit, a, B, V):
                               + numbers[2, i] * V[n, j, 2]) * over
 
 
-def product_term(x, low_x, y, low_y, n):
+def product_term(x: np.ndarray, low_x: np.ndarray, y: np.ndarray, low_y: np.ndarray, n: int):
     """The coefficient of power n of a product of two series of twofold numbers."""
     total, rest = 0.0, 0.0
     for m in range(n + 1):
@@ -130,7 +130,7 @@ def product_term(x, low_x, y, low_y, n):
     return exact_sum(total, rest)
 
 
-def series_of_direction(unit, a, low, c, low_c):
+def series_of_direction(unit: float, a: np.ndarray, low: np.ndarray, c: np.ndarray, low_c: np.ndarray):
     """Taylor coefficients c + low_c, (3, N + 1) each, of n' = n x w from c[:, 0] + low_c[:, 0], w those of
     `series`."""
     for n in range(ORDER):
@@ -141,7 +141,7 @@ def series_of_direction(unit, a, low, c, low_c):
             c[i, n + 1], low_c[i, n + 1] = divided((v[0] * unit, v[1] * unit), n + 1.0)
 
 
-def longest(a, tolerance):
+def longest(a: np.ndarray, tolerance: float):
     """The step, in the unit of the coefficients, that the last two of them allow: the tail is the tolerance
     of the state's size."""
     size = max(abs(a[0, 0]), abs(a[1, 0]), abs(a[2, 0]))
@@ -154,7 +154,7 @@ def longest(a, tolerance):
     return shortest
 
 
-def beyond(alpha, beta, tails):
+def beyond(alpha: np.ndarray, beta: np.ndarray, tails: np.ndarray):
     """Sums of alpha_m beta_n over m + n >= N, m, n <= N; tails: those of beta, (N + 2,)."""
     total = 0.0
     for n in range(ORDER, -1, -1):
@@ -164,7 +164,7 @@ def beyond(alpha, beta, tails):
     return total
 
 
-def bound_of_flow(M, G):
+def bound_of_flow(M: np.ndarray, G: np.ndarray):
     """G >= exp(M) for a matrix of numbers that are not negative: its powers by halves, then squares."""
     norm, halves = 0.0, 0
     for i in range(3):
@@ -199,13 +199,15 @@ def bound_of_flow(M, G):
                 G[i, j] = new[i, j] * WIDER
 
 
-def length_of(x, y, z):
+def length_of(x: float, y: float, z: float):
     """The length of a vector. By products: a power of two is one for the compiler, and need not be for the
     interpreter."""
     return sqrt(x * x + y * y + z * z)
 
 
-def judged(numbers, energy, a, V, B, rad, h, x, error, spread, moved, E, P):
+def judged(numbers: np.ndarray, energy: np.ndarray, a: np.ndarray, V: np.ndarray, B: np.ndarray,
+           rad: np.ndarray, h: float, x: float, error: np.ndarray, spread: np.ndarray, moved: np.ndarray,
+           E: np.ndarray, P: np.ndarray):
     """Bounds of one step of length h (x in the unit of the coefficients a, V): |w - p| (error), |u| (spread),
     what it is beside V's part (moved), the error of each column of V (E), the sums P; True where they hold.
     """
@@ -271,7 +273,8 @@ def judged(numbers, energy, a, V, B, rad, h, x, error, spread, moved, E, P):
     return True
 
 
-def strayed(a, c, h, x, error, spread, off, C):
+def strayed(a: np.ndarray, c: np.ndarray, h: float, x: float, error: np.ndarray, spread: np.ndarray,
+            off: float, C: np.ndarray):
     """A bound of the error of the direction all along a step, that of its start being `off`; C: the sums of
     sizes of its polynomials c. Of `judged`: h, x, error, spread."""
     alpha, gamma, tails = np.empty((3, ORDER + 1)), np.empty((3, ORDER + 1)), np.zeros(ORDER + 2)
@@ -291,7 +294,7 @@ def strayed(a, c, h, x, error, spread, off, C):
     return (off + 2.5 * h * rates + length_of(d[0], d[1], d[2])) * WIDER
 
 
-def radii_in(Y, slip, M, rest, rad):
+def radii_in(Y: np.ndarray, slip: float, M: np.ndarray, rest: np.ndarray, rad: np.ndarray):
     """Radii rad of the set {M r + rest}, |r| <= rad, |rest_i| <= rest, in directions B whose inverse is Y but
     for the slip: y = Y x + (1 - Y B) y."""
     new, widest = np.empty(3), 0.0
@@ -306,7 +309,7 @@ def radii_in(Y, slip, M, rest, rad):
         rad[i] = (new[i] + 3.0 * slip / (1.0 - 3.0 * slip) * widest) * WIDER
 
 
-def taken_along(M, rest, rad, B):
+def taken_along(M: np.ndarray, rest: np.ndarray, rad: np.ndarray, B: np.ndarray):
     """The set {M r + rest}, |r| <= rad, |rest_i| <= rest, with M's own columns, of length 1, as directions B:
     nothing is wrapped but `rest`. False, and B and rad as they were, where these are too nearly parallel."""
     N, Y = np.empty((3, 3)), np.empty((3, 3))
@@ -341,7 +344,7 @@ def taken_along(M, rest, rad, B):
     return True
 
 
-def turned(M, rest, rad, B):
+def turned(M: np.ndarray, rest: np.ndarray, rad: np.ndarray, B: np.ndarray):
     """New directions B and radii rad of the set {M r + rest}, |r| <= rad, |rest_i| <= rest: orthogonal, the
     longest edge first (Lohner)."""
     edges = np.empty(3)
@@ -385,7 +388,7 @@ def turned(M, rest, rad, B):
     radii_in(Y, slip, M, rest, rad)
 
 
-def at_end(a, low, x, centre, low_centre):
+def at_end(a: np.ndarray, low: np.ndarray, x: float, centre: np.ndarray, low_centre: np.ndarray):
     """The polynomials' values at x in twofold numbers, by Horner's rule: within 2^-93 of the sum of sizes."""
     for i in range(3):
         v = a[i, ORDER], low[i, ORDER]
@@ -394,7 +397,7 @@ def at_end(a, low, x, centre, low_centre):
         centre[i], low_centre[i] = v
 
 
-def end_of_variations(V, x, M):
+def end_of_variations(V: np.ndarray, x: float, M: np.ndarray):
     """The values of V's polynomials at x."""
     for i in range(3):
         for c in range(3):
@@ -404,13 +407,15 @@ def end_of_variations(V, x, M):
             M[i, c] = value
 
 
-def on_grain(length, grain):
+def on_grain(length: float, grain: float):
     """The greatest whole number of grains that is not above a length."""
     return float(int(length / grain)) * grain
 
 
-def advance(numbers, low_numbers, energy, tolerance, t, t_end, grain, steps, centre, low_centre, B, rad,
-            direction, low_direction, off, times, polynomials, radii):
+def advance(numbers: np.ndarray, low_numbers: np.ndarray, energy: np.ndarray, tolerance: float, t: float,
+            t_end: float, grain: float, steps: int, centre: np.ndarray, low_centre: np.ndarray, B: np.ndarray,
+            rad: np.ndarray, direction: np.ndarray, low_direction: np.ndarray, off: np.ndarray,
+            times: np.ndarray, polynomials: np.ndarray, radii: np.ndarray):
     """Carry the set on by at most so many steps, or to t_end. numbers, low_numbers: (4, 3) kappa, rho, sigma,
     m as twofold numbers; energy: (4,) roots of the moments and the growth of |D^(1/2) w|, zeros where there
     is none; grain: every time is a multiple of it. direction, low_direction: (3,) at rest in space, (0,)

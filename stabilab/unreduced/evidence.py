@@ -3,8 +3,9 @@ growing spin. It proves nothing."""
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,6 +19,11 @@ from ..physics.states import equations_and_start, three_numbers
 from ..physics.to_numpy import equations_of, to_numpy
 from ..reasons import Quantity, Reason, Sentence, old
 from ..validation import reach_of
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+    from ..numbers.vectors import Float3
 
 # A run that has not shown what is asked after this many steps (seconds of work) gives up and says so.
 STEP_BUDGET = 1_000_000
@@ -75,20 +81,20 @@ def seen_over(scene, state, span) -> dict:
                          "invariant_drift": max(run.invariant_drift.values(), default=0.0)}}
 
 
-def extremes_over(scene, state, length: float) -> np.ndarray:
+def extremes_over(scene: Scene, state: Sequence[float | Fraction], length: float) -> np.ndarray:
     """(3, 2) extremes from `state` (three numbers) over a span of this length; NaN where the run ends before
     the span does."""
     roots = _searched(scene, three_numbers(state), length)
     return np.full((3, 2), np.nan) if roots.reason else roots.extremes()
 
 
-def _searched(scene, state, length: float) -> RateRoots:
+def _searched(scene: Scene, state: np.ndarray | Sequence[float], length: float) -> RateRoots:
     if not math.isfinite(length) or length == 0:
         raise InputError(f"span: expected a finite length other than 0, got {length!r}")
     return roots_of_rates(scene, state, length)
 
 
-def _trend(energy):
+def _trend(energy: np.ndarray):
     """Whether the energy of the last quarter of the run lies wholly above or below that of the first."""
     quarter = max(1, len(energy) // 4)
     first, last = energy[:quarter], energy[-quarter:]
@@ -128,7 +134,7 @@ def _holder(stages, begin):
     return int(held.argmax()) if held.sum() == 1 else None
 
 
-def span_needed(scene) -> InputError:
+def span_needed(scene: Scene) -> InputError:
     """What is said to whoever asks for extremes that are not known for all time, and names no span."""
     return InputError("this scene has no reduction, so its extremes are searched over a time span: give "
                       "span=T "
@@ -146,7 +152,7 @@ STIFF = 1e5  # fastest decay times span beyond which a search for extremes would
 LONG = 1e7  # fastest turn times span, rad, beyond which it would
 
 
-def seen_of_blocks(scene, start, span) -> dict:
+def seen_of_blocks(scene: Scene, start: Mapping[str, Float3], span: Sequence[float]) -> dict:
     """Of a motion whose bounds alone are proved: extremes as roots of the rates from the start to the end of
     the span, and how the energy went; empty where the rates change too fast. start: its blocks by name."""
     turning = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
@@ -168,7 +174,7 @@ def seen_of_blocks(scene, start, span) -> dict:
                             if "gamma" in equations.blocks else {})}}
 
 
-def _validity(scene, found, over) -> dict:
+def _validity(scene: Scene, found: RateRoots, over: str) -> dict:
     """Of approximate laws, at every state that the search met: where a rate vanishes, and at both ends."""
     limits = limits_of(scene)
     if limits is None:

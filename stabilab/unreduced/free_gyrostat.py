@@ -9,6 +9,7 @@ units in the end is NaN in arrays, and said in words of one motion.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
@@ -16,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..integrate.events import roots_of_rates
+from ..integrate.events import RateRoots, roots_of_rates
 from ..orbit.fate import as_double, at_rest, free_fate, scaled_double
 from ..orbit.fate_arrays import fates as free_fates
 from ..orbit.one_state import BEYOND, LOST, powered
@@ -24,7 +25,7 @@ from ..orbit.result import BOX, ROUND, Fate, Motion, Needs, finite, judged, pair
 from ..orbit.separatrix.distance import has_no_saddle
 from ..physics.coefficients import three_floats
 from ..physics.own_unit import far, in_unit, mass_unit, own_exponent
-from ..physics.scene import rests
+from ..physics.scene import QuadraticForm, Scene, rests
 from ..physics.states import equilibrium_mask, three_numbers
 from ..reasons import Reason, Sentence
 from .evidence import STEP_BUDGET
@@ -107,7 +108,7 @@ def _in_scene_unit(found: PeriodExtremes, k: int) -> PeriodExtremes:
                    period=found.period if math.isinf(found.period) else powered(found.period, -k))
 
 
-def _by_return(scene, form, state, k) -> PeriodExtremes:
+def _by_return(scene: Scene, form: QuadraticForm, state: np.ndarray, k: int) -> PeriodExtremes:
     """By a run to the first return; extremes and period in the unit 2^k of the scene asked for, in which this
     one is, words in its own."""
     span, roots = _first_span(form, state), None
@@ -122,7 +123,7 @@ def _by_return(scene, form, state, k) -> PeriodExtremes:
                           NO_RETURN(steps=roots.steps))
 
 
-def _without_return(scene, form, state, k) -> PeriodExtremes:
+def _without_return(scene: Scene, form: QuadraticForm, state: np.ndarray, k: int) -> PeriodExtremes:
     """On a separatrix: a run would leave it by its rounding and return, which the motion never does."""
     roots = roots_of_rates(scene, state, _first_span(form, state))
     return PeriodExtremes(roots.extremes(), math.inf,
@@ -130,14 +131,14 @@ def _without_return(scene, form, state, k) -> PeriodExtremes:
                           DOES_NOT_RETURN)
 
 
-def _first_span(form, x):
+def _first_span(form: QuadraticForm, x: np.ndarray):
     """A few turns: the inverse of the largest frequency that the Jacobian can show at this size."""
     size = np.abs(x).max()
     kappa, rho, sigma, _ = form.coefficients
     return 40.0 / (size * max(map(abs, kappa)) + max(map(abs, (*rho, *sigma))))
 
 
-def _return(roots, state):
+def _return(roots: RateRoots, state: np.ndarray):
     """Index of the root at which the motion is back at its first root; None where it is not."""
     if not len(roots.t):
         return None
@@ -148,7 +149,7 @@ def _return(roots, state):
     return int(found[0]) + 1 if found.size else None
 
 
-def _one_period(scene, roots, closing):
+def _one_period(scene: Scene, roots: RateRoots, closing: int):
     inertia, momentum = _quadrics(scene)
     polished = np.array([_polish(scene.quadratic(), inertia, momentum, roots.start, x, i)
                          for x, i in zip(roots.states[:closing], roots.component[:closing])])
@@ -161,7 +162,7 @@ def _one_period(scene, roots, closing):
                           CLOSED_MOTION)
 
 
-def _quadrics(scene):
+def _quadrics(scene: Scene):
     """Two invariants w . x^2 / 2 + l . x of the free motion: ((w, l), (w, l))."""
     if scene.variables == "physical":
         D, lam = np.array(scene.body.inertia), np.array([float(v) for v in scene.vector("gyrostat")])
@@ -170,7 +171,8 @@ def _quadrics(scene):
     return (np.array([1.0, 1.0, 0.0]), np.array([a, 0, 0])), (np.array([1.0, 0.0, -1.0]), np.array([b, 0, 0]))
 
 
-def _polish(form, first, second, start, x, i):
+def _polish(form: QuadraticForm, first: Sequence[np.ndarray], second: Sequence[np.ndarray], start: np.ndarray,
+            x: np.ndarray, i: int):
     """Newton on rate_i = 0 and the two invariants of `start`, differences formed as products; x where it does
     not help."""
     better = x.copy()

@@ -25,7 +25,9 @@ else the answer is "undecided".
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -50,6 +52,11 @@ from .growth_certificate import (
     search_certificate,
     standard_form,
 )
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+    from ..physics.scene import AnyScene, QuadraticForm, Scene
 
 # How long to look where the caller names no time, in the motion's own unit 1/sqrt(g |m|).
 PATIENCE = 1e6
@@ -109,7 +116,8 @@ class CapturedFate(Reasoned):
     steps: int = 0
 
 
-def captured_fate(scene, state, t_max: float | None = None, exact=None) -> CapturedFate:
+def captured_fate(scene: AnyScene, state: np.ndarray | Sequence[float], t_max: float | None = None,
+                  exact: Sequence[Fraction] | None = None) -> CapturedFate:
     """Which axis the motion from `state` (three numbers, the scene's variables) spins up about, and when it
     is released.
 
@@ -139,7 +147,7 @@ def captured_fate(scene, state, t_max: float | None = None, exact=None) -> Captu
     return CapturedFate(start, rate, **answer)
 
 
-def _is_pure_spin(form, i, x) -> bool:
+def _is_pure_spin(form: QuadraticForm, i: int, x: Sequence[float | Fraction]) -> bool:
     """Whether nothing turns but the torque's axis and, with no gyrostatic component across it, nothing else
     ever will."""
     j, k = CYCLE[i]
@@ -217,7 +225,7 @@ def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL) -> Mot
     return Motion(**fields, invariants={"J": found.J0, "J_rate": found.J_rate}, evidence={**seen, **known})
 
 
-def _for_ever(found) -> bool:
+def _for_ever(found: CapturedFate) -> bool:
     """Whether all extremes of the motion are known for all time."""
     return found.certificate in ("axis", "law")
 
@@ -238,14 +246,14 @@ def periods(scene, states, fast: bool | None = None):
     return np.full(len(states), math.inf)
 
 
-def unbounded(found) -> OneFate:
+def unbounded(found: CapturedFate) -> OneFate:
     """The fate that `captured_fate` found under the law: unbounded, about an axis that may be undecided."""
     return OneFate(found.fate, Basis.UNBOUNDED_LAW, -math.inf, found.axis, found.sense)
 
 
-def fates(scene, states, fast: bool | None = None) -> FateResult:
+def fates(scene: Scene, states: np.ndarray, fast: bool | None = None) -> FateResult:
     """Fates of states (n, 3), one by one."""
-    def label(rows, out):
+    def label(rows: np.ndarray, out: Mapping[str, np.ndarray]):
         with in_range():
             for index, state in enumerate(rows):
                 write_row(out, index, *unbounded(captured_fate(scene, state)))

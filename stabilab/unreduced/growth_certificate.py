@@ -23,18 +23,23 @@ span of a run."""
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..integrate.events import roots_of_rates, zeros_passed
-from ..numbers.balls import FIRST_BITS, Unclear, settled
-from ..numbers.vectors import CYCLE, Float3
+from ..numbers.balls import FIRST_BITS, Digits, Unclear, settled
+from ..numbers.vectors import CYCLE, Float3, Number
 from ..orbit.extremes import CERTAIN_BITS
 from ..physics.equations import derive
-from ..physics.scene import ScaledGyrostat
+from ..physics.scene import AnyScene, QuadraticForm, ScaledGyrostat
 from ..physics.to_numpy import form, to_numpy
+
+if TYPE_CHECKING:
+    from flint import arb
 
 # --- The law, the standard form and its certificates
 # A certificate counts when its inequality holds by this share of the terms in it: 100 times their rounding.
@@ -57,14 +62,14 @@ class StandardForm:
     shift: Fraction
     time: float
 
-    def to_standard(self, x):
+    def to_standard(self, x: np.ndarray | Sequence[float]):
         """State of the scene -> (u, y2, y3); the shift is added before rounding."""
         i, p, q = self.axes
         return (float(Fraction(float(x[i])) + self.shift) / self.rates[0], x[p] / self.rates[1],
                 x[q] / self.rates[2])
 
 
-def standard_form(scene) -> StandardForm | None:
+def standard_form(scene: AnyScene) -> StandardForm | None:
     """The change to standard form, or None where there is none (torque on a middle axis, a gyrostatic
     component across it, equal moments).
 
@@ -98,12 +103,12 @@ def standard_form(scene) -> StandardForm | None:
                         1 / math.sqrt(Fraction(g) * m))
 
 
-def _torque_axis(quadratic):
+def _torque_axis(quadratic: QuadraticForm):
     acting = [i for i in range(3) if quadratic.m[i]]
     return acting[0] if len(acting) == 1 else None
 
 
-def growth_law(scene):
+def growth_law(scene: AnyScene):
     """(axis 0-based, J(state), J_rate): the law of `growth` with its exact rate; None where it does not
     apply (torque not along one principal axis, or no gyrostatic component along it)."""
     if scene.variables == "scaled":
@@ -124,7 +129,7 @@ def growth_law(scene):
     return i, J, float(lam[i] * M[i])
 
 
-def spin_up_margin(c, y) -> tuple[float, float]:
+def spin_up_margin(c: float, y: np.ndarray | Sequence[float]) -> tuple[float, float]:
     """(margin, size of its terms) of the certificate "spin-up" at y = (u, y2, y3): it holds where margin > 0.
     """
     phi, P, J = angle_of(c, y)
@@ -133,13 +138,13 @@ def spin_up_margin(c, y) -> tuple[float, float]:
     return (bend - depth + tail + min(J, 0.0) / 2 - 0.625 * c * c if P > 0 else -size), size
 
 
-def well_margin(c, y) -> tuple[float, float]:
+def well_margin(c: float, y: np.ndarray | Sequence[float]) -> tuple[float, float]:
     """(margin, size of its terms) of the certificate "well" (c < 0) at y, for the best barrier angle found.
     """
     phi, P, J = angle_of(c, y)
     p = phi % math.pi
 
-    def rise(b):  # V(b) - V(p), differences formed term by term
+    def rise(b: float):  # V(b) - V(p), differences formed term by term
         return (p - b) - J / 2 * math.sin(b
                                           - p) * math.sin(b
                                                           + p) + c * c / 8 * math.sin(2 * (b - p)) * math.sin(
@@ -148,13 +153,13 @@ def well_margin(c, y) -> tuple[float, float]:
     return rise(barrier) - P * P / 2, P * P / 2 + abs(J) / 2 + c * c / 8 + math.pi
 
 
-def angle_of(c, y):
+def angle_of(c: float, y: np.ndarray | Sequence[float]):
     u, y2, y3 = y
     phi = math.atan2(y3, y2)
     return phi, u + c / 2 * math.cos(2 * phi), y2 * y2 + y3 * y3 - 2 * c * u
 
 
-def _highest(rise, low, J, c):
+def _highest(rise: Callable[[float], float], low: float, J: float, c: float):
     """An angle in [low, pi] where V is about highest (any angle makes a valid certificate)."""
     places = ([low + (math.pi - low) * n / 48 for n in range(49)]
               + [math.pi - (math.pi - low) * 4.0**-n for n in range(1, 24)])
@@ -172,13 +177,13 @@ def _highest(rise, low, J, c):
     return b
 
 
-def release_estimate(c, J):
+def release_estimate(c: float, J: float):
     """When a temporary capture (c > 0) is over. Small c: P' > 0 everywhere once J < 2 (about). Any c: P = 0
     needs J = R^2 + c^2 cos 2phi >= -c^2."""
     return max(0.0, (J - 2 if c * c < 2 else J + c * c) / (2 * c))
 
 
-def certificate(c, y) -> str | None:
+def certificate(c: float, y: np.ndarray | Sequence[float]) -> str | None:
     """"spin-up" or "well" where the one or the other holds at y beyond rounding, None otherwise."""
     margin, size = spin_up_margin(c, y)
     if margin > CLEARANCE * size or (c > 0 and angle_of(c, y)[2] + c * c < -CLEARANCE * size):
@@ -190,7 +195,7 @@ def certificate(c, y) -> str | None:
     return None
 
 
-def search_certificate(c, y, t_max):
+def search_certificate(c: float, y: Sequence[float], t_max: float):
     """(certificate or "none", its time, state there, last reversal of the turn, steps): run until one holds.
     """
     if found := certificate(c, y):
@@ -212,7 +217,7 @@ def search_certificate(c, y, t_max):
     return "none", None, y, last, steps
 
 
-def nearest_other(c, y, t_max, name, steps):
+def nearest_other(c: float, y: Sequence[float], t_max: float, name: str, steps: int):
     """The relative change of the state within the run's rounding that leads to another end; None where there
     is none."""
     reach = STEP_ROUNDINGS * 2.0**-52 * (steps + 1)
@@ -224,13 +229,13 @@ def nearest_other(c, y, t_max, name, steps):
     return None
 
 
-def turning_run(c):
+def turning_run(c: float):
     """run(state, length, step limit): the motion, and the zeros of R^2 phi', where the turn reverses."""
     equations = derive(ScaledGyrostat(Fraction(c) / -2, Fraction(c) / 2, (1, 0, 0)))
     _, x2, x3 = equations.state
     forms = form(equations, (*equations.rhs, x2 * equations.rhs[2] - x3 * equations.rhs[1]))
 
-    def run(y, length, limit):
+    def run(y: Sequence[float], length: float, limit: int):
         return zeros_passed(forms, np.array(y), to_numpy(equations)(y), length, limit)
     return run
 
@@ -309,7 +314,8 @@ def _floor_holds(change, roots):
 # -- what is known for all time
 
 
-def law_extremes(scene, state, certificate, bits: int | None = None):
+def law_extremes(scene: AnyScene, state: Sequence[float | Fraction], certificate: str | None,
+                 bits: int | None = None):
     """((least, greatest),) * 3 over t >= 0 as balls, floats where infinite, of a motion known by the
     certificate "axis" or "law"; None for others.
 
@@ -322,7 +328,7 @@ def law_extremes(scene, state, certificate, bits: int | None = None):
     i = next(n for n in range(3) if form.m[n])
     across = form.rho[i] or form.sigma[i]  # a gyrostatic component across the torque: three equal moments
 
-    def question(numbers):
+    def question(numbers: Digits):
         pairs = ([_drifting(scene, x, a, numbers) for a in range(3)] if across
                  else _about_axis(form, x, i, numbers))
         certain = bits or CERTAIN_BITS
@@ -332,7 +338,7 @@ def law_extremes(scene, state, certificate, bits: int | None = None):
     return settled(question, FIRST_BITS if bits is None else 2 * bits)
 
 
-def _narrow(pair, certain) -> bool:
+def _narrow(pair: tuple[arb, Number], certain: int) -> bool:
     finite = [v for v in pair if not isinstance(v, float)]
     return max(float(v.rad()) for v in finite) <= 2.0**-certain * max(float(abs(v).mid()) for v in finite)
 
@@ -371,7 +377,8 @@ def _drifting(scene, x, a, numbers):
     return _least(here, v, r0, turned, pace, swing, square, D, numbers), math.inf
 
 
-def _least(here, v, r0, turned, pace, swing, square, D, numbers):
+def _least(here: arb, v: Fraction, r0: Fraction, turned: Fraction, pace: Fraction, swing: Fraction,
+           square: Fraction | int, D: Fraction, numbers: Digits):
     """The least of here + v t + r0 (cos - 1) + q sin of Omega t over t >= 0, v > 0: at the start, or at the
     first of its minima after it.
 
@@ -396,5 +403,5 @@ def _least(here, v, r0, turned, pace, swing, square, D, numbers):
     return here.min(here - ball(r0) + ball(v) * turn / omega - size * depth)
 
 
-def _cross(a, b):
+def _cross(a: Sequence[Fraction], b: Sequence[Fraction]):
     return [a[j] * b[k] - a[k] * b[j] for j, k in CYCLE]

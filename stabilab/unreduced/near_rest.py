@@ -7,11 +7,18 @@ one of 1.
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from ..integrate.reference import Recursion, one_run
 from ..numbers.balls import working
 from ..numbers.vectors import CYCLE
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from ..physics.scene import QuadraticForm
 
 # A run in doubles loses the ratio of the terms of the rates to the rates: from here on more than five digits.
 BESIDE = 1e-5
@@ -19,13 +26,13 @@ DIGITS = 24  # of the return, where a saddle costs none
 WORK = 6_000_000  # multiplications, about a second
 
 
-def beside_rest(form, state) -> bool:
+def beside_rest(form: QuadraticForm, state: np.ndarray | Sequence[float | Fraction]) -> bool:
     """Whether the rates at the state (floats or Fractions) are that small against their terms, but not all
     zero."""
     return 0 < smallness(form, state) <= BESIDE
 
 
-def smallness(form, state) -> Fraction:
+def smallness(form: QuadraticForm, state: np.ndarray | Sequence[float | Fraction]) -> Fraction:
     """The largest rate at the state over the largest sum of the terms that make a rate; 0 at rest."""
     x = [Fraction(v) for v in state]
     terms = max(abs(form.kappa[i] * x[j] * x[k]) + abs(form.rho[i] * x[k]) + abs(form.sigma[i] * x[j])

@@ -11,6 +11,7 @@ one formed in doubles errs by less than 2^-44 of the sum of sizes."""
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 
@@ -23,7 +24,7 @@ from ..orbit.fate import Basis, OneFate, at_rest
 from ..orbit.fate_arrays import FateResult, empty_columns
 from ..orbit.result import AS_BOUNDS, Fate, Motion, Needs, finite, judged, pairs, without_return
 from ..physics.coefficients import three_floats
-from ..physics.scene import rests
+from ..physics.scene import Scene, rests
 from ..physics.states import equilibrium_mask
 from ..reasons import Angle, Quantity, Reason, Sentence
 from . import enclosure_kernel
@@ -45,7 +46,8 @@ def ranges(band: Band) -> np.ndarray:
                     axis=1)
 
 
-def ranges_until(scene, state, t: float, steps: int | None = None) -> np.ndarray | None:
+def ranges_until(scene: Scene, state: Sequence[float], t: float,
+                 steps: int | None = None) -> np.ndarray | None:
     """(3, 2) bounds of each rate over [0, t]; None where the steps do not reach. Arguments as of
     `enclosure.Course`."""
     course, out = Course(scene, state, t), np.array([[math.inf, -math.inf]] * 3)
@@ -113,14 +115,14 @@ def _middle(scene, state) -> Reason | None:
         period=Quantity(orbit.period, scene.time_unit), angle=Angle(orbit.angle))
 
 
-def _limits(follow) -> dict:
+def _limits(follow: float | None) -> dict:
     """How far a motion is followed: to a time, or for PATIENCE steps, fewer where nothing is compiled."""
     if follow is None:
         return {"budget": PATIENCE if installed() else PATIENCE // AS_WRITTEN}
     return {"t_max": float(follow), "budget": ENDLESS}
 
 
-def bounds_for_ever(scene, state, found: SpinUp) -> tuple | None:
+def bounds_for_ever(scene: Scene, state: Sequence[float], found: SpinUp) -> tuple | None:
     """((low, high),) * 3 of the rates at all t >= 0 of a motion that spins up: those of the trap from found.t
     on, and the extremes of the run until then (where the spin-up is proved: what the enclosure of the way
     cannot leave); None where they are not known."""
@@ -145,7 +147,7 @@ def outward(bound: float, towards: str) -> float:
     return told if told == bound or (told > bound) == (side > 0) else math.nextafter(told, side)
 
 
-def _extremes_until(scene, state, found: SpinUp) -> tuple | None:
+def _extremes_until(scene: Scene, state: Sequence[float], found: SpinUp) -> tuple | None:
     if found.level == "proved" and (sure := ranges_until(scene, state, found.t)) is not None:
         return pairs(sure)
     run = roots_of_rates(scene, three_floats(state), found.t)

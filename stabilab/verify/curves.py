@@ -3,7 +3,9 @@ or on a line of equilibria that no potential explains, returns (verdict, reason)
 nothing; the arguments are in docs/certificate.md."""
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from typing import Any
 
 from flint import fmpq_poly
 
@@ -13,6 +15,8 @@ from .numbers import (
     TOO_LARGE,
     VERDICT,
     Malformed,
+    Rates,
+    Root,
     TooLarge,
     Work,
     bracket,
@@ -29,22 +33,22 @@ from .numbers import (
 )
 
 
-def dot(a, b):
+def dot(a: Sequence[Fraction], b: Sequence[Fraction | int]):
     """Scalar product of two lists of three."""
     return sum(u * v for u, v in zip(a, b))
 
 
-def cross(a, b):
+def cross(a: Sequence[Fraction], b: Sequence[Fraction]):
     """Vector product."""
     return [a[j] * b[k] - a[k] * b[j] for j, k in AHEAD]
 
 
-def turned(J, e):
+def turned(J: Sequence[list[Fraction]], e: Sequence[int | Fraction]):
     """A matrix times a column."""
     return [dot(row, e) for row in J]
 
 
-def product(A, B):
+def product(A: Sequence[list[Fraction]], B: Sequence[list[Fraction]]):
     """Matrix product; entries of any kind."""
     return [[sum((A[i][k] * B[k][j] for k in (1, 2)), A[i][0] * B[0][j]) for j in range(3)] for i in range(3)]
 
@@ -52,7 +56,7 @@ def product(A, B):
 # -- without a torque: two quadratic integrals
 
 
-def on_common_level(rates, x):
+def on_common_level(rates: Rates, x: Sequence[Fraction]):
     """By the points near an equilibrium that share both integrals with it: none, stable (the sum of the
     squares of their changes is a Lyapunov function); regular branches, unstable (in and out alternate along
     them)."""
@@ -71,7 +75,7 @@ def on_common_level(rates, x):
     return _meets_surface([u - share * v for u, v in zip(A, B)], g, B)
 
 
-def _meets_surface(A, g, B):
+def _meets_surface(A: Sequence[Fraction], g: Sequence[Fraction], B: Sequence[Fraction]):
     """Real points near 0 with sum A_i d_i^2 = 0 and g.d + sum B_i d_i^2/2 = 0."""
     alone = "stable", "no other state nearby shares both integrals with it"
     carried = [i for i in range(3) if A[i]]
@@ -93,7 +97,7 @@ def _meets_surface(A, g, B):
 # -- a reduction to one degree of freedom
 
 
-def reducing_direction(rates, curve):
+def reducing_direction(rates: Rates, curve: Curve):
     """e with x' = eta J(P x) e across e and eta' = F(P x) along it, P x in a plane that holds the curve; or
     None."""
     unit = lambda i: [Fraction(int(n == i)) for n in range(3)]
@@ -106,7 +110,7 @@ def reducing_direction(rates, curve):
     return next((e for e, n, c in places if _reduces(rates, e, n, c, curve)), None)
 
 
-def _reduces(rates, e, n, c, curve) -> bool:
+def _reduces(rates: Rates, e: Sequence[Fraction], n: Sequence[Fraction], c: Fraction, curve: Curve) -> bool:
     """Whether on the plane n.x + c = 0 the rates point along e and J e lies in it, and e's own quadratic rate
     is zero."""
     if not dot(n, e) or any(kappa * e[j] * e[k] for kappa, (j, k) in zip(rates.kappa, AHEAD)):
@@ -127,7 +131,7 @@ def _reduces(rates, e, n, c, curve) -> bool:
 TERMS = 6
 
 
-def on_own_orbit(rates, x, e):
+def on_own_orbit(rates: Rates, x: Sequence[Fraction], e: Sequence[Fraction]):
     """By the first coefficient of the force F along dx/dalpha = J(x) e: odd and negative a strict minimum of
     the potential."""
     base = turned(rates.jacobian([Fraction(0)] * 3), e)
@@ -172,7 +176,7 @@ def leaves_fold(J, zero):
             "m changes sign on a line of equilibria: z ~ 12/(b t^2) leaves the point") if whole else None
 
 
-def leaves_double_root(rates, x, m):
+def leaves_double_root(rates: Rates, x: Sequence[Fraction], m: Fraction):
     """At an isolated equilibrium with n = 0 <= m: z' = a z^2 + ... with a not 0 (m > 0), z''' = a z^2 + ...
     (m = 0)."""
     J = rates.jacobian(x)
@@ -197,7 +201,7 @@ PAIRS = ((0, 1), (0, 2), (1, 2))
 class Curve:
     """x_i(t) = numerators[i](t)/denominator(t) with what is said of its pieces; coefficients lowest first."""
 
-    def __init__(self, table, where):
+    def __init__(self, table: Mapping[str, Any], where: str):
         rows = field(table, "numerators", where, list)
         if len(rows) != 3:
             raise Malformed(f"{where}.numerators: expected three lists of coefficients")
@@ -223,12 +227,12 @@ class Curve:
         """Whether it runs once along a whole straight line; a pole would leave out one point."""
         return self.degree == 1 and self.bottom.degree() == 0
 
-    def at(self, t):
+    def at(self, t: Fraction):
         """The exact point at a rational parameter that is no pole."""
         return [fraction(top(q(t)) / self.bottom(q(t))) for top in self.tops]
 
 
-def _piece(table, where):
+def _piece(table: Mapping[str, Any], where: str):
     ends = field(table, "t", where, list)
     if len(ends) != 2:
         raise Malformed(f"{where}.t: expected two ends")
@@ -236,17 +240,17 @@ def _piece(table, where):
     return ends, *words(table, where)
 
 
-def words(table, where):
+def words(table: Mapping[str, Any] | int | None, where: str):
     """The claimed linear word and verdict."""
     return word(table, "linear", where, LINEAR), word(table, "verdict", where, VERDICT)
 
 
-def identically_zero(rates, curve) -> bool:
+def identically_zero(rates: Rates, curve: Curve) -> bool:
     """Whether the rates vanish all along it."""
     return not any(rate != 0 for rate in rates.at(curve.tops, curve.bottom))
 
 
-def check_curve(rates, curve, note):
+def check_curve(rates: Rates, curve: Curve, note: Callable[[str, str], None]):
     """Findings on the verdicts along a curve on which the rates vanish."""
     note(curve.claim, "proved", "the rates vanish identically along it")
     J = rates.jacobian(curve.tops, curve.bottom)  # times the denominator
@@ -262,7 +266,7 @@ def check_curve(rates, curve, note):
         note(f"{curve.claim}: verdicts", "not checked", TOO_LARGE)
 
 
-def _check_verdicts(along, note):
+def _check_verdicts(along: _Along, note: Callable[[str, str], None]):
     """Findings on every piece and fold."""
     curve, m = along.curve, along.m
     marks = real_roots(m * curve.bottom, along.work)
@@ -282,7 +286,9 @@ def _check_verdicts(along, note):
         _check_fold(along, note, zero, fold, signs[number:number + 2])
 
 
-def _check_piece(along, note, where, piece, bounds, sign):
+def _check_piece(along: _Along, note: Callable[[str, str], None], where: str,
+                 piece: tuple[list[tuple[Fraction, Fraction] | None], str, str],
+                 bounds: Sequence[Root | None], sign: int):
     ends, linear, verdict = piece
     claim = f"{where}: linear {linear}, verdict {verdict}"
     if not all(_agrees(end, mark) for end, mark in zip(ends, bounds)):
@@ -303,7 +309,7 @@ def _check_fold(along, note, zero, fold, signs):
         note(claim, *judged(verdict, along.fold(zero, signs), "three zero eigenvalues"))
 
 
-def judged(verdict, proof, otherwise):
+def judged(verdict: str, proof: Sequence[str] | None, otherwise: str):
     """(status, reason) of a claimed verdict, given (verdict, reason) or None."""
     if proof is None:
         return "not checked", f"{otherwise}: no proof is known here"
@@ -316,12 +322,12 @@ class _Along:
     """What decides stability along one curve: the integrals without a torque, a reduction, or the drift along
     the line."""
 
-    def __init__(self, rates, curve, J, m):
+    def __init__(self, rates: Rates, curve: Curve, J: Sequence[list[fmpq_poly]], m: fmpq_poly):
         self.rates, self.curve, self.J, self.m, self.work = rates, curve, J, m, Work()
         self.direction = reducing_direction(rates, curve) if rates.torque else None
         self.settled = not rates.torque or self.direction is not None
 
-    def centre(self, bounds):
+    def centre(self, bounds: Sequence[Root | None]):
         """The verdict between two marks where m > 0."""
         if self.settled:
             return "stable", "m > 0: a strict extremum"
@@ -333,7 +339,7 @@ class _Along:
             return None
         return "unstable", "a slow drift along the line of equilibria, in one direction all along the piece"
 
-    def fold(self, zero, signs):
+    def fold(self, zero: Root, signs: Sequence[int]):
         """The verdict at a zero of m between pieces with these signs of m."""
         minors = [self.J[a][c] * self.J[b][d] - self.J[a][d] * self.J[b][c]
                   for a, b in PAIRS for c, d in PAIRS]
@@ -345,7 +351,7 @@ class _Along:
         simple = self.m.derivative() % zero.polynomial != 0
         return leaves_fold(self.J, zero) if self.curve.straight and simple else None
 
-    def _crossing(self, zero):
+    def _crossing(self, zero: Root):
         if zero.low != zero.high:
             return None
         x = self.curve.at(zero.low)
@@ -353,14 +359,14 @@ class _Along:
             return on_common_level(self.rates, x)
         return on_own_orbit(self.rates, x, self.direction) if self.direction else None
 
-def _agrees(end, mark) -> bool:
+def _agrees(end: Sequence[Fraction] | None, mark: Root | None) -> bool:
     """Whether a claimed end (None: infinity) holds the zero that was found."""
     if end is None or mark is None:
         return end is None and mark is None
     return mark.within(*end)
 
 
-def _sign_between(m, low, high) -> int:
+def _sign_between(m: fmpq_poly, low: Root | None, high: Root | None) -> int:
     """Sign of m between two neighbouring marks (None: infinity)."""
     if low is None or high is None:
         t = Fraction(0) if low is high else high.low - 1 if low is None else low.high + 1
@@ -374,7 +380,7 @@ def _sign_between(m, low, high) -> int:
 class Plane:
     """base + p u + r v with what is said of its points, and of one centre that may differ."""
 
-    def __init__(self, table, where):
+    def __init__(self, table: Mapping[str, Any], where: str):
         self.base = numbers(field(table, "base", where), f"{where}.base", 3)
         rows = field(table, "directions", where, list)
         if len(rows) != 2:
@@ -390,17 +396,17 @@ class Plane:
         self.centre_verdict = word(centre, "verdict", f"{where}.centre", VERDICT)
         self.claim = f"plane through ({', '.join(map(brief, self.base))})"
 
-    def grid(self, size):
+    def grid(self, size: int):
         """size x size of its points."""
         return [[b + p * u + r * v for b, u, v in zip(self.base, self.u, self.v)] for p in range(size)
                 for r in range(size)]
 
-    def lies(self, axis, height) -> bool:
+    def lies(self, axis: int, height: Fraction) -> bool:
         """Whether it is the plane x_axis = height."""
         return self.base[axis] == height and not self.u[axis] and not self.v[axis]
 
 
-def check_plane(rates, plane, note):
+def check_plane(rates: Rates, plane: Plane, note: Callable[[str, str], None]):
     """Findings on a plane: all of it at rest, all of it with three zero eigenvalues, and left by a drift but
     at the centre."""
     # a quadratic function that vanishes on a 3 x 3 grid vanishes
@@ -426,7 +432,7 @@ def check_plane(rates, plane, note):
         note(f"{plane.claim}: {where} {verdict}", *judged(verdict, why, "no axis of symmetry was found"))
 
 
-def _turning(rates, plane):
+def _turning(rates: Rates, plane: Plane):
     """The axis e with x_e constant whose J(x) e turns x in the plane (so that beside it states run round
     circles); or None."""
     for i, (j, k) in enumerate(AHEAD):
@@ -436,7 +442,7 @@ def _turning(rates, plane):
     return None
 
 
-def _at(rates, e, centre, plane) -> bool:
+def _at(rates: Rates, e: Sequence[int], centre: Sequence[Fraction], plane: Plane) -> bool:
     """Whether a point of the plane is where J(x) e vanishes."""
     on = sum(n * (c - b) for n, c, b in zip(plane.normal, centre, plane.base)) == 0
     return on and not any(turned(rates.jacobian(centre), e))

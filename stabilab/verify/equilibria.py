@@ -3,12 +3,14 @@ torque they lie on a line or a conic in the plane of the two conditions; without
 s x must be passed. """
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from math import prod
+from typing import Any
 
-from flint import fmpq_mat, fmpq_mpoly_ctx, fmpq_poly
+from flint import fmpq_mat, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
 from .curves import (
     Curve,
@@ -24,6 +26,7 @@ from .curves import (
 )
 from .numbers import (
     TOO_LARGE,
+    Rates,
     Root,
     TooLarge,
     Work,
@@ -56,12 +59,12 @@ class Place:
         return ([f + self.t.low * d for f, d in zip(self.foot, self.direction)] if self.t.rational
                 else None)
 
-    def within(self, box) -> bool:
+    def within(self, box: Sequence[tuple[Fraction, Fraction]]) -> bool:
         """Whether it lies in the box of three closed brackets, exactly."""
         return all(self.t.within(*sorted(((low - f) / d, (high - f) / d))) if d else low <= f <= high
                    for f, d, (low, high) in zip(self.foot, self.direction, box))
 
-    def signs(self, rates) -> tuple[int, int]:
+    def signs(self, rates: Rates) -> tuple[int, int]:
         """(sign of m, sign of n) there, exactly."""
         line = [fmpq_poly([q(f), q(d)]) for f, d in zip(self.foot, self.direction)]
         m, n = map(self.t.sign, characteristic(rates.jacobian(line)))
@@ -76,7 +79,7 @@ class Line:
     places: tuple[Place, ...] | None
 
 
-def line_of(rates) -> Line | None:
+def line_of(rates: Rates) -> Line | None:
     """The equilibria of a torque whose two conditions meet in one line; None where they do not."""
     if not rates.torque or _rank([n for n, _ in rates.conditions]) < 2:
         return None
@@ -87,12 +90,12 @@ def line_of(rates) -> Line | None:
     return Line(None if common == 0 else tuple(Place(foot, v, t) for t in real_roots(common, Work())))
 
 
-def contradictory(rates) -> bool:
+def contradictory(rates: Rates) -> bool:
     """Whether the two linear conditions exclude each other."""
     return _rank([[*n, c] for n, c in rates.conditions]) > _rank([n for n, _ in rates.conditions])
 
 
-def whole_line(kind, points, curves, places):
+def whole_line(kind: str, points: Sequence[_Point], curves: Sequence[Curve], places: Sequence[Place] | None):
     """(status, reason): equilibria of a torque whose two conditions meet in a line. places: those on it
     (`Line`)."""
     if places is None:
@@ -106,12 +109,12 @@ def whole_line(kind, points, curves, places):
     return ("proved" if right else "refuted"), f"{why}, {'' if once else 'not '}each in a box of its own"
 
 
-def _rank(rows):
+def _rank(rows: Sequence[list[Fraction]]):
     """Rank of rows of fractions."""
     return fmpq_mat([[q(v) for v in row] for row in rows]).rank()
 
 
-def _line(rates):
+def _line(rates: Rates):
     """(foot, direction) of the line where the two conditions meet."""
     (a, ca), (b, cb) = rates.conditions
     v = cross(a, b)
@@ -150,7 +153,7 @@ def whole_conic(rates, kind, points, curves):
             else "refuted"), "the conic falls apart into lines, whose product is the condition"
 
 
-def _free(rates):
+def _free(rates: Rates):
     """(pivot, free coordinates, normal, constant) of the plane."""
     normal, constant = next((n, c) for n, c in rates.conditions if any(n))
     pivot = max(range(3), key=lambda i: abs(normal[i]))
@@ -160,7 +163,7 @@ def _free(rates):
 PLANE = fmpq_mpoly_ctx.get(("p", "r"), "lex")
 
 
-def _conic(rates):
+def _conic(rates: Rates):
     """The one condition in the plane, a polynomial in the two free coordinates; None where the rates are not
     multiples of one."""
     pivot, free, normal, constant = _free(rates)
@@ -172,12 +175,12 @@ def _conic(rates):
     return found[0] if found and all(_proportional(rate, found[0]) for rate in found) else None
 
 
-def _proportional(f, g) -> bool:
+def _proportional(f: fmpq_mpoly, g: fmpq_mpoly) -> bool:
     """Whether two polynomials that are not zero are multiples of each other."""
     return f * g.leading_coefficient() == g * f.leading_coefficient()
 
 
-def _line_in_plane(rates, curve):
+def _line_in_plane(rates: Rates, curve: Curve):
     """The polynomial that is zero on a straight line of the plane."""
     _, (i, j), *_ = _free(rates)
     (p, r), a, b = PLANE.gens(), curve.at(Fraction(0)), curve.at(Fraction(1))
@@ -221,7 +224,7 @@ def _matched(parts, curves, planes):
     return missing, [claimed.claim for claimed in spare]
 
 
-def _parts(rates):
+def _parts(rates: Rates):
     """(name, test of a claimed curve or plane) of each part of the equilibria without a torque."""
     if rates.parallel is None:
         return [(f"the line along x{i + 1}", partial(_is_the_line, *line))
@@ -244,18 +247,18 @@ def _parts(rates):
     return parts
 
 
-def _scaled_lines(rates):
+def _scaled_lines(rates: Rates):
     """(base, direction) of the three lines of the scaled system without torque."""
     a, b = -rates.sigma[1], rates.rho[2]
     o, one = Fraction(0), Fraction(1)
     return [([o, o, o], [one, o, o]), ([-b, o, o], [o, one, o]), ([-a, o, o], [o, o, one])]
 
 
-def _is_the_plane(axis, height, claimed) -> bool:
+def _is_the_plane(axis: int, height: Fraction, claimed: Plane) -> bool:
     return isinstance(claimed, Plane) and claimed.lies(axis, height)
 
 
-def _is_the_line(base, direction, claimed) -> bool:
+def _is_the_line(base: Sequence[Fraction], direction: Sequence[Fraction], claimed: Curve) -> bool:
     if not isinstance(claimed, Curve) or not claimed.straight:
         return False
     points = [claimed.at(Fraction(t)) for t in (0, 1)]
@@ -264,7 +267,7 @@ def _is_the_line(base, direction, claimed) -> bool:
                for j in range(3))
 
 
-def _passes_every_s(D, lam, curve) -> bool:
+def _passes_every_s(D: Sequence[Fraction], lam: Sequence[Fraction], curve: Curve) -> bool:
     """Whether s = (D_l x_l + lambda_l)/x_l is of degree 1 in t, and infinite t is where the curve itself is
     infinite."""
     if not isinstance(curve, Curve):
@@ -297,7 +300,7 @@ class Claims:
     planes: list
 
 
-def equilibria_of(table) -> Claims:
+def equilibria_of(table: Mapping[str, Any]) -> Claims:
     """The claims on equilibria. Raises `Malformed` before anything is worked out."""
     read = lambda key, made: [made(v, f"equilibria.{key}[{i}]")
                               for i, v in enumerate(entries(table, key, "equilibria"))]
@@ -305,7 +308,7 @@ def equilibria_of(table) -> Claims:
                   read("planes", Plane))
 
 
-def check_equilibria(rates, claims, note):
+def check_equilibria(rates: Rates, claims: Claims, note: Callable[[str, str], None]):
     """Findings on the certificate's part `equilibria`."""
     try:
         _check_all(rates, claims, line_of(rates), note)
@@ -313,7 +316,7 @@ def check_equilibria(rates, claims, note):
         note("the other equilibria", "not checked", TOO_LARGE)
 
 
-def _check_all(rates, claims, line, note):
+def _check_all(rates: Rates, claims: Claims, line: Line | None, note: Callable[[str, str], None]):
     for point in claims.points:
         _check_point(rates, point, line, note)
     for curve in claims.curves:
@@ -329,14 +332,14 @@ def _check_all(rates, claims, line, note):
 class _Point:
     """A claimed isolated equilibrium: a box, and what is said of it."""
 
-    def __init__(self, table, where):
+    def __init__(self, table: int | Mapping[str, Any] | None, where: str):
         self.box = brackets(field(table, "box", where), f"{where}.box")
         self.linear, self.verdict = words(table, where)
         self.claim = f"equilibrium near ({', '.join(brief((a + b) / 2) for a, b in self.box)})"
         self.exact = all(a == b for a, b in self.box)
 
 
-def _check_point(rates, point, line, note):
+def _check_point(rates: Rates, point: _Point, line: Line | None, note: Callable[[str, str], None]):
     if point.exact:
         x = [a for a, _ in point.box]
         if any(rates.at(x)):
@@ -353,7 +356,7 @@ def _check_point(rates, point, line, note):
         _check_box(rates, point, line.places, note)
 
 
-def _check_box(rates, point, places, note):
+def _check_box(rates: Rates, point: _Point, places: Sequence[Place], note: Callable[[str, str], None]):
     """Findings on a box of some width, given all equilibria of the scene exactly."""
     held = [place for place in places if place.within(point.box)]
     if len(held) != 1:
@@ -366,7 +369,7 @@ def _check_box(rates, point, places, note):
         _say(point, *held[0].signs(rates), None, note)
 
 
-def _judge(rates, point, x, note):
+def _judge(rates: Rates, point: _Point, x: Sequence[Fraction], note: Callable[[str, str], None]):
     """Verdicts at an exact equilibrium."""
     m, n = characteristic(rates.jacobian(x))
     _say(point, exact_sign(m), exact_sign(n), leaves_double_root(rates, x, m) if n == 0 <= m else None, note)
@@ -386,11 +389,11 @@ def _say(point, m, n, root, note):
 # -- completeness
 
 
-def _some(count, noun):
+def _some(count: int, noun: str):
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
-def _check_complete(rates, claims, line, note):
+def _check_complete(rates: Rates, claims: Claims, line: Line | None, note: Callable[[str, str], None]):
     kind, points, curves, planes = claims.kind, claims.points, claims.curves, claims.planes
     claim = f"the equilibria are complete: {kind}, {len(points)} isolated, {_some(len(curves), 'curve')}"
     claim += f", {_some(len(planes), 'plane')}" if planes else ""

@@ -2,9 +2,14 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from .diagram import claims as diagram
 from .numbers import Malformed, field, number, quoted, shown
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 # --- The form of a certificate's file: JSON of bounded size whose keys stand once, and the keys that have a
 # meaning
@@ -26,7 +31,7 @@ KEYS = {
 SCENES = {"physical": ("variables", "inertia", "momentum", "torque"), "scaled": ("variables", "a", "b", "mu")}
 
 
-def read(path) -> dict:
+def read(path: Path) -> dict:
     """The object in a file. OSError where it cannot be read, `Malformed` where it is no JSON of this form."""
     with open(path, "rb") as file:
         return parsed(file.read(MOST_BYTES + 1))
@@ -139,7 +144,7 @@ def _exact(value):
     return value if value is None or value in SCENES else number(value, "about")
 
 
-def _short(value) -> str:
+def _short(value: str | Sequence[str] | None) -> str:
     if value is None:
         return "none"
     return " ".join(v if len(v) <= 24 else shown(v) for v in ([value] if isinstance(value, str) else value))

@@ -43,14 +43,19 @@ on, what is tried at one time is
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from operator import add
+from typing import TYPE_CHECKING, Any
 
 from flint import acb, arb
 
 from .normal_form import MovingForm
 from .numbers import ball
+
+if TYPE_CHECKING:
+    from fractions import Fraction
 
 MOST_ORDER = 18
 MOST_TERMS = 20_000
@@ -111,7 +116,8 @@ class Inequality:
         if min((n for _, _, n in self.amplitude.left), default=2) < 2:
             raise Unsuited("a term of the amplitude's rate does not fall fast enough")
 
-    def _corrected(self, rate, order, added):
+    def _corrected(self, rate: Mapping[tuple[int, ...], acb], order: int,
+                   added: Mapping[tuple[int, ...], acb]):
         return _corrected(rate, added, order, lambda key: key[2], self._over_turning, self._price)
 
     def _over_turning(self, terms):
@@ -129,7 +135,7 @@ class Inequality:
         steeper = {(j, k, n + 1): -n * c for (j, k, n), c in terms.items() if n}
         return total(out, product(steeper, self.spin_rate))
 
-    def faults(self, state, A, z):
+    def faults(self, state: Sequence[arb], A: Fraction, z: Fraction):
         """(what does not hold, in words, and whether it surely does not; eta as a ball) for the state (balls)
         and the exact numbers A, z; nothing where all holds."""
         X, zeta = self.form.place(state)
@@ -161,7 +167,7 @@ def _i():
     return acb(0, 1)
 
 
-def conjugate(c):
+def conjugate(c: acb):
     """c*."""
     return acb(c.real, -c.imag)
 
@@ -183,7 +189,7 @@ def total(*tables):
     return out
 
 
-def product(one, other):
+def product(one: Mapping[tuple[int, ...], Any], other: Mapping[tuple[int, ...], acb]):
     """The product of two tables of terms, keys of any length added up."""
     out: dict = {}
     for here, c in one.items():
@@ -198,7 +204,7 @@ def _bound(terms, A, z):
     return sum((abs(c) * A**(j + k) / z**n for (j, k, n), c in terms.items()), ball(0))
 
 
-def _value(terms, X, zeta):
+def _value(terms: Mapping[tuple[int, ...], acb], X: arb, zeta: acb):
     """The value of terms, which is real."""
     star = conjugate(zeta)
     return sum((c * zeta**j * star**k / X**n for (j, k, n), c in terms.items()), _i() * 0).real
@@ -235,16 +241,16 @@ class MovingInequality:
         self.energy_left = _Sizes(self._over_turning(self.energy.left))
         self.amplitude_left = _Sizes(self.amplitude.left)
 
-    def _folded(self, terms):
+    def _folded(self, terms: Mapping[tuple[int, int], acb]):
         """Terms {(a, b): c}; where Q is constant, or a multiple of P, its powers become part of the others.
         """
         return (terms if self.root is None
                 else total(*({self._place(a, b): c * self.root**-b} for (a, b), c in terms.items())))
 
-    def _place(self, a, b):
+    def _place(self, a: float, b: float):
         return (a + b if self.alike else a, 0) if self.root is not None else (a, b)
 
-    def _over_turning(self, terms, power: int = 1):
+    def _over_turning(self, terms: Mapping[tuple[int, ...], acb], power: int = 1):
         """Terms over a power of sqrt(P Q)."""
         m, n = self._place(2 * power, 2 * power)
         factor = 1 if self.root is None else self.root ** (-2 * power)
@@ -265,7 +271,7 @@ class MovingInequality:
         rate = total(product(self.swing, steeper), product({key: 2 * c for key, c in self.G.items()}, inner))
         return {key: c / form.M for key, c in rate.items()}
 
-    def _slope(self, terms):
+    def _slope(self, terms: Mapping[tuple[int, ...], acb]):
         """d/dx of terms."""
         (p, _), (q, _) = self.form.P, self.form.Q
         parts = [{(j, k, a + 4, b): -a * c * p / 4 for (j, k, a, b), c in terms.items() if a}]
@@ -273,7 +279,7 @@ class MovingInequality:
             parts.append({(j, k, a, b + 4): -b * c * q / 4 for (j, k, a, b), c in terms.items() if b})
         return total(*parts)
 
-    def _price(self, terms):
+    def _price(self, terms: Mapping[tuple[int, ...], acb]):
         """What x' makes of terms, by d/dx and along r zeta* + f."""
         parts = [self._slope(terms)]
         for (m, n), c in self.f.items():
@@ -285,10 +291,10 @@ class MovingInequality:
             parts.append({(j + 1, k - 1, a + m, b + n): k * v * c for (j, k, a, b), v in terms.items() if k})
         return product(total(*parts), self.spin_rate)
 
-    def _corrected(self, rate, order) -> Ledger:
+    def _corrected(self, rate: Mapping[tuple[int, ...], acb], order: int) -> Ledger:
         return _corrected(rate, {}, 4 * order, lambda key: key[2] + key[3], self._over_turning, self._price)
 
-    def faults(self, state, A, z):
+    def faults(self, state: Sequence[arb], A: Fraction, z: Fraction):
         """As of `inequality.Inequality.faults`."""
         form = self.form
         x, zeta = form.place(state)
@@ -314,7 +320,7 @@ class MovingInequality:
                                    "the amplitude stays below A"))
         return [fault for fault in faults if fault], eta
 
-    def _value(self, terms, x, zeta):
+    def _value(self, terms: Mapping[tuple[int, ...], acb], x: arb, zeta: acb):
         """The value of terms, which is real."""
         star, factors, out = conjugate(zeta), _Factors(self.form, x), _i() * 0
         here = defaultdict(lambda: _i() * 0)
@@ -328,12 +334,12 @@ class MovingInequality:
 class _Sizes:
     """Sums of |c| by degree and exponents."""
 
-    def __init__(self, terms):
+    def __init__(self, terms: Mapping[tuple[int, ...], acb]):
         self.rows = defaultdict(lambda: ball(0))
         for (j, k, a, b), c in terms.items():
             self.rows[j + k, a, b] += abs(c)
 
-    def bound(self, A, factors, tails: bool = False):
+    def bound(self, A: arb | Fraction, factors: _Factors, tails: bool = False):
         """The sum of |c| A^(j+k) times the greatest factors, or times the integrals of falling majorants."""
         of = factors.tail if tails else factors.greatest
         return sum((c * A**n * of(a, b) for (n, a, b), c in self.rows.items()), ball(0))
@@ -342,7 +348,7 @@ class _Sizes:
 class _Factors:
     """P^(-a/4) Q^(-b/4) at x, their greatest values and integrals from x on."""
 
-    def __init__(self, form, x):
+    def __init__(self, form: MovingForm, x: arb | Fraction):
         (self.p, _), (self.q, _) = form.P, form.Q
         self.ends = P, Q = form.at(x)
         self.alone = form.Q[0].is_zero() or form.quotient is not None  # Q's powers are part of the others
@@ -354,7 +360,7 @@ class _Factors:
                                                  / self.p).root(4), (P / Q).max(self.p / self.q).root(4)
         self.known: dict = {}
 
-    def at(self, a, b):
+    def at(self, a: int, b: int):
         """The factor itself."""
         if (a, b) not in self.known:
             self.known[a, b] = self.roots[0] ** -a * self.roots[1] ** -b
@@ -387,6 +393,6 @@ class _Factors:
         return reduce(arb.min, found)
 
 
-def _turning(form, x):
+def _turning(form: MovingForm, x: arb):
     P, Q = form.at(x)
     return (P * Q).sqrt()

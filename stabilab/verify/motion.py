@@ -1,6 +1,7 @@
 """What a certificate claims of a motion, checked: its fate and the facts that carry it."""
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache, partial, reduce
@@ -10,6 +11,7 @@ from flint import arb, ctx
 from .numbers import (
     Malformed,
     Open,
+    Rates,
     above,
     ball,
     below,
@@ -36,14 +38,14 @@ class Facts:
     """What is proved of one orbit at the working precision of so many bits: fate, reason, ends (balls or
     None), extremes."""
 
-    def __init__(self, orbit):
+    def __init__(self, orbit: Orbit):
         self.orbit, self.bits = orbit, ctx.prec
         sense = exact_sign(orbit.tilt)
         self.fate, self.reason, self.ends = _fate(orbit, sense)
         self.round = self.fate == "bounded" and self.ends is None
         self.extremes = self._extremes(sense)
 
-    def _extremes(self, sense):
+    def _extremes(self, sense: int):
         """[(low, high)] * 3 as balls, None where unbounded."""
         o = self.orbit
         if o.forceless():
@@ -66,7 +68,7 @@ class Facts:
         return [ranges[i] for i in range(3)]
 
 
-def _fate(orbit, sense):
+def _fate(orbit: Orbit, sense: int):
     """(fate, reason, the two turning points of a motion that has them, else None)."""
     circle, torque_free = orbit.kind < 0, "no torque: the energy is constant and positive definite"
     if orbit.forceless():
@@ -91,7 +93,7 @@ def _fate(orbit, sense):
     return "bounded", torque_free, None
 
 
-def _turning(orbit, side):
+def _turning(orbit: Orbit, side: int):
     """The turning point on one side as a ball; None where the motion passes every barrier of a circle's next
     turn, or no wall stands on a hyperbola or a parabola."""
     if orbit.y0 == 0 and exact_sign(orbit.F0) == -side:
@@ -120,13 +122,13 @@ def _turning(orbit, side):
     return None
 
 
-def _ahead(orbit, side):
+def _ahead(orbit: Orbit, side: int):
     """The places on one side where the force changes sign, the nearest first: of one turn of a circle."""
     far = ball(orbit.past_a_turn) if orbit.kind < 0 else arb("inf")
     return orbit.spots(ball(0), far) if side > 0 else orbit.spots(-far, ball(0))[::-1]
 
 
-def _over(orbit, place) -> bool:
+def _over(orbit: Orbit, place: arb) -> bool:
     """Whether the potential is above the energy."""
     over = sign(orbit.excess(place))
     if over is None:
@@ -134,7 +136,7 @@ def _over(orbit, place) -> bool:
     return over > 0
 
 
-def _turns_below(orbit, spots) -> int:
+def _turns_below(orbit: Orbit, spots: Sequence[arb]) -> int:
     """How many whole turns behind hold no barrier that reaches the energy, less one. spots: of the first."""
     highest = reduce(arb.max, map(orbit.excess, [ball(0), *spots]))
     if not highest < 0:
@@ -142,7 +144,7 @@ def _turns_below(orbit, spots) -> int:
     return max(int(below(-highest / (ball(abs(orbit.tilt)) * orbit.turn))) - 1, 0)
 
 
-def _crossing(orbit, inner, outer):
+def _crossing(orbit: Orbit, inner: arb | None, outer: arb):
     """Where U = E between the last barrier or well below the energy (None: the start) and a place above it.
     """
     a = Fraction(0) if inner is None else (above(inner) if outer > inner else below(inner))
@@ -157,7 +159,7 @@ def _crossing(orbit, inner, outer):
     return narrowed(orbit.excess, df, low, high)
 
 
-def _lowest(orbit, left, right):
+def _lowest(orbit: Orbit, left: arb, right: arb):
     """Least U - E on [left, right], which holds the start, as a ball (negative)."""
     if orbit.kind < 0 and orbit.tilt:  # wells further back than one turn are higher
         turn = ball(orbit.past_a_turn)
@@ -165,13 +167,13 @@ def _lowest(orbit, left, right):
     return reduce(arb.min, map(orbit.excess, [ball(0), *orbit.spots(left, right)]))
 
 
-def _heights_round(orbit):
+def _heights_round(orbit: Orbit):
     """(greatest, least) U - E on the whole circle without torque."""
     values = [*map(orbit.excess, [ball(0), *_ahead(orbit, 1)])]
     return reduce(arb.max, values), reduce(arb.min, values)
 
 
-def _ranges(orbit, left, right):
+def _ranges(orbit: Orbit, left: arb, right: arb):
     """((low, high) of u, (low, high) of v) on [left, right]."""
     out = []
     for which in (0, 1):
@@ -189,7 +191,7 @@ def _ranges(orbit, left, right):
     return out
 
 
-def _whole_circle(orbit):
+def _whole_circle(orbit: Orbit):
     """Ranges of u and v on the whole circle."""
     o = orbit
     ratio = -o.p / o.q
@@ -198,7 +200,7 @@ def _whole_circle(orbit):
     return [(ball(c) - r, ball(c) + r) for c, r in ((o.cu, radius_u), (o.cv, radius_v))]
 
 
-def _slowest_ahead(orbit, sense):
+def _slowest_ahead(orbit: Orbit, sense: int):
     """The least sense * y over the future of a motion that spins up."""
     if exact_sign(orbit.y0) * sense < 0:
         behind = _behind(orbit, sense)
@@ -208,7 +210,7 @@ def _slowest_ahead(orbit, sense):
     return (2 * slowest).sqrt()
 
 
-def _behind(orbit, sense):
+def _behind(orbit: Orbit, sense: int):
     """Where a motion that runs against the torque first turns back."""
     behind = _turning(orbit, -sense)
     if behind is None:
@@ -216,7 +218,7 @@ def _behind(orbit, sense):
     return behind
 
 
-def _to_the_end(orbit, sense):
+def _to_the_end(orbit: Orbit, sense: int):
     """Ranges of u and v on a decaying plane, from where the motion turns back to the plane's end; or
     constant."""
     if orbit.constant(0) and orbit.constant(1):
@@ -226,7 +228,7 @@ def _to_the_end(orbit, sense):
     return [(start.min(ball(end)), start.max(ball(end))) for start, end in zip(starts, (orbit.cu, orbit.cv))]
 
 
-def _released(orbit, ends):
+def _released(orbit: Orbit, ends: Sequence[arb | None]):
     """(fate, reason) of an orbit without a wall on one side: pure spin, or a decaying plane of a hyperbola.
     """
     if orbit.constant(0) and orbit.constant(1) and orbit.F0:
@@ -278,7 +280,7 @@ def motion_of(table) -> Claims:
                   **{key: optional(table, key, of) for key, of in read.items()})
 
 
-def _pairs(claimed):
+def _pairs(claimed: Sequence[list[list[str] | None]]):
     """Three pairs of brackets, None for what is unbounded."""
     if not (isinstance(claimed, list)
             and [len(pair) if isinstance(pair, list) else 0 for pair in claimed] == [2, 2, 2]):
@@ -287,7 +289,7 @@ def _pairs(claimed):
              for k, ends in enumerate(pair)] for i, pair in enumerate(claimed)]
 
 
-def check_motion(rates, claims, note):
+def check_motion(rates: Rates, claims: Claims, note: Callable[[str, str], None]):
     """Findings on the certificate's part `motion`: every claim of it is among them, unless the fate is wrong.
     """
     if not any(rates.at(claims.state)):
@@ -316,7 +318,7 @@ def check_motion(rates, claims, note):
         _check_numbers(claims, orbit, found, note)
 
 
-def _check_rest(claims, note):
+def _check_rest(claims: Claims, note: Callable[[str, str], None]):
     """A state at which the rates vanish exactly: it is its own extremes, and nothing repeats."""
     _check_words(claims, "equilibrium", 0, 0, "the rates vanish exactly at the state", note)
     for claim, ends, x in _named(claims.extremes, [(x, x) for x in claims.state]):
@@ -330,7 +332,7 @@ def _check_rest(claims, note):
         note(f"law: {claims.closed.law}", "refuted", "the state does not change")
 
 
-def _check_trapped(rates, claims, note):
+def _check_trapped(rates: Rates, claims: Claims, note: Callable[[str, str], None]):
     """A motion that an inequality traps in spin-up."""
     status, reason = check_spin_up(rates, claims.state, claims.spin_up, note)
     if status == "proved":
@@ -342,7 +344,7 @@ def _check_trapped(rates, claims, note):
                    "a motion that spins up does not repeat")
 
 
-def _check_closed(rates, claims, note):
+def _check_closed(rates: Rates, claims: Claims, note: Callable[[str, str], None]):
     """A motion that a closed solution tells."""
     fate, axis, sense, reason = check_closed(rates, claims.state, claims.closed, note)
     if fate:
@@ -369,7 +371,8 @@ def _check_words(claims, fate, axis, sense, reason, note):
         note(claims.words, "proved", reason)
 
 
-def _leave_numbers(claims, why, note, period="not checked", because=None):
+def _leave_numbers(claims: Claims, why: str, note: Callable[[str, str], None], period: str = "not checked",
+                   because: str | None = None):
     """No extreme of the motion is checked; what becomes of its period, for a reason of its own."""
     for claim, *_ in _named(claims.extremes, [(None, None)] * 3):
         note(claim, "not checked", why)
@@ -377,14 +380,15 @@ def _leave_numbers(claims, why, note, period="not checked", because=None):
         note("period", period, because or why)
 
 
-def _named(claimed, found):
+def _named(claimed: Sequence[list[tuple[Fraction, Fraction] | None]] | None,
+           found: Sequence[Sequence[Fraction | tuple[int, int] | None]]):
     """(claim, claimed, found) of the six extremes."""
     for i, pair in enumerate(claimed or ()):
         for word_, said, true in zip(("least", "greatest"), pair, found[i]):
             yield f"{word_} x{i + 1}", said, true
 
 
-def _orbit(rates, state):
+def _orbit(rates: Rates, state: Sequence[Fraction]):
     """The orbit about the torque's axis, or, without one, about the first axis that allows it, circles first.
     """
     acting = [i for i in range(3) if rates.m[i]]
@@ -399,7 +403,8 @@ def _orbit(rates, state):
     return min(made, key=lambda o: (-1, 1, 0).index(o.kind), default=None)
 
 
-def at_rising_precision(question, least=None, most=None):
+def at_rising_precision(question: Callable[[], str] | partial[Facts], least: int | None = None,
+                        most: int | None = None):
     """question() at more and more bits while it raises Open; None when the most are not enough, or the work
     is too much."""
     bits = least or BITS
@@ -435,7 +440,7 @@ def _check_numbers(claims, orbit, found, note):
              else "the verified quadrature did not close, or not on one side of the bracket's ends")
 
 
-def _period_status(orbit, said, bits):
+def _period_status(orbit: Orbit, said: Sequence[Fraction], bits: int):
     """Whether the bracket holds the period, by quadratures to more and more digits; None where they leave it
     open."""
     for goal in GOALS:
@@ -447,17 +452,17 @@ def _period_status(orbit, said, bits):
     return None
 
 
-def _facts(orbit) -> Facts:
+def _facts(orbit: Orbit) -> Facts:
     """What is proved of an orbit at the working precision. Raises Open where it does not do."""
     return _facts_of(orbit, ctx.prec)
 
 
 @lru_cache(maxsize=16)
-def _facts_of(orbit, bits):
+def _facts_of(orbit: Orbit, bits: int):
     return Facts(orbit)
 
 
-def _period(orbit, goal):
+def _period(orbit: Orbit, goal: int):
     """The period to about so many bits, as a ball."""
     facts = _facts(orbit)
     if orbit.forceless():
@@ -465,7 +470,7 @@ def _period(orbit, goal):
     return round_once(orbit, goal) if facts.round else period_of(orbit, facts.ends, goal)
 
 
-def _within(true, low, high) -> str:
+def _within(true: arb, low: Fraction, high: Fraction) -> str:
     """"proved" or "refuted": that the ball lies in the bracket. Raises Open where it is neither inside nor
     outside."""
     least, most = below(true), above(true)

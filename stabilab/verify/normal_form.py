@@ -37,13 +37,14 @@ sigma_k, so Q is constant; the sense along it is that in which Q is positive.
 """
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from flint import acb, arb
+from flint import acb, arb, fmpq
 
-from .numbers import ball, q
+from .numbers import Rates, ball, q
 
 
 @dataclass(frozen=True)
@@ -63,13 +64,13 @@ class Form:
     g: object
     kap: object
 
-    def place(self, state):
+    def place(self, state: Sequence[arb]):
         """(X, zeta) of three balls."""
         x1, x2, x3 = (state[n] * s for n, s in zip(self.order, self.signs))
         return x1 + self.shift, acb(x2 - ball(self.centre[0]), self.q * (x3 - ball(self.centre[1])))
 
 
-def turned(rates, axis: int, sense: int):
+def turned(rates: Rates, axis: int, sense: int):
     """(order, signs, kappa, rho, sigma, m) with an axis (0, 1, 2) called 1, turned by half a turn about axis
     2 where the sense is -1."""
     order, signs = (axis, (axis + 1) % 3, (axis + 2) % 3), (sense, 1, sense)
@@ -79,7 +80,7 @@ def turned(rates, axis: int, sense: int):
             pick(rates.sigma, ahead), pick(rates.m, lambda i: 1))
 
 
-def form_about(rates, axis: int, sense: int) -> Form | None:
+def form_about(rates: Rates, axis: int, sense: int) -> Form | None:
     """The form about an axis (0, 1, 2) in a sense (+1, -1); None where the spin about it does not turn the
     other two."""
     order, signs, (k1, k2, k3), (r1, r2, r3), (s1, s2, s3), (m1, m2, m3) = turned(rates, axis, sense)
@@ -114,14 +115,14 @@ class MovingForm:
     g: Any
     quotient: Any = None
 
-    def place(self, state):
+    def place(self, state: Sequence[arb]):
         """(x, zeta) of three balls where P and Q are positive there; zeta is not finite else."""
         x, x2, x3 = (sum((a * v for a, v in zip(row, state)), ball(0)) for row in self.rows)
         P, Q = self.at(x)
         w = (Q / P).root(4)
         return x, acb(w * (x2 - value(self.N2, x) / Q), self.tau * (x3 - value(self.N3, x) / P) / w)
 
-    def at(self, x):
+    def at(self, x: arb | Fraction):
         """(P, Q) at a ball."""
         return value(self.P, x), value(self.Q, x)
 
@@ -131,7 +132,7 @@ def value(line, x):
     return line[0] * x + line[1]
 
 
-def moving_form(rates, axis: int, sense: int) -> MovingForm | None:
+def moving_form(rates: Rates, axis: int, sense: int) -> MovingForm | None:
     """The form about a body axis (0, 1, 2) in a sense (+1, -1); None where the spin about it does not turn
     the other two."""
     order, signs, *numbers = turned(rates, axis, sense)
@@ -140,7 +141,7 @@ def moving_form(rates, axis: int, sense: int) -> MovingForm | None:
             else None)
 
 
-def equator(rates) -> MovingForm | None:
+def equator(rates: Rates) -> MovingForm | None:
     """The form along the equator; None where the body is not one of revolution, has no wheel in the equator,
     or the torque is against it."""
     axes = [i for i in range(3) if rates.kappa[i] == 0]
@@ -189,12 +190,14 @@ def _form(rows, kappa, rho, sigma, m) -> MovingForm | None:
                       None if flat or Q[0] * P[1] != P[0] * Q[1] else arb(Q[0] / P[0]))
 
 
-def _wronskian(line, other):
+def _wronskian(line: tuple[fmpq, arb | fmpq], other: Sequence[fmpq | arb]):
     """line' other - line other' of two linear functions, a constant: -(other/line)' line^2."""
     return line[0] * other[1] - line[1] * other[0]
 
 
-def _drive(k1, r1, s1, m1, beat, P, Q, N2, N3, flat):
+def _drive(k1: fmpq, r1: fmpq | arb, s1: fmpq | arb, m1: arb | fmpq, beat: arb | fmpq,
+           P: tuple[fmpq, arb | fmpq], Q: tuple[fmpq, arb | fmpq], N2: Sequence[fmpq | arb],
+           N3: Sequence[fmpq | arb], flat: bool):
     """(the limit of G, its other terms): the quadratic kappa1 N2 N3 + rho1 N3 Q + sigma1 N2 P over P Q, split
     into 1, 1/Q, 1/P and 1/(P Q), the last with -kappa1 m2 m3, which a body has there."""
     product = lambda a, b: (a[0] * b[0], a[0] * b[1] + a[1] * b[0], a[1] * b[1])
@@ -212,11 +215,11 @@ def _drive(k1, r1, s1, m1, beat, P, Q, N2, N3, flat):
                       (4, 4): last}
 
 
-def _beside(line, other):
+def _beside(line: Sequence[fmpq | arb], other: tuple[fmpq, arb | fmpq]):
     """(h, t): the linear function is h + t other."""
     t = line[0] / other[0]
     return line[1] - t * other[1], t
 
 
-def _balls(terms):
+def _balls(terms: Mapping[tuple[int, int], Any]):
     return {key: acb(arb(c)) for key, c in terms.items()}

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import re
 import reprlib
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
@@ -41,14 +41,14 @@ def shown(value) -> str:
         return type(value).__name__
 
 
-def quoted(words) -> str:
+def quoted(words: str) -> str:
     """Words of the file that nothing here checks, marked as its own: as one quotation, whose marks cannot be
     closed from within, without control characters."""
     plain = "".join(c for c in words if c.isprintable())
     return f"named in the file: {plain[:80]!r}"
 
 
-def number(text, where: str) -> Fraction:
+def number(text: str | Sequence[list[str]], where: str) -> Fraction:
     """The exact value of "p/q", an integer or a decimal, in plain digits."""
     if not isinstance(text, str):
         raise Malformed(f"{where}: expected a number as a string, got {shown(text)}")
@@ -72,7 +72,7 @@ def numbers(values, where: str, count: int | None = None) -> list[Fraction]:
     return [number(v, f"{where}[{i}]") for i, v in enumerate(values)]
 
 
-def bracket(values, where: str) -> tuple[Fraction, Fraction]:
+def bracket(values: str | Sequence[str], where: str) -> tuple[Fraction, Fraction]:
     """(lo, hi), lo <= hi."""
     low, high = numbers(values, where, 2)
     if low > high:
@@ -87,7 +87,7 @@ def brackets(values, where: str) -> list[tuple[Fraction, Fraction]]:
     return [bracket(ends, f"{where}[{i}]") for i, ends in enumerate(values)]
 
 
-def whole(value, where: str, known) -> int:
+def whole(value: float, where: str, known: range | Sequence[int]) -> int:
     """One of the whole numbers that are known (a range, or a tuple); truth values are none."""
     if type(value) is not int or value not in known:
         words = f"{known[0]} to {known[-1]}" if isinstance(known, range) else ", ".join(map(str, known))
@@ -110,7 +110,7 @@ def field(table, key: str, where: str, kind=None):
     return table[key]
 
 
-def word(table, key: str, where: str, known: tuple) -> str:
+def word(table: Mapping[str, Any] | int | None, key: str, where: str, known: tuple) -> str:
     """table[key], one of the words that are known."""
     value = field(table, key, where)
     if not isinstance(value, str) or value not in known:
@@ -118,7 +118,7 @@ def word(table, key: str, where: str, known: tuple) -> str:
     return value
 
 
-def entries(table, key: str, where: str) -> list:
+def entries(table: Mapping[str, Any], key: str, where: str) -> list:
     """table[key], a list; [] where it is missing or null."""
     if isinstance(table, dict) and table.get(key) is None:
         return []
@@ -141,7 +141,7 @@ def q(value: Fraction):
     return fmpq(value.numerator, value.denominator)
 
 
-def fraction(value) -> Fraction:
+def fraction(value: fmpq) -> Fraction:
     """The same number as Python's fraction."""
     return Fraction(int(value.p), int(value.q))
 
@@ -151,17 +151,17 @@ def ball(value):
     return arb(q(value))
 
 
-def hull(low, high):
+def hull(low: Fraction, high: Fraction):
     """The ball that holds [low, high]."""
     return ball(low).union(ball(high))
 
 
-def sign(value) -> int | None:
+def sign(value: arb) -> int | None:
     """Sign of a ball; None where it is open."""
     return 1 if value > 0 else -1 if value < 0 else 0 if value.is_zero() else None
 
 
-def exact_sign(value) -> int:
+def exact_sign(value: Fraction | fmpq) -> int:
     """Sign of a rational."""
     return (value > 0) - (value < 0)
 
@@ -182,7 +182,7 @@ class Open(Exception):
     """Not decided at this precision."""
 
 
-def narrowed(f, df, a: Fraction, b: Fraction):
+def narrowed(f: Callable[[arb], arb], df: Callable[[arb], arb], a: Fraction, b: Fraction):
     """The ball of the one zero of a function that is monotone on [a, b] and changes sign there: interval
     Newton."""
     x = hull(a, b)
@@ -201,7 +201,7 @@ def narrowed(f, df, a: Fraction, b: Fraction):
     return x
 
 
-def _bisected(f, df, a, b):
+def _bisected(f: Callable[[arb], arb], df: Callable[[arb], arb], a: Fraction, b: Fraction):
     """Halve the bracket until Newton's step may be tried again."""
     left = sign(f(ball(a)))
     for _ in range(2000):
@@ -215,17 +215,17 @@ def _bisected(f, df, a, b):
     raise Open
 
 
-def below(value) -> Fraction:
+def below(value: arb) -> Fraction:
     """The lower end of a ball, exactly."""
     return _exact(value.mid()) - _exact(value.rad())
 
 
-def above(value) -> Fraction:
+def above(value: arb) -> Fraction:
     """The upper end of a ball, exactly."""
     return _exact(value.mid()) + _exact(value.rad())
 
 
-def _exact(value) -> Fraction:
+def _exact(value: arb) -> Fraction:
     """An exact ball as a fraction."""
     value = value.mid() if value.is_exact() else value.upper()
     mantissa, exponent = (int(v) for v in value.man_exp())
@@ -254,7 +254,7 @@ class Rates:
     parallel: tuple | None = None  # (D, lambda) of a body: without torque D x + lambda is parallel to x
 
     @classmethod
-    def of_scene(cls, scene) -> Rates:
+    def of_scene(cls, scene: Mapping[str, Any]) -> Rates:
         """The rates of the certificate's scene."""
         kind = field(scene, "variables", "scene", str)
         if kind == "physical":
@@ -270,7 +270,8 @@ class Rates:
         return cls.of(kind, *rows)
 
     @classmethod
-    def of(cls, variables, first, second, torque) -> Rates:
+    def of(cls, variables: str, first: Sequence[Fraction], second: Sequence[Fraction],
+           torque: Sequence[Fraction]) -> Rates:
         """Those of `written_out`, over their weights."""
         weights, *terms, conditions, integrals = written_out(variables, first, second, torque)
         kappa, rho, sigma, m = ([c / w for c, w in zip(row, weights)] for row in terms)
@@ -348,21 +349,21 @@ class Work:
         if self.left < 0:
             raise TooLarge
 
-    def division(self, f: Any, g: Any) -> None:
+    def division(self, f: fmpq_poly, g: fmpq_poly) -> None:
         """A remainder of two polynomials: their bits, once for each degree."""
         self.spend(OVERHEAD + (bits(f) + bits(g)) * (1 + max(f.degree(), 0) + max(g.degree(), 0)))
 
-    def common(self, f: Any, g: Any) -> None:
+    def common(self, f: fmpq_poly, g: fmpq_poly) -> None:
         """The greatest common factor of two polynomials, which is formed modulo primes."""
         self.spend(OVERHEAD + (bits(f) + bits(g)) * (1 + max(f.degree(), 0) + max(g.degree(), 0)) // 4)
 
-    def value(self, f: Any, at: Any) -> None:
+    def value(self, f: fmpq_poly, at: Fraction) -> None:
         """The value of a polynomial at a rational number."""
         degree = max(f.degree(), 0)
         self.spend(OVERHEAD + 4 * (1 + degree)
                    * (height(f) + degree * (at.numerator.bit_length() + at.denominator.bit_length())))
 
-    def factors(self, f: Any) -> None:
+    def factors(self, f: fmpq_poly) -> None:
         """The irreducible factors of a polynomial."""
         degree = max(f.degree(), 0)
         self.spend(OVERHEAD + (1 + degree) ** 3 * height(f))
@@ -373,12 +374,12 @@ TOO_LARGE = (f"too large: degrees and digits ask for more than {MOST_BITS:,} ope
 OVERHEAD = 2000  # of a call: as long as so many bits take
 
 
-def height(f: Any) -> int:
+def height(f: fmpq_poly) -> int:
     """The bits of the longest coefficient."""
     return int(f.numer().height_bits()) + int(f.denom().bit_length())
 
 
-def bits(f: Any) -> int:
+def bits(f: fmpq_poly) -> int:
     """The bits of all coefficients."""
     return height(f) * (1 + max(f.degree(), 0))
 
@@ -386,7 +387,7 @@ def bits(f: Any) -> int:
 HALVINGS = 20_000  # of one bracket; two zeros of polynomials of a certificate are farther apart
 
 
-def sequence(f, work: Work) -> list:
+def sequence(f: fmpq_poly, work: Work) -> list:
     """Sturm's sequence of a polynomial without double zeros."""
     out = [f, f.derivative()]
     while out[-1].degree() > 0:
@@ -398,7 +399,7 @@ def sequence(f, work: Work) -> list:
     return out
 
 
-def sign_at(f, at: Fraction, work: Work) -> int:
+def sign_at(f: fmpq_poly, at: Fraction, work: Work) -> int:
     """The sign of a polynomial at a rational number."""
     work.value(f, at)
     return exact_sign(f(q(at)))
@@ -414,7 +415,7 @@ class Root:
     """A real zero of an irreducible polynomial: the only one in (low, high), or the rational number low =
     high itself."""
 
-    def __init__(self, polynomial, low: Fraction, high: Fraction, work: Work):
+    def __init__(self, polynomial: fmpq_poly, low: Fraction, high: Fraction, work: Work):
         self.polynomial, self.low, self.high, self.work = polynomial, low, high, work
         self.rising = 0 if low == high else sign_at(polynomial, high, work)
 
@@ -431,7 +432,7 @@ class Root:
             else:
                 self.low = middle
 
-    def sign(self, f) -> int:
+    def sign(self, f: fmpq_poly) -> int:
         """The sign of a polynomial at the zero."""
         if self.rational:
             return sign_at(f, self.low, self.work)
@@ -498,7 +499,7 @@ def roots(polynomials: Iterable, low: Fraction, high: Fraction, work: Work) -> l
     raise Malformed(f"two values that {HALVINGS} halvings do not tell apart")
 
 
-def _of(f, low: Fraction, high: Fraction, work: Work) -> list[Root]:
+def _of(f: fmpq_poly, low: Fraction, high: Fraction, work: Work) -> list[Root]:
     if f.degree() == 1:
         exact = -fraction(f[0] / f[1])
         return [Root(f, exact, exact, work)] if low <= exact <= high else []

@@ -8,10 +8,12 @@ constant push: where m_i is not zero w' is constant, so that (van der Corput) th
 the start and 8 |push|/|w'|^(1/2); where it is, w is constant. """
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache, partial
 from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
 
 from flint import acb, arb, ctx, fmpq_poly, fmpz_poly
 
@@ -19,6 +21,7 @@ from .numbers import (
     AHEAD,
     Malformed,
     Open,
+    Rates,
     above,
     ball,
     below,
@@ -33,6 +36,9 @@ from .numbers import (
     word,
     working,
 )
+
+if TYPE_CHECKING:
+    import numpy as np
 
 LAWS = ("free", "sphere", "axis of symmetry")
 BITS = 192
@@ -59,7 +65,7 @@ class Truth:
     reason: str
 
 
-def closed_of(table) -> ClosedClaims:
+def closed_of(table: Mapping[str, Any]) -> ClosedClaims:
     """The claims on a closed solution. Raises `Malformed` before anything is worked out."""
     where = "motion.closed"
     if not isinstance(table, dict):
@@ -70,7 +76,8 @@ def closed_of(table) -> ClosedClaims:
     return ClosedClaims(law, direction, *sizes)
 
 
-def check_closed(rates, state, claims: ClosedClaims, note):
+def check_closed(rates: Rates, state: Sequence[Fraction], claims: ClosedClaims,
+                 note: Callable[[str, str], None]):
     """Findings on a closed solution; (fate, axis, sense, reason) that it proves, or (None, 0, 0, why it
     proves nothing)."""
     with working(BITS):
@@ -87,7 +94,7 @@ def check_closed(rates, state, claims: ClosedClaims, note):
     return ("spin-up" if truth.direction else "bounded"), axis, sense, truth.reason
 
 
-def _check_numbers(claims, truth, note):
+def _check_numbers(claims: ClosedClaims, truth: Truth, note: Callable[[str, str], None]):
     if claims.direction is not None:
         right = (truth.direction is not None and any(claims.direction)
                  and _parallel(claims.direction, truth.direction))
@@ -103,7 +110,7 @@ def _check_numbers(claims, truth, note):
              "the size worked out anew is below it" if right else "the size worked out anew is not below it")
 
 
-def _truth(rates, state, law):
+def _truth(rates: Rates, state: Sequence[Fraction], law: str):
     """What holds by a law, or why the law is not that of the scene."""
     if rates.parallel is None:
         return "the scene has no body"
@@ -112,7 +119,7 @@ def _truth(rates, state, law):
     return _sphere(rates, state) if law == "sphere" else _symmetric(rates, state)
 
 
-def _free(rates, state):
+def _free(rates: Rates, state: Sequence[Fraction]):
     if any(rates.m):
         return "a torque acts"
     D = rates.parallel[0]
@@ -120,7 +127,7 @@ def _free(rates, state):
                  "without torque the energy is constant")
 
 
-def _sphere(rates, state):
+def _sphere(rates: Rates, state: Sequence[Fraction]):
     if any(rates.kappa) or not any(rates.m):
         return "the moments are not all equal, or no torque acts"
     turn = [rates.rho[k] for _, k in AHEAD]  # lambda/D: rho_k = lambda_i/D with i ahead of k
@@ -138,7 +145,7 @@ def _sphere(rates, state):
                  "equal moments: the rate along the wheel's momentum grows steadily")
 
 
-def _symmetric(rates, state):
+def _symmetric(rates: Rates, state: Sequence[Fraction]):
     if not any(rates.m):
         return "no torque acts"
     found = [i for i in range(3) if not rates.kappa[i] and not rates.rho[i] and not rates.sigma[i]]
@@ -249,7 +256,7 @@ class Orbit:
         sign there."""
         return above(self.turn) * 65 / 64
 
-    def constant(self, which) -> bool:
+    def constant(self, which: int) -> bool:
         """Whether u (0) or v (1) does not change along the orbit at all."""
         first, second = self.p * self.v0 + self.p0, self.q * self.u0 + self.q0
         return (first == 0 and self.p * second == 0) if which == 0 else (second == 0 and self.q * first == 0)
@@ -259,7 +266,7 @@ class Orbit:
         return (not any((self.kappa, self.rho, self.sigma, self.m))
                 or (self.constant(0) and self.constant(1) and not self.F0))
 
-    def place(self, alpha):
+    def place(self, alpha: arb | acb):
         """(u, v) at a ball alpha, real or complex."""
         g = self.balls
         if self.kind == 0:
@@ -282,7 +289,7 @@ class Orbit:
             return 0
         return -exact_sign(a * du) or -exact_sign(b * dv)
 
-    def spots(self, left, right) -> list:
+    def spots(self, left: arb, right: arb) -> list:
         """The places between two, balls, where the force changes sign, rising; the state's own is none of
         them. Raises Open where one cannot be distinguished from an end."""
         found = _spots(self, ctx.prec)
@@ -307,7 +314,7 @@ class Orbit:
                     lambda root: None if root <= 0 else -root.log() / (g.decays * g.n), [])
         force, rows = self._along_chords(), [[arb(c) for c in row.coeffs()] for row in self._chord()]
 
-        def place(root):
+        def place(root: arb | acb):
             w, u, v = (_poly(row, root) for row in rows)
             return self._offset(u / w, v / w)
         beyond = 4 - force.degree()  # the line of no finite slope
@@ -328,7 +335,7 @@ class Orbit:
         step = -2 * (q(self.q * du) - q(self.p * dv) * t)
         return w, q(self.u0) * w + step, q(self.v0) * w + t * step
 
-    def _offset(self, u, v):
+    def _offset(self, u: arb, v: arb):
         """alpha of a place on the conic: on a circle within a turn, None on a hyperbola's other branch."""
         g, u, v = self.balls, u - self.balls.cu, v - self.balls.cv
         if self.kind > 0:  # (u, v)' = (p v, q u): this combination goes like exp(n alpha)
@@ -339,7 +346,7 @@ class Orbit:
         det = g.du * g.sv - g.dv * g.su
         return _angle((g.du * v - g.dv * u) / det, (u * g.sv - v * g.su) / det) / g.n
 
-    def stationary(self, which, right) -> list:
+    def stationary(self, which: int, right: arb) -> list:
         """Where u (0) or v (1), which is not constant, is stationary: on a circle on the last turn before a
         place."""
         g = self.balls
@@ -356,7 +363,7 @@ class Orbit:
         last = int((above(right) - below(first)) // below(half)) + 1
         return [first + n * half for n in range(last - 3, last + 1)]
 
-    def force(self, alpha):
+    def force(self, alpha: arb | acb):
         """F = y'."""
         g = self.balls
         if self.kind == 0:
@@ -364,7 +371,7 @@ class Orbit:
         u, v = self.place(alpha)
         return g.kappa * u * v + g.rho * v + g.sigma * u + g.m
 
-    def potential(self, alpha):
+    def potential(self, alpha: arb | acb):
         """U, zero at alpha = 0."""
         g = self.balls
         if self.kind == 0:
@@ -373,13 +380,13 @@ class Orbit:
         return (g.half_a * (u * u - g.u0 * g.u0) + g.half_b * (v * v - g.v0 * g.v0) + g.c * (u - g.u0)
                 + g.d * (v - g.v0) - g.tilt * alpha)
 
-    def excess(self, alpha):
+    def excess(self, alpha: arb | acb):
         """U - E: negative where the motion may be."""
         return self.potential(alpha) - self.balls.E
 
 
 @lru_cache(maxsize=16)
-def _balls(orbit, bits):
+def _balls(orbit: Orbit, bits: int):
     """Every constant of an orbit as a ball of so many bits."""
     o, names = orbit, ("p", "p0", "q", "q0", "kappa", "rho", "sigma", "m", "u0", "v0", "E", "tilt")
     g = SimpleNamespace(**{name: ball(getattr(o, name)) for name in names})
@@ -394,7 +401,7 @@ def _balls(orbit, bits):
 
 
 @lru_cache(maxsize=16)
-def _spots(orbit, bits):
+def _spots(orbit: Orbit, bits: int):
     """Where the force changes sign, balls of so many bits, rising: on a circle from 0 to a turn, exactly 0
     for the state itself. The force may vanish to any order: an even one changes no sign."""
     force, place, found = orbit._zeros()
@@ -412,19 +419,19 @@ def _spots(orbit, bits):
     return sorted(spots, key=lambda spot: below(spot))
 
 
-def _angle(y, x):
+def _angle(y: arb, x: arb):
     """atan2(y, x), from -pi/2 to 3 pi/2 where the cut is near."""
     return arb.atan2(y, x) if not (0 in y and not x > 0) else arb.pi() + arb.atan2(-y, -x)
 
 
-def _poly(coefficients, alpha):
+def _poly(coefficients: Sequence[arb], alpha: arb | acb):
     total = alpha * 0
     for c in reversed(coefficients):
         total = total * alpha + c
     return total
 
 
-def _shift(rates, axis):
+def _shift(rates: Rates, axis: int | np.ndarray):
     """s with which both rates across the axis are multiples of (x_i + s), and no torque acts there; None
     without one."""
     j, k = AHEAD[axis]
@@ -447,7 +454,7 @@ def _real_roots(factor):
 
 # --- The period of a motion between two turning points: verified quadrature, with the root at each end
 # bounded by hand
-def period_of(orbit, ends, goal):
+def period_of(orbit: Orbit, ends: Sequence[arb], goal: int):
     """T = 2 int_l^r dalpha / sqrt(2 (E - U)) as a ball, to about `goal` bits. Raises Open where the precision
     does not do."""
     left, right = ends
@@ -466,10 +473,10 @@ def round_once(orbit, goal):
     return _integral(orbit, ball(0), orbit.turn, goal)
 
 
-def _integral(orbit, low, high, goal):
+def _integral(orbit: Orbit, low: arb, high: arb, goal: int):
     """int dalpha / sqrt(2 (E - U)) where E - U is positive."""
 
-    def integrand(z, analytic):
+    def integrand(z: acb, analytic: bool):
         # mean-value form: U's terms cancel, and over a wide ball their sum alone would be far too wide
         centre = z.mid()
         return _rsqrt(2 * (orbit.force(z) * (z - centre) - orbit.excess(centre)), analytic)
@@ -479,14 +486,14 @@ def _integral(orbit, low, high, goal):
     return value.real
 
 
-def _rsqrt(w, analytic):
+def _rsqrt(w: acb, analytic: bool):
     """1/sqrt(w); not a number where the ball meets the branch cut and analyticity is asked for."""
     if analytic and not w.real > 0 and 0 in w.imag:
         return acb("nan")
     return w.rsqrt()
 
 
-def _end(orbit, turning, inner):
+def _end(orbit: Orbit, turning: arb, inner: Fraction):
     """int from the turning point to `inner` of dalpha/sqrt(2 (E - U)): E - U is between f and F times the
     distance."""
     outer = below(turning) if ball(inner) > turning else above(turning)

@@ -19,9 +19,11 @@ tail, by induction. The series of J likewise, linear in its own tail.
 """
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from operator import mul
+from typing import Any
 
 from flint import arb, arb_mat
 
@@ -30,6 +32,7 @@ from .normal_form import equator, form_about, moving_form
 from .numbers import (
     AHEAD,
     Malformed,
+    Rates,
     above,
     ball,
     below,
@@ -56,7 +59,7 @@ class Way:
     """The set along the motion from three exact numbers, at the time t (exact). bits: of the centre; allowed:
     steps."""
 
-    def __init__(self, rates, state, bits: int, allowed: int):
+    def __init__(self, rates: Rates, state: Sequence[Fraction], bits: int, allowed: int):
         self.allowed = allowed
         self.bits, self.order, self.t, self.steps = bits, bits // 5 + 12, Fraction(0), 0
         with working(bits):
@@ -81,7 +84,7 @@ class Way:
         """c + P E less c: balls about zero."""
         return (self.P * _column(map(_about_zero, self.box))).entries()
 
-    def _step(self, t):
+    def _step(self, t: Fraction):
         a = _series(self.numbers, self.centre, self.order)
         h = self._length(a)
         if t - self.t > PATIENCE * h * (self.allowed - self.steps):
@@ -108,7 +111,7 @@ class Way:
         self._carry(end, arb_mat(ends).transpose())
         self.t, self.steps = self.t + h, self.steps + 1
 
-    def _carry(self, end, J):
+    def _carry(self, end: Sequence[arb], J: arb_mat):
         """The set at the end of a step: its centre a ball, J the derivative over the set."""
         product, E = J * self.P, _column(map(_about_zero, self.box))
         self.centre, self.P = [v.mid() for v in end], product.mid()
@@ -120,7 +123,7 @@ class Way:
         if not all(v.is_finite() for v in (*self.box, *self.centre)):
             raise Lost(f"the set has no bounds any more at t = {brief(self.t)}")
 
-    def _length(self, a) -> Fraction:
+    def _length(self, a: Sequence[list[arb]]) -> Fraction:
         """A step after which the last terms are some 2^-bits of the state: 24 binary digits of it."""
         size = max((abs(row[0]).abs_upper() for row in a), key=float)
         size = size if size > 0 else max((abs(row[1]).abs_upper() for row in a), key=float)
@@ -140,7 +143,7 @@ class Way:
         return Fraction(int(length)) / Fraction(2) ** exponent
 
 
-def _in_balls(rates):
+def _in_balls(rates: Rates):
     return [[ball(v) for v in row] for row in (rates.kappa, rates.rho, rates.sigma, rates.m)]
 
 
@@ -152,12 +155,12 @@ def _column(values):
     return arb_mat([[v] for v in values])
 
 
-def _about_zero(reach):
+def _about_zero(reach: arb):
     """The ball of all numbers within `reach`."""
     return arb(0, reach.abs_upper())
 
 
-def _series(numbers, start, order):
+def _series(numbers: Sequence[list[arb]], start: Sequence[arb], order: int):
     """Taylor coefficients of the three components, as balls."""
     kappa, rho, sigma, m = numbers
     rows = [[v] for v in start]
@@ -170,7 +173,7 @@ def _series(numbers, start, order):
     return rows
 
 
-def _linear(numbers, x, column, order):
+def _linear(numbers: Sequence[list[arb]], x: Sequence[list[arb]], column: int, order: int):
     """Taylor coefficients of one column of the derivative along the series x."""
     kappa, rho, sigma, _ = numbers
     V = [[ball(int(i == column))] for i in range(3)]
@@ -184,7 +187,7 @@ def _linear(numbers, x, column, order):
     return V
 
 
-def _sizes(rows, h):
+def _sizes(rows: Sequence[list[arb]], h: arb):
     """|c_n| h^n, upper bounds, and their sums."""
     powers = [ball(1)]
     for _ in rows[0][1:]:
@@ -193,7 +196,7 @@ def _sizes(rows, h):
     return sizes, [sum(row).abs_upper() for row in sizes]
 
 
-def _beyond(one, other):
+def _beyond(one: Sequence[arb], other: Sequence[arb]):
     """Sum of one_m other_n over m + n >= N, both up to N."""
     tails, total = [], _nothing()
     for value in reversed(other):
@@ -202,7 +205,7 @@ def _beyond(one, other):
     return sum(map(mul, one, tails), _nothing())
 
 
-def _tail(numbers, rows, h):
+def _tail(numbers: Sequence[list[arb]], rows: Sequence[list[arb]], h: arb):
     """(sums, tails) of a series at h; None where no tail is found."""
     sizes, sums = _sizes(rows, h)
     kappa, rho, sigma, _ = [[abs(v) for v in row] for row in numbers]
@@ -215,7 +218,7 @@ def _tail(numbers, rows, h):
                                      for i, (j, k) in enumerate(AHEAD)], sums)
 
 
-def _closed(known, more, sums):
+def _closed(known: Sequence[arb], more: Callable[[list[arb]], list[arb]], sums: Sequence[arb]):
     """(sums, T) with known + more(T) <= T, tried at twice what goes in; None where that does not close."""
     floor = max((v.abs_upper() for v in known), key=float)
     T = [2 * (v.abs_upper() + floor) for v in known]
@@ -227,7 +230,8 @@ def _closed(known, more, sums):
     return None
 
 
-def _linear_end(numbers, x, known_tail, V, h):
+def _linear_end(numbers: Sequence[list[arb]], x: Sequence[list[arb]], known_tail: Sequence[list[arb]],
+                V: Sequence[list[arb]], h: arb):
     """The values at h of a column of the derivative, as balls; None where no tail is found."""
     (sizes, _), (v, vsum) = _sizes(x, h), _sizes(V, h)
     sums, T = known_tail
@@ -244,7 +248,7 @@ def _linear_end(numbers, x, known_tail, V, h):
     return closed and [_value(row, h) + _about_zero(u) for row, u in zip(V, closed[1])]
 
 
-def _value(row, h):
+def _value(row: Sequence[arb], h: arb):
     """The polynomial at h, by Horner's rule."""
     total = row[-1]
     for c in row[-2::-1]:
@@ -274,7 +278,7 @@ class SpinUpClaims:
     way: list
 
 
-def spin_up_of(table) -> SpinUpClaims:
+def spin_up_of(table: Mapping[str, Any]) -> SpinUpClaims:
     """The claims on a spin-up. Raises `Malformed` before anything is worked out."""
     where = "motion.spin_up"
     if not isinstance(table, dict):
@@ -295,18 +299,19 @@ def spin_up_of(table) -> SpinUpClaims:
                         way)
 
 
-def _time(table, where):
+def _time(table: Mapping[str, Any], where: str):
     t = number(field(table, "t", where), f"{where}.t")
     if t < 0:
         raise Malformed(f"{where}.t: expected a time that is not before the start, got {shown(table['t'])}")
     return t
 
 
-def _point(entry, where):
+def _point(entry: Mapping[str, Any], where: str):
     return _time(entry, where), brackets(field(entry, "box", where), f"{where}.box")
 
 
-def check_spin_up(rates, state, claims: SpinUpClaims, note) -> tuple[str, str]:
+def check_spin_up(rates: Rates, state: Sequence[Fraction], claims: SpinUpClaims,
+                  note: Callable[[str, str], None]) -> tuple[str, str]:
     """Findings on the way and on the inequality; ("proved", "refuted" or "not checked", reason) of the
     spin-up itself."""
     findings, verdict, left = [], ("not checked", ""), MOST_STEPS
@@ -332,11 +337,11 @@ def check_spin_up(rates, state, claims: SpinUpClaims, note) -> tuple[str, str]:
     return verdict
 
 
-def _name(t):
+def _name(t: Fraction):
     return f"state at t = {brief(t)}"
 
 
-def _trap(claims):
+def _trap(claims: SpinUpClaims):
     return f"trap at t = {brief(claims.t)}"
 
 
@@ -365,7 +370,7 @@ def _judged(rates, claims, way):
     return found, (status if status == "proved" else "not checked", why)
 
 
-def _within(state, box, steps):
+def _within(state: Sequence[arb], box: Sequence[tuple[Fraction, Fraction]], steps: int):
     """(status, reason) of three brackets against three balls."""
     ends = [(below(v), above(v)) for v in state]
     if all(low <= a and b <= high for (a, b), (low, high) in zip(ends, box)):
@@ -375,7 +380,7 @@ def _within(state, box, steps):
     return "not checked", "the brackets are narrower than what encloses the motion anew"
 
 
-def _trapped(inequality, state, claims):
+def _trapped(inequality: MovingInequality, state: Sequence[arb], claims: SpinUpClaims):
     if not (claims.cone > 0 and claims.least > 0 and claims.gain > 0):
         return "refuted", "cone, least and gain are not all positive"
     faults, gain = inequality.faults(state, claims.cone, claims.least)

@@ -17,7 +17,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -27,16 +27,19 @@ from ...integrate.trajectory import root_between
 from ...numbers.vectors import Float3, dot
 from ...orbit.result import Fate, Motion
 from ...physics.coefficients import Content, content, loses
-from ...physics.scene import later, slices
+from ...physics.scene import AnyScene, later, slices
 from ...physics.states import equations_and_start, moved_row, start_of
-from ...physics.to_numpy import to_numpy
-from ...reasons import Axis, Momentum, Rate, Reasoned, Sentence
+from ...physics.to_numpy import System, to_numpy
+from ...reasons import Axis, Momentum, Rate, Reasoned, Sentence, as_reason
 from ...representation import Compared, Shown
 from ...unreduced.bounds import OPEN_DIRECTION
 from ..passage import MOVED, WIDER
 from ..simulate import trajectory
 from .flat_spin import ACROSS, POSITIVE, SECOND_RTOL, UNDECIDED, FlatSpin, Time, of_case
 from .spinner import Spinner
+
+if TYPE_CHECKING:
+    from ...case.read import Case
 
 WITHIN = math.radians(5)  # of the nutation angle
 FAR = 1e100  # rad/s, and one over it: rates beyond it have squares and fourth powers that are no doubles
@@ -112,7 +115,7 @@ class Ending(Shown, Compared, Reasoned):
         return max((one.at for _, one in self.times), default=None)
 
 
-def with_end(case: Any, motion: Motion) -> Motion:
+def with_end(case: Case, motion: Motion) -> Motion:
     """The motion of a case with how it ends; its reason no longer says that a direction is open which a run
     shows."""
     found = ending(case, motion)
@@ -152,7 +155,7 @@ def _inside(case: Any) -> Ending:
     try:
         return of_spin(of_case(case, WITHIN, spans=False))
     except InputError as error:  # a liquid in moments that no rigid body has
-        return Ending("undecided", "undecided", reason=str(error))
+        return Ending("undecided", "undecided", reason=as_reason(str(error)))
 
 
 def of_spin(found: FlatSpin) -> Ending:
@@ -173,7 +176,7 @@ def of_spin(found: FlatSpin) -> Ending:
 
 
 # --- From outside
-def _outside(scene: Any, parts: Content, start: np.ndarray, motion: Motion) -> Ending:
+def _outside(scene: AnyScene, parts: Content, start: np.ndarray, motion: Motion) -> Ending:
     """By a function that only falls where one is known, else by a run until the rates stay."""
     D = [float(d) for d in parts.D]
     energy = lambda states: states[:, :3] ** 2 @ np.array(D) / 2
@@ -213,7 +216,7 @@ def _field_alone(parts: Content) -> bool:
         or parts.damped or parts.kappa or parts.inside)
 
 
-def _about_the_field(scene: Any, parts: Content, start: np.ndarray, energy: Callable[..., np.ndarray],
+def _about_the_field(scene: AnyScene, parts: Content, start: np.ndarray, energy: Callable[..., np.ndarray],
                      first: float) -> Ending:
     """The end under eddy currents: rotation about the field, whose direction along the axis a run shows."""
     gamma = start[slices(scene.blocks)["gamma"]]
@@ -235,7 +238,7 @@ def _about_the_field(scene: Any, parts: Content, start: np.ndarray, energy: Call
                    reason=reason.then(RUN_TURNS(side="positive" if sense > 0 else "negative")))
 
 
-def _timed(found: Ending, scene: Any, start: np.ndarray, share: Callable[[np.ndarray], np.ndarray]
+def _timed(found: Ending, scene: AnyScene, start: np.ndarray, share: Callable[[np.ndarray], np.ndarray]
            ) -> tuple[Ending, np.ndarray | None]:
     """With the time at which a share that only falls is NEAR^2, by two runs, and the state there."""
     t, late = _falls(scene, start, share, None)
@@ -247,7 +250,7 @@ def _timed(found: Ending, scene: Any, start: np.ndarray, share: Callable[[np.nda
     return replace(found, times=(("settles", Time(t, WIDER * abs(t - again) + 1e-15 * t)),)), late
 
 
-def _falls(scene: Any, state: np.ndarray, share: Callable[[np.ndarray], np.ndarray], rtol: float | None
+def _falls(scene: AnyScene, state: np.ndarray, share: Callable[[np.ndarray], np.ndarray], rtol: float | None
            ) -> tuple[float | None, np.ndarray | None]:
     """(the time at which the share is NEAR^2, the state then); (an estimate or None, None) where that takes
     too many steps."""
@@ -286,7 +289,7 @@ def _root(state: np.ndarray, length: float, over: Callable[[np.ndarray, np.ndarr
     return t, then(t)
 
 
-def _settled(scene: Any, start: np.ndarray, rests: bool) -> Ending:
+def _settled(scene: AnyScene, start: np.ndarray, rests: bool) -> Ending:
     """Where the rates of a run stay, and from when on they are near that."""
     form, state = to_numpy(scene), start
     largest = float(np.linalg.norm(start[:3]))
@@ -326,7 +329,7 @@ def _stays(times: np.ndarray, rates: np.ndarray, end: np.ndarray, small: float, 
                   times=found)
 
 
-def _polished(form: Any, state: np.ndarray, small: float) -> np.ndarray:
+def _polished(form: System, state: np.ndarray, small: float) -> np.ndarray:
     """The rates of the equilibrium next to a state, by Newton's method; its own where that goes elsewhere."""
     at = state
     for _ in range(POLISHED):

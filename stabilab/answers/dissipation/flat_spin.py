@@ -35,7 +35,7 @@ import numpy as np
 
 from ...case.given import Amount, Given, Start, as_case, with_start
 from ...case.given import Span as Times
-from ...case.read import with_data
+from ...case.read import Case, with_data
 from ...case.source import parsed
 from ...errors import Caveat, InputError, Kind, without
 from ...numbers.units import ANGLE, in_si
@@ -173,7 +173,7 @@ def flat_spin(case: Given, within: Amount = "5 deg", *, state: Start | None = No
     return of_case(with_start(as_case(case, state, span), "flat_spin"), angle)
 
 
-def of_case(case: Any, angle: float, spans: bool = True) -> FlatSpin:
+def of_case(case: Case, angle: float, spans: bool = True) -> FlatSpin:
     """The same of a case and an angle in rad; spans: also look for changes of the outcome."""
     found = _answered(Spinner.of(case), angle, spans)
     own = without(case.caveats, Kind.UNCERTAIN)
@@ -181,7 +181,7 @@ def of_case(case: Any, angle: float, spans: bool = True) -> FlatSpin:
     return _over_the_box(case, found) if case.uncertain and found.outcome in (POSITIVE, NEGATIVE) else found
 
 
-def _over_the_box(case: Any, found: FlatSpin) -> FlatSpin:
+def _over_the_box(case: Case, found: FlatSpin) -> FlatSpin:
     """With what uncertain numbers do: undecided where motions drawn from their box end in both directions."""
     draws, ends = np.random.default_rng(1), {POSITIVE: 0, NEGATIVE: 0}
     drawn = max(4, min(DRAWN, SPAN_STEPS // max(1, found.steps)))

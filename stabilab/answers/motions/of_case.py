@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ...case.read import Case
 from ...case.sections import vertical_of
@@ -13,6 +13,9 @@ from ...orbit.result import Motion, Needs
 from ...physics.coefficients import limits_of
 from ..caveats import limited, misaligned
 from ..motion import motion, with_ending
+
+if TYPE_CHECKING:
+    from ...physics.law_limits import Validity
 
 FASTEST = 1e100  # of a rate: beyond it, and below its inverse, squares of squares are no doubles
 MOST = 1e5  # rad of turn along which a law beside other answers is judged: seconds
@@ -53,7 +56,7 @@ def law_of(case: Case, span: Any = None, brief: bool = False) -> Any:
     return found and replace(found, over=over, also=tuple(replace(one, over=over) for one in found.also))
 
 
-def law_is_open(case: Case, validity: Any) -> bool:
+def law_is_open(case: Case, validity: Validity | None) -> bool:
     """Whether a law is judged by the attitude along the run, which the case gives."""
     return validity is not None and validity.holds is None and "attitude" in case.blocks
 

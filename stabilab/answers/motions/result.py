@@ -280,7 +280,7 @@ class Values(NDArrayOperatorsMixin, Shown):
             return self.values.astype(dtype)
         return self.values.copy() if copy else self.values
 
-    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
+    def __array_ufunc__(self, ufunc: Callable[..., Any], method: str, *inputs: Any, **options: Any) -> Any:
         plain = [one.values if isinstance(one, Values) else one for one in inputs]
         if "out" in options:
             options["out"] = tuple(one.values if isinstance(one, Values) else one for one in options["out"])

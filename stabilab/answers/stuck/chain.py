@@ -70,7 +70,7 @@ class Chain:
                                                           for j, k in CYCLE))
 
     @staticmethod
-    def _end(case: Any) -> Fraction | None:
+    def _end(case: Case) -> Fraction | None:
         """Where burns without an end are closed: at the end of the motion's span."""
         if not any(t.burn is not None and t.burn.endless for t in case.thrusters):
             return None

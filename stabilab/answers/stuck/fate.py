@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import numpy as np
 
@@ -34,6 +34,9 @@ from ..passage import Found, largest_rate, run_once
 from ..time_to import NEVER_AT_REST, of_one
 from ..when import limit_of
 from .line import EVERY, INF, Family, Intervals, Line, candidates, family_of, own_momentum, pieces
+
+if TYPE_CHECKING:
+    from ...unreduced.spin_up.result import SpinUp
 
 
 # --- A case with its thrusters stuck one way or another: what turns the body then
@@ -218,7 +221,8 @@ def _by_law(scenario: Scenario, scene: Scene) -> Outcome:
                    reason=motion.reason.then(_unsure(when)))
 
 
-def _when(scenario: Scenario, scene: Scene, t_max: float | None, *work: Any, spun: Any = None) -> Found:
+def _when(scenario: Scenario, scene: Scene, t_max: float | None, *work: Any,
+          spun: SpinUp | None = None) -> Found:
     """When the limit is reached, by `time_to`; t_max: how far an undecided motion was followed, s; work,
     spun: as of `time_to.of_one`."""
     if scenario.limit is None:

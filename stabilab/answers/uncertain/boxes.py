@@ -461,7 +461,7 @@ def prove(family: Family, claim: str, senses: Any, stretch: float = 1.0, most: i
     return Proof(True, looked)
 
 
-def whole(box: Box, cells: Any = 1) -> Parts:
+def whole(box: Box, cells: int = 1) -> Parts:
     """The whole box, and one turn ahead in so many cells."""
     n = len(box.places)
     half = (TURN * (1 + 1e-9)) / (2 * cells)

@@ -38,7 +38,7 @@ from ..axes import spans_of
 from ..plan import place_and_text
 from .diagram import ball_form, diagram, followed, general_states, parts
 from .eliminated import Eliminated, at_rational
-from .equations import LEAF, Conics, Diagram, Event, Family, Piece, State, chosen
+from .equations import LEAF, Conics, Diagram, Event, Family, OnLine, Piece, State, chosen
 from .plane import Plane, plane
 
 # --- Where separatrices connect
@@ -70,7 +70,7 @@ def with_connections(found: Diagram) -> Diagram:
         return replace(found, remarks=(*found.remarks, NOT_SETTLED))
 
 
-def connections(family: Family, system: Any, pieces: tuple[Piece, ...]) -> list[Event]:
+def connections(family: Family, system: Conics | OnLine, pieces: tuple[Piece, ...]) -> list[Event]:
     """All of them in the range of one number, rising; none where the motion is on no circle."""
     if not isinstance(system, Conics):
         return []

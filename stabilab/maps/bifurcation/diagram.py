@@ -34,7 +34,7 @@ from ...equilibrium.result import Equilibria, Verdict
 from ...equilibrium.stability import POSITIVE_EIGENVALUE, invariants, isolated_verdict, linear_word
 from ...errors import InputError
 from ...numbers.algebraic import Algebraic, Cut, between, cuts, gaps, univariate
-from ...numbers.balls import Unclear, evaluated, rational, settled, sign
+from ...numbers.balls import Digits, Unclear, evaluated, rational, settled, sign
 from ...numbers.vectors import CYCLE, Float3, dot, nearest_first
 from ...physics.coefficients import effective
 from ...physics.scene import QuadraticForm, euler_form
@@ -123,7 +123,7 @@ def judged_state(family: Family, kind: str, values: list, root: Root, after: int
     return State(at, root.times, "degenerate", verdict.word, reason=verdict.reason)
 
 
-def general_states(family: Family, kind: str, eliminated: Eliminated, value: Fraction, digits: Any,
+def general_states(family: Family, kind: str, eliminated: Eliminated, value: Fraction, digits: Digits,
                    view: Leant | None = None) -> tuple[State, ...]:
     """The equilibria at a value where no branches meet, with their verdicts; asked by `settled`. view:
     another one than the main view."""

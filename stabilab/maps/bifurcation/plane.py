@@ -23,7 +23,7 @@ from flint import arb, arb_poly, fmpq_mpoly, fmpq_poly
 
 from ...errors import InputError
 from ...numbers.algebraic import Algebraic, Cut, coefficients, cuts, gaps, real_balls, univariate
-from ...numbers.balls import Unclear, evaluated, rational, real_roots_of, settled
+from ...numbers.balls import Digits, Unclear, evaluated, rational, real_roots_of, settled
 from ...reasons import Reason
 from ..axes import with_values
 from .diagram import ball_form, diagram, doubles, spread, state_of
@@ -266,7 +266,7 @@ def _arc(curves: Sequence[fmpq_mpoly], sample: Fraction, event: Event) -> Arc:
     return Arc(event.kinds, -1, 0)
 
 
-def _rank(there, own, index: int, digits: Any) -> int:
+def _rank(there: fmpq_poly, own: fmpq_poly, index: int, digits: Digits) -> int:
     """The place of a root of `own` among the real roots of `there`."""
     root = real_roots_of(own)[index][0]
     near = [k for k, (ball, _) in enumerate(real_roots_of(there)) if ball.overlaps(root)]
@@ -320,7 +320,7 @@ def count_at(found: Plane, p: Fraction, q: Fraction) -> int:
 
 
 def _q_of(F: fmpq_mpoly, p: Fraction, index: int) -> float:
-    def root(digits: Any) -> float:
+    def root(digits: Digits) -> float:
         found = real_roots_of(univariate(at_rational(F, (p,)), 3))
         if index >= len(found):
             raise Unclear

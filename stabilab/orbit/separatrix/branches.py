@@ -28,6 +28,7 @@ bends are narrow a coarse grid says little of their width, so none has more than
 the one before."""
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -36,7 +37,7 @@ import numpy as np
 from ...errors import InputError
 from ...physics.coefficients import effective
 from ...physics.scene import AnyScene
-from ..landscape import landscape_in_doubles
+from ..landscape import CircleLandscape, ConicLandscape, landscape_in_doubles
 from ..one_state import in_range
 from .homoclinic import Branch, Separatrix
 from .homoclinic_arrays import Loops, Part, loops, parted, residual, shrinks_far
@@ -102,7 +103,7 @@ def trial_parts(land, strips):
     return parts, rows
 
 
-def measured_loops(land, parts, s, u):
+def measured_loops(land: ConicLandscape, parts: Sequence[Part], s: np.ndarray, u: np.ndarray):
     """(loops at rows s, how far the chords between the first two rows, and between the last two, stray from
     the branch (2, k)): inner rows do not tell how much it bends beyond them, towards a plane Q = 0 without
     bound, so rows in between are measured."""
@@ -113,7 +114,7 @@ def measured_loops(land, parts, s, u):
     return all_.at_rows(kept), np.array([_sag(all_, 0, 1, 2), _sag(all_, -1, -2, -3)])
 
 
-def _sag(loops, first, between, last):
+def _sag(loops: Loops, first: int, between: int, last: int):
     """(k,) how far the chords from the row `first` to `last` stray from the branch, by the row in between."""
     before, middle, after = (loops.points[:, row] for row in (first, between, last))
     chord, way = (after - before)[:, 1:-1], (middle - before)[:, 1:-1]
@@ -126,7 +127,7 @@ def _sag(loops, first, between, last):
     return np.where(loops.found[:, (first, between, last)].all(axis=1), sag.max(axis=1), 0.0)
 
 
-def past_far_end(land, points):
+def past_far_end(land: ConicLandscape, points: np.ndarray):
     """(3, ..., m + 1) components of points (..., m, 3) with one column beyond the far end."""
     r = np.empty((3, *points.shape[:-2], points.shape[-2] + 1))
     r[..., :-1], axis = np.moveaxis(points, -1, 0), land.reduction.axis
@@ -160,7 +161,7 @@ def _trial_rows(land, branch, side):
     return s
 
 
-def _trial_rows_of(land, part):
+def _trial_rows_of(land: CircleLandscape, part: Part):
     """(TRIAL,) parameters of a part's rows (`Part.rows`): those of the strip between its ends, closer by
     squares towards a seam."""
     if not part.seam:
@@ -223,7 +224,7 @@ def grids_within(land, strips, accuracy) -> list[Grid]:
     return [found[n] for n in range(len(parts))]
 
 
-def _groups(todo):
+def _groups(todo: dict[int, tuple[np.ndarray, np.ndarray]]):
     """Numbers of strips that are computed together, on rows and columns of one shape; these are raised where
     that wastes little."""
     groups: list[list[int]] = []
@@ -239,21 +240,21 @@ def _groups(todo):
     return groups
 
 
-def _waste(todo, group, n):
+def _waste(todo: Mapping[int, tuple[np.ndarray, np.ndarray]], group: Sequence[int], n: int):
     """Points that are computed in vain where the strip n joins a group."""
     rows, columns = (max(len(todo[one][axis]) for one in (*group, n)) for axis in (0, 1))
     return (len(group) + 1) * rows * columns - sum(len(todo[one][0]) * len(todo[one][1])
                                                    for one in (*group, n))
 
 
-def _refined(at, number):
+def _refined(at: np.ndarray, number: int):
     """Parameters as many as asked, between those that are there."""
     if len(at) == number:
         return at
     return np.interp(np.linspace(0, 1, number), np.linspace(0, 1, len(at)), at)
 
 
-def _gathered(c, axis):
+def _gathered(c: np.ndarray, axis: int):
     """How many times more than an even bend an edge strays, from curvatures c at its ends and beyond, of
     which there is one more at either end along the axis: bends of a bell's shape stray by 1.2, 1.6, 2.6 and
     at most 4 times as much where those beyond are 0.4, 0.09, 0.013 and 0 of these."""
@@ -262,7 +263,7 @@ def _gathered(c, axis):
     return np.moveaxis(1 + 3 * (1 - share * share) / (1 + 35 * share), -1, axis)
 
 
-def _rims(made, r, parts):
+def _rims(made: Loops, r: np.ndarray, parts: Sequence[Part]):
     """(k, m - 1) how far edges stray from the outline of a branch, in the branch too, where it ends, from
     grids r (k, n, m + 1, 3): in the first row, a point or a rim, and in the last one; only a share `RIM` of
     that where `reach` cuts off a branch that goes on."""
@@ -278,7 +279,7 @@ def _rims(made, r, parts):
     return strays
 
 
-def _along(r, found):
+def _along(r: np.ndarray, found: np.ndarray):
     """(k, n - 1) how far the edges between points r (k, n, 3) of curves stray from them, by curvatures and
     lengths of edges."""
     step = np.diff(r, axis=1)
@@ -339,25 +340,25 @@ class _Forms:
         self.more_u, self.more_s = np.maximum(more_u[:, 1:],
                                               more_u[:, :-1]), np.maximum(more_s[..., 1:], more_s[..., :-1])
 
-    def strays(self, cut):
+    def strays(self, cut: int):
         """(k,) how far edges and facets stray at most."""
         edges = np.maximum(np.maximum(self.edge_u.max(axis=(1, 2)), self.edge_s.max(axis=(1, 2))),
                            self.outline.max(axis=1))
         return np.maximum(edges, _facets(self.quad_u, self.quad_s, self.twist, self.more_u + self.more_s,
                                          cut).max(axis=(1, 2)))
 
-    def placed(self, k, s, u, shape):
+    def placed(self, k: int, s: np.ndarray, u: np.ndarray, shape: Sequence[int]):
         """(rows, columns) of a shape for the part k, from its grid at rows s and columns u."""
         _, _, r, c = self._wanted(k, s, u)
         return _placed(r, s, shape[0]), _placed(c, u, shape[1])
 
-    def _wanted(self, k, s, u):
+    def _wanted(self, k: int, s: np.ndarray, u: np.ndarray):
         """(how far edges from row to row stray, from column to column, steps that rows ask for, columns)."""
         straight = np.sqrt(8 * STRAIGHT * self.size) * TRIAL / max(len(s), len(u))
         along, across = self.edge_s[k].max(axis=1), np.maximum(self.edge_u[k].max(axis=0), self.outline[k])
         return along, across, _steps_wanted(along, straight), _steps_wanted(across, straight)
 
-    def graded(self, k, s, u, accuracy, attempt):
+    def graded(self, k: int, s: np.ndarray, u: np.ndarray, accuracy: float, attempt: int):
         """(rows, columns) that `accuracy` needs of the part k, as far as its grid at rows s and columns u
         tells: of the mixtures and cuts the one with the fewest cells."""
         along, across, r, c = self._wanted(k, s, u)
@@ -379,7 +380,7 @@ class _Forms:
         return _placed(r, s, rows), _placed(c, u, columns)
 
 
-def _normals(made, down, across):
+def _normals(made: Loops, down: np.ndarray, across: np.ndarray):
     """(3, k, n, m) unit normals of grids at their vertices; 0 where neighbouring rows have no loop, and at a
     far end that is a saddle, a corner and no bend."""
     a = np.concatenate([2 * down[:, :, :1], down[:, :, 1:] + down[:, :, :-1], 2 * down[:, :, -1:]], axis=2)
@@ -394,31 +395,31 @@ def _normals(made, down, across):
     return normal
 
 
-def _dot(a, b):
+def _dot(a: np.ndarray, b: np.ndarray):
     return np.einsum("cknm,cknm->knm", a, b)
 
 
-def _placed(density, at, number):
+def _placed(density: np.ndarray, at: np.ndarray, number: int):
     """So many parameters between those of `at`, spaced evenly by the density of its cells."""
     length = np.append(0.0, np.cumsum(density))
     return np.interp(np.linspace(0, length[-1], number), length, at)
 
 
-def _before(first, second):
+def _before(first: np.ndarray, second: np.ndarray):
     """The curvature before the first one, as the change from the second goes on, but no less than the first.
     """
     on = 2 * first - second
     return np.where(np.abs(on) > np.abs(first), on, first)
 
 
-def _facets(u, s, t, more, cut):
+def _facets(u: np.ndarray, s: np.ndarray, t: np.ndarray, more: np.ndarray, cut: int):
     """(..., n, m) how far diagonals and facets' centres of quads stray, from their signed forms and what
     narrow bends add."""
     diagonal = u + s + 2 * cut * t
     return np.maximum(np.abs(diagonal) / 8, np.abs(u + s + diagonal) / 18) + more
 
 
-def _steps_wanted(strays, straight):
+def _steps_wanted(strays: np.ndarray, straight: float):
     """Steps that every cell asks for, smoothed to its neighbours', with a floor."""
     out = np.sqrt(8 * strays)
     wide = np.concatenate([out[:1], out, out[-1:]])
@@ -451,7 +452,8 @@ def separatrix(scene: AnyScene, reach: float | None = None, shape: tuple[int, in
         return _separatrix(scene, reach, shape, accuracy)
 
 
-def _separatrix(scene, reach, shape, accuracy) -> Separatrix:
+def _separatrix(scene: AnyScene, reach: float | None, shape: Sequence[int] | None,
+                accuracy: float | None) -> Separatrix:
     land = landscape_in_doubles(scene)
     if land is None:
         return Separatrix((), reason=NO_REDUCTION)

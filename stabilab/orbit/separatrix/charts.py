@@ -25,9 +25,13 @@ all |N| beyond the fold |a| |N|^3 = K^2. With D_j = D_i instead the two componen
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .nearest import INF, SLACK, double, ends_of, halves, least_of
+
+if TYPE_CHECKING:
+    from flint import arb
 
 NEAR = 1.0  # offsets on hyperbolas up to which loops are parametrised by them
 
@@ -46,23 +50,24 @@ class Chart:
     """Over t and y within a rectangle (each a least and a greatest ball); g: constants of the force and the
     metric and the state's place, as balls."""
 
-    def __init__(self, g, curve, t, y):
+    def __init__(self, g: Mapping[str, arb], curve: Hyperbola | Logarithmic | Straight | None,
+                 t: Sequence[arb], y: Sequence[arb] | None):
         self.g, self.curve, self.t, self.y = g, curve, t, y
 
     def boxes(self):
         """(t, half of its range, y, half of its range) of the first boxes."""
         yield *middle_of(*self.t), *middle_of(*self.y)
 
-    def halves(self, y, dy):
+    def halves(self, y: arb, dy: float):
         """The parts of the range of y of a box."""
         return halves(y, dy)
 
-    def holds(self, t, y):
+    def holds(self, t: arb, y: arb):
         """Whether there is a point."""
         return True
 
 
-def middle_of(low, high):
+def middle_of(low: arb, high: arb):
     """The middle of an interval and half of its length."""
     return ((low + high) / 2).mid(), ends_of((high - low) / 2)[1]
 
@@ -71,7 +76,8 @@ class LoopChart(Chart):
     """On a circle (e = -1) or hyperbola (1); y: the offset from the saddle; curve: the saddles' (x, z) and
     their first and second derivatives in t."""
 
-    def __init__(self, g, curve, t, y, e):
+    def __init__(self, g: Mapping[str, arb], curve: Hyperbola | Straight, t: Sequence[arb],
+                 y: Sequence[arb] | None, e: float):
         super().__init__(g, curve, t, y)
         self.e = e
 
@@ -83,16 +89,16 @@ class LoopChart(Chart):
         for n in range(number):
             yield *t, *middle_of(low + n * step, low + (n + 1) * step)
 
-    def _moved(self, t, y):
+    def _moved(self, t: arb, y: arb):
         x, z, *slopes = self.curve.at(t)
         S, C = y.sin_cos() if self.e < 0 else y.sinh_cosh()
         return x, z, *slopes, S, C, x * C + z * S, z * C + self.e * x * S
 
-    def _phi(self, y, x, z, X, Z):
+    def _phi(self, y: arb, x: arb, z: arb, X: arb, Z: arb):
         g = self.g
         return g["k"] * (g["mu"] * y + (X - x) * (g["G"] * (X + x) / 2 + g["c"]) + self.e * g["d"] * (Z - z))
 
-    def ranges(self, t, y, most):
+    def ranges(self, t: arb, y: arb, most: float):
         g, (x, z) = self.g, self.curve.at(t)[:2]
         if self.e < 0:
             beside = max(ends_of(abs((x * x + z * z).sqrt() - g["radius"]))[0], 0.0)
@@ -103,7 +109,7 @@ class LoopChart(Chart):
         apart = ends_of(g["a"] * u * u + g["b"] * v * v)[0]
         return None if apart > most else Ranges(apart, ends_of(self._phi(y, x, z, X, Z)), (*parts, u, v))
 
-    def bends(self, parts):
+    def bends(self, parts: Sequence[arb]):
         x, z, x1, z1, x2, z2, S, C, X, Z, u, v = parts
         g, e = self.g, self.e
         G, c, d, a, b, k = g["G"], g["c"], g["d"], g["a"], g["b"], g["k"]
@@ -118,7 +124,7 @@ class LoopChart(Chart):
                k * (across * X1 + along * Z1), k * (Z * across + e * X * along))
         return tuple(map(double, apart)), tuple(map(double, phi))
 
-    def point(self, t, y):
+    def point(self, t: arb, y: arb):
         x, z, x1, z1, _, _, S, C, X, Z = self._moved(t, y)
         g, e = self.g, self.e
         X1, Z1, u, v = x1 * C + z1 * S, z1 * C + e * x1 * S, X - g["X"], Z - g["Z"]
@@ -127,7 +133,7 @@ class LoopChart(Chart):
                 k * (G * (X * X1 - x * x1) + c * (X1 - x1) + e * d * (Z1 - z1)),
                 k * (g["mu"] + G * X * Z + c * Z + d * X))
 
-    def place(self, t, y):
+    def place(self, t: arb, y: arb):
         """(X, Z) less the state's."""
         X, Z = self._moved(t, y)[-2:]
         return X - self.g["X"], Z - self.g["Z"]
@@ -137,7 +143,8 @@ class HyperbolaChart(Chart):
     """curve: the saddles' (r, E) and their derivatives; y: |xi|; sign: that of xi; flip: -1 in the mirror
     image."""
 
-    def __init__(self, g, curve, t, y, sign, flip):
+    def __init__(self, g: Mapping[str, arb], curve: Logarithmic, t: Sequence[arb], y: Sequence[arb],
+                 sign: int, flip: int):
         super().__init__(g, curve, t, y)
         self.sign, self.flip, self.mu = sign, flip, g["mu"] * flip
         self.torque, d = float(self.mu.mid()), g["d"] * flip
@@ -158,16 +165,16 @@ class HyperbolaChart(Chart):
             yield *middle_of(start, last), *y
             start, length = last, 4 * length
 
-    def halves(self, y, dy):
+    def halves(self, y: arb, dy: float):
         """Next to xi = 0 the sizes of xi count."""
         least = float((y - dy).mid())
         power = round(math.log2(least / (least + 2 * dy)) / 2 - 0.5) if least > 0 else -8
         return halves(y, dy, 2.0 ** min(power, -1))
 
-    def holds(self, t, y):
+    def holds(self, t: arb, y: arb):
         return y > 0
 
-    def _height(self, xi, eta):
+    def _height(self, xi: arb, eta: arb):
         eighth = self.quarter / 2
         return xi * (eighth * xi + self.e1) + eta * (eighth * eta - self.e2)
 
@@ -207,7 +214,7 @@ class HyperbolaChart(Chart):
             side = 0 if self.torque and high < 0.01 * self.far and vanish else 1
         return Ranges(apart, self._scaled(least, most), parts, side)
 
-    def _scaled(self, least, most):
+    def _scaled(self, least: float, most: float):
         """Of n^2 W^2/2 those of W^2."""
         k, off = self.g["rate"], SLACK * (abs(least) + abs(most))
         if off < INF:
@@ -222,7 +229,7 @@ class HyperbolaChart(Chart):
         return max(least_of(a * u * u + b * v * v, a * u + b * v, a * u - b * v, own, mixed, own,
                             dp * (1 + SLACK), dq * (1 + SLACK)), 0.0)
 
-    def bends(self, parts):
+    def bends(self, parts: Sequence[arb]):
         r, E, r1, E1, r2, E2, xi, eta = parts
         g, quarter, over = self.g, self.quarter, 1 / xi
         a, b, k = g["a"], g["b"], g["k"]
@@ -246,12 +253,12 @@ class HyperbolaChart(Chart):
                k * (quarter * (1 + eta_y * eta_y) + (2 * eta * pull - self.mu) * over * over))
         return self._signed(apart), self._signed(phi)
 
-    def _signed(self, bends):
+    def _signed(self, bends: Sequence[arb]):
         """Of second derivatives in xi those in |xi|."""
         tt, ty, yy = map(double, bends)
         return tt, (self.sign * ty[0], ty[1]), yy
 
-    def point(self, t, y):
+    def point(self, t: arb, y: arb):
         r, E, r1, E1, _, _ = self.curve.at(t)
         g, quarter, xi = self.g, self.quarter, y * self.sign
         over = 1 / xi
@@ -271,7 +278,7 @@ class HyperbolaChart(Chart):
         return (a * u * u + b * v * v, eta_t * (a * u - b * v), apart_y * self.sign, k * phi, k * phi_t,
                 k * phi_y * self.sign)
 
-    def place(self, t, y):
+    def place(self, t: arb, y: arb):
         """(X, Z) less the state's."""
         r, E = self.curve.at(t)[:2]
         xi = y * self.sign
@@ -279,7 +286,7 @@ class HyperbolaChart(Chart):
         return (P + Q) / 2, self.flip * (P - Q) / 2
 
 
-def logarithms(size):
+def logarithms(size: arb):
     """The least and the greatest logarithm of a ball that is no negative number; of doubles those of small
     numbers are lost."""
     from flint import arb
@@ -289,27 +296,27 @@ def logarithms(size):
     return -INF, ends_of(most.log())[1] if most > 0 else -INF
 
 
-def _log(v):
+def _log(v: float):
     return math.log(v) if v > 0 else -INF
 
 
 class ParabolaChart(Chart):
     """t: log |N|, y: from the saddle along the loops of both sides."""
 
-    def _parts(self, t, y):
+    def _parts(self, t: arb, y: arb):
         g = self.g
         N = t.exp() * g["sign"]
         s, half = g["K"] / N, g["ka"] * y / 2
         lift = s + half
         return N, s, half, lift, s + 2 * half - g["u"], N - g["kappa"] * y * lift - g["v"], y
 
-    def ranges(self, t, y, most):
+    def ranges(self, t: arb, y: arb, most: float):
         N, _, _, lift, u, v, _ = parts = self._parts(t, y)
         g = self.g
         apart = ends_of((u * u + v * v) * g["k2"])[0]
         return None if apart > most else Ranges(apart, ends_of(y * y * (g["a"] * N - lift * lift)), parts)
 
-    def bends(self, parts):
+    def bends(self, parts: Sequence[arb]):
         N, s, half, lift, u, v, y = parts
         g = self.g
         a, kappa, ka, twice = g["a"], g["kappa"], g["ka"], 2 * g["k2"]
@@ -321,7 +328,7 @@ class ParabolaChart(Chart):
                2 * (aN - lift * lift) - 4 * ka * y * lift - y2 * (ka * ka) / 2)
         return tuple(map(double, apart)), tuple(map(double, phi))
 
-    def point(self, t, y):
+    def point(self, t: arb, y: arb):
         N, s, half, lift, u, v, y = self._parts(t, y)
         g = self.g
         kappa, ka, twice, deep = g["kappa"], g["ka"], 2 * g["k2"], g["a"] * N - lift * lift
@@ -329,7 +336,7 @@ class ParabolaChart(Chart):
         return ((u * u + v * v) * g["k2"], twice * (v * v_t - u * s), twice * (u * ka + v * v_y),
                 y * y * deep, y * y * (g["a"] * N + 2 * lift * s), 2 * y * deep - y * y * ka * lift)
 
-    def place(self, t, y):
+    def place(self, t: arb, y: arb):
         """(first, second) rate less the state's."""
         u, v = self._parts(t, y)[4:6]
         return u / self.g["kappa"], v / self.g["kappa"]
@@ -339,10 +346,10 @@ class ParabolaChart(Chart):
 class Hyperbola:
     """Saddles x = k/h - c/G, z = h - d/G with h = sign exp(t)."""
 
-    def __init__(self, g, sign):
+    def __init__(self, g: Mapping[str, arb], sign: int):
         self.sign, self.k, self.x0, self.z0 = sign, sign * g["K"] / g["G"], g["c"] / g["G"], g["d"] / g["G"]
 
-    def at(self, t):
+    def at(self, t: arb):
         """(x, z) with their first and second derivatives."""
         h, k = t.exp() * self.sign, (-t).exp() * self.k  # of a wide range no quotient is known
         return k - self.x0, h - self.z0, -k, h, k, h
@@ -362,10 +369,10 @@ class FromPoint:
 class Straight(FromPoint):
     """Saddles on a line, at a point of it plus t times its direction."""
 
-    def __init__(self, base, direction):
+    def __init__(self, base: Sequence[arb], direction: Sequence[arb]):
         self.base, self.direction = base, direction
 
-    def at(self, t):
+    def at(self, t: arb):
         """As of `Hyperbola`."""
         (x, z), (dx, dz) = self.base, self.direction
         return x + t * dx, z + t * dz, dx, dz, 0 * t, 0 * t
@@ -379,10 +386,10 @@ class FromAnchor(FromPoint):
     """The (r, E) of a hyperbola's saddles, r = x + flip z, at h = anchor exp(t); r0, E0: there. As flip h
     (rising) and k/h (falling) are separate, no digits of r are lost next to where it vanishes."""
 
-    def __init__(self, rising, falling, r0, E0, touches=False):
+    def __init__(self, rising: arb, falling: arb, r0: arb, E0: arb, touches: bool = False):
         self.rising, self.falling, self.r0, self.E0, self.touches = rising, falling, r0, E0, touches
 
-    def at(self, t):
+    def at(self, t: arb):
         grown, shrunk = t.expm1(), (-t).expm1()
         up, down = self.rising * (grown + 1), self.falling * (shrunk + 1)
         more = grown * (self.rising - down)  # down - falling is -grown down
@@ -395,10 +402,10 @@ class Logarithmic:
 
     open = True
 
-    def __init__(self, curve, side):
+    def __init__(self, curve: FromAnchor, side: int):
         self.curve, self.side = curve, side
 
-    def logarithms(self, t, r):
+    def logarithms(self, t: arb, r: arb):
         """By the slope between there and r = 0, where the range holds that in doubles."""
         if r != 0:
             return logarithms(abs(r))
@@ -408,7 +415,7 @@ class Logarithmic:
         order = 2 if self.curve.touches else 1
         return least - order * high, most - order * low
 
-    def at(self, t):
+    def at(self, t: arb):
         s = (-t).exp() * self.side
         r, E, r1, E1, r2, E2 = self.curve.at(s)
         square = s * s

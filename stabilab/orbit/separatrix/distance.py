@@ -23,16 +23,18 @@ branches but the curve of each saddle on them: a branch beside a plane keeps eta
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
-from ...numbers.balls import FIRST_BITS, START_BITS, Unclear, settled
-from ...physics.scene import aligned
-from ..conic import conic_of, planes_touched
+from ...numbers.balls import FIRST_BITS, START_BITS, Digits, Unclear, settled
+from ...physics.scene import AnyScene, aligned
+from ..conic import Line, conic_of, planes_touched
 from ..fate import decide, on_separatrix
 from ..one_orbit import Orbit
 from ..potential import Circle, slope_at
-from ..reduction import reduce
+from ..reduction import Reduction, reduce
 from .charts import (
     NEAR,
     Chart,
@@ -47,13 +49,19 @@ from .charts import (
 from .homoclinic import ENDED, NO_SEPARATRIX, TURN, UNKNOWN, Apart, others
 from .nearest import FINE, INF, Form, Search, double, ends_of
 
+if TYPE_CHECKING:
+    import numpy as np
+    from flint import arb
+
+    from ...numbers.vectors import Number
+
 BITS = START_BITS  # of the first try; the places of two nearly equal moments cancel
 MOST_BITS = 2048
 SAMPLES = 16  # saddles of a branch that a first upper bound comes from
 WIDER = 1 + 1e-9
 
 
-def seen_from(reduction, state) -> dict:
+def seen_from(reduction: Reduction, state: Sequence[float | Fraction]) -> dict:
     """The exact constants of the force and the metric, and the place (X, Z, |W|/n) of a state."""
     g, r = reduction.exact_constants, reduction
     u, v, speed = (Fraction(state[axis]) for axis in (r.j, r.k, r.axis))
@@ -75,7 +83,7 @@ class _Seen:
               "metric": (a, b), "rate": self.plain["k"]}
         self.size, self.w = math.hypot(self.plain["X"], self.plain["Z"]), self.plain["w"]
 
-    def branches(self, reach):
+    def branches(self, reach: float):
         """(curve, least t, greatest t) of the saddles on the orbits with |Q| <= reach^2."""
         conic = conic_of(self.reduction)
         for piece in conic.pieces:
@@ -84,14 +92,14 @@ class _Seen:
         for line in conic.lines:
             yield from self._on_line(line, reach)
 
-    def _ends(self, inner, outer, reach):
+    def _ends(self, inner: float | Fraction, outer: float | Fraction, reach: float):
         """log |h| of the ends of a piece, no farther out than all solutions are (as of `conic`)."""
         G, c, d, K = (abs(self.plain[name]) for name in "GcdK")
         far = 4 * WIDER * (reach + c / G + d / G + math.sqrt(K / G)) + 1e-300
         low, high = max(inner, K / (far * G)), min(outer, far)
         return tuple(self.numbers.ball(end).log() for end in (low, high))
 
-    def _on_line(self, line, reach):
+    def _on_line(self, line: Line, reach: float):
         g, e, ball = self.exact, self.e, self.numbers.ball
         G, c, d, mu, cross = g["G"], g["c"], g["d"], g["mu"], None
         if not G:
@@ -116,7 +124,7 @@ class _Seen:
             if low < high and slope_at(G, c, d, e, x, z) > 0:
                 yield curve, ball(low), ball(high)
 
-    def first_points(self, reach, number=SAMPLES, hidden=None):
+    def first_points(self, reach: float, number: int = SAMPLES, hidden: Shade | None = None):
         """(distance, (u, v, w)) of so many saddles of each branch that count."""
         g = self.g
         for curve, low, high in self.branches(reach):
@@ -130,7 +138,8 @@ class _Seen:
                     yield math.sqrt(apart + self.w**2) * (1 + FINE), (u, v, 0.0)
 
 
-def _on_circles(numbers, reduction, state, held) -> Apart:
+def _on_circles(numbers: Digits, reduction: Reduction, state: Sequence[float | Fraction],
+                held: bool) -> Apart:
     seen = _Seen(numbers, reduction, state)
     hidden = Shade(seen.reduction) if held else None
     for number in (SAMPLES, 16 * SAMPLES):
@@ -148,16 +157,17 @@ def _on_circles(numbers, reduction, state, held) -> Apart:
     return _answer(seen, state, Search(seen.g["w"], first[0], hidden), charts, first[1])
 
 
-def _three(rates):
+def _three(rates: Sequence[float | Fraction]):
     first, second, third = map(float, rates)
     return first, second, third
 
 
-def _first(point):
+def _first(point: tuple[float, tuple[arb, arb, float]]):
     return point[0]
 
 
-def _on_hyperbolas(numbers, reduction, state, held) -> Apart:
+def _on_hyperbolas(numbers: Digits, reduction: Reduction, state: Sequence[float | Fraction],
+                   held: bool) -> Apart:
     seen = _Seen(numbers, reduction, state)
     g, plain = seen.g, seen.plain
     flat = [] if reduction.sense else _flat_pieces(plain)
@@ -183,7 +193,7 @@ def _on_hyperbolas(numbers, reduction, state, held) -> Apart:
     return _answer(seen, state, Search(g["w"], first[0]), charts, first[1])
 
 
-def _flat_pieces(g):
+def _flat_pieces(g: Mapping[str, float]):
     """[(distance, foot)] of the planes of a hyperbola without torque, where the foot of the perpendicular is
     on the separatrix."""
     found = []
@@ -196,7 +206,7 @@ def _flat_pieces(g):
     return found
 
 
-def _about_planes(seen, curve, low, high, flip, fastest, size):
+def _about_planes(seen: _Seen, curve: Hyperbola, low: arb, high: arb, flip: int, fastest: float, size: float):
     """(curve by (r, E), its range of the parameter): the branch from low to high cut between the places where
     r = x + flip z vanishes, by the logarithm of the distance to these where a torque acts; fastest, size:
     rates and places beyond them do not matter."""
@@ -216,7 +226,7 @@ def _about_planes(seen, curve, low, high, flip, fastest, size):
     return found
 
 
-def _longest(seen, along, end, fastest, size):
+def _longest(seen: _Seen, along: FromAnchor, end: arb, fastest: float, size: float):
     """How far the logarithm of r/r(end) goes, beside a plane, at places that matter. With |eta| <= |xi| <=
     size an offset y = log(xi/r) = log(E/eta) is at least half of log(E/r), and beyond some y W is too great,
     or none is left."""
@@ -266,7 +276,7 @@ def _zeros(seen, curve, flip):
     return sorted((at(h) for h in roots), key=lambda place: float(place[0].mid()))
 
 
-def _nearest(search, charts, place):
+def _nearest(search: Search, charts: Sequence[Chart], place: tuple[Number, Number, float]):
     """(what a search found, (u, v, |W|) of its point in doubles); place: that of the first point."""
     found = search.run(charts)
     if found.at is not None:
@@ -275,7 +285,8 @@ def _nearest(search, charts, place):
     return found, tuple(v if isinstance(v, float) else float(v.mid()) for v in place)
 
 
-def _answer(seen, state, search, charts, place) -> Apart:
+def _answer(seen: _Seen, state: Sequence[float | Fraction], search: Search, charts: Sequence[Chart],
+            place: tuple[arb, arb, float]) -> Apart:
     """On circles and hyperbolas."""
     found, (x, z, w) = _nearest(search, charts, place)
     r, g, rates = seen.reduction, seen.reduction.constants, [0.0] * 3
@@ -287,10 +298,10 @@ def _answer(seen, state, search, charts, place) -> Apart:
 class Shade:
     """The barriers beside the saddles of circles under a torque."""
 
-    def __init__(self, reduction):
+    def __init__(self, reduction: Reduction):
         self.potential = Circle(reduction)
 
-    def _barriers(self, chart, t, above):
+    def _barriers(self, chart: LoopChart, t: arb, above: float | arb):
         """(offset, phi, its error, its slope in t) of the other barriers within a turn of a saddle, those
         between it and the offset `above` and those ahead."""
         pot, saddle = self.potential, tuple(float(v.mid()) for v in chart.curve.at(t)[:2])
@@ -304,11 +315,11 @@ class Shade:
                     point = chart.point(t, at)
                 yield at, *double(point[3]), float(point[4].mid())
 
-    def hides(self, chart, t, y) -> bool:
+    def hides(self, chart: LoopChart, t: arb, y: float) -> bool:
         """Whether a higher barrier takes the place of a point's."""
         return any(phi < 0 for _, phi, _, _ in self._barriers(chart, t, y))
 
-    def bound(self, search, form, chart, t, dt, y, dy):
+    def bound(self, search: Search, form: Form, chart: LoopChart, t: arb, dt: float, y: arb, dy: float):
         """A lower bound over a box by what may hide it: inf where it is hidden for certain."""
         from flint import arb
         best = -INF
@@ -326,7 +337,7 @@ class Shade:
                 self._notch(search, chart, t, y, at)
         return best
 
-    def _notch(self, search, chart, t, y, at):
+    def _notch(self, search: Search, chart: LoopChart, t: arb, y: arb, at: arb):
         """Try the loop on which the two barriers are as high."""
         for _ in range(6):
             near = [one for one in self._barriers(chart, t, min(at, y)) if (one[0] > 0) == (at > 0)]
@@ -372,7 +383,7 @@ def _on_parabolas(numbers, reduction, state, held) -> Apart:
     return Apart(found.lower, found.upper, _three(rates), "", found.boxes)
 
 
-def _rectangle(g, upper):
+def _rectangle(g: Mapping[str, float], upper: float):
     """((t_low, t_high), (y_low, y_high)) outside which every point is farther than `upper`."""
     kappa, a, K = g["kappa"], g["a"], g["K"]
     far = abs(kappa) * upper * WIDER
@@ -391,7 +402,7 @@ def _rectangle(g, upper):
 GEOMETRIES = {-1: _on_circles, 1: _on_hyperbolas, 0: _on_parabolas}
 
 
-def separatrix_distance(scene, states):
+def separatrix_distance(scene: AnyScene, states: np.ndarray):
     """Euclidean distance (...,) of states (..., 3) from the nearest point of the scene's separatrix, in the
     unit of the states: to 1e-6, or a proved lower bound; inf where the scene has none, NaN where it is not
     known.
@@ -408,7 +419,7 @@ def separatrix_distance(scene, states):
     return np.array(flat, float).reshape(array.shape[:-1])
 
 
-def _asker(scene):
+def _asker(scene: AnyScene):
     """The function of one state that gives its distance."""
     reduction, turn = reduce(scene), aligned(scene)
     if reduction is not None:
@@ -419,7 +430,7 @@ def _asker(scene):
     return lambda state: INF if has_no_saddle(scene) else math.nan
 
 
-def has_no_saddle(scene) -> bool:
+def has_no_saddle(scene: AnyScene) -> bool:
     """Whether a scene without a reduction, its torque on one axis or none, has no saddle for sure: a
     gyrostatic moment along the torque leaves no equilibrium, and with equal moments the kinetic energy is a
     linear function on each momentum sphere."""
@@ -427,7 +438,8 @@ def has_no_saddle(scene) -> bool:
     return acting == 1 or not acting and not any(scene.quadratic().kappa)
 
 
-def distance_of(reduction, state, orbit: Orbit | None = None) -> Apart:
+def distance_of(reduction: Reduction | None, state: Sequence[float | Fraction],
+                orbit: Orbit | None = None) -> Apart:
     """The distance of one state (three floats or Fractions) of a scene with this reduction (None: it has
     none).
 

@@ -7,6 +7,7 @@ circle, in exp(y) on a hyperbola. `homoclinic_arrays.loops` uses this too, row b
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import acos, atan, atan2, copysign, cos, inf, log, nan, pi, sqrt
 from typing import TYPE_CHECKING, NamedTuple
@@ -16,6 +17,8 @@ from ...representation import Answer, Compared
 
 if TYPE_CHECKING:
     import numpy as np
+
+    from ..potential import Circle, Hyperbola
 
 AGREE = 1e-6  # relative: nearer than that, lower bound and witness are one number
 
@@ -101,7 +104,7 @@ LOST = 1e-4       # of a cubic's terms: a discriminant that is less may have the
 POLISH = 3        # steps of Newton's method
 
 
-def settled(pot, place):
+def settled(pot: Circle, place: Sequence[float]):
     """The place moved along its orbit to where the force vanishes, if that is near."""
     for _ in range(POLISH):
         slope = pot.slope(place)
@@ -114,7 +117,7 @@ def settled(pot, place):
     return place
 
 
-def loop_end(pot, sense, saddle, side):
+def loop_end(pot: Circle | Hyperbola, sense: int, saddle: Sequence[float], side: int):
     """(distance along the orbit from the saddle to the far end of its loop on one side (-1, +1), distance to
     the deepest well inside, whether the far end is a saddle as high); None where no loop closes.
 
@@ -151,7 +154,7 @@ def loop_end(pot, sense, saddle, side):
     return end, centre, False
 
 
-def _terms(pot, place):
+def _terms(pot: Circle | Hyperbola, place: Sequence[float]):
     """Size of the terms of the energy at a place of a circle."""
     size = place[0] * place[0] + place[1] * place[1]
     return abs(pot.G) * size + pot.slopes * sqrt(size)
@@ -181,7 +184,7 @@ def others(pot, saddle, side):
     return sorted(t for t in found if t > OWN)
 
 
-def real_cubic(a, b, c, d):
+def real_cubic(a: float, b: float, c: float, d: float):
     """Real roots of a t^3 + b t^2 + c t + d, nan in place of those that are not, each with a step of Newton's
     method for what the closed form lost."""
     if a == 0:
@@ -213,7 +216,7 @@ def real_cubic(a, b, c, d):
             and only * only * abs(only) * SPREAD > abs(r) else (only, nan, nan))
 
 
-def _beside_largest(p, q, r, t):
+def _beside_largest(p: float, q: float, r: float, t: float):
     """The largest root t of t^3 + p t^2 + q t + r with the two much smaller ones, of which the closed form
     keeps no digit: those of the quadratic that is left, from its low powers up. nan where they are not
     real."""
@@ -226,14 +229,14 @@ def _beside_largest(p, q, r, t):
     return t, _better(p, q, r, far), _better(p, q, r, product / far) if far != 0 else 0.0
 
 
-def _better(p, q, r, t):
+def _better(p: float, q: float, r: float, t: float):
     """A root of t^3 + p t^2 + q t + r after one step of Newton's method."""
     steep = (3 * t + 2 * p) * t + q
     step = (((t + p) * t + q) * t + r) / steep if steep != 0 else 0.0
     return t - step if abs(step) < 1e-4 * abs(t) else t
 
 
-def _crossing(height, slope_at, low, high):
+def _crossing(height: Callable[[float], float], slope_at: Callable[[float], float], low: float, high: float):
     """Where the potential rises through the saddle's height between a well at `low` and `high`, distances
     from the saddle: Newton's method in a bracket. height, slope_at: of a distance.
 

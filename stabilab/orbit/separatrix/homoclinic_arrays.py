@@ -29,14 +29,20 @@ like squares, and columns towards the second saddle, where loops are pinched. So
 each part graded by itself."""
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..potential import Parabola
+from ..potential import Circle, Parabola
 from .homoclinic import loop_end, others, settled
+
+if TYPE_CHECKING:
+    from ..landscape import ConicLandscape
+    from ..reduction import Reduction
+    from .saddles import Branch
 
 # --- Loops whose orbits are centred far away
 FAR = 100.0   # times the size of a loop: from there canonical places lose two digits and more
@@ -50,7 +56,7 @@ class Orbits:
     hyperbola of equilibria, omega_j = -rho/kappa and omega_k = -sigma/kappa, whose digits the slopes need;
     side: (r,) the sign of alpha on the loop."""
 
-    def __init__(self, reduction, u, v, side):
+    def __init__(self, reduction: Reduction, u: np.ndarray, v: np.ndarray, side: np.ndarray):
         self.r, self.side = r, _ = Parabola(reduction), side
         self.product = u * v
         self.u, self.v = u - r.rho / r.kappa, v - r.sigma / r.kappa
@@ -58,14 +64,14 @@ class Orbits:
         self.steep, self.bent = r.kappa * (a * v + b * u), r.kappa * (r.p * b * v + r.q * a * u)
         self.both, self.curl = r.kappa * a * b, 0.5 * r.kappa * (r.q * a * a + r.p * b * b)
 
-    def moved(self, alpha):
+    def moved(self, alpha: np.ndarray):
         """(omega_j, omega_k) at alpha (r, ...)."""
         S, C, _ = (v * alpha**n for n, v in enumerate(self._series(alpha), 1))
         a, b, u, v = (one.reshape(one.shape + (1,) * (alpha.ndim - 1))
                       for one in (self.a, self.b, self.u, self.v))
         return u + (a * S + self.r.p * b * C), v + (b * S + self.r.q * a * C)
 
-    def fall(self, alpha):
+    def fall(self, alpha: np.ndarray):
         """R(alpha): how far the potential lies below the saddle's height, over alpha^2."""
         s, c, third = self._series(alpha)
         steep, bent, both, curl = (v.reshape(v.shape + (1,) * (alpha.ndim - 1))
@@ -78,13 +84,13 @@ class Orbits:
 
     def centres(self):
         """(r,) alpha of the wells."""
-        def force(alpha):  # over alpha
+        def force(alpha: np.ndarray):  # over alpha
             s, c, _ = self._series(alpha)
             du, dv = self.a * s + self.r.p * self.b * c * alpha, self.b * s + self.r.q * self.a * c * alpha
             return self.steep * s + self.bent * c * alpha + self.r.kappa * du * dv * alpha
         return self._root(self.steep, self.bent / 2 + self.both, self.curl, force)
 
-    def wells(self, alpha):
+    def wells(self, alpha: np.ndarray):
         """(omega_j, omega_k) of the wells at alpha (r,), which lie on the hyperbola of equilibria too: it
         tells the component that is nearer to its asymptote, of which the way there from the saddle may keep
         no digit."""
@@ -95,19 +101,20 @@ class Orbits:
             return np.where(long, self.product / second - r.rho / r.kappa,
                             u), np.where(long, v, self.product / first - r.sigma / r.kappa)
 
-    def sharpness(self, end):
+    def sharpness(self, end: np.ndarray):
         """(r,) the way to the far end times the bend of the potential over its slope there."""
         far = self.moved(end)
         with np.errstate(all="ignore"):
             return np.abs(end) * self.r.slope(far) / np.abs(self.r.force(far))
 
-    def _series(self, alpha):
+    def _series(self, alpha: np.ndarray):
         t = self.r.p * self.r.q * alpha * alpha
         return (1 + t / 6 * (1 + t / 20 * (1 + t / 42 * (1 + t / 72))),
                 0.5 * (1 + t / 12 * (1 + t / 30 * (1 + t / 56 * (1 + t / 90)))),
                 (1 + t / 20 * (1 + t / 42 * (1 + t / 72 * (1 + t / 110)))) / 6)
 
-    def _root(self, first, second, third, function):
+    def _root(self, first: np.ndarray, second: np.ndarray, third: np.ndarray,
+              function: Callable[[np.ndarray], np.ndarray]):
         """The root on the loop's side of what is nearly first + second x + third x^2, with first > 0 > third.
         """
         with np.errstate(all="ignore"):
@@ -121,7 +128,7 @@ class Orbits:
 
 
 @lru_cache(maxsize=64)
-def asymptotes(land):
+def asymptotes(land: ConicLandscape):
     """(omega_j, omega_k) of the hyperbola of equilibria far out, and the product of the ways from them; None
     without one, or with an asymptote that is far."""
     r, conic, g = land.reduction, land.conic, land.reduction.constants
@@ -130,7 +137,7 @@ def asymptotes(land):
     return float(-r.rho / r.kappa), float(-r.sigma / r.kappa), g["flip"] * g["rx"] * conic.K / conic.G
 
 
-def saddles_of(land, branch, s):
+def saddles_of(land: ConicLandscape, branch: Branch, s: np.ndarray):
     """((u, v) of the saddles of a branch at s (n,) as of `Orbits`, (n,) whether they are much nearer than the
     centre)."""
     found = asymptotes(land)
@@ -143,7 +150,7 @@ def saddles_of(land, branch, s):
     return (u, v), FAR * size < land.reduction.parabolic_shift_size
 
 
-def shrinks_far(land, branch, side) -> bool | None:
+def shrinks_far(land: ConicLandscape, branch: Branch, side: int) -> bool | None:
     """`branches.shrinks` of a fold whose orbit's centre is far; None of others."""
     (u, v), far = saddles_of(land, branch, np.zeros(1))
     if not far[0]:
@@ -152,7 +159,8 @@ def shrinks_far(land, branch, side) -> bool | None:
     return bool((one.bent / 6 + one.both / 3)[0] * side * land.unit <= 0)
 
 
-def replaced(land, strips, s, u, made, shares_of):
+def replaced(land: ConicLandscape, strips: Sequence[Part | tuple[Branch, int]], s: np.ndarray, u: np.ndarray,
+             made: Loops, shares_of: Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]):
     """The fields of `Loops` of strips at rows s (k, n) and columns u (k, m), those of rows with a far centre
     in the components; shares_of(sharpness (r,), u (r, m), numbers of strips (r,)): where columns stand."""
     r, g = land.reduction, land.reduction.constants
@@ -187,13 +195,13 @@ def replaced(land, strips, s, u, made, shares_of):
     return type(made)(**out)
 
 
-def _states(r, u, v, w):
+def _states(r: Reduction, u: np.ndarray, v: np.ndarray, w: np.ndarray):
     out = np.empty(np.shape(w) + (3,))
     out[..., r.j], out[..., r.k], out[..., r.axis] = u, v, w - float(r.s)
     return out
 
 
-def residual_far(land, loops):
+def residual_far(land: ConicLandscape, loops: Loops):
     """(r, m) residuals of the rows of loops that are `far`, from their points: energy above the saddle's over
     the size of its terms at the nearest place of the orbit, or how far that is from the point, relative to
     its size."""
@@ -240,7 +248,7 @@ class Part(NamedTuple):
     over: bool = False
     number: int = 0
 
-    def rows(self, t):
+    def rows(self, t: np.ndarray):
         """s at parameters t in [0, 1], of which the distance from the seam is the square; without a seam they
         are s itself."""
         if not self.seam:
@@ -248,7 +256,7 @@ class Part(NamedTuple):
         return (self.low + (self.high - self.low) * t * t if self.seam < 0
                 else self.high - (self.high - self.low) * (1 - t) ** 2)
 
-    def parameters(self, s):
+    def parameters(self, s: np.ndarray):
         """t at rows s: the inverse of `rows`."""
         if not self.seam:
             return s
@@ -256,7 +264,7 @@ class Part(NamedTuple):
         return np.sqrt(share) if self.seam < 0 else 1 - np.sqrt(1 - share)
 
 
-def parted(land, strips, first) -> list[Part]:
+def parted(land: ConicLandscape, strips: Sequence[tuple[Branch, int]], first: np.ndarray) -> list[Part]:
     """The parts of strips, pairs (branch, side), whose rows begin at first (k,)."""
     found = []
     for (branch, side), start in zip(strips, first):
@@ -270,7 +278,7 @@ def parted(land, strips, first) -> list[Part]:
     return found
 
 
-def seam_of(land, branch, side) -> tuple[float, float, int] | None:
+def seam_of(land: ConicLandscape, branch: Branch, side: int) -> tuple[float, float, int] | None:
     """(s just before the seam of a strip, s just behind it, +1 where loops pass over the second saddle behind
     it, -1 where before), or None.
 
@@ -293,26 +301,26 @@ def seam_of(land, branch, side) -> tuple[float, float, int] | None:
     return (low, high, 1 if behind else -1) if high < 1 and _jumps(land, branch, side, low, high) else None
 
 
-def _jumps(land, branch, side, low, high) -> bool:
+def _jumps(land: ConicLandscape, branch: Branch, side: int, low: float, high: float) -> bool:
     """Whether the far end of the loop jumps between two rows."""
     ends = [_far_end(land, branch, side, s) for s in (low, high)]
     return abs(ends[1] - ends[0]) > JUMP * max(ends)
 
 
-def _far_end(land, branch, side, s) -> float:
+def _far_end(land: ConicLandscape, branch: Branch, side: int, s: float) -> float:
     saddle = settled(land.potential, tuple(map(float, branch.place(s))))
     found = loop_end(land.potential, land.sense, saddle, side)
     return found[0] if found else 0.0
 
 
-def _passes(pot, branch, side, s) -> bool:
+def _passes(pot: Circle, branch: Branch, side: int, s: float) -> bool:
     """Whether a loop passes over a second saddle: the first one ahead is below its own."""
     saddle = settled(pot, tuple(map(float, branch.place(s))))
     ahead = _barrier(pot, saddle, side)
     return ahead is not None and pot.rise(side * ahead, saddle) < 0
 
 
-def pinched_shares(pot, saddle, end, side, u):
+def pinched_shares(pot: Circle, saddle: np.ndarray, end: np.ndarray, side: int, u: np.ndarray):
     """(n, m) shares of the way to the far ends (n,) at which columns u (m,), 0 to 1, stand: half of them
     before the second saddle and half behind it, crowded towards it as hyperbolas W^2 = K (e^2 + t^2) at
     distance t bend, with e the half width of the pinch; towards the far end as a parabola bends.
@@ -331,13 +339,13 @@ def pinched_shares(pot, saddle, end, side, u):
     return shares
 
 
-def _crowded(x, width):
+def _crowded(x: np.ndarray, width: np.ndarray):
     """Shares x in [0, 1] moved towards 0, as sinh(q x)/sinh(q) with width sinh(q) = 1."""
     q = np.arcsinh(1 / width)
     return np.sinh(q * x) * width
 
 
-def _second(pot, saddle, side, end):
+def _second(pot: Circle, saddle: Sequence[float], side: int, end: float):
     """(distance of the second saddle, half width of the pinch there); without one the middle of the loop, and
     no pinch."""
     t = _barrier(pot, saddle, side)
@@ -346,7 +354,7 @@ def _second(pot, saddle, side, end):
     return t, max(-2 * float(pot.rise(side * t, saddle)) / pot.slope(pot.move(saddle, side * t)), 0.0) ** 0.5
 
 
-def _barrier(pot, saddle, side):
+def _barrier(pot: Circle, saddle: Sequence[float], side: int):
     """The distance to the first barrier on one side of a saddle; None where there is none within a turn."""
     return next((t for t in others(pot, saddle, side) if pot.slope(pot.move(saddle, side * t)) > 0), None)
 
@@ -355,14 +363,14 @@ def _barrier(pot, saddle, side):
 SHARPEST = 1e3  # bends tighter than the loop's length over this are not resolved
 
 
-def polished(land, saddle, s):
+def polished(land: ConicLandscape, saddle: Sequence[np.ndarray], s: np.ndarray):
     """Return the points of the conic after each was moved along its orbit to where the force vanishes. The
     fold itself stays where it is."""
     moved = land.polished(saddle)
     return tuple(np.where(s > 0, m, v) for m, v in zip(moved, saddle))
 
 
-def loop_ends(land, saddle, side):
+def loop_ends(land: ConicLandscape, saddle: Sequence[np.ndarray], side: np.ndarray):
     """(offset of the far end of the loop (n,), centre place (2, n), found (n,), shared (n,)) for saddles (2,
     n), each on its side (n,); shared: it ends at a saddle there, for which this is the loop on the other
     side."""
@@ -404,12 +412,12 @@ class Loops:
         """(k, n) True where the loop comes from `Orbits`."""
         return np.isfinite(self.ways[..., 0])
 
-    def at_rows(self, rows) -> Loops:
+    def at_rows(self, rows: np.ndarray) -> Loops:
         """The loops of some rows only."""
         return Loops(*(v[:, :, rows] if name in ("saddle", "centre") else v[:, rows] for name,
                        v in vars(self).items()))
 
-    def of(self, strip) -> Loops:
+    def of(self, strip: int) -> Loops:
         """The loops of one strip only."""
         return Loops(*(v[:, strip:strip + 1] if name in ("saddle", "centre") else v[strip:strip + 1] for name,
                        v in vars(self).items()))
@@ -450,7 +458,8 @@ def loops(land, strips, s, u) -> Loops:
     return replaced(land, strips, s, u, made, lambda sharp, at, rows: _by_turning(sharp, at, sharpest[rows]))
 
 
-def _shares(land, saddle, end, shared, u, sharpest):
+def _shares(land: ConicLandscape, saddle: np.ndarray, end: np.ndarray, shared: np.ndarray, u: np.ndarray,
+            sharpest: np.ndarray):
     """(k, n, m) shares of the way to the far end at which columns u (k, 1, m), 0 to 1, stand.
 
     At the far end, distance t away, W^2 = 2 F t + K t^2 + ...: F the force there, K its slope. That is a
@@ -466,14 +475,14 @@ def _shares(land, saddle, end, shared, u, sharpest):
     return _by_turning(sharp, u, sharpest[:, None])
 
 
-def _by_turning(sharp, u, sharpest):
+def _by_turning(sharp: np.ndarray, u: np.ndarray, sharpest: np.ndarray):
     """(..., m) shares at columns u, from K/F times the way to the far end, (...,)."""
     sharp = np.clip(np.nan_to_num(sharp), 1e-8, sharpest)
     half = 0.5 * np.log1p(sharp + np.sqrt(sharp * (sharp + 2)))[..., None]  # arccosh(1 + sharp)
     return 1 - (np.sinh(half * (1 - u)) / np.sinh(half)) ** 2
 
 
-def residual(land, loops):
+def residual(land: ConicLandscape, loops: Loops):
     """(k, n, m) energy of the rounded points above their saddle's, relative to the size of the energy's
     terms; their offsets from the saddle tell the turn that the angle of a rounded point belongs to. On a
     hyperbola the larger of xi, eta tells the place: next to an open plane the smaller one is all rounding.

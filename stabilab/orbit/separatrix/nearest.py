@@ -15,9 +15,13 @@ from __future__ import annotations
 
 import heapq
 import math
-from typing import Any, NamedTuple
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...numbers.balls import Unclear
+
+if TYPE_CHECKING:
+    from flint import arb
 
 CLOSE = 2e-10  # of the distance: lower bound and witness are brought so near
 FINE = 2.0**-44  # of the squared distance: the balls of a point must be so narrow
@@ -63,10 +67,10 @@ class Form(NamedTuple):
     y: float
     bends: Any
 
-    def least(self, dt, dy):
+    def least(self, dt: float, dy: float):
         return least_of(self.value, self.t, self.y, *self.bends, dt, dy)
 
-    def side(self, dt, dy):
+    def side(self, dt: float, dy: float):
         """0 or 1: the side of the box that the bound loses most by."""
         tt, _, yy = self.bends
         return (0 if (abs(self.t) + (abs(tt[0]) + tt[1]) * dt) * dt
@@ -81,7 +85,7 @@ class Search:
         self.rate, self.w0, self.hidden, self.at, self.boxes = rate, float(rate.mid()), hidden, None, 0
         self.set_upper(upper)
 
-    def set_upper(self, upper):
+    def set_upper(self, upper: float):
         self.upper, self.goal = upper, (upper * (1 - CLOSE)) ** 2
 
     def run(self, charts) -> Found:
@@ -195,19 +199,19 @@ class Search:
                         [(abs(a[0]) + a[1] + share * (abs(b[0]) + b[1]), 0.0) for a, b in zip(r, f)])
         return best, form.side(dt, dy)
 
-    def _beside(self, low, high):
+    def _beside(self, low: float, high: float):
         """The least |W - w0| for W^2 between two numbers."""
         least, most = math.sqrt(max(low, 0.0)), math.sqrt(high)
         return max(least - self.w0 - SLACK * least, self.w0 - most - SLACK * self.w0, 0.0)
 
-    def _gaps(self, p, low, high):
+    def _gaps(self, p: Values, low: float, high: float):
         """The least and greatest W - w0 for W^2 between two numbers about that of the middle."""
         if not p.phi > 0:
             return math.sqrt(max(low, 0.0)) - self.w0, math.sqrt(high) - self.w0
         w = self.w0 + p.gap
         return tuple(p.gap + (max(end, 0.0) - p.phi) / (math.sqrt(max(end, 0.0)) + w) for end in (low, high))
 
-    def _multipliers(self, p, dt, dy):
+    def _multipliers(self, p: Values, dt: float, dy: float):
         """That of the middle, and that with which the slopes nearly vanish."""
         if self.w0 == 0 or p.phi > 0:
             yield p.gap / (self.w0 + p.gap) if self.w0 else 1.0
@@ -215,7 +219,8 @@ class Search:
         if square := a * a + b * b:
             yield min(-(p.apart_t * dt * a + p.apart_y * dy * b) / square, 0.999 if self.w0 else 1.0)
 
-    def _form(self, p, r, f, k, least, most):
+    def _form(self, p: Values, r: Sequence[tuple[float, float]], f: Sequence[tuple[float, float]], k: float,
+              least: float, most: float):
         """R + k phi + the least of (1 - k) s^2 - 2 w0 s + w0^2 over the rates s = w0 + gap of a box."""
         gap = min(max(k * self.w0 / (1 - k), least), most) if k < 1 else most if k > 1 else least
         s = self.w0 + gap
@@ -225,44 +230,45 @@ class Search:
                     p.apart_y + k * p.phi_y, [(a[0] + k * b[0], a[1] + abs(k) * b[1]) for a, b in zip(r, f)])
 
 
-def _free(v, slope, ends):
+def _free(v: arb, slope: float, ends: Sequence[arb]):
     """Whether a coordinate may move against the slope."""
     low, high = ends
     return not (v <= low and slope > 0 or v >= high and slope < 0)
 
 
-def _newton_step(slopes, a, m, b, free):
+def _newton_step(slopes: Sequence[float], a: float, m: float, b: float, free: Sequence[bool]):
     (gt, gy), det = slopes, a * b - m * m
     if all(free) and a > 0 and det > 0:
         return (m * gy - b * gt) / det, (m * gt - a * gy) / det
     return tuple(-g / abs(bend) if ok and bend else 0.0 for g, bend, ok in zip(slopes, (a, b), free))
 
 
-def double(ball):
+def double(ball: arb):
     """(middle, radius)."""
     return float(ball.mid()), float(ball.rad())
 
 
-def ends_of(ball):
+def ends_of(ball: arb):
     """The least and the greatest number of a ball, as doubles."""
     middle, radius = double(ball)
     off = radius * (1 + SLACK) + SLACK * abs(middle)
     return middle - off, middle + off
 
 
-def widened(middle, half):
+def widened(middle: arb, half: float):
     """The ball about a middle."""
     from flint import arb
     return middle + arb(0, half)
 
 
-def halves(middle, half, share=0.5):
+def halves(middle: arb, half: float, share: float = 0.5):
     """The two parts of an interval, the first with a share of it, a power of two."""
     first = half * share
     return (middle - half + first, first), (middle + first, (half - first) * (1 + SLACK))
 
 
-def least_of(value, g1, g2, h11, h12, h22, d1, d2) -> float:
+def least_of(value: float, g1: float, g2: float, h11: Sequence[float], h12: Sequence[float],
+             h22: Sequence[float], d1: float, d2: float) -> float:
     """A lower bound of value + g.d + d.H.d/2 over |d1| <= d1, |d2| <= d2, for all H within the radii."""
     (a, ra), (m, rm), (b, rb) = h11, h12, h22
     a, b, most = a - ra, b - rb, rm * d1 * d2
@@ -273,7 +279,7 @@ def least_of(value, g1, g2, h11, h12, h22, d1, d2) -> float:
     return value + box - SLACK * (abs(value) + abs(box) + size)
 
 
-def _convex(g1, g2, a, b, m, d1, d2):
+def _convex(g1: float, g2: float, a: float, b: float, m: float, d1: float, d2: float):
     """The same of g.d + d.H.d/2 where that is convex."""
     det = a * b - m * m
     if not (a > 0 and b > 0 and det > 1e-9 * a * b):
@@ -292,14 +298,14 @@ def _convex(g1, g2, a, b, m, d1, d2):
     return best
 
 
-def _crossed(g1, g2, a, b, m, d1, d2):
+def _crossed(g1: float, g2: float, a: float, b: float, m: float, d1: float, d2: float):
     """The least over the second of (g2 + m d1) d2 + b d2^2/2, at an edge unless b bends up, then over the
     first."""
     bend = 0.5 * b * d2 * d2 if b < 0 else 0.0
     return min(g2 * d2 + _least(g1 + m * d2, a, d1), _least(g1 - m * d2, a, d1) - g2 * d2) + bend
 
 
-def _least(g, h, d):
+def _least(g: float, h: float, d: float):
     if h > 0 and abs(g) < h * d:
         return -0.5 * g * g / h
     return -abs(g) * d + 0.5 * h * d * d

@@ -8,18 +8,22 @@ are dense towards the fold and columns towards both ends of a loop."""
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...numbers.polynomial import roots_in_doubles
 from ...physics.coefficients import effective
 from ...physics.scene import AnyScene
 from ...reasons import Reason, Sentence
-from ..conic import conic_of
-from ..potential import potential
-from ..reduction import reduce
+from ..conic import Conic, Line, Piece, conic_of
+from ..potential import Circle, Hyperbola, potential
+from ..reduction import Reduction, reduce
 from .homoclinic import loop_end, settled
+
+if TYPE_CHECKING:
+    import numpy as np
 
 # --- Branches of saddles
 ON_PLANE = 1e-9  # of a branch's first invariant: below that its end lies on a plane Q = 0
@@ -37,17 +41,17 @@ class Branch(NamedTuple):
     end: float
     far: str
 
-    def at(self, s):
+    def at(self, s: float | np.ndarray):
         """(X, Z) of the saddle, a float or an array each."""
         t = self.start + (self.end - self.start) * s
         return self.conic.at(t) if self.line is None else on_line(self.line, t)
 
-    def place(self, s):
+    def place(self, s: float | np.ndarray):
         """The same as a place of the reduced potential."""
         return self.conic.place(*self.at(s))
 
 
-def limit_of(conic, reach) -> float:
+def limit_of(conic: Conic, reach: float) -> float:
     """The size of the invariant at `reach` times the radius sqrt|Q| of the outermost fold, or of the lines'
     feet."""
     base = [abs(q) for q in conic.fold_invariants]
@@ -58,7 +62,7 @@ def limit_of(conic, reach) -> float:
 
 
 @lru_cache(maxsize=64)
-def saddle_branches(conic, pot, limit) -> tuple[Branch, ...]:
+def saddle_branches(conic: Conic, pot: Circle | Hyperbola, limit: float) -> tuple[Branch, ...]:
     """Return every branch of saddles of a conic of equilibria, as far out as |Q| = limit. They are kept, for
     the next surface of the same scene."""
     found = [branch for piece in conic.pieces if piece.barrier for branch in _on_piece(conic, piece, limit)]
@@ -67,17 +71,17 @@ def saddle_branches(conic, pot, limit) -> tuple[Branch, ...]:
     return tuple(found)
 
 
-def on_line(line, t):
+def on_line(line: Line, t: float | np.ndarray):
     return line.x0 + t * line.dx, line.z0 + t * line.dz
 
 
-def foot(conic, line) -> float:
+def foot(conic: Conic, line: Line) -> float:
     """Return the place along a line at which the invariant is stationary."""
     a = line.dz**2 - conic.e * line.dx**2
     return -(line.z0 * line.dz - conic.e * line.x0 * line.dx) / a if a else 0.0
 
 
-def _on_piece(conic, piece, limit):
+def _on_piece(conic: Conic, piece: Piece, limit: float):
     """Branches of a piece inside the limit on |Q|, starting at a fold, cut where Q = 0 (a plane)."""
     ends = [h for q in conic.within(limit) for h in _meet(conic, piece, q)]
     inner = piece.inner or min(ends, default=None)
@@ -94,7 +98,7 @@ def _on_piece(conic, piece, limit):
                      PLANE if on_plane else FOLD if end in folds else OPEN)
 
 
-def _meet(conic, piece, q) -> list[float]:
+def _meet(conic: Conic, piece: Piece, q: float) -> list[float]:
     """|h| on a piece where the invariant is q: Z^2 - e X^2 = q times h^2, a quartic."""
     e, s, G = conic.e, conic.shift, conic.G
     c, K = conic.c / G, conic.K / G
@@ -102,7 +106,7 @@ def _meet(conic, piece, q) -> list[float]:
     return sorted(abs(h) for h in roots if h * piece.sign > 0 and piece.inner < abs(h) < piece.outer)
 
 
-def _on_line(conic, pot, line, limit):
+def _on_line(conic: Conic, pot: Circle | Hyperbola, line: Line, limit: float):
     """Intervals of t on a line where it holds saddles, each from its inner end outward."""
     knots = [foot(conic, line)]
     if conic.G:  # where the two lines cross
@@ -153,21 +157,21 @@ ALL_SPIN_UP = Sentence(
     "parabolic-spin-up", "nothing turns the body out of the torque's way, and every motion spins up")()
 
 
-def what_it_parts(potential, sense: int) -> Reason:
+def what_it_parts(potential: Circle | Hyperbola, sense: int) -> Reason:
     """Of a scene with a separatrix."""
     if potential.walled:
         return PARTS_ONE_FROM_TWO
     return BOUNDS_OSCILLATIONS if sense else PARTS_INSIDE_FROM_OUTSIDE
 
 
-def why_none(conic, sense: int) -> Reason:
+def why_none(conic: Conic, sense: int) -> Reason:
     """Of a scene on circles or hyperbolas without one."""
     if conic.pieces or conic.lines:
         return SINGLE_WELLS
     return NO_EQUILIBRIUM if sense else NO_FORCE
 
 
-def why_parabolic(reduction) -> Reason:
+def why_parabolic(reduction: Reduction) -> Reason:
     """Of a scene on parabolas: no branches are drawn of it."""
     bent = reduction.kappa or reduction.rho or reduction.sigma
     motions = ALL_BOUNDED if reduction.sense == 0 else ALL_BETWEEN_WALLS if bent else ALL_SPIN_UP
@@ -212,7 +216,8 @@ def plain_separatrix(scene: AnyScene, reach: float = REACH, rows: int = 20,
     return tuple(found), what_it_parts(pot, r.sense) if found else why_none(conic, r.sense)
 
 
-def _strip(r: Any, pot: Any, branch: Any, side: int, rows: int, half: int) -> list[list[tuple[float, ...]]]:
+def _strip(r: Reduction, pot: Circle, branch: Branch, side: int, rows: int,
+           half: int) -> list[list[tuple[float, ...]]]:
     """The loops of a branch on one side, a row each; the fold is a point."""
     made = []
     for n in range(rows):
@@ -227,7 +232,7 @@ def _strip(r: Any, pot: Any, branch: Any, side: int, rows: int, half: int) -> li
     return made
 
 
-def _loop(r, pot, saddle, end, half):
+def _loop(r: Reduction, pot: Circle, saddle: Sequence[float], end: float, half: int):
     """The places of one loop: out above the saddle's rate, and back mirrored below."""
     out, back = [], []
     for n in range(half):
@@ -239,7 +244,7 @@ def _loop(r, pot, saddle, end, half):
     return out + back[-2::-1]
 
 
-def _state(r, pot, place, w):
+def _state(r: Reduction, pot: Circle, place: Sequence[float], w: float):
     x, z = pot.xz(place)
     state = [0.0] * 3
     state[r.j], state[r.k], state[r.axis] = float(r.component_j(x)), float(r.component_k(z)), float(

@@ -9,9 +9,11 @@ Whether two expressions are one: by symbols where SymPy can, else by their value
 and 80 digits."""
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 from itertools import combinations
+from typing import TYPE_CHECKING, Any
 
 from ...errors import InputError
 from ...physics.effects import effect_class
@@ -20,6 +22,11 @@ from ...physics.scene import Body, Scene
 from ...theories.printed.claims import FormulaError, Paper, Row, parse, sides
 from ...theories.printed.evaluate import Evaluator, Setting, Undefined, precise
 from . import measured
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+    from sympy import Expr
 
 # effect -> arguments that leave no parameter zero
 EFFECTS = {"gyrostat": ((2, 3, 5),), "constant_torque": ((2, 3, 5),), "charge": (2, 3, 5, "1/2"),
@@ -37,7 +44,7 @@ class System:
     set: dict
     time: str
 
-    def rate(self, expression):
+    def rate(self, expression: Expr):
         """Rate of an expression along the motion."""
         return sum((expression.diff(x) * r for x, r in zip(self.state, self.rates)), 0 * expression)
 
@@ -100,7 +107,7 @@ def _derived(paper, name, data, values, place):
                   data.get("time", "s"))
 
 
-def _scene(data, place):
+def _scene(data: Mapping[str, Any], place: str):
 
     effects = []
     for effect in data["effects"]:
@@ -115,14 +122,14 @@ def _put(expression, values):
     return expression.subs({s: values[s.name] for s in expression.free_symbols if s.name in values})
 
 
-def _read(paper, place, text):
+def _read(paper: Paper, place: str, text: str):
     try:
         return parse(text, paper.symbols)
     except FormulaError as error:
         raise FormulaError(f"{place}: {error}") from None
 
 
-def _symbol(paper, place, name):
+def _symbol(paper: Paper, place: str, name: str):
     if name not in paper.symbols:
         raise InputError(f"{place}: unknown symbol {name!r}; declare it under [symbols]")
     return paper.symbols[name]
@@ -138,7 +145,8 @@ def candidates(paper: Paper, row: Row) -> list[tuple[str, dict]]:
     return out
 
 
-def condition_of(paper: Paper, row: Row, pairs, setting: Setting) -> tuple[str, str]:
+def condition_of(paper: Paper, row: Row, pairs: Sequence[tuple[Expr, Expr]],
+                 setting: Setting) -> tuple[str, str]:
     """(condition, method) under which the pairs agree; ("", "") where none of the candidates helps. Singles
     are tried before pairs."""
     import mpmath
@@ -156,14 +164,15 @@ def condition_of(paper: Paper, row: Row, pairs, setting: Setting) -> tuple[str, 
     return "", ""
 
 
-def singles(paper: Paper, row: Row, pairs, setting: Setting) -> list[tuple[str, dict]]:
+def singles(paper: Paper, row: Row, pairs: Sequence[tuple[Expr, Expr]],
+            setting: Setting) -> list[tuple[str, dict]]:
     """(words, {name: expression}) of the single conditions that speak of symbols of the pairs."""
     standing = {s.name for s in free(pairs, setting)}
     return [(words, fixed)
             for words, fixed in candidates(paper, row) if fixed.keys() <= standing and _plain(fixed)]
 
 
-def _plain(fixed):
+def _plain(fixed: Mapping[str, Expr]):
     """Whether no fixed symbol stands in what another is fixed to."""
     return not any(s.name in fixed for value in fixed.values() for s in value.free_symbols)
 
@@ -187,12 +196,12 @@ def pairs(paper: Paper, row: Row, printed, setting: Setting) -> list:
             for left, right in CHECKS[row.kind](paper, row, printed, setting)]
 
 
-def raw(paper: Paper, formulas) -> list:
+def raw(paper: Paper, formulas: Sequence[str]) -> list:
     """The sides of typed formulas as SymPy trees."""
     return [sides(text, paper.symbols) for text in formulas]
 
 
-def bound_of(paper: Paper, row: Row, corrected=False) -> dict:
+def bound_of(paper: Paper, row: Row, corrected: bool = False) -> dict:
     """Symbol name -> what it stands for in this row."""
     where = row.where | row.corrected_where if corrected else row.where
     return {name: parse(text, paper.symbols)
@@ -203,7 +212,7 @@ def _holds(paper, row, printed, setting):
     return printed
 
 
-def _solves(paper, row, printed, setting):
+def _solves(paper: Paper, row: Row, printed: Sequence[tuple[Expr, Expr]], setting: Setting):
     """The printed functions of `variable`, put into the rates; `speed` is d variable / d time; `start` their
     values at 0."""
     system = setting.system
@@ -279,7 +288,8 @@ class Decision:
     method: str
 
 
-def decide(pairs, setting: Setting, seed: str, symbolic=True) -> Decision:
+def decide(pairs: Sequence[tuple[Expr, Expr]], setting: Setting, seed: str,
+           symbolic: bool = True) -> Decision:
     """Whether left equals right in every pair, for all values of the free symbols at which the domain is
     positive, under the condition of the setting."""
 
@@ -327,12 +337,12 @@ def residual(pairs, numbers, point, setting: Setting):
     return worst
 
 
-def _largest_term(value, expression):
+def _largest_term(value: Evaluator, expression: Expr):
     """Size of the largest term of a sum: what a difference of rounding is to be compared with."""
     return max((abs(value(term)) for term in expression.args), default=0) if expression.is_Add else 0
 
 
-def free(pairs, setting: Setting) -> list:
+def free(pairs: Sequence[tuple[Expr, Expr]], setting: Setting) -> list:
     """Symbols of the pairs and the domain that need a value, in order of their names."""
     import sympy as sp
 
@@ -350,13 +360,13 @@ def free(pairs, setting: Setting) -> list:
     return sorted(found, key=lambda s: s.name)
 
 
-def _apart(left, right, setting, chosen):
+def _apart(left: Expr, right: Expr, setting: Setting, chosen: Sequence[dict[str, Fraction]]):
     """Whether two expressions differ by so much at a point that no rounding of 50 digits makes up for it."""
     found = [residual([(left, right)], precise(DIGITS[0]), point, setting) for point in chosen]
     return any(r is not None and r > APART for r in found)
 
 
-def _same_in_symbols(left, right, setting, chosen):
+def _same_in_symbols(left: Expr, right: Expr, setting: Setting, chosen: Sequence[dict[str, Fraction]]):
     """Whether symbols show it; chosen: points at which expressions that differ plainly are separated before
     their terms are multiplied out."""
     import sympy as sp
@@ -386,7 +396,7 @@ def _same_in_symbols(left, right, setting, chosen):
 TEST_BOUND = 1e-12  # residuals of named tests: 30 digits or exact counts
 
 
-def order(paper: Paper, row: Row, pairs, setting: Setting) -> Decision:
+def order(paper: Paper, row: Row, pairs: Sequence[tuple[Expr, Expr]], setting: Setting) -> Decision:
     """Whether left - right falls like the stated power of the small symbol: halved thrice, watched."""
     small, claimed = row.options["small"], row.options["order"]
     symbols = [s for s in free(pairs, replace(setting, domain=())) if s.name != small]

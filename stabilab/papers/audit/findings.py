@@ -10,10 +10,11 @@ or doubled, a term left out."""
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import islice
+from typing import TYPE_CHECKING, Any
 
 from ...errors import InputError
 from ...numbers.units import unit_of
@@ -21,6 +22,9 @@ from ...theories.printed.claims import Paper, Row, parse
 from ...theories.printed.evaluate import Setting, Undefined
 from . import checks
 from .checks import bound_of, raw
+
+if TYPE_CHECKING:
+    from sympy import Expr
 
 
 # --- Whether the printed formulas of a row add like to like
@@ -43,7 +47,7 @@ def unit_fault(paper: Paper, row: Row) -> str:
     return ""
 
 
-def _time_of(paper, data):
+def _time_of(paper: Paper, data: Mapping[str, Any]):
     while "time" not in data and "follows" in data and "rates" not in data:
         data = paper.systems[data["follows"]]
     return data.get("time", "s")
@@ -64,7 +68,7 @@ def dimension(words: str) -> tuple:
     return unit_of(words).dimension[:len(BASE)]
 
 
-def times(first: tuple, second: tuple, power=1) -> tuple:
+def times(first: tuple, second: tuple, power: int | Fraction = 1) -> tuple:
     return tuple(a + b * power for a, b in zip(first, second))
 
 
@@ -73,7 +77,7 @@ def told(unit: tuple) -> str:
                     if power) or "no unit"
 
 
-def formula_unit(expression, units: dict, time: tuple):
+def formula_unit(expression: Expr, units: dict, time: tuple):
     """Dimension of a raw formula; units: symbol name -> dimension; time: dimension of the motion's time. None
     for a zero. Raises UnitFault."""
     import sympy as sp
@@ -157,7 +161,7 @@ def repairs(paper: Paper, row: Row, printed, setting: Setting) -> tuple[str, ...
 class _Trial:
     """Whether formulas pass a row's check: at two points in doubles, then with all digits."""
 
-    def __init__(self, paper, row, setting):
+    def __init__(self, paper: Paper, row: Row, setting: Setting):
         self.paper, self.row, self.setting = paper, row, setting
         every = [s for name, s in paper.symbols.items() if name not in setting.bound | setting.fixed]
         self.points = setting.points(every, row.equation, 2)
@@ -266,7 +270,7 @@ def _others(node, own, declared, top):
             yield sp.Add(*rest, -part)
 
 
-def _with_factors(node, own, top):
+def _with_factors(node: Expr, own: Sequence[Expr], top: bool):
     """A factor more, or one less, of a term."""
     import sympy as sp
 
@@ -280,7 +284,7 @@ def _with_factors(node, own, top):
         yield from (changed for factor in factors for changed in (node * factor, node / factor))
 
 
-def _siblings(symbol, declared):
+def _siblings(symbol: Expr, declared: Mapping[str, Expr]):
     """Declared symbols of the same stem: D2, D3 for D1."""
     stem = re.sub(r"\d+$", "", symbol.name)
     return [s for name, s in declared.items() if s != symbol and name != stem
@@ -364,7 +368,7 @@ def examine(paper: Paper, row: Row, search: bool = True) -> Finding:
     return _formula(paper, row, search)
 
 
-def _formula(paper, row, search):
+def _formula(paper: Paper, row: Row, search: bool):
     printed = checks.raw(paper, row.printed)
     setting = Setting(checks.bound_of(paper, row), checks.system_of(paper, row.system, row.place))
     pairs = checks.pairs(paper, row, printed, setting)
@@ -400,7 +404,7 @@ def _order_condition(paper, row, pairs, setting):
     return "", ""
 
 
-def _corrected(paper, row, setting):
+def _corrected(paper: Paper, row: Row, setting: Setting):
     """(words of the row's correction, its residual), "" where it has none. InputError where it fails the
     check as well."""
     if not row.corrected:
@@ -434,7 +438,7 @@ def _fixes(paper, row, printed, pairs, setting, condition):
     return (), ""
 
 
-def _decided(paper, row, pairs, setting) -> checks.Decision:
+def _decided(paper: Paper, row: Row, pairs: Sequence[tuple[Expr, Expr]], setting: Setting) -> checks.Decision:
     return (checks.order(paper, row, pairs, setting) if row.kind == "order"
             else checks.decide(pairs, setting, row.equation))
 

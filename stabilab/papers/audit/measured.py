@@ -4,7 +4,7 @@ claim, of the corrected one), with the arguments that a row gives."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import lru_cache
 
@@ -43,7 +43,7 @@ MEASURES = {"amplitude": lambda t, x: np.ptp(x) / 2, "end": lambda t, x: x[-1],
             "fall at the end": lambda t, x: x.max() - x[-1]}
 
 
-def missed(values, goes: str) -> int:
+def missed(values: Sequence[float], goes: str) -> int:
     """How many steps between neighbouring values do not go as the word says."""
     return sum(not GOES[goes](after - before, ROUNDING * max(abs(before), abs(after)))
                for before, after in zip(values, values[1:]))
@@ -400,7 +400,7 @@ def _radii(name):
     return [float(np.hypot(*circle(body, np.array(math.pi / body.spin)))) for body in bodies]
 
 
-def _circle_stays(family):
+def _circle_stays(family: str):
     return (missed(_radii(family), "stays"),) * 2
 
 
@@ -473,7 +473,7 @@ def _liquid_charge():
     return tuple(abs(_frequency(charged) / _frequency(other) - 1) for other in (plain, instead))
 
 
-def _turns_back(family):
+def _turns_back(family: str):
     """How many motions of a family have their largest phase at the end; how many have not."""
     grown = [fall == 0 for fall in measured(f"cavity {family}", "phase", "fall at the end")]
     return sum(grown), len(grown) - sum(grown)

@@ -6,22 +6,29 @@ import math
 import re
 import textwrap
 from collections import Counter
+from collections.abc import Mapping, Sequence
 from functools import reduce
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ...representation import values_of
 from ...show.report import html
 from ...show.report.formulas import inner
 from ...show.terminal import ALPHABET, lettered, some
-from ...theories.printed.claims import FormulaError
+from ...theories.printed.claims import FormulaError, Paper, Row
 from .checks import raw
 from .findings import VERDICTS
+
+if TYPE_CHECKING:
+    from types import SimpleNamespace
+
+    from sympy import Expr
 
 # --- Findings of the audit as text and JSON
 SCHEMA = "stabilab.audit/1"
 
 
-def as_dict(findings) -> dict:
+def as_dict(findings: Sequence[tuple[Paper, list[SimpleNamespace]]]) -> dict:
     """{"schema", "rows"} of (paper, findings) pairs."""
     return {"schema": SCHEMA,
             "rows": [_text_row(paper, finding) for paper, group in findings for finding in group]}
@@ -49,7 +56,7 @@ def _finite(value):
     return value if math.isfinite(value) else None
 
 
-def text(findings, width: int = 100) -> str:
+def text(findings: Sequence[tuple[Paper, list[SimpleNamespace]]], width: int = 100) -> str:
     """A paper's count of verdicts in a line, then a paragraph for each row."""
     parts = []
     for paper, group in findings:
@@ -68,7 +75,7 @@ def counted(verdict: str, count: int) -> str:
     return one if count == 1 else many
 
 
-def figures_of(finding, paper: str) -> tuple[str, str]:
+def figures_of(finding: SimpleNamespace, paper: str) -> tuple[str, str]:
     """(words, command that draws) of the figures which a row is about; ("", "") where it is about none. A
     wrong formula changes them: they are drawn as printed and in truth."""
     numbers = " ".join(map(str, finding.row.options.get("figures", ())))
@@ -107,7 +114,7 @@ SHORT = {"al": "alpha", "th": "theta", "ps": "psi", "ph": "phi", "gam": "gamma",
          "Lam": "Lambda", "ep": "eps"}
 
 
-def page(findings, path, **around) -> Path:
+def page(findings: Sequence[tuple[Paper, list[SimpleNamespace]]], path: Path, **around) -> Path:
     """The page of (paper, findings) pairs as a file; around: of the pages beside it (`html.render`)."""
     papers = [
         {"name": paper.name, "title": paper.title, "count": count(group),
@@ -123,18 +130,18 @@ def anchor(paper: str, equation: str) -> str:
     return f"{paper}-{re.sub(r'[^A-Za-z0-9-]+', '-', equation)}"
 
 
-def count(group) -> list[tuple[str, int]]:
+def count(group: Sequence[SimpleNamespace]) -> list[tuple[str, int]]:
     """(verdict, how many) in order."""
     found = Counter(f.verdict for f in group)
     return [(verdict, found[verdict]) for verdict in VERDICTS if found[verdict]]
 
 
-def counts(group) -> str:
+def counts(group: Sequence[SimpleNamespace]) -> str:
     """How many findings have which verdict, in words."""
     return ", ".join(f"{number} {counted(verdict, number)}" for verdict, number in count(group))
 
 
-def _row(paper, finding):
+def _row(paper: Paper, finding: SimpleNamespace):
     row = finding.row
     return {
         "equation": row.equation,
@@ -154,16 +161,16 @@ def _row(paper, finding):
     }
 
 
-def _in_full(condition) -> str:
+def _in_full(condition: str) -> str:
     """A condition with the whole names of the letters that its formulas abbreviate."""
     return re.sub(r"\b([A-Za-z]+?)(?=\d*\b)", lambda name: SHORT.get(name[1], name[1]), condition or "")
 
 
-def _texts(table):
+def _texts(table: Mapping[str, str]):
     return [f"{name} = {text}" for name, text in table.items()]
 
 
-def squares(row) -> tuple[str, ...]:
+def squares(row: Row) -> tuple[str, ...]:
     """The names of a row that stand for the square of their letter: those of the top's (10), which tells the
     squares of two frequencies."""
     return ("Om", "om") if {"Om", "om"} <= row.where.keys() else ()
@@ -194,7 +201,7 @@ def mathml(left, right, squares=()):
     return Markup(f'<math xmlns="http://www.w3.org/1998/Math/MathML">{body}</math>')
 
 
-def _readable(expression):
+def _readable(expression: Expr):
     """rate(f) as the operator d_t on f, a function, for a factor would cancel where two rates are divided;
     the other operators stand by their names."""
     import sympy as sp
@@ -204,7 +211,7 @@ def _readable(expression):
                               n=1: reduce(lambda of, _: rate(of), range(int(n)), f))
 
 
-def _name(name):
+def _name(name: str):
     """The name that SymPy typesets: a Greek letter, whole or abbreviated, with its number; else a stem with
     the letter or number that is its index."""
     letter = re.fullmatch(r"([A-Za-z]+?)_?(\d*)", name)

@@ -22,7 +22,7 @@ KINDS = panels.RATES | {"slow": ("Amplitude, spin and phase", (
     panels.history("phase", None, r"$\varphi$", "rad")))}
 
 
-def _lines(name, kind):
+def _lines(name: str, kind: str):
     """(row, columns) of every row of a figure."""
     columns = [replace(column, runs=runs)
                for column, runs in zip(panels.columns_of(FAMILIES[name], SPAN), runs_of(name))]
@@ -33,7 +33,7 @@ def _lines(name, kind):
 
 
 @lru_cache(maxsize=16)
-def _runs(file, variant) -> dict:
+def _runs(file: str, variant: str) -> dict:
     """model -> run of a case, the exact one with its amplitude, spin and phase: how the angle of (p, -q) goes
     on when p and q have died out is lost in p and q themselves."""
     runs, case = compared(file, variant, SPAN)[0], sweep(file)[variant]
@@ -41,7 +41,7 @@ def _runs(file, variant) -> dict:
     return runs | {"exact": replace(exact, state=exact.state | polar(case.scene, case.state, exact.t))}
 
 
-def runs_of(name) -> list[dict]:
+def runs_of(name: str) -> list[dict]:
     """model -> run of each value of a family, over the figures' span."""
     return [_runs(*case) for case in FAMILIES[name].cases.values()]
 
@@ -71,7 +71,7 @@ def radius(liquid) -> float:
     return (525 * liquid.P0 / (8 * math.pi)) ** (1 / 7)
 
 
-def _done(words="", own=False):
+def _done(words: str = "", own: bool = False):
     """own: whether each panel has limits of its own, and no column shows the printed curves alone."""
     scene = sweep("liquid-base")[""].scene
     liquid, body = scene.effect("liquid_cavity"), scene.body.inertia[2]

@@ -30,13 +30,13 @@ KINDS: dict[str, tuple[str, tuple[panels.Row, ...]]] = panels.RATES | {
 KINDS["circle"] = "Angular momentum by (35)", KINDS["momentum"][1]
 
 
-def _columns(name, span=SPAN, marked=True):
+def _columns(name: str, span: Span = SPAN, marked: bool = True):
     """A column for each value, marked where the tilt is no longer small."""
     marks = [float(horizon(body)) if marked else None for body in _bodies(name)]
     return [replace(c, mark=mark) for c, mark in zip(panels.columns_of(FAMILIES[name], span), marks)]
 
 
-def _lines(name, kind):
+def _lines(name: str, kind: str):
     """(row, columns) of every row of a figure; of "circle" with the momentum of (35) as the printed one."""
     columns = _columns(name)
     # ahead of the misprinted integrals the corrected motion is the printed one
@@ -96,34 +96,34 @@ def _direction(run):
 # -- captions, with their numbers
 
 
-def runs_of(name) -> list[dict]:
+def runs_of(name: str) -> list[dict]:
     """model -> run of each value of a family, over the figures' span."""
     return FAMILIES[name].runs(SPAN)
 
 
-def _bodies(name):
+def _bodies(name: str):
     return [body_of(case) for case in FAMILIES[name].members]
 
 
-def _state(family, model, part):
+def _state(family: str, model: str, part: str):
     return [np.asarray(runs[model].state[part]) for runs in runs_of(family)]
 
 
-def _rates(family, more=""):
+def _rates(family: str, more: str = ""):
     spins = listed([w[:, 2].max() for w in _state(family, "exact", "omega")], "{:.2f}")
     return ("p and q obey Euler's equations, which do not ask for small angles; the models hold r at r0, in "
             "truth it grows to "
             f"{spins} rad/s and shortens the period. The print adds a wrong frequency (8). {more}").rstrip()
 
 
-def _rates_by_torque(family):
+def _rates_by_torque(family: str):
     period = 2 * np.pi / abs(float(one_frequency(_bodies(family)[0]).root))
     return _rates(family,
                   "The text says that amplitude and wavelength fall with M1; by its own formulas the "
                   f"amplitude is proportional to M1 and the period, {period:.3g} s, does not change.")
 
 
-def _angles(family, more=""):
+def _angles(family: str, more: str = ""):
     tilts = [np.hypot(*a[:, :2].T).max() for a in _state(family, "printed", "angles")]
     until = dict.fromkeys(f"{float(horizon(b)):.2f}" for b in _bodies(family))
     return (f"The print lets the tilt of psi and phi swing to {listed(tilts)} rad as if it were small. In "
@@ -131,20 +131,20 @@ def _angles(family, more=""):
             f"phi runs on, and theta is not r0 t. {more}{_CUT}.")
 
 
-def _circle(family, more=""):
+def _circle(family: str, more: str = ""):
     radii = dict.fromkeys(f"{b.torque[0] / float(b.spin):.1f}" for b in _bodies(family))
     return (f"By (35) G runs on a circle of radius M1/r0 = {listed(radii, '{}')} kg m^2/s. It leaves out the "
             "charge, whose force does change the momentum, and holds while the torque keeps its direction in "
             f"the tilted body, some seconds. {more}").rstrip()
 
 
-def _by_33(family, more):
+def _by_33(family: str, more: str):
     return (
         f"By (33), {more} The exact momentum follows for some seconds only: the torque is fixed in the body, "
         f"and the body tips over.")
 
 
-def _misprinted(family, part, unit):
+def _misprinted(family: str, part: str, unit: str):
     """How far the misprinted integrals are off, and where they divide by little."""
     off = [np.abs(a - b).max()
            for a, b in zip(_state(family, "printed", part), _state(family, "corrected", part))]
@@ -155,7 +155,7 @@ def _misprinted(family, part, unit):
             + ("; the changes that the text describes fit the corrected ones. " if family != "M1" else ". "))
 
 
-def _speed(family, more=""):
+def _speed(family: str, more: str = ""):
     last = _state(family, "printed", "velocity")[0][-1, 2]
     largest = max(np.abs(v).max() for v in _state(family, "exact", "velocity"))
     return (f"{_NAMED}Small angles keep the thrust of 3 N along z1: the print has v3 = 0.3 t, {last:.3g} m/s "
@@ -163,7 +163,7 @@ def _speed(family, more=""):
             f"{more}{_misprinted(family, 'velocity', 'm/s')}{_THIN}")
 
 
-def _way(family, more=""):
+def _way(family: str, more: str = ""):
     printed = _state(family, "printed", "position")
     true = [x[-1, 2] for x in _state(family, "exact", "position")]
     start = [float(np.hypot(*x[0, :2])) for x in printed]

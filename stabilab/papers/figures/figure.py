@@ -4,9 +4,10 @@ the exact motion."""
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -61,7 +62,7 @@ class Figure:
         return f"stabilab figures{f' --paper {self.paper}' if self.paper else ''} {self.number} --out figures"
 
 
-def listed(values, form="{:.3g}") -> str:
+def listed(values: Sequence[float] | Mapping[str, Any], form: str = "{:.3g}") -> str:
     """Numbers in words: "1.2, 3.4 and 5.6"."""
     words = [form.format(v) for v in values]
     return f"{', '.join(words[:-1])} and {words[-1]}" if len(words) > 1 else "".join(words)

@@ -192,13 +192,13 @@ def _case():
     return sweep(CASE)[""]
 
 
-def printed_energy(radius, alpha, side):
+def printed_energy(radius: float, alpha: np.ndarray, side: str):
     """x^2/2 on the separatrix by the printed (26) and (27), b = 0."""
     level = table.height(radius, 0.0)
     return level(table.saddle(radius, SIDES[side])) - level(alpha)
 
 
-def printed_31(x1, x2, x3, side):
+def printed_31(x1: np.ndarray, x2: np.ndarray, x3: np.ndarray, side: str):
     """The left side of the printed (31), b = 0; tan^-1(x1/x2) goes on as an angle from the saddle."""
     square = x1**2 + x2**2
     turn = np.arctan2(x1, x2) - (np.pi if side == "right" else 0.0)
@@ -224,7 +224,7 @@ def true_surfaces() -> dict:
     return {table.side(branch): branch for branch in separatrix(_case().scene, reach=REACH).branches}
 
 
-def printed_ends(side) -> np.ndarray:
+def printed_ends(side: str) -> np.ndarray:
     """Where the printed (31) meets the plane x3 = 0: the line of saddles inward, the far ends of the loops
     outward; (n, 2)."""
     from scipy.optimize import brentq

@@ -1,6 +1,9 @@
 """Figures 16-17 of Amer et al. 2024: torque on the middle axis, where its data have no separatrix at all."""
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from ...orbit.phase_plane import motion_curve, phase_plane
@@ -9,6 +12,11 @@ from .. import table
 from .figure import PRINTED, farthest, level_curves, listed, within
 from .minor_axis import branches
 from .minor_axis import exactness as of_branches
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+    from ...physics.scene import ScaledGyrostat
 
 LAMBDA_BEYOND = 1250  # c = b - a = 2.5, beyond the cusp 1.7548: there a figure-eight separatrix does exist
 LEVEL = 3.93          # printed for Fig. 17
@@ -30,16 +38,16 @@ def printed_energy(scene, x1, x3):
                 - 2 * np.arctanh(2 * x1**2 * x3**2 / (x1**2 + x3**2)))
 
 
-def printed_level(scene) -> list:
+def printed_level(scene: ScaledGyrostat) -> list:
     """Where the printed (71) is `LEVEL` for x2 = 0: curves (n, 2) of x1 and x3, traced in u and sigma, in
     which they are smooth: x1 = +-R cosh u, x3 = +-R sinh u, R^2 = 2 tanh sigma cosh 2u/sinh^2 2u, where tanh
     sigma is what the print has under its tanh^-1."""
-    def place(log_u, log_sigma):
+    def place(log_u: np.ndarray, log_sigma: np.ndarray):
         u = np.exp(log_u)
         R = np.sqrt(2 * np.tanh(np.exp(log_sigma)) * np.cosh(2 * u)) / np.sinh(2 * u)
         return R, u
 
-    def energy(log_u, log_sigma):
+    def energy(log_u: np.ndarray, log_sigma: np.ndarray):
         R, u = place(log_u, log_sigma)
         return (R**2 + 2 * (scene.a + scene.b) * R) * np.cosh(2 * u) - 2 * np.exp(log_sigma)
 
@@ -51,7 +59,7 @@ def printed_level(scene) -> list:
     return curves
 
 
-def true_level(scene) -> list:
+def true_level(scene: ScaledGyrostat) -> list:
     """Where the true integral 2 x2^2 + (x1+b)^2 + x3^2 - 4c (x1+b) - 4 atanh(x3/(x1+b)) is `LEVEL` for x2 =
     0: the roots R of a quadratic at x1 + b = +-R cosh u, x3 = R sinh u."""
     c, curves = scene.b - scene.a, []
@@ -105,14 +113,14 @@ def path_departure() -> str:
 HEIGHTS = np.geomspace(0.05, 20, 4000)  # of x3 on the equilibria that are drawn
 
 
-def _tube(scene, state):
+def _tube(scene: ScaledGyrostat, state: Sequence[float]):
     """The closed curve of the motion through a state: states (n, 3)."""
     plane = phase_plane(scene, state)
     ys, Ws = motion_curve(plane, -8.0, 8.0)
     return np.concatenate([plane.states(ys, Ws), plane.states(ys[::-1], -Ws[::-1])])
 
 
-def surfaces(plt):
+def surfaces(plt: ModuleType):
     """Fig. 16."""
     figure = plt.figure(figsize=(11.4, 6.0), layout="constrained")
     left = figure.add_subplot(1, 2, 1, projection="3d")
@@ -194,7 +202,7 @@ def _one_eight(ax, left, right):
         ax.plot(*_upright(points), zorder=5, **EIGHT_LINE)
 
 
-def projections(plt):
+def projections(plt: ModuleType):
     """Fig. 17: four values of lambda1 to one scale."""
     figure, axes = plt.subplots(1, 4, figsize=(14.0, 4.7), layout="constrained", sharey=True)
     for ax, lam in zip(axes, (*table.LAMBDAS, LAMBDA_BEYOND)):

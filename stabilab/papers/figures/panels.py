@@ -8,15 +8,21 @@ panels than six are divided among several pictures.
 """
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from textwrap import fill
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...show import style
 from ...show.text import cost
 from ..families import Family, Span, compared
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from ...answers.simulate import Simulation
 
 TIME = "$t$ (s)"
 # How each model is drawn: the pale ones are broad and lie under the exact motion, the others over it, so that
@@ -159,7 +165,7 @@ def _entries(lines, words, mark_words) -> list:
     return rows + [("alone, thin: corrected integrals", BESIDE[1])] * thin
 
 
-def _refused(column, words) -> str:
+def _refused(column: Column, words: Mapping[str, str]) -> str:
     """Which models have no curve in a column, and why, as lines of its heading."""
     why = {reason.split(": ")[0]: [words[m] for m, other in column.refused.items() if other == reason]
            for reason in column.refused.values()}
@@ -178,14 +184,14 @@ def _ending(ax, column):
                   fontsize=7.5, loc="best")
 
 
-def _picked(row, columns, model) -> list:
+def _picked(row: Row, columns: Sequence[Column], model: str) -> list:
     """(heading, x, y) of every column's curve of a model."""
     picked = ((c.heading, row.pick(c.runs[model])) for c in columns if model in c.runs)
     return [(heading, *(np.asarray(v, float) for v in xy))
             for heading, xy in picked if xy is not None and len(xy[0])]
 
 
-def _leaves(row, columns) -> bool:
+def _leaves(row: Row, columns: Sequence[Column]) -> bool:
     """Whether a printed curve leaves the limits that the columns share."""
     limits = _window(row, columns)
     return any(cost.beyond(v, *ends) for _, *xy in _picked(row, columns, "printed")
@@ -223,13 +229,13 @@ def _panel(ax, row, column, limits):
         ax.set_aspect("equal", adjustable="box")
 
 
-def _curve(row, column, name):
+def _curve(row: Row, column: Column, name: str):
     """(x, y) of a model's curve in a column, or None where it has none."""
     picked = row.pick(column.runs[name]) if name in column.runs else None
     return None if picked is None else tuple(np.asarray(v, float) for v in picked)
 
 
-def _cuts(row, column, limits) -> list[tuple[str, str]]:
+def _cuts(row: Row, column: Column, limits: Sequence[tuple[float, float]]) -> list[tuple[str, str]]:
     """(model, words how far it goes) of every curve of a panel that leaves its limits, upwards, downwards or
     sideways."""
     found = []
@@ -245,19 +251,19 @@ def _cuts(row, column, limits) -> list[tuple[str, str]]:
     return found
 
 
-def _tell_cuts(ax, cuts):
+def _tell_cuts(ax: Axes, cuts: Sequence[tuple[str, str]]):
     """Above a panel, how far each curve goes that leaves it, in its colour."""
     for n, (name, words) in enumerate(cuts):
         ax.annotate(words, (1.0, 1.01), (0, LINE * n), xycoords="axes fraction", textcoords="offset points",
                     color=INK[name], ha="right", va="bottom", fontsize=8.6)
 
 
-def _bare(label) -> str:
+def _bare(label: str) -> str:
     """The label of an axis without its unit."""
     return label.split(" (")[0]
 
 
-def _window(row, columns):
+def _window(row: Row, columns: Sequence[Column]):
     """Limits of both axes; for a plane of one scale a square."""
     limits = [_limits(row, columns, axis) for axis in (0, 1)]
     if not row.equal:
@@ -266,7 +272,7 @@ def _window(row, columns):
     return [((low + high - side) / 2, (low + high + side) / 2) for low, high in limits]
 
 
-def _limits(row, columns, axis):
+def _limits(row: Row, columns: Sequence[Column], axis: int):
     """Limits of one axis for a whole row: the exact motion's, stretched for models that stay near it."""
     if row.limits is not None:
         return row.limits[axis]
@@ -292,7 +298,7 @@ def _limits(row, columns, axis):
 def history(part, component, label, unit):
     """A Row of one component of a part of the state over time; component None: of a part that is one number.
     """
-    def pick(run):
+    def pick(run: Simulation):
         if part not in run.state:
             return None
         values = np.asarray(run.state[part])
@@ -302,7 +308,7 @@ def history(part, component, label, unit):
 
 def phase(part, component, label, unit):
     """A Row of one component against its own rate (differences over the times of the run)."""
-    def pick(run):
+    def pick(run: Simulation):
         if part not in run.state or len(run.t) < 3:
             return None
         y = np.asarray(run.state[part])[:, component]
@@ -326,7 +332,7 @@ RATES = {"rates": ("Angular velocities", histories("omega", ("$p$", "$q$"), "rad
 
 def plane(part, first, second, labels, unit, equal=True):
     """A Row of one component of a part of the state against another."""
-    def pick(run):
+    def pick(run: Simulation):
         if part not in run.state:
             return None
         values = np.asarray(run.state[part])

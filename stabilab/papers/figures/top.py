@@ -29,7 +29,7 @@ KINDS = {"histories": ("Histories", tuple(panels.history(*row) for row in SIX)),
                     panels.histories("euler", (r"$\theta$", r"$\varphi$", r"$\psi$"), "rad"))}
 
 
-def _lines(name, kind):
+def _lines(name: str, kind: str):
     """(row, columns) of every row of a figure."""
     family, seen = FAMILIES[name], _with_angles if kind == "angles" else _scaled
     columns = [replace(column, runs=seen(*case))
@@ -46,12 +46,12 @@ def _units() -> tuple[np.ndarray, float]:
 
 
 @lru_cache(maxsize=8)
-def _scaled(file, variant):
+def _scaled(file: str, variant: str):
     """The runs of a case in the paper's variables p1, q1, r1, and gamma1, gamma1', gamma1'' in thousands;
     times in s."""
     rates, vertical = _units()
 
-    def scaled(state):
+    def scaled(state: dict[str, np.ndarray]):
         return state | {"omega": np.asarray(state["omega"]) / rates,
                         "gamma": np.asarray(state["gamma"]) / (1000 * vertical)}
     return {model: replace(run, state=scaled(run.state))
@@ -71,11 +71,11 @@ def _with_angles(file, variant):
     return found
 
 
-def _runs(family):
+def _runs(family: str):
     return FAMILIES[family].runs(SPAN)
 
 
-def _fast(family, more=""):
+def _fast(family: str, more: str = ""):
     """The caption of every figure: what is wrong with the data."""
     case = sweep("top-lx30-lz30")[""]
     top = fast_top(case.scene, {"omega": case.state, "gamma": case.blocks["gamma"]})
@@ -88,7 +88,7 @@ def _fast(family, more=""):
             "the last panels have the printed curves alone.")
 
 
-def _unit(family, more=""):
+def _unit(family: str, more: str = ""):
     printed = [runs["printed"].state for runs in _runs(family)]
     length = max(np.linalg.norm(s["gamma"], axis=1).max() for s in printed)
     r = min(s["omega"][:, 2].min() for s in printed)
@@ -97,7 +97,7 @@ def _unit(family, more=""):
                  f"rad/s. {more}") + _variables()
 
 
-def _free(family):
+def _free(family: str):
     return _fast(family,
                  "The text calls the closed printed curves stable and free of chaos; the true curves do not "
                  "close. ") + (f"{_variables()} Rates are per second; the paper's dot, the rate in tau = "
@@ -111,7 +111,7 @@ def _variables():
             f"r1 of r0 = {spin:g} rad/s, gamma1, gamma1' and gamma1'' of gamma0'' = {vertical:g}.")
 
 
-def _nutation(family):
+def _nutation(family: str):
     runs = [_with_angles(*case) for case in FAMILIES[family].cases.values()]
     swing = max(np.ptp(run["exact"].state["euler"][:, 1]) for run in runs)
     r0 = _runs(family)[0]["exact"].state["omega"][0, 2]

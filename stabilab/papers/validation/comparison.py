@@ -2,19 +2,23 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from ...errors import InputError
-from ...numbers.balls import working
+from ...numbers.balls import Digits, working
 from ...physics.effects.constant_torque import ConstantTorque
 from ...physics.scene import Body, Scene
 from ...representation import values_of
 from ...show.report import html
 from . import quantities
-from .quantities import BALL_BITS, WORDS, at, reproduced
+from .quantities import BALL_BITS, WORDS, At, at, reproduced
+
+if TYPE_CHECKING:
+    from flint import arb
 
 # --- Public numbers of other tools as data: motions, and what was printed of each (`numbers/*.toml`)
 FOLDER = Path(__file__).parent / "numbers"
@@ -113,7 +117,7 @@ def source(name: str) -> Source:
                   printed)
 
 
-def _motion(row):
+def _motion(row: Mapping[str, Any]):
     wheels = row.get("wheels")
     if wheels:
         wheels = Wheels(Fraction(wheels["momentum"]), _vector(wheels["speed"]), _vector(wheels["motor"]),
@@ -125,7 +129,7 @@ def _motion(row):
                   row.get("against_momentum", False), wheels, row.get("case", ""))
 
 
-def _vector(texts):
+def _vector(texts: Sequence[str]):
     return tuple(map(Fraction, texts))
 
 
@@ -189,7 +193,7 @@ def findings(source: Source, tell: Callable[[int, str], None] | None = None) -> 
     return tuple(found)
 
 
-def _row(printed, row, followed):
+def _row(printed: Printed, row: Sequence[str], followed: Mapping[Fraction, At]):
     time, motion = Fraction(row[0]), printed.motion
     with working(BALL_BITS) as numbers:
         balls = getattr(quantities, printed.quantity)(motion, followed[time], numbers)
@@ -199,7 +203,8 @@ def _row(printed, row, followed):
                 for one in zip(COMPONENTS[printed.quantity], balls, row[1:], again)]
 
 
-def _judged(printed, time, component, ball, theirs, again, numbers):
+def _judged(printed: Printed, time: str, component: str, ball: arb, theirs: str, again: float | None,
+            numbers: Digits):
     value = numbers.ball(Fraction(theirs))
     difference = float(numbers.upper(ball - value))
     tolerance = float(printed.tolerance * abs(Fraction(theirs)) if printed.relative else printed.tolerance)
@@ -225,7 +230,7 @@ def as_dict(validated) -> dict:
                         for source, found in validated]}
 
 
-def _source(source):
+def _source(source: Source):
     return {"source": source.name} | values_of(source, "title repository commit licence about")
 
 
@@ -237,7 +242,7 @@ def _value(source, one):
             "verdict": one.verdict, "cause": one.explanation, "left": one.left}
 
 
-def counts(found) -> str:
+def counts(found: Sequence[Finding]) -> str:
     """How many values have which verdict, in words."""
     number = Counter(one.verdict for one in found)
     told = {"agrees": "agree", "explained": "differ for a known cause", "differs": "differ"}
@@ -292,7 +297,7 @@ def _short(decimal: str) -> str:
     return f"{number.normalize():.14g}" if number else "0"
 
 
-def _tolerance(printed):
+def _tolerance(printed: Printed):
     return f"{float(printed.tolerance):.2g}{' relative' * printed.relative}"
 
 
@@ -303,7 +308,7 @@ def unexplained(validated) -> list[str]:
             for source, found in validated for one in found if one.verdict == "differs"]
 
 
-def grouped(found) -> list[list]:
+def grouped(found: Sequence[Finding]) -> list[list]:
     """The findings of each set of printed values."""
     groups: dict = {}
     for one in found:
@@ -311,7 +316,7 @@ def grouped(found) -> list[list]:
     return list(groups.values())
 
 
-def cause(group) -> str:
+def cause(group: Sequence[Finding]) -> str:
     """What explains the values of a set that are farther off than their tolerance: its worst remainder; empty
     where there is none."""
     explained = [one for one in group if one.verdict == "explained"]
@@ -327,7 +332,7 @@ def page(validated, path, **around) -> Path:
                       sources=sources, **around)
 
 
-def _group(source, group):
+def _group(source: Source, group: Sequence[Finding]):
     printed = group[0].printed
     return {"printed": printed, "url": source.url(printed.file), "tolerance": _tolerance(printed),
             "rows": group, "cause": cause(group)}

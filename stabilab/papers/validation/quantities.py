@@ -15,17 +15,24 @@ coefficient over the box bounds the remainder.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from operator import mul
+from typing import TYPE_CHECKING
 
 from ...answers.attitude import attitude
 from ...answers.circular_orbit import circular_orbit
 from ...answers.limit import flow_of
 from ...case.read import load
-from ...numbers.balls import working
+from ...numbers.balls import Digits, working
 from ...numbers.vectors import CYCLE, cross, dot
 from ...physics.own_unit import exact_unit
+
+if TYPE_CHECKING:
+    from flint import arb
+
+    from ...integrate.crossing import Piece
 
 
 def reproduced(printed, time: float, rates=None) -> list[float]:
@@ -77,7 +84,7 @@ WORDS = {"rk4": "the classical Runge-Kutta rule of order 4 at {step} s",
                      "h^2/24 omega'')"}
 
 
-def _half_a_step_later(rates, omega, step):
+def _half_a_step_later(rates: Callable[[list[float]], list[float]], omega: Sequence[float], step: float):
     """The exact rates half a step later less step^2 omega''/24: what differences over whole steps, centred,
     make of them."""
     (later, _), tiny = rk4(rates, omega, step / 2), step / 8
@@ -94,7 +101,7 @@ def _rates(motion):
 def _rates_and_attitude(motion):
     spin = _rates(motion)
 
-    def rates(x):
+    def rates(x: Sequence[float]):
         s, w = x[:3], x[3:]
         square, along = sum(v * v for v in s), sum(a * b for a, b in zip(s, w))
         return [*(0.25 * ((1 - square) * a + 2 * b + 2 * along * c) for a, b, c in zip(w, cross(s, w), s)),
@@ -134,7 +141,7 @@ def wheels_at(motion, times) -> list:
     return found
 
 
-def _step(moments, motor, state, length):
+def _step(moments: Sequence[arb], motor: Sequence[arb], state: Sequence[arb], length: arb):
     from flint import arb
     within, box = arb(length / 2, length / 2), state
     while True:
@@ -153,7 +160,7 @@ def _step(moments, motor, state, length):
     return found
 
 
-def _series(moments, motor, state, order):
+def _series(moments: Sequence[arb], motor: Sequence[arb], state: Sequence[arb], order: int):
     """Taylor coefficients 0..order of every component."""
     rows = [[v] for v in state]
     product = lambda a, b, n: sum(map(mul, rows[a], reversed(rows[b][:n + 1])))
@@ -197,7 +204,7 @@ def at(motion, times) -> list[At]:
         return [At(time, tuple(one[0]), _rows(one[1], two[1])) for time, one, two in zip(times, *runs)]
 
 
-def _rows(first, second):
+def _rows(first: Sequence[arb], second: Sequence[arb]):
     columns = first, second, cross(first, second)
     return tuple(tuple(column[i] for column in columns) for i in range(3))
 
@@ -232,7 +239,7 @@ def _attempt(motion, times, axis, bits):
     return found, lost
 
 
-def values_of(piece, now, numbers) -> list:
+def values_of(piece: Piece, now: arb, numbers: Digits) -> list:
     """The components of a piece at a time of the motion's own, a ball; balls, while `numbers` is the working
     kind."""
     from flint import arb
@@ -262,7 +269,7 @@ def libration_periods(motion, at: At, numbers) -> list:
     return [_closed(2 * math.pi / rate / DAY, numbers) for rate in first.frequencies[:2]]
 
 
-def _closed(value: float, numbers):
+def _closed(value: float, numbers: Digits):
     return numbers.around(numbers.ball(Fraction(value)), numbers.ball(Fraction(value) * CLOSED))
 
 
@@ -302,7 +309,7 @@ def _against_momentum(motion, numbers):
     return [[column[i] for column in (first, second, third)] for i in range(3)]
 
 
-def _unit(vector):
+def _unit(vector: Sequence[arb]):
     length = dot(vector, vector).sqrt()
     return [v / length for v in vector]
 

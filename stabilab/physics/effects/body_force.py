@@ -3,12 +3,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...numbers.exact import floats
 from ...numbers.units import FORCE, vector_in_si
 from ...numbers.vectors import Exact3, Given, Number, Triple
 from .base import Effect
+
+if TYPE_CHECKING:
+    from ..equations import MotionView
 
 
 @dataclass(frozen=True)
@@ -37,5 +40,5 @@ class BodyForce(Effect):
             return None
         return super().from_case(table, context)
 
-    def force(self, motion: Any, p: Mapping[str, Number]) -> Triple:
+    def force(self, motion: MotionView, p: Mapping[str, Number]) -> Triple:
         return tuple(p[name] for name in self.symbols)

@@ -4,13 +4,19 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...errors import InputError
 from ...numbers.exact import exact, precise
 from ...numbers.units import ANGLE, CHARGE, FLUX, LENGTH, in_si
 from ...numbers.vectors import Given, Number, Triple, cross
 from .base import Effect, Limit
+
+if TYPE_CHECKING:
+    from types import SimpleNamespace
+
+    from ..equations import MotionView
+    from ..scene import Scene
 
 SHARE = 0.1  # of the torque, by which a constant angle may be wrong
 
@@ -73,7 +79,7 @@ class Charge(Effect):
         """A constant angle is an assumption about the motion."""
         return not self.follows_attitude
 
-    def limits(self, scene: Any) -> tuple[Limit, ...]:
+    def limits(self, scene: Scene) -> tuple[Limit, ...]:
         """How far cos sigma of the motion, e3 . (axis 3 of space, the field's), is from the constant one;
         given where the attitude is known, or gamma, which is axis 3 of space in the body."""
         if self.follows_attitude:
@@ -98,14 +104,14 @@ class Charge(Effect):
     def parameters(self) -> dict[str, Fraction]:
         return {"eHl2" if self.follows_attitude else "k": self.exact}
 
-    def _strength(self, motion: Any, p: Mapping[str, Number]) -> Number:
+    def _strength(self, motion: SimpleNamespace | MotionView, p: Mapping[str, Number]) -> Number:
         return p["eHl2"] * motion.gamma[2] if self.follows_attitude else p["k"]
 
-    def torque_along(self, motion: Any, p: Mapping[str, Number]) -> Triple:
+    def torque_along(self, motion: SimpleNamespace | MotionView, p: Mapping[str, Number]) -> Triple:
         k = self._strength(motion, p)
         return cross(motion.omega, (0, 0, k))
 
-    def area(self, motion: Any, p: Mapping[str, Number]) -> Number:
+    def area(self, motion: MotionView, p: Mapping[str, Number]) -> Number:
         """gamma3' = gamma . (omega x e3), so the torque's share is k gamma3, or e H l^2 gamma3^2/2."""
         if self.follows_attitude:
             return p["eHl2"] * motion.gamma[2] ** 2 / 2

@@ -4,12 +4,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...errors import InputError
 from ...numbers.units import EDDY, FLUX, in_si
 from ...numbers.vectors import Given, Number, Triple, cross
 from .base import Effect
+
+if TYPE_CHECKING:
+    from types import SimpleNamespace
+
+    from ..equations import MotionView
 
 
 @dataclass(frozen=True)
@@ -57,8 +62,8 @@ class EddyCurrents(Effect):
         k, B = self.exact
         return {"kB2": k * B * B}
 
-    def torque_along(self, motion: Any, p: Mapping[str, Number]) -> Triple:
+    def torque_along(self, motion: SimpleNamespace | MotionView, p: Mapping[str, Number]) -> Triple:
         return tuple(p["kB2"] * t for t in cross(cross(motion.omega, motion.gamma), motion.gamma))
 
-    def area(self, motion: Any, p: Mapping[str, Number]) -> Number:
+    def area(self, motion: MotionView, p: Mapping[str, Number]) -> Number:
         return 0 * motion.gamma[0]

@@ -3,13 +3,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...numbers.exact import exact, floats
 from ...numbers.principal import PrincipalAxes
 from ...numbers.units import FORCE, LENGTH, in_si, vector_in_si
 from ...numbers.vectors import Exact3, Float3, Given, Number, Triple, cross, dot
 from .base import Effect
+
+if TYPE_CHECKING:
+    from types import SimpleNamespace
+
+    from ..equations import MotionView
 
 
 @dataclass(frozen=True)
@@ -47,11 +52,11 @@ class Gravity(Effect):
     def _arm(self, p: Mapping[str, Number]) -> Triple:
         return tuple(p[name] for name in self.symbols)
 
-    def torque_along(self, motion: Any, p: Mapping[str, Number]) -> Triple:
+    def torque_along(self, motion: SimpleNamespace | MotionView, p: Mapping[str, Number]) -> Triple:
         return cross(self._arm(p), motion.gamma)
 
-    def potential(self, motion: Any, p: Mapping[str, Number]) -> Number:
+    def potential(self, motion: MotionView, p: Mapping[str, Number]) -> Number:
         return -dot(self._arm(p), motion.gamma)
 
-    def area(self, motion: Any, p: Mapping[str, Number]) -> Number:
+    def area(self, motion: MotionView, p: Mapping[str, Number]) -> Number:
         return 0 * motion.gamma[0]

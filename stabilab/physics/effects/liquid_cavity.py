@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from math import pi
 from types import SimpleNamespace
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...errors import InputError
 from ...numbers.exact import precise
@@ -14,9 +14,13 @@ from ...numbers.units import DENSITY, LENGTH, LENGTH_7, VISCOSITY, in_si
 from ...numbers.vectors import Given, Number, Triple, cross, cross_matrix, dot
 from .base import Effect, Limit
 
+if TYPE_CHECKING:
+    from ..equations import MotionView
+    from ..scene import Scene
+
 
 # --- How fast a scene's motion goes: the rate by which the series behind an approximate law is judged
-def pace(scene: Any, state: Mapping[str, Sequence[Number]], without: Effect) -> Number:
+def pace(scene: Scene, state: Mapping[str, Sequence[Number]], without: Effect) -> Number:
     """The fastest rate of the motion at a state, 1/s, for any shape of its components; `without`: the effect
     that asks.
 
@@ -131,7 +135,7 @@ class LiquidCavity(Effect):
     def written(self) -> dict[str, Any]:
         return {"density": self.density, "viscosity": self.viscosity, "P0": self.P0, "torque": self.law}
 
-    def torque_along(self, motion: Any, p: Mapping[str, Number]) -> Triple:
+    def torque_along(self, motion: SimpleNamespace | MotionView, p: Mapping[str, Number]) -> Triple:
         first, second = motion.undisturbed(free=self.law == "printed")
         return tuple(p["kappa"] * (a + b) for a, b in zip(second, cross(motion.omega, first)))
 
@@ -145,7 +149,7 @@ class LiquidCavity(Effect):
         """Moment of inertia of the liquid as if frozen, kg m^2: part of the body's."""
         return 8 * pi / 15 * self.density * self.radius**5
 
-    def limits(self, scene: Any) -> tuple[Limit, ...]:
+    def limits(self, scene: Scene) -> tuple[Limit, ...]:
         """Three numbers, with n the pace of the motion (`pace`), h the radius, D the least moment.
 
         Seen from space the liquid's angular momentum is a series in h^2 d/dt/nu: with z^2 = h^2 s/nu, a

@@ -4,12 +4,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...errors import InputError
 from ...numbers.units import LENGTH, PER_SECOND_2, in_si
 from ...numbers.vectors import Given, Number, Triple, cross
 from .base import Effect, Limit
+
+if TYPE_CHECKING:
+    from types import SimpleNamespace
+
+    from ..equations import MotionView
+    from ..scene import Scene
 
 # size over distance at which the next term of the field's torque is a tenth or so of the one that is kept
 SMALL = 0.1
@@ -64,7 +70,7 @@ class NewtonianField(Effect):
         """Whether its distance is known."""
         return self.distance is not None
 
-    def limits(self, scene: Any) -> tuple[Limit, ...]:
+    def limits(self, scene: Scene) -> tuple[Limit, ...]:
         """Size over distance; the size is sqrt(largest moment/mass). The mass is the body's, or that which
         the weight tells: g = N R/3 where the same centre pulls. None without either."""
         mass, gravity = scene.body.mass, scene.effect("gravity")
@@ -84,12 +90,12 @@ class NewtonianField(Effect):
         distance = Fraction(self.distance)
         return {"lambda": self.exact * distance**3 / 3, "R": distance}
 
-    def torque_along(self, motion: Any, p: Mapping[str, Number]) -> Triple:
+    def torque_along(self, motion: SimpleNamespace | MotionView, p: Mapping[str, Number]) -> Triple:
         spread = tuple(d * g for d, g in zip(motion.D, motion.gamma))
         return tuple(p["N"] * t for t in cross(motion.gamma, spread))
 
-    def potential(self, motion: Any, p: Mapping[str, Number]) -> Number:
+    def potential(self, motion: MotionView, p: Mapping[str, Number]) -> Number:
         return p["N"] * sum(d * g**2 for d, g in zip(motion.D, motion.gamma)) / 2
 
-    def area(self, motion: Any, p: Mapping[str, Number]) -> Number:
+    def area(self, motion: MotionView, p: Mapping[str, Number]) -> Number:
         return 0 * motion.gamma[0]

@@ -4,12 +4,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...errors import InputError
 from ...numbers.units import PER_SECOND, in_si
 from ...numbers.vectors import Given, Number, Triple
 from .base import Effect
+
+if TYPE_CHECKING:
+    from types import SimpleNamespace
+
+    from ..equations import MotionView
 
 
 @dataclass(frozen=True)
@@ -39,5 +44,5 @@ class Resistance(Effect):
         value = table.positive("coefficient", zero=True) if table.required("coefficient") else None
         return None if value is None else cls(value)
 
-    def torque_along(self, motion: Any, p: Mapping[str, Number]) -> Triple:
+    def torque_along(self, motion: SimpleNamespace | MotionView, p: Mapping[str, Number]) -> Triple:
         return tuple(-p["zeta"] * d * w for d, w in zip(motion.D, motion.omega))

@@ -4,12 +4,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...errors import InputError
 from ...numbers.units import INERTIA, MOMENTUM, in_si
 from ...numbers.vectors import Given, Number, Triple, cross, dot
 from .base import Effect, Part
+
+if TYPE_CHECKING:
+    from types import SimpleNamespace
+
+    from ..equations import MotionView
+    from ..scene import Body
 
 
 @dataclass(frozen=True)
@@ -65,14 +71,14 @@ class ViscousDamper(Effect):
     def written(self) -> dict[str, Any]:
         return dict(zip(self.keys, self.exact))
 
-    def refused_by(self, body: Any) -> str:
+    def refused_by(self, body: Body) -> str:
         least = min(body.exact)
         return "" if self.exact[0] < least else (
             f"the sphere's moment of inertia, {float(self.exact[0]):.6g} kg m^2, must be smaller than every "
             f"principal moment of the body, which hold it: the least is {float(least):.6g}; give the moments "
             "of the whole, or a smaller sphere")
 
-    def part(self, motion: Any, p: Mapping[str, Number]) -> Part:
+    def part(self, motion: SimpleNamespace | MotionView, p: Mapping[str, Number]) -> Part:
         k, c, sigma, omega = p["kd"], p["cd"], motion.damper, motion.omega
 
         def rate(change: Triple) -> Triple:

@@ -5,7 +5,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...errors import Caveat, InputError, Kind
 from ...numbers.exact import floats
@@ -14,6 +14,11 @@ from ...numbers.units import TIME, TORQUE, in_si, vector_in_si
 from ...numbers.vectors import Exact3, Given, Number, cross, dot
 from ...reasons import Sentence
 from .base import Effect, Part
+
+if TYPE_CHECKING:
+    from types import SimpleNamespace
+
+    from ..equations import MotionView
 
 ENDLESS = Caveat(Kind.MOTOR, Sentence(
     "motor-without-end", "the motor of the wheel runs without an end, and no wheel takes momentum for ever: "
@@ -103,7 +108,7 @@ class WheelMotor(Effect):
     def turned(self, frame: PrincipalAxes) -> WheelMotor:
         return WheelMotor(frame.turned(self.exact), self.duration, self.ran)
 
-    def part(self, motion: Any, p: Mapping[str, Number]) -> Part:
+    def part(self, motion: SimpleNamespace | MotionView, p: Mapping[str, Number]) -> Part:
         u, h = tuple(p[name] for name in self.symbols), motion.wheel
         turning = tuple(t - v for t, v in zip(cross(h, motion.omega), u))
         return Part(0, h, 0, turning, dot(u, motion.omega), lambda change: u)

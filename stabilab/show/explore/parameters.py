@@ -7,6 +7,7 @@ tensor is not diagonal, the new text stands along these.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
@@ -219,7 +220,7 @@ def _set_inertia(base: dict[str, Any], case: Case, values: list[Any]) -> None:
                     **_kept(old, "mass", "centre_of_mass")}
 
 
-def _set_torque(base: dict[str, Any], asked: Any, scaled: bool) -> None:
+def _set_torque(base: dict[str, Any], asked: Mapping[str, Any], scaled: bool) -> None:
     axis = asked.get("axis") if isinstance(asked, dict) else None
     if type(axis) is not int or axis not in (1, 2, 3):  # neither true nor 1.0
         raise InputError(f"torque: expected an axis of 1, 2 or 3, got {shown(axis)}")
@@ -264,7 +265,7 @@ def _numbers(asked: dict[str, Any], name: str, count: int) -> list[Any] | None:
     return [None if value is None else number(value, name) for value in values]
 
 
-def number(value: Any, name: str) -> str:
+def number(value: str | int, name: str) -> str:
     """A decimal in text."""
     try:
         found = float(value) if isinstance(value, str) and len(value) <= LENGTH else math.nan

@@ -19,7 +19,7 @@ import json
 import math
 import struct
 from array import array
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,7 +28,7 @@ from ...case.read import Case
 from ...equilibrium.result import Equilibria
 from ...errors import InputError, StabilabError
 from ...integrate.quadratic_series import Path, followed, parting
-from ...orbit.potential import potential
+from ...orbit.potential import Circle, potential
 from ...orbit.reduction import Reduction, reduce
 from ...orbit.result import Motion
 from ...packages import demand, present
@@ -140,7 +140,7 @@ def _start(r: Reduction, state: tuple[float, ...]) -> tuple[tuple[float, float],
     return (float(first), float(second)), float(w), r.constants["flip"] / r.constants["n"]
 
 
-def _rests(pot, place, y):
+def _rests(pot: Circle, place: Sequence[float], y: Sequence[float]):
     """Where the force vanishes, between places of opposite signs; nothing where it does everywhere."""
     force = lambda v: pot.force(pot.move(place, v))
     values = [force(v) for v in y]

@@ -185,7 +185,7 @@ class Session:
         made["equilibria"] = equilibrium_rows(at_rest, units) if at_rest else pictures.NOT_YET
         return made | {"analysis": 1e3 * (settled - began), "work": 1e3 * (time.process_time() - began)}
 
-    def _motion(self, case: Case, moving: bool, stopped) -> tuple[Motion | None, str]:
+    def _motion(self, case: Case, moving: bool, stopped: Callable[[], Any]) -> tuple[Motion | None, str]:
         """(what is known of the motion, the verdict in a line); None where a run would keep a moving hand
         waiting, or NumPy is needed and not here."""
         kind = kind_of(self._twin(case) or case.scene)

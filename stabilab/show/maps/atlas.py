@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Callable, Sequence
 from itertools import repeat
 from json import dumps, loads
 from pathlib import Path
@@ -102,7 +103,7 @@ def wheel_words(atlas: Atlas, number: int) -> str:
     return f"{atlas.asked.momenta[number]:.6g} {atlas.asked.unit}"
 
 
-def direction_words(vector: Any) -> str:
+def direction_words(vector: np.ndarray) -> str:
     """Three digits of a direction."""
     return ("(" + ", ".join(f"{v + 0.0:.3g}" if abs(v) >= 5e-4 else "0" for v in np.asarray(vector).tolist())
             + ")")
@@ -223,7 +224,8 @@ def _details(atlas: Atlas, units: Units) -> list[str]:
     return lines
 
 
-def _listed(atlas: Atlas, values: np.ndarray, rows: np.ndarray, whole: float, words: Any) -> str:
+def _listed(atlas: Atlas, values: np.ndarray, rows: np.ndarray, whole: float,
+            words: Callable[[int], str]) -> str:
     shares = {int(value): float(atlas.share[rows & (values == value)].sum() / whole)
               for value in np.unique(values[rows])}
     return ", ".join(f"{words(value)} ({per_cent(share)})"
@@ -392,7 +394,7 @@ def atlas(case: Given, torque: Any = None, wheel: str | None = None,
 
 def dataset(found: Atlas) -> xarray.Dataset:
     """The cells with directions, corners, shares and answers; directions with a name beside them."""
-    def numbers(dims: Any, values: Any, words: str, **of: str) -> Any:
+    def numbers(dims: str | Sequence[str], values: np.ndarray | list[str], words: str, **of: str) -> Any:
         return dims, values, {"long_name": words, **of}
 
     plan, columns, leaves = found.asked.plan(()), columns_of(found.asked.answers)[1:], found.leaves

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ...answers.circular_orbit import CircularOrbit, followed
 from ...case.read import Case
@@ -14,12 +14,15 @@ from ...equilibrium.circular_orbit import OrbitEquilibrium
 from ...errors import InputError
 from ...maps.bifurcation.diagram import Branch, branches
 from ...maps.bifurcation.equations import BORDERS, CURVES, ENDLESS, Diagram
-from ...maps.bifurcation.plane import Plane
+from ...maps.bifurcation.plane import Plane, Strip
 from ...maps.bifurcation.plane import rows as arcs_of
 from ...numbers.vectors import dot
 from .. import style
 from ..units import Units, units_of, with_unit
 from .shades import light, mark_own, own_values
+
+if TYPE_CHECKING:
+    from types import ModuleType
 
 # of the values above the panel: points, rows at the most, inches of the figure beside the panel
 SIZE, ROWS, MARGIN = 7.5, 3, 1.2
@@ -129,7 +132,7 @@ def write(found: Diagram | Plane, out: str | Path, size: tuple[float, float] | N
     return style.write(out, lambda plt: drawn(found, size, plt), dpi)
 
 
-def drawn(found: Diagram | Plane, size: tuple[float, float] | None, plt: Any) -> Any:
+def drawn(found: Diagram | Plane, size: tuple[float, float] | None, plt: ModuleType) -> Any:
     """The figure."""
     figure = _line(found, size, plt) if isinstance(found, Diagram) else _plane(found, size, plt)
     handles, words = figure.axes[0].get_legend_handles_labels()
@@ -138,7 +141,7 @@ def drawn(found: Diagram | Plane, size: tuple[float, float] | None, plt: Any) ->
     return figure
 
 
-def _line(found: Diagram, size: tuple[float, float] | None, plt: Any) -> Any:
+def _line(found: Diagram, size: tuple[float, float] | None, plt: ModuleType) -> Any:
     """The figure over one number: a panel for each component that moves, branches stable or not, events
     marked."""
     rows = branches(found)
@@ -199,7 +202,7 @@ OTHER = light(style.ORANGE, 0.35)
 SMALL = 0.004  # of the whole: regions below bear no number
 
 
-def _plane(found: Plane, size: tuple[float, float] | None, plt: Any) -> Any:
+def _plane(found: Plane, size: tuple[float, float] | None, plt: ModuleType) -> Any:
     """The figure over two numbers: the curves at which equilibria change, the number in each region, cusps.
     """
     first, second = found.family.spans
@@ -238,7 +241,7 @@ def _plane(found: Plane, size: tuple[float, float] | None, plt: Any) -> Any:
     return figure
 
 
-def _bands(found: Plane, strip: Any) -> list[dict[str, Any]]:
+def _bands(found: Plane, strip: Strip) -> list[dict[str, Any]]:
     """The cells of a strip between neighbouring arcs, along it; a curve on an end of the range has no cell
     beyond it."""
     second = found.family.spans[1]

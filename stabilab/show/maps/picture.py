@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -24,6 +25,8 @@ from . import shades
 from .sweep import CELLS
 
 if TYPE_CHECKING:
+    from types import ModuleType
+
     import xarray
 
 
@@ -281,7 +284,8 @@ def _zero(margin, at, along):
     return np.where(np.isfinite(share) & (share >= 0) & (share <= 1), share, 0.5)
 
 
-def segments_of(fates: np.ndarray, x: np.ndarray, y: np.ndarray, way: Any) -> np.ndarray:
+def segments_of(fates: np.ndarray, x: np.ndarray, y: np.ndarray,
+                way: Callable[[np.ndarray, int], np.ndarray]) -> np.ndarray:
     """(n, 2, 2): pieces of the line between what spins up and what does not, one or two in each cell of the
     map that it crosses. way(at, along): the share of the way from points (n, 2) to their neighbours along an
     axis at which the fate changes."""
@@ -524,7 +528,8 @@ def dimensions_of(data: xarray.Dataset) -> list[str]:
     return [str(d) for d in data[name].dims if d not in (shades.SAMPLE, "axis")]
 
 
-def drawn(data: xarray.Dataset, plan: Plan, kind: str, size: tuple[float, float] | None, plt: Any) -> Any:
+def drawn(data: xarray.Dataset, plan: Plan, kind: str, size: tuple[float, float] | None,
+          plt: ModuleType) -> Any:
     """The figure of a column: curves, a map, small maps, or how samples spread."""
     moving = [name for name in dimensions_of(data) if data.sizes[name] > 1]
     data = data.isel({name: 0 for name in dimensions_of(data) if name not in moving})

@@ -2,8 +2,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Sequence
-from typing import Any
+from collections.abc import Callable, Collection, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,6 +19,11 @@ from ...orbit.result import OUTCOMES
 from ...reasons import Sentence
 from .. import style
 from ..units import with_unit
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from ...case.read import Case
 
 OF_POINTS = Sentence("of-points", "({count} of {points} points)")
 LIMIT_UNSEEN = Sentence("limit-not-looked-at", "the limit of the file, {limit}, is not looked at here")
@@ -78,12 +83,12 @@ def unit(plan: Plan, column: Column) -> str:
             if plan.case.variables == "physical" else "1")
 
 
-def of_every_point(case: Any) -> list[Caveat]:
+def of_every_point(case: Case) -> list[Caveat]:
     """What limits the answer of every point of a map alike."""
     return [*without(of_case(case), Kind.UNPHYSICAL)]  # which is of a point
 
 
-def limits_of(case: Any, records: Any) -> list[Caveat]:
+def limits_of(case: Case, records: np.ndarray) -> list[Caveat]:
     """What limits the answers of a map: what the file says itself, on what its points rest, a limit that was
     not looked at."""
     found = [*of_case(case)]
@@ -165,7 +170,7 @@ ITSELF = "the case itself"
 OWN = {"color": style.BLACK, "linewidth": 1.0, "linestyle": (0, (1, 2))}
 
 
-def mark_own(ax: Any, at: Sequence[float | None]) -> dict[str, Any]:
+def mark_own(ax: Axes, at: Sequence[float | None]) -> dict[str, Any]:
     """Mark the case itself, at one value by an upright line, at two by a point, where it is within the limits
     of the axes; the row of the legend."""
     for value, limits in zip(at, (ax.get_xlim(), ax.get_ylim())):
@@ -185,7 +190,7 @@ def own_value(plan: Plan, dimension: int) -> float | None:
     return value_in(plan.data, axis.key, axis.unit)
 
 
-def value_in(data: Any, key: Key, unit: str) -> float | None:
+def value_in(data: Mapping[str, dict[str, Any]], key: Key, unit: str) -> float | None:
     """The value that a case file's data have of a key, in a unit; None where they have none."""
     path = key.paths[0]
     table = Table(path[:-1], {path[-1]: value_at(data, path)}, Faults(KeyLines()))
@@ -193,7 +198,7 @@ def value_in(data: Any, key: Key, unit: str) -> float | None:
     return None if exact is None else float(exact / unit_of(unit).size) if unit else float(exact)
 
 
-def own_values(spans: Sequence[Span], data: Any) -> list[float | None]:
+def own_values(spans: Sequence[Span], data: Mapping[str, dict[str, Any]]) -> list[float | None]:
     """The same along ranges of the numbers of a case file with such data."""
     return [value_in(data, span.key, span.unit) for span in spans]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -349,7 +349,8 @@ def finished(values: dict[str, Any], coordinates: dict[str, Any],
     return made
 
 
-def column_in(dims: Any, column: Column, records: np.ndarray, of: str) -> tuple[Any, np.ndarray, dict]:
+def column_in(dims: str | Sequence[str], column: Column, records: np.ndarray,
+              of: str) -> tuple[Any, np.ndarray, dict]:
     """A column of answers with its dimensions, its words, unit (`of`) and flags."""
     words: dict[str, Any] = {"long_name": column.description} | ({"units": of} if column.kind == "f8" else {})
     if column.flags:

@@ -57,7 +57,7 @@ def write(found: Basins, out: str | Path, size: tuple[float, float] | None = Non
     return style.write(out, lambda plt: basin(found, size=size).figure, dpi)
 
 
-def _areas(ax: Any, found: Basins) -> list[tuple[str, dict[str, Any]]]:
+def _areas(ax: Axes, found: Basins) -> list[tuple[str, dict[str, Any]]]:
     """The cells in the colours of their lower corners, and what these mean."""
     from matplotlib.collections import PolyCollection
     cells = cells_of(found)
@@ -82,7 +82,7 @@ def _areas(ax: Any, found: Basins) -> list[tuple[str, dict[str, Any]]]:
                     else []))
 
 
-def _line(ax: Any, found: Basins) -> list[tuple[str, dict[str, Any]]]:
+def _line(ax: Axes, found: Basins) -> list[tuple[str, dict[str, Any]]]:
     from matplotlib.collections import LineCollection
     pieces = found.separatrix()
     if not len(pieces):

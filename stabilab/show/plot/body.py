@@ -1,7 +1,7 @@
 """The body as the box of its moments, with what acts on it: a sketch of a case."""
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,10 @@ from .subject import Subject, measures, subject
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from mpl_toolkits.mplot3d import Axes3D
+
+    from ...numbers.vectors import Float3
+    from ...physics.effects.base import Effect
 
 CORNERS = np.array(list(product((-1.0, 1.0), repeat=3)))
 # across axes 1, 1, 2, 2, 3, 3
@@ -112,7 +116,7 @@ def _per_metre(body: Any, arms: list[np.ndarray], sides: np.ndarray) -> float:
     return float(np.linalg.norm(sides)) / 2 / farthest if farthest else 1.0
 
 
-def box_sides(inertia) -> np.ndarray:
+def box_sides(inertia: Sequence[float]) -> np.ndarray:
     """Sides of the homogeneous box with these moments, the longest 1: D_i is in proportion to the sum of the
     squares of the other two."""
     D = np.array(inertia, float)
@@ -145,16 +149,16 @@ def _arrow(ax, start, direction, label, colour, width=2.4, side=""):
     return {"color": colour, "linewidth": width}
 
 
-def _along(vector, length):
+def _along(vector: Sequence[float], length: float):
     """The vector at another length."""
     return length * np.array(vector, float) / np.linalg.norm(vector)
 
 
-def _vector(values) -> str:
+def _vector(values: Float3 | np.ndarray) -> str:
     return f"({', '.join(f'{float(v):.4g}' for v in values)})".replace("-", "−")
 
 
-def _ring(ax, axis, radius):
+def _ring(ax: Axes3D, axis: np.ndarray, radius: float):
     """A rotor as a ring about its axis."""
     across = np.linalg.svd(axis[None])[2][1:]
     turn = np.linspace(0, 2 * np.pi, 91)
@@ -165,7 +169,7 @@ def _ring(ax, axis, radius):
 def _vector_of(attribute: str, length: float, label: str, colour: str, words: str, width: float = 2.4,
                ring: float = 0.0) -> Callable:
     """What draws an effect that is a vector, along it; a rotor with a ring about it."""
-    def draw(ax, one, effect, sides):
+    def draw(ax: Axes3D, one: Subject, effect: Effect, sides: np.ndarray):
         axis = _along(getattr(effect, attribute), 1.0)
         if ring:
             _ring(ax, axis, ring)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ...errors import InputError, Kind
 from ...packages import demand
@@ -17,13 +17,18 @@ from ..text.headline import outcome
 from ..units import units_of
 from .subject import Measures, Subject
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from mpl_toolkits.mplot3d import Axes3D
+
 SIZE = (7.6, 4.8)  # inches
 SQUARE = (7.0, 6.4)
 BELOW = 0.14  # inches between axes in space and their legend, in a figure with room for it
 
 
 @contextmanager
-def on(ax: Any, size: tuple[float, float] | None = None, space: bool = False) -> Iterator[Any]:
+def on(ax: Axes3D | Axes | None, size: tuple[float, float] | None = None,
+       space: bool = False) -> Iterator[Any]:
     """The axes to draw on: `ax` itself, checked, or those of a new figure of so many inches. space:
     three-dimensional ones."""
     demand(*style.PACKAGES)
@@ -49,14 +54,15 @@ def _checked(ax: Any, space: bool) -> Any:
     return ax
 
 
-def explained(ax: Any, rows: list[tuple[str, dict[str, Any]]], own: bool, heading: str, *lines: str) -> Any:
+def explained(ax: Axes | Axes3D, rows: list[tuple[str, dict[str, Any]]], own: bool, heading: str,
+              *lines: str) -> Any:
     """The axes, with a title as of `title` and with what the looks mean, rows of (name, look)."""
     title(ax, heading, *lines)
     legend(ax, rows, own)
     return ax
 
 
-def legend(ax: Any, rows: list[tuple[str, dict[str, Any]]], own: bool) -> None:
+def legend(ax: Axes | Axes3D, rows: list[tuple[str, dict[str, Any]]], own: bool) -> None:
     """What the looks mean, rows of (name, look): below a figure of its own, inside axes that were given."""
     if rows and own:
         style.legend(ax.figure, rows)

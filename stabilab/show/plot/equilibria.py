@@ -101,7 +101,7 @@ def _flat_axis(drawn: Space, found: Equilibria) -> int | None:
     return flat[0] if len(flat) == 1 else None
 
 
-def _in_plane(ax: Any, drawn: Space, folds: np.ndarray, flat: int) -> None:
+def _in_plane(ax: Axes, drawn: Space, folds: np.ndarray, flat: int) -> None:
     first, second = (n for n in range(3) if n != flat)
     per, box = drawn.rate, drawn.box.scaled(drawn.rate)
     for words, places in drawn.curves:

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
 from typing import TYPE_CHECKING, Any
@@ -41,6 +41,7 @@ from .subject import Measures, Subject, measures, subject
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from mpl_toolkits.mplot3d import Axes3D
 
 
 # --- Three-dimensional axes: their labels, and what of curves and surfaces lies inside of their box
@@ -99,7 +100,7 @@ def pale(colour: str, share: float = PALE) -> tuple[float, ...]:
     return tuple(1 - share * (1 - part) for part in to_rgb(colour))
 
 
-def facets(ax: Any, surfaces: list[tuple[np.ndarray, str]], pale_by: float = PALE) -> None:
+def facets(ax: Axes3D, surfaces: list[tuple[np.ndarray, str]], pale_by: float = PALE) -> None:
     """Surfaces, each of triangles (n, 3, 3) in one colour, lit from above, nearer ones before farther ones;
     pixels even in a vector picture, which would hold ten thousands of them."""
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
@@ -112,7 +113,7 @@ def facets(ax: Any, surfaces: list[tuple[np.ndarray, str]], pale_by: float = PAL
                                          antialiaseds=False, rasterized=True, zorder=0))
 
 
-def _lit(triangles, colour):
+def _lit(triangles: np.ndarray, colour: Sequence[float]):
     """(n, 3) colours of facets: darker where the light only grazes."""
     across = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     size = np.linalg.norm(across, axis=1, keepdims=True)
@@ -134,7 +135,7 @@ def _seen(view: tuple[float, float]) -> np.ndarray:
                      math.cos(height)])
 
 
-def furnish(ax: Any, box: Box, labels: tuple[str, ...], view: tuple[float, float] = VIEW) -> None:
+def furnish(ax: Axes3D, box: Box, labels: tuple[str, ...], view: tuple[float, float] = VIEW) -> None:
     """Limits, labels, ticks and the point of view."""
     small = style.share()
     power = math.floor(math.log10(box.farthest))
@@ -173,7 +174,7 @@ def furnish(ax: Any, box: Box, labels: tuple[str, ...], view: tuple[float, float
     ax.view_init(*view)
 
 
-def line(ax: Any, points: np.ndarray, look: dict[str, Any], **more: Any) -> None:
+def line(ax: Axes3D, points: np.ndarray, look: dict[str, Any], **more: Any) -> None:
     """A line through points (n, 3)."""
     ax.plot(*np.asarray(points).T, **look | more)
 
@@ -184,7 +185,7 @@ SHADOW = {"color": PALEST, "linewidth": 0.9, "zorder": 0.5}
 DROP = {"color": style.GREY, "linewidth": 0.7, "linestyle": (0, (2, 2)), "zorder": 0.6}
 
 
-def depth(ax: Any, box: Box, path: np.ndarray, points: Iterable[Any],
+def depth(ax: Axes3D, box: Box, path: np.ndarray, points: Iterable[Any],
           view: tuple[float, float] = VIEW) -> None:
     """What shows where things are in depth: the shadows of a path (n, 3) on the three walls behind it, and a
     line from each of the points down to the floor."""
@@ -248,7 +249,8 @@ def grid_triangles(points: np.ndarray) -> np.ndarray:
                            np.stack([a, d, c], 2).reshape(-1, 3, 3)])
 
 
-def levels(x: np.ndarray, y: np.ndarray, height: np.ndarray, values: Any) -> list[np.ndarray]:
+def levels(x: np.ndarray, y: np.ndarray, height: np.ndarray,
+           values: np.ndarray | Sequence[float]) -> list[np.ndarray]:
     """The lines (n, 2) in (x, y) on which a function, height (y, x), has one of the values."""
     from contourpy import contour_generator
     contours: Any = contour_generator(x, y, height)
@@ -324,7 +326,7 @@ def space_of(one: Subject, names: Iterable[str], rate: tuple[str, float], known:
     return replace(found, part=part)
 
 
-def draw(ax: Any, found: Space) -> None:
+def draw(ax: Axes3D, found: Space) -> None:
     """Draw a space on three-dimensional axes, in the unit of its labels."""
     per, box = found.rate, found.box.scaled(found.rate)
     grids = [(colour, np.reshape(one.points, (one.rows, one.columns, 3))) for colour, one in found.branches]

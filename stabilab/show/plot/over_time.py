@@ -5,7 +5,7 @@ momentum of a wheel."""
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -30,12 +30,13 @@ from ..units import SHORT, Units, number, with_unit
 from . import canvas
 from . import subject as subjects
 from .path import SOLID, band, path, turning
-from .subject import Subject, measures, subject
+from .subject import Measures, Subject, measures, subject
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from ...answers.stuck.margins import Stuck
+    from ...case.given import Given
     from ...case.read import Case
 
 # --- The rates of a motion over time: components and size, with limits, extremes and period marked
@@ -93,7 +94,8 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
                                 one.heading, "" if one.case is None else _answer(one, scale))
 
 
-def _rates(ax, t, omega, names, scale, time_unit):
+def _rates(ax: Axes, t: np.ndarray, omega: np.ndarray, names: Sequence[str], scale: Measures,
+           time_unit: tuple[str, float]):
     """Draw the size and the components (n, 3) of rates over times (n,); the rows of the legend, and the looks
     of the components."""
     (unit, per_time), (rate_unit, per_rate) = time_unit, scale.rate
@@ -110,7 +112,7 @@ def _rates(ax, t, omega, names, scale, time_unit):
     return [(scale.size or "$|x|$", SIZE_LOOK), *zip(names, looks)], looks
 
 
-def _answer(one, scale):
+def _answer(one: Subject, scale: Measures):
     """The answer in one line; of uncertain numbers only their middles are drawn."""
     told = headline(one.case, one.motion, scale.system)
     return told + ("; for the middles of the uncertain numbers" if one.case.uncertain else "")
@@ -150,7 +152,7 @@ def told_apart(looks: Sequence[dict[str, Any]], curves: Sequence[np.ndarray]) ->
     return told
 
 
-def _curve(ax, t, values, look, height):
+def _curve(ax: Axes, t: np.ndarray, values: np.ndarray, look: Mapping[str, Any], height: float):
     """A rate over time; one that turns more often than a picture has columns as the band that it fills.
     height: of all curves."""
     if turning(values) <= SOLID:
@@ -175,14 +177,14 @@ def _extremes(ax, one, per_rate):
     return [("extremes for ever", {"color": style.GREY, **EXTREME})] if drawn else []
 
 
-def _marked(one, low, high) -> bool:
+def _marked(one: Subject, low: float, high: float) -> bool:
     """Whether the ends of the periods are drawn: there are some, and not so many that they would be a grey
     ground."""
     period = one.motion.period
     return bool(period) and period <= high - low <= MARKED * period
 
 
-def _measured(one, low, high):
+def _measured(one: Subject, low: float, high: float):
     """The time whose unit is that of the axis: of the period where its ends are marked, else of the picture.
     """
     return one.motion.period if _marked(one, low, high) else high - low
@@ -404,7 +406,7 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
                                 one.heading, canvas.answer(one, scale))
 
 
-def wheel(case: Any, ax: Axes | None = None, units: str | None = None,
+def wheel(case: Given | Subject, ax: Axes | None = None, units: str | None = None,
           size: tuple[float, float] | None = None, legend: bool = True) -> Axes:
     """Draw by how much later the limit is reached with another momentum of a wheel, and return the axes.
 

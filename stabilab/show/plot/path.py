@@ -1,6 +1,7 @@
 """The motion that a picture follows, and what pictures cost."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +19,8 @@ from .subject import Subject, subject
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from ...physics.scene import AnyScene
 
 
 # --- The rates of a motion at times close enough to be drawn as a line
@@ -53,12 +56,12 @@ def along(one: Subject, times: np.ndarray,
     return exact or (t, states)
 
 
-def _run(scene, start, times):
+def _run(scene: AnyScene, start: np.ndarray | Sequence[float], times: np.ndarray):
     run = trajectory(scene, start, times, laws=False)
     return np.asarray(run.t), np.asarray(run.states)
 
 
-def _sure(scene, start, t, states) -> bool:
+def _sure(scene: AnyScene, start: Sequence[float], t: np.ndarray, states: np.ndarray) -> bool:
     """Whether a start moved in its last places leaves the line where it is: on an unstable plane rounding
     throws a run in doubles off."""
     later, moved = _run(scene, np.asarray(start, float) + APART * np.spacing(start), t)

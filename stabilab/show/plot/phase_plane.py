@@ -3,7 +3,7 @@ energy, its wells and the barrier ahead."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sized
+from collections.abc import Iterator, Mapping, Sequence, Sized
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -33,8 +33,11 @@ from .subject import Measures, Subject, measures, subject
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from ...case.given import Given, Start
+    from ...physics.scene import Scene
+
 # --- The phase plane of a motion that reduces to one degree of freedom
-def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str | None = None,
+def phase(case: Given | Subject, state: Start | None = None, ax: Axes | None = None, units: str | None = None,
           size: tuple[float, float] | None = None,
           legend: bool = True) -> Axes:
     """Draw the phase plane of a motion, and return the axes.
@@ -73,7 +76,7 @@ BESIDE_IT = 0.4  # of the plane's width: that of the window
 CLOSED = 1e-3
 
 
-def _small(plane) -> bool:
+def _small(plane: PhasePlane) -> bool:
     """Whether a motion that turns back is too small to be seen beside its separatrix: the mark of its start
     would hide it."""
     span = window(plane)
@@ -334,8 +337,8 @@ CLOSE = 1e-6   # relative: by this a barrier is known by its margin
 ENERGY = style.MEANING["this motion"] | {"linestyle": "--", "linewidth": 1.2}
 
 
-def potential(case: Any, state: Any = None, ax: Axes | None = None, units: str | None = None,
-              size: tuple[float, float] | None = None, legend: bool = True) -> Axes:
+def potential(case: Scene, state: Sequence[float] | None = None, ax: Axes | None = None,
+              units: str | None = None, size: tuple[float, float] | None = None, legend: bool = True) -> Axes:
     """Draw the reduced potential of a motion, and return the axes.
 
     case: a Case, or a scene with `state`. Across: the turn about the axis of the torque since the start; up:
@@ -389,7 +392,7 @@ def _barrier(plane: PhasePlane, margin: float | None, up: float, span: tuple[flo
     return min((y for y in above if abs(above[y] - margin) <= CLOSE * abs(margin)), key=abs, default=None)
 
 
-def _margin(ax: Any, margin: float, place: float, energy: float, unit: str) -> None:
+def _margin(ax: Axes, margin: float, place: float, energy: float, unit: str) -> None:
     """An arrow from the energy to the barrier."""
     ax.annotate("", (place, energy + margin), (place, energy),
                 arrowprops={"arrowstyle": "<->", "color": style.VERMILION, "linewidth": 1.4})

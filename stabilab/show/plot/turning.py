@@ -21,10 +21,11 @@ from ..units import SHORT, Unit, Units
 from . import canvas, in_space
 from . import subject as subjects
 from .body import CORNERS, FACES, box_sides
-from .subject import Subject, measures, subject
+from .subject import Measures, Subject, measures, subject
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
+    from mpl_toolkits.mplot3d import Axes3D
 
 
 # --- The attitude of a body at the times of the pictures of a film, and the box that stands for the body
@@ -95,7 +96,7 @@ def turn(one: Subject, frames: int = FRAMES) -> Turn:
                 wheel, _share(one, omega))
 
 
-def _share(one, omega):
+def _share(one: Subject, omega: np.ndarray):
     """(n,) how much of the limit of a case rates (n, 3) have reached; None without one."""
     limits = None if one.case is None else one.case.limits
     if limits is None:
@@ -107,7 +108,7 @@ def _share(one, omega):
     return np.max([np.abs(omega @ axis) / most for axis, most in parts], axis=0)
 
 
-def _reached(one, low, high, frames):
+def _reached(one: Subject, low: float, high: float, frames: int):
     """(the motion at the times of the pictures, whether they reach the end of the span). The greatest rate up
     to an end grows with it, so the ends at which no step is too wide are those up to one."""
     length, direction = abs(high - low), float(np.sign(high - low))
@@ -118,7 +119,7 @@ def _reached(one, low, high, frames):
     return _at(one, np.linspace(low, end, frames)), bool(fits.all() and len(t) > len(TRIED))
 
 
-def _at(one, times):
+def _at(one: Subject, times: np.ndarray):
     """(times, rotations, rates), as far as the run goes."""
     upright = attitude_of(one.blocks["gamma"]) if "gamma" in one.blocks else (0.0, 0.0, 0.0)
     first = tuple(one.blocks.get("attitude", upright))
@@ -152,9 +153,9 @@ def drawn(one: Subject, found: Turn, time: Unit, rate: Unit,
             "share": None if found.share is None else row(found.share)}
 
 
-def page(one, found: Turn, scale, path) -> Path:
+def page(one: Subject, found: Turn, scale: Measures, path: Path) -> Path:
     """Write the page."""
-    def row(values):
+    def row(values: np.ndarray):
         return [float(f"{v:.6g}") + 0.0 for v in values.ravel()]
     data = drawn(one, found, scale.time(float(np.abs(found.t).max())), scale.rate, row)
     # nothing of it ends the script
@@ -200,7 +201,7 @@ def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, fra
         return FuncAnimation(target.figure, draw, frames=len(found.t), interval=1000 / PER_SECOND, blit=False)
 
 
-def film(one: Any, path: Path, units: str | None = None, size: tuple[float, float] | None = None,
+def film(one: Subject, path: Path, units: str | None = None, size: tuple[float, float] | None = None,
          dpi: float | None = None) -> Path:
     """The animation as a file: .html, a page that needs nothing else; .gif; .mp4, where ffmpeg is installed.
     """
@@ -227,7 +228,7 @@ def film(one: Any, path: Path, units: str | None = None, size: tuple[float, floa
     return Path(path)
 
 
-def _stage(ax, found: Turn, one, scale):
+def _stage(ax: Axes3D, found: Turn, one: Subject, scale: Measures):
     """The scene of the animation; draw(frame) moves it."""
     from matplotlib.patheffects import withStroke
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
@@ -260,7 +261,7 @@ def _stage(ax, found: Turn, one, scale):
     unit, per = scale.time(float(np.abs(found.t).max()))
     rates = np.linalg.norm(found.omega, axis=1) * scale.rate[1]
 
-    def draw(frame):
+    def draw(frame: int):
         box.set_verts(_faces(found, frame))
         eye = _eye(ax)
         for n, (line, name) in enumerate(zip(axes, names)):
@@ -289,13 +290,13 @@ def _stage(ax, found: Turn, one, scale):
     return draw
 
 
-def _eye(ax) -> np.ndarray:
+def _eye(ax: Axes3D) -> np.ndarray:
     """Where the picture is seen from."""
     up, round_ = np.deg2rad((ax.elev, ax.azim))
     return DISTANCE * np.array([np.cos(up) * np.cos(round_), np.cos(up) * np.sin(round_), np.sin(up)])
 
 
-def _with_ends(shown):
+def _with_ends(shown: np.ndarray):
     """Points of a line, and those next to them, so that no piece between the two halves is missing."""
     found = shown.copy()
     found[1:] |= shown[:-1]

@@ -61,7 +61,7 @@ def signed(text: str) -> str:
     return type(text)(_signed(first) + made)  # what is escaped stays so
 
 
-def _signed(text):
+def _signed(text: str):
     return but_for_commands(str(text), minus)
 
 
@@ -172,6 +172,6 @@ class _Headings(HTMLParser):
         return self._lines[line - 1] + column
 
 
-def write(path, template: str, **values) -> Path:
+def write(path: Path, template: str, **values) -> Path:
     """The page as a file, whole or not at all."""
     return write_text(path, anchored(render(template, **values)))

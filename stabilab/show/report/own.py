@@ -3,8 +3,10 @@ are several, a first page that lists them."""
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ...errors import StabilabError
 from ...orbit.separatrix.branches import separatrix
@@ -13,6 +15,9 @@ from ..text import headline
 from ..text.scene import groups
 from . import html, one_case
 from .workers import Task, done
+
+if TYPE_CHECKING:
+    from ...case.read import Case
 
 SHAPE = (48, 97)  # rows and columns of a branch of a mesh: smooth to the eye, 1.5 MB of meshes a scene
 FOLDER = "cases"  # inside that of the report: pages of many cases, pictures and meshes of all
@@ -28,7 +33,7 @@ class Wanted:
     deep: bool = True
 
 
-def entries(cases) -> list[tuple[str, list]]:
+def entries(cases: Sequence[Case]) -> list[tuple[str, list]]:
     """(stem of its files, its cases) of every case and every file with [sweep]; stems differ even where names
     do not."""
     taken: Counter = Counter()
@@ -41,7 +46,7 @@ def entries(cases) -> list[tuple[str, list]]:
     return rows
 
 
-def section(stem, cases, folder, wanted) -> dict:
+def section(stem: str, cases: Sequence[Case], folder: Path, wanted: Wanted) -> dict:
     """Everything that a page says of one entry, its pictures and meshes written: a task of `workers`."""
     if cases[0].variant:
         found = one_case.sections_of_sweep(cases, folder, stem)
@@ -69,7 +74,7 @@ def surface_of(case, stem: str, folder: Path) -> dict | None:
             "residual": summary["largest_residual"], "files": [file.name for file in files]}
 
 
-def tasks(cases, folder: Path, wanted: Wanted) -> list[Task]:
+def tasks(cases: Sequence[Case], folder: Path, wanted: Wanted) -> list[Task]:
     """A task an entry."""
     place = folder / FOLDER
     place.mkdir()

@@ -39,7 +39,7 @@ def tiles(motion: Motion, units: Units) -> list[tuple[str, str, str]]:
     return [(name, printed(value), printed(note)) for name, (value, note) in found]
 
 
-def _outcome(motion, units):
+def _outcome(motion: Motion, units: Units):
     value, about, condition = fate_parts(motion, units, tilt=False)  # what a tilt does stands beside it
     if motion.fate.word == "undecided":
         note = cause(motion, units)
@@ -79,7 +79,7 @@ def _when(motion, units):
     return ("never" if motion.fate.word in ("bounded", "equilibrium") else "not known"), ""
 
 
-def _largest(motion, units):
+def _largest(motion: Motion, units: Units):
     found = largest(motion, units)
     if motion.fate.word == "spin-up":
         return "without end", found
@@ -89,7 +89,7 @@ def _largest(motion, units):
     return value or "not known", note.replace(")", "")
 
 
-def _distance(motion, units):
+def _distance(motion: Motion, units: Units):
     rate, height = rate_and_height(motion, units)
     if rate:
         told = f"; in energy {height}" if height else ""

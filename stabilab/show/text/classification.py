@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import asdict, replace
 from fractions import Fraction
 from itertools import groupby
@@ -26,11 +27,18 @@ from . import questions
 from .headline import largest_key, verdict
 from .motion import attitude_rows, flips_dict, followed, row, state, table, tilt_lines, why
 
+if TYPE_CHECKING:
+    from ...answers.attitude_result import Attitude
+    from ...case.read import Case
+    from ...equilibrium.result import Equilibria, EquilibriumCurve, EquilibriumPoint
+    from ...orbit.result import Motion
+
 FEW = 3  # curves that one line has room for
 WORDS = ("stable", "asymptotically stable", "unstable", "undecided")
 
 
-def text(case, equilibria, motion, turning, units: Units, proofs: bool = False) -> str:
+def text(case: Case, equilibria: Equilibria, motion: Motion | None, turning: Attitude | None, units: Units,
+         proofs: bool = False) -> str:
     """The lines for one case. turning: its `Attitude`, where that takes no run. proofs: with eigenvalues,
     equations of curves, reasons of every verdict and the principal axes."""
     answer = (f"{resting(equilibria, units)}; no [motion], so no fate" if motion is None
@@ -46,7 +54,7 @@ def text(case, equilibria, motion, turning, units: Units, proofs: bool = False) 
     return "\n".join(line for line in lines if line)
 
 
-def resting(equilibria, units: Units) -> str:
+def resting(equilibria: Equilibria, units: Units) -> str:
     """How many states of equilibrium there are, and how many of them are stable, in one line."""
     if equilibria.kind == "undecided":
         return (f"UNDECIDED, {len(equilibria.points)} known ({_count(p.verdict for p in equilibria.points)})"
@@ -63,7 +71,7 @@ def resting(equilibria, units: Units) -> str:
     return "; ".join([*parts, *(f"{called(name, units)} ({words})" for name, words in told)])
 
 
-def _along(curve) -> str:
+def _along(curve: EquilibriumCurve) -> str:
     verdicts = _ordered({piece.verdict for piece in curve.segments})
     if len(verdicts) == 1 and any(sample.verdict != verdicts[0] for sample in curve.samples):
         return f"{verdicts[0]} but at single points"
@@ -75,7 +83,7 @@ def _count(verdicts) -> str:
     return ", ".join(f"{counts[word]} {word}" for word in _ordered(counts))
 
 
-def _ordered(verdicts):
+def _ordered(verdicts: set[str] | Counter[Any]):
     return sorted(verdicts, key=lambda word: (WORDS.index(word) if word in WORDS else len(WORDS), word))
 
 
@@ -96,7 +104,7 @@ def _equilibria(case, equilibria, units, proofs):
     return lines
 
 
-def _jacobian(case, units) -> str:
+def _jacobian(case: Case, units: Units) -> str:
     """The Jacobian of the rates with the numbers of the case, row by row; the matrix (11) of the paper."""
     form, rows = case.scene.quadratic(), [["0"] * 3 for _ in range(3)]
     kappa, rho, sigma, _ = form.coefficients
@@ -116,7 +124,7 @@ def _linear(slope, name, constant) -> str:
     return f"{factor}{name} {'-' if constant < 0 else '+'} {number(abs(constant), 6)}"
 
 
-def _point(case, point, units, proofs):
+def _point(case: Case, point: EquilibriumPoint, units: Units, proofs: bool):
     lines = [row(point.verdict, state(point.at, units))]
     if case.scene.plain:
         rows = case.scene.quadratic().jacobian(tuple(map(float, point.at)))
@@ -128,7 +136,7 @@ def _point(case, point, units, proofs):
     return lines
 
 
-def spectrum(point, units) -> str:
+def spectrum(point: EquilibriumPoint, units: Units) -> str:
     """The characteristic polynomial of three rates where its coefficients are doubles; the eigenvalues."""
     told = f"eigenvalues {', '.join(_pairs(map(complex, point.eigenvalues)))}{per_second(units)}"
     if len(point.eigenvalues) != 3 or not all(map(math.isfinite, point.characteristic)):
@@ -138,12 +146,12 @@ def spectrum(point, units) -> str:
     return f"z³{''.join(terms)}, {told}"
 
 
-def per_second(units) -> str:
+def per_second(units: Units) -> str:
     """The unit of an eigenvalue after a blank; nothing in scaled variables."""
     return "" if units.scaled else " 1/s"
 
 
-def _samples(curve, units):
+def _samples(curve: EquilibriumCurve, units: Units):
     """States on every piece with verdict and eigenvalues: of all that are as good, the slowest."""
     rows = []
     for known, samples in groupby(curve.samples, lambda sample: sample.verdict):
@@ -187,7 +195,7 @@ def _pairs(roots):
             yield _complex(z)
 
 
-def _complex(z) -> str:
+def _complex(z: complex) -> str:
     z = complex(z)
     if z.imag == 0:
         return f"{z.real + 0.0:.6g}"
@@ -195,7 +203,7 @@ def _complex(z) -> str:
 
 
 # --- As JSON
-def as_dict(case, equilibria, motion) -> dict:
+def as_dict(case: Case, equilibria: Equilibria, motion: Motion | None) -> dict:
     """One object of `stabilab classify --json`."""
     return {"schema": "stabilab.classify/1", "case": case.name, "variables": case.variables,
             "equilibria": {"kind": equilibria.kind, "reason": equilibria.because,
@@ -206,7 +214,7 @@ def as_dict(case, equilibria, motion) -> dict:
             } | ({} if motion is None else limiting.key(case, motion.caveats)) | frame.key(case)
 
 
-def _input(case, at) -> dict:
+def _input(case: Case, at: Sequence[float]) -> dict:
     """The same vector in the frame of the file, where that is another one."""
     found = frame.back(case, at[:3])
     return {} if found is None else {"at_input": found}
@@ -232,7 +240,7 @@ def _point_dict(case, p) -> dict:
         p, "characteristic eigenvalues linear verdict because") | {"reason": p.reason.as_dict()}
 
 
-def _motion_dict(case, m) -> dict:
+def _motion_dict(case: Case, m: Motion) -> dict:
     return {"at": m.at, "fate": m.fate.word, **axes_of(case).key(m.axis), "because": m.because,
             "reason": m.reason.as_dict(),
             "margin": {"energy": m.margin_energy, "angular_velocity": m.margin_velocity,

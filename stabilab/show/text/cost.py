@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +22,13 @@ from .. import style
 from ..data import csv_lines
 from ..terminal import lettered, some, written
 from ..units import SHORT, Units, number, units_of
+
+if TYPE_CHECKING:
+    from types import SimpleNamespace
+
+    from matplotlib.axes import Axes
+
+    from ...answers.simulate import Simulation
 
 # --- Costs in words
 FORMULAS = ("linear", "corrected", "printed", "averaged1", "averaged2", "lindstedt")
@@ -321,12 +330,12 @@ def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = 
     return figure
 
 
-def stops(run) -> bool:
+def stops(run: SimpleNamespace | Simulation | Sequence[np.ndarray]) -> bool:
     """Whether a run ends before the last time that was asked for."""
     return getattr(run, "status", "reached") != "reached"
 
 
-def _labelled(ax, name, unit) -> str:
+def _labelled(ax: Axes, name: str, unit: str) -> str:
     """The label of a panel's axis. One whose range is a small part of its values counts from one of them,
     which the label names: an offset above the panel, a power of ten plus a number, would have to be added in
     the head."""
@@ -343,16 +352,16 @@ def _labelled(ax, name, unit) -> str:
     return f"{name} {'−' if whole >= 0 else '+'} {abs(whole):.12g} ({ten})"
 
 
-def _dense(run, parts) -> bool:
+def _dense(run: SimpleNamespace | Simulation, parts: Sequence[str]) -> bool:
     """Whether some component of a run turns so often that its curve is a ground and no line."""
-    def turns(values):
+    def turns(values: np.ndarray):
         up = np.sign(np.diff(values))
         return int((up[1:] * up[:-1] < 0).sum())
     return any(turns(row) > DENSE for part in parts if part in run.state
                for row in np.asarray(run.state[part]).T)
 
 
-def _curves(ax, runs, looks):
+def _curves(ax: Axes, runs: Mapping[str, tuple[np.ndarray, np.ndarray]], looks: Mapping[str, dict[str, Any]]):
     """The curves, (times, values) by the names of the models."""
     exact = runs["exact"][1]
     for name, (t, values) in runs.items():
@@ -376,12 +385,12 @@ def _tell_cut(ax, models):
                 fontsize=(7.5 if len(models) < 3 else 6.8) * style.share(), transform=ax.transAxes)
 
 
-def short(value) -> str:
+def short(value: float) -> str:
     """Three digits without a power of ten where that reads better."""
     return (f"{value:.0f}" if 1000 <= abs(value) < 1e5 else f"{value:.3g}").replace("-", "−")
 
 
-def beyond(values, low, high) -> list[str]:
+def beyond(values: np.ndarray, low: float, high: float) -> list[str]:
     """How far values go beyond the ends between which they are drawn: nothing, one end or both."""
     ends = ((np.nanmin(values), np.nanmin(values) < low),
             (np.nanmax(values), np.nanmax(values) > high)) if len(values) else ()

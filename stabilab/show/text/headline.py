@@ -6,6 +6,7 @@ an exit code."""
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -70,7 +71,7 @@ def until(case, found, end: float):
     return of_case(case, (0.0, end) if 0 < end < math.inf else None) if law_is_open(case, found) else found
 
 
-def beside(case) -> list[str]:
+def beside(case: Case) -> list[str]:
     """A line beside answers at many points, where a law is not judged; none where all are exact."""
     found = of_case(case)
     return [] if found is None else [f"  laws are not judged at every point; of the case as it stands: "
@@ -83,7 +84,7 @@ def of_cases(cases) -> str:
     return "\n".join(_of_alike(group, cases) for group in _alike(beyond))
 
 
-def lines_of(judged, units: Units = SI) -> list[str]:
+def lines_of(judged: Sequence[tuple[Case | None, ...]], units: Units = SI) -> list[str]:
     """A line for every (case, validity) that has a law to be named, one for all combinations of a file that
     stand the same way to the same limit, and one for all cases that say the same; without a name where there
     is one case. units: in which times are printed."""
@@ -272,7 +273,7 @@ def greatest(motion: Motion, units: Units) -> str:
     return f"{told} ({most} about {units.axes.brief(axis)}){over}"
 
 
-def _sizes(motion, units):
+def _sizes(motion: Motion, units: Units):
     """({number of a component: the most that it reaches}, over which time in words, "" where that is all)."""
     pairs, over = motion.extremes, ""
     if motion.extremes_over != "all time":

@@ -5,10 +5,12 @@ with its unit. Attitude and circular orbit have JSON here as well."""
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import asdict
+from typing import TYPE_CHECKING
 
 from ...equilibrium.circular_orbit import yaw_pitch_roll
-from ...orbit.result import HEADS
+from ...orbit.result import HEADS, Motion
 from ...reasons import outward
 from ...representation import values_of
 from .. import frame, limiting
@@ -16,6 +18,10 @@ from ..axes import axes_of
 from ..terminal import lettered
 from ..units import DEG, DIGITS, SHORT, Units, as_bound, but_for_rounding, number, vector
 from .headline import largest_key, rate_margin, span_words
+
+if TYPE_CHECKING:
+    from ...answers.attitude_result import Attitude
+    from ...case.read import Case
 
 # --- The numbers of a motion
 WIDE = 24  # columns of a name
@@ -53,14 +59,14 @@ def row(name: str, words: str) -> str:
     return f"  {name:<{WIDE - 1}} {words}".rstrip()
 
 
-def table(case, motion, units: Units) -> list[str]:
+def table(case: Case, motion: Motion, units: Units) -> list[str]:
     """The start, the extremes, the bounds for all times, margins and period, a line each."""
     return [row("start", state(motion.at, units, case.scene.blocks)), *extreme_lines(case, motion, units),
             *bound_lines(case, motion, units),
             *(row(name, words) for name, words in margins(motion, units))]
 
 
-def margins(motion, units: Units) -> list[tuple[str, str]]:
+def margins(motion: Motion, units: Units) -> list[tuple[str, str]]:
     """(name, words) of margins and period, as far as they are known."""
     energy = motion.margin_energy
     found = (("margin, rate", rate_margin(motion, units, DIGITS)),
@@ -70,7 +76,7 @@ def margins(motion, units: Units) -> list[tuple[str, str]]:
     return [(name, words) for name, words in found if words]
 
 
-def energy_integral(motion, units: Units) -> list[tuple[str, str]]:
+def energy_integral(motion: Motion, units: Units) -> list[tuple[str, str]]:
     """The paper's energy integral, its value on the separatrix and the difference; in scaled variables."""
     found = motion.energy_integral
     if found is None:
@@ -94,12 +100,12 @@ def state(at, units: Units, blocks=("omega", "gamma")) -> str:
     return units.vector(at[:3], units.rates) + vertical + damper
 
 
-def energy_margin(value, tell) -> str:
+def energy_margin(value: float, tell: Callable[[float], str]) -> str:
     """The energy missing to the barrier, or by how much it is above. tell: of a size, with its unit."""
     return f"{tell(-value)} above the barrier" if value < 0 else tell(value)
 
 
-def extreme_lines(case, motion, units: Units) -> list[str]:
+def extreme_lines(case: Case, motion: Motion, units: Units) -> list[str]:
     """Least and greatest of every component under a head that says over which time."""
     pairs, over = but_for_rounding(motion.extremes, motion.tolerance), motion.extremes_over
     if pairs is None:
@@ -115,7 +121,7 @@ def _head(when: str) -> list[str]:
     return [*told, f"  {'' if told else when + ',':<{WIDE}}{'least':>12}{'greatest':>14}"]
 
 
-def pair_lines(case, pairs, units: Units, side: int = 0) -> list[str]:
+def pair_lines(case: Case, pairs: Sequence[tuple[float, float]], units: Units, side: int = 0) -> list[str]:
     """A line a component: its name, least, greatest, unit. side: 1 of bounds, which are rounded outward."""
     name, one = units.rates
     return [f"    {lettered(component):<{WIDE - 2}}{shown(low, one, side=-side):>12}"
@@ -123,7 +129,7 @@ def pair_lines(case, pairs, units: Units, side: int = 0) -> list[str]:
             for component, (low, high) in zip(case.scene.components, pairs)]
 
 
-def shown(value, one: float = 1.0, digits: int = DIGITS, side: int = 0) -> str:
+def shown(value: float | None, one: float = 1.0, digits: int = DIGITS, side: int = 0) -> str:
     """A number of a column; a word where it is unbounded or unknown. side: as of `Units.told`."""
     if value is None:
         return "unknown"
@@ -131,14 +137,14 @@ def shown(value, one: float = 1.0, digits: int = DIGITS, side: int = 0) -> str:
     return "unbounded" if math.isinf(value) else number(as_bound(value, one, digits, side), digits)
 
 
-def bound_lines(case, motion, units: Units) -> list[str]:
+def bound_lines(case: Case, motion: Motion, units: Units) -> list[str]:
     """The bounds of the rates for all times, where they are not the extremes given already."""
     if motion.bounds is None or motion.bounds == motion.extremes:
         return []
     return [*_head("bounds for all times"), *pair_lines(case, motion.bounds, units, 1)]
 
 
-def why(case, motion, units: Units, proofs: bool) -> list[str]:
+def why(case: Case, motion: Motion, units: Units, proofs: bool) -> list[str]:
     """The reason; with `proofs` also what is not known of the margin, invariants, and what a run showed."""
     lines = [f"why: {units.said(motion.reason)}"]
     if motion.ending is not None:
@@ -151,7 +157,7 @@ def why(case, motion, units: Units, proofs: bool) -> list[str]:
     return lines
 
 
-def constants(motion, units: Units) -> list[tuple[str, str]]:
+def constants(motion: Motion, units: Units) -> list[tuple[str, str]]:
     """(name, words) of the invariants and of what a run showed. A potential is in the energy of a reduced
     motion, and none of its parts is that of the whole body."""
     reduced = {"energy": ("energy, reduced motion", "J")} if "Q" in motion.invariants else {}
@@ -245,7 +251,7 @@ def attitude_dict(answered) -> dict:
             "rows": [{"case": case.name} | row_of(case, found) for case, found in answered]}
 
 
-def row_of(case, one) -> dict:
+def row_of(case: Case, one: Attitude) -> dict:
     """One motion; null is what it does not have."""
     return {"at": one.at, "fate": one.fate.word,
             **values_of(one, "rotation_period precession_period mode momentum"),
@@ -257,7 +263,7 @@ def row_of(case, one) -> dict:
             } | limiting.key(case, one.caveats) | frame.key(case)
 
 
-def in_file(case, along):
+def in_file(case: Case, along: Sequence[float]):
     """A vector along the principal axes in the frame of the file."""
     return frame.back(case, along) or along
 
@@ -289,7 +295,7 @@ def attitude_text(case, found, units: Units) -> str:
     return "\n".join([*lines, f"why: {units.said(found.reason)}", *frame.note(case)])
 
 
-def attitude_rows(found, units: Units) -> list[tuple[str, str]]:
+def attitude_rows(found: Attitude | None, units: Units) -> list[tuple[str, str]]:
     """(name, words) of the periods, for the lines of another answer; "found" None: nothing."""
     if found is None:
         return []
@@ -313,7 +319,7 @@ def _answer(found, units):
         yield "no precession, for its axis passes through the vertical"
 
 
-def _vector(case, along) -> str:
+def _vector(case: Case, along: Sequence[float]) -> str:
     place = "in the frame of the file" if frame.back(case, along) else "along axes 1, 2, 3"
     return f"{vector(in_file(case, along))} {place}"
 

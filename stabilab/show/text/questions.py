@@ -5,9 +5,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from ...errors import printable
-from ...orbit.result import Fate, no_period
+from ...orbit.result import Fate, Motion, no_period
 from ...representation import values_of
 from .. import ending, frame, limiting
 from ..axes import axes_of
@@ -26,6 +27,12 @@ from .motion import (
     tilt_lines,
     why,
 )
+
+if TYPE_CHECKING:
+    from ...answers.digits_asked import Told
+    from ...answers.passage import TimeTo
+    from ...case.limit_options import StatedLimit
+    from ...case.read import Case
 
 # --- When a limit is reached
 WORDS = {"yes": "reached by", "unknown": "NOT KNOWN of", "never": "NEVER by"}
@@ -79,22 +86,22 @@ def swept(answers, units: Units):
     return told, [("reached", ""), ("time", name), ("level", "")], rows
 
 
-def unknown(found) -> bool:
+def unknown(found: TimeTo) -> bool:
     """Whether the limit may be reached at a time that is not known."""
     return reached(float(found.low), float(found.high)) == "unknown"
 
 
-def varies(found) -> bool:
+def varies(found: TimeTo) -> bool:
     """Whether some force within its tolerance reaches the limit, and another does not."""
     return found.tilt is not None and found.tilt.varies
 
 
-def reached(low, high):
+def reached(low: float, high: float):
     """Whether a limit is reached, by the ends of the time: "yes", "never" or "unknown"."""
     return "yes" if math.isfinite(high) else "never" if math.isinf(low) else "unknown"
 
 
-def _answer(limit, found, low, high, units):
+def _answer(limit: StatedLimit, found: TimeTo, low: float, high: float, units: Units):
     aim = asked(limit, units)
     if math.isinf(low):
         holds, departs = limiting.condition(found.caveats, units), limiting.unstable(found.caveats, units)
@@ -141,7 +148,8 @@ def tilt_dict(found) -> dict | None:
 SHOWN = 12  # digits of a number that is not written out, where more than a table's were asked for
 
 
-def fate(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:
+def fate(case: Case, motion: Motion, told: Told, units: Units, all_digits: bool, say: bool,
+         proofs: bool = False) -> str:
     """The fate, margins, bounds for all times, what a tilt does, and why."""
     def size(value: float) -> str:
         if not all_digits:
@@ -158,7 +166,8 @@ def fate(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: 
                       *([_said(told, units, " of the margin, energy")] * say)])
 
 
-def extremes(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:
+def extremes(case: Case, motion: Motion, told: Told, units: Units, all_digits: bool, say: bool,
+             proofs: bool = False) -> str:
     """The largest rate and the fate, a line a component, and bounds for all times."""
     shown = _with(motion, told)
     parts, most = [*outcome(shown, units), cause(shown, units)], [largest(shown, units)]
@@ -172,7 +181,7 @@ def extremes(case, motion, told, units: Units, all_digits: bool, say: bool, proo
                       *([_said(told, units)] * (say and told.because != shown.extremes_over))])
 
 
-def _all_digits(case, motion, told):
+def _all_digits(case: Case, motion: Motion, told: Told):
     """A line a component, every digit that was asked for; in rad/s, in which they were checked."""
     unit = "" if case.variables == "scaled" else "rad/s"
     pairs = told.decimals or [[number(v, max(SHOWN, told.asked)) for v in pair] for pair in motion.extremes]
@@ -182,7 +191,7 @@ def _all_digits(case, motion, told):
     return [f"  over {motion.extremes_over}, least and greatest:", *rows]
 
 
-def _said(told, units, of: str = "") -> str:
+def _said(told: Told, units: Units, of: str = "") -> str:
     """How many digits were checked, of what, and how."""
     because, digits = units.said(told.reason), told.digits
     if digits is None:
@@ -191,7 +200,8 @@ def _said(told, units, of: str = "") -> str:
         f"  {f'{min(digits, 99.0):.1f}'.removesuffix('.0')} digits{of}: {because}")
 
 
-def period(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:
+def period(case: Case, motion: Motion, told: Told, units: Units, all_digits: bool, say: bool,
+           proofs: bool = False) -> str:
     """The period with its unit."""
     if told.values is None:
         value = (no_period(motion.fate)
@@ -224,7 +234,7 @@ def _object(question, case, motion, told, found) -> dict:
             | limiting.key(case, motion.caveats) | frame.key(case))
 
 
-def extremes_dict(case, motion, told) -> dict:
+def extremes_dict(case: Case, motion: Motion, told: Told) -> dict:
     """One object of `stabilab extremes --json`; null where a component is unbounded or unknown (see fate)."""
     motion = _with(motion, told)
     return _object("extremes", case, motion, told, {
@@ -237,7 +247,7 @@ def _with(motion, told):
             else replace(motion, extremes=tuple(tuple(map(float, pair)) for pair in told.values)))
 
 
-def fate_dict(case, motion, told) -> dict:
+def fate_dict(case: Case, motion: Motion, told: Told) -> dict:
     """One object of `stabilab fate --json`; margin: barrier minus energy, null where none stands ahead."""
     margin = motion.margin_energy if told.values is None else told.values
     return _object("fate", case, motion, told, {
@@ -245,7 +255,7 @@ def fate_dict(case, motion, told) -> dict:
         "margin": margin, "tilt": tilt_dict(motion.tilt), **followed(motion)})
 
 
-def period_dict(case, motion, told) -> dict:
+def period_dict(case: Case, motion: Motion, told: Told) -> dict:
     """One object of `stabilab period --json`; period: null where there is none or it is not known."""
     return _object("period", case, motion, told,
                    {"period": told.values, "time": case.scene.time_unit})

@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from ...answers.caveats import of_case
 from ...errors import InputError
@@ -16,12 +17,17 @@ from ...numbers.units import DIMENSIONS, NAMES
 from ...orbit.result import HEADS
 from ...physics.coefficients import shape_factors, to_scaled
 from ...physics.effects.base import effect_words
-from ...physics.equations import Equations, Symbolic, derive, invariants
+from ...physics.equations import Balance, Equations, Symbolic, derive, invariants
 from .. import ending, frame, limiting, terminal
 from ..terminal import lettered, listed, some, table, width, written
 from ..units import DEG, DIGITS, SHORT, Units, as_bound, but_for_rounding, number, parameter_unit, units_of
 from .headline import known_as, rate_margin
 from .motion import shown
+
+if TYPE_CHECKING:
+    from sympy import Expr
+
+    from ...case.read import Case
 
 LETTERS = {"angular_velocity": "ω", "mu": "μ"}  # keys with a shorter name
 Column = tuple[str, str, Callable]  # its head, its unit, and what it says of a motion
@@ -180,7 +186,7 @@ PRODUCTS = {"Mgx": "M g x_c", "Mgy": "M g y_c", "Mgz": "M g z_c", "eHl2": "e H l
 WORD_NAMES = ("mass",)  # parameters whose names are words
 
 
-def of_all(cases) -> str:
+def of_all(cases: Sequence[Case]) -> str:
     """What `stabilab show` prints of a case, or of all combinations of its [sweep]: those with the same
     equations and laws together, the first whole, the others by their values."""
     kinds: dict[tuple, list] = {}
@@ -203,7 +209,7 @@ def of_all(cases) -> str:
     return "\n\n".join(parts)
 
 
-def _whole(case, equations, own) -> str:
+def _whole(case: Case, equations: Equations, own: Sequence[Balance]) -> str:
     """Scene, parameters, equations of motion as text and LaTeX, invariants. own: the laws of this scene."""
     unit = parameter_unit if case.variables == "physical" else lambda name: ""
     parts = [_head(case), "Parameters",
@@ -224,7 +230,7 @@ def _whole(case, equations, own) -> str:
                       *([] if own else ["  none is known"])])
 
 
-def _head(case) -> str:
+def _head(case: Case) -> str:
     rows = [written(case.title) or case.name, f"  from {case.place}"]
     rows += [f"  source: {case.source}"] if case.source else []
     components = ", ".join(map(lettered, case.scene.components))
@@ -280,31 +286,31 @@ def _craft(case) -> list[str]:
     return lines
 
 
-def _triple(vector) -> str:
+def _triple(vector: Sequence[float | Fraction]) -> str:
     return f"({', '.join(map(_number, vector))})"
 
 
-def _number(value) -> str:
+def _number(value: float | Fraction) -> str:
     """A number as it was given, where that is a short decimal; six digits of any other."""
     given = f"{float(value):.9g}"
     return given if Fraction(given) == Fraction(str(value)) else number(float(value), DIGITS)
 
 
-def _value(v) -> str:
+def _value(v: Fraction) -> str:
     """Exact where that is short, with its decimal; else the decimal alone."""
     exact = str(v)
     return (exact if "/" not in exact and len(exact) <= RATIO_LETTERS
             else f"{exact} = {_number(v)}" if len(exact) <= RATIO_LETTERS else _number(v))
 
 
-def _short(expression) -> str:
+def _short(expression: Expr) -> str:
     """The expression with rationals that are long rounded to six digits."""
     from sympy import Rational
     long = {r: r.evalf(DIGITS) for r in expression.atoms(Rational) if len(str(r)) > RATIO_LETTERS}
     return lettered(_products(str(expression.xreplace(long))))
 
 
-def _jacobian(case, equations) -> list[str]:
+def _jacobian(case: Case, equations: Equations) -> list[str]:
     """A row of the matrix a line; that of a liquid in a cavity would fill pages."""
     from sympy import factor_terms
     if "liquid_cavity" in (effect.name for effect in case.scene.effects):

@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 from decimal import ROUND_CEILING, Decimal, localcontext
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,11 +22,16 @@ from ..results import BODILY, Variables, frame_attributes, in_file, matrix_of, o
 from ..terminal import lettered, written
 from ..units import DIGITS, SHORT, Units, with_unit
 
+if TYPE_CHECKING:
+    from ...answers.simulate import Simulation
+    from ...case.read import Case
+
 ALL = 16  # digits of a double
 GAP = 2
 
 
-def text(case, run, units: Units, known: int | None = None, width: int | None = None) -> str:
+def text(case: Case, run: Simulation, units: Units, known: int | None = None,
+         width: int | None = None) -> str:
     """The lines for one run. known: digits that a check vouches for, where more than a table's were asked
     for; width: of a terminal, where the columns are printed part by part if they do not fit."""
     digits = DIGITS if known is None else min(ALL, known)
@@ -55,7 +61,7 @@ def zero_within(error: float) -> str:
         return f"0 within {float(+Decimal(error)):.0e}"
 
 
-def headline(case, run, units: Units) -> str:
+def headline(case: Case, run: Simulation, units: Units) -> str:
     """How far the motion was followed, its size at both ends, and by how much first integrals vary."""
     if not len(run.t):
         return f"NOT FOLLOWED: {run.reason}"
@@ -64,7 +70,7 @@ def headline(case, run, units: Units) -> str:
     return f"{reached} {units.time(float(run.t[-1]), SHORT)}{_sizes(run, units)}{kept}"
 
 
-def _sizes(run, units):
+def _sizes(run: Simulation, units: Units):
     part = next((name for name in ("omega", "x") if name in run.state), None)
     if part is None:
         return ""
@@ -91,7 +97,7 @@ def _columns(head, cells, width, wide):
 
 
 # --- As JSON
-def as_dict(case, run) -> dict:
+def as_dict(case: Case, run: Simulation) -> dict:
     """The object of `stabilab simulate --json`."""
     return {"schema": "stabilab.simulate/1", "case": case.name, "model": run.model,
             "time": case.scene.time_unit,
@@ -100,7 +106,7 @@ def as_dict(case, run) -> dict:
             } | frame.rows(case, run) | frame.key(case)
 
 
-def columns(run) -> tuple[list[str], list[list[float]]]:
+def columns(run: Simulation) -> tuple[list[str], list[list[float]]]:
     """Names and rows of everything a run has, time left out."""
     names: list[str] = []
     parts: list[np.ndarray] = []
@@ -111,12 +117,12 @@ def columns(run) -> tuple[list[str], list[list[float]]]:
     return names, np.hstack(parts).tolist()
 
 
-def _units(run) -> list[str]:
+def _units(run: Simulation) -> list[str]:
     """The SI unit of each of the columns."""
     return [PARTS[name].unit for name in run.state for _ in PARTS[name].components]
 
 
-def errors(run) -> list[float]:
+def errors(run: Simulation) -> list[float]:
     """The error of each of the columns, 0 where none is known."""
     return [float(v) for name, values in run.state.items()
             for v in np.broadcast_to(run.error.get(name, 0.0), np.shape(values)[1:]).ravel()]
@@ -127,7 +133,7 @@ def lost(t: float, value: float, error: float) -> bool:
     return t != 0 and 0 < abs(value) <= error
 
 
-def lost_columns(run) -> list[tuple[str, float]]:
+def lost_columns(run: Simulation) -> list[tuple[str, float]]:
     """(name, error) of the columns that hold numbers which are no more than their error."""
     names, rows = columns(run)
     return [(name, error) for name, error, values in zip(names, errors(run), zip(*rows))
@@ -135,7 +141,7 @@ def lost_columns(run) -> list[tuple[str, float]]:
 
 
 # --- As files: NetCDF with units and provenance, or CSV
-def _in_file(case, run) -> tuple[list[str], list[str], list]:
+def _in_file(case: Case, run: Simulation) -> tuple[list[str], list[str], list]:
     """Names, units and rows of the vectors of the body in the frame of the file; none where a tensor is
     diagonal."""
     axes = oblique(case.frame)
@@ -147,7 +153,7 @@ def _in_file(case, run) -> tuple[list[str], list[str], list]:
             [PARTS[name].unit for name in known for _ in "xyz"], np.hstack(turned).tolist())
 
 
-def checked(path) -> Path:
+def checked(path: Path) -> Path:
     """The path, if it can be written by its ending; InputError otherwise."""
     path = endings.file(path, (".nc", ".csv"))
     if endings.ending(path) == ".nc":
@@ -155,7 +161,7 @@ def checked(path) -> Path:
     return path
 
 
-def write(case, run, path) -> Path:
+def write(case: Case, run: Simulation, path: Path) -> Path:
     """Write a run of a case to `path` (.nc or .csv), whole or not at all. Of a full tensor NetCDF has the
     vectors of the body in the frame of the file, named x, y, z, the principal axes as an attribute, and those
     along them as omega_principal and so on; CSV has both beside each other."""

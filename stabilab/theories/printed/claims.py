@@ -5,12 +5,17 @@ from __future__ import annotations
 import ast
 import re
 import tomllib
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from operator import add, mul, sub, truediv
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from ...errors import InputError
+
+if TYPE_CHECKING:
+    from sympy import Expr
 
 FUNCTIONS = ("sin cos tan cot sec sinh cosh tanh exp log sqrt asin acos atan atan2 asinh atanh "
              "conjugate re im Abs sign").split()
@@ -55,7 +60,7 @@ def _build(node, text, symbols):
 
     functions, constants = _functions_and_constants()
 
-    def fault(words, at):
+    def fault(words: str, at: ast.Call | ast.Name | ast.Compare):
         raise FormulaError(f"{words} at position {at.col_offset + 1} of {text!r}")
 
     def visit(node):
@@ -83,7 +88,7 @@ def _build(node, text, symbols):
     return visit(node)
 
 
-def _near(name, symbols):
+def _near(name: str, symbols: Mapping[str, Expr]):
     from difflib import get_close_matches
 
     close = get_close_matches(name, symbols, 3, 0.5)
@@ -178,7 +183,7 @@ def read(path: Path) -> Paper:
     return paper
 
 
-def _formulas(table, symbols, file) -> dict:
+def _formulas(table: Mapping[str, str], symbols: Mapping[str, Expr], file: str) -> dict:
     """Name -> text with every formula named before it put in."""
     out: dict = {}
     for name, text in table.items():
@@ -200,7 +205,7 @@ def _expanded(value, formulas):
     return NAME.sub(lambda found: f"({formulas[found[0]]})" if found[0] in formulas else found[0], value)
 
 
-def _symbol(name, words):
+def _symbol(name: str, words: str):
     import sympy as sp
 
     if "complex" in words:
@@ -215,7 +220,7 @@ def vocabulary(path: Path) -> tuple[dict, dict, dict]:
     return symbols, formulas, definitions
 
 
-def _data(path):
+def _data(path: Path):
     path = Path(path)
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
@@ -229,7 +234,7 @@ def _data(path):
     return data
 
 
-def _vocabulary(data, file):
+def _vocabulary(data: Mapping[str, Any], file: str):
     symbols, units = _symbols(data.get("symbols", {}), file)
     formulas = _formulas(data.get("formulas", {}), symbols, file)
     definitions = _expanded(data.get("definitions", {}), formulas)
@@ -238,7 +243,7 @@ def _vocabulary(data, file):
     return symbols, units, formulas, definitions
 
 
-def _symbols(table, place):
+def _symbols(table: Mapping[str, str], place: str):
     """("D1 D2" = "kg m^2, positive") -> symbols and units by name."""
     symbols, units = {}, {}
     for names, words in table.items():
@@ -255,7 +260,7 @@ def _symbols(table, place):
     return symbols, units
 
 
-def _row(data, number, file, symbols) -> Row:
+def _row(data: Mapping[str, Any], number: int, file: str, symbols: dict[str, Expr]) -> Row:
     place = f"{file}, row {number} (equation {data.get('equation', '?')})"
     kind = data.get("kind", "holds")
     if kind not in KINDS:
@@ -283,7 +288,7 @@ def _row(data, number, file, symbols) -> Row:
                {key: value for key, value in data.items() if key not in OWN}, place)
 
 
-def _tuple(value):
+def _tuple(value: str | Sequence[str]):
     return (value,) if isinstance(value, str) else tuple(value)
 
 

@@ -6,15 +6,19 @@ from __future__ import annotations
 import cmath
 import random
 import zlib
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ...errors import InputError
 from ...physics.to_numpy import lambdified
 from .claims import FOLDER, parse, vocabulary
+
+if TYPE_CHECKING:
+    from sympy import Expr
 
 # --- Values of formulas at random points, to any number of digits: what decides where symbols do not
 FUNCTION_NAMES = {"Abs": "fabs", "conjugate": "conj", "log": "ln"}
@@ -52,7 +56,7 @@ class Evaluator:
         self.known: dict = {}   # expression -> value
         self._beside: dict = {}  # what differs -> evaluator that has the same but for that
 
-    def beside(self, key, make):
+    def beside(self, key: str, make: Callable[[], _Quotient]):
         """The evaluator kept under a key, made where there is none: what it has found once serves the next
         formula."""
         if key not in self._beside:
@@ -65,7 +69,7 @@ class Evaluator:
                            lambda: Evaluator(self.numbers, self.point | {name: value}, self.bound,
                                              self.system, True))
 
-    def __call__(self, expression):
+    def __call__(self, expression: Expr):
         if expression in self.known:
             return self.known[expression]
         try:
@@ -113,12 +117,12 @@ class Evaluator:
         name = FUNCTION_NAMES.get(name, name)
         return getattr(numbers, name, getattr(cmath, name, None))(*map(self, e.args))
 
-    def _known(self, name):
+    def _known(self, name: str):
         if name not in self.point:
             raise InputError(f"symbol {name!r} has no value")
         return self.point[name]
 
-    def plain(self, e):
+    def plain(self, e: Expr):
         """The expression with bound symbols put in and every operator carried out, as far as SymPy can."""
         e = e.xreplace({s: self.plain(self.bound[s.name]) for s in e.free_symbols if s.name in self.bound})
         return self.carried(e)
@@ -151,7 +155,7 @@ def _rate_of(evaluator, f):
     return expression
 
 
-def _rate(evaluator, f, n=1):
+def _rate(evaluator: Evaluator, f: Expr, n: int = 1):
     """By a difference quotient where that is enough, else by symbols."""
     import sympy as sp
     if n != 1 or f.has(sp.Function("rate")) or evaluator.beside_point:
@@ -161,7 +165,7 @@ def _rate(evaluator, f, n=1):
     return evaluator.beside("rate", lambda: _along(evaluator))(f)
 
 
-def _along(evaluator):
+def _along(evaluator: Evaluator):
     """Derivatives along the motion."""
     state = {x.name: x for x in evaluator.system.state}
     bound = {name: e for name, e in evaluator.bound.items() if name not in state}
@@ -192,7 +196,7 @@ class _Quotient:
                                 bound, evaluator.system, beside_point=True)
                       for step in (self.step, -self.step)]
 
-    def __call__(self, f):
+    def __call__(self, f: Expr):
         ahead, behind = (side(f) for side in self.sides)
         return +self.numbers.convert((ahead - behind) / (2 * self.step))
 
@@ -247,7 +251,7 @@ class Setting:
         """Values at a point; without one, what symbols alone can carry out."""
         return Evaluator(numbers, point or {}, self.bound, self.system, in_numbers)
 
-    def points(self, symbols, seed_text: str, count: int) -> list[dict]:
+    def points(self, symbols: Sequence[Expr], seed_text: str, count: int) -> list[dict]:
         """`count` random rational points: symbol name -> Fraction (pairs for complex symbols), sizes 1/3 to
         3, where every expression of the domain is positive. InputError where it is not met in many tries."""
         import mpmath
@@ -284,7 +288,7 @@ class Setting:
         return values
 
 
-def _random(draw, symbol):
+def _random(draw: random.Random, symbol: Expr):
     size = lambda: Fraction(draw.randrange(334, 3000), 1000)
     if symbol.is_positive:
         return size()
@@ -293,7 +297,7 @@ def _random(draw, symbol):
     return size() * draw.choice((1, -1)), size() * draw.choice((1, -1))
 
 
-def _positive(value):
+def _positive(value: float):
     return abs(value.imag) < 1e-12 and value.real > 1e-9
 
 

@@ -80,7 +80,7 @@ _A, _K, _J = 1 << 16, 1 << 32, 1 << 40
 _MIDDLE = (1 << 15) + (1 << 15) * _A
 
 
-def packed(j, k, a, b):
+def packed(j: int, k: int, a: float, b: float):
     """(j, k, a, b) in one integer, linearly: the key of a product is the sum of the keys. j, k below 256, a
     and b between -2^15 and 2^15."""
     return j * _J + k * _K + a * _A + b
@@ -107,18 +107,18 @@ class Terms:
         keys = self.keys + _MIDDLE
         return (keys >> 40) - (keys >> 32 & 255)
 
-    def __getitem__(self, rows):
+    def __getitem__(self, rows: np.ndarray):
         return Terms(self.keys[rows], self.c[rows], self.m[rows])
 
-    def times(self, factor):
+    def times(self, factor: complex | np.ndarray):
         """Each coefficient times a number or an array of numbers."""
         return Terms(self.keys, self.c * factor, self.m * np.abs(factor))
 
-    def over(self, divisors):
+    def over(self, divisors: np.ndarray):
         """Each coefficient over a number of its own."""
         return Terms(self.keys, self.c / divisors, self.m / np.abs(divisors))
 
-    def moved(self, key):
+    def moved(self, key: int):
         """Times one monomial."""
         return Terms(self.keys + key, self.c, self.m)
 
@@ -284,7 +284,7 @@ class FixedCentre:
         found = corrected(algebra, gathered(rate, algebra.rest_of_rate(weight)), order)
         return Corrected(gathered(first, found.added), found.rate)
 
-    def transverse(self, A, z):
+    def transverse(self, A: float, z: float):
         """((low, high), (low, high)) of omega2 and omega3 of the form while |zeta| <= A."""
         return tuple((c - A / abs(scale), c + A / abs(scale)) for c,
                      scale in zip(self.form.centre, self.form.scale))

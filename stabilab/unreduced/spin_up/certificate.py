@@ -57,7 +57,7 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -70,6 +70,9 @@ from . import kernel
 from .centres import FixedCentre, MovingCentre, Terms, moving_centre, sizes
 from .form import forms_of
 from .result import WIDER, SpinUp, SteadyTrap
+
+if TYPE_CHECKING:
+    from ...physics.scene import AnyScene
 
 
 # --- The kernels, compiled or as written
@@ -96,7 +99,7 @@ def stored() -> bool:
 
 
 # --- Equal moments
-def axis_of_symmetry(D) -> int | None:
+def axis_of_symmetry(D: Sequence[Fraction]) -> int | None:
     """The index of the axis whose two others have equal moments; None for three different moments and for a
     sphere."""
     found = [i for i in range(3) if D[(i + 1) % 3] == D[(i + 2) % 3]]
@@ -142,7 +145,7 @@ class Closed(Reasoned):
         return along[0] + 1, 1 if self.direction[along[0]] > 0 else -1
 
 
-def closed(scene, state) -> Closed | None:
+def closed(scene: AnyScene, state: Sequence[float | Fraction]) -> Closed | None:
     """The closed solution from a state, three exact numbers; None where the scene has none."""
     if scene.variables == "scaled":
         return None
@@ -169,7 +172,8 @@ def _sphere(D, l, M, x):
                   reason=SPHERE_WHEEL)
 
 
-def _symmetric(i, D, l, M, x):
+def _symmetric(i: int, D: Sequence[Fraction], l: Sequence[Fraction], M: Sequence[Fraction],
+               x: Sequence[Fraction]):
     """`Closed` of a body whose axis of symmetry is i, without a transverse wheel."""
     j, law, flat = (i + 1) % 3, "axis of symmetry", [v * (n != i) for n, v in enumerate(M)]
     push, cone = _size(flat) / D[j], _size([v * (n != i) for n, v in enumerate(x)])
@@ -186,7 +190,7 @@ def _symmetric(i, D, l, M, x):
                   reason=SYMMETRIC_GROWS)
 
 
-def _size(vector):
+def _size(vector: Sequence[Fraction]):
     return sqrt_fraction(Fraction(dot(vector, vector)))
 
 
@@ -266,7 +270,8 @@ class Certifier:
                            np.ascontiguousarray(np.array(drive).T), np.array([*field.G0.values()], float))
         self.numbers = form, *quantities, *sums
 
-    def decide(self, rows, states, reach, fired, number, found, fast: bool = False):
+    def decide(self, rows: np.ndarray, states: np.ndarray, reach: np.ndarray, fired: np.ndarray, number: int,
+               found: np.ndarray, fast: bool = False):
         """The test for those of rows that no test has fired for, balls of radius reach (n,) about states (n,
         3): fired (n,) becomes number, found (6, n) the constants A, z, eta, z_up, eta_up, k of the
         theorem. The arrays to work in are new ones for each question, for threads may share a test."""
@@ -276,7 +281,7 @@ class Certifier:
             decide = functions(kernel, fast)["decide"]
             decide(rows, states, reach, fired, number, found, *self.numbers, *work)
 
-    def constants(self, state, near: float = 0.0, fast: bool = False) -> tuple[float, ...] | None:
+    def constants(self, state: np.ndarray, near: float = 0.0, fast: bool = False) -> tuple[float, ...] | None:
         """The six constants for all states of the ball of radius `near` about one (3,); None where the
         inequality does not hold."""
         fired, found = np.full(1, -1), np.full((6, 1), np.nan)
@@ -284,7 +289,7 @@ class Certifier:
         return None if fired[0] else tuple(found[:, 0].tolist())
 
 
-def _sums(terms: Terms, coefficients, parts: int, shift=(0, 0)):
+def _sums(terms: Terms, coefficients: np.ndarray, parts: int, shift: Sequence[int] = (0, 0)):
     """(exponents (2, columns), table (degrees, columns)) of a sum of coefficients by degree and exponents; of
     no terms one that is 0."""
     j, k, a, b = terms.powers
@@ -306,7 +311,7 @@ def _quantity(terms: Terms, parts: int) -> kernel.Quantity:
     return kernel.Quantity(exponents, sums, most, values, powers)
 
 
-def _distinct(a, b):
+def _distinct(a: np.ndarray, b: np.ndarray):
     """The distinct pairs of whole numbers (2, m), ordered, and which of them each pair is, (n,); (0, 0) where
     there are none."""
     if not a.size:
@@ -323,7 +328,7 @@ class Tests:
     of the next. asked: those that were.
     """
 
-    def __init__(self, scene):
+    def __init__(self, scene: AnyScene):
         self.scene, self.forms, round_ = scene, forms_of(scene), equatorial(scene)
         self.fixed = [FixedCentre(form) for form in self.forms]
         self.equatorial = [round_] if round_ else []
@@ -354,7 +359,7 @@ class Tests:
     def __bool__(self):
         return bool(self.often)
 
-    def certifier(self, field, orders: tuple[int, int]) -> Certifier:
+    def certifier(self, field: FixedCentre | MovingCentre, orders: tuple[int, int]) -> Certifier:
         """The test itself. What others made does not alter an answer."""
         key = id(field), orders
         if key not in self.made:
@@ -366,6 +371,6 @@ class Tests:
 
 
 @lru_cache(maxsize=32)
-def tests_of(scene) -> Tests:
+def tests_of(scene: AnyScene) -> Tests:
     """The tests of a scene, kept for the next state of the same one."""
     return Tests(scene)

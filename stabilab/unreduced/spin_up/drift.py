@@ -31,14 +31,19 @@ against the unit vector n. A drift of the whole path in space shifts it by its s
 only, so that small circles that drift far stay on it."""
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from math import factorial
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import steps as kernel
 from .certificate import functions
+
+if TYPE_CHECKING:
+    from ...physics.scene import AnyScene
 
 # --- Motions and a small change of each, step by step
 STEP_ERROR = 2.0**-52  # units of rounding by which a step may move a motion: a Taylor polynomial of 20 terms
@@ -54,7 +59,7 @@ class Runs:
     compiled steps.
     """
 
-    def __init__(self, scene, states, fast: bool = False):
+    def __init__(self, scene: AnyScene, states: np.ndarray, fast: bool = False):
         self.coefficients = np.array([np.array(row, float) for row in scene.quadratic().coefficients])
         self.states, self.times, self.fast = np.array(states, float), np.zeros(len(states)), fast
         self.twins = Twins(len(states), self.rates)
@@ -63,7 +68,7 @@ class Runs:
         self.steps, self.rounded = np.zeros(len(states), int), np.zeros(len(states))
         self.met = np.repeat([[0.0], [np.inf]], len(states), axis=1)  # sizes since the last look
 
-    def _call(self, name, *arguments):
+    def _call(self, name: str, *arguments):
         with np.errstate(all="ignore"):
             functions(kernel, self.fast)[name](*arguments)
 
@@ -71,7 +76,7 @@ class Runs:
         """Arrays to work in."""
         return [np.empty(shape) for shape in ((kernel.ORDER + 1, 3), (kernel.ORDER + 1, 3), (4, 3), 2)]
 
-    def advance(self, rows, steps: int, t_max: float, pause: float = 0.0):
+    def advance(self, rows: np.ndarray, steps: int, t_max: float, pause: float = 0.0):
         """Carry the given rows (indices) on by so many steps, or to t_max; a row that has not passed the time
         `pause` stops there."""
         self.steps_done += steps
@@ -81,7 +86,7 @@ class Runs:
                    self.times, *changes, self.met, self.steps, self.rounded, *self._work(),
                    *np.empty((3, 3)))
 
-    def carried(self, states, spans, most: int):
+    def carried(self, states: np.ndarray, spans: np.ndarray, most: int):
         """(states, times) of motions from states (m, 3) after spans (m,) of time, forth or back, or after the
         most steps."""
         out, times = np.empty_like(states), np.empty_like(spans)
@@ -94,7 +99,7 @@ class Runs:
         self._call("measure", rows, self.states, self.steps, self.rounded, self.twins.growth, self.met,
                    STEP_ERROR, out.condition, out.reach, out.largest, out.least)
 
-    def over(self, rows, t_max: float, budget: int):
+    def over(self, rows: np.ndarray, t_max: float, budget: int):
         """(m,) which of rows are at the end of their time or of their steps, or beyond doubles."""
         out = np.empty(len(rows), bool)
         self._call("over", rows, self.states, self.times, self.steps, t_max, budget, out)
@@ -105,7 +110,7 @@ class Runs:
         error = STEP_ERROR * self.rounded[rows] * np.sqrt((starts**2).sum(axis=1))
         return self.twins.compare(rows, starts, self.states[rows], twins, delays, apart, error)
 
-    def rates(self, states):
+    def rates(self, states: np.ndarray):
         """The rates of change at states (m, 3)."""
         y, z = states[:, [1, 2, 0]], states[:, [2, 0, 1]]
         c = self.coefficients
@@ -130,7 +135,7 @@ class Twins:
     turned to (largest entry 1); inf where it could not be told any more; most (n,): the most it was. blur
     (n,): of the time. rates: function of states (m, 3)."""
 
-    def __init__(self, n: int, rates):
+    def __init__(self, n: int, rates: Callable[..., Any]):
         self.growth, self.most, self.ahead = np.ones(n), np.ones(n), np.tile([1.0, -1.0, 1.0], (n, 1))
         self.blur, self.rates = np.zeros(n), rates
 
@@ -172,14 +177,14 @@ class Twins:
         self.ahead[rows[turned]] = change[turned] / size[turned, None]
         return ~told
 
-    def _along(self, states):
+    def _along(self, states: np.ndarray):
         """Unit vectors along the motions (m, 3); zero where they hardly move."""
         rates = self.rates(states)
         speed = np.sqrt((rates**2).sum(axis=1))
         return np.where((speed > kernel.STILL * _size(states))[:, None], rates / speed[:, None], 0.0)
 
 
-def _size(states):
+def _size(states: np.ndarray):
     return np.maximum(np.abs(states).max(axis=1, initial=0.0), 1.0)
 
 
@@ -241,7 +246,7 @@ class Returns:
         late = (rates * normals).sum(axis=1) / (bend * normals).sum(axis=1)
         return late, np.abs(late) * np.sqrt((bend**2).sum(axis=1) / (rates**2).sum(axis=1))
 
-    def normals(self, states):
+    def normals(self, states: np.ndarray):
         """Unit vectors across the motions at states (m, 3), toward where they bend: these states lie on the
         sections."""
         rates = self.runs.rates(states)
@@ -258,7 +263,7 @@ class Returns:
             states = states - up * (off / (up**2).sum(axis=1))[:, None]
         return states
 
-    def first(self, states):
+    def first(self, states: np.ndarray):
         """(times, steps): of states (m, 3) the first return to their sections, and the steps on the way; nan
         where none is near."""
         normals = self.normals(states)
@@ -395,7 +400,7 @@ class Leaps:
         self.counts, self.periods, self.steps = np.zeros(n), np.full(n, np.nan), np.zeros(n)
         self.due = np.full(n, FROM)
 
-    def advance(self, rows, t_max: float, pause: float = 0.0):
+    def advance(self, rows: np.ndarray, t_max: float, pause: float = 0.0):
         """The rows (of indices) that were carried on, each by one window; the others are left as they are, to
         go on step by step."""
         rows = rows[self.runs.steps[rows] >= self.due[rows]]

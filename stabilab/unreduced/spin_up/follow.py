@@ -9,9 +9,9 @@ which the inequality holds, given as the blur of the clock, and nothing else.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -31,6 +31,9 @@ from .certificate import Tests, exactly, loaded, stored, tests_of
 from .drift import Leaps, Runs
 from .form import island, recurs, seen
 from .result import SpinUp, Trap
+
+if TYPE_CHECKING:
+    from .centres import FixedCentre, MovingCentre
 
 NATURAL_TIMES, BUDGET = 1e9, 600_000
 # steps that show the pace of a motion, where it is followed to a time that somebody names
@@ -92,8 +95,8 @@ class Chased:
     given_up: dict[int, str] = field(default_factory=dict)
 
 
-def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float = 0.0, tell=None,
-          plain: float = 0) -> Chased:
+def chase(scene: AnyScene, tests: Tests, starts: np.ndarray, t_max: float, budget: int, after: float = 0.0,
+          tell: Callable[..., Any] | None = None, plain: float = 0) -> Chased:
     """Follow the motions from starts (n, 3) of a scene in natural units, each until a test fires at a time no
     earlier than `after`, t_max, or `budget` steps. tell(least time, steps, motions left): called after every
     stage. plain: so many steps are taken and judged by loops as they are written, before others are
@@ -134,7 +137,7 @@ def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float =
     return out
 
 
-def _hopeless(out, rows, t_max: float, budget: int):
+def _hopeless(out: Chased, rows: np.ndarray, t_max: float, budget: int):
     """(m,) which of rows cannot come to a time that somebody names, for which many steps are allowed."""
     found = np.zeros(len(rows), bool)
     for n, row in enumerate(rows.tolist() if budget > BUDGET else ()):
@@ -146,7 +149,8 @@ def _hopeless(out, rows, t_max: float, budget: int):
     return found
 
 
-def _ask(out, rows, which, fast):
+def _ask(out: Chased, rows: np.ndarray, which: Sequence[tuple[FixedCentre | MovingCentre, tuple[int, int]]],
+         fast: bool):
     """Ask tests for rows, one after another for those that none has fired for; what fires is written down."""
     for form, orders in which:
         if not rows.size:
@@ -219,12 +223,12 @@ def kept_by_law(scene: AnyScene, state: tuple[float, ...], answer: SpinUp) -> Sp
                    reason=BOUNDED_BY_LAW.then(known.reason, ": "))
 
 
-def follows(state, unit: float) -> bool:
+def follows(state: Sequence[float], unit: float) -> bool:
     """Whether a run in doubles can hold a state; unit: one natural unit of rates in those of the state."""
     return all(abs(v) / FARTHEST < unit for v in state)
 
 
-def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
+def answer_of(scene: AnyScene, unit: float, found: Chased, row: int) -> SpinUp:
     """The answer of one row of what `chase` found."""
     t, state = float(found.t[row]) / unit, tuple((found.states[row] * unit).tolist())
     steps, condition, passed = int(found.steps[row]), float(found.condition[row]), float(found.passed[row])
@@ -312,7 +316,7 @@ def spin_up_many(scene, states, t_max: float | None = None, budget: int | None =
                             for number, state in enumerate(states.tolist())))
 
 
-def _of_rows(scene, given: Iterable[SpinUp]) -> SpinUps:
+def _of_rows(scene: AnyScene, given: Iterable[SpinUp]) -> SpinUps:
     """Columns of answers that were found one by one."""
     rows = tuple(given)
     kinds = np.array([(row.fate, row.axis, row.sense, LEVELS.index(row.level)) for row in rows], np.int8)

@@ -37,12 +37,17 @@ great X). This is a pointer, not a proof."""
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from ...equilibrium.gyrostat import gyrostat_equilibria
 from ...orbit.one_state import in_range
 from ...reasons import Axis, Quantity, Reason, Sentence
+
+if TYPE_CHECKING:
+    from ...physics.scene import AnyScene
 
 # --- The normal form
 HALF_TURN = (-1, 1, -1)  # about axis 2: a rotation of the body, so every vector takes part
@@ -83,14 +88,15 @@ class NormalForm:
         """gam mu - h kap: how the transverse torque beats with the asymmetry of the body."""
         return self.gam * self.mu - self.h * self.kap
 
-    def place(self, state):
+    def place(self, state: Sequence[float]):
         """(X, zeta) of a state (three rates in the body's principal axes)."""
         w1, w2, w3 = (turn * state[i] for turn, i in zip(self.turn, self.order))
         return w1 + self.shift, complex(self.scale[0] * (w2 - self.centre[0]),
                                         self.scale[1] * (w3 - self.centre[1]))
 
 
-def normal_form(D, wheel, torque, axis: int) -> NormalForm | None:
+def normal_form(D: Sequence[Fraction], wheel: Sequence[Fraction], torque: Sequence[Fraction],
+                axis: int) -> NormalForm | None:
     """The normal form about a body axis; None where the torque has no component there, or the axis is neither
     the major nor the minor one (or shares its moment with another).
 
@@ -117,13 +123,13 @@ def normal_form(D, wheel, torque, axis: int) -> NormalForm | None:
         (math.sqrt(D2 * a2), s * math.sqrt(D3 * a3)), float(l2 * M2 / d2 + l3 * M3 / d3))
 
 
-def over_root(numerator, square) -> float:
+def over_root(numerator: Fraction | float, square: Fraction) -> float:
     """numerator/sqrt(square) of exact numbers: its square is exact before the root."""
     size = math.sqrt(numerator * numerator / square)
     return -size if numerator < 0 else size
 
 
-def scaled_normal_form(a, b, mu, axis: int) -> NormalForm | None:
+def scaled_normal_form(a: Fraction, b: Fraction, mu: Sequence[Fraction], axis: int) -> NormalForm | None:
     """The normal form of the scaled gyrostat about x1 or x3 (index 0 or 2); None where mu vanishes there, and
     about x2."""
     a, b, mu = Fraction(a), Fraction(b), tuple(map(Fraction, mu))
@@ -138,7 +144,7 @@ def scaled_normal_form(a, b, mu, axis: int) -> NormalForm | None:
                       complex(b - a), 0.0, (0.0, float(-a)), (1.0, 1.0), float((a - b) * m1))
 
 
-def forms_of(scene) -> list[NormalForm]:
+def forms_of(scene: AnyScene) -> list[NormalForm]:
     """The normal forms of a scene (gyrostat and constant torque): one for each extremal axis that bears a
     torque."""
     with in_range("scene"):
@@ -190,7 +196,7 @@ AVERAGED_CENTRE = Sentence("averaged-centre", "averaging has its centre about {a
 OTHER_CENTRE = Sentence("other-averaged-centre", "about {axis} at a spin of {rate}")
 
 
-def seen(scene, state, recurrence: Reason | None = None) -> Reason:
+def seen(scene: AnyScene, state: Sequence[float], recurrence: Reason | None = None) -> Reason:
     """The cause why spin-up about neither axis is certified at a state on its way, strongest first.
     recurrence: what is said of a motion that recurs, where it does."""
     forms = forms_of(scene)
@@ -205,11 +211,11 @@ def seen(scene, state, recurrence: Reason | None = None) -> Reason:
     return found.then(_between(scene, state, recurrence))
 
 
-def _rate(scene, value: float) -> Quantity:
+def _rate(scene: AnyScene, value: float) -> Quantity:
     return Quantity(value, "" if scene.variables == "scaled" else "rad/s", 4)
 
 
-def _look(form, state, scene) -> tuple[int, Reason | None]:
+def _look(form: NormalForm, state: Sequence[float], scene: AnyScene) -> tuple[int, Reason | None]:
     """(rank, cause) of one form."""
     X, zeta = form.place(state)
     axis = Axis(form.axis + 1)
@@ -228,7 +234,7 @@ def _look(form, state, scene) -> tuple[int, Reason | None]:
         3, RATE_SWINGS(axis=axis))
 
 
-def _small(scene, forms) -> list[Reason]:
+def _small(scene: AnyScene, forms: Sequence[NormalForm]) -> list[Reason]:
     torque = [float(v)
               for v in (scene.exact_mu if scene.variables == "scaled" else scene.vector("constant_torque"))]
     size = math.hypot(*torque)
@@ -236,7 +242,7 @@ def _small(scene, forms) -> list[Reason]:
             for form in forms if form.M1 < SMALL * size]
 
 
-def _between(scene, state, recurrence) -> Reason | None:
+def _between(scene: AnyScene, state: Sequence[float], recurrence: Reason) -> Reason | None:
     """A pointer to bounded islands: with a wheel and two equilibria, the state no faster than thrice the
     farther of them."""
     ends = _equilibria(scene)
@@ -248,7 +254,7 @@ def _between(scene, state, recurrence) -> Reason | None:
     return recurrence or ISLAND_POSSIBLE
 
 
-def _equilibria(scene):
+def _equilibria(scene: AnyScene):
     """The two equilibria of a scene with a wheel, (3,) each; none where there are not two."""
     if scene.variables == "scaled" or not any(scene.vector("gyrostat")):
         return ()
@@ -266,7 +272,7 @@ class Centre:
     action: float
 
 
-def centres(scene) -> list[Centre]:
+def centres(scene: AnyScene) -> list[Centre]:
     """The centres of the averaged flow of a scene in physical variables, with the wheel's part along each
     axis left out (leading order)."""
     if scene.variables == "scaled":
@@ -292,7 +298,7 @@ def _centre(D, l, M, i):
     return Centre(i + 1, X, action) if action > 0 else None
 
 
-def recurs(largest, least, steps: int) -> bool:
+def recurs(largest: Sequence[float], least: Sequence[float], steps: int) -> bool:
     """Whether the size of a motion kept its greatest value over the last three doublings of the steps, and
     swung under it.
 
@@ -305,7 +311,7 @@ def recurs(largest, least, steps: int) -> bool:
     return max(tops) <= SAME * min(tops) and min(least[last - DOUBLINGS:last + 1]) < SWINGS * max(tops)
 
 
-def island(scene, t: float) -> Reason:
+def island(scene: AnyScene, t: float) -> Reason:
     """What is said of a motion that recurs, followed for a time t."""
     found = ISLAND_SEEN(time=Quantity(t, scene.time_unit, 4))
     for n, one in enumerate(centres(scene)):

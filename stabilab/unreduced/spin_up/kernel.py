@@ -66,7 +66,7 @@ class Quantity(NamedTuple):
     powers: np.ndarray
 
 
-def fill(row, base, parts, reach):
+def fill(row: np.ndarray, base: float, parts: int, reach: int):
     """base^(n/parts) at MIDDLE + n for |n| <= reach."""
     up = base if parts == 1 else math.sqrt(math.sqrt(base))
     down, one, other = 1 / up, 1.0, 1.0
@@ -76,7 +76,7 @@ def fill(row, base, parts, reach):
         row[MIDDLE + n], row[MIDDLE - n] = one, other
 
 
-def prepare(rows, x, form):
+def prepare(rows: np.ndarray, x: float, form: Form):
     """Rows of powers, ones at first: of p and q falling, of the greatest q/p and p/q from x on rising."""
     p, q, a2, a3 = form.a3 * x + form.c3, form.a2 * x + form.c2, form.a2, form.a3
     fill(rows[0], 1 / p, form.parts, form.reach)
@@ -86,12 +86,12 @@ def prepare(rows, x, form):
         fill(rows[3], max(p / q, a3 / a2), form.parts, form.reach)
 
 
-def turning(rows, form):
+def turning(rows: np.ndarray, form: Form):
     """Om over its constant."""
     return form.turn_size * rows[0, MIDDLE + form.turn_a] * rows[1, MIDDLE + form.turn_b]
 
 
-def greatest(a, b, rows, a2):
+def greatest(a: int, b: int, rows: np.ndarray, a2: float):
     """A decreasing bound of the factor from here on: of mixed signs, a power of the ratio splits off."""
     if a2 == 0:
         return rows[0, MIDDLE + a] if a >= 0 else math.inf
@@ -103,7 +103,7 @@ def greatest(a, b, rows, a2):
             else rows[3, MIDDLE - a] * rows[1, MIDDLE + a + b])
 
 
-def tail(a, b, rows, a2, a3, parts):
+def tail(a: int, b: int, rows: np.ndarray, a2: float, a3: float, parts: int):
     """The least of four bounds of the integral of the factor over all greater x: of factors that both fall,
     one stays as it is; or a power of the ratio splits off. Infinity where it does not fall faster than
     1/x."""
@@ -123,7 +123,7 @@ def tail(a, b, rows, a2, a3, parts):
     return best
 
 
-def columns(table, A, row):
+def columns(table: np.ndarray, A: float, row: np.ndarray):
     """Sum of table[d, n] A^d over d, into row[n]."""
     for n in range(table.shape[1]):
         result = 0.0
@@ -132,7 +132,7 @@ def columns(table, A, row):
         row[n] = result
 
 
-def summed(row, exponents, rows, form):
+def summed(row: np.ndarray, exponents: np.ndarray, rows: np.ndarray, form: Form):
     """Sum of the columns in a row times the bounds of their factors."""
     result = 0.0
     for n in range(exponents.shape[1]):
@@ -141,13 +141,14 @@ def summed(row, exponents, rows, form):
     return result
 
 
-def total(table, exponents, A, rows, form, row):
+def total(table: np.ndarray, exponents: np.ndarray, A: float, rows: np.ndarray, form: Form, row: np.ndarray):
     """Sum of table[d, n] A^d times the factor's bound."""
     columns(table, A, row)
     return summed(row, exponents, rows, form)
 
 
-def integrated(table, exponents, A, rows, form, row):
+def integrated(table: np.ndarray, exponents: np.ndarray, A: float, rows: np.ndarray, form: Form,
+               row: np.ndarray):
     """Sum of table[d, n] A^d times the bound of the factor's integral."""
     columns(table, A, row)
     result = 0.0
@@ -157,13 +158,13 @@ def integrated(table, exponents, A, rows, form, row):
     return result
 
 
-def steepness(a, b, x, form):
+def steepness(a: float, b: float, x: float, form: Form):
     """How fast the factor changes with x, over itself."""
     p, q = form.a3 * x + form.c3, form.a2 * x + form.c2
     return (abs(a) * form.a3 / p + abs(b) * form.a2 / q) / form.parts
 
 
-def value_of(quantity, zeta, rows, powers, row):
+def value_of(quantity: Quantity, zeta: complex, rows: np.ndarray, powers: np.ndarray, row: np.ndarray):
     """The value of a quantity whose terms come with their conjugates."""
     powers[0] = 1
     for j in range(1, powers.size):
@@ -183,7 +184,8 @@ def value_of(quantity, zeta, rows, powers, row):
     return result
 
 
-def blurred(quantity, zeta, size, x, low, dx, form, rows, powers, row):
+def blurred(quantity: Quantity, zeta: complex, size: float, x: float, low: float, dx: float, form: Form,
+            rows: np.ndarray, powers: np.ndarray, row: np.ndarray):
     """(value, blur) of a quantity at a place known within dx and within size - |zeta|."""
     prepare(rows, x, form)
     value = value_of(quantity, zeta, rows, powers, row)
@@ -198,7 +200,7 @@ def blurred(quantity, zeta, size, x, low, dx, form, rows, powers, row):
                    + COEFFICIENT * total(quantity.most, exponents, size, rows, form, row))
 
 
-def drives(form, rows):
+def drives(form: Form, rows: np.ndarray):
     """(least, greatest) of the drive from here on: its terms are constant or fall."""
     low = high = 0.0
     for n in range(form.drive.size):
@@ -210,7 +212,7 @@ def drives(form, rows):
     return low, high
 
 
-def weight_within(form, x, low, dx, rows):
+def weight_within(form: Form, x: float, low: float, dx: float, rows: np.ndarray):
     """A bound of the weight, the drive over M1, within dx."""
     result = 0.0
     prepare(rows, x, form)
@@ -225,14 +227,16 @@ def weight_within(form, x, low, dx, rows):
     return result / form.M1
 
 
-def valid(x, form):
+def valid(x: float, form: Form):
     """Where p and q are positive, well formed, and x is."""
     p, q = form.a3 * x + form.c3, form.a2 * x + form.c2
     return (x > 0 and p > 0 and q > 0 and p * 256 > form.a3 * x + abs(form.c3)
             and q * 256 > form.a2 * x + abs(form.c2))
 
 
-def search(x, zeta, dx, dz, form, energy, amplitude, r, k, rows, powers, kept, row, out):
+def search(x: float, zeta: complex, dx: float, dz: float, form: Form, energy: Quantity, amplitude: Quantity,
+           r: Sum, k: Sum, rows: np.ndarray, powers: np.ndarray, kept: np.ndarray, row: np.ndarray,
+           out: np.ndarray):
     """Whether the inequality holds at one place, and its constants A, z, eta, z_up, eta_up, k in out (6,):
     see `certificate`. energy, amplitude: Quantity; r, k: Sum. rows, powers, kept, row: for work."""
     low, top, D1, M1 = x - dx, x + dx, form.D1, form.M1
@@ -288,7 +292,7 @@ def search(x, zeta, dx, dz, form, energy, amplitude, r, k, rows, powers, kept, r
     return False
 
 
-def place_about_fixed(w1, w2, w3, near, form):
+def place_about_fixed(w1: float, w2: float, w3: float, near: float, form: Form):
     """(x, zeta, how far the one and the other may be off); frame: shift, centre, scale of the form."""
     shift, centre2, centre3 = form.frame[0], form.frame[1], form.frame[2]
     scale2, scale3 = form.frame[3], form.frame[4]
@@ -297,7 +301,7 @@ def place_about_fixed(w1, w2, w3, near, form):
             BLUR * (abs(w1) + abs(shift)) + near, max(abs(scale2), abs(scale3)) * (BLUR * size + near))
 
 
-def place_about_moving(w1, w2, w3, near, form):
+def place_about_moving(w1: float, w2: float, w3: float, near: float, form: Form):
     """The same; frame: s, wheel, torque, roots, n2, n3 of the form. x = 0 where there is none."""
     s, l2, l3, M2, M3 = form.frame[0], form.frame[1], form.frame[2], form.frame[3], form.frame[4]
     r2, r3, n2, n3 = form.frame[5], form.frame[6], form.frame[7], form.frame[8]
@@ -313,8 +317,9 @@ def place_about_moving(w1, w2, w3, near, form):
     return w1, eta, near, 1.25 * (r2 * rho * moved2 + r3 / rho * moved3 + (turned + CONDITION) * abs(eta))
 
 
-def decide(chosen, states, reach, fired, number, found, form, energy, amplitude, r, k, rows, powers, kept,
-           row, out):
+def decide(chosen: np.ndarray, states: np.ndarray, reach: np.ndarray, fired: np.ndarray, number: int,
+           found: np.ndarray, form: Form, energy: Quantity, amplitude: Quantity, r: Sum, k: Sum,
+           rows: np.ndarray, powers: np.ndarray, kept: np.ndarray, row: np.ndarray, out: np.ndarray):
     """Ask for those of chosen rows that no test has fired for: fired (n,) becomes `number`, found (6, n) the
     constants, where the inequality holds for the whole ball of radius reach (n,) about the state."""
     basis = form.basis

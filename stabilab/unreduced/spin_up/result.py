@@ -71,7 +71,7 @@ class Trap:
         late = self.t + self.blur + max(0.0, D1 * late) / self.unit
         return early * (1 - WIDER), late * (1 + WIDER)
 
-    def _passing(self, x):
+    def _passing(self, x: float):
         """(earliest, latest) time to x over D1: D1 y' is within M1 + less/(y + S), M1 + more/(y + S), as what
         is beside M1 falls at least like 1/(y + S), S the field's `least_fall`."""
         M1, S, early, late = self.field.M1, self.field.least_fall, x - self.z_up, x - self.z
@@ -159,7 +159,7 @@ class SpinUp(Answer, Reasoned):
         return self.because
 
 
-def _delay(c, M1, start, rise):
+def _delay(c: float, M1: float, start: float, rise: float):
     """What c/y in D1 y' = M1 + c/y takes off the rise over M1/D1: (c/M1) ln of how M1 y + c grows. It is
     positive from the start on: eta of the theorem is."""
     return c / M1 * math.log1p(rise / (start + c / M1))

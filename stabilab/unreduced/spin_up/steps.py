@@ -12,6 +12,10 @@ change's own last coefficients allow, nor than a few times what the slopes of th
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import numpy as np
 
 ORDER, SIDE = 20, 8
 # base 2: what the last coefficients may add to a state, relative to it or to a natural unit: a sixteenth of a
@@ -27,7 +31,7 @@ STILL = 2.0**-8  # rates per size (or per natural unit) below which no delay is 
 LOST = 2.0**-30  # what lies across a motion is taken to be no less, relative to the change
 
 
-def logarithm(x):
+def logarithm(x: float):
     """Of positive x to the base 2: exact at powers of 2, linear between them, so at most 0.09 below; 1024
     where x is beyond doubles."""
     if not x < math.inf:
@@ -36,14 +40,14 @@ def logarithm(x):
     return power - 2.0 + 2.0 * share
 
 
-def two_to(y):
+def two_to(y: float):
     """2^y for |y| < 1000, within 0.3 per cent; exact for whole y."""
     whole = math.floor(y)
     part = y - whole
     return math.ldexp(1.0 + part * (0.6565 + 0.3435 * part), int(whole))
 
 
-def series(c, a):
+def series(c: np.ndarray, a: np.ndarray):
     """The coefficients of a from those of degree 0. c (4, 3): kappa, rho, sigma, m, times the scale."""
     for n in range(ORDER):
         s0 = s1 = s2 = 0.0
@@ -60,7 +64,7 @@ def series(c, a):
         a[n + 1, 0], a[n + 1, 1], a[n + 1, 2] = s0 * over, s1 * over, s2 * over
 
 
-def series_beside(c, a, v):
+def series_beside(c: np.ndarray, a: np.ndarray, v: np.ndarray):
     """The coefficients of a change v beside those of the motion a."""
     for n in range(SIDE):
         s0 = s1 = s2 = 0.0
@@ -74,12 +78,12 @@ def series_beside(c, a, v):
         v[n + 1, 2] = (c[0, 2] * s2 + c[1, 2] * v[n, 1] + c[2, 2] * v[n, 0]) * over
 
 
-def largest_of(table, n, least):
+def largest_of(table: np.ndarray, n: int, least: float):
     """The greatest size in row n of a table, at least `least`."""
     return max(abs(table[n, 0]), abs(table[n, 1]), abs(table[n, 2]), least)
 
 
-def allowed(table, order, least, share):
+def allowed(table: np.ndarray, order: int, least: float, share: float):
     """The logarithm of the step over which each of the last two coefficients adds to the state, or to
     `least`, at most its share (a logarithm)."""
     most = logarithm(largest_of(table, 0, least)) + share
@@ -87,7 +91,7 @@ def allowed(table, order, least, share):
                (most - logarithm(largest_of(table, order - 1, 1e-290))) / (order - 1))
 
 
-def steepest(c, a):
+def steepest(c: np.ndarray, a: np.ndarray):
     """The greatest sum of sizes in a row of the rates' derivative."""
     x, y, z = a[0, 0], a[0, 1], a[0, 2]
     return max(abs(c[0, 0] * z + c[2, 0]) + abs(c[0, 0] * y + c[1, 0]),
@@ -95,7 +99,7 @@ def steepest(c, a):
                abs(c[0, 2] * y + c[2, 2]) + abs(c[0, 2] * x + c[1, 2]), 1e-290)
 
 
-def ahead_by(table, order, h):
+def ahead_by(table: np.ndarray, order: int, h: float):
     """The values of three polynomials at h, to row 0."""
     for i in range(3):
         total = table[order, i]
@@ -104,12 +108,13 @@ def ahead_by(table, order, h):
         table[0, i] = total
 
 
-def square(a):
+def square(a: np.ndarray):
     """|omega|^2."""
     return a[0, 0] * a[0, 0] + a[0, 1] * a[0, 1] + a[0, 2] * a[0, 2]
 
 
-def run(coefficients, a, v, span, steps, beside, scaled, met):
+def run(coefficients: np.ndarray, a: np.ndarray, v: np.ndarray, span: float, steps: int, beside: bool,
+        scaled: np.ndarray, met: np.ndarray):
     """Up to so many steps, over a span of time (back where it is negative), of the motion in row 0 of a and,
     if `beside`, of the change in v; returns the time that has passed. The greatest and the least |omega|^2
     that was met goes to met (2,); scaled (4, 3): for work."""
@@ -139,7 +144,8 @@ def run(coefficients, a, v, span, steps, beside, scaled, met):
     return span if left <= 0.0 else math.copysign(passed, span)
 
 
-def carry(coefficients, states, spans, steps, out, reached, a, v, scaled, met):
+def carry(coefficients: np.ndarray, states: np.ndarray, spans: np.ndarray, steps: int, out: np.ndarray,
+          reached: np.ndarray, a: np.ndarray, v: np.ndarray, scaled: np.ndarray, met: np.ndarray):
     """Motions from states (n, 3) over spans (n,) of time, forth or back, in at most so many steps: states to
     out, times to reached."""
     for row in range(spans.size):
@@ -148,7 +154,7 @@ def carry(coefficients, states, spans, steps, out, reached, a, v, scaled, met):
         out[row] = a[0]
 
 
-def rates_at(c, x, y, z, out):
+def rates_at(c: np.ndarray, x: float, y: float, z: float, out: np.ndarray):
     """The rates of change at one state; returns (their size, the state's greatest or 1)."""
     out[0] = c[0, 0] * y * z + c[1, 0] * z + c[2, 0] * y + c[3, 0]
     out[1] = c[0, 1] * z * x + c[1, 1] * x + c[2, 1] * z + c[3, 1]
@@ -156,7 +162,7 @@ def rates_at(c, x, y, z, out):
     return math.sqrt(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]), max(abs(x), abs(y), abs(z), 1.0)
 
 
-def across(c, states, ahead, row, rate, out):
+def across(c: np.ndarray, states: np.ndarray, ahead: np.ndarray, row: int, rate: np.ndarray, out: np.ndarray):
     """The part of a row's direction `ahead` across its motion (`drift.Twins.start`)."""
     speed, largest = rates_at(c, states[row, 0], states[row, 1], states[row, 2], rate)
     out[0], out[1], out[2] = ahead[row, 0], ahead[row, 1], ahead[row, 2]
@@ -171,7 +177,8 @@ def across(c, states, ahead, row, rate, out):
             out[0], out[1], out[2] = share * out[0], share * out[1], share * out[2]
 
 
-def note(c, start, states, row, change, error, rate, growth, most, ahead, blur):
+def note(c: np.ndarray, start: np.ndarray, states: np.ndarray, row: int, change: np.ndarray, error: float,
+         rate: np.ndarray, growth: np.ndarray, most: np.ndarray, ahead: np.ndarray, blur: np.ndarray):
     """What became of a change of size 1 (3,): its part across the motion is the growth, the delay a blur
     (`drift.Twins.compare`)."""
     first, largest = rates_at(c, start[0], start[1], start[2], rate)
@@ -194,8 +201,11 @@ def note(c, start, states, row, change, error, rate, growth, most, ahead, blur):
             ahead[row, i] = change[i] / far
 
 
-def advance(coefficients, rows, steps, t_max, pause, step_error, states, clock, growth, most, ahead, blur,
-            sizes, done, rounded, a, v, scaled, met, start, rate, change):
+def advance(coefficients: np.ndarray, rows: np.ndarray, steps: int, t_max: float, pause: float,
+            step_error: float, states: np.ndarray, clock: np.ndarray, growth: np.ndarray, most: np.ndarray,
+            ahead: np.ndarray, blur: np.ndarray, sizes: np.ndarray, done: np.ndarray, rounded: np.ndarray,
+            a: np.ndarray, v: np.ndarray, scaled: np.ndarray, met: np.ndarray, start: np.ndarray,
+            rate: np.ndarray, change: np.ndarray):
     """Carry rows on by so many steps, or to t_max (to `pause` those before it), and note how a small change
     of each has grown. done, rounded (n,): steps computed and passed; sizes (2, n): greatest and least |omega|
     on the way. a, v, scaled, met, start, rate, change: for work."""
@@ -217,7 +227,9 @@ def advance(coefficients, rows, steps, t_max, pause, step_error, states, clock, 
         note(coefficients, start, states, row, change, error, rate, growth, most, ahead, blur)
 
 
-def measure(rows, states, steps, rounded, growth, met, step_error, condition, reach, largest, least):
+def measure(rows: np.ndarray, states: np.ndarray, steps: np.ndarray, rounded: np.ndarray, growth: np.ndarray,
+            met: np.ndarray, step_error: float, condition: np.ndarray, reach: np.ndarray, largest: np.ndarray,
+            least: np.ndarray):
     """Take note of rows (`follow.Chased`): condition (n,), reach (n,) of the rounding, largest and least (n,
     48) size of the state by doublings of the steps. met (2, n): of `advance`; what it says is used up."""
     for row in rows:
@@ -235,7 +247,8 @@ def measure(rows, states, steps, rounded, growth, met, step_error, condition, re
         met[0, row], met[1, row] = 0.0, math.inf
 
 
-def over(rows, states, clock, done, t_max, budget, out):
+def over(rows: np.ndarray, states: np.ndarray, clock: np.ndarray, done: np.ndarray, t_max: float, budget: int,
+         out: np.ndarray):
     """Which of rows have come to the end of their time or of their steps, or beyond doubles."""
     for n in range(rows.size):
         row = rows[n]

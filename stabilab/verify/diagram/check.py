@@ -3,6 +3,7 @@ between any two of these.
 """
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -22,7 +23,7 @@ class Place:
     count: Count
 
 
-def check_diagram(claims: Claims, note, work: Work | None = None) -> None:
+def check_diagram(claims: Claims, note: Callable[..., None], work: Work | None = None) -> None:
     """Findings on all claims. work: how much they may take (None: `work.MOST`)."""
     try:
         _check(claims, note, work or Work())
@@ -31,7 +32,7 @@ def check_diagram(claims: Claims, note, work: Work | None = None) -> None:
         note(parts, "not checked", TOO_LARGE)
 
 
-def _check(claims: Claims, note, work: Work) -> None:
+def _check(claims: Claims, note: Callable[..., None], work: Work) -> None:
     equations = Equations.of(claims)
     if claims.variables == "physical":
         whole = all(_positive(D, claims.low, claims.high, work) for D in claims.scene["inertia"])
@@ -56,11 +57,11 @@ def _check(claims: Claims, note, work: Work) -> None:
     note("the events are complete", "refuted" if missed else "proved", told)
 
 
-def _positive(f, low: Fraction, high: Fraction, work: Work) -> bool:
+def _positive(f: fmpq_poly, low: Fraction, high: Fraction, work: Work) -> bool:
     return f != 0 and exact_sign(f(q(low))) > 0 and not roots([f], low, high, work)
 
 
-def _system(claims: Claims, equations: Equations, note) -> System | None:
+def _system(claims: Claims, equations: Equations, note: Callable[..., None]) -> System | None:
     """What is counted; None where the claims fit no such count."""
     if claims.counted == "isolated":
         zero_together = [in_unknowns(f) for f in (*equations.conditions, *equations.rates)]
@@ -104,7 +105,8 @@ def _sides(places: list[Place], n: int) -> list[Place]:
     return [places[k] for k in (n - 1, n + 1) if 0 <= k < len(places)]
 
 
-def _check_event(event: Event, places: list[Place], changes: list[int], left: set[int], note) -> None:
+def _check_event(event: Event, places: list[Place], changes: list[int], left: set[int],
+                 note: Callable[..., None]) -> None:
     held = [n for n in changes if (root := places[n].root) and root.within(event.low, event.high)]
     if len(held) != 1:
         note(event.claim, "refuted",
@@ -117,7 +119,7 @@ def _check_event(event: Event, places: list[Place], changes: list[int], left: se
          "the equations leave endless zeros there")
 
 
-def _check_pieces(claims: Claims, places: list[Place], changes: list[int], note) -> None:
+def _check_pieces(claims: Claims, places: list[Place], changes: list[int], note: Callable[..., None]) -> None:
     """Findings on the pieces: those between the values at which the number changes."""
     runs: list[list[Place]] = [[]]
     for n, place in enumerate(places):

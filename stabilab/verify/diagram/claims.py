@@ -2,6 +2,7 @@
 one that varies."""
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -76,7 +77,7 @@ class Claims:
     events: tuple[Event, ...]
 
 
-def claims_of(table) -> Claims:
+def claims_of(table: Mapping[str, Any]) -> Claims:
     """The claims of a certificate. Raises `Malformed` where it is none."""
     scene = field(table, "scene", "", dict)
     variables = word(scene, "variables", "scene", tuple(PLACES))
@@ -95,7 +96,7 @@ def claims_of(table) -> Claims:
     return Claims(variables, read, counted, axis, start, low, high, pieces, events)
 
 
-def _polynomials(value, where: str, count: int) -> list[Any]:
+def _polynomials(value: Sequence[list[str]] | str | dict[str, Any], where: str, count: int) -> list[Any]:
     if not isinstance(value, list) or len(value) != count:
         raise Malformed(
             f"{where}: expected {count} list{'s' if count > 1 else ''} of coefficients, got {shown(value)}")
@@ -107,17 +108,17 @@ def _polynomials(value, where: str, count: int) -> list[Any]:
     return [fmpq_poly([q(c) for c in row]) for row in rows]
 
 
-def _count(table, key: str, where: str) -> int | None:
+def _count(table: Mapping[str, Any], key: str, where: str) -> int | None:
     value = field(table, key, where)
     return None if value is None else whole(value, f"{where}.{key}", range(MOST + 1))
 
 
-def _event(table, where: str) -> Event:
+def _event(table: Mapping[str, Any], where: str) -> Event:
     low, high = bracket(field(table, "t", where), f"{where}.t")
     return Event(low, high, _count(table, "equilibria", where))
 
 
-def _piece(table, where: str, counted: str) -> Piece:
+def _piece(table: Mapping[str, int], where: str, counted: str) -> Piece:
     count, stable = _count(table, "equilibria", where), _count(table, "stable", where)
     if (stable is None) != (counted == "borders" or count is None):
         raise Malformed(f"{where}.stable: expected how many of the equilibria are stable, and none where "
@@ -125,7 +126,7 @@ def _piece(table, where: str, counted: str) -> Piece:
     return Piece(count, stable)
 
 
-def _in_order(events, pieces, low: Fraction, high: Fraction) -> None:
+def _in_order(events: Sequence[Event], pieces: Sequence[Piece], low: Fraction, high: Fraction) -> None:
     if low >= high:
         raise Malformed("range: expected its lower end first")
     if any(one.high >= two.low

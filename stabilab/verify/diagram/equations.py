@@ -40,7 +40,7 @@ class Ratio:
     work: Work = field(compare=False)
 
     @classmethod
-    def of(cls, polynomial, work: Work) -> Ratio:
+    def of(cls, polynomial: fmpq_poly, work: Work) -> Ratio:
         """A polynomial in t."""
         return cls(polynomial, polynomial * 0 + 1, work)
 
@@ -67,7 +67,7 @@ class Ratio:
         return Ratio(self.top / whole, self.bottom, self.work)
 
 
-def _reduced(top, bottom, work: Work) -> Ratio:
+def _reduced(top: fmpq_poly, bottom: fmpq_poly, work: Work) -> Ratio:
     work.common(top, bottom)
     common = top.gcd(bottom)
     lead = (bottom / common).leading_coefficient()
@@ -131,7 +131,7 @@ def times(f: Polynomial, g: Polynomial) -> Polynomial:
     return out
 
 
-def _shifted(f: Polynomial, powers: Powers, c: Any) -> Polynomial:
+def _shifted(f: Polynomial, powers: Powers, c: Ratio) -> Polynomial:
     return {tuple(a + b for a, b in zip(old, powers)): value * c for old, value in f.items()}
 
 
