@@ -11,7 +11,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from ..equilibrium.gyrostat import balance_fails, conic_curves, isolated_states
-from ..equilibrium.stability import curve_with_verdicts, cuts_of, isolated_point, pencil
+from ..equilibrium.stability import Isolated, Pencil, curve_with_verdicts, cuts_of, isolated_point, pencil
 from ..equilibrium.torque_free import (
     DRIFT,
     plane_centre,

@@ -36,7 +36,7 @@ from ..numbers.polynomial import Poly, real_roots
 from ..numbers.principal import SLACK, principal_minors
 from ..numbers.vectors import CYCLE, Exact3, Number, cross, cross_matrix, dot
 from ..physics.coefficients import Content
-from ..physics.scene import ZERO3, euler_form
+from ..physics.scene import ZERO3, QuadraticForm, euler_form
 from ..reasons import Axis, Formula, Power, Reason, Sentence, Unit
 from .description import ANGLE, RATE, Description
 from .field_balance import Field, blocks, rotations_at

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, replace
 from fractions import Fraction
 from itertools import groupby
+from typing import TYPE_CHECKING, Any
 
 from ...answers.equilibria import once_stopped
 from ...answers.uncertain.verdicts import ALSO_ANOTHER, reason_of
