@@ -41,7 +41,7 @@ from ..physics.coefficients import effective
 from ..physics.equations import Equations
 from ..physics.scene import AnyScene, QuadraticForm, Scene, aligned, time_left
 from ..physics.states import checked_states, equations_and_start, moved_row
-from ..reasons import Filling, Quantity, Reason, Sentence, as_reason
+from ..reasons import Filling, Quantity, Reason, Sentence
 from ..unreduced.growth_certificate import law_extremes
 from ..unreduced.near_rest import beside_rest, small_loop
 from ..validation import reach_of
@@ -307,7 +307,7 @@ def _over_span(scene: AnyScene, state: Any, span: Any, known: Motion, digits: in
     found = (_many_digits(equations, [*(exact or start[:3]), *start[3:]], length, digits)
              if one_law else None)
     return (_unbounded_again(found, values) if found
-            else Told("extremes", values, digits, digits_of(error), "run", as_reason(other.reason or reason)))
+            else Told("extremes", values, digits, digits_of(error), "run", other.reason or reason))
 
 
 def _apart(values: Any, other: Any) -> float:

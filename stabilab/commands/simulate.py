@@ -88,7 +88,8 @@ def _followed(case, times, model, method, rtol, order, digits):
 
 
 def _as_dict(case, run, reached) -> dict:
-    told = reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because}
+    told = reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because,
+                        "reason": reached.reason.as_dict()}
     return (simulation.as_dict(case, run) | {"digits": told} | {"theory": _theory(case, run)}
             | headline.key(run.validity, case))
 

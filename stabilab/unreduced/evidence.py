@@ -16,7 +16,7 @@ from ..physics.coefficients import limits_of
 from ..physics.scene import Scene
 from ..physics.states import equations_and_start, three_numbers
 from ..physics.to_numpy import equations_of, to_numpy
-from ..reasons import Quantity, Reason, Sentence, old
+from ..reasons import Quantity, Reason, Sentence
 from ..validation import reach_of
 
 # A run that has not shown what is asked after this many steps (seconds of work) gives up and says so.
@@ -104,7 +104,7 @@ def growth(scene, state, t_max: float) -> Growth:
     while t < t_max and steps < STEP_BUDGET:
         run = integrated(scene, here, np.linspace(0, span, 257)[1:])
         if run.status == "stopped":
-            return Growth(0, 0, t, old(run.reason), steps)
+            return Growth(0, 0, t, run.reason, steps)
         t, here, steps = t + span, run.states[-1], steps + run.counters["steps"]
         squares = run.states**2
         share = (squares / squares.sum(axis=1, keepdims=True)).min(axis=0)

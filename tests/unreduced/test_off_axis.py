@@ -76,7 +76,7 @@ def test_ends_of_the_span_count_as_extremes(either):
 def test_overflowing_start_is_reported(either):
     with np.errstate(all="ignore"):
         roots = roots_of_rates(OFF, (1e200, 1e200, 1), 1.0)
-    assert "stopped" in roots.reason and roots.t_reached < 1 and np.isfinite(roots.extremes()).all()
+    assert "stopped" in str(roots.reason) and roots.t_reached < 1 and np.isfinite(roots.extremes()).all()
 
 
 def test_a_run_of_no_time_ends_where_it_starts():

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ...files import whole_file, write_text
+from ...integrate.trajectory import ALL_REACHED
 from ...numbers.principal import oblique
 from ...packages import demand
 from ...physics.scene import ATTITUDES, PARTS
@@ -39,8 +40,7 @@ def text(case, run, units: Units, known: int | None = None, width: int | None = 
     laws = [f"# {lettered(name)}: largest relative departure {value:.3g}"
             for name, value in run.invariant_drift.items()]
     how = f"# {run.method}, rtol {run.rtol:.3g}" if run.rtol else f"# {run.model}: {lettered(run.method)}"
-    notes = ([f"# {lettered(units.words(run.reason))}"] if run.reason and run.reason != "all times reached"
-             else [])
+    notes = [] if run.reason == ALL_REACHED else [f"# {units.said(run.reason)}"]
     notes += [f"# {', '.join(PARTS[name].components)}: {PARTS[name].words}" for name in run.state
               if name in ATTITUDES]
     return "\n".join([f"{case.name}: {headline(case, run, units)}",
@@ -58,7 +58,7 @@ def zero_within(error: float) -> str:
 def headline(case, run, units: Units) -> str:
     """How far the motion was followed, its size at both ends, and by how much first integrals vary."""
     if not len(run.t):
-        return f"NOT FOLLOWED: {run.reason}"
+        return f"NOT FOLLOWED: {units.said(run.reason)}"
     reached = "followed to" if run.status == "reached" else "STOPPED at"
     kept = f"; first integrals vary by {max(run.invariant_drift.values()):.2g}" if run.invariant_drift else ""
     return f"{reached} {units.time(float(run.t[-1]), SHORT)}{_sizes(run, units)}{kept}"
@@ -95,7 +95,8 @@ def as_dict(case, run) -> dict:
     """The object of `stabilab simulate --json`."""
     return {"schema": "stabilab.simulate/1", "case": case.name, "model": run.model,
             "time": case.scene.time_unit,
-            **values_of(run, "t state error invariant_drift counters method rtol status reason"),
+            **values_of(run, "t state error invariant_drift counters method rtol status"),
+            "reason": run.because, "why": run.reason.as_dict(),
             **{name: PARTS[name].words for name in ATTITUDES if name in run.state}
             } | frame.rows(case, run) | frame.key(case)
 

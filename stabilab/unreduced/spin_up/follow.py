@@ -23,7 +23,7 @@ from ...orbit.result import Fate, Needs
 from ...physics.coefficients import effective, three_floats
 from ...physics.scene import AnyScene
 from ...physics.states import checked_states
-from ...reasons import Axis, Quantity, Sentence, old
+from ...reasons import Axis, Quantity, Reason, Sentence
 from ...validation import checked_scene
 from ..enclosure import proved
 from .certificate import Tests, exactly, loaded, natural, stored, tests_of
@@ -88,7 +88,7 @@ class Chased:
     passed: np.ndarray
     blur: np.ndarray
     reach: np.ndarray
-    given_up: dict[int, str] = field(default_factory=dict)
+    given_up: dict[int, Reason] = field(default_factory=dict)
 
 
 def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float = 0.0, tell=None,
@@ -236,7 +236,7 @@ def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
         if not condition * (1 + passed) * 2.0**-52 < 1 / 16:
             reason = reason.then(ROUNDING_DECIDES, ", ")
         if row in found.given_up:
-            reason = reason.then(old(found.given_up[row]))
+            reason = reason.then(found.given_up[row])
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, reason, condition,
                       passed)
     field, orders = found.tests.asked[found.fired[row]]
