@@ -87,6 +87,15 @@ class Moment:
 
 
 @dataclass(frozen=True, slots=True)
+class Span:
+    """A time from one moment to another, in s, or in tau of a scaled scene."""
+
+    start: float
+    end: float
+    unit: str = "s"
+
+
+@dataclass(frozen=True, slots=True)
 class Axis:
     """A principal axis by its number, 1 to 3; the reader's view names it."""
 
@@ -94,7 +103,7 @@ class Axis:
 
 
 # str: a user's name, or a word without a number
-Filling: TypeAlias = "Quantity | Moment | Axis | Level | int | str | Reason | tuple[Filling, ...]"
+Filling: TypeAlias = "Quantity | Moment | Span | Axis | Level | int | str | Reason | tuple[Filling, ...]"
 
 
 @dataclass(frozen=True)
@@ -209,6 +218,8 @@ def plain(value: Any) -> Any:
         return [*map(float, value.value)] if isinstance(value.value, tuple) else float(value.value)
     if isinstance(value, Moment):
         return float(value.value)
+    if isinstance(value, Span):
+        return [float(value.start), float(value.end)]
     if isinstance(value, Axis):
         return value.number
     if isinstance(value, Reason):
@@ -248,6 +259,8 @@ def in_si(value: Any, axis: Callable[[int], str] = "axis {}".format) -> str:
             f"{numbers} {value.unit}".rstrip())
     if isinstance(value, Moment):
         return f"t = {number(value.value, value.digits or DIGITS, value.side)}"
+    if isinstance(value, Span):
+        return f"{value.unit} in [{value.start:g}, {value.end:g}]"
     if isinstance(value, Axis):
         return axis(value.number)
     if isinstance(value, Reason):

@@ -28,6 +28,7 @@ from .separatrix.distance import distance_of
 ORDINARY = 100  # rates of 2^-100 to 2^100: fourth powers of them, beside ratios of moments, are doubles
 BEYOND = "beyond the range of doubles"
 LOST = Sentence("beyond-doubles", "beyond the range of doubles: {what}")
+NONE_IN_DOUBLES = Sentence("extremes-beyond-doubles", "none: beyond the range of doubles")()
 
 
 @contextmanager
@@ -126,7 +127,7 @@ def in_scene_unit(found: Motion, k: int, state, margin: float) -> Motion:
     reason = found.reason.then(LOST(what=", ".join(lost)) if lost else None)
     return replace(found, at=state, reason=reason, extremes=pairs,
                    invariants={n: v for n, v in invariants.items() if not math.isnan(v)},
-                   extremes_over=found.extremes_over if pairs or not found.extremes else f"none: {BEYOND}",
+                   over=found.over if pairs or not found.extremes else NONE_IN_DOUBLES,
                    **fields)
 
 
@@ -182,7 +183,7 @@ def apart_fields(orbit: Orbit, state, decided) -> dict:
         return {"margin_velocity": 0.0, "velocity_bounds": (0.0, 0.0), "velocity_witness": state}
     found = distance_of(orbit.reduction, orbit.state, orbit)
     if not math.isfinite(found.upper):
-        return {"velocity_because": found.because}
+        return {"velocity_reason": found.reason}
     return {"margin_velocity": found.value, "velocity_bounds": (found.lower, found.upper),
             "velocity_witness": found.witness,
-            "velocity_because": found.because}
+            "velocity_reason": found.reason}

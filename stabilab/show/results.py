@@ -317,7 +317,7 @@ def _equilibria(found):
 def _motion_words(m):
     parts = [m.fate.word + _about(m) + ("" if m.level in ("exact", "undecided") else f", {m.level}"),
              _named("margin in energy", m.margin_energy),
-             _named("in rate", m.margin_velocity, -bool(m.velocity_because)), _named("period", m.period),
+             _named("in rate", m.margin_velocity, -bool(m.velocity_reason)), _named("period", m.period),
              "" if m.extremes is None else f"extremes over {m.extremes_over}"]
     return "; ".join(filter(None, parts))
 

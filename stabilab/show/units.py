@@ -10,7 +10,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, printable
-from ..reasons import Axis, Moment, Quantity, Reason, listed, outward
+from ..reasons import Axis, Moment, Quantity, Reason, Span, listed, outward
 from .axes import PLAIN, Axes, axes_of
 from .names import around
 from .terminal import lettered
@@ -118,6 +118,8 @@ class Units:
             return listed(tuple(self.filled(one, digits, whole) for one in value))
         if isinstance(value, Moment):
             return self.moment(value.value, value.digits or digits, value.side)
+        if isinstance(value, Span):
+            return self.span(value.unit, value.start, value.end)
         if not isinstance(value, Quantity):
             return f"{value:,}" if type(value) is int else printable(str(value))
         digits = value.digits or (digits if value.unit in OWN else DIGITS)

@@ -208,7 +208,7 @@ def _by_law(scenario: Scenario, scene: Scene) -> Outcome:
     when = _when(scenario, scene, None)
     repeats = None if spins or motion.period is None else TURN * motion.period
     largest = _largest(scenario, scene, when, repeats)
-    if largest is None and not spins and motion.extremes is not None and motion.extremes_over == "all time":
+    if largest is None and not spins and motion.extremes is not None and motion.for_all_time:
         bound = math.hypot(*(max(map(abs, pair)) for pair in motion.extremes))
         largest = bound if math.isfinite(bound) else None
     certificate = motion.evidence.get("certificate") if kind_of(scene) == "growth" else "law"

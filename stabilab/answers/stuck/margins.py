@@ -19,7 +19,7 @@ from ...numbers.vectors import Float3, Number
 from ...orbit.reduction import Reduction
 from ...orbit.result import Fate, Motion
 from ...physics.scene import Scene
-from ...reasons import DIGITS, Momentum, Quantity, Rate, Reason, Sentence, Torque, as_reason
+from ...reasons import DIGITS, Momentum, Quantity, Rate, Reason, Sentence, Torque
 from ...representation import Shown
 from ..caveats import STEADY
 from ..tilt import Spread, Tilt
@@ -228,11 +228,10 @@ def margins(scenario: Scenario, scene: Scene, seen: Outcome) -> dict[str, Margin
 def _rate(scenario: Scenario, motion: Motion, family: Family | None) -> Margin:
     """To the nearest separatrix as the motion knows it, and how far beyond it the fate is another."""
     if motion.margin_velocity is None or motion.velocity_witness is None:
-        return Margin(reason=as_reason(motion.velocity_because) if motion.velocity_because
-                      else NO_SEPARATRIX_NEAR)
+        return Margin(reason=motion.velocity_reason or NO_SEPARATRIX_NEAR)
     change = [b - a for a, b in zip(scenario.start, motion.velocity_witness)]
     direction = _unit(scenario.in_file(change)) if any(change) else None
-    reason = as_reason(motion.velocity_because) if motion.velocity_because else None
+    reason = motion.velocity_reason
     if _walled(family):
         return Margin(motion.margin_velocity, direction, reason.then(ALONE) if reason else ALONE,
                       motion.margin_velocity)

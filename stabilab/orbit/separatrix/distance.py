@@ -448,4 +448,4 @@ def distance_of(reduction, state, orbit: Orbit | None = None) -> Apart:
         return UNKNOWN
     if found.upper != found.upper or found.lower != found.lower:
         return UNKNOWN
-    return found if found.settled else found._replace(because=ENDED)
+    return found if found.settled else found._replace(reason=ENDED)
