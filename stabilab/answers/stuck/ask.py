@@ -25,7 +25,7 @@ from ...numbers.principal import NOTHING, without_trace
 from ...numbers.vectors import CYCLE, Exact3, dot
 from ...orbit.result import Fate
 from ...physics.scene import Scene, torque_axis
-from ...reasons import Sentence, as_reason
+from ...reasons import Sentence
 from ..at_equilibrium import of_gyrostat
 from ..caveats import STEADY, caveats_of
 from ..tilt import Spread, Tilt
@@ -266,10 +266,11 @@ def _chosen(case: Any, scenario: Scenario, all_thrusters: bool) -> list[tuple[An
         return [(t,) for t in case.thrusters]
     marked = tuple(t for t in case.thrusters if t.stuck)
     if not marked and not any(scenario.base):
-        names = ", ".join(t.name for t in case.thrusters)
-        cure = (f"mark one of {names} with stuck = true, or ask with --all-thrusters" if names else
-                "describe one in a table [[thrusters]] with stuck = true, or give a torque")
-        raise InputError(f"no thruster is stuck and no torque acts: {cure}")
+        if names := ", ".join(t.name for t in case.thrusters):
+            raise InputError(f"no thruster is stuck and no torque acts: mark one of {names} with stuck = "
+                             "true, or ask with --all-thrusters")
+        raise InputError("no thruster is stuck and no torque acts: describe one in a table [[thrusters]] "
+                         "with stuck = true, or give a torque")
     return [marked] + ([(t,) for t in marked] if len(marked) > 1 else [])
 
 
@@ -332,7 +333,7 @@ def _wheel(scenario: Scenario, torque: Exact3, seen: Outcome, wheel: Any) -> Whe
     others = tuple(v if abs(v) > least else v * 0
                    for w, a in zip(scenario.wheel, axis) for v in [w - wheel.momentum * a])
     kept, reason = intervals(scenario.scene(torque, others), scenario.state, axis)
-    told = tuple(map(float, wheel.axis)), float(wheel.momentum), kept, as_reason(reason)
+    told = tuple(map(float, wheel.axis)), float(wheel.momentum), kept, reason
     later = (None if kept or seen.fate in STEADY
              else delayed(scenario, torque, axis, wheel.momentum, seen.when.time))
     return WheelAnswer(wheel.name, *told, *(later or ()))

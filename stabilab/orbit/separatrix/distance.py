@@ -281,7 +281,7 @@ def _answer(seen, state, search, charts, place) -> Apart:
     r, g, rates = seen.reduction, seen.reduction.constants, [0.0] * 3
     rates[r.j], rates[r.k] = float(state[r.j]) + g["flip"] * g["rx"] * x, float(state[r.k]) + g["rz"] * z
     rates[r.axis] = (1.0 if Fraction(state[r.axis]) + r.s >= 0 else -1.0) * w - float(r.s)
-    return Apart(found.lower, found.upper, _three(rates), "", found.boxes)
+    return Apart(found.lower, found.upper, _three(rates), None, found.boxes)
 
 
 class Shade:
@@ -369,7 +369,7 @@ def _on_parabolas(numbers, reduction, state, held) -> Apart:
     rates[r.j], rates[r.k] = (float(Fraction(state[axis]) + Fraction(more)) for axis, more in
                               ((r.j, first), (r.k, second)))
     rates[r.axis] = float((1 if state[r.axis] + r.s >= 0 else -1) * Fraction(turning) - r.s)
-    return Apart(found.lower, found.upper, _three(rates), "", found.boxes)
+    return Apart(found.lower, found.upper, _three(rates), None, found.boxes)
 
 
 def _rectangle(g, upper):
