@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 DIGITS = 6  # of a number in a table
 SHORT = 4  # of a number within a sentence
 WHOLE = 1e6  # below it no power of ten: 15904 and not 1.59e+04
-OWN = ("rad", "rad/s", "s", "tau")  # units of quantities that have others for people
+OWN = ("rad", "rad/s", "rad/s^2", "s", "tau")  # units of quantities that have others for people
 Unit = tuple[str, float]  # its name, and how many of it make one in SI
 TURN = 180 / math.pi
 NUMBER = r"(-?\d+(?:\.\d+)?(?:e[-+]?\d+)?)"
@@ -158,7 +158,8 @@ class Units:
         """The unit in which numbers of this SI unit are printed; those of a scaled case have none."""
         name, one = self.rates
         turns = {"rad/s": self.rates, "rad": self.angles,
-                 "(rad/s)^2": (f"({name})^2" if name else "", one * one)}
+                 "(rad/s)^2": (f"({name})^2" if name else "", one * one),
+                 "rad/s^2": ("" if self.scaled else f"{self.angles[0]}/s^2", self.angles[1])}
         return turns.get(unit, ("" if self.scaled and unit != "1" else unit, 1.0))
 
     def vector(self, values, unit: Unit, digits: int = DIGITS) -> str:

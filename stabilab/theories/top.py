@@ -33,12 +33,19 @@ import numpy as np
 from ..answers.simulate import Simulation
 from ..errors import InputError
 from ..physics.states import numbers_in_a_row
+from ..reasons import Reasoned, Sentence
 from .printed.evaluate import printed_formulas
 from .top_lindstedt import LindstedtMotion, fast_top, lindstedt
 
+AS_PRINTED = Sentence(
+    "top-as-printed", "eqs. (10), (41) and (43) as they stand in print, misprints and all")()
+DIVIDES_BY_ZERO = Sentence(
+    "top-divides-by-zero", "C = B, Ω = 0 or Ω = 1: the printed solution divides by 0")()
+OF_EXPANSION = Sentence("expansion-status", "{status}: {why}")
+
 
 @dataclass(frozen=True)
-class PrintedMotion:
+class PrintedMotion(Reasoned):
     """The printed solution at t (n,), s: omega (n, 3) rad/s, gamma (n, 3) (not of length 1), psi, theta, phi
     (n,) rad of (43) with psi0 = 0. status: "as printed" or "pole" (a divisor is 0: no numbers, empty arrays);
     reason in words."""
@@ -51,7 +58,6 @@ class PrintedMotion:
     phi: np.ndarray
     epsilon: float
     status: str
-    reason: str
 
 
 def paper_numbers(scene, state) -> dict[str, float]:
@@ -102,8 +108,7 @@ def printed(scene, state, times) -> PrintedMotion:
     except ZeroDivisionError:
         empty = np.empty(0)
         return PrintedMotion(empty, np.empty((0, 3)), np.empty((0, 3)), empty, empty, empty, top.epsilon,
-                             "pole",
-                             "C = B, Omega = 0 or Omega = 1: the printed solution divides by 0")
+                             "pole", reason=DIVIDES_BY_ZERO)
     formula, r0 = formulas(), values["r0"]
     tau = r0 * (times + values["t0"])
     omega, gamma = ([np.broadcast_to(formula(f"{name}_41", values, tau=tau), times.shape) for name in names]
@@ -112,7 +117,7 @@ def printed(scene, state, times) -> PrintedMotion:
     scale = values["c"] * math.sqrt(values["g0"])
     return PrintedMotion(times, np.stack([scale * omega[0], scale * omega[1], r0 * omega[2]], -1),
                          values["g0"] * np.stack(gamma, -1), psi, theta, phi, values["ep"], "as printed",
-                         "eqs. (10), (41) and (43) as they stand in print, misprints and all")
+                         reason=AS_PRINTED)
 
 
 def _angles(values, t):
@@ -161,7 +166,8 @@ def follow(model, case, times, order=None) -> Simulation:
         how, reason = "Amer et al. 2023, first order", run.reason
     else:
         found = run = lindstedt(case.scene, state, times, ORDER if order is None else order)
-        how, reason = f"expansion of order {found.order}", f"{found.status}: {found.reason}"
+        how, reason = (f"expansion of order {found.order}",
+                       OF_EXPANSION(status=found.status, why=found.reason))
     reached = "reached" if len(run.t) == len(times) else "stopped"
     return Simulation(run.t, {"omega": run.omega, "gamma": run.gamma}, model, how, None, status=reached,
                       reason=reason)

@@ -125,10 +125,10 @@ def test_a_body_without_charge_torque_and_force_is_the_first_case_of_the_linear_
     t = np.linspace(0, 20, 41)
     exact, linear = (follow(case, t, model) for model in ("exact", "linear"))
     np.testing.assert_allclose(linear.state["omega"], exact.state["omega"], atol=1e-15)
-    assert "r is constant" in linear.reason and "small angles" in linear.reason
+    assert "r is constant" in linear.because and "small angles" in linear.because
     near = _written(PLAIN.format("8.6"))
     exact, linear = (follow(near, t, model) for model in ("exact", "linear"))
-    told = float(re.search(r"changes by ([\d.e-]+) rad/s at most", linear.reason)[1])
+    told = float(re.search(r"changes by ([\d.e-]+) rad/s at most", linear.because)[1])
     assert 0 < np.abs(exact.state["omega"][:, 2] - 0.3).max() < told < 1e-4
     assert models_of(_written(PLAIN.format("7.0")).scene) == ("exact",)
 

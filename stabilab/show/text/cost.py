@@ -12,13 +12,14 @@ from ...files import write_text
 from ...integrate.trajectory import ALL_REACHED, SCIPY_METHODS
 from ...physics.scene import PARTS
 from ...processes import machine, versions
-from ...reasons import outward
+from ...reasons import Reason, outward
 from ...representation import values_of
-from ...theories.theory import lines as theory_lines
+from ...theories.theory import NO_ANSWER
 from .. import style
 from ..data import csv_lines
 from ..terminal import lettered, some, written
 from ..units import SHORT, Units, number, units_of
+from .simulation import theory_lines
 
 # --- Costs in words
 FORMULAS = ("linear", "corrected", "printed", "averaged1", "averaged2", "lindstedt")
@@ -254,15 +255,14 @@ def text(case, found, units: Units) -> str:
 
 def _notes(found, units) -> list[str]:
     """What the models say of themselves, each once, then what the theory says beyond that."""
-    by_words: dict[str, list[str]] = {}
+    models: dict[Reason, list[str]] = {}
     for name, run in found.runs.items():
         if run.reason != ALL_REACHED:
-            by_words.setdefault(run.because, []).append(name)
+            models.setdefault(run.reason, []).append(name)
     for name, why in found.refused.items():
-        by_words.setdefault(f"no answer: {why}", []).append(name)
-    notes = [f"{', '.join(names)}: {words}" for words, names in by_words.items()]
-    beyond = [row for row in found.theory if row["words"] not in by_words]
-    return [lettered(units.words(note)) for note in (*notes, *theory_lines(beyond))]
+        models.setdefault(NO_ANSWER(why=why), []).append(name)
+    return [*(f"{', '.join(names)}: {lettered(units.said(reason))}" for reason, names in models.items()),
+            *theory_lines([row for row in found.theory if row["reason"] not in models], units)]
 
 
 def _closest(found) -> str:

@@ -48,6 +48,11 @@ def text(case, run, units: Units, known: int | None = None, width: int | None = 
                       *(f"# {line.strip()}" for line in frame.note(case))])
 
 
+def theory_lines(rows, units: Units) -> list[str]:
+    """What a theory says, a line a row."""
+    return [lettered(f"{row['about']}: {units.said(row['reason'])}") for row in rows]
+
+
 def zero_within(error: float) -> str:
     """What stands for a number that is no more than its error, which is given by one digit, rounded up."""
     with localcontext() as context:
