@@ -27,6 +27,7 @@ from ..case.read import Case
 from ..errors import InputError, printable
 from ..numbers.units import split
 from ..orbit.result import Fate
+from ..reasons import Reasoned, Sentence
 from .plan import Plan, packed, planned
 from .run import Swept, changes, known_exactly, run
 
@@ -35,8 +36,18 @@ COARSEST = 8   # cells that a boundary shall fill at the coarsest depth that cou
 SHARE = 2      # standard errors
 
 
+TOO_FEW_DEPTHS = Sentence(
+    "too-few-depths", "only {depths} depths have {cells} cells on the boundary or more; {needed} are needed: "
+    "go deeper")
+NO_BOUNDARY = Sentence("no-boundary", "there is no boundary")()
+SLOPE = Sentence("dimension-slope", "slope of log2(cells) over depths {first} to {last}")
+UNCERTAINTY = Sentence(
+    "dimension-uncertainty", "twice its standard error, how far it moves without the coarsest or finest "
+    "depth, and what one cell at every depth makes of it")()
+
+
 @dataclass(frozen=True)
-class Dimension:
+class Dimension(Reasoned):
     """value, uncertainty: nan where there is too little to fit; depths, counts: cells that hold a piece of
     the boundary, per depth; used: the depths of the fit; reason: how it is known, or why it is not."""
 
@@ -45,7 +56,6 @@ class Dimension:
     depths: tuple[int, ...]
     counts: tuple[int, ...]
     used: tuple[int, ...]
-    reason: str
 
 
 def counted(row: np.ndarray, column: np.ndarray, depth: int) -> tuple[int, ...]:
@@ -65,11 +75,8 @@ def dimension(counts: tuple[int, ...]) -> Dimension:
     depths = tuple(range(len(counts)))
     used = tuple(n for n in depths if counts[n] >= COARSEST)
     if len(used) < FEWEST:
-        few = (
-            f"only {len(used)} depths have {COARSEST} cells on the boundary or more; {FEWEST} are needed: go "
-            "deeper")
-        why = few if counts[-1] else "there is no boundary"
-        return Dimension(math.nan, math.nan, depths, counts, used, why)
+        why = TOO_FEW_DEPTHS(depths=len(used), cells=COARSEST, needed=FEWEST) if counts[-1] else NO_BOUNDARY
+        return Dimension(math.nan, math.nan, depths, counts, used, reason=why)
     heights = np.log2([counts[n] for n in used])
     (slope, _), variance = np.polyfit(used, heights, 1, cov=True)
     parts = ([np.polyfit(used[part], heights[part], 1)[0] for part in (slice(1, None), slice(-1))]
@@ -77,10 +84,9 @@ def dimension(counts: tuple[int, ...]) -> Dimension:
     moved = np.abs(np.subtract(parts, slope)).max()
     far = np.array(used) - np.mean(used)
     one_cell = np.abs(far) @ [1 / (counts[n] * math.log(2)) for n in used] / (far @ far)
-    words = (f"slope of log2(cells) over depths {used[0]} to {used[-1]}; twice its standard error, how far "
-             "it moves without the coarsest or finest depth, and what one cell at every depth makes of it")
+    slope_of = SLOPE(first=used[0], last=used[-1]).then(UNCERTAINTY)
     return Dimension(float(slope), float(SHARE * math.sqrt(variance[0, 0]) + moved + one_cell), depths,
-                     counts, used, words)
+                     counts, used, reason=slope_of)
 
 
 Ask = Callable[[np.ndarray], np.ndarray]  # keys of places (n,), rising -> their labels (n,)

@@ -368,7 +368,7 @@ def _flat_spin(found):
 
 def _separatrix_words(found):
     return ("; ".join(f"{s.name}, {s.points.shape[0]} x {s.points.shape[1]} points" for s in found.branches)
-            or f"no branches: {found.reason}")
+            or f"no branches: {found.because}")
 
 
 def _separatrix(found):
@@ -383,7 +383,7 @@ def _separatrix(found):
               "residual": (("point",), residual,
                            {"long_name": "distance from the surface in energy, relative"})}
     shapes = "; ".join(f"{s.name}: {s.points.shape[0]} x {s.points.shape[1]}" for s in found.branches)
-    return Variables(("point",), values, AXIS, {"reason": found.reason, "grids": shapes})
+    return Variables(("point",), values, AXIS, {"reason": found.because, "grids": shapes})
 
 
 def _comparison_words(found):

@@ -408,11 +408,12 @@ def branches_of(scene: AnyScene, box: Box | None = None, shape: tuple[int, int] 
 
 def _surface(scene, reach, shape, plain) -> tuple[Sequence[PlainBranch], str]:
     if plain is not None or not present("numpy"):
-        return plain_separatrix(scene, reach, *(plain or (40, 33)))
+        branches, reason = plain_separatrix(scene, reach, *(plain or (40, 33)))
+        return branches, reason.text()
     from ..orbit.separatrix.branches import separatrix
     found = separatrix(scene, reach=reach, shape=shape)
     return [PlainBranch(branch.name, *branch.points.shape[:2], branch.points.reshape(-1, 3).tolist())
-            for branch in found.branches], found.reason
+            for branch in found.branches], found.because
 
 
 def curves_of(found: Equilibria | None, box: Box, coarse: int = PLACES[0],

@@ -454,17 +454,17 @@ def separatrix(scene: AnyScene, reach: float | None = None, shape: tuple[int, in
 def _separatrix(scene, reach, shape, accuracy) -> Separatrix:
     land = landscape_in_doubles(scene)
     if land is None:
-        return Separatrix((), NO_REDUCTION)
+        return Separatrix((), reason=NO_REDUCTION)
     if land.conic is None:
-        return Separatrix((), why_parabolic(land.reduction))
+        return Separatrix((), reason=why_parabolic(land.reduction))
     branches = saddle_branches(land.conic, land.potential, limit_of(land.conic, reach or 4.0))
     if not branches:
-        return Separatrix((), why_none(land.conic, land.sense))
+        return Separatrix((), reason=why_none(land.conic, land.sense))
     strips = [(branch, side) for branch in branches for side, _ in land.conic.sides(land.sense)]
     rows, columns = shape or SHAPE
     half = None if accuracy else (rows, columns // 2 + 1)
     made = _by_arrays(land, strips, half, accuracy)
-    return Separatrix(tuple(_branches(land, made)), what_it_parts(land.potential, land.sense))
+    return Separatrix(tuple(_branches(land, made)), reason=what_it_parts(land.potential, land.sense))
 
 
 def _check(reach, shape, accuracy):

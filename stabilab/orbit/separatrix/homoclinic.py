@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from math import acos, atan, atan2, copysign, cos, inf, log, nan, pi, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
-from ...reasons import Reason, Sentence
+from ...reasons import Reason, Reasoned, Sentence
 from ...representation import Compared, Shown
 
 if TYPE_CHECKING:
@@ -44,12 +44,11 @@ class Branch(Compared):
 
 
 @dataclass(frozen=True, repr=False)
-class Separatrix(Shown):
+class Separatrix(Shown, Reasoned):
     """Every branch of the separatrix inside the range; reason says why there is none or what bounds
     it."""
 
     branches: tuple[Branch, ...]
-    reason: str
 
     @property
     def sheets(self) -> tuple[Branch, ...]:

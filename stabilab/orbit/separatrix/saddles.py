@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 from ...numbers.polynomial import roots_in_doubles
 from ...physics.coefficients import effective
 from ...physics.scene import AnyScene
+from ...reasons import Reason, Sentence
 from ..conic import conic_of
 from ..potential import potential
 from ..reduction import reduce
@@ -115,46 +116,55 @@ def _on_line(conic, pot, line, limit):
 
 
 # --- What a separatrix parts, or why there is none, in words
-NO_REDUCTION = (
-    "without a reduction to one degree of freedom the separatrix of this scene is not known in closed form")
+NO_REDUCTION = Sentence(
+    "separatrix-without-reduction", "without a reduction to one degree of freedom the separatrix of this "
+    "scene is not known in closed form")()
+PARTS_OSCILLATIONS = Sentence(
+    "separatrix-parts-oscillations", "both sides of each branch are bounded: it parts oscillations about one "
+    "centre from those around two")()
+PARTS_CENTRES = Sentence(
+    "separatrix-parts-centres", "both sides of each branch are bounded: inside motions oscillate about a "
+    "centre, outside about more of them or right round the axis")()
+BOUNDS_INSIDE = Sentence(
+    "separatrix-bounds-inside", "each branch bounds the motions that oscillate about the centres inside it")()
+NO_SADDLE = Sentence(
+    "no-saddle", "no equilibrium is a saddle of the reduced potential, each orbit has a single well, and "
+    "there is no separatrix surface")()
+NO_FORCE = Sentence(
+    "no-force-along-orbits", "no force acts along any orbit: the rate about the axis of symmetry is "
+    "constant, and there is no saddle and no separatrix surface")()
+NO_EQUILIBRIUM = Sentence(
+    "no-equilibrium-no-saddle", "there is no equilibrium, so there is no saddle and no separatrix surface")()
+PARABOLIC = Sentence(
+    "separatrix-parabolic", "parabolic reduction ({where}): {all}; no branch bounds a spin-up")
+ALL_WITHOUT_TORQUE = Sentence("all-bounded-without-torque", "no torque acts, and every motion is bounded")()
+ALL_WALLED = Sentence(
+    "all-walled", "all motions are bounded by walls on both sides, except pure spin about the torque")()
+ALL_SPIN_UP = Sentence(
+    "all-spin-up", "nothing turns the body out of the torque's way, and every motion spins up")()
+BEYOND_SURFACE = Sentence(
+    "surface-beyond-doubles", "the numbers of this scene are beyond what doubles hold of its surface")()
 
 
-def what_it_parts(potential, sense: int) -> str:
+def what_it_parts(potential, sense: int) -> Reason:
     """Of a scene with a separatrix."""
     if potential.walled:
-        return (
-            "both sides of each branch are bounded: it parts oscillations about one centre from those "
-            "around two")
-    if sense == 0:
-        return ("both sides of each branch are bounded: inside motions oscillate about a centre, outside "
-                "about more of "
-                "them or right round the axis")
-    return "each branch bounds the motions that oscillate about the centres inside it"
+        return PARTS_OSCILLATIONS
+    return PARTS_CENTRES if sense == 0 else BOUNDS_INSIDE
 
 
-def why_none(conic, sense: int) -> str:
+def why_none(conic, sense: int) -> Reason:
     """Of a scene on circles or hyperbolas without one."""
     if conic.pieces or conic.lines:
-        return ("no equilibrium is a saddle of the reduced potential, each orbit has a single well, and "
-                "there is no "
-                "separatrix surface")
-    if sense == 0:
-        return (
-            "no force acts along any orbit: the rate about the axis of symmetry is constant, and there is no "
-            "saddle and no separatrix surface")
-    return "there is no equilibrium, so there is no saddle and no separatrix surface"
+        return NO_SADDLE
+    return NO_FORCE if sense == 0 else NO_EQUILIBRIUM
 
 
-def why_parabolic(reduction) -> str:
+def why_parabolic(reduction) -> Reason:
     """Of a scene on parabolas: no branches are drawn of it."""
     bent = reduction.kappa or reduction.rho or reduction.sigma
-    if reduction.sense == 0:
-        told = "no torque acts, and every motion is bounded"
-    elif bent:
-        told = "all motions are bounded by walls on both sides, except pure spin about the torque"
-    else:
-        told = "nothing turns the body out of the torque's way, and every motion spins up"
-    return f"parabolic reduction ({reduction.geometry.where}): {told}; no branch bounds a spin-up"
+    return PARABOLIC(where=reduction.geometry.where, all=ALL_WITHOUT_TORQUE if reduction.sense == 0
+                     else ALL_WALLED if bent else ALL_SPIN_UP)
 
 
 # --- A coarse surface in plain floats
@@ -173,7 +183,7 @@ class PlainBranch:
 
 
 def plain_separatrix(scene: AnyScene, reach: float = REACH, rows: int = 20,
-                     half: int = 21) -> tuple[tuple[PlainBranch, ...], str]:
+                     half: int = 21) -> tuple[tuple[PlainBranch, ...], Reason]:
     """(branches, what they part or why there are none) of a scene; reach: as of `separatrix`; half: columns
     from the saddle to the far end of a loop."""
     r = reduce(effective(scene))
@@ -185,7 +195,7 @@ def plain_separatrix(scene: AnyScene, reach: float = REACH, rows: int = 20,
         pot, conic = potential(r), conic_of(r)
         branches = saddle_branches(conic, pot, limit_of(conic, reach))
     except (ArithmeticError, ValueError):
-        return (), "the numbers of this scene are beyond what doubles hold of its surface"
+        return (), BEYOND_SURFACE
     found = []
     for number, branch in enumerate(branches, 1):
         strips = [(word, points) for side,

@@ -103,9 +103,9 @@ def _boundary(found: Basins) -> list[str]:
     if found.unclear:
         lines.append(f"besides {found.unclear:,} cells between what is decided and what is undecided")
     if math.isnan(rough.value):
-        return [*lines, f"its box dimension is not known: {rough.reason}"]
+        return [*lines, f"its box dimension is not known: {rough.because}"]
     lines.append(f"its box dimension: {rough.value:.4f} ± {rough.uncertainty:.4f}, {_roughness(rough)} "
-                 f"({rough.reason.partition(';')[0]})")
+                 f"({rough.reason.alone})")
     return lines
 
 
@@ -171,7 +171,8 @@ def json(found: Basins) -> str:
                      "separatrix": found.separatrix()},
         "box_dimension": {"value": rough.value, "uncertainty": rough.uncertainty,
                           "depths": list(rough.depths), "cells": list(rough.counts),
-                          "fitted_depths": list(rough.used), "because": rough.reason}})
+                          "fitted_depths": list(rough.used), "because": rough.because,
+                          "reason": rough.reason.as_dict()}})
 
 
 def command(found: Basins) -> str:
@@ -246,7 +247,7 @@ def dataset(found: Basins) -> xarray.Dataset:
         "coarse_cells": np.array(mesh.cells, np.int32), "depth_asked": np.int32(found.asked),
         "depth_reached": np.int32(mesh.depth), "complete": np.int8(not mesh.full),
         "box_dimension": rough.value, "box_dimension_uncertainty": rough.uncertainty,
-        "box_dimension_because": rough.reason})
+        "box_dimension_because": rough.because})
 
 
 def opened(data: xarray.Dataset) -> Basins:

@@ -66,7 +66,7 @@ def surface_of(case, stem: str, folder: Path) -> dict | None:
     meshes = [surface.triangulate(branch) for branch in found.branches]
     summary = surface.summarise(case, found, meshes)
     files = surface.write_meshes(meshes, folder, stem)
-    return {"title": case.heading, "reason": found.reason, "triangles": summary["triangles"],
+    return {"title": case.heading, "reason": found.because, "triangles": summary["triangles"],
             "residual": summary["largest_residual"], "files": [file.name for file in files]}
 
 

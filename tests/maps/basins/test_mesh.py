@@ -111,6 +111,6 @@ def test_a_boundary_like_kochs_has_kochs_dimension():
 
 
 def test_too_little_of_a_boundary_has_no_dimension():
-    assert "no boundary" in dimension((0, 0, 0, 0)).reason and math.isnan(dimension((0, 0, 0)).value)
+    assert "no boundary" in dimension((0, 0, 0, 0)).because and math.isnan(dimension((0, 0, 0)).value)
     few = dimension((1, 2, 4, 8, 16))
-    assert math.isnan(few.value) and few.used == (3, 4) and "go deeper" in few.reason
+    assert math.isnan(few.value) and few.used == (3, 4) and "go deeper" in few.because

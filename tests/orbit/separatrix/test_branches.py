@@ -351,7 +351,7 @@ def test_a_mesh_that_cannot_be_made_is_refused_and_a_parabola_has_none():
         with pytest.raises(InputError):
             stabilab.separatrix(SCALED_MINOR, **wrong)
     found = stabilab.separatrix(Scene(Body((2, 2, 1)), ConstantTorque((1, 0, 0))))
-    assert not found.branches and "parabolic" in found.reason
+    assert not found.branches and "parabolic" in found.because
 
 
 @pytest.mark.parametrize("scene, words", [  # what there is none of, by hand
@@ -368,5 +368,5 @@ def test_a_mesh_that_cannot_be_made_is_refused_and_a_parabola_has_none():
 @pytest.mark.parametrize("sheets_of", [stabilab.separatrix, plain_separatrix])
 def test_a_scene_without_sheets_is_told_what_is_true_of_it(scene, words, sheets_of):
     found = sheets_of(scene)
-    sheets, reason = found if isinstance(found, tuple) else (found.branches, found.reason)
-    assert words in reason and reason and not len(sheets)
+    sheets, reason = found if isinstance(found, tuple) else (found.branches, found.because)
+    assert words in str(reason) and reason and not len(sheets)
