@@ -84,7 +84,7 @@ class Chaos(Shown):
             return NEVER_BACK
         if label == Order.UNDECIDED and self.stiff:
             return TOO_STIFF
-        megno, half = (Quantity(round(float(v), 3)) for v in (self.megno, self.history[-2]))
+        megno, half = (Quantity(round(float(v), 3), digits=12) for v in (self.megno, self.history[-2]))
         if label == Order.UNDECIDED:
             return BETWEEN(turns=turns, megno=megno) if np.isfinite(self.megno) else OUT_OF_RANGE
         if label == Order.CHAOTIC:

@@ -25,16 +25,12 @@ OWN = ("rad", "rad/s", "rad/s^2", "s", "tau")  # units of quantities that have o
 Unit = tuple[str, float]  # its name, and how many of it make one in SI
 TURN = 180 / math.pi
 NUMBER = r"(-?\d+(?:\.\d+)?(?:e[-+]?\d+)?)"
-SPAN = re.compile(r"\b(s|tau) in \[([^],]+), ([^]]+)\]")
-MOMENT = re.compile(rf"\bt = {NUMBER}(?!\w|\.\d|\s*[-+*/^])(?: (?:s|tau)\b)?")
 IN_RADIANS = re.compile(rf"(?<![\w.])(?:{NUMBER}( to | and ))?{NUMBER} rad(/s\^2|/s)?(?![\w/^])")
-AFTER = re.compile(rf"\b(after|before|within) {NUMBER} s(?![\w^])")
 # before a bound within a sentence, which is rounded outward
 UPPER = re.compile(
     r"(?:<=|\b(?:at most|no more than|never above|enclosed, within|certain from|from t =))\s*$")
 LOWER = re.compile(
     r"(?:>=|\b(?:at least|not before|up to(?: t =)?|until|not reached (?:by|before)(?: t =)?))\s*$")
-OF_RATES = re.compile(r"\((-?\d[-+.\de]*(?:, -?\d[-+.\de]*)+)\) rad/s(?![\w^])")
 
 
 @dataclass(frozen=True)
@@ -136,15 +132,11 @@ class Units:
 
     @around
     def words(self, words: str, digits: int = DIGITS - 1) -> str:
-        """A sentence of the analysis, whose angles and rates are in rad and rad/s and whose times in s, with
-        all in these units; "s in [0, 20]" becomes "0 to 20 s", and with names for the numbers of axes."""
-        words = AFTER.sub(lambda found: f"{found[1]} {self.time(float(found[2]), digits, _side(found, 2))}",
-                          self.axes.sentence(words))
-        words = SPAN.sub(lambda found: self.span(found[1], float(found[2]), float(found[3])), words)
-        words = MOMENT.sub(lambda found: self.moment(float(found[1]), digits, _side(found, 1)), words)
+        """A sentence without quantities of its own, whose angles and rates are in rad and rad/s, with these
+        in these units, and with names for the numbers of axes."""
+        words = self.axes.sentence(words)
         if self.rates[0] in ("rad/s", ""):
             return words
-        words = OF_RATES.sub(lambda found: self.vector(found[1].split(", "), self.rates, digits), words)
         return IN_RADIANS.sub(partial(self._turned, digits), words)
 
     def _turned(self, digits: int, found: re.Match[str]) -> str:

@@ -28,7 +28,7 @@ from ..errors import InputError
 from ..numbers.vectors import Number
 from ..physics.effects.base import effect_words
 from ..physics.equations import derive
-from ..reasons import Quantity, Rate, Reason, Reasoned, Sentence
+from ..reasons import Axis, Quantity, Rate, Reason, Reasoned, Sentence
 
 ORDERS = 3  # X0, X1, X2
 ALLOWED = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity"}
@@ -223,15 +223,15 @@ def _harmonics(f, Z, Zc, shift, m, K, S):
 
 
 SPIN_ALONE = Sentence(
-    "averaged-spin-alone", "spin about axis 3: amplitude and spin change each at their own rate")()
+    "averaged-spin-alone", "spin about {axis}: amplitude and spin change each at their own rate")
 PRECESSION = Sentence(
     "averaged-precession", "regular precession: the liquid feeds the amplitude as fast as the rest takes "
     "it")()
 EVERY_SPIN = Sentence(
-    "averaged-every-spin", "every spin about axis 3 (A = 0, any r): in these equations nothing attracts or "
-    "repels")()
+    "averaged-every-spin", "every spin about {axis} (A = 0, any r): in these equations nothing attracts or "
+    "repels")
 EVERY_SPIN_GROWS = Sentence(
-    "averaged-every-spin-grows", "every spin about axis 3 (A = 0, any r), the amplitude growing at the rate "
+    "averaged-every-spin-grows", "every spin about {axis} (A = 0, any r), the amplitude growing at the rate "
     "{rate}")
 EVERY_STATE = Sentence(
     "averaged-every-state", "every amplitude and spin: in these equations nothing changes them")()
@@ -315,7 +315,7 @@ def _state(alpha, rho0, rho1, r, S) -> SteadyState:
     down = rho0.diff().eval(r) + S * rho1.diff().eval(r)
     if S == 0:
         first, second = alpha.eval(r), down
-        reason = SPIN_ALONE
+        reason = SPIN_ALONE(axis=Axis(3))
     else:
         det = -2 * S * alpha.diff().eval(r) * rho1.eval(r)
         root = sqrt(down**2 - 4 * det)
@@ -336,9 +336,9 @@ def _families(alpha, rho0, rho1):
     """Curves of steady states: where a factor vanishes identically or for all A at once."""
     if rho0.is_zero:
         if alpha.is_zero:
-            yield EVERY_SPIN
+            yield EVERY_SPIN(axis=Axis(3))
         else:
-            yield EVERY_SPIN_GROWS(rate=_words(alpha))
+            yield EVERY_SPIN_GROWS(axis=Axis(3), rate=_words(alpha))
     if alpha.is_zero and rho0.is_zero and rho1.is_zero:
         yield EVERY_STATE
         return
