@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
-from .reasons import Reason, old
+from .reasons import Reason
 
 
 class Kind(StrEnum):
@@ -41,11 +41,6 @@ class Caveat:
 
     kind: Kind
     reason: Reason
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "kind", Kind(self.kind))
-        if isinstance(self.reason, str):
-            object.__setattr__(self, "reason", old(self.reason))
 
     @property
     def words(self) -> str:

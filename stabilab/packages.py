@@ -1,7 +1,6 @@
 """Packages that a part of the program needs: which one is not there, and what to install."""
 from __future__ import annotations
 
-import re
 import sys
 
 from .errors import InputError, RenderingUnavailable, StabilabError
@@ -58,8 +57,8 @@ def _cause(error):
     their own words."""
     link = error
     while isinstance(link, ImportError):
-        found = re.search(r"No module named '([\w.]+)'", str(link))
-        module = (link.name or (found[1] if found else "")).split(".")[0]
+        named = str(link).partition("No module named '")[2].partition("'")[0]  # in words of a package's own
+        module = (link.name or named).split(".")[0]
         if module:
             return link, module
         link = link.__cause__ or link.__context__

@@ -176,6 +176,9 @@ class Reason:
     def __str__(self) -> str:
         return self.text()
 
+    def __bool__(self) -> bool:
+        return bool(self.sentence.template)
+
     def as_dict(self, fill: Callable[[Any], str] | None = None) -> dict[str, Any]:
         """An object of JSON: "code", "text" and each quantity by its name in SI; "then": the clauses that
         follow."""
@@ -185,8 +188,8 @@ class Reason:
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Reasoned:
-    """What every result brings that says why it is known. reason: with its quantities; words without any are
-    taken as they are."""
+    """What every result brings that says why it is known. reason: with its quantities, false where there is
+    nothing to say; words without any, and None, are taken as they are. because: the same in words, in SI."""
 
     reason: Reason
 
@@ -227,9 +230,9 @@ def plain(value: Any) -> Any:
     return [*map(plain, value)] if isinstance(value, tuple) else value
 
 
-def as_reason(given: Reason | str) -> Reason:
-    """A reason as it is, words as one."""
-    return given if isinstance(given, Reason) else old(given)
+def as_reason(given: Reason | str | None) -> Reason:
+    """A reason as it is, words as one, None as one that says nothing."""
+    return given if isinstance(given, Reason) else old(given or "")
 
 
 def old(words: str) -> Reason:

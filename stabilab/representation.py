@@ -3,13 +3,15 @@ own table hands it down, and it is loaded when a reader asks."""
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import pandas
     import xarray
+
+    from .errors import Caveat
 
 _view: list[Callable[[], ModuleType]] = []
 
@@ -74,3 +76,11 @@ class Shown:
         """All numbers as a table: a row a time, a state, an equilibrium or a component; frame: as of
         `to_xarray`. Needs pandas, as `to_xarray` needs xarray."""
         return _view[0]().table(self, frame)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Answer(Shown):
+    """What a question of a case answers. caveats: all that limits it (`answers.caveats`), which its line, its
+    table and its attributes show."""
+
+    caveats: tuple[Caveat, ...] = ()

@@ -241,7 +241,7 @@ def _at_start(scene: Scene, omega: Sequence[Fraction], found: Motion) -> Attitud
     H = [d * w + l for d, w, l in zip(scene.body.exact, omega, scene.vector("gyrostat"))]
     size = math.hypot(*map(float, H))
     along = tuple(float(v) / size for v in H) if size else None
-    return Attitude(found.at[:3], found.fate, None, size, along, None, caveats=found.caveats)
+    return Attitude(found.at[:3], found.fate, None, size, along, reason=None, caveats=found.caveats)
 
 
 def _of_free_body(D: Sequence[Fraction], omega: Sequence[Fraction], base: Attitude,

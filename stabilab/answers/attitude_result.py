@@ -7,12 +7,11 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from ..errors import Caveat
 from ..numbers.balls import Unclear, settled
 from ..numbers.vectors import Float3, dot
 from ..orbit.result import Fate
-from ..reasons import Reason, Sentence
-from ..representation import Shown
+from ..reasons import Reasoned, Sentence
+from ..representation import Answer
 
 LONG, SHORT, SEPARATRIX, STEADY, TOP = "long-axis", "short-axis", "separatrix", "steady", "heavy top"
 
@@ -21,7 +20,7 @@ CLOSED_ERROR = 1e-15  # relative, of numbers from balls
 
 
 @dataclass(frozen=True, repr=False)
-class Attitude(Shown):
+class Attitude(Answer, Reasoned):
     """How one motion turns in space; vectors along the principal axes of the scene.
 
     mode: "long-axis" or "short-axis" (which the angular momentum goes round, seen from the body; without
@@ -34,7 +33,7 @@ class Attitude(Shown):
     from one least lean to the next, s.
     turn_angle (rad, 0 to pi), turn_axis: the rotation that takes the attitude at the start to that one
     rotation period later; the axis is the same in body and space. What the motion does not have is None,
-    and `reason` says why; because: the same in words. error: relative, of the periods and the turn.
+    and `reason` says why. error: relative, of the periods and the turn.
     decimals: where digits were asked for, the periods by name, s, written out to them.
     caveats: all that limits the answer.
     """
@@ -44,7 +43,6 @@ class Attitude(Shown):
     mode: str | None
     momentum: float
     momentum_direction: Float3 | None
-    reason: Reason | None
     rotation_period: float | None = None
     precession_period: float | None = None
     cone: tuple[float, float] | None = None
@@ -54,12 +52,6 @@ class Attitude(Shown):
     turn_axis: Float3 | None = None
     error: float | None = None
     decimals: Mapping[str, str] | None = None
-    caveats: tuple[Caveat, ...] = ()
-
-    @property
-    def because(self) -> str:
-        """`reason` in words and SI units."""
-        return "" if self.reason is None else self.reason.text()
 
 
 BODY_AT_REST = Sentence("body-at-rest", "the body is at rest")()

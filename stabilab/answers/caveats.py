@@ -6,14 +6,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeVar
 
 from ..errors import Caveat, Kind, without
 from ..orbit.result import Fate, Motion, Stability
 from ..physics.coefficients import effective
 from ..physics.scene import AnyScene, aligned, torque_axis
 from ..reasons import DIGITS, Angle, Axis, Quantity, Rate, Reason, Sentence, Time
+from ..representation import Answer
 
+Limited = TypeVar("Limited", bound=Answer)
 STEADY = (Fate.BOUNDED, Fate.EQUILIBRIUM)
 IN_PLANE, THIS = 4, 5
 HOLDS = Sentence("holds-only", "holds {condition}")
@@ -71,6 +73,12 @@ def caveats_of(scene: AnyScene, steady: bool = False, tilt: Any = None,
 def of_case(case: Any, validity: Any = None) -> tuple[Caveat, ...]:
     """The caveats of an answer about a case that is no motion's. validity: of its approximate laws."""
     return caveats_of(case.scene, validity=validity, file=case.caveats)
+
+
+def answered(found: Limited, case: Any, validity: Any = None) -> Limited:
+    """What was found of a case, and is no motion, with all that limits it. validity: of its approximate laws.
+    """
+    return replace(found, caveats=of_case(case, validity))
 
 
 def of_file(known: Known) -> tuple[Caveat, ...]:
@@ -166,7 +174,7 @@ def _off_axis(holds: Reason, found: Any) -> Caveat:
     known: dict[str, Any] = {"varied": varied(found.angle, found.within), "limit": limit}
     if found.ends:
         reached = TILTED_TO(**known, time=Time(found.low), level=found.level)
-        return Caveat(Kind.TILT, holds.then(reached, ": "))
+        return Caveat(Kind.TILT, holds.then(reached))
     if found.not_before >= found.followed:
         return Caveat(Kind.TILT, holds.then(TILTED_NOT_BEFORE(**known, time=Time(found.not_before).lower)))
     return Caveat(Kind.TILT, holds.then(TILTED_NOT_FOUND(**known, time=Time(found.followed).lower)))

@@ -18,11 +18,12 @@ from typing import Any
 import numpy as np
 
 from ..orbit.result import Fate
+from ..physics.own_unit import natural
 from ..physics.scene import AnyScene
 from ..reasons import Moment, Reason, Sentence
 from ..unreduced import enclosure_kernel
 from ..unreduced.enclosure import Course, allowed
-from ..unreduced.spin_up.certificate import closed, natural, tests_of
+from ..unreduced.spin_up.certificate import closed, tests_of
 from ..unreduced.spin_up.follow import spin_up
 
 NOT_CERTIFIED = Sentence("fate-not-certified", "{fate}: {why}")

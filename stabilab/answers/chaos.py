@@ -17,7 +17,7 @@ from ..physics.states import checked_starts, float_array
 from ..physics.states import row_of as row_of
 from ..physics.to_numpy import equations_of
 from ..reasons import Quantity, Reason, Sentence
-from ..representation import Shown
+from ..representation import Answer
 from ..unreduced.chaos import TURNS, growth, turn_of
 from ..validation import checked_scene
 from .motion import motion
@@ -52,7 +52,7 @@ AT_REST = Sentence(
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Chaos(Shown):
+class Chaos(Answer):
     """labels (...): of `Order`; megno (...): at the last time, nan of motions that spin up or could not be
     followed; times (k,): in the scene's time, each twice the one before; history (..., k): MEGNO at them;
     lyapunov (...): the rate at which neighbours part, per time of the scene, 0 of regular motions and nan

@@ -111,7 +111,7 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
                 else _judged(question, number_of(question, known), balls, digits))
     if known.fate == Fate.EQUILIBRIUM:
         return Told(question, number_of(question, known), digits, math.inf, "exact",
-                    IN_EQUILIBRIUM)
+                    reason=IN_EQUILIBRIUM)
     if question == "fate":
         return _margin_without_reduction(twin, known, digits, exact or known.at[:3])
     if question == "extremes" and (balls := law_extremes(twin, exact or known.at[:3],
@@ -151,7 +151,7 @@ def ask_all(question: str, scene: AnyScene, states: Any, digits: int, values: An
 
 
 def _tie(question: str, digits: int) -> Told:
-    return Told(question, 0.0, digits, math.inf, "balls", BARRIER_BY_ALGEBRA)
+    return Told(question, 0.0, digits, math.inf, "balls", reason=BARRIER_BY_ALGEBRA)
 
 
 def _judged(question: str, values: Any, balls: Any, digits: int) -> Told:
@@ -162,7 +162,7 @@ def _judged(question: str, values: Any, balls: Any, digits: int) -> Told:
         error = _gap(values, balls)
     if digits <= FORMULA_DIGITS and error <= 10.0**-digits:
         return Told(question, values, digits, digits_of(error), "formulas",
-                    BESIDE_BALLS(error=Quantity(error, digits=2)))
+                    reason=BESIDE_BALLS(error=Quantity(error, digits=2)))
     width = max(_width(balls), 10.0**-wanted)  # the balls of a period are narrower than its two rules agree
     return _of_balls(question, balls, digits, digits_of(width, wanted), "balls",
                      BY_BALLS(width=Quantity(width, digits=1).upper))
@@ -171,8 +171,8 @@ def _judged(question: str, values: Any, balls: Any, digits: int) -> Told:
 def _of_balls(question: str, balls: Any, digits: int, held: float, method: str, reason: Reason) -> Told:
     """The balls as floats, and written out where more digits are asked for than these have. held: digits."""
     more = digits > MOST
-    return Told(question, _floats(balls), digits, held if more else min(held, MOST + 0.95), method, reason,
-                _decimals(balls, digits) if more else None)
+    return Told(question, _floats(balls), digits, held if more else min(held, MOST + 0.95), method,
+                _decimals(balls, digits) if more else None, reason=reason)
 
 
 def _balls(question: str, orbit: Orbit, label: Fate, digits: int) -> Any:
@@ -249,7 +249,7 @@ def _by_return(question: str, scene: AnyScene, known: Any, digits: int, state: A
     exact: Any = reference(scene, state, [0.5 * known.period], orbit=True)
     if exact.period is None:
         return Told(question, values, digits, 0.0, "run",
-                    NO_RETURN_IN_DIGITS)
+                    reason=NO_RETURN_IN_DIGITS)
     with working(400) as numbers:
         add = lambda pair: numbers.ball(float(pair[0])) + numbers.ball(float(pair[1]))
         found = (add(exact.period) if question == "period"
@@ -260,7 +260,7 @@ def _by_return(question: str, scene: AnyScene, known: Any, digits: int, state: A
         pair: dict[str, Filling] = {"fewer": int(exact.digits[0]), "more": int(exact.digits[1])}
         if digits <= MOST and error <= 10.0**-digits:
             reason = RETURN_OF_RUN(**pair, error=Quantity(error, digits=2))
-            return Told(question, values, digits, digits_of(error), "run", reason)
+            return Told(question, values, digits, digits_of(error), "run", reason=reason)
         return _of_balls(question, found, digits, digits_of(own, 31.0), "many digits",
                          RETURN_OF_SERIES(**pair, error=Quantity(own, digits=1)))
 
@@ -274,11 +274,11 @@ def _by_small_loop(question: str, form: QuadraticForm, values: Any, digits: int,
                  for loop in (small_loop(form, state, n) for n in (more, more + 8))]
         if None in found:
             return Told(question, values, digits, 0.0, "run",
-                        NO_RETURN_IN_DIGITS)
+                        reason=NO_RETURN_IN_DIGITS)
         error = max(_balls_apart(found[1], found[0]), 10.0**-more)
         if digits <= MOST and (gap := max(_gap(values, found[1]), error)) <= 10.0**-digits:
             return Told(question, values, digits, digits_of(gap), "run",
-                        SERIES_FROM_START(error=Quantity(gap, digits=2)))
+                        reason=SERIES_FROM_START(error=Quantity(gap, digits=2)))
         return _of_balls(question, found[1], digits, digits_of(error, more), "many digits",
                          TWO_SERIES(error=Quantity(error, digits=1)))
 
@@ -301,13 +301,13 @@ def _over_span(scene: AnyScene, state: Any, span: Any, known: Motion, digits: in
     reason = MOVED_RUN(rtol=Quantity(8 * TAYLOR_TOLERANCE, digits=2),
                        error=Quantity(error / CAUTION, digits=2))
     if digits <= MOST and error <= 10.0 ** (slack - digits):
-        return Told("extremes", values, digits, digits_of(error), "run", reason)
+        return Told("extremes", values, digits, digits_of(error), "run", reason=reason)
     left = time_left(scene)
     one_law = left is None or left >= length
     found = (_many_digits(equations, [*(exact or start[:3]), *start[3:]], length, digits)
              if one_law else None)
     return (_unbounded_again(found, values) if found
-            else Told("extremes", values, digits, digits_of(error), "run", other.reason or reason))
+            else Told("extremes", values, digits, digits_of(error), "run", reason=other.reason or reason))
 
 
 def _apart(values: Any, other: Any) -> float:

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..errors import InputError, ToleranceNotMet
 from ..orbit.result import Motion, no_period
-from ..reasons import Quantity, Reason, Sentence, as_reason
+from ..reasons import Quantity, Reason, Reasoned, Sentence
 
 DEFAULT = 10  # digits, where nothing else is asked for
 NEAR = 1.0  # a digit by which an aim that nobody asked for may be missed, rather than pay for many digits
@@ -23,27 +23,17 @@ ASK_FOR_FEWER = Sentence("ask-for-fewer-digits", "ask for fewer")()
 
 
 @dataclass(frozen=True)
-class Told:
+class Told(Reasoned):
     """One answer. values: floats, as the question's own function gives them; decimals: the same, written out,
     where more digits were asked for than doubles hold; digits: what the check showed, None where there is no
-    number to judge (no period, no barrier); reason: how they were checked, or why there are none, of which
-    words are taken as they are; because: the same in words."""
+    number to judge (no period, no barrier); reason: how they were checked, or why there are none."""
 
     question: str
     values: Any
     asked: int
     digits: float | None
     method: str
-    reason: Reason
     decimals: Any = None
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "reason", as_reason(self.reason))
-
-    @property
-    def because(self) -> str:
-        """How the digits were checked, in words."""
-        return self.reason.text()
 
     @property
     def enough(self) -> bool:
@@ -98,9 +88,9 @@ def by_bound(question: str, motion: Motion) -> Told | None:
         return nothing(question, DEFAULT, no_period(motion.fate))
     tolerance = motion.tolerance * (10 if question == "period" else 1)
     return Told(question, values, DEFAULT, digits_of(tolerance), "formulas",
-                BY_OWN_BOUND(error=Quantity(tolerance, digits=1).upper))
+                reason=BY_OWN_BOUND(error=Quantity(tolerance, digits=1).upper))
 
 
 def nothing(question: str, asked: int, why: Reason | str) -> Told:
     """The answer that there is no such number."""
-    return Told(question, None, asked, None, "none", as_reason(why))
+    return Told(question, None, asked, None, "none", reason=why)

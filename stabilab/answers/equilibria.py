@@ -12,6 +12,7 @@ from ..equilibrium.result import Equilibria
 from ..physics.coefficients import content, limits_of
 from ..physics.effects import effect_class
 from ..physics.scene import AnyScene, ScaledGyrostat, Scene
+from .caveats import answered
 
 # kind of a scene's torques -> (module of `equilibrium`, its function of their coefficients); one that no
 # scene names is not loaded
@@ -49,10 +50,11 @@ def equilibria(scene: Given) -> Equilibria:
     of: Any = scene if case is None else case.scene
     if case is not None and of.ending and any(given := case.blocks.get("wheel", ())):
         found = equilibria(_with_wheel(of, given))
-        return replace(found, reason=found.reason.replace(STOPPED, STARTED))
+        return answered(replace(found, reason=found.reason.replace(STOPPED, STARTED)), case, found.validity)
     found = (None if of.plain else other_equilibria(of)) or gyrostat_equilibria(of)
     limits = limits_of(of)
-    return replace(found, frame=of.frame, validity=limits.at_equilibria(of, found) if limits else None)
+    found = replace(found, frame=of.frame, validity=limits.at_equilibria(of, found) if limits else None)
+    return found if case is None else answered(found, case, found.validity)
 
 
 def _with_wheel(scene: Any, momentum: Any) -> Scene:

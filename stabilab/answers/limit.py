@@ -19,6 +19,7 @@ from ..integrate.integer_flow import IntegerFlow
 from ..numbers.exact import exact, exact_vector, precise, sqrt_fraction, unit_vector
 from ..numbers.numba_door import installed
 from ..numbers.vectors import Exact3, Float3, Number
+from ..physics.own_unit import exact_unit
 from ..physics.scene import AnyScene
 from ..unreduced.crossing import first_crossing
 
@@ -32,12 +33,12 @@ SIGN = " (it is a size: give it without a sign)"
 class Limit:
     """kind: "rate", "component", "energy" or "tilt". parts: ((weights and vectors, limit), ...): sum c (a .
     omega)^2 reaches the limit's value `most`, the first of the parts counts; for a tilt vector and angle,
-    rad. words: for the reader, in SI. origin: of a tilt, the direction in space that it counts from; None:
+    rad. label: for the reader, in SI. origin: of a tilt, the direction in space that it counts from; None:
     that of its body axis at the start."""
 
     kind: str
     parts: tuple[Any, ...]
-    words: str
+    label: str
     origin: Float3 | None = None
 
     def thresholds(self, unit: Fraction) -> list[Threshold]:
@@ -204,7 +205,7 @@ def enclosed(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: Frac
     which on another scene holds, of the same body and wheels. A first attempt, at few bits, is carried on
     beyond what its bits can prove, to learn how many it takes.
     """
-    unit = max(own_unit(one, start) for one in (scene, *(one for _, one in later)))
+    unit = max(exact_unit(one, start) for one in (scene, *(one for _, one in later)))
     switches = [(time * unit, one.quadratic()) for time, one in later]
     bits, best, spent = FIRST_BITS, Crossing(None, None, Fraction(0), False), 0
     while True:
@@ -223,15 +224,6 @@ def flow_of(scene: AnyScene, start: Sequence[Number], bits: int, unit: Fraction,
     """The motion of a plain scene from three rationals; bits, unit, direction: as of IntegerFlow."""
     weights = (Fraction(1), Fraction(2), Fraction(1)) if scene.variables == "scaled" else scene.body.exact
     return IntegerFlow(scene.quadratic(), weights, start, bits, unit, direction)
-
-
-def own_unit(scene: AnyScene, start: Sequence[Number]) -> Fraction:
-    """A power of two near the largest rate, or near the root of its rate of change."""
-    form = scene.quadratic()
-    # its square may be beyond doubles
-    change = sqrt_fraction(max(map(abs, form.rate([Fraction(v) for v in start]))))
-    size = max(float(max(map(abs, start))), float(change))
-    return Fraction(2) ** math.frexp(size)[1] if size else Fraction(1)
 
 
 class _Attempt:
@@ -297,5 +289,5 @@ def banded(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: float,
     to compile them."""
     if not installed():
         return None
-    unit = own_unit(scene, start)
+    unit = exact_unit(scene, start)
     return first_crossing(scene, start, limit.thresholds(unit), unit, limit.direction, t_max, steps)

@@ -38,16 +38,16 @@ import numpy as np
 
 from ..errors import Caveat
 from ..integrate.events import zeros_passed
-from ..integrate.quadratic_series import in_unit, mass_unit, own_unit
 from ..integrate.to_heyoka import TAYLOR_TOLERANCE
 from ..numbers.vectors import CYCLE, Float3
 from ..physics.coefficients import limits_of
 from ..physics.equations import Equations, derive, rotation
+from ..physics.own_unit import in_unit, mass_unit, own_unit
 from ..physics.scene import AnyScene, Scene, slices
 from ..physics.states import equations_and_start, moved_row, to_space
 from ..physics.to_numpy import Form, form, to_numpy
-from ..reasons import Quantity, Reason, Sentence
-from ..representation import Compared, Shown
+from ..reasons import Quantity, Reasoned, Sentence
+from ..representation import Answer, Compared
 from .limit import Limit
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ if TYPE_CHECKING:
 
 # --- What is known of the first time at which a limit is reached
 @dataclass(frozen=True, repr=False, eq=False)
-class TimeTo(Shown, Compared):
+class TimeTo(Answer, Compared):
     """The first times (...,) at which states (..., 3) reach a limit, in the scene's time: each is between low
     and high.
 
@@ -76,7 +76,6 @@ class TimeTo(Shown, Compared):
     quantity: str = ""
     scene: Any = field(default=None, repr=False, compare=False)
     states: np.ndarray | None = field(default=None, repr=False, compare=False)
-    caveats: tuple[Caveat, ...] = ()
     ending: Any = field(default=None, compare=False)
     tilt: Any = field(default=None, repr=False, compare=False)
 
@@ -112,13 +111,12 @@ ONLY_NEAR = Sentence(
 
 
 @dataclass(frozen=True)
-class Found:
+class Found(Reasoned):
     """The answer of one motion; fields as of `TimeTo`, plain numbers; steps: that its run took."""
 
     low: float
     high: float
     level: str
-    reason: Reason
     steps: int = 0
 
     @property
@@ -248,13 +246,13 @@ def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, s
         low = one.t * (1 - ROUNDING) / unit
         until = Quantity(low, scene.time_unit).lower
         ended = STEPS_END(time=until, steps=steps) if one.reason else TIME_ENDS(time=until)
-        return Found(low, math.nan, "run", BY_ROOTS.then(ended, ": "), one.steps)
+        return Found(low, math.nan, "run", one.steps, reason=BY_ROOTS.then(ended, ": "))
     second = (moved_row(state, MOVED) if beside is None
               else np.concatenate([beside[:3] / unit, beside[3:]]))
     two = zeros_passed(forms, second, rates, end, 2 * steps, 4 * TAYLOR_TOLERANCE, first=True)
     at = Quantity(one.first / unit, scene.time_unit)
     if two.first is None:
-        return Found(0.0, math.nan, "undecided", SECOND_DOES_NOT(time=at), one.steps)
+        return Found(0.0, math.nan, "undecided", one.steps, reason=SECOND_DOES_NOT(time=at))
     blur = WIDER * abs(one.first - two.first) + ROUNDING * one.first
     if blur > VAGUE * one.first:
         raised = tuple((terms, most * (1 + HIGHER)) for terms, most in limit.parts)
@@ -262,9 +260,9 @@ def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, s
         end = min(end, one.first + 2 * blur)
         if zeros_passed(higher, state, rates, end, 2 * steps, first=True).first is None:
             return Found(max(0.0, one.first - blur) / unit, math.nan, "undecided",
-                         ONLY_NEAR(time=at, share=Quantity(float(HIGHER), digits=1)), one.steps)
+                         one.steps, reason=ONLY_NEAR(time=at, share=Quantity(float(HIGHER), digits=1)))
     return Found(max(0.0, one.first - blur) / unit, (one.first + blur) / unit, "run",
-                 BY_TWO_RUNS, one.steps)
+                 one.steps, reason=BY_TWO_RUNS)
 
 
 def run_once(scene: AnyScene, state: Sequence[float], limit: Limit, t_max: float = math.inf,

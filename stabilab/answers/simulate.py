@@ -36,7 +36,8 @@ from ..physics.states import (
 )
 from ..physics.to_numpy import to_numpy
 from ..reasons import Moment, PerSecond, Quantity, Reason, Reasoned, Sentence, chained
-from ..representation import Compared, Shown
+from ..representation import Answer, Compared
+from .caveats import answered
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -135,7 +136,7 @@ INSIDE = 5  # points a step: a Taylor step to the last digit turns the body by u
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Simulation(Shown, Compared, Reasoned):
+class Simulation(Answer, Compared, Reasoned):
     """States of one model at the asked-for times.
 
     t: (n,), s (tau when scaled); state: name -> (n, m): omega (x when scaled), gamma, angles (psi, phi,
@@ -196,7 +197,7 @@ def simulate(scene: Given, state: Start | None = None, times: ArrayLike | None =
     if wanted is None:
         raise InputError("times: expected times for a scene; a case without a span needs them too")
     found = simulated(case.scene, case.state, wanted, case.blocks, method, rtol, attitude)
-    return replace(found, frame=oblique(case.frame))
+    return answered(replace(found, frame=oblique(case.frame)), case, found.validity)
 
 
 def simulated(scene: AnyScene, omega: Any, times: ArrayLike,

@@ -18,11 +18,12 @@ from ..integrate.reference import GUARD, Recursion, one_run
 from ..numbers.balls import narrowed, working
 from ..numbers.vectors import dot
 from ..physics.coefficients import effective
+from ..physics.own_unit import exact_unit
 from ..physics.scene import AnyScene, QuadraticForm, hold_on
 from ..physics.states import equations_and_start
 from ..reasons import Quantity, Reason, Reasoned, Sentence, chained
 from .digits_asked import MOST_DECIMALS, checked_digits
-from .limit import flow_of, own_unit
+from .limit import flow_of
 
 ZEROS_ENCLOSED = Sentence(
     "zeros-enclosed", "zeros and extremes of each rate after the start, by roots along the enclosed motion: "
@@ -229,7 +230,7 @@ def _attempt(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: int
     """(how many times were reached to the digits, states, pieces with their unit, why it ended, bits that the
     error grew by)."""
     from flint import arb
-    unit = own_unit(scene, start)
+    unit = exact_unit(scene, start)
     flow = flow_of(scene, start, bits, unit)
     states: list[tuple[Any, ...]] = []
     pieces: list[Polynomials] = []

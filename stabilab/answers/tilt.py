@@ -86,12 +86,12 @@ class Part(NamedTuple):
 class Cone:
     """torque: as stated, N m, principal axes; parts: of what may be other: at azimuth phi the change is
     (cos - 1) whole + sin (cos phi first + sin phi second), and at a size s, from -1 to 1, s share times the
-    whole and that besides. words: what is tilted; angle: the largest half-angle; within: which forces have
+    whole and that besides. subject: what is tilted; angle: the largest half-angle; within: which forces have
     which tolerance, in words, empty where none has."""
 
     torque: np.ndarray
     parts: tuple[Part, ...]
-    words: str
+    subject: str
     angle: float
     within: str = ""
 
@@ -257,7 +257,7 @@ class Spread:
     its own and those round the edge of the cone. limit: rad/s as of `Limit.least_rate`, None where no limit
     is asked: then fates says in how many directions the motion has which fate. earliest, latest: (low, high)
     of the least and the greatest time found, s, None where the limit was not reached in any direction, or not
-    in all of them within `followed`, s; level: of both, as of `TimeTo`. because: why none was looked at.
+    in all of them within `followed`, s; level: of both, as of `TimeTo`. omitted: why none was looked at.
     untilted: (low, high) of the time of the torque itself, s, where runs end before it; else None.
     within: which forces have which tolerance: the torques looked at have their sizes too."""
 
@@ -272,7 +272,7 @@ class Spread:
     level: str = "run"
     followed: float = math.inf
     fates: tuple[tuple[str, int], ...] = ()
-    because: str = ""
+    omitted: str = ""
     untilted: tuple[float, float] | None = None
     within: str = ""
 
@@ -284,10 +284,15 @@ class Spread:
                                       or (self.earliest is not None and self.latest is None))
 
     @property
+    def because(self) -> str:
+        """Why none was looked at."""
+        return self.omitted
+
+    @property
     def reason(self) -> Reason:
         """What is found."""
-        if self.because:
-            return NOT_LOOKED_AT(why=self.because)
+        if self.omitted:
+            return NOT_LOOKED_AT(why=self.omitted)
         known: dict[str, Filling] = {
             "varied": varied(self.angle, self.within),
             "looked": (TORQUES if self.within else DIRECTIONS)(directions=self.directions)}
@@ -362,7 +367,7 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
                  else float(times.min()), "level": str(first.level),
                  "azimuth": azimuth, "torque": tuple(torque.tolist())}
     forces = spread(scene, state, cone.sizes_alone(), question, exact) if cone.within else None
-    return Tilt(cone.angle, cone.words, least, stated is not None, not_before, **found, followed=followed,
+    return Tilt(cone.angle, cone.subject, least, stated is not None, not_before, **found, followed=followed,
                 azimuths=azimuths, times=times,
                 untilted=(float(exactly.low), float(exactly.high)) if exactly.high < math.inf else None,
                 within=cone.within, forces=forces)
@@ -383,7 +388,7 @@ def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None,
     if ask is None:
         fate = lambda torque: motion(tilted(scene, torque), state, needs=Needs.FATE, exact=exact).fate
         found = Counter(OUTCOMES[fate(torque)].does for torque in torques)
-        return Spread(cone.angle, cone.words, len(torques), fates=tuple(found.most_common()),
+        return Spread(cone.angle, cone.subject, len(torques), fates=tuple(found.most_common()),
                       within=cone.within)
     limit = asked(scene, **ask)
     time = lambda torque: run_once(tilted(scene, torque), state, limit, steps=STEPS)
@@ -394,7 +399,7 @@ def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None,
         if followed < alone.high < math.inf:
             untilted = float(alone.low), float(alone.high)
     if not np.isfinite(times).any():
-        return Spread(cone.angle, cone.words, len(torques), limit.least_rate(), followed=followed,
+        return Spread(cone.angle, cone.subject, len(torques), limit.least_rate(), followed=followed,
                       untilted=untilted, within=cone.within)
     most, more = [], 0
     for sign in (1, -1):
@@ -410,7 +415,7 @@ def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None,
     first, last = [(float(one.low), float(one.high)) for one in exactly]
     all_of_them = bool(np.isfinite(times).all())
     levels = {str(one.level) for one in exactly[:1 + all_of_them]}
-    return Spread(cone.angle, cone.words, len(torques) + more, limit.least_rate(), first,
+    return Spread(cone.angle, cone.subject, len(torques) + more, limit.least_rate(), first,
                   last if all_of_them and math.isfinite(last[1]) else None,
                   levels.pop() if len(levels) == 1 else "run", followed, untilted=untilted,
                   within=cone.within)
@@ -464,7 +469,7 @@ def by_angle(scene: Scene, state: Any, angles: np.ndarray, case: Any = None,
                 halves += [(low, middle), (middle, high)]
         parts = halves
     earliest, latest, not_before = np.array([rows[angle] for angle in sorted(rows)]).T
-    return ByAngle(np.array(sorted(rows)), earliest, latest, not_before, limit, cone.words,
+    return ByAngle(np.array(sorted(rows)), earliest, latest, not_before, limit, cone.subject,
                    cone.within)
 
 

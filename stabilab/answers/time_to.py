@@ -84,7 +84,7 @@ def by_clock(scene: AnyScene, state: Float3, limit: Limit, followed: float, reac
     low = max(followed, times[0]) if sure else followed
     reason = BY_GROWTH(axis=Axis(found.axis), level=Level(found.level),
                        time=Quantity(found.t, scene.time_unit).upper)
-    return Found(low, max(times[1], low), found.level, reason)
+    return Found(low, max(times[1], low), found.level, reason=reason)
 
 
 def _narrower(scene: AnyScene, state: Float3, limit: Limit, found: Any, times: Any, reached: float) -> Any:
@@ -136,7 +136,7 @@ def never(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> tuple[
     if limit.kind == "tilt":
         return None, None
     if rests(scene.quadratic(), exact):
-        return Found(math.inf, math.inf, "exact", NEVER_AT_REST), None
+        return Found(math.inf, math.inf, "exact", reason=NEVER_AT_REST), None
     kind = kind_of(scene)
     if kind not in REDUCED:
         return None, None
@@ -147,7 +147,7 @@ def never(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> tuple[
     if kind == "aligned" and not (bounded() and math.isfinite(float(periods(scene, row)))):
         return None, None  # its extremes over all time are not known
     if limit.beyond(extremes(scene, row).tolist(), SLACK):
-        return Found(math.inf, math.inf, "exact", NEVER_BY_EXTREMES), None
+        return Found(math.inf, math.inf, "exact", reason=NEVER_BY_EXTREMES), None
     repeats = float(periods(scene, row)) if kind == "orbit" and bounded() else math.inf
     return None, repeats * (1 + SLACK) if 0 < repeats < math.inf else None
 
@@ -158,14 +158,14 @@ def _never_of_rationals(scene: AnyScene, state: Float3, exact: Exact3, limit: Li
     known = motion(scene, state, needs=Needs.RETURN, exact=exact)
     pairs = known.extremes if known.for_all_time else None
     if pairs is not None and limit.beyond(pairs, SLACK):
-        return Found(math.inf, math.inf, "exact", NEVER_BY_EXTREMES), None
+        return Found(math.inf, math.inf, "exact", reason=NEVER_BY_EXTREMES), None
     repeats = known.period if kind_of(scene) == "orbit" and known.fate == Fate.BOUNDED else None
     return None, None if repeats is None else repeats * (1 + SLACK)
 
 
 def after_a_period() -> Found:
     """The answer where a whole period, enclosed, stays below the limit."""
-    return Found(math.inf, math.inf, "proved", NEVER_BY_PERIOD)
+    return Found(math.inf, math.inf, "proved", reason=NEVER_BY_PERIOD)
 
 
 def never_bounded(scene: AnyScene, state: Any, limit: Limit) -> Found | None:
@@ -181,7 +181,7 @@ def never_bounded(scene: AnyScene, state: Any, limit: Limit) -> Found | None:
         reason = NEVER_BY_BOUND(bound=Rate(bound).upper)
     else:
         return None
-    return Found(math.inf, math.inf, "exact", reason)
+    return Found(math.inf, math.inf, "exact", reason=reason)
 
 
 def earliest(scene: AnyScene, start: Sequence[Number], limit: Limit) -> Fraction:
@@ -226,7 +226,7 @@ def past_the_end(scene: AnyScene, state: Any, limit: Limit, last: float) -> Foun
         start["attitude"] = attitude
         origin = to_space(attitude, [float(v) for v in direction])
         limit = replace(limit, origin=tuple(origin.tolist()))
-    found = by_run(scene, start, limit, left) if left else Found(0.0, math.nan, "run", BY_ROOTS)
+    found = by_run(scene, start, limit, left) if left else Found(0.0, math.nan, "run", reason=BY_ROOTS)
     if math.isfinite(found.high) or found.level == "undecided" or found.low < left * (1 - 2 * ROUNDING):
         return found
     equations, row = equations_and_start(scene, start)
@@ -294,7 +294,7 @@ def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = Non
     if parts is not None and parts.note:  # what the twin takes for granted of the scene
         found = [replace(one, reason=one.reason.then(parts.note)) for one in found]
     caveats = caveats_of(given, any(one.never for one in found))
-    return times_of(found, shape, limit.words, given, array, caveats)
+    return times_of(found, shape, limit.label, given, array, caveats)
 
 
 def time_of_case(case: Any, ask: dict[str, Any], t_max: float | Fraction | None = None,
@@ -344,7 +344,7 @@ def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction 
     work: multiplications that an enclosure in integers may take; bands: compiled steps that enclose what goes
     on longer; spun: what `spin_up` says of the motion, where it was asked already."""
     if limit.reached_by(start):
-        return Found(0.0, 0.0, "exact", AT_THE_START)
+        return Found(0.0, 0.0, "exact", reason=AT_THE_START)
     found, repeats = never(scene, state, start, limit)
     if found:
         return found
@@ -353,20 +353,20 @@ def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction 
     if last is not None and before > last:
         return after_a_period() if last is not end else Found(
             down(last), math.nan, "proved",
-            TORQUE_TOO_SLOW)
+            reason=TORQUE_TOO_SLOW)
     proof = enclosed(scene, start, limit, last, min(work, SHORT_WORK) if bands and installed() else work,
                      before)
     if proof.high is not None:
         return Found(down(proof.low), up(proof.high), "proved",
-                     MOTION_ENCLOSED)
+                     reason=MOTION_ENCLOSED)
     if proof.done and proof.low is not None:  # the search reached its end, and no crossing is sure
         return Found(down(proof.low), math.nan, "proved",
-                     TOUCHED(time=Quantity(float(proof.low), scene.time_unit),
-                             share=Quantity(2.0**-50, digits=1)))
+                     reason=TOUCHED(time=Quantity(float(proof.low), scene.time_unit),
+                                    share=Quantity(2.0**-50, digits=1)))
     if proof.done:
         return after_a_period() if last is not end else Found(
             down(proof.until), math.nan, "proved",
-            ENCLOSED_TO_END)
+            reason=ENCLOSED_TO_END)
     return _beyond_integers(scene, state, start, limit, end, max(down(proof.until), down(before)),
                             bands if work else 0, spun)
 
@@ -382,7 +382,7 @@ def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end:
         band = banded(scene, start, limit, last if open_end else run.high * (1 + BEYOND), bands)
         if band is not None and band.low is not None and band.high is not None:
             return Found(down(band.low), up(band.high), "proved",
-                         ENCLOSED_IN_STEPS(steps=band.steps))
+                         reason=ENCLOSED_IN_STEPS(steps=band.steps))
         if band is not None:
             known = max(known, down(band.until if band.low is None else band.low))
     if run.high >= known:  # a run that the enclosure contradicts is worth nothing
@@ -393,14 +393,14 @@ def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end:
     if run.low > known and open_end:
         return run
     return Found(known, math.nan, "proved",
-                 PROVED_BEFORE(time=Quantity(known, scene.time_unit).lower).then(run.reason))
+                 reason=PROVED_BEFORE(time=Quantity(known, scene.time_unit).lower).then(run.reason))
 
 
 def _of_any(scene: AnyScene, state: Any, limit: Limit, end: Fraction | None) -> Found:
     """The answer for one motion of any scene."""
     start = equations_and_start(scene, state)[1]
     if limit.reached_by([Fraction(v) for v in start[:3].tolist()]):
-        return Found(0.0, 0.0, "exact", AT_THE_START)
+        return Found(0.0, 0.0, "exact", reason=AT_THE_START)
     last = math.inf if end is None else float(end)
     if found := never_bounded(scene, state, limit):
         return found

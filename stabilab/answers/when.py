@@ -24,8 +24,8 @@ from ..physics.coefficients import loses
 from ..physics.scene import BLOCKS, AnyScene, later, slices, torque_axis
 from ..physics.states import equations_and_start, moved_row, start_of
 from ..reasons import Reasoned, Sentence
-from ..representation import Shown
-from .caveats import STEADY, caveats_of, limited, loose_forces, misaligned, seen, stated
+from ..representation import Answer
+from .caveats import STEADY, answered, caveats_of, limited, loose_forces, misaligned, seen, stated
 from .dissipation.ending import ending
 from .kinds import kind_of
 from .limit import WORK, asked
@@ -47,7 +47,7 @@ CHANGES_OF_SIGN = Sentence(
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Crossings(Shown, Reasoned):
+class Crossings(Answer, Reasoned):
     """Zeros of events along a motion, for each event in its order.
 
     t: a row (k,) of times an event, in the scene's time; states: (k, N) there; error: (k,) of the times, from
@@ -215,7 +215,7 @@ def _crossings(case: Case, events: Any, until: Any, limited: bool) -> Crossings:
     if not end > 0:
         raise InputError(f"until: expected a time above 0, got {end:.6g}")
     start = case.state if case.variables == "scaled" else start_of(case.scene, case.state, case.blocks)
-    return crossings(case.scene, start, end, events)
+    return answered(crossings(case.scene, start, end, events), case)
 
 
 def _text(given: Any) -> str | None:
@@ -297,7 +297,7 @@ def of_tilt(case: Any, angle: float | None, ask: dict[str, Any] | None, steady: 
            "for the angle of an axis" if ask and "tilt" in ask
            else "" if any(case.scene.vector("constant_torque")) else "without a torque")
     if why:
-        return Spread(angle or 0.0, "the torque", 0, because=why) if tilts else None
+        return Spread(angle or 0.0, "the torque", 0, omitted=why) if tilts else None
     if on_axis and (tilts or ask is not None or not sized):
         return tilt(case.scene, case.state, angle, None, case, case.exact_state, ask)
     return spread(case.scene, case.state, cone_of(case.scene, case, angle), ask, case.exact_state)

@@ -38,13 +38,13 @@ _HEADER = re.compile(r"\s*[\[{<(]*\s*([A-Za-z_][\w. -]*?)\s*[\]}>)]*\s*:?\s*")
 
 class Repair(NamedTuple):
     """line: 1-based, where the fault is; key: dotted; came: the line as it is; write: what to write in its
-    place, "" where only the reason is known; why: the rule, in words."""
+    place, "" where only the reason is known; rule: in words."""
 
     line: int
     key: str
     came: str
     write: str
-    why: str
+    rule: str
 
 
 class _Hopeless(Exception):

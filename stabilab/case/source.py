@@ -142,7 +142,7 @@ def _not_toml(message: str, text: str, line: int | None) -> Problem:
         shown = text.split("\n")[line - 1].strip()[:80] if line and line <= text.count("\n") + 1 else ""
         return Problem("", f"not TOML{of}: {message}" + (f'; got: {shown}' if shown else ""), line)
     write_ = f"; write: {found.write}" if found.write else ""
-    return Problem(found.key, f"not TOML{of} ({message}); got: {found.came}{write_} ({found.why})",
+    return Problem(found.key, f"not TOML{of} ({message}); got: {found.came}{write_} ({found.rule})",
                    found.line)
 
 

@@ -191,9 +191,11 @@ def tell_all(answered, systems, text, swept=None, laws=None, boxes=None, between
 
 
 def _caveats(row):
-    """Those of what was found, and of the case where that has none."""
+    """Those of what was found last, as a motion says more than the equilibria; of the case where that has
+    none."""
     case, *found = row
-    return next((one.caveats for one in found if getattr(one, "caveats", None) is not None), of_case(case))
+    return next((one.caveats for one in reversed(found) if getattr(one, "caveats", None) is not None),
+                of_case(case))
 
 
 def swept_motions(motions, units):

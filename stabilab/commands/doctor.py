@@ -24,8 +24,8 @@ def text() -> str:
             f"python        {platform.python_version()} ({platform.platform()})"]
     rows += [f"{name:<14}{_version(name)}{f' (extra {EXTRAS[name]})' if name in EXTRAS else ''}"
              for name in _needed()]
-    rendering = (f"works ({found.words})" if found.available
-                 else f"does not work: {found.words}; cure: {found.cure}")
+    rendering = (f"works ({found.description})" if found.available
+                 else f"does not work: {found.description}; cure: {found.cure}")
     processor = f"{machine()['processor']}, {os.cpu_count()} logical"
     return "\n".join(rows + [f"{'rendering':<14}{rendering}", f"{'processor':<14}{processor}"])
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import typer
 
-from ..answers.caveats import of_case
+from ..answers.caveats import answered, of_case
 from ..answers.chaos import Order, row_of
 from ..answers.chaos import chaos as ask_chaos
 from ..case.read import blamed_on, load
@@ -82,8 +82,9 @@ def chaos(cases, until, out, csv, json, strict):
     loaded = load_cases(cases, motion=True)
     if out:
         endings.file(out, endings.PICTURES)
-    rows = answers_of(loaded, lambda case: ask_chaos(case.scene, row_of(case.scene, case.state, case.blocks),
-                                                     time_asked(until, case, "until")))
+    rows = answers_of(loaded, lambda case: answered(
+        ask_chaos(case.scene, row_of(case.scene, case.state, case.blocks), time_asked(until, case, "until")),
+        case))
     drawn = written(out, [(case, partial(chaos_shown.write, case, found)) for case, found in rows])
     laws = [headline.of_case(case) for case in loaded]
     if json:

@@ -12,7 +12,7 @@ from ..errors import InputError
 from ..numbers.polynomial import Poly
 from ..numbers.principal import PrincipalAxes
 from ..numbers.vectors import Exact3, Float3, Number
-from ..representation import Shown
+from ..representation import Answer
 
 if TYPE_CHECKING:
     from ..physics.law_limits import Validity
@@ -71,7 +71,7 @@ class EquilibriumCurve:
 
 
 @dataclass(frozen=True, repr=False)
-class Equilibria(Shown):
+class Equilibria(Answer):
     """All equilibria of a scene. kind: "none", "points", "curves" (curves, possibly with points) or "all"
     (every state is one); reason: why these and no others. validity: of an approximate law
     (`stabilab.physics.law_limits`), at the points; None where all laws are exact. frame: the principal axes,

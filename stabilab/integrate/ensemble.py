@@ -19,7 +19,7 @@ from ..physics.coefficients import limits_of
 from ..physics.scene import AnyScene, judge_starts, slices, time_left
 from ..physics.states import checked_rtol, checked_starts, checked_times
 from ..physics.to_numpy import equations_of, to_numpy
-from ..representation import Compared, Shown
+from ..representation import Answer, Compared
 from .guard import FARTHEST
 from .own_units import Units, are_ordinary, in_units, scale_of, units_of
 from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
@@ -31,7 +31,7 @@ LANES = 8
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Ensemble(Shown, Compared):
+class Ensemble(Answer, Compared):
     """Motions of one scene at common times.
 
     t: (m,), s (tau when scaled); states: (n, m, N), one motion per row of the starts; reached: (n, m), False

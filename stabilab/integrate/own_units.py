@@ -17,9 +17,9 @@ import numpy as np
 
 from ..errors import InputError
 from ..physics.equations import Balance, Equations, Symbolic
+from ..physics.own_unit import FAST, HEAVY, LIGHT, SLOW, exponent
 from ..physics.scene import BLOCKS
 from ..physics.to_numpy import to_numpy
-from .quadratic_series import FAST, HEAVY, LIGHT, SLOW
 
 RATES = {"omega", "damper"}  # blocks of rates, rad/s
 PLAIN = {"gamma", "attitude"}  # blocks of size 1
@@ -63,7 +63,7 @@ def units_of(equations: Equations, state: np.ndarray) -> Units:
     pace = pace_of(equations, state)
     if 0 < pace < math.inf and not 1 / APART <= pace / size <= APART:
         return _power(max(now, quick / pace), pace, True)
-    return Units(laws=laws) if _slow(equations) <= size <= FAST else _power(size, size, True)
+    return Units(laws=laws) if _slow(equations) <= size <= 2.0**FAST else _power(size, size, True)
 
 
 def are_ordinary(equations: Equations, states: np.ndarray) -> np.ndarray:
@@ -74,7 +74,7 @@ def are_ordinary(equations: Equations, states: np.ndarray) -> np.ndarray:
     with np.errstate(all="ignore"):
         share = quick / np.where(now > 0, now, size)
     alike = (quick == 0) | ((share >= 1 / UNLIKE) & (share <= UNLIKE))
-    return (size >= _slow(equations)) & (size <= FAST) & alike
+    return (size >= _slow(equations)) & (size <= 2.0**FAST) & alike
 
 
 def _sizes(equations: Equations, states: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -88,12 +88,12 @@ def _sizes(equations: Equations, states: np.ndarray) -> tuple[np.ndarray, np.nda
 
 
 def _slow(equations: Equations) -> float:
-    return SLOW_BESIDE if set(equations.blocks) & PLAIN else SLOW
+    return SLOW_BESIDE if set(equations.blocks) & PLAIN else 2.0**SLOW
 
 
 def _power(size: float, pace: float, laws: bool) -> Units:
     size, pace = (min(max(v, SMALLEST), LARGEST) for v in (size, pace))
-    return Units(2.0 ** math.frexp(size)[1], 2.0 ** math.frexp(pace)[1], laws)
+    return Units(2.0 ** exponent(size), 2.0 ** exponent(pace), laws)
 
 
 def pace_of(equations: Equations, state: np.ndarray) -> float:
@@ -156,4 +156,4 @@ def _size(equations: Equations, quantity: Symbolic) -> Fraction:
         return Fraction(1)
     sizes = [abs(Fraction(int(c.p), int(c.q))) for powers, c in terms if any(powers) and c.is_Rational]
     largest = max(sizes, default=Fraction(0)) or Fraction(1)
-    return Fraction(2) ** (largest.numerator.bit_length() - largest.denominator.bit_length())
+    return Fraction(2) ** exponent(largest)

@@ -21,7 +21,7 @@ from ..physics.scene import slices, stopped, time_left
 from ..physics.states import checked_rtol, checked_times, equations_and_start
 from ..physics.to_numpy import to_numpy
 from ..reasons import Moment, Quantity, Reason, Reasoned, Sentence
-from ..representation import Compared, Shown
+from ..representation import Answer, Compared
 from .guard import PATIENCE, STEPS_NOT_ENOUGH, Guard, full
 from .own_units import Units, in_units, scale_of, units_of
 from .to_heyoka import FEATHER, TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
@@ -411,7 +411,7 @@ def _stopped(points, grid, why: Reason | None) -> Reason:
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Trajectory(Shown, Compared, Reasoned):
+class Trajectory(Answer, Compared, Reasoned):
     """States at the asked-for times.
 
     t: (n,) times; states: (n, N), blocks: where each block of the state stands in the N columns;

@@ -34,16 +34,15 @@ from .run import Swept, changes, known_exactly, run
 FEWEST = 3     # depths of a fit
 COARSEST = 8   # cells that a boundary shall fill at the coarsest depth that counts
 SHARE = 2      # standard errors
-
-
-TOO_FEW_DEPTHS = Sentence(
-    "too-few-depths", "only {depths} depths have {cells} cells on the boundary or more; {needed} are needed: "
-    "go deeper")
 NO_BOUNDARY = Sentence("no-boundary", "there is no boundary")()
-SLOPE = Sentence("dimension-slope", "slope of log2(cells) over depths {first} to {last}")
+TOO_FEW_DEPTHS = Sentence(
+    "too-few-depths",
+    "only {depths} depths have {cells} cells on the boundary or more; {needed} are needed: go deeper")
+SLOPE = Sentence("slope-over-depths", "slope of log2(cells) over depths {first} to {last}")
 UNCERTAINTY = Sentence(
-    "dimension-uncertainty", "twice its standard error, how far it moves without the coarsest or finest "
-    "depth, and what one cell at every depth makes of it")()
+    "uncertainty-of-slope",
+    "twice its standard error, how far it moves without the coarsest or finest depth, and what one cell at "
+    "every depth makes of it")()
 
 
 @dataclass(frozen=True)
@@ -75,8 +74,8 @@ def dimension(counts: tuple[int, ...]) -> Dimension:
     depths = tuple(range(len(counts)))
     used = tuple(n for n in depths if counts[n] >= COARSEST)
     if len(used) < FEWEST:
-        why = TOO_FEW_DEPTHS(depths=len(used), cells=COARSEST, needed=FEWEST) if counts[-1] else NO_BOUNDARY
-        return Dimension(math.nan, math.nan, depths, counts, used, reason=why)
+        few = TOO_FEW_DEPTHS(depths=len(used), cells=COARSEST, needed=FEWEST)
+        return Dimension(math.nan, math.nan, depths, counts, used, reason=few if counts[-1] else NO_BOUNDARY)
     heights = np.log2([counts[n] for n in used])
     (slope, _), variance = np.polyfit(used, heights, 1, cov=True)
     parts = ([np.polyfit(used[part], heights[part], 1)[0] for part in (slice(1, None), slice(-1))]
@@ -84,9 +83,9 @@ def dimension(counts: tuple[int, ...]) -> Dimension:
     moved = np.abs(np.subtract(parts, slope)).max()
     far = np.array(used) - np.mean(used)
     one_cell = np.abs(far) @ [1 / (counts[n] * math.log(2)) for n in used] / (far @ far)
-    slope_of = SLOPE(first=used[0], last=used[-1]).then(UNCERTAINTY)
+    reason = SLOPE(first=used[0], last=used[-1]).then(UNCERTAINTY)
     return Dimension(float(slope), float(SHARE * math.sqrt(variance[0, 0]) + moved + one_cell), depths,
-                     counts, used, reason=slope_of)
+                     counts, used, reason=reason)
 
 
 Ask = Callable[[np.ndarray], np.ndarray]  # keys of places (n,), rising -> their labels (n,)

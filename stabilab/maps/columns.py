@@ -24,16 +24,16 @@ RATE, ENERGY, TIME, PACE = "rate", "energy", "time", "pace"  # units that depend
 
 
 class Column(NamedTuple):
-    """A number for each point. kind: of NumPy; unit: RATE, ENERGY, TIME or "" (a count or a word); words:
-    what it is; many, one: it, off what the module of its answer found of all states of a scene (n,), and of
-    one state where these are answered one by one; flags: words of its values, from 0 on; shape: of one
-    point's numbers; note: what values beside the plain ones mean; no_case: of a count or a word, what stands
-    where the numbers make no case."""
+    """A number for each point. kind: of NumPy; unit: RATE, ENERGY, TIME or "" (a count or a word);
+    description: what it is; many, one: it, off what the module of its answer found of all states of a scene
+    (n,), and of one state where these are answered one by one; flags: words of its values, from 0 on; shape:
+    of one point's numbers; note: what values beside the plain ones mean; no_case: of a count or a word, what
+    stands where the numbers make no case."""
 
     name: str
     kind: str
     unit: str
-    words: str
+    description: str
     many: Callable[[Any], Any]
     one: Callable[[Any], Any]
     flags: tuple[str, ...] = ()

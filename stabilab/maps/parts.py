@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import re
 import shlex
 import shutil
 from collections.abc import Iterator, Sequence
@@ -159,12 +158,20 @@ def _caveats(case: Case, states: np.ndarray, out: np.ndarray) -> np.ndarray:
 
 # --- The parts of a sweep, a folder beside its file
 PLAN = "sweep.json"
+PARTS = ".parts"  # what the name of a folder has behind that of its file
 DIGEST = 32  # bytes in front of a part
 
 
 def place_of(out: Path) -> Path:
     """The folder of the parts of a file."""
-    return out.with_name(f"{out.name}.parts")
+    return out.with_name(f"{out.name}{PARTS}")
+
+
+def file_of(folder: Path) -> str:
+    """The name of the file whose parts a folder holds, without the number of one of several."""
+    file = folder.name.removesuffix(PARTS)
+    stem, _, number = file.rpartition(".")
+    return stem if stem and number.isdecimal() else file
 
 
 @contextmanager
@@ -218,9 +225,8 @@ def _of_another(folder: Path, claim: Path, command: str) -> InputError:
         told = json.loads(claim.read_text(encoding="utf-8"))["command"]
     except (ValueError, TypeError, KeyError):  # an older version did not say
         told = None
-    file = re.sub(r"(\.\d+)?\.parts$", "", folder.name)
-    folders = sorted(path for path in folder.parent.glob(f"{escape(file)}*.parts")
-                     if re.fullmatch(r"(\.\d+)?\.parts", path.name.removeprefix(file)))
+    file = file_of(folder)
+    folders = sorted(path for path in folder.parent.glob(f"{escape(file)}*{PARTS}") if file_of(path) == file)
     number = sum(1 for path in folders for _ in path.glob("part-*"))
     if told == command:
         what = "this command, before the case file or the program changed"

@@ -30,6 +30,7 @@ from ..answers.motions.rows import fates
 from ..errors import InputError, StabilabError, printable
 from ..files import whole_file
 from ..interrupt import end_with_parent, undoing
+from ..numbers.bracket import halved_each
 from ..orbit.result import Fate
 from ..packages import demand
 from ..physics.coefficients import effective
@@ -236,13 +237,13 @@ WORTH = 3.0  # seconds of work for which another process is worth its start
 @dataclass(frozen=True)
 class Swept:
     """records: of the shape of the plan's sweep; resumed: points that an earlier run had finished; broken:
-    numbers that make no case, with why (of the first)."""
+    numbers that make no case; fault: of the first of them."""
 
     plan: Plan
     records: np.ndarray
     resumed: int = 0
     broken: int = 0
-    why: str = ""
+    fault: str = ""
 
 
 @contextmanager
@@ -351,10 +352,9 @@ def changes(plan: Plan, index: tuple[int, ...], dimension: int, lower: np.ndarra
     shape = [plan.shape[n] for n in plan.outer]
     case = case_of(plan, int(np.ravel_multi_index([index[n] for n in plan.outer], shape)) if shape else 0)
     places = [lower[:, n] for n in plan.inner]
-    low, high = np.zeros(len(lower)), np.ones(len(lower))
-    for _ in range(halvings):
-        middle = 0.5 * (low + high)
-        states = states_at(plan, case, places, dimension, middle)
-        same = (fates(case.scene, states).labels == Fate.SPIN_UP) == spun
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
+
+    def same_at(shares: np.ndarray) -> np.ndarray:
+        states = states_at(plan, case, places, dimension, shares)
+        return (fates(case.scene, states).labels == Fate.SPIN_UP) == spun
+    low, high = halved_each(same_at, np.zeros(len(lower)), np.ones(len(lower)), halvings)
     return 0.5 * (low + high)

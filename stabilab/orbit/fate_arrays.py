@@ -28,6 +28,7 @@ import numpy as np
 from ..numbers.double_double import EPS, TURN
 from ..numbers.polynomial import bracketed_newton
 from ..physics.coefficients import limits_of
+from ..physics.own_unit import far_exponent
 from ..physics.scene import AnyScene
 from ..physics.states import equilibrium_mask
 from ..representation import Compared, Shown
@@ -35,7 +36,7 @@ from .fate import REASONS, Basis, decide, fate_of, free_middle, is_free, margin_
 from .landscape import ROUNDINGS, ConicLandscape, Landscape, in_doubles, landscape
 from .margins import MARGIN_SHARE, valley_margins
 from .one_orbit import Orbit
-from .one_state import LOST, far_exponent, far_fate, far_rows
+from .one_state import LOST, far_fate, far_rows
 from .potential import derivatives_on_parabola
 from .reduction import reduce
 from .result import Fate, spins_about

@@ -10,10 +10,11 @@ import numpy as np
 
 from ..errors import InputError
 from ..physics.coefficients import effective
+from ..physics.own_unit import far_exponent
 from ..physics.states import checked_states
 from .extremes import precise_period
 from .one_orbit import Orbit
-from .one_state import far_exponent, own
+from .one_state import own
 from .profile import TOO_FINE, ByPanels, InOwnUnit, Relief, Resting, relief
 from .reduction import reduce
 from .result import Fate

@@ -12,10 +12,10 @@ import math
 from contextlib import contextmanager
 from dataclasses import replace
 from fractions import Fraction
-from functools import lru_cache
 
 from ..errors import InputError
 from ..physics.coefficients import three_floats
+from ..physics.own_unit import ORDINARY, far_exponent, scene_exponent
 from ..reasons import Sentence
 from .extremes import extremes_of, precise_period
 from .fate import fate_of, is_free
@@ -25,7 +25,6 @@ from .result import BOX, ROUND, Fate, Motion, Needs, finite, judged, repeats
 from .separatrix.distance import distance_of
 
 # --- The unit of rate in which numbers are of order one
-ORDINARY = 100  # rates of 2^-100 to 2^100: fourth powers of them, beside ratios of moments, are doubles
 BEYOND = "beyond the range of doubles"
 LOST = Sentence("beyond-doubles", "beyond the range of doubles: {what}")
 NONE_IN_DOUBLES = Sentence("extremes-beyond-doubles", "none: beyond the range of doubles")()
@@ -43,25 +42,6 @@ def in_range(what: str = "state"):
             f"other units") from None
 
 
-@lru_cache(maxsize=64)
-def scene_exponent(scene) -> int | None:
-    """log2 of the size of the rates that wheel and torque bring about, to a unit or two; None without either.
-    """
-    form = scene.quadratic()
-    found = [_exponent(v) for v in (*form.rho, *form.sigma) if v] + [_exponent(v) // 2 for v in form.m if v]
-    return max(found, default=None)
-
-
-def far_exponent(scene, state) -> int | None:
-    """The exponent k of the own unit 2^k of a motion from `state` (floats or Fractions); None where its size
-    is ordinary."""
-    found = [_exponent(Fraction(v)) for v in state if v]
-    if (own := scene_exponent(scene)) is not None:
-        found.append(own)
-    size = max(found, default=0)
-    return None if -ORDINARY <= size <= ORDINARY else size
-
-
 def far_rows(scene, states):
     """(n,) True for the states (n, 3) that `far_exponent` has a unit for."""
     import numpy as np
@@ -76,10 +56,6 @@ def far_rows(scene, states):
     exponents = np.where(moving, np.frexp(sizes)[1], ORDINARY if own is None else own)
     size = exponents if own is None else np.maximum(exponents, own)
     return (np.abs(size) > ORDINARY) & (moving if own is None else True)
-
-
-def _exponent(value: Fraction) -> int:
-    return value.numerator.bit_length() - value.denominator.bit_length()
 
 
 def own(orbit: Orbit, k: int) -> Orbit:

@@ -7,10 +7,9 @@ from dataclasses import dataclass, field
 from enum import Flag, IntEnum
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..errors import Caveat
 from ..numbers.vectors import Float3, Number
 from ..reasons import Axis, Quantity, Reason, Reasoned, Sentence
-from ..representation import Shown
+from ..representation import Answer
 
 if TYPE_CHECKING:  # a scene of exact laws does not load it
     from ..physics.law_limits import Validity
@@ -143,7 +142,7 @@ class Flips:
 
 
 @dataclass(frozen=True, repr=False)
-class Motion(Shown, Reasoned):
+class Motion(Answer, Reasoned):
     """Everything known about the motion from one state.
 
     axis: 1, 2, 3 of the spin-up, 0 otherwise; sense: +1 or -1 of the spin-up, 0 otherwise. margin_energy:
@@ -198,7 +197,6 @@ class Motion(Shown, Reasoned):
     largest: float | None = None
     flips: Flips | None = None
     energy_integral: EnergyIntegral | None = None
-    caveats: tuple[Caveat, ...] = ()
     stability: Stability | None = None
     ending: Any = None
     margin: float = field(default=math.nan, repr=False, compare=False)

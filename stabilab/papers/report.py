@@ -52,7 +52,7 @@ FOLDER = "figures/"  # of a report
 class Chapter:
     """paper: short name as of `figures`; about: what the paper does and where it stands; compared: (case
     file, variant) of the motions whose errors are listed; end: s; sensible: case file of the variant;
-    sensible_end: s; why: what makes it sensible; parts: of the state to draw, over `window`, s; short: name
+    sensible_end: s; note: what makes it sensible; parts: of the state to draw, over `window`, s; short: name
     in the navigation; weight: s of one core."""
 
     paper: str
@@ -62,7 +62,7 @@ class Chapter:
     end: float
     sensible: str
     sensible_end: float
-    why: str
+    note: str
     parts: tuple
     window: float
     short: str
@@ -164,7 +164,7 @@ def _sensible(chapter, folder):
     with style.drawing() as plt:
         path = style.save(cost_text.picture(plt, case, runs, chapter.parts, units=SI),
                           folder / FOLDER / f"{chapter.paper}-sensible.png")
-    return picture(path, FOLDER, case=case.name, title=written(case.title), why=written(chapter.why),
+    return picture(path, FOLDER, case=case.name, title=written(case.title), why=written(chapter.note),
                    end=chapter.sensible_end, rows=_errors(case, None, found), parameters=_parameters(case),
                    path=f"cases/{case.name}.toml")
 
@@ -218,7 +218,7 @@ def everything_of(cases, folder: Path, tell, wanted: own.Wanted, workers=None,
     work += [Task("numbers of other tools", "papers.validation:validated", (), 5.0)]
     work += ([Task("what answers cost", "papers.report:costs", (cases, folder), 90.0)]
              if wanted.precision else [])
-    found = dict(zip([task.words for task in work], done(work, folder, tell, workers)))
+    found = dict(zip([task.label for task in work], done(work, folder, tell, workers)))
     cost = found.get("what answers cost", [])
     nav = _nav(cost)
     _papers(folder, found, nav)

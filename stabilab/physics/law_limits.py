@@ -71,11 +71,16 @@ class Validity:
     @property
     def reason(self) -> Reason:
         """Status, effect, number, value, limit, and what follows."""
-        found = JUDGED(status=self._head, effect=effect_words(self.effect)).then(self._measured(True), "")
+        found = self._judged(follows=True)
         for one in self.also:
             if not one.held or one.value is None:
                 found = found.then(one._measured(True), "; also ")
         return found
+
+    @property
+    def brief(self) -> Reason:
+        """Status, effect, number, value and limit of the most exceeded alone, without what follows."""
+        return self._judged()
 
     @property
     def words(self) -> str:
@@ -97,6 +102,9 @@ class Validity:
         named = {name: getattr(self, name) for name in ("status", "effect", "number", "value", "limit",
                                                         "holds", "follows", "source")}
         return named | {"over": self.over.text(), "also": [v.as_dict() for v in self.also]}
+
+    def _judged(self, follows: bool = False) -> Reason:
+        return JUDGED(status=self._head, effect=effect_words(self.effect)).then(self._measured(follows), "")
 
     def _measured(self, follows: bool = False) -> Reason:
         """Number, value and limit; follows: also what it means that the limit is exceeded."""

@@ -172,7 +172,7 @@ class Block:
     name: str
     components: tuple[str, ...]
     unit: str
-    words: str
+    description: str
 
 
 BLOCKS = {block.name: block for block in (

@@ -32,33 +32,44 @@ def direction(sign: int) -> str:
 
 @dataclass(frozen=True)
 class Axes:
-    """letters: of the axes of the file or of the paper, "" of a full tensor; words: which axis each one is by
+    """letters: of the axes of the file or of the paper, "" of a full tensor; ranks: which axis each one is by
     its moment, "" where they are all alike or unknown; directions: unit vectors in the frame of the file,
     right-handed, None of a scaled case and of a scene without a file."""
 
     letters: tuple[str, ...]
-    words: tuple[str, ...]
+    ranks: tuple[str, ...]
     directions: tuple[Float3, ...] | None = None
 
     def name(self, number: int) -> str:
         """In a table, a legend or JSON: "z (minor)", of a full tensor "minor", of a scaled case "x3"."""
-        letter, word = self.letters[number - 1], self.words[number - 1]
+        letter, word = self.letters[number - 1], self.ranks[number - 1]
         return f"{letter} ({word})" if letter and word else letter or word
 
     def signed(self, number: int, sense: int) -> str:
         """With the direction as a sign, where there is no room for more: "+z", "-minor"; nothing for 0."""
         if not number:
             return ""
-        letter, word = self.letters[number - 1], self.words[number - 1]
+        letter, word = self.letters[number - 1], self.ranks[number - 1]
         return ("+" if sense > 0 else "-") + (letter
-                                              or word + (f" {number}" if self.words.count(word) > 1 else ""))
+                                              or word + (f" {number}" if self.ranks.count(word) > 1 else ""))
 
     def whole(self, number: int) -> str:
         """Where it is named first: "z (minor axis)", or "the minor axis, (0.019, -0.060, 0.998) in the file's
         frame"."""
-        letter, word = self.letters[number - 1], self.words[number - 1]
+        letter, word = self.letters[number - 1], self.ranks[number - 1]
         return (f"{letter} ({word} axis)" if letter and word else letter
                 or f"the {word} axis, {self.direction(number)}{IN_FILE}")
+
+    def head(self, number: int) -> str:
+        """In a first line: "z (minor axis)", or "the minor axis", whose direction `direction_clause` says."""
+        letter = self.letters[number - 1]
+        return self.whole(number) if letter else self.short(number)
+
+    def direction_clause(self, number: int) -> str:
+        """Where an axis without a letter lies, a clause; empty of one with a letter."""
+        if not number or self.letters[number - 1]:
+            return ""
+        return f"the {self.words[number - 1]} axis is {self.direction(number)}{IN_FILE}"
 
     def brief(self, number: int) -> str:
         """After another axis of the same line: "x", or what `whole` says where there is no letter."""
@@ -66,14 +77,14 @@ class Axes:
 
     def short(self, number: int) -> str:
         """Within a sentence: "the z axis", "the minor axis"; of two axes with one word also the direction."""
-        letter, word = self.letters[number - 1], self.words[number - 1]
+        letter, word = self.letters[number - 1], self.ranks[number - 1]
         if letter:
             return letter if letter in PLAIN.letters else f"the {letter} axis"
-        return f"the {word} axis" + (f" {self.direction(number)}" if self.words.count(word) > 1 else "")
+        return f"the {word} axis" + (f" {self.direction(number)}" if self.ranks.count(word) > 1 else "")
 
     def label(self, number: int) -> str:
         """Beside an axis that is drawn: "z", of a full tensor "minor"."""
-        return self.letters[number - 1] or self.words[number - 1]
+        return self.letters[number - 1] or self.ranks[number - 1]
 
     def in_file(self, vector: Sequence[float]) -> tuple[float, ...]:
         """The components of a vector (3,) along the axes of the file; as they are where these are no others.
@@ -117,16 +128,16 @@ def axes_of(case: Case) -> Axes:
                                                          for row in frame.axes)
     letters = tuple("xyz") if frame is None or frame.as_given else ("",) * 3
     # a scene with a body
-    return Axes(letters, _words(case.scene.body.exact), rows)  # type: ignore[union-attr]
+    return Axes(letters, _ranks(case.scene.body.exact), rows)  # type: ignore[union-attr]
 
 
 def with_moments(axes: Axes, moments: Any) -> Axes:
     """The names of the same axes for other moments about them."""
-    words = _words(moments)
-    return replace(axes, words=words, letters=axes.letters if any(axes.letters + words) else PLAIN.letters)
+    ranks = _ranks(moments)
+    return replace(axes, ranks=ranks, letters=axes.letters if any(axes.letters + ranks) else PLAIN.letters)
 
 
-def _words(moments) -> tuple[str, ...]:
+def _ranks(moments) -> tuple[str, ...]:
     """Which axis each one is, by moments that are known exactly."""
     alike = len(set(moments))
     if alike == 1:

@@ -1,7 +1,6 @@
 """Certificates as files, and what a check of one found, in words and as JSON."""
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 from ..errors import printable
@@ -10,6 +9,8 @@ from ..representation import values_of
 from .terminal import some
 
 SCHEMA = "stabilab.verification/1"
+# what the checker, which knows no units, claims of a component x1 -> the same of the rate ω1 of a body
+RATES = {f"{extreme} x{n}": f"{extreme} ω{n}" for extreme in ("least", "greatest") for n in (1, 2, 3)}
 
 
 def write(certificate: dict, path) -> Path:
@@ -42,9 +43,9 @@ def text(found, first: str, other: str = "", physical: bool = False) -> str:
     counts = {word: sum(f.status == word for f in found.findings)
               for word in ("proved", "not checked", "refuted")}
     count = ", ".join(f"{n} {word}" for word, n in counts.items() if n) or "no claims"
-    lines = [f"{f.status:<12} {f.claim}{f': {f.reason}' if f.reason else ''}" for f in found.findings]
-    if physical:
-        lines = [re.sub(r"\bx(?=[123]\b)", "ω", line) for line in lines]
+    claims = [RATES.get(f.claim, f.claim) if physical else f.claim for f in found.findings]
+    lines = [f"{f.status:<12} {claim}{f': {f.reason}' if f.reason else ''}"
+             for claim, f in zip(claims, found.findings)]
     silent = f"; nothing is claimed of: {', '.join(found.silent)}" if found.silent else ""
     another = f"OF ANOTHER CASE than {printable(str(other))}; its own claims: " if other else ""
     return "\n".join([f"{another}{found.status.upper()}: {count}{silent}", first, *lines])

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
 from functools import partial
 from typing import Any
 
 from .. import errors
 from ..answers.caveats import HOLDS
 from ..errors import Caveat, Kind
-from ..reasons import in_si, old
+from ..reasons import in_si
 from .axes import axes_of
 from .units import SHORT, Units
 
@@ -103,18 +102,12 @@ def unstable(caveats: Iterable[Caveat], units: Units) -> str:
 
 def key(case: Any, caveats: Iterable[Caveat]) -> dict[str, list[dict]]:
     """The key "caveats" of a JSON object, with the names of the axes of a case."""
-    return errors.key(_named(case, caveats), _filled(case))
+    return errors.key(caveats, _filled(case))
 
 
 def cell(case: Any, caveats: Iterable[Caveat]) -> str:
     """The column "caveats" of a CSV, with the names of the axes of a case."""
-    return errors.cell(_named(case, caveats), _filled(case))
-
-
-def _named(case: Any, caveats: Iterable[Caveat]) -> list[Caveat]:
-    axes = axes_of(case)
-    return [one if one.reason.code else replace(one, reason=old(axes.sentence(one.words, axes.whole)))
-            for one in caveats]
+    return errors.cell(caveats, _filled(case))
 
 
 def _filled(case: Any) -> Callable[[Any], str]:

@@ -49,7 +49,7 @@ def spare_case(case: Case) -> None:
 
 @lru_cache(maxsize=4096)
 def _suspect(name: str) -> bool:
-    return bool(re.search(r"[^\W\d_]", name) and SUSPECT.search(name))
+    return any(map(str.isalpha, name)) and SUSPECT.search(name) is not None
 
 
 def around(change: Callable[P, str]) -> Callable[P, str]:
@@ -70,11 +70,8 @@ def around(change: Callable[P, str]) -> Callable[P, str]:
         found = change(*given[:at], _like(text, bare), *given[at + 1:], **named)  # type: ignore[arg-type]
         # escaped on the way, where it is of another type than what was given
         shown = taken if type(found) is type(text) else list(map(escape, taken))
-        return _like(found, LETTERS.sub(lambda letter: shown[ord(letter[0]) - FIRST], str(found)))
+        return _like(found, str(found).translate(dict(enumerate(shown, FIRST))))
     return changed
-
-
-LETTERS = re.compile(f"[{chr(FIRST)}-{chr(FIRST + MANY)}]")
 
 
 def _like(text: Any, words: str) -> Any:

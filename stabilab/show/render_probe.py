@@ -22,7 +22,7 @@ class Renderer:
     """available; name of the renderer (OpenGL string), or why there is none; what to type to have one."""
 
     available: bool
-    words: str
+    description: str
     cure: str = CURE
 
 

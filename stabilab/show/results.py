@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
@@ -19,15 +18,14 @@ from ..physics.scene import PARTS
 from ..reasons import number
 from ..representation import values_of
 from .axes import direction
-from .names import around, spare
-from .terminal import MINUS, some
+from .names import spare
+from .terminal import minus, some
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
 MOST = 10  # rows of a page
-EXPONENT = re.compile(r"(?<=\de)-(?=\d)")
 
 
 @dataclass(frozen=True)
@@ -167,7 +165,7 @@ def of_parts(parts: Mapping[str, Any], time: str = "time",
     their components, where known, of a matrix row by row as files take it."""
     known = errors or {}
     return {name: ((time, *_across(name, np.asarray(values))), np.asarray(values),
-                   {"units": PARTS[name].unit or "1", "long_name": PARTS[name].words}
+                   {"units": PARTS[name].unit or "1", "long_name": PARTS[name].description}
                    | ({"error": np.ravel(known[name]) if np.ndim(known[name]) > 1 else known[name]}
                       if name in known else {}))
             for name, values in parts.items()}
@@ -244,8 +242,8 @@ def _values_words(found):
     told = f" {found.unit}".rstrip()
     if not found.answer.one:
         return f"{found.name}{told and ','}{told}: {found.values}"
-    if found.why:
-        return f"{found.name}: {found.why}"
+    if found.missing:
+        return f"{found.name}: {found.missing}"
     over = f" over {found.over}" if found.over else ""
     numbers = f"{found.values:.9g}" if found.decimals is None and found.values.ndim == 0 else str(found)
     return f"{found.name}{over}: {numbers}{told}"
@@ -644,9 +642,4 @@ def _cell(value: Any) -> str:
 
 def _text(words: str) -> str:
     """Words as text; the minus of a number as print has it, the hyphens of words as they are."""
-    return escape(_with_minus(words))
-
-
-@around
-def _with_minus(words: str) -> str:
-    return EXPONENT.sub("−", MINUS.sub("−", words))
+    return escape(minus(words))

@@ -171,7 +171,7 @@ def numbers(ticks: list[float]) -> list[str]:
 class Space:
     """names: labels of the axes, in a unit of which `rate` make one of the scene's; branches: (colour,
     branch) of the separatrix; curves and marks: (words of the legend, places or place); path: of the motion;
-    arrows: (place, step) along it; view: elevation and azimuth of the eye, deg; words: what the separatrix
+    arrows: (place, step) along it; view: elevation and azimuth of the eye, deg; caption: what the separatrix
     parts, or why none is drawn; part: what is said where the path is a part of the motion."""
 
     names: tuple[str, ...]
@@ -183,7 +183,7 @@ class Space:
     path: list[Point]
     arrows: tuple[tuple[Point, Point], ...]
     view: tuple[float, float]
-    words: str
+    caption: str
     part: str = ""
 
     @property

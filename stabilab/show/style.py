@@ -3,8 +3,8 @@ change."""
 from __future__ import annotations
 
 import math
-import re
 from contextlib import contextmanager
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -63,8 +63,6 @@ SERIES = (BLUE, ORANGE, GREEN, PURPLE, VERMILION)               # one curve each
 
 PACKAGES = ("matplotlib", "PIL")  # of every picture
 DPI = 110
-# the blanks within a measured value: lambda3 = 0.1 N m s
-MEASURED = re.compile(r"(?<= =) | (?==)|(?<=\d) (?=[^\W\d])|(?<=\bN) (?=m\b)|(?<=\bm) (?=s\b)")
 TITLE = 0.008  # inches that a letter of a title takes, a point of its size
 # inches from which on letters have their full size; the least share of it in smaller figures: 7 points
 ROOMY, SMALLEST = (5.6, 3.8), 0.7
@@ -214,17 +212,28 @@ def clauses(text: str, width: float) -> str:
     most = (width
             - 0.3) / (TITLE * FontProperties(size=matplotlib.rcParams["axes.titlesize"]).get_size_in_points())
     lines = [""]
-    for clause in re.split(r"(?<=; )", text):
+    for clause in text.replace("; ", "; \n").split("\n"):
         if lines[-1] and len(lines[-1]) + len(clause.rstrip()) > most:
             lines.append("")
         lines[-1] += clause
         count = math.ceil(len(lines[-1].rstrip()) / most)
         if count > 1:
-            whole = MEASURED.sub("\u00a0", lines[-1])  # textwrap ends no line there
+            whole = _measured_together(lines[-1])  # textwrap ends no line there
             fits = (textwrap.wrap(whole, wide) for wide in range(len(lines[-1]) // count, len(lines[-1])))
             *before, last = next((parts for parts in fits if len(parts) <= count), [whole])
             lines[-1:] = [*before, f"{last} "]
     return "\n".join(line.rstrip() for line in lines).replace("\u00a0", " ")
+
+
+def _measured_together(text: str) -> str:
+    """The text with no-break spaces within measured values: lambda3 = 0.1 N m s."""
+    first, *others = text.split(" ")
+    made = first
+    for before, after in pairwise((first, *others)):
+        held = (before == "=" or after.startswith("=") or (before[-1:].isdecimal() and after[:1].isalpha())
+                or (before, after.rstrip(",;:.)^23")) in (("N", "m"), ("m", "s")))
+        made += ("\u00a0" if held else " ") + after
+    return made
 
 
 def literal(text: str) -> str:

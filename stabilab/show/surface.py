@@ -295,7 +295,7 @@ def write_all(cases, out, arguments=None) -> list[dict]:
     if not renderer.available:
         written = ", ".join(name for summary in summaries for name in summary["files"])
         unavailable = RenderingUnavailable(f"the meshes are in {out} ({written}), but no picture could be "
-                                           f"drawn: {renderer.words}. "
+                                           f"drawn: {renderer.description}. "
                                            f"Cure: {renderer.cure}")
         unavailable.summaries = summaries
         raise unavailable
@@ -312,7 +312,7 @@ def _found(case):
 def _write(case, meshes, folder, renderer, summary):
     """The files of one case; the summary is completed and written with them."""
     files = write_meshes(meshes, folder, case.name)
-    summary["rendering"] = renderer.words if renderer.available else f"unavailable: {renderer.words}"
+    summary["rendering"] = ("" if renderer.available else "unavailable: ") + renderer.description
     if renderer.available:
         files.append(draw(case, folder / f"{case.name}.png"))
     summary["files"] = sorted([f"{case.name}.json", *(f.name for f in files)])

@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from ..reasons import ASCII
 from .names import around
@@ -25,21 +25,23 @@ NAMES = re.compile(r"(?<![\w./\\])(?<![\w-]-)(omega|lambda|Lambda|mu|gamma|alpha
                    r"(?=(?:[123]|_[ijk])\b(?!\\|/[A-Za-z]|\.\w))"
                    r"|(?<=\|)(?:omega|gamma)(?= ?[xyz]?\|)|\bomega(?= \. \()|\bgamma(?= = \()|(?<=[\d )=] "
                    r")tau\b|(?<=\bin )tau\b(?! \[)|(?<=\bof )tau\b")
-LETTER = re.compile(r"(?<![A-Za-z_])(" + "|".join(sorted(ALPHABET, key=len, reverse=True))
-                    + r")(?:_?(?=\d)|(?=_[ijk]\b)|(?![\w-]))|(?<![A-Za-z])l_(?=[xyz]\b)")
-MINUS = re.compile(r"(?<![\w)\]./-])-(?=\d)")
-LONG = re.compile(r"(?<![\w.])\d+\.\d{6,}(?:e[+-]?\d+)?")
+# A formula as it is typed: a Greek letter with or without its number, an index, a power, a root
+NOTATION = re.compile(
+    r"(?<![A-Za-z_])(?P<letter>" + "|".join(sorted(ALPHABET, key=len, reverse=True)) + r")"
+    r"(?:_?(?=\d)|(?=_[ijk]\b)|(?![\w-]))|(?<![A-Za-z])(?P<latin>l)_(?=[xyz]\b)"
+    r"|(?<=[^\W\d_])_(?P<index>[ijk])\b|\^(?P<power>\d)(?!\d)|(?P<root>sqrt)(?=\()")
+# What of a number or a formula is a minus and no hyphen: of an exponent, a sign, a difference; and the plus
+# and the zeros of an exponent, which a book leaves out
+MINUS = re.compile(r"(?<=\de)[+-]?0*(?=[1-9])|(?<![\w)\]./-])-(?=[\d.∞])|(?:(?<=[ (\[=])|^)-(?=[\w(])"
+                   r"|(?<=[(\[])-(?= \w)|(?<=[\w)²³*;]) - (?=[\w(])|(?<=\b[a-z])-(?=[a-z]\))")
 UNIT = re.compile(
     r"(?<![\w\\^])(kg m|rad/s|deg/s|m/s|1/s|N m s|s|m|\((?:deg/s|rad/s|N m s)\))\^([2-9])(?!\w)")
-INDEX = re.compile(r"(?<=[^\W\d_])_([ijk])\b")
-INDICES = {"i": "ᵢ", "j": "ⱼ", "k": "ₖ"}
-POWER = re.compile(r"\^(\d)(?!\d)|sqrt(?=\()")
+INDICES = str.maketrans("ijk", "ᵢⱼₖ")
 SIGNS = {"+-": "±", "-+": "∓", "<=": "≤", ">=": "≥", "-inf ": "-∞ ", " inf ": " ∞ "}
-PRINTED = (  # what a book sets otherwise than a terminal
-    (r"(?<=\de)\+?0*(?=[1-9])", ""), (r"(?<=\de)-0*(?=\d)", "−"), (r"\binf\b", "∞"), (r"\^T\b", "ᵀ"),
-    (r"(?<![\w)\]-])-(?=[\d.∞])|(?<=[ (])-(?=[\w(])", "−"), (r"(?<=[\w)²³]) - (?=[\w(])", " − "),
-    (r"(?<=\s)x(?=\s[\w(]+\s=)", "×"), (r"(?<=[\w)]) \. (?=[\w(])", " · "),
-    (r"\b(?<=[MHωλγ])\.(?=[(MHDωλγ])", "·"))
+# what a book sets otherwise than a terminal: infinity, a transpose, the products of vectors
+PRINTED = re.compile(r"\binf\b|\^T\b|(?<=\s)x(?=\s[\w(]+\s=)|(?<=[\w)]) \. (?=[\w(])"
+                     r"|(?<=\b[MHωλγ])\.(?=[(MHDωλγ])")
+PRINTED_AS = {"inf": "∞", "^T": "ᵀ", "x": "×", " . ": " · ", ".": "·"}
 RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -47,35 +49,50 @@ RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 def written(text: str) -> str:
     """A caption or a claim as a paper sets it: lambda3 becomes λ3, r0^2 becomes r0², sqrt(x) becomes √(x),
     l_x becomes lx, +- becomes ±."""
-    return _in_letters(MINUS.sub("−", text.replace("+-", "±").replace("-+", "∓")))
+    return _in_letters(minus(text.replace("+-", "±").replace("-+", "∓")))
 
 
 @around
 def lettered(text: str) -> str:
-    """Words of the analysis at a terminal: letters as `written`, numbers with six digits."""
-    return _in_letters(LONG.sub(lambda found: f"{float(found[0]):.6g}", text))
+    """Words of the analysis at a terminal: letters as `written`."""
+    return _in_letters(text)
 
 
 @around
 def printed(text: str) -> str:
     """Words of the analysis for a page: letters as `lettered`, minus, products and powers of ten as a book
     sets them. What stands between backquotes is a command and stays as it is."""
-    parts = re.split(r"(`[^`]*`)", text)
-    for n, part in enumerate(parts):
-        if not part.startswith("`"):
-            part = lettered(part)
-            for plain_sign, sign in PRINTED:
-                part = re.sub(plain_sign, sign, part)
-            parts[n] = greek(part)
-    return "".join(parts)
+    return but_for_commands(text, lambda part: greek(minus(
+        PRINTED.sub(lambda sign: PRINTED_AS[sign[0]], lettered(part)))))
+
+
+def but_for_commands(text: str, change: Callable[[str], str]) -> str:
+    """The text changed but for the commands in it, which stand between backquotes."""
+    parts = text.split("`")
+    return "`".join(part if n % 2 and n < len(parts) - 1 else change(part) for n, part in enumerate(parts))
+
+
+@around
+def minus(text: str) -> str:
+    """The text with the minus of a book, 1e-08 as 1e−8; the hyphens of words as they are."""
+    return MINUS.sub(lambda found: found[0].rstrip("0").lstrip("+").replace("-", "−"), text)
 
 
 def _in_letters(text):
     for plain, sign in SIGNS.items():
         text = text.replace(plain, sign)
-    text = INDEX.sub(lambda found: INDICES[found[1]],
-                     LETTER.sub(lambda found: ALPHABET.get(found[1], "l"), text))
-    return POWER.sub(lambda found: found[1].translate(RAISED) if found[1] else "√", text)
+    return NOTATION.sub(_letter, text)
+
+
+def _letter(found):
+    match found.lastgroup:
+        case "index":
+            return found["index"].translate(INDICES)
+        case "power":
+            return found["power"].translate(RAISED)
+        case "root":
+            return "√"
+    return ALPHABET.get(found[found.lastgroup], "l")
 
 
 def some(count: int, noun: str) -> str:
@@ -110,14 +127,13 @@ def encodable(text: str, encoding: str | None) -> str:
     return text
 
 
+LINE = 100   # letters of a line that holds several clauses
 USUAL = 80   # columns of a terminal that does not say how wide it is
 GAP = 2      # columns between those of a table
 NARROW = 40  # columns below which nothing is wrapped any narrower
 COLOURS = {r"\bBOUNDED\b|\bNEVER\b|\bAT REST\b|\bSTEADY ROTATION\b|\bPROVED\b": "bold green",
            r"\bSPINS UP\b|BEYOND THE LAW|\bREFUTED\b": "bold red",
            r"\bUNDECIDED\b|ON THE SEPARATRIX|NOT KNOWN": "bold yellow"}
-# a file, with a line of it: one word, whatever blanks its name holds
-PLACE = re.compile(r"(?:written: .*|[^:\n]*\.\w+(?::\d+)*:)")
 BLANK = "\0"  # stands for a blank that no line is broken at
 STABLE = {r"\bunstable\b": "red", r"(?<!un)\b(?:asymptotically )?stable\b": "green",
           r"\bundecided\b": "yellow"}
@@ -128,12 +144,38 @@ def tell(text: str) -> None:
     out = sys.stdout
     text = encodable(greek(text), getattr(out, "encoding", None)).rstrip("\n") + "\n"
     columns = width()
+    text = by_clauses(text)
     if columns is not None:
         text = wrapped(text, columns)
         if not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb":
             return _in_colours(text)
     out.write(text)
     out.flush()
+
+
+def by_clauses(text: str) -> str:
+    """The text with every line that is longer than `LINE` broken between its clauses: as many as fit stay on
+    the first line, each other has a line of its own, two columns further in."""
+    lines = []
+    for line in text.split("\n"):
+        first, *rest = clauses_of(line) if len(line) > LINE else [line]
+        while rest and len(first) + len(rest[0]) + 2 <= LINE:
+            first = f"{first}; {rest.pop(0)}"
+        indent = " " * (len(line) - len(line.lstrip()) + GAP)
+        lines += [first, *(indent + clause for clause in rest)]
+    return "\n".join(lines)
+
+
+def clauses_of(line: str) -> list[str]:
+    """What stands between the semicolons of a line outside its brackets and quotes."""
+    found, depth, quoted, begin = [], 0, False, 0
+    for n, letter in enumerate(line):
+        depth += (letter in "([{") - (letter in ")]}")
+        quoted ^= letter == '"'
+        if line.startswith("; ", n) and depth <= 0 and not quoted:
+            found.append(line[begin:n])
+            begin = n + 2
+    return [*found, line[begin:]]
 
 
 def say(text: str) -> None:
@@ -155,19 +197,28 @@ def wrapped(text: str, columns: int) -> str:
             lines.append(line)
             continue
         indent = " " * _hang(line, columns)
-        line = (PLACE.sub(lambda found: found[0].replace(" ", BLANK), line, count=1) if PLACE.match(line)
-                else line)
-        lines += (textwrap.wrap(line, columns, subsequent_indent=indent, break_long_words=False,
-                                break_on_hyphens=False) or [""])
+        lines += (textwrap.wrap(_place_together(line), columns, subsequent_indent=indent,
+                                break_long_words=False, break_on_hyphens=False) or [""])
     return "\n".join(lines).replace(BLANK, " ")
+
+
+def _place_together(line):
+    """The line with a file at its head as one word, whatever blanks its name holds."""
+    if line.startswith("written: "):
+        return line.replace(" ", BLANK)
+    place, colon, rest = line.partition(":")
+    _, point, ending = place.rpartition(".")
+    named = colon and point and ending.replace("_", "").isalnum()
+    return f"{place.replace(' ', BLANK)}:{rest}" if named else line
 
 
 def _hang(line, columns):
     """Where what does not fit goes on: below the words after a column of names, else two columns in."""
-    named = re.match(r"( +\S.*? {2,})\S", line)
-    if named and len(named[1]) <= columns // 2:
-        return len(named[1])
-    return len(line) - len(line.lstrip()) + 2
+    words = line.lstrip(" ")
+    indent = len(line) - len(words)
+    _, gap, beside = words.partition("  ")
+    named = len(line) - len(beside.lstrip(" "))
+    return named if indent and gap and beside.strip(" ") and named <= columns // 2 else indent + 2
 
 
 def table(rows: Sequence[Sequence[str]], keys: int = 1, width: int | None = None) -> list[str]:

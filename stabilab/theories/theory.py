@@ -8,13 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..answers.caveats import answered
 from ..case.given import Given, Span, Start, as_case, time_in, with_start
 from ..errors import InputError
 from ..integrate.events import roots_of_rates
 from ..physics.states import checked_times
 from ..reasons import Angle, Filling, PerSecond, Quantity, Rate, Reason, Sentence, Time, as_reason
 from ..reasons import Span as Reach
-from ..representation import Compared, Shown
+from ..representation import Answer, Compared
 from .cavity_normal_form import attractors
 from .charged import MISPRINTS, body_of
 from .charged_modes import SMALL_ANGLE, horizon, largest_tilt, modes, pointing, resonances, spin_drift
@@ -227,7 +228,7 @@ class Departure(Compared):
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Comparison(Shown, Compared):
+class Comparison(Answer, Compared):
     """t: (n,) times; runs: model -> Simulation, the exact one first; departures: one per model and part of
     the state; refused: model -> why it has no answer for this motion; theory: what else the theory says
     (`theory.theory`)."""
@@ -266,7 +267,8 @@ def compare(case: Given, times: ArrayLike | None = None, order: int | None = Non
     for name, run in list(runs.items())[1:]:
         for part in (p for p in SHARED if p in run.state and p in exact.state):
             found.append(_departure(case, name, part, run, exact, order))
-    return Comparison(times, runs, tuple(found), refused, tuple(theory(case, order, end=float(times[-1]))))
+    return answered(Comparison(times, runs, tuple(found), refused,
+                               tuple(theory(case, order, end=float(times[-1])))), case, exact.validity)
 
 
 def side_by_side(case, times, order: int | None = None) -> tuple[dict, dict]:

@@ -20,10 +20,10 @@ from typing import Any
 
 import numpy as np
 
-from ..integrate.quadratic_series import in_unit, own_unit
 from ..integrate.to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 from ..integrate.trajectory import STEP_LIMIT, stand_in
 from ..physics.equations import Equations
+from ..physics.own_unit import in_unit, own_unit
 from ..physics.to_numpy import equations_of, form, to_numpy
 
 LANES = 8

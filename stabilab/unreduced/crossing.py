@@ -17,10 +17,10 @@ import numpy as np
 from ..integrate.crossing import Crossing, Search, Threshold
 from ..numbers.polynomial import bernstein
 from ..numbers.vectors import Exact3
+from ..physics.own_unit import natural
 from ..physics.scene import AnyScene
 from . import enclosure_kernel
 from .enclosure import Band, Course, allowed
-from .spin_up.certificate import natural
 
 FAR = 2.0**24  # natural units of time: beyond what any number of steps reaches
 BLUR, PIECES = 2.0**-40, 8

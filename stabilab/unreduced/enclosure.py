@@ -30,10 +30,11 @@ from ..integrate.crossing import Piece
 from ..numbers.exact import exact_vector
 from ..numbers.numba_door import compiled, installed
 from ..physics.coefficients import effective
-from ..reasons import Quantity, Sentence
+from ..physics.own_unit import natural
+from ..reasons import Quantity, Reasoned, Sentence
 from ..validation import checked_scene
 from . import enclosure_kernel
-from .spin_up.certificate import natural, tests_of
+from .spin_up.certificate import tests_of
 from .spin_up.result import SpinUp, Trap
 
 # --- The enclosed motion
@@ -42,10 +43,14 @@ STEPS, SLOW_STEPS = 200_000, 2_000
 CHUNK = 512  # steps kept at a time between which the band is asked for
 BITS = 112  # of a step in integers: far beyond its doubles
 TOLERANCE = 2.0**-88  # of a step's tail, beside the state: as small as the rounding of its coefficients
-WHY = {enclosure_kernel.DONE: "enclosed",
-       enclosure_kernel.GOING: "not finished: the steps allowed were used up",
-       enclosure_kernel.LOST: "lost: the set has grown too wide to follow",
-       enclosure_kernel.ENDLESS: "lost: a step would be below the grain of time"}
+WHY = {enclosure_kernel.DONE: Sentence("enclosure-done", "enclosed")(),
+       enclosure_kernel.GOING: Sentence(
+           "enclosure-steps-spent", "not finished: the steps allowed were used up")(),
+       enclosure_kernel.LOST: Sentence(
+           "enclosure-too-wide", "lost: the set has grown too wide to follow")(),
+       enclosure_kernel.ENDLESS: Sentence(
+           "enclosure-step-below-grain", "lost: a step would be below the grain of time")()}
+TOO_LONG = Sentence("enclosure-too-long", "too long to enclose")()
 
 
 @dataclass(frozen=True)
@@ -95,7 +100,7 @@ class Band:
 
 
 @dataclass(frozen=True)
-class Enclosed:
+class Enclosed(Reasoned):
     """The set that surely holds the state at one time.
 
     t: exact, the scene's unit of time; middle: (3,) rates (rad/s, or x when scaled); rest: (3,), to be added
@@ -109,7 +114,6 @@ class Enclosed:
     radius: np.ndarray
     steps: int
     status: str
-    reason: str
 
     @property
     def box(self):
@@ -198,7 +202,7 @@ class Course:
         status = "enclosed" if self.status == enclosure_kernel.DONE else "stopped"
         return Enclosed(self.t, centre * self.unit, low * self.unit,
                         np.abs(B) @ rad * enclosure_kernel.WIDER * self.unit,
-                        self.steps, status, WHY[self.status])
+                        self.steps, status, reason=WHY[self.status])
 
 
 def allowed() -> int:
@@ -306,7 +310,7 @@ class _Way:
     def __init__(self, scene, state, t_end, plain):
         self.start = exact_vector(state, "state")
         self.course = Course(scene, state, t_end, plain) if t_end else None
-        self.t, self.steps, self.why = 0.0, 0, ""
+        self.t, self.steps, self.why = 0.0, 0, WHY[enclosure_kernel.GOING]
 
     def to(self, t, steps):
         """(middle (3,), radius of a ball about it); None where the steps do not reach."""
@@ -318,7 +322,7 @@ class _Way:
             self.course.advance(t, min(steps, TRIED))
             slow = self.course.t * steps < t * self.course.steps / HOPELESS
             if self.course.status == enclosure_kernel.GOING and slow:
-                self.t, self.steps, self.why = self.course.t, self.course.steps, "too long to enclose"
+                self.t, self.steps, self.why = self.course.t, self.course.steps, TOO_LONG
                 return None
         self.course.advance(t, steps - self.course.steps)
         now = self.course.now

@@ -17,10 +17,9 @@ import numpy as np
 
 from ..errors import InputError
 from ..integrate.events import roots_of_rates
-from ..integrate.quadratic_series import in_unit, mass_unit
 from ..orbit.fate import as_double, at_rest, free_fate, scaled_double
 from ..orbit.fate_arrays import fates as free_fates
-from ..orbit.one_state import LOST, NONE_IN_DOUBLES, ORDINARY, powered
+from ..orbit.one_state import LOST, NONE_IN_DOUBLES, powered
 from ..orbit.result import (
     ALL_TIME,
     BOX,
@@ -36,6 +35,7 @@ from ..orbit.result import (
 )
 from ..orbit.separatrix.distance import has_no_saddle
 from ..physics.coefficients import three_floats
+from ..physics.own_unit import far, in_unit, mass_unit, own_exponent
 from ..physics.scene import rests
 from ..physics.states import equilibrium_mask, three_numbers
 from ..reasons import Reason, Sentence, Span
@@ -89,7 +89,7 @@ def extremes_over_period(scene, state) -> PeriodExtremes:
     exact = [Fraction(v) for v in given]
     if not any(form.rate(exact)):
         return PeriodExtremes(np.stack([state, state], axis=1), 0.0, ALL_TIME, RESTS)
-    k, mass = _own_exponent(form, exact), mass_unit(scene)
+    k, mass = far(own_exponent(exact, form.rate(exact))) or 0, mass_unit(scene)
     if k or mass != 1:
         unit = Fraction(2) ** k
         scene, exact, state = in_unit(scene, unit,
@@ -104,17 +104,6 @@ def extremes_over_period(scene, state) -> PeriodExtremes:
     tied = scene.variables == "physical" and free_fate(scene, exact).label == Fate.SEPARATRIX
     follow = _without_return if tied else _by_return
     return _in_scene_unit(follow(scene, form, state, k), k)
-
-
-def _own_exponent(form, x) -> int:
-    """k of the own unit 2^k of a motion: the size of its rates, or of what these make of it, the root of
-    omega'; 0 where it is ordinary."""
-    size = max([_exponent(v) for v in x if v] + [_exponent(v) // 2 for v in form.rate(x) if v])
-    return 0 if -ORDINARY <= size <= ORDINARY else size
-
-
-def _exponent(value: Fraction) -> int:
-    return value.numerator.bit_length() - value.denominator.bit_length()
 
 
 def _no_double_is_nan(period: float) -> float:

@@ -37,7 +37,7 @@ from ..orbit.one_state import in_range
 from ..orbit.result import NO_EXTREMES, Fate, Motion, Needs, judged, pairs
 from ..physics.coefficients import three_floats
 from ..physics.states import three_numbers
-from ..reasons import Axis, Quantity, Reason, Sentence
+from ..reasons import Axis, Quantity, Reasoned, Sentence
 from ..validation import reach_of
 from .evidence import growth as seen_growth
 from .evidence import seen_over, span_needed
@@ -85,7 +85,7 @@ RUN_NO_AXIS = Sentence("run-no-axis", "no axis of spin-up was clear in a run of 
 
 
 @dataclass(frozen=True)
-class CapturedFate:
+class CapturedFate(Reasoned):
     """What becomes of a motion that no bound holds.
 
     axis, sense: 1, 2, 3 and +-1 of the spin-up (0 where unclear). J0, J_rate: the law J = J0 + J_rate t at
@@ -99,7 +99,6 @@ class CapturedFate:
 
     J0: float
     J_rate: float
-    reason: Reason
     fate: Fate = Fate.UNDECIDED
     axis: int = 0
     sense: int = 0
@@ -108,11 +107,6 @@ class CapturedFate:
     certificate: str = "none"
     t_certificate: float | None = None
     steps: int = 0
-
-    @property
-    def because(self) -> str:
-        """Why, in words and SI units."""
-        return self.reason.text()
 
 
 def captured_fate(scene, state, t_max: float | None = None, exact=None) -> CapturedFate:

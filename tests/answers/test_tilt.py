@@ -149,7 +149,7 @@ def test_the_cone_of_a_thruster_is_that_of_its_force(case_file):
     case = package.load(path)
     cone, arm, force = cone_of(case.scene, case), np.array([0.5, 0, 0]), np.array([0, 0.04, 0])
     side, (low, high) = cone.reach()
-    assert np.allclose(cone.torque, [0, 0, 0.02]) and cone.words == "the force of A"
+    assert np.allclose(cone.torque, [0, 0, 0.02]) and cone.subject == "the force of A"
     for azimuth in np.linspace(0, 6, 7):
         torque = cone.at(azimuth)
         # arm x F' = torque has the solutions F' = (torque x arm)/arm^2 + c arm; the one in the cone has |F'|
@@ -184,7 +184,7 @@ def test_a_stated_limit_or_misalignment_brings_the_tilt_by_itself(stabilab, case
     path = case_file(MOVING + '[limits]\nrate = "2 rad/s"\n', "limit")
     code, out, _ = stabilab("fate", path)
     assert code == 0
-    assert "BOUNDED only while the torque is exactly along z (minor axis): tilted by 1 deg it reaches 114.592 deg/s after 1" in out.splitlines()[0]
+    assert "BOUNDED only while the torque is exactly along z (minor axis); tilted by 1 deg it reaches 114.592 deg/s after 1" in out.splitlines()[0]
     row = json.loads(stabilab("fate", path, "--json")[1])[0]["tilt"]
     assert row["limit"] == 2 and row["limit_stated"] and row["time"][0] <= row["time"][1] and 0 < row[
         "not_before"] < row["time"][0]

@@ -11,9 +11,12 @@ import stabilab as package
 from stabilab import cli
 from stabilab.answers import caveats
 from stabilab.errors import Caveat, Kind
+from stabilab.packages import present
 from stabilab.reasons import Sentence
+from stabilab.representation import Shown
 from stabilab.show.explore.session import Session
 from stabilab.show.report import one_case
+from stabilab.show.results import KINDS
 from tests.shared import CASES
 from tests.show.explore.test_session import ask
 
@@ -88,6 +91,25 @@ def test_a_page_the_explorer_and_python_show_a_new_caveat(probed, usual, tmp_pat
     answer = ask(Session(case), moving=False)[0]
     assert WORDS in f"{answer['headline']} {answer['note']}".lower()
     for found in (case.fate(), case.motion(), case.extremes(), case.period(), case.attitude(),
-                  case.when(rate="3 rad/s")):
+                  case.when(rate="3 rad/s"), case.when(events="omega1"), case.equilibria(), case.simulate(),
+                  case.stuck(), package.compare(case), package.spin_up(case), package.trajectory(case),
+                  package.ensemble(case), package.separatrix(case), package.chaos(case, until="5 s"),
+                  package.bifurcation(case, {"torque[3]": "0.01:0.02"})):
         assert any(one.words == WORDS for one in found.caveats), found
         assert WORDS in repr(found) and WORDS in found._repr_html_(), found
+        if present("xarray"):
+            assert WORDS in found.to_xarray().attrs["caveats"], found
+
+
+def test_every_result_that_is_shown_says_what_limits_it():
+    """Results of rows alone, and the end of a motion, which is a part of one, are no answers of a case."""
+    def kinds(one):
+        yield one
+        for kind in one.__subclasses__():
+            yield from kinds(kind)
+
+    for name in package.__all__:
+        getattr(package, name)
+    shown = {one.__name__: one for one in kinds(Shown) if one.__name__ in KINDS}
+    assert shown.keys() == KINDS.keys()
+    assert {name for name, one in shown.items() if not hasattr(one, "caveats")} == {"FateResult", "Ending"}

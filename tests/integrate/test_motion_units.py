@@ -1,4 +1,4 @@
-"""Tests of `integrate/quadratic_series.py`: what once went wrong there, and its edges."""
+"""Tests of `physics/own_unit.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
 import numpy as np
@@ -6,9 +6,9 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
-from stabilab.integrate.quadratic_series import in_unit
 from stabilab.physics.effects.rate_damper import RateDamper
 from stabilab.physics.effects.resistance import Resistance
+from stabilab.physics.own_unit import in_unit
 
 
 def test_steps_of_slow_rates_are_told_in_the_scenes_time():

@@ -137,7 +137,7 @@ def test_a_limit_is_asked_of_scenes_without_arrays_too():
 
 def test_numbers_that_make_no_case_are_told_and_nothing_else_is_lost():
     found = swept("minor-axis-100", {"inertia[1]": "2000, -9000"})
-    assert found.records["valid"].tolist() == [1, 0] and found.broken == 1 and "positive" in found.why
+    assert found.records["valid"].tolist() == [1, 0] and found.broken == 1 and "positive" in found.fault
     with pytest.raises(InputError, match="none of the 1 points makes a case: .*positive"):
         swept("minor-axis-100", {"inertia[1]": "-9000"})
 

@@ -11,8 +11,9 @@ from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.motion import motion
 from stabilab.errors import InputError
 from stabilab.orbit.flow import reduced_motion
-from stabilab.orbit.one_state import far_exponent, far_rows
+from stabilab.orbit.one_state import far_rows
 from stabilab.orbit.phase_plane import phase_plane
+from stabilab.physics.own_unit import far_exponent
 
 RATES = (0.1, 0.05, 0.2)
 BODIES = {"circle": (Body((12, 9, 5)), (1, 0, 0), (0, 0, 1)),

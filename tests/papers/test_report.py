@@ -2,9 +2,11 @@
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 from html import unescape as html_text
 from html.parser import HTMLParser
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,8 +17,11 @@ from stabilab.papers import report as chapters
 from stabilab.papers.audit import findings_of
 from stabilab.papers.audit import page as audit_page
 from stabilab.papers.figures import catalogue as figures
+from stabilab.physics.law_limits import Validity
 from stabilab.show import manifest, render_probe, style
 from stabilab.show.report import html, own
+from stabilab.show.text.headline import exceeded
+from stabilab.show.units import SI
 from tests.shared import CASES
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
@@ -125,18 +130,20 @@ def everything(tmp_path_factory, hostile):
 
 
 def test_a_list_of_cases_says_by_how_much_a_law_is_left_and_a_law_that_holds_is_not_told():
-    law = (
-        "BEYOND THE LAW: charge: change of cos σ, held constant, with the attitude, 1.86 along the run, "
-        "limit 0.1: the z axis turns away")
-    made = {"case": {"title": "a <b>", "headline": "BOUNDED for ever", "look": "bounded", "law": law,
-                     "caveats": []}}
-    assert own.listed("one", made)["beyond"] == law.removesuffix(": the z axis turns away")
-    made["case"]["law"] = ""
+    law = Validity("charge", "change of cos σ, held constant, with the attitude", 1.86, 1e-5, False,
+                   "along the run", "the z axis turns away", "a source")
+    case = SimpleNamespace(path="a.toml", variant="")
+    beyond = exceeded([(case, law)], SI)
+    assert beyond == ("BEYOND THE LAW: charge: change of cos σ, held constant, with the attitude, "
+                      "1.86 along the run, limit 1e-05")
+    assert exceeded([(case, None), (case, replace(law, value=1e-6, holds=True))], SI) == ""
+    made = {"case": {"title": "a <b>", "headline": "BOUNDED for ever", "look": "bounded",
+                     "exceeded": "", "caveats": []}}
     assert own.listed("one", made)["beyond"] == ""
-    rows = [own.listed("one", made), own.listed("two", {"case": made["case"] | {"law": law}})]
+    rows = [own.listed("one", made), own.listed("two", {"case": made["case"] | {"exceeded": beyond}})]
     text = html.render("list.html", title="", groups=[{"title": "", "rows": rows}], extra=(), command="",
                        versions=())
-    assert text.count('class="beyond"') == 1 and "limit 0.1<" in text
+    assert text.count('class="beyond"') == 1 and "limit 1e-05<" in text
 
 
 @pytest.mark.parametrize("fate, strict, code",

@@ -77,7 +77,7 @@ def test_the_attitude_under_a_torque_is_what_the_rates_integrate_to(by_tool):
 
 def _sigma(printed, step):
     from stabilab.papers.validation.quantities import reproduced
-    return reproduced(replace(printed, cause={"method": "rk4", "step": step}), 600.0)
+    return reproduced(replace(printed, scheme={"method": "rk4", "step": step}), 600.0)
 
 
 def test_the_angular_momentum_of_driven_wheels_and_body_rests_in_space():

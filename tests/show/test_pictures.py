@@ -221,7 +221,7 @@ def no_gl(monkeypatch):
 
 
 def test_a_renderer_that_crashes_is_reported_and_not_fatal(no_gl):
-    assert not render_probe.probe().available and "GL libraries" in render_probe.probe().words
+    assert not render_probe.probe().available and "GL libraries" in render_probe.probe().description
 
 
 # what a file of each kind begins with, by the definition of the format
@@ -285,7 +285,7 @@ def test_a_surface_picture_names_the_axes_of_its_case(tmp_path):
 def test_a_surface_is_drawn_with_a_body_at_rest(tmp_path):
     """Its path has no length, of which no tube can be made."""
     if not render_probe.probe().available:
-        pytest.skip(render_probe.probe().words)
+        pytest.skip(render_probe.probe().description)
     path = tmp_path / "rest.toml"
     path.write_text("[body]\ninertia = [3, 2, 1.5]\n[motion]\nangular_velocity = [0, 0, 0]\n")
     drawing.plotter(drawing.of(subject(load(path)))).close()
@@ -294,7 +294,7 @@ def test_a_surface_is_drawn_with_a_body_at_rest(tmp_path):
 @pytest.mark.slow
 def test_in_a_surface_picture_everything_is_drawn_and_the_box_holds_the_surface():
     if not render_probe.probe().available:
-        pytest.skip(render_probe.probe().words)
+        pytest.skip(render_probe.probe().description)
     case = load(CASES / "minor-axis-100.toml")
     found = drawing.of(subject(case))
     stage = drawing.plotter(found)

@@ -281,3 +281,16 @@ def test_a_run_shows_no_digit_that_its_check_does_not_vouch_for(stabilab, case_f
     assert re.search(r"^ +0 +6 +0 +1$", out, re.MULTILINE)
     last = re.search(r"^ +30 +(\S+)", out, re.MULTILINE)[1]
     assert 12 <= len(last.replace(".", "").lstrip("-0")) <= reached < 16
+
+
+@pytest.mark.parametrize("typed, printed", [  # by hand: as a book sets them
+    ("1e-08 of 2e+06", "1e−8 of 2e6"), ("0e+00 s", "0e+00 s"), ("(-5, .5, -0.1)", "(−5, .5, −0.1)"),
+    ("x = -b + (b-a) c - 2", "x = −b + (b−a) c − 2"), ("(- h²/24 ω'')", "(− h²/24 ω'')"),
+    ("a spin-up of DOP853-1 at off-axis-2", "a spin-up of DOP853-1 at off-axis-2"), ("D^-1", "D^−1")])
+def test_a_minus_is_that_of_a_book_and_a_hyphen_stays_one(typed, printed):
+    assert letters.minus(typed) == printed
+
+
+def test_a_command_between_backquotes_stays_as_it_is_typed_and_a_single_backquote_is_no_command():
+    assert letters.printed("-1: `stabilab -1 omega1`, -2") == "−1: `stabilab -1 omega1`, −2"
+    assert letters.printed("-1 ` -2") == "−1 ` −2"

@@ -10,6 +10,7 @@ import sys
 from fractions import Fraction as F
 from functools import cache, lru_cache
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -347,6 +348,15 @@ def test_a_key_without_a_meaning_is_not_checked_and_shown_without_control_charac
     claims["equilibria"]["curves"][0]["\x1b[2Jname\nproved"] = "all"
     found = verify(claims)
     assert found.status == "partly" and all(f.claim.isprintable() for f in found.findings)
+
+
+def test_an_extreme_of_a_body_is_said_of_a_rate_and_of_scaled_variables_of_a_component():
+    """By hand: x1 of a certificate is the body's rate ω1; no other word is changed."""
+    finding = SimpleNamespace(status="proved", claim="least x1", reason="an orbit")
+    found = SimpleNamespace(findings=[finding], silent=(), status="proved")
+    told = [certification.text(found, "about: ...", physical=one).splitlines()[-1] for one in (True, False)]
+    assert told == ["proved       least ω1: an orbit", "proved       least x1: an orbit"]
+    assert certification.as_dict(found, {})["findings"][0]["claim"] == "least x1"
 
 
 def test_a_dropped_part_is_named_as_not_claimed():

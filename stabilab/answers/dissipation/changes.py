@@ -16,10 +16,11 @@ from typing import Any
 
 import numpy as np
 
+from ...numbers.bracket import Bracket, first_bracket, narrowed, side
 from ...physics.scene import Scene, slices
 from .spinner import Spinner, after_the_separatrix
 
-HALVINGS = 10  # of an interval with one change of the outcome: three digits of its end
+THREE_DIGITS = Fraction(1, 1 << 11)  # of an end: between two places so near
 RUNS = 24  # for one end, about
 WEAKER = 0.5  # of nutation or damping: the least that is tried
 FINEST = 2.0**-30  # of the first change tried: a closer one is the second run's
@@ -131,23 +132,14 @@ def _filled(scene: Scene, times: Fraction) -> Scene:
 def _edge(flips: Callable[[float], bool], first: float, most: float) -> float:
     """The size of the smallest change, of the sign of `first`, of which the outcome is another, to three
     digits; inf where there is none up to `most`."""
-    sign = math.copysign(1.0, first)
-    low = high = min(abs(first), most)
-    if flips(sign * high):
-        while flips(sign * (low := high / 2)):
-            high = low
-            if high < FINEST * abs(first):
-                return high
-    else:
-        while not flips(sign * (high := min(2 * low, most))):
-            if high >= most:
-                return math.inf
-            low = high
+    judge = lambda size: side(not flips(math.copysign(size, first)))
+    size = abs(first)
+    found = first_bracket(judge, min(size, most), most, FINEST * size)
+    if found is None or not found.same:
+        return math.inf if found is None else float(found.other)
     for n in range(1, BETWEEN):  # a shift to and fro before is none of the two places above
-        if flips(sign * (place := low * n / BETWEEN)):
-            low, high = low * (n - 1) / BETWEEN, place
+        if judge(place := found.same * n / BETWEEN) < 0:
+            found = Bracket(found.same * (n - 1) / BETWEEN, place)
             break
-    for _ in range(HALVINGS):
-        middle = (low + high) / 2
-        low, high = (low, middle) if flips(sign * middle) else (middle, high)
-    return (low + high) / 2
+    found = narrowed(judge, found, THREE_DIGITS)
+    return float(found.same + found.other) / 2

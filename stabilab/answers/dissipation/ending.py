@@ -30,7 +30,7 @@ from ...physics.coefficients import Content, content, loses
 from ...physics.scene import later, slices
 from ...physics.states import equations_and_start, moved_row, start_of
 from ...physics.to_numpy import to_numpy
-from ...reasons import Axis, Momentum, Rate, Reason, Sentence, as_reason
+from ...reasons import Axis, Momentum, Rate, Reasoned, Sentence
 from ...representation import Compared, Shown
 from ...unreduced.bounds import OPEN_DIRECTION
 from ..passage import MOVED, WIDER
@@ -71,12 +71,11 @@ RUN_STAYS = Sentence("run-stays", "a run comes to rates that stay, next to which
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Ending(Shown, Compared):
+class Ending(Shown, Compared, Reasoned):
     """How a motion ends that loses energy, and when.
 
     kind: "flat spin", "nutation dies out", "rest", "rotation about the field", "steady rotation" or
-    "undecided". level: of the kind and the rates, "exact", "run" or "undecided"; reason: how it is known;
-    because: the same in words, in SI units.
+    "undecided". level: of the kind and the rates, "exact", "run" or "undecided"; reason: how it is known.
     axis: 1 to 3, about which it ends turning, 0 across all or at rest; minor: the axis of the least moment of
     a free body, else 0; sense: +1 or -1 of the turn, 0 where undecided. rate: |omega| in the end, rad/s;
     rates: along the principal axes, None where undecided. within: how near "settles" is: rad of nutation of a
@@ -90,7 +89,6 @@ class Ending(Shown, Compared):
 
     kind: str
     level: str
-    reason: Reason
     axis: int = 0
     minor: int = 0
     sense: int = 0
@@ -103,11 +101,6 @@ class Ending(Shown, Compared):
     decay: float | None = None
     at_the_latest: float | None = None
     estimate: float | None = None
-
-    @property
-    def because(self) -> str:
-        """How it is known, in words and SI units."""
-        return self.reason.text()
 
     def time(self, name: str) -> float | None:
         """One of its times, s."""
@@ -139,7 +132,7 @@ def ending(case: Any, motion: Motion) -> Ending | None:
         return None
     size = math.hypot(*case.state[:3])
     if size and not 1 / FAR < size < FAR:
-        return Ending("undecided", "undecided", TOO_FAR(rate=Rate(size)))
+        return Ending("undecided", "undecided", reason=TOO_FAR(rate=Rate(size)))
     if _free(parts):
         return _inside(case)
     start = equations_and_start(scene, start_of(scene, case.state, case.blocks))[1]
@@ -155,11 +148,11 @@ def _free(parts: Content) -> bool:
 # --- Inside a free body
 def _inside(case: Any) -> Ending:
     if not any(Spinner.made(case).momentum):
-        return Ending("rest", "exact", NO_MOMENTUM, rate=0.0, rates=(0.0,) * 3)
+        return Ending("rest", "exact", reason=NO_MOMENTUM, rate=0.0, rates=(0.0,) * 3)
     try:
         return of_spin(of_case(case, WITHIN, spans=False))
     except InputError as error:  # a liquid in moments that no rigid body has
-        return Ending("undecided", "undecided", as_reason(str(error)))
+        return Ending("undecided", "undecided", reason=str(error))
 
 
 def of_spin(found: FlatSpin) -> Ending:
@@ -173,9 +166,9 @@ def of_spin(found: FlatSpin) -> Ending:
     kind = "flat spin" if found.nutation is None else "nutation dies out"
     axis = 0 if found.outcome == ACROSS else found.axis
     times = tuple(sorted(ahead, key=lambda one: one[1].at))
-    return Ending(kind, found.level, reason, axis, found.minor, sense,
+    return Ending(kind, found.level, axis, found.minor, sense,
                   found.final_rate, found.rates, found.within, times, found.nutation, found.growth,
-                  found.decay)
+                  found.decay, reason=reason)
 
 
 
@@ -187,7 +180,7 @@ def _outside(scene: Any, parts: Content, start: np.ndarray, motion: Motion) -> E
     first = float(energy(start[None])[0])
     rests = motion.invariants.get("late_rate_bound") == 0.0
     if rests and not parts.directed and not parts.inside and first > 0:
-        found = Ending("rest", "exact", ENERGY_FALLS, rate=0.0, rates=(0.0,) * 3)
+        found = Ending("rest", "exact", reason=ENERGY_FALLS, rate=0.0, rates=(0.0,) * 3)
         slowest = float(decay(parts))
         latest = math.log(1 / NEAR) / slowest if slowest and not any(parts.M) else None
         return _timed(replace(found, at_the_latest=latest), scene, start, lambda y: energy(y) / first)[0]
@@ -198,7 +191,7 @@ def _outside(scene: Any, parts: Content, start: np.ndarray, motion: Motion) -> E
         end = np.array(drawn)
         apart = lambda y: (y[:, :3] - end) ** 2 @ np.array(D) / 2
         begun = float(apart(start[None])[0])
-        found = Ending("steady rotation", "exact", ONE_EQUILIBRIUM,
+        found = Ending("steady rotation", "exact", reason=ONE_EQUILIBRIUM,
                        rate=math.hypot(*drawn), rates=drawn)
         return _timed(found, scene, start, lambda y: apart(y) / begun)[0] if begun > 0 else found
     return _settled(scene, start, rests)
@@ -229,7 +222,7 @@ def _about_the_field(scene: Any, parts: Content, start: np.ndarray, energy: Call
     most = float(parts.D[axis])
     lowest, rate = p * p / (2 * most), abs(p) / most
     reason = ABOUT_FIELD(momentum=Momentum(p), axis=Axis(axis + 1))
-    found = Ending("rotation about the field", "exact", reason, axis + 1, rate=rate)
+    found = Ending("rotation about the field", "exact", axis + 1, reason=reason, rate=rate)
     if first <= lowest * (1 + 1e-12) or not p:
         return replace(found, kind="rotation about the field" if p else "rest",
                        rates=None if p else (0.0,) * 3)
@@ -313,8 +306,8 @@ def _settled(scene: Any, start: np.ndarray, rests: bool) -> Ending:
             return _stays(times, rates, end, STAYS * largest, rests)
         length = t  # as long again
     if rests:
-        return Ending("rest", "exact", RESTS_UNSEEN, rate=0.0, rates=(0.0,) * 3)
-    return Ending("undecided", "undecided", NO_REST(steps=steps))
+        return Ending("rest", "exact", reason=RESTS_UNSEEN, rate=0.0, rates=(0.0,) * 3)
+    return Ending("undecided", "undecided", reason=NO_REST(steps=steps))
 
 
 def _stays(times: np.ndarray, rates: np.ndarray, end: np.ndarray, small: float, rests: bool) -> Ending:
@@ -327,9 +320,10 @@ def _stays(times: np.ndarray, rates: np.ndarray, end: np.ndarray, small: float, 
         low, high = times[last].item(), times[last + 1].item()
         found = (("settles", Time((low + high) / 2, (high - low) / 2)),)
     if rests or size <= small:
-        known = ("exact", RESTS_SEEN) if rests else ("run", RUN_RESTS)
-        return Ending("rest", *known, rate=0.0, rates=(0.0,) * 3, times=found)
-    return Ending("steady rotation", "run", RUN_STAYS, rate=size, rates=tuple(end.tolist()), times=found)
+        level, reason = ("exact", RESTS_SEEN) if rests else ("run", RUN_RESTS)
+        return Ending("rest", level, reason=reason, rate=0.0, rates=(0.0,) * 3, times=found)
+    return Ending("steady rotation", "run", reason=RUN_STAYS, rate=size, rates=tuple(end.tolist()),
+                  times=found)
 
 
 def _polished(form: Any, state: np.ndarray, small: float) -> np.ndarray:

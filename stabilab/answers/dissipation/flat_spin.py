@@ -25,7 +25,7 @@ equal parts; in the nutation angle, or in the strength of the damper, the bands 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import reduce
 from operator import getitem
@@ -41,8 +41,8 @@ from ...errors import Caveat, InputError, Kind, without
 from ...numbers.units import ANGLE, in_si
 from ...numbers.vectors import Float3, cross, dot
 from ...physics.states import moved_row
-from ...reasons import Angle, Axis, Quantity, Reason, Sentence
-from ...representation import Compared, Shown
+from ...reasons import Angle, Axis, Quantity, Reason, Reasoned, Sentence
+from ...representation import Answer, Compared
 from ..caveats import caveats_of
 from ..passage import MOVED, WIDER
 from .changes import Span, spans_of
@@ -97,15 +97,15 @@ class Time:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class FlatSpin(Shown, Compared):
+class FlatSpin(Answer, Compared, Reasoned):
     """What internal dissipation makes of a spin.
 
     outcome: "positive major axis", "negative major axis", "across the minor axis" (two greatest moments are
-    equal: about some axis in their plane) or "undecided"; reason: how it is known, or why it is not; because:
-    the same in words, in SI units; level: "exact", "run" (a run and a second one agree) or "undecided". axis:
-    of the greatest moment, 1 to 3, and minor: of the least; momentum: |H|, N m s; final_rate: |H|/(greatest
-    moment), rad/s; rates: rad/s, along the principal axes, at the end, None where it is undecided or across.
-    energy, final_energy: J, now and at the end.
+    equal: about some axis in their plane) or "undecided"; reason: how it is known, or why it is not;
+    level: "exact", "run" (a run and a second one agree) or "undecided". axis: of the greatest moment, 1 to 3,
+    and minor: of the least; momentum: |H|, N m s; final_rate: |H|/(greatest moment), rad/s; rates: rad/s,
+    along the principal axes, at the end, None where it is undecided or across. energy, final_energy: J, now
+    and at the end.
 
     The nutation angle is that of the polhode: the largest angle between the angular momentum and an axis in
     the free motion of the same T and |H|. leaves: when it exceeds `within`, rad, from the minor axis;
@@ -118,7 +118,6 @@ class FlatSpin(Shown, Compared):
     """
 
     outcome: str
-    reason: Reason
     level: str
     axis: int
     minor: int
@@ -137,12 +136,6 @@ class FlatSpin(Shown, Compared):
     decay: float | None = None
     spans: tuple[Span, ...] = ()
     steps: int = 0
-    caveats: tuple[Caveat, ...] = field(default=(), repr=False)
-
-    @property
-    def because(self) -> str:
-        """How it is known, or why it is not, in words and SI units."""
-        return self.reason.text()
 
     @property
     def lost(self) -> float:
@@ -215,9 +208,9 @@ def _answered(spinner: Spinner, angle: float, spans: bool) -> FlatSpin:
     size, axis = spinner.size, spinner.order[0]
     growth, decay = spinner.constants
     found = FlatSpin(
-        UNDECIDED, NOT_KNOWN, "undecided", axis + 1, spinner.order[2] + 1, size, size / float(D1), None,
+        UNDECIDED, "undecided", axis + 1, spinner.order[2] + 1, size, size / float(D1), None,
         float(spinner.energy), float(dot(spinner.momentum, spinner.momentum) / (2 * D1)), angle,
-        growth=growth, decay=decay)
+        growth=growth, decay=decay, reason=NOT_KNOWN)
     if not any(spinner.sigma) and not any(cross(spinner.momentum, spinner.omega)):  # nothing changes
         return _at_rest(spinner, found)
     if spinner.ratio * D2 < 1 and D1 > D2:

@@ -236,8 +236,8 @@ class Values(NDArrayOperatorsMixin, Shown):
     It takes part in arithmetic and indexing as the array `values` of doubles does. name: "period" or
     "extremes"; unit: "s", "rad/s", or "" in scaled variables; decimals: the numbers written out, nested as
     `values`, where more digits were asked for than doubles hold; over: of extremes, over what they were
-    searched; answer: the fates of the same motions, whose level, reason and caveats these are. `str` writes
-    out the decimals.
+    searched; answer: the fates of the same motions, whose level, reason and caveats these are; missing: why
+    there is no number, where there is none. `str` writes out the decimals.
     """
 
     name: str
@@ -245,7 +245,7 @@ class Values(NDArrayOperatorsMixin, Shown):
     answer: Motions
     decimals: Any = None
     over: str = ""
-    why: str = ""
+    missing: str = ""
 
     @property
     def unit(self) -> str:
@@ -268,7 +268,7 @@ class Values(NDArrayOperatorsMixin, Shown):
     @property
     def reason(self) -> Any:
         """Why there is no number, where there is none; else how the fate is known."""
-        return self.why or self.answer.reason
+        return self.missing or self.answer.reason
 
     @property
     def caveats(self) -> tuple[Caveat, ...]:

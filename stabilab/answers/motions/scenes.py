@@ -36,6 +36,7 @@ from ...unreduced.spin_up.follow import SpinUp
 from .. import chaos as orders
 from .. import simulate as runs
 from .. import time_to as times
+from ..caveats import answered
 from ..chaos import Chaos
 from ..limit import WORK
 from ..passage import TimeTo
@@ -122,7 +123,7 @@ def chaos(scene: Given, state: Start | None = None, until: Amount | None = None,
         if short:
             case, array = asked_of(case, state, states, None, "chaos")
             rows = _row(case) if array.ndim == 1 else whole_rows(case, array)
-    return orders.chaos(case.scene, rows, time_in(case.scene, until, "until"), tell)
+    return answered(orders.chaos(case.scene, rows, time_in(case.scene, until, "until"), tell), case)
 
 
 def _row(case: Case) -> np.ndarray:
@@ -147,8 +148,8 @@ def spin_up(scene: Given, state: Start | None = None, t_max: Amount | None = Non
     """
     case = with_start(as_case(scene, state), "spin_up")
     end, late = (time_in(case.scene, one, name) for one, name in ((t_max, "t_max"), (after, "after")))
-    return spin_ups.spin_up(case.scene, case.exact_state if proof else case.state, end, budget, late, proof,
-                            tell, fast)
+    return answered(spin_ups.spin_up(case.scene, case.exact_state if proof else case.state, end, budget, late,
+                                     proof, tell, fast), case)
 
 
 def separatrix(scene: Given, reach: float | None = None, shape: tuple[int, int] | None = None,
@@ -167,7 +168,8 @@ def separatrix(scene: Given, reach: float | None = None, shape: tuple[int, int] 
     scene without saddles gives no branches and the reason. Raises InputError for a shape, reach or accuracy
     out of range.
     """
-    return branches.separatrix(scene_of(scene), reach, shape, accuracy, fast)
+    case = as_case(scene)
+    return answered(branches.separatrix(case.scene, reach, shape, accuracy, fast), case)
 
 
 def trajectory(scene: Given, state: Start | None = None, times: ArrayLike | None = None,
@@ -200,7 +202,8 @@ def trajectory(scene: Given, state: Start | None = None, times: ArrayLike | None
     start = ({name: in_numbers(one, unit if name == "omega" else NONE, f"state: {name}")
               for name, one in state.items()} if isinstance(state, Mapping)
              else in_numbers(state, unit, "state"))
-    return runs.trajectory(case.scene, start, _times(case, times), method, rtol, steps, laws)
+    run = runs.trajectory(case.scene, start, _times(case, times), method, rtol, steps, laws)
+    return answered(run, case, run.validity)
 
 
 def _times(case: Case, times: Any) -> Any:
@@ -226,7 +229,8 @@ def ensemble(scene: Given, states: Starts | None = None, times: ArrayLike | None
     unit = NONE if case.variables == "scaled" else RATE
     rows = (np.array([_row(with_start(case, "ensemble"))]) if states is None
             else in_numbers(states, unit, "states"))
-    return ensembles.ensemble(case.scene, rows, _times(case, times), rtol, workers)
+    found = ensembles.ensemble(case.scene, rows, _times(case, times), rtol, workers)
+    return answered(found, case, found.validity)
 
 
 def derive(scene: Given, also: Iterable[str] = ()) -> Equations:

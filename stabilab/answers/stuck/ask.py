@@ -333,7 +333,7 @@ def _wheel(scenario: Scenario, torque: Exact3, seen: Outcome, wheel: Any) -> Whe
     others = tuple(v if abs(v) > least else v * 0
                    for w, a in zip(scenario.wheel, axis) for v in [w - wheel.momentum * a])
     kept, reason = intervals(scenario.scene(torque, others), scenario.state, axis)
-    told = tuple(map(float, wheel.axis)), float(wheel.momentum), kept, reason
     later = (None if kept or seen.fate in STEADY
              else delayed(scenario, torque, axis, wheel.momentum, seen.when.time))
-    return WheelAnswer(wheel.name, *told, *(later or ()))
+    return WheelAnswer(wheel.name, tuple(map(float, wheel.axis)), float(wheel.momentum), kept, *(later or ()),
+                       reason=reason)

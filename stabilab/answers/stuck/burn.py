@@ -44,7 +44,7 @@ from ...numbers.units import RATE, TIME, Dimension, in_si
 from ...numbers.vectors import Float3
 from ...orbit.result import Motion
 from ...physics.scene import Scene
-from ...reasons import Mass, Quantity, Rate, Reason, Sentence, Time, chained
+from ...reasons import Mass, Quantity, Rate, Reason, Reasoned, Sentence, Time, chained
 from ..attitude import of_motion
 from ..attitude_result import Attitude
 from ..caveats import of_case
@@ -105,13 +105,13 @@ TURNS = 1000.0  # rad: how long a motion is followed that does not return, next 
 
 
 @dataclass(frozen=True)
-class Latest:
+class Latest(Reasoned):
     """The latest closing time that keeps |omega| below `limit`, rad/s, up to it and for ever after: between
     low and high, s. Both inf: no closing is too late. high NaN: not known, but any up to low is early enough.
 
     level: "exact", "proved" (the motion enclosed over all switches; low and high are neighbouring doubles but
     for the longest burns), "run" (roots along runs in machine precision, wider by what a second run shows) or
-    "undecided"; reason: how it is known, because: in words. again: (from, to), s, of later closing
+    "undecided"; reason: how it is known. again: (from, to), s, of later closing
     times after which the free motion stays below the limit again, though the burn has passed it or would
     have left such a motion in between; seen at 2,000 closing times, no proof. surely: (s, s), where wheels
     leave no closed form: closing is early enough up to the first and too late from the second on; None else.
@@ -123,17 +123,11 @@ class Latest:
     low: float
     high: float
     level: str
-    reason: Reason
     again: tuple[tuple[float, float], ...] = ()
     surely: tuple[float, float] | None = None
     looked: Reason | None = None
     forces: int = 1
     stated: Latest | None = None
-
-    @property
-    def because(self) -> str:
-        """How it is known, in words and SI units."""
-        return self.reason.text()
 
     @property
     def within(self) -> str:
@@ -178,12 +172,12 @@ def latest(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
     base, size = chain.base, float(below)
     limit = limit_after(base, below)
     if links and limit.reached_by(links[0].exact or links[0].start.tolist()):
-        return Latest(size, 0.0, 0.0, "exact", _known(size, REACHED_BEFORE))
+        return Latest(size, 0.0, 0.0, "exact", reason=_known(size, REACHED_BEFORE))
     found = _first(chain, links, limit)
     if found.never:
-        return Latest(size, math.inf, math.inf, found.level, _known(size, WHENEVER))
+        return Latest(size, math.inf, math.inf, found.level, reason=_known(size, WHENEVER))
     again = _again(base, links, found.high, size) if found.time else ()
-    return Latest(size, found.low, found.high, found.level, _known(size, found.reason), again)
+    return Latest(size, found.low, found.high, found.level, again, reason=_known(size, found.reason))
 
 
 def _of_all_forces(chain: Chain, found: Latest, below: Fraction) -> Latest:
@@ -216,14 +210,15 @@ def _by_runs(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
     """The first root of G = below, with the two times that bound it."""
     base, size = chain.base, float(below)
     if largest_of_run(base, list(chain.case.state)) >= size:
-        return Latest(size, 0.0, 0.0, "run", _known(size, REACHED_BEFORE))
+        return Latest(size, 0.0, 0.0, "run", reason=_known(size, REACHED_BEFORE))
     if not links:
-        return Latest(size, math.inf, math.inf, "run", _known(size, NOTHING_FIRES))
+        return Latest(size, math.inf, math.inf, "run", reason=_known(size, NOTHING_FIRES))
     energy = asked(base, energy=min(base.body.exact) * below**2 / 2)
     started = energy.reached_by(links[0].exact or links[0].start.tolist())
-    early = Found(0.0, 0.0, "exact", AT_THE_START) if started else _first(chain, links, energy, every=True)
+    early = (Found(0.0, 0.0, "exact", reason=AT_THE_START) if started
+             else _first(chain, links, energy, every=True))
     if early.never:
-        return Latest(size, math.inf, math.inf, early.level, _known(size, BY_ENERGY))
+        return Latest(size, math.inf, math.inf, early.level, reason=_known(size, BY_ENERGY))
     late = _first(chain, links, asked(base, rate=below), every=True)
     end = late.high if late.time else math.inf
     known = EARLY_ENOUGH(early=Time(early.low, digits=10).lower, level=early.level)
@@ -232,7 +227,7 @@ def _by_runs(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
     bracket = _bracket(base, links, (early.low, end), size)
     if bracket is None:
         return Latest(size, early.low if late.time else math.inf, end, "run",
-                      _known(size, NO_LOOK(looks=WHEEL_LOOKS).then(known)), surely=(early.low, end))
+                      reason=_known(size, NO_LOOK(looks=WHEEL_LOOKS).then(known)), surely=(early.low, end))
     one, times = bracket
     slack = max(SHARE, *(np.abs(one.end - one.second_end) / size))
     low, high = (_root(base, one, times, size * (1 + sign * slack)) for sign in (-1, 1))
@@ -240,8 +235,8 @@ def _by_runs(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
     low, high = math.nextafter(begin + low, -math.inf), math.nextafter(begin + high, math.inf)
     low = max(low, early.low)  # which is proved
     return Latest(size, low, max(min(high, end), low), "run",
-                  _known(size, BY_PERIODS(share=Quantity(slack, digits=1).upper,
-                                          looks=WHEEL_LOOKS).then(known)), surely=(early.low, end))
+                  reason=_known(size, BY_PERIODS(share=Quantity(slack, digits=1).upper,
+                                                 looks=WHEEL_LOOKS).then(known)), surely=(early.low, end))
 
 
 def _bracket(base: Scene, links: Sequence[Link], span: tuple[float, float],
@@ -459,7 +454,7 @@ def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = Non
     end = until if until is not None else max(chain.closed, Fraction(case.span[1]) if case.span else 0)
     over = over_forces(chain.burning, ask, Fraction(end), lambda one: _first_crossing(one, limit, ask, until))
     caveats = of_case(case) if over is None else (*craft_caveats(case), Caveat(Kind.TILT, over.reason))
-    return replace(times_of([found], (), limit.words, chain.base, np.array(case.state), caveats), tilt=over)
+    return replace(times_of([found], (), limit.label, chain.base, np.array(case.state), caveats), tilt=over)
 
 
 NEVER_WITH_THRUSTERS = Sentence(
@@ -469,7 +464,7 @@ NEVER_WITH_THRUSTERS = Sentence(
 def _first_crossing(chain: Chain, limit: Limit, ask: dict[str, Any], until: Fraction | None) -> Found:
     case, closed = chain.case, chain.closed
     if limit.reached_by(case.exact_state or case.state):
-        return Found(0.0, 0.0, "exact", AT_THE_START)
+        return Found(0.0, 0.0, "exact", reason=AT_THE_START)
     if until is None and limit.kind == "rate" and chain.free:
         largest = limit_after(chain.base, in_si(ask["rate"], RATE, "rate"))
         after = crossing_of(chain, largest) or first_along(list(links_of(chain)), largest)
@@ -484,7 +479,7 @@ def _first_crossing(chain: Chain, limit: Limit, ask: dict[str, Any], until: Frac
         return found
     known = 0.0 if found is None else float(end)
     return Found(known, math.nan, "undecided" if found is None else found.level,
-                 NOT_WITHIN(time=Time(known).lower))
+                 reason=NOT_WITHIN(time=Time(known).lower))
 
 
 def _positive(value: Any, unit: Dimension, name: str) -> Fraction:

@@ -218,8 +218,10 @@ def crossing_of(chain: Chain, limit: Limit, end: Fraction | None = None) -> Foun
     not reach it."""
     proof = chain.enclosed(limit, end)
     if proof.high is not None and proof.low is not None:
-        return Found(down(proof.low), up(proof.high), "proved", CHAIN_ENCLOSED)
-    return Found(math.inf, math.inf, "proved", CHAIN_ENCLOSED) if proof.done and proof.low is None else None
+        return Found(down(proof.low), up(proof.high), "proved", reason=CHAIN_ENCLOSED)
+    if proof.done and proof.low is None:
+        return Found(math.inf, math.inf, "proved", reason=CHAIN_ENCLOSED)
+    return None
 
 
 def first_along(links: Sequence[Link], limit: Limit, every: bool = False) -> Found:
@@ -237,7 +239,7 @@ def first_along(links: Sequence[Link], limit: Limit, every: bool = False) -> Fou
             return replace(found, low=low, high=high)
     burns = [one for one in links if one.firing or every]
     level = "proved" if len(burns) <= 1 and all(one.exact for one in burns) else "run"
-    return Found(math.inf, math.inf, level, NOT_IN_ANY_LINK)
+    return Found(math.inf, math.inf, level, reason=NOT_IN_ANY_LINK)
 
 
 def _first(link: Link, limit: Limit) -> Found | None:

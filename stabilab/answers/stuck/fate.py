@@ -24,7 +24,7 @@ from ...orbit.reduction import Reduction
 from ...orbit.result import Fate, Motion
 from ...physics.effects import effect_class
 from ...physics.scene import Body, Scene, rests
-from ...reasons import Reason, Sentence
+from ...reasons import Reason, Reasoned, Sentence
 from ...unreduced.enclosure import proved
 from ...unreduced.spin_up.follow import spin_up
 from ...validation import came
@@ -108,7 +108,7 @@ class Scenario:
         """The limit of the case along the scene's axes, exactly, where it has one."""
         found = asked(self.scene(self.base), **cast(dict[str, Any], limit_of(self.case)))
         if found.kind == "component":
-            return replace(found, words="components in the frame of the file")
+            return replace(found, label="components in the frame of the file")
         return found
 
     @property
@@ -162,7 +162,7 @@ TIME_TO_LIMIT = Sentence("time-to-limit", "the limit: {known}")
 
 
 @dataclass(frozen=True)
-class Outcome:
+class Outcome(Reasoned):
     """What becomes of one motion: fate, level, axis (1, 2, 3 of the scene or 0), sense, direction (scene's
     axes) and reason as in `SpinUp`.
 
@@ -176,7 +176,6 @@ class Outcome:
     axis: int
     sense: int
     direction: Float3 | None
-    reason: Reason
     motion: Any
     when: Found
     largest: float | None
@@ -193,9 +192,9 @@ def outcome_of(scenario: Scenario, torque: Sequence[Fraction]) -> Outcome:
     """What becomes of the scenario's motion under a torque."""
     scene = scenario.scene(torque)
     if rests(scene.quadratic(), scenario.state):
-        never = Found(math.inf, math.inf, "exact", NEVER_AT_REST)
-        return Outcome(Fate.EQUILIBRIUM, "exact", 0, 0, None, REASONS[Basis.AT_REST], None, never,
-                       math.hypot(*scenario.start))
+        never = Found(math.inf, math.inf, "exact", reason=NEVER_AT_REST)
+        return Outcome(Fate.EQUILIBRIUM, "exact", 0, 0, None, None, never,
+                       math.hypot(*scenario.start), reason=REASONS[Basis.AT_REST])
     return _off_axis(scenario, scene) if kind_of(scene) == "off axis" else _by_law(scenario, scene)
 
 
@@ -224,8 +223,8 @@ def _off_axis(scenario: Scenario, scene: Scene) -> Outcome:
     when = _when(scenario, scene, None if spins or seen.fate == Fate.BOUNDED else seen.t, spun=certified)
     axis, sense, direction = (seen.axis, seen.sense, seen.direction) if spins else (0, 0, None)
     return Outcome(seen.fate, "run" if seen.level == "undecided" else seen.level, axis, sense, direction,
-                   seen.reason.then(_unsure(when)), None, when,
-                   _largest(scenario, scene, when, None if spins else seen.t))
+                   None, when, _largest(scenario, scene, when, None if spins else seen.t),
+                   reason=seen.reason.then(_unsure(when)))
 
 
 def _by_law(scenario: Scenario, scene: Scene) -> Outcome:
@@ -241,15 +240,15 @@ def _by_law(scenario: Scenario, scene: Scene) -> Outcome:
     level = ("run" if motion.fate == Fate.UNDECIDED or certificate in ("evidence", "none") else
              "exact" if certificate in EXACT else "certified")
     return Outcome(motion.fate, level, motion.axis, motion.sense,
-                   _direction(scene, motion) if spins else None, motion.reason.then(_unsure(when)), motion,
-                   when, largest)
+                   _direction(scene, motion) if spins else None, motion, when, largest,
+                   reason=motion.reason.then(_unsure(when)))
 
 
 def _when(scenario: Scenario, scene: Scene, t_max: float | None, *work: Any, spun: Any = None) -> Found:
     """When the limit is reached, by `time_to`; t_max: how far an undecided motion was followed, s; work,
     spun: as of `time_to.of_one`."""
     if scenario.limit is None:
-        return Found(t_max or 0.0, math.nan, "run", NO_LIMIT)
+        return Found(t_max or 0.0, math.nan, "run", reason=NO_LIMIT)
     end = None if t_max is None else Fraction(t_max)
     # work is no more than two
     return of_one(scene, scenario.start, scenario.state, scenario.exact_limit,  # type: ignore[misc]

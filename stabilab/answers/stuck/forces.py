@@ -112,8 +112,8 @@ def over_forces(burning: Any, ask: dict[str, Any], end: Fraction,
     time = lambda one: quick_time(Chain(one), limit, end)
     places = [burning, *(forces.at(place) for place in forces.places())]
     times = [time(one) for one in places]
-    told = Spread(forces.cone.angle, forces.cone.words, len(places), limit.least_rate(), followed=float(end),
-                  within=forces.cone.within)
+    told = Spread(forces.cone.angle, forces.cone.subject, len(places), limit.least_rate(),
+                  followed=float(end), within=forces.cone.within)
     if not np.isfinite(times).any():
         return told
     first, many = _end(forces, time, answer, -1)

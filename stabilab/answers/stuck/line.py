@@ -35,6 +35,7 @@ from fractions import Fraction
 from typing import Any, TypeAlias
 
 from ...numbers.balls import working
+from ...numbers.bracket import Bracket, Judge, narrowed, side
 from ...numbers.vectors import CYCLE, Exact3, Number, Triple
 from ...orbit.fate import fate_of
 from ...orbit.one_orbit import Orbit
@@ -50,10 +51,7 @@ ORDER = 12  # of Taylor's polynomial: the balls' overestimate is less by the cel
 NARROW = 1e-13  # a cell of h as narrow holds a zero as far as anybody can see
 MOST = 2_000  # cells that are looked at
 INF = math.inf
-FINE = Fraction(1, 1 << 51)  # of an end, or of the size of the whole: an end is known to this
 NEAR = Fraction(1, 10**9)  # of the unit: how near to a candidate its change of fate is looked for first
-HALF = Fraction(1, 2)
-TRIES = 400  # halvings or doublings at most: doubles have 2,098 binary orders, these bodies a few
 # half a turn h -> the two quadratics, highest coefficient first
 Pair: TypeAlias = Callable[[Any], tuple[Triple, Triple]]
 Intervals: TypeAlias = tuple[tuple[float, float], ...]
@@ -93,15 +91,13 @@ class Family:
         found = fate_of(scene, Orbit(reduction, self.state))
         return found.label, found.margin
 
-    def clearly(self, wanted: bool = True, wheel: Sequence[Fraction] | None = None,
-                torque: Fraction | None = None) -> tuple[bool, float]:
-        """(whether the start stays bounded, or with wanted=False does not; how clearly: the margin in energy,
-        positive where so, NaN where it tells not)."""
+    def clearly(self, wheel: Sequence[Fraction] | None = None, torque: Fraction | None = None) -> float:
+        """How clearly the start stays bounded: the margin in energy, positive where it does, infinite where
+        no more is known than that (a `bracket.Judge`)."""
         label, margin = self._decided(wheel, torque)
         steady = label in STEADY
-        holds, sign = steady == wanted, 1 if wanted else -1
-        known = math.isfinite(margin) and (sign * margin > 0) == holds and label != Fate.EQUILIBRIUM
-        return holds, sign * margin if known else math.nan
+        known = math.isfinite(margin) and margin and (margin > 0) == steady and label != Fate.EQUILIBRIUM
+        return margin if known else side(steady)
 
     def steady(self, wheel: Sequence[Fraction] | None = None, torque: Fraction | None = None) -> bool:
         """Whether the start stays bounded."""
@@ -315,30 +311,30 @@ def real_roots(quadratic: Sequence[float]) -> list[float]:
     return [s for top, bottom in ((q, a), (c, q)) if bottom for s in [top / bottom] if math.isfinite(s)]
 
 
-def pieces(clearly: Callable[[Fraction], tuple[bool, float]], unit: Fraction,
-           cuts: Sequence[float]) -> Intervals:
+def pieces(clearly: Judge, unit: Fraction, cuts: Sequence[float]) -> Intervals:
     """The intervals of s in which a motion stays bounded, among the cuts: the fate is one and the same
     between two of them.
 
-    clearly(s): whether it does, and how clearly (`Family.clearly`); unit: a size of s.
+    clearly(s): how clearly it does (`Family.clearly`); unit: a size of s.
     """
-    def holds(s: Fraction) -> bool:
-        return clearly(s)[0]
     at = [Fraction(s) for s in cuts]
     if not at:
-        return EVERY if holds(Fraction(0)) else ()
+        return EVERY if clearly(Fraction(0)) > 0 else ()
     samples = [at[0] - unit, *((a + b) / 2 for a, b in zip(at, at[1:])), at[-1] + unit]
-    steady = [holds(s) for s in samples]
+    margins = [clearly(s) for s in samples]
+    steady = [margin > 0 for margin in margins]
     out: list[tuple[float, float]] = []
     low = -INF if steady[0] else math.nan
     for n, cut in enumerate(at):
         if steady[n] == steady[n + 1]:
             continue
-        inside, outside = (samples[n], samples[n + 1]) if steady[n] else (samples[n + 1], samples[n])
-        step = (1 if inside > cut else -1) * NEAR * unit
-        if holds(cut + step) and not holds(cut - step):
-            inside, outside = cut + step, cut - step
-        end = float(change_between(clearly, inside, outside, unit)[0])
+        inside, outside = (n, n + 1) if steady[n] else (n + 1, n)
+        around = Bracket(samples[inside], samples[outside], (margins[inside], margins[outside]))
+        step = (1 if around.same > cut else -1) * NEAR * unit
+        near = clearly(cut + step), clearly(cut - step)
+        if near[0] > 0 > near[1]:
+            around = Bracket(cut + step, cut - step, near)
+        end = float(narrowed(clearly, around, scale=unit).same)
         if steady[n]:
             out.append((low, end))
             low = math.nan
@@ -357,41 +353,3 @@ def nearest_change(kept: Intervals, steady: bool) -> tuple[float, float]:
     ends = [(end, side) for pair in kept for side, end in zip((False, True), pair) if 0 < end < INF]
     first = min((end for end, side in ends if side == steady), default=INF)
     return first, min((end for end, side in ends if side != steady and end > first), default=INF)
-
-
-def change_between(answer: Callable[[Fraction], tuple[bool, float]], inside: Fraction, outside: Fraction,
-                   scale: Fraction) -> tuple[Fraction, Fraction]:
-    """(last number known to hold, first known not to) between one that holds and one that does not, as near
-    as `FINE` of their size or of scale.
-
-    answer(number): (whether it holds, a margin that is positive exactly where it does, or NaN). Where both
-    ends have margins the next number is where the line through them vanishes, at least the resolution away
-    from either end, the margin of an end that stays halved (the Illinois rule); every fourth time it is the
-    middle.
-    """
-    margins, last = [answer(end)[1] for end in (inside, outside)], None
-    for n in range(TRIES):
-        least = FINE * max(abs(inside), abs(outside), scale * FINE)
-        if abs(outside - inside) <= least:
-            break
-        share = _share(margins, least / abs(outside - inside)) if n % 4 < 3 else HALF
-        # doubles: numbers do not grow while an interval is halved
-        tried = [Fraction(float(inside + part * (outside - inside))) for part in (share, HALF)]
-        middle = next((one for one in tried if min(inside, outside) < one < max(inside, outside)), None)
-        if middle is None:
-            break
-        holds, margin = answer(middle)
-        inside, outside = (middle, outside) if holds else (inside, middle)
-        margins = ([margin, margins[1] / (2 if last is True else 1)] if holds
-                   else [margins[0] / (2 if last is False else 1), margin])
-        last = holds
-    return inside, outside
-
-
-def _share(margins: list[float], edge: Fraction) -> Fraction:
-    """Where the line through two margins vanishes, a share of the way, at least `edge` from either end."""
-    a, b = margins
-    if not (a > 0 > b and math.isfinite(a - b)):
-        return HALF
-    edge = min(HALF, edge)
-    return min(max(Fraction(a / (a - b)), edge), 1 - edge)

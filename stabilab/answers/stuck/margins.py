@@ -13,19 +13,20 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 
 from ...errors import Caveat
+from ...numbers.bracket import LAST_PLACE, Bracket, first_bracket, narrowed
 from ...numbers.exact import unit_vector
 from ...numbers.polynomial import golden_section
 from ...numbers.vectors import Float3, Number
 from ...orbit.reduction import Reduction
 from ...orbit.result import Fate, Motion
 from ...physics.scene import Scene
-from ...reasons import DIGITS, Momentum, Quantity, Rate, Reason, Sentence, Torque
+from ...reasons import DIGITS, Momentum, Quantity, Rate, Reason, Reasoned, Sentence, Torque
 from ...representation import Shown
 from ..caveats import STEADY
 from ..tilt import Spread, Tilt
 from ..uncertain.fate import Uncertainty
 from .fate import Outcome, Scenario, across, loose
-from .line import TRIES, Family, Line, candidates, change_between, family_of, nearest_change, pieces, rise
+from .line import Family, Line, candidates, family_of, nearest_change, pieces, rise
 
 
 # --- The answer
@@ -38,7 +39,7 @@ class Principal(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Margin:
+class Margin(Reasoned):
     """The smallest change that changes the fate: its size, its direction (unit vector, frame of the file);
     None where none is known.
 
@@ -49,13 +50,7 @@ class Margin:
 
     size: float | None = None
     direction: Float3 | None = None
-    reason: Reason | None = None
     until: float | None = None
-
-    @property
-    def because(self) -> str:
-        """`reason` in words and SI units, empty where there is none."""
-        return "" if self.reason is None else self.reason.text()
 
     @property
     def beyond(self) -> bool:
@@ -64,31 +59,25 @@ class Margin:
 
 
 @dataclass(frozen=True)
-class WheelAnswer:
+class WheelAnswer(Reasoned):
     """Which momenta of one wheel keep the motion bounded.
 
     keeps_bounded: (least, greatest) momentum along its axis, N m s, of every interval, -inf and inf where it
     has no end. best: where there is no interval, the momentum within `searched` that delays the limit most;
     best_time: (low, high), s, None where the limit is not reached within the time followed; gain: by how much
     later, s (low end against low end). most: whether the runs that are compared came to the limit: else
-    another momentum may delay it more. reason: how this is known; because: the same in words.
+    another momentum may delay it more. reason: how this is known.
     """
 
     wheel: str
     axis: Float3
     now: float
     keeps_bounded: tuple[tuple[float, float], ...]
-    reason: Reason
     best: float | None = None
     best_time: tuple[float, float] | None = None
     gain: float | None = None
     searched: tuple[float, float] | None = None
     most: bool = True
-
-    @property
-    def because(self) -> str:
-        """How this is known, in words and SI units."""
-        return self.reason.text()
 
 
 @dataclass(frozen=True)
@@ -110,7 +99,7 @@ class Helper:
 
 
 @dataclass(frozen=True)
-class Row:
+class Row(Reasoned):
     """What becomes of the body while some thrusters fire for ever.
 
     torque: N m, frame of the file; torque_principal: along `Stuck.principal`. fate: a word of `Fate`; level:
@@ -122,7 +111,7 @@ class Row:
     for ever. followed: s, up to where the limit is known not to be reached. tilt: what becomes of a bounded
     motion when the torque is a little off its axis (`answers.tilt`), where a limit or a misalignment is
     stated. box: what uncertain numbers do to the fate under a torque along an axis, None where none is.
-    caveats: all that limits the row. reason: why it has this fate, because: the same in words.
+    caveats: all that limits the row. reason: why it has this fate.
     """
 
     thrusters: tuple[str, ...]
@@ -139,18 +128,12 @@ class Row:
     never: bool
     largest_rate: float | None
     followed: float
-    reason: Reason
     margins: dict[str, Margin]
     wheels: tuple[WheelAnswer, ...] = ()
     helpers: tuple[Helper, ...] = ()
     tilt: Tilt | Spread | None = None
     caveats: tuple[Caveat, ...] = ()
     box: Uncertainty | None = None
-
-    @property
-    def because(self) -> str:
-        """Why it has this fate, in words and SI units."""
-        return self.reason.text()
 
 
 @dataclass(frozen=True, repr=False)
@@ -214,13 +197,13 @@ CLOSE = 1e-6
 def margins(scenario: Scenario, scene: Scene, seen: Outcome) -> dict[str, Margin]:
     """The margins of one outcome, by name: "rate" (rad/s), "wheel" (N m s), "torque" (N m)."""
     if seen.fate == Fate.SEPARATRIX:
-        return {name: Margin(0.0, None, ON_SEPARATRIX)
+        return {name: Margin(0.0, None, reason=ON_SEPARATRIX)
                 for name in ("rate", "wheel", "torque")}
     family = family_of(scene, scenario.state)
     if seen.motion is None or (family is None and any(scene.vector("constant_torque"))):
         return {name: Margin(reason=NO_SEPARATRIX_KNOWN) for name in ("rate", "wheel", "torque")}
     if family is not None and seen.fate == Fate.SPIN_UP and _walled(family):
-        any_change = Margin(0.0, None, FREE, math.inf)
+        any_change = Margin(0.0, None, math.inf, reason=FREE)
         return {"rate": any_change, "wheel": any_change, "torque": _torque(scenario, family, False)}
     return {"rate": _rate(scenario, seen.motion, family), **_parameters(scenario, family)}
 
@@ -233,15 +216,15 @@ def _rate(scenario: Scenario, motion: Motion, family: Family | None) -> Margin:
     direction = _unit(scenario.in_file(change)) if any(change) else None
     reason = motion.velocity_reason
     if _walled(family):
-        return Margin(motion.margin_velocity, direction, reason.then(ALONE) if reason else ALONE,
-                      motion.margin_velocity)
+        return Margin(motion.margin_velocity, direction, motion.margin_velocity,
+                      reason=reason.then(ALONE) if reason else ALONE)
     if family is None or not any(change):
-        return Margin(motion.margin_velocity, direction, reason)
+        return Margin(motion.margin_velocity, direction, reason=reason)
     until = _rate_again(family, change, Fraction(motion.margin_velocity))
     if until is not None and until < math.inf:
         again = _again(Rate(until, digits=DIGITS), family.fate() in STEADY)
         reason = reason.then(again) if reason else again
-    return Margin(motion.margin_velocity, direction, reason, until)
+    return Margin(motion.margin_velocity, direction, until, reason=reason)
 
 
 def _rate_again(family: Family, change: Sequence[Number], size: Fraction) -> float | None:
@@ -292,7 +275,9 @@ def _torque(scenario: Scenario, family: Family, steady: bool) -> Margin:
         ends = ((sign, _least_torque(family, sign, size)) for sign in (-now, now))
         changes, until = [sign * end - family.torque for sign, end in ends if end is not None], math.inf
     else:
-        less = change_between(lambda m: family.clearly(False, torque=now * m), size, Fraction(0), size)[1]
+        clearly = lambda m: -family.clearly(torque=now * m)
+        whole = Bracket(size, Fraction(0), (clearly(size), clearly(Fraction(0))))
+        less = narrowed(clearly, whole, scale=size).other
         opposite = _least_torque(family, -now, size)
         changes = [now * less - family.torque]
         until = math.inf if opposite is None else float(size + opposite)
@@ -303,17 +288,14 @@ def _torque(scenario: Scenario, family: Family, steady: bool) -> Margin:
     if abs(change) < until < math.inf:
         reason = reason.then(_again(Torque(until), steady))
     direction = _direction(scenario, family, {family.axis: 1 if change > 0 else -1})
-    return Margin(float(abs(change)), direction, reason, until)
+    return Margin(float(abs(change)), direction, until, reason=reason)
 
 
 def _least_torque(family: Family, sign: int, size: Fraction) -> Fraction | None:
     """The least size of a torque in this direction that spins the start up."""
-    steady = Fraction(0)
-    for _ in range(TRIES):
-        if family.fate(torque=sign * size) == Fate.SPIN_UP:
-            return change_between(lambda m: family.clearly(torque=sign * m), steady, size, size)[1]
-        steady, size = size, 2 * size
-    return None
+    clearly = lambda m: family.clearly(torque=sign * m)
+    found = first_bracket(clearly, size, least=size * LAST_PLACE**2)
+    return None if found is None else narrowed(clearly, found, scale=size).other
 
 
 def _wheel(scenario: Scenario, family: Family, steady: bool) -> Margin:
@@ -338,7 +320,7 @@ def _wheel(scenario: Scenario, family: Family, steady: bool) -> Margin:
     if size == math.inf:
         return Margin(reason=NO_WHEEL_CHANGES)
     reason = WHEEL_ACROSS.then(_again(Momentum(until), steady) if until < math.inf else None)
-    return Margin(size, _direction(scenario, family, {j: step[j], k: step[k]}), reason, until)
+    return Margin(size, _direction(scenario, family, {j: step[j], k: step[k]}), until, reason=reason)
 
 
 def _along(family: Family, step: Sequence[Fraction], steady: bool) -> tuple[float, float]:

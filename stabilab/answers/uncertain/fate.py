@@ -37,7 +37,7 @@ from ...orbit.potential import derivatives_on_parabola
 from ...orbit.reduction import Reduction, reduce, reduction_about
 from ...orbit.result import Fate
 from ...physics.scene import QuadraticForm
-from ...reasons import Axis, Reason, Sentence, as_reason
+from ...reasons import Axis, Reason, Sentence
 from ..equilibria import equilibria
 from ..kinds import kind_of
 from ..motions.rows import fates
@@ -263,7 +263,7 @@ def equilibria_over(box: Box) -> Over:
     look = lambda point: (signature_at(box, point), np.nan)
     here, _ = look(np.zeros(len(box.places)))
     if not box.places:
-        return Over("holds", here, NONE_OF_EQUILIBRIA, proved=np.inf)
+        return Over("holds", here, reason=NONE_OF_EQUILIBRIA, proved=np.inf)
     if box.frame is not None:
         return by_sample(box, here, look, AXES_TURN, FEW)
     try:
@@ -308,7 +308,7 @@ def _by_conditions(box: Box, here: Any, look: Look) -> Over:
         return np.where(odd, UNKNOWN, sum(3**k * (sign + 1) for k, sign in enumerate(signs)))
 
     if not first:
-        return Over("holds", here, NO_PART, proved=np.inf)
+        return Over("holds", here, reason=NO_PART, proved=np.inf)
     if 0 in signs:
         vanishing = joined((c.what for c, sign in zip(first, signs) if not sign), "; ")
         return by_trial(box, here, look, AT_MIDDLE(what=vanishing), most=FEW)
@@ -372,7 +372,7 @@ def _fate_over(box: Box) -> Over:
     acting = [i for i in range(3) if present(form.m[i])]
     here = answer(np.zeros(len(box.places)))
     if not acting:
-        return Over("holds", here, REASONS[Basis.TORQUE_FREE], proved=np.inf)
+        return Over("holds", here, reason=REASONS[Basis.TORQUE_FREE], proved=np.inf)
     if len(acting) > 1:
         reason = OFF_AXES(axes=tuple(Axis(i + 1) for i in acting))
         within = _on_an_axis(box, form, acting)
@@ -507,12 +507,12 @@ def _tie(box: Box, here: Any, answer: Answer, corners: Sequence[np.ndarray]) -> 
             if word not in (None, Fate.SEPARATRIX.word):
                 sides.setdefault(word, Witness(word, box.values(direction * stretch)))
         if len(sides) > 1:
-            return Over("depends", here, reason, changes_at=0.0, witnesses=tuple(sides.values()))
+            return Over("depends", here, reason=reason, changes_at=0.0, witnesses=tuple(sides.values()))
     other = sides.get(next((word for word in sides if word != here), ""))
     if other and here != Fate.SEPARATRIX.word:
         middle = Witness(here, box.values(np.zeros(n)))
-        return Over("depends", here, reason, changes_at=0.0, witnesses=(middle, other))
-    return Over("undecided", here, reason.then(ONE_SIDE, ", "))
+        return Over("depends", here, reason=reason, changes_at=0.0, witnesses=(middle, other))
+    return Over("undecided", here, reason=reason.then(ONE_SIDE, ", "))
 
 
 def _senses(box: Box, family: Family, stretch: float) -> tuple[int, ...] | None:
@@ -547,10 +547,10 @@ def _between_walls(box: Box, here: Any, look: Look, r: Reduction, numbers: Numbe
              else derivatives_on_parabola(r, state[r.j], state[r.k]))
     if here != Fate.BOUNDED.word:
         if not any(map(present, loose)) and here.startswith("spin-up") and _sign(r.m):
-            return Over("holds", here, REASONS[Basis.PURE_SPIN], proved=1.0)
+            return Over("holds", here, reason=REASONS[Basis.PURE_SPIN], proved=1.0)
         return by_trial(box, here, look, MEASURE_ZERO)
     if not curved:
-        return Over("holds", here, REASONS[Basis.WALLS], proved=1.0, exception=SAME_FORCE)
+        return Over("holds", here, reason=REASONS[Basis.WALLS], proved=1.0, exception=SAME_FORCE)
     u, v = loose
     certain = not any(isinstance(n, Affine) for n in (u, v, r.p, r.q))
     if certain and v * v * abs(r.p) == u * u * abs(r.q):
@@ -558,7 +558,8 @@ def _between_walls(box: Box, here: Any, look: Look, r: Reduction, numbers: Numbe
     with np.errstate(all="ignore"):
         orbit = orbit_of(r, state, signs)
         clear = all(_sign(lifted(side)) for side in (orbit.x + orbit.z, orbit.x - orbit.z))
-    return Over("holds", here, REASONS[Basis.WALLS], proved=1.0, exception=None if clear else MEETS_PLANE)
+    return Over("holds", here, reason=REASONS[Basis.WALLS], proved=1.0,
+                exception=None if clear else MEETS_PLANE)
 
 
 # -- no reduction
@@ -568,7 +569,7 @@ def _under_law(box: Box, look: Look, numbers: Numbers, form: QuadraticForm, axis
     """A gyrostatic moment along the torque: |H|^2/2 - D_i T grows at the rate lambda_i M_i."""
     along = numbers["momentum"][axis] if box.variables == "physical" else -form.sigma[1] - form.rho[2]
     if _sign(along * form.m[axis]):
-        return Over("holds", UNBOUNDED, REASONS[Basis.UNBOUNDED_LAW].then(AXIS_OPEN), proved=1.0)
+        return Over("holds", UNBOUNDED, reason=REASONS[Basis.UNBOUNDED_LAW].then(AXIS_OPEN), proved=1.0)
 
     def whether(point: Point) -> tuple[str | None, float]:
         word, _ = look(point)
@@ -616,5 +617,5 @@ def uncertain(case: Any, questions: Sequence[str] = ("equilibria", "fate")) -> U
         box = box_of(case)
         found = {name: ask[name](box) for name in asked}
     except InputError as error:
-        found = {name: Over("undecided", None, as_reason(str(error))) for name in asked}
+        found = {name: Over("undecided", None, reason=str(error)) for name in asked}
     return Uncertainty(case.uncertain, found.get("equilibria"), found.get("fate"))

@@ -8,13 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from fractions import Fraction
 from itertools import product
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
+from ...numbers.bracket import Bracket, halved_each, narrowed, side
 from ...orbit.result import Fate
-from ...reasons import Quantity, Reason, Sentence
+from ...reasons import Quantity, Reason, Reasoned, Sentence
 from .boxes import Box, Numbers, Point, Proof
 from .verdicts import ALSO_ANOTHER, joined, reason_of
 
@@ -44,7 +46,7 @@ CORNERS, CHUNK = 512, 4096  # of so many corners all are tried, of more as many 
 HALVINGS, ROUNDS, NEAREST = 14, 8, 16
 NEXT = 2.5  # times the first rung at which a ray changes: those that change by then are bisected
 NEARER_STILL = 0.995  # of a change: how near one must be at least that takes its place
-SETTLED = 20  # halvings of a change by the exact answers
+SETTLED, SETTLING = Fraction(1, 10**6), 20  # of a change, by the exact answers; and halvings at most
 # points (m, n) of a box -> what is known there as an int each, (m,)
 Codes: TypeAlias = Callable[[np.ndarray], np.ndarray]
 # one point of a box -> what the ordinary exact code answers there, None where there is no such body
@@ -132,7 +134,7 @@ def _nearest(box: Box, codes: Codes, answer: Answer, here: Any,
     if not len(chosen):
         return None
     before = np.array([max(LADDER[LADDER < end], default=0.0) for end in first[chosen]])
-    beam = _bisected(codes, middle, directions[chosen], before, first[chosen])
+    beam = _halved(codes, middle, directions[chosen], before, first[chosen])
     for _ in range(ROUNDS):
         nearer = NEARER_STILL * beam[0].stretch
         moved = np.unique(np.concatenate([_moved(one.direction) for one in beam]), axis=0)
@@ -142,7 +144,7 @@ def _nearest(box: Box, codes: Codes, answer: Answer, here: Any,
             moved = moved[_changed(codes, middle, moved * nearer)]
         if not len(moved):
             break
-        beam = _bisected(codes, middle, moved, np.zeros(len(moved)), np.full(len(moved), nearer))
+        beam = _halved(codes, middle, moved, np.zeros(len(moved)), np.full(len(moved), nearer))
     return confirmed(beam[0], answer, here)
 
 
@@ -152,13 +154,11 @@ def _changed(codes: Codes, here: int, points: np.ndarray) -> np.ndarray:
     return (found != here) & (found != UNKNOWN)
 
 
-def _bisected(codes: Codes, here: int, directions: np.ndarray, starts: np.ndarray,
+def _halved(codes: Codes, here: int, directions: np.ndarray, starts: np.ndarray,
               ends: np.ndarray) -> list[Change]:
     """The nearest of the changes along directions, each between a start and an end; the nearest first."""
-    for _ in range(HALVINGS):
-        middle = np.where(starts > 0, np.sqrt(starts * ends), ends / 2)
-        changed = _changed(codes, here, directions * middle[:, None])
-        starts, ends = np.where(changed, starts, middle), np.where(changed, middle, ends)
+    same_at = lambda stretches: ~_changed(codes, here, directions * stretches[:, None])
+    starts, ends = halved_each(same_at, starts, ends, HALVINGS, by_ratio=True)
     return [Change(directions[k], float(ends[k]), float(starts[k]))
             for k in np.argsort(ends, kind="stable")[:NEAREST]]
 
@@ -180,13 +180,9 @@ def confirmed(change: Change, answer: Answer, here: Any) -> Change | None:
     if end is None:
         return None
     start = min(change.before, end)
-    if other(start):
-        start = 0.0
-    for _ in range(SETTLED):
-        middle = 0.5 * (start + end)
-        if middle in (start, end) or end - start <= 1e-6 * end:
-            break
-        start, end = (start, middle) if other(middle) else (middle, end)
+    around = Bracket(Fraction(0.0 if other(start) else start), Fraction(end))
+    start, end = map(float, narrowed(lambda stretch: side(not other(float(stretch))), around, SETTLED,
+                                     steps=SETTLING)[:2])
     return Change(change.direction, end, start)
 
 
@@ -251,12 +247,12 @@ class Sampled:
 
 
 @dataclass(frozen=True)
-class Over:
+class Over(Reasoned):
     """A verdict over a box.
 
     answer: "holds" (proved for the whole box), "depends" (with a witness on each side), "sampled" (no proof
     is to be had, and all points of `samples` do as the middle does) or "undecided". verdict: the middle's.
-    reason: how it is known, or why not; because: the same in words, in SI units. exception: the set of
+    reason: how it is known, or why not. exception: the set of
     measure zero that "holds" leaves out, None where it leaves out none; but: the same in words. Every change
     of the numbers by less than `proved` times the stated uncertainties is proved to leave the verdict;
     `changes_at` times these flips it (an upper bound of the least such factor: found by search and checked;
@@ -266,7 +262,6 @@ class Over:
 
     answer: str
     verdict: str | None
-    reason: Reason
     exception: Reason | None = None
     proved: float = 0.0
     changes_at: float | None = None
@@ -274,11 +269,6 @@ class Over:
     parts: int = 0
     samples: Sampled | None = None
     neighbours: Any = None
-
-    @property
-    def because(self) -> str:
-        """How it is known, or why not, in words and SI units."""
-        return self.reason.text()
 
     @property
     def but(self) -> str:
@@ -322,11 +312,11 @@ def bracketed(box: Box, here: Any, answer: Answer, change: Change | None,
     found: dict[str, Any] = {"proved": proved, "changes_at": change and change.stretch, "witnesses": sides,
                              "parts": parts}
     if proved >= 1:
-        return Over("holds", here, reason, **found)
+        return Over("holds", here, reason=reason, **found)
     if change is not None and change.stretch <= 1:
-        return Over("depends", here, BOTH_SIDES(middle=reason_of(sides[0].verdict),
-                                                elsewhere=reason_of(sides[1].verdict)), **found)
-    return Over("undecided", here, NEITHER(parts=parts), **found)
+        return Over("depends", here, reason=BOTH_SIDES(middle=reason_of(sides[0].verdict),
+                                                       elsewhere=reason_of(sides[1].verdict)), **found)
+    return Over("undecided", here, reason=NEITHER(parts=parts), **found)
 
 
 def _farthest(change: Change | None, attempt: Callable[[float, int], Proof],

@@ -115,13 +115,13 @@ def _looked(looks: Looks, reason: Reason, most: int) -> Over:
         return _depends(looks, reason, found)
     samples, places = _drawn(looks, at_corners, len(tried) == 2**n)
     if samples is None or looks.here is None:
-        return Over("undecided", looks.here, reason)
+        return Over("undecided", looks.here, reason=reason)
     other = next((word for word in places if word != looks.here and word not in OPEN), None)
     if looks.settled and other is not None:
         return _depends(looks, reason, places[other])
     reason = reason.then(samples.reason)
     agree = looks.settled and not looks.open and set(samples.counts) == {looks.here}
-    return Over("sampled" if agree else "undecided", looks.here, reason, samples=samples)
+    return Over("sampled" if agree else "undecided", looks.here, reason=reason, samples=samples)
 
 
 def _drawn(looks: Looks, at_corners: int = 0, every: bool = False) -> tuple[Sampled | None, dict[str, Point]]:
@@ -158,4 +158,4 @@ def _depends(looks: Looks, reason: Reason, point: Point, settled: bool = False) 
                       for place in (np.zeros(len(point)), point))
     samples, _ = _drawn(looks)
     reason = reason.then(samples.reason) if samples else reason
-    return Over("depends", looks.here, reason, changes_at=size, witnesses=witnesses, samples=samples)
+    return Over("depends", looks.here, reason=reason, changes_at=size, witnesses=witnesses, samples=samples)

@@ -14,8 +14,9 @@ intervals; an interval is dropped where the rise keeps away from zero, settled w
 halved otherwise. Hyperbolas and parabolas have one saddle a branch."""
 from __future__ import annotations
 
+import math
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
@@ -29,6 +30,7 @@ from ...case.source import parsed
 from ...errors import InputError
 from ...numbers.algebraic import between, coefficients, univariate
 from ...numbers.balls import Digits, Unclear, evaluated, rational, real_roots_of, settled, working
+from ...numbers.bracket import Bracket, narrowed
 from ...numbers.vectors import Float3
 from ...physics.coefficients import effective
 from ...reasons import Sentence
@@ -160,6 +162,10 @@ class _Rise:
         if rise > 0 or rise < 0:
             return 1 if rise > 0 else -1
         raise Unclear
+
+    def size(self, value: Fraction) -> float:
+        """Its size at one value, about; infinite where no double has it."""
+        return abs(float(self._at(value).mid())) or math.inf
 
     def over(self, low: Fraction, high: Fraction) -> tuple[arb, arb]:
         """(rise, slope) as balls that hold those of every value of the interval; the rise by the slope from
@@ -301,9 +307,8 @@ def _zeros(rise: _Rise, low: Fraction, high: Fraction) -> list[Fraction]:
             if not value.contains(0):
                 continue
             if not slope.contains(0):
-                first, last = rise.sign(a), rise.sign(b)
-                if first != last:
-                    out.append(_bisected(rise.sign, a, b, first))
+                if rise.sign(a) != rise.sign(b):
+                    out.append(_zero(rise, a, b))
                 continue
             middle = _divided(rise, a, b)
         except (Unclear, ZeroDivisionError):
@@ -327,19 +332,18 @@ def _divided(rise: _Rise, low: Fraction, high: Fraction) -> Fraction:
     return (low + high) / 2
 
 
-def _bisected(sign: Callable[[Fraction], int], low: Fraction, high: Fraction, first: int) -> Fraction:
-    """The zero between two values, to the last bit of a double; a short number that
-    cannot be distinguished from it is taken for it."""
-    for _ in range(60):
-        middle = Fraction(float((low + high) / 2))
-        if not low < middle < high:
-            break
+def _zero(rise: _Rise, low: Fraction, high: Fraction) -> Fraction:
+    """The zero of a rise between two values at which it has different signs, to the last bit of a double; a
+    short number that cannot be distinguished from it is taken for it."""
+    first = rise.sign(low)
+
+    def judge(value: Fraction) -> float:
         try:
-            same = sign(middle) == first
+            return rise.sign(value) * first * rise.size(value)
         except Unclear:
-            return middle
-        low, high = (middle, high) if same else (low, middle)
-    return (low + high) / 2
+            return math.nan
+    found = narrowed(judge, Bracket(low, high, (judge(low), judge(high))), near=Fraction(0))
+    return (found.same + found.other) / 2
 
 
 # --- The question

@@ -25,9 +25,10 @@ from typing import Any
 
 from flint import fmpq_mat, fmpq_mpoly, fmpq_mpoly_ctx
 
+from ...answers.caveats import of_case
 from ...case.read import Case, with_data
 from ...equilibrium.stability import pencil
-from ...errors import InputError, printable
+from ...errors import Caveat, InputError, printable
 from ...numbers.balls import rational
 from ...numbers.vectors import CYCLE, Float3, cross, dot
 from ...physics.coefficients import effective
@@ -180,8 +181,14 @@ class Piece:
 class Counted(Shown):
     """What a map of equilibria says of itself in words, over one number or over two."""
 
+    family: Family
     counted: Reason
     remarks: tuple[Reason, ...]
+
+    @property
+    def caveats(self) -> tuple[Caveat, ...]:
+        """All that limits it: the caveats of its case."""
+        return of_case(self.family.case)
 
     @property
     def what(self) -> str:

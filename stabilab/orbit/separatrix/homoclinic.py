@@ -12,7 +12,7 @@ from math import acos, atan, atan2, copysign, cos, inf, log, nan, pi, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 from ...reasons import Reason, Reasoned, Sentence
-from ...representation import Compared, Shown
+from ...representation import Answer, Compared
 
 if TYPE_CHECKING:
     import numpy as np
@@ -44,7 +44,7 @@ class Branch(Compared):
 
 
 @dataclass(frozen=True, repr=False)
-class Separatrix(Shown, Reasoned):
+class Separatrix(Answer, Reasoned):
     """Every branch of the separatrix inside the range; reason says why there is none or what bounds
     it."""
 

@@ -117,54 +117,61 @@ def _on_line(conic, pot, line, limit):
 
 # --- What a separatrix parts, or why there is none, in words
 NO_REDUCTION = Sentence(
-    "separatrix-without-reduction", "without a reduction to one degree of freedom the separatrix of this "
-    "scene is not known in closed form")()
-PARTS_OSCILLATIONS = Sentence(
-    "separatrix-parts-oscillations", "both sides of each branch are bounded: it parts oscillations about one "
-    "centre from those around two")()
-PARTS_CENTRES = Sentence(
-    "separatrix-parts-centres", "both sides of each branch are bounded: inside motions oscillate about a "
-    "centre, outside about more of them or right round the axis")()
-BOUNDS_INSIDE = Sentence(
-    "separatrix-bounds-inside", "each branch bounds the motions that oscillate about the centres inside it")()
-NO_SADDLE = Sentence(
-    "no-saddle", "no equilibrium is a saddle of the reduced potential, each orbit has a single well, and "
-    "there is no separatrix surface")()
+    "separatrix-without-reduction",
+    "without a reduction to one degree of freedom the separatrix of this scene is not known in closed form")()
+PARTS_ONE_FROM_TWO = Sentence(
+    "separatrix-parts-one-from-two",
+    "both sides of each branch are bounded: it parts oscillations about one centre from those around two")()
+PARTS_INSIDE_FROM_OUTSIDE = Sentence(
+    "separatrix-parts-inside-from-outside",
+    "both sides of each branch are bounded: inside motions oscillate about a centre, outside about more of "
+    "them or right round the axis")()
+BOUNDS_OSCILLATIONS = Sentence(
+    "separatrix-bounds-oscillations",
+    "each branch bounds the motions that oscillate about the centres inside it")()
+SINGLE_WELLS = Sentence(
+    "no-separatrix-single-wells",
+    "no equilibrium is a saddle of the reduced potential, each orbit has a single well, and there is no "
+    "separatrix surface")()
 NO_FORCE = Sentence(
-    "no-force-along-orbits", "no force acts along any orbit: the rate about the axis of symmetry is "
-    "constant, and there is no saddle and no separatrix surface")()
+    "no-separatrix-no-force",
+    "no force acts along any orbit: the rate about the axis of symmetry is constant, and there is no saddle "
+    "and no separatrix surface")()
 NO_EQUILIBRIUM = Sentence(
-    "no-equilibrium-no-saddle", "there is no equilibrium, so there is no saddle and no separatrix surface")()
+    "no-separatrix-no-equilibrium",
+    "there is no equilibrium, so there is no saddle and no separatrix surface")()
+SURFACE_BEYOND_DOUBLES = Sentence(
+    "surface-beyond-doubles",
+    "the numbers of this scene are beyond what doubles hold of its surface")()
 PARABOLIC = Sentence(
-    "separatrix-parabolic", "parabolic reduction ({where}): {all}; no branch bounds a spin-up")
-ALL_WITHOUT_TORQUE = Sentence("all-bounded-without-torque", "no torque acts, and every motion is bounded")()
-ALL_WALLED = Sentence(
-    "all-walled", "all motions are bounded by walls on both sides, except pure spin about the torque")()
+    "no-separatrix-parabolic", "parabolic reduction ({where}): {motions}; no branch bounds a spin-up")
+ALL_BOUNDED = Sentence("parabolic-no-torque", "no torque acts, and every motion is bounded")()
+ALL_BETWEEN_WALLS = Sentence(
+    "parabolic-walls",
+    "all motions are bounded by walls on both sides, except pure spin about the torque")()
 ALL_SPIN_UP = Sentence(
-    "all-spin-up", "nothing turns the body out of the torque's way, and every motion spins up")()
-BEYOND_SURFACE = Sentence(
-    "surface-beyond-doubles", "the numbers of this scene are beyond what doubles hold of its surface")()
+    "parabolic-spin-up", "nothing turns the body out of the torque's way, and every motion spins up")()
 
 
 def what_it_parts(potential, sense: int) -> Reason:
     """Of a scene with a separatrix."""
     if potential.walled:
-        return PARTS_OSCILLATIONS
-    return PARTS_CENTRES if sense == 0 else BOUNDS_INSIDE
+        return PARTS_ONE_FROM_TWO
+    return BOUNDS_OSCILLATIONS if sense else PARTS_INSIDE_FROM_OUTSIDE
 
 
 def why_none(conic, sense: int) -> Reason:
     """Of a scene on circles or hyperbolas without one."""
     if conic.pieces or conic.lines:
-        return NO_SADDLE
-    return NO_FORCE if sense == 0 else NO_EQUILIBRIUM
+        return SINGLE_WELLS
+    return NO_EQUILIBRIUM if sense else NO_FORCE
 
 
 def why_parabolic(reduction) -> Reason:
     """Of a scene on parabolas: no branches are drawn of it."""
     bent = reduction.kappa or reduction.rho or reduction.sigma
-    return PARABOLIC(where=reduction.geometry.where, all=ALL_WITHOUT_TORQUE if reduction.sense == 0
-                     else ALL_WALLED if bent else ALL_SPIN_UP)
+    motions = ALL_BOUNDED if reduction.sense == 0 else ALL_BETWEEN_WALLS if bent else ALL_SPIN_UP
+    return PARABOLIC(where=reduction.geometry.where, motions=motions)
 
 
 # --- A coarse surface in plain floats
@@ -195,7 +202,7 @@ def plain_separatrix(scene: AnyScene, reach: float = REACH, rows: int = 20,
         pot, conic = potential(r), conic_of(r)
         branches = saddle_branches(conic, pot, limit_of(conic, reach))
     except (ArithmeticError, ValueError):
-        return (), BEYOND_SURFACE
+        return (), SURFACE_BEYOND_DOUBLES
     found = []
     for number, branch in enumerate(branches, 1):
         strips = [(word, points) for side,

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from ...representation import values_of
 from ...show.report import html
-from ...show.report.html import numbered
+from ...show.report.formulas import inner
 from ...show.terminal import ALPHABET, lettered, some
 from ...theories.printed.claims import FormulaError
 from .checks import raw
@@ -186,12 +186,11 @@ def mathml(left, right, squares=()):
     """left = right as MathML for a page."""
     import sympy as sp
     from markupsafe import Markup
-    from sympy.printing.mathml import mathml as printed
 
     names = {s: sp.Symbol(_name(s.name)) ** (2 if s.name in squares else 1)
              for s in left.free_symbols | right.free_symbols}
     equation = sp.Eq(_readable(left.xreplace(names)), _readable(right.xreplace(names)), evaluate=False)
-    body = numbered(printed(equation, printer="presentation"))
+    body = inner(equation, products=False)
     return Markup(f'<math xmlns="http://www.w3.org/1998/Math/MathML">{body}</math>')
 
 

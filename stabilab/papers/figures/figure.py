@@ -22,7 +22,7 @@ from . import panels
 
 @dataclass(frozen=True)
 class Figure:
-    """One figure: draw(plt) -> matplotlib figure, or a list of those over which it is divided; words: the
+    """One figure: draw(plt) -> matplotlib figure, or a list of those over which it is divided; text: the
     caption, exact: how exact the curves are, each a text or a function that forms it from what is drawn;
     paper: the short name under which the command knows it, "" for the constant-torque paper; lines: a
     function that gives the figure's lines (panels.Row, columns) where it sets printed curves beside the exact
@@ -31,7 +31,7 @@ class Figure:
 
     number: int
     title: str
-    words: str | Callable[[], str]
+    text: str | Callable[[], str]
     draw: Callable
     exact: str | Callable[[], str]
     paper: str = ""
@@ -40,7 +40,7 @@ class Figure:
 
     @property
     def caption(self) -> str:
-        return written(self.words() if callable(self.words) else self.words)
+        return written(self.text() if callable(self.text) else self.text)
 
     @property
     def tolerance(self) -> str:
@@ -144,7 +144,7 @@ class Difference:
     """One panel of a figure. quantity: what is drawn upwards, with its unit; column: the panel's heading;
     largest: distance of the printed curve from the exact motion at equal times, the largest over the time
     that both have, in the quantity's unit; reach: range of the exact motion (of a plane its diagonal), in the
-    same unit; at: s; status: "compared", or "no curve" with the reason in words."""
+    same unit; at: s; status: "compared", or "no curve", which `note` explains."""
 
     quantity: str
     column: str
@@ -152,7 +152,7 @@ class Difference:
     reach: float | None
     at: float | None
     status: str
-    reason: str = ""
+    note: str = ""
 
     @property
     def share(self) -> float | None:
@@ -201,7 +201,7 @@ def _words(d: Difference) -> str:
     quantity, unit = (quantity, " " + unit.rstrip(")")) if quantity else (unit, "")
     head = f"{quantity}, {plain(d.column)}: "
     if d.status != "compared":
-        return head + d.reason
+        return head + d.note
     part = f" ({share(d.share)} the exact motion's range)" if d.share is not None else ""
     return f"{head}{short(d.largest)}{unit}{part} at t = {d.at:.3g} s"
 

@@ -60,7 +60,7 @@ class Motion:
 @dataclass(frozen=True)
 class Printed:
     """Values that a tool prints of a quantity of a motion: rows (time, components) as they are printed.
-    cause: method and step that the tool seems to use."""
+    scheme: method and step that the tool seems to use."""
 
     motion: Motion
     quantity: str
@@ -69,7 +69,7 @@ class Printed:
     tolerance: Fraction
     relative: bool
     tolerance_is: str
-    cause: dict
+    scheme: dict
     values: tuple[tuple[str, ...], ...]
 
 
@@ -151,8 +151,8 @@ UNITS = {"sigma": "", "angle3": "rad", "off_linear": "rad", "momentum_turn": "ra
 class Finding:
     """One value. ours: every digit written is right (to one unit of the last); bound: how far that is off at
     most; theirs: as printed. difference: ours from theirs, at most; tolerance: absolute. verdict: "agrees",
-    "explained" (the method named in `cause`, run here, gives theirs within the tolerance: `left` is what
-    remains), or "differs"."""
+    "explained" (the method named in `explanation`, run here, gives theirs within the tolerance: `left` is
+    what remains), or "differs"."""
 
     printed: Printed
     time: str
@@ -164,7 +164,7 @@ class Finding:
     difference: float
     tolerance: float
     verdict: str
-    cause: str
+    explanation: str
     left: float | None
 
 
@@ -193,7 +193,7 @@ def _row(printed, row, followed):
     time, motion = Fraction(row[0]), printed.motion
     with working(BALL_BITS) as numbers:
         balls = getattr(quantities, printed.quantity)(motion, followed[time], numbers)
-        again = (reproduced(printed, float(time), [float(v.mid()) for v in balls]) if printed.cause
+        again = (reproduced(printed, float(time), [float(v.mid()) for v in balls]) if printed.scheme
                  else [None] * len(balls))
         return [_judged(printed, row[0], *one, numbers)
                 for one in zip(COMPONENTS[printed.quantity], balls, row[1:], again)]
@@ -206,7 +206,7 @@ def _judged(printed, time, component, ball, theirs, again, numbers):
     left = None if again is None else abs(again - float(theirs))
     verdict = ("agrees" if difference <= tolerance else "explained" if left is not None and left <= tolerance
                else "differs")
-    cause = (f"{WORDS[printed.cause['method']].format(**printed.cause)} gives theirs to {left:.1e}"
+    cause = (f"{WORDS[printed.scheme['method']].format(**printed.scheme)} gives theirs to {left:.1e}"
              if verdict == "explained" else "")
     ours = "0" if 0 in ball else ball.str(SHOWN, radius=False)
     return Finding(printed, time, component, UNITS.get(printed.quantity, printed.motion.unit), ours,
@@ -234,7 +234,7 @@ def _value(source, one):
             "motion": one.printed.motion.id, "time_s": one.time,
             "quantity": one.component, "unit": one.unit, "ours": one.ours, "ours_within": one.bound,
             **values_of(one, "theirs difference tolerance"), "tolerance_is": one.printed.tolerance_is,
-            **values_of(one, "verdict cause left")}
+            "verdict": one.verdict, "cause": one.explanation, "left": one.left}
 
 
 def counts(found) -> str:
@@ -315,7 +315,7 @@ def cause(group) -> str:
     """What explains the values of a set that are farther off than their tolerance: its worst remainder; empty
     where there is none."""
     explained = [one for one in group if one.verdict == "explained"]
-    return max(explained, key=lambda one: one.left).cause if explained else ""
+    return max(explained, key=lambda one: one.left).explanation if explained else ""
 
 
 def page(validated, path, **around) -> Path:

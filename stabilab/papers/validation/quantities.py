@@ -21,18 +21,19 @@ from operator import mul
 
 from ...answers.attitude import attitude
 from ...answers.circular_orbit import circular_orbit
-from ...answers.limit import flow_of, own_unit
+from ...answers.limit import flow_of
 from ...case.read import load
 from ...numbers.balls import working
 from ...numbers.vectors import CYCLE, cross, dot
+from ...physics.own_unit import exact_unit
 
 
 def reproduced(printed, time: float, rates=None) -> list[float]:
-    """The quantity (omega or sigma) at a time as the method and step of `printed.cause` leave it. rates: the
+    """The quantity (omega or sigma) at a time as the method and step of `printed.scheme` leave it. rates: the
     exact ones there, for the leapfrog rule."""
-    motion, step = printed.motion, float(printed.cause["step"])
+    motion, step = printed.motion, float(printed.scheme["step"])
     degrees = 180 / math.pi if motion.unit == "deg/s" else 1.0
-    if printed.cause["method"] == "leapfrog":
+    if printed.scheme["method"] == "leapfrog":
         return [w * degrees for w in _half_a_step_later(_rates(motion), [w / degrees for w in rates], step)]
     start = [float(w) / degrees for w in motion.omega]
     if printed.quantity == "sigma":
@@ -40,7 +41,7 @@ def reproduced(printed, time: float, rates=None) -> list[float]:
                     round(time / step), rk4, shortest)
         return state[:3]
     return [w * degrees for w in run(_rates(motion), start, step, round(time / step),
-                                     RULES[printed.cause["method"]])]
+                                     RULES[printed.scheme["method"]])]
 
 
 def run(rates, state, step, count, rule, after=None) -> list[float]:
@@ -213,7 +214,7 @@ def _run(motion, times, axis):
 
 def _attempt(motion, times, axis, bits):
     scene = motion.scene
-    unit = own_unit(scene, motion.omega)
+    unit = exact_unit(scene, motion.omega)
     flow = flow_of(scene, motion.omega, bits, unit, tuple(map(Fraction, axis)))
     found, lost = [], 0
     with working(BALL_BITS) as numbers:

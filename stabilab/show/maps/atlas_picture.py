@@ -195,7 +195,7 @@ def _label(atlas: Atlas, n: int, plain: bool) -> str:
         return shown_name(atlas, point)
     axes, number = axes_of(atlas.asked.case), point.number // 2 + 1
     return " ".join(filter(None,
-                           [shown_name(atlas, point), axes.letters[number - 1] and axes.words[number - 1]]))
+                           [shown_name(atlas, point), axes.letters[number - 1] and axes.ranks[number - 1]]))
 
 
 def _times(atlas: Atlas, units: Units) -> Any:

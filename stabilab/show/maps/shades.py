@@ -1,7 +1,6 @@
 """How axes and answers of a map are named and coloured."""
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Callable, Collection, Sequence
 from typing import Any
@@ -28,13 +27,15 @@ LIMIT_UNSEEN = Sentence("limit-not-looked-at", "the limit of the file, {limit}, 
 # --- What the dimensions and columns of a sweep are called, and their units
 SAMPLE = "sample"
 LETTERS = {"angular_velocity": "ω", "mu": "μ"}  # of keys that have one
+DRAWN = ("ω", "μ", "x")  # those that have an index
 
 
 def names(keys: Sequence[str]) -> list[str]:
     """A short name for each key, in letters, digits and underscores: its last word, or as many of its words
     as tell it from the others."""
     def plain(words: Sequence[str]) -> str:
-        name = re.sub(r"[^0-9A-Za-z]+", "_", "_".join(words)).strip("_") or "key"
+        letters = (letter if letter.isascii() and letter.isalnum() else " " for letter in " ".join(words))
+        name = "_".join("".join(letters).split()) or "key"
         return name if name[0].isalpha() else f"key_{name}"
     return (_told_apart([key.split(".") for key in keys], plain, {SAMPLE, "axis"})
             or [plain([f"{key}_{n}"]) for n, key in enumerate(keys, 1)])
@@ -43,9 +44,8 @@ def names(keys: Sequence[str]) -> list[str]:
 def said(keys: Sequence[str]) -> list[str]:
     """The keys as people read them beside each other: torque[3], ω[1]; as few of their last words as tell
     each from the others."""
-    parts = [[LETTERS.get(stem, stem) + index for stem,
-              index in (re.match(r"([^\[]*)(.*)", word, re.S).groups() for word in key.split("."))]
-             for key in keys]
+    parts = [[LETTERS.get(stem, stem) + bracket + index
+              for stem, bracket, index in (word.partition("[") for word in key.split("."))] for key in keys]
     return _told_apart(parts, ".".join) or list(keys)
 
 
@@ -63,7 +63,8 @@ def _told_apart(parts: Sequence[Sequence[str]], name: Callable[[Sequence[str]], 
 def drawn(name: str) -> str:
     """The same on an axis of a picture: a letter with its index set as in formulas, ω[1] as ω with 1 below
     it; other keys as they are."""
-    return re.sub(r"^([ωμx])\[([123])\]$", r"$\1_\2$", name)
+    letter, _, index = name.partition("[")
+    return f"${letter}_{index[0]}$" if letter in DRAWN and index in ("1]", "2]", "3]") else name
 
 
 def dimensions(plan: Plan) -> list[str]:

@@ -60,7 +60,7 @@ def text(found: Swept) -> str:
     if found.broken:
         told = (f"{found.broken:,} points are no case; the first" if found.broken > 1
                 else "one point is no case")
-        lines.append(f"  {told}: {printable(found.why)}")
+        lines.append(f"  {told}: {printable(found.fault)}")
     if found.records.size <= ROWS:
         lines += _table(found)
     return limiting.ahead(of_case(plan.case), "\n".join(lines))
@@ -125,7 +125,7 @@ def _details(found: Swept) -> list[str]:
         if column.kind == "f8":
             lines.append(_range(cases[column.name], column, *_unit(found.plan, column)))
         elif column.kind == "i4":
-            lines.append(f"  {column.words}: " + _listed(cases[column.name],
+            lines.append(f"  {column.description}: " + _listed(cases[column.name],
                                                          lambda value: COUNTS.get(value, str(value))))
     return lines
 
@@ -212,7 +212,7 @@ def json(found: Swept) -> str:
     plan = found.plan
     axes = [{"key": axis.key.name, "unit": axis.shown_unit, "values": list(axis.values)}
             for axis in plan.axes]
-    columns = {column.name: {"unit": unit(plan, column), "long_name": column.words}
+    columns = {column.name: {"unit": unit(plan, column), "long_name": column.description}
                | ({"flags": list(column.flags)} if column.flags else {})
                | {"values": endless(found.records[column.name].ravel().tolist())}
                for column in columns_of(plan.answers)[1:]}
@@ -224,7 +224,7 @@ def json(found: Swept) -> str:
                            "keys": [key.name for key in plan.sampled.keys],
                            "values": plan.sampled.values(0, plan.sampled.count).tolist()}
     told |= limiting.key(plan.case, limits_of(_case_of(plan), found.records))
-    return as_json(told | {"no_case": {"points": found.broken, "because": found.why}, "columns": columns})
+    return as_json(told | {"no_case": {"points": found.broken, "because": found.fault}, "columns": columns})
 
 
 def _table(found: Swept) -> list[str]:
@@ -351,7 +351,7 @@ def finished(values: dict[str, Any], coordinates: dict[str, Any],
 
 def column_in(dims: Any, column: Column, records: np.ndarray, of: str) -> tuple[Any, np.ndarray, dict]:
     """A column of answers with its dimensions, its words, unit (`of`) and flags."""
-    words: dict[str, Any] = {"long_name": column.words} | ({"units": of} if column.kind == "f8" else {})
+    words: dict[str, Any] = {"long_name": column.description} | ({"units": of} if column.kind == "f8" else {})
     if column.flags:
         words |= {"flag_values": np.arange(len(column.flags), dtype=np.int8),
                   "flag_meanings": " ".join(flag.replace(" ", "_") or "none" for flag in column.flags)}
@@ -372,7 +372,7 @@ def _sampled(plan: Plan) -> dict[str, Any]:
 
 def _attributes(found: Swept) -> dict[str, Any]:
     plan, case = found.plan, found.plan.case
-    broken = {"no_case": f"{found.broken} points: {printable(found.why)}"} if found.broken else {}
+    broken = {"no_case": f"{found.broken} points: {printable(found.fault)}"} if found.broken else {}
     return {**origin(case, plan.command), "case_variables": case.variables, "case": plan.text,
             "sweep": plan.as_json(brief=True),
             "caveats": limiting.cell(case, limits_of(_case_of(found.plan), found.records)), **broken}

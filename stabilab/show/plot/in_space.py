@@ -204,14 +204,14 @@ Look = dict[str, Any]
 
 @dataclass
 class SurfaceLines:
-    """surface: triangles (n, 3, 3); box, view, labels: of the axes; words: for the title; lines: (points (n,
+    """surface: triangles (n, 3, 3); box, view, labels: of the axes; title; lines: (points (n,
     3), look, whether in front); marks: (points, look); rows: of the legend. All in the units of the axes."""
 
     surface: np.ndarray
     box: Box
     view: tuple[float, float]
     labels: tuple[str, ...]
-    words: str
+    title: str
     lines: list[tuple[np.ndarray, Look, bool]] = field(default_factory=list)
     marks: list[tuple[np.ndarray, Look]] = field(default_factory=list)
     rows: list[tuple[str, Look]] = field(default_factory=list)

@@ -13,10 +13,10 @@ from ...answers.stuck.ask import stuck
 from ...answers.stuck.margins import Row
 from ...case.read import Case, load
 from ...errors import InputError, printable
-from ...orbit.one_state import far_exponent
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate, Motion
 from ...physics.coefficients import effective
+from ...physics.own_unit import far_exponent
 from ...physics.scene import AnyScene, Scene, torque_axis
 from ...physics.states import checked_states, start_of
 from ...theories.follow import models_of

@@ -227,7 +227,7 @@ def sphere(case: Any, state: Any = None, ax: Axes | None = None, units: str | No
         for points, look in found.marks:
             in_space.line(target, points, look, zorder=8)
         in_space.furnish(target, found.box, found.labels, found.view)
-        return canvas.explained(target, found.rows if legend else [], ax is None, one.heading, found.words)
+        return canvas.explained(target, found.rows if legend else [], ax is None, one.heading, found.title)
 
 
 BEHIND = {"alpha": 0.3, "linewidth": 0.7}

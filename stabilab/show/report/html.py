@@ -1,20 +1,20 @@
-"""Pages of the report from their templates, and formulas as MathML.
+"""Pages of the report from their templates.
 
-What comes from case files is escaped, and what a template lacks is an error. MathML is set by the browser
-itself: no script, no font, nothing from a network."""
+What comes from case files is escaped, and what a template lacks is an error. Formulas are MathML
+(`formulas`): no script, no font, nothing from a network."""
 from __future__ import annotations
 
 import re
 from functools import lru_cache
-from html import escape, unescape
+from html import escape
+from html.parser import HTMLParser
+from itertools import accumulate
 from pathlib import Path
 
 from ...files import write_text
-from ...physics.equations import Equations
 from .. import style
 from ..names import around
-from ..terminal import ALPHABET, written
-from ..text.scene import PRODUCTS, right_side
+from ..terminal import ALPHABET, but_for_commands, minus, written
 
 TEMPLATES = Path(__file__).parents[1] / "templates"
 ALONE = {"nav": (), "here": "", "below": "", "up": "", "title": ""}  # of a page that is no part of a folder
@@ -30,48 +30,45 @@ def _environment():
     return environment
 
 
-# -5, 1e-5, (-h, = -a
-MINUS = re.compile(r"(?<![\w)])-(?=\d)|(?<=\de)-(?=\d)|(?<=[(\[])-(?=\s?\w)|(?<=[(,=] )-(?=\w)"
-                   # (b-a), b - a, r0 - W
-                   r"|(?<=\b[a-z])-(?=[a-z]\))|(?:(?<=\b\w )|(?<=\b\w\d ))-(?= \w\d?\b)")
-EXPONENT = re.compile(r"(?<=\de)([-−])0+(?=\d)")  # 1e-08, as Python prints it
-MEASURED = re.compile(r"(?<=\d) (?=(?:deg/s|rad/s|deg|rad|days?|min|h|s|J|τ|N m)\b)")
-COMPOUND = re.compile(r"(?<=\d\u00a0)N m(?: s)?\b")
-INDEXED = re.compile(r"(?<![\w/.])([A-Za-zΑ-Ωα-ω]|" + "|".join(ALPHABET) + r")_(\w+)")  # I_omega, x_j, mu_j
-# b - a, (-M2, x = -y
-SUBTRACTED = re.compile(r"(?<=[\w)²³*;]) - (?=[\w(])|(?:(?<=[(=,\[] )|(?<=[(\[=])|^)-(?=[\w(])")
-HEADING = re.compile(r'<h([23])(?: id="([^"]*)")?>(.*?)</h\1>', re.S)
-RAISED = re.compile(r"\^(?:\(([^()]*)\)|([-−]?\w+))")
+UNITS = ("deg/s", "rad/s", "deg", "rad", "days?", "min", "h", "s", "J", "τ", "N m(?: s)?")
+MEASURED = re.compile(rf"(?<=\d) ({'|'.join(UNITS)})\b")
+# I_omega, x_j, mu_j; e^(i r0 t), but for a power of one digit, which has a letter of its own
+MARKED = re.compile(rf"(?<![\w/.])([A-Za-zΑ-Ωα-ω]|{'|'.join(ALPHABET)})_(\w+)"
+                    r"|\^(?!\d(?!\d))(?:\(([^()]*)\)|([-−]?\w+))")
 
 
 @around
 def book(text: str):
     """Words as a book sets them: I_omega with the index ω below, the exponent of e^(i r0 t) raised."""
     from markupsafe import Markup, escape
-    below = INDEXED.sub(
-        lambda found: f"{ALPHABET.get(found[1], found[1])}<sub>{ALPHABET.get(found[2], found[2])}</sub>",
-        str(escape(text)))
-    below = SUBTRACTED.sub(lambda found: found[0].replace("-", "−"),
-                           below.replace("&gt;=", "≥").replace("&lt;=", "≤"))
-    # escaped above
-    return Markup(RAISED.sub(lambda found: f"<sup>{(found[1] or found[2]).replace('-', '−')}</sup>",
-                             written(below)))
+    marked = MARKED.sub(_marked, str(escape(text))).replace("&gt;=", "≥").replace("&lt;=", "≤")
+    return Markup(written(marked))  # escaped above
+
+
+def _marked(found):
+    letter, below, *raised = found.groups()
+    if letter:
+        return f"{ALPHABET.get(letter, letter)}<sub>{ALPHABET.get(below, below)}</sub>"
+    return f"<sup>{(raised[0] or raised[1]).replace('-', '−')}</sup>"
 
 
 @around
 def signed(text: str) -> str:
-    """The text with the minus of a book: before numbers and in their exponents, which begin with no zero,
-    before a name and between two. Commands stay as they are typed."""
-    parts = re.split(r"(<code>.*?</code>)", text)
-    # what is escaped stays so
-    return type(text)("".join(part if part.startswith("<code>") else MINUS.sub("−", EXPONENT.sub(r"\1", part))
-                              for part in parts))
+    """The text with the minus of a book; commands stay as they are typed."""
+    first, *others = text.split("<code>")
+    parts = [part.partition("</code>") for part in others]
+    made = "".join(f"<code>{command}{end}{_signed(rest)}" for command, end, rest in parts)
+    return type(text)(_signed(first) + made)  # what is escaped stays so
+
+
+def _signed(text):
+    return but_for_commands(str(text), minus)
 
 
 @around
 def together(text: str) -> str:
     """The text with no end of a line between a number and its unit, or within one."""
-    return COMPOUND.sub(lambda unit: unit[0].replace(" ", "\u00a0"), MEASURED.sub("\u00a0", text))
+    return MEASURED.sub(lambda found: found[0].replace(" ", "\u00a0"), text)
 
 
 def formula(text):
@@ -85,7 +82,8 @@ def sentence(text: str):
     """Words for a page: with a capital at their head, and what stands between backquotes as code."""
     from markupsafe import Markup, escape
     # no formula, no name of a file
-    text = text[:1].upper() + text[1:] if re.match("[a-z]+( |$)", text) else text
+    first = text.partition(" ")[0]
+    text = text[:1].upper() + text[1:] if first.isascii() and first.isalpha() and first.islower() else text
     parts = text.split("`")
     found = [escape(part) if n % 2 == 0 or n == len(parts) - 1 else typed(part) for n,
              part in enumerate(parts)]
@@ -122,134 +120,58 @@ def render(template: str, **values) -> str:
 
 def anchored(page: str) -> str:
     """The page with a link to itself in every heading, which gets an id of its words where it has none."""
-    used = set(re.findall(r' id="([^"]*)"', page))
-
-    def linked(found):
-        level, name, inside = found[1], found[2], found[3]
-        words = " ".join(unescape(re.sub("<[^>]*>", "", inside)).split())
+    read = _Headings(page)
+    used, parts, last = {*read.ids}, [], 0
+    for start, inside, end, name, words in read.headings:
+        opening = page[start:inside]
         if not name:
-            name = first = re.sub(r"[^a-z0-9]+", "-", words.lower()).strip("-") or "part"
+            letters = "".join(one if one.isascii() and one.isalnum() else " " for one in words.lower())
+            name = first = "-".join(letters.split()) or "part"
             while name in used:
                 name = f"{first}-{len(used)}"
             used.add(name)
-        return (f'<h{level} id="{name}">{inside} <a class="anchor" href="#{name}" '
-                f'aria-label="Link to: {escape(words)}">#</a></h{level}>')
-    return HEADING.sub(linked, page)
+            opening = f'{opening[:3]} id="{name}"{opening[3:]}'
+        parts += [page[last:start], opening, page[inside:end],
+                  f' <a class="anchor" href="#{name}" aria-label="Link to: {escape(words)}">#</a>']
+        last = end
+    return "".join([*parts, page[last:]])
+
+
+class _Headings(HTMLParser):
+    """Of a page: ids, and of every heading of the second or third level (where it starts, where its inside
+    starts and ends, its id or "", its words)."""
+
+    def __init__(self, page: str):
+        super().__init__()
+        self.ids: list[str] = []
+        self.headings: list[tuple[int, int, int, str, str]] = []
+        self._lines = [0, *accumulate(len(line) + 1 for line in page.split("\n"))]
+        self._open: tuple[int, int, str] | None = None
+        self._words: list[str] = []
+        self.feed(page)
+        self.close()
+
+    def handle_starttag(self, tag, attrs):
+        name = dict(attrs).get("id") or ""
+        self.ids += [name] if name else []
+        if tag in ("h2", "h3"):
+            self._open, self._words = (self._at(), self._at() + len(self.get_starttag_text()), name), []
+
+    def handle_data(self, data):
+        self._words.append(data)
+
+    def handle_endtag(self, tag):
+        if tag in ("h2", "h3") and self._open:
+            start, inside, name = self._open
+            words = " ".join("".join(self._words).split())
+            self.headings.append((start, inside, self._at(), name, words))
+            self._open = None
+
+    def _at(self):
+        line, column = self.getpos()
+        return self._lines[line - 1] + column
 
 
 def write(path, template: str, **values) -> Path:
     """The page as a file, whole or not at all."""
     return write_text(path, anchored(render(template, **values)))
-
-
-# --- Formulas
-# symbols and digits or so of a sum that fit beside each other on a page; a longer one goes on in the next
-# line
-LINE = 46
-LONG = 40  # operations: a law of more is stated in words alone
-
-
-def equations_of_motion(equations: Equations) -> list:
-    """An equation a component of the state: its factor and its rate with a dot, and the sum."""
-    rows = []
-    for number, (moment, part) in enumerate(zip(equations.inertia, equations.state)):
-        factor = "" if moment == 1 else inner(moment)
-        # the dot above the letter, not above the middle of letter and index
-        dotted = re.sub(r"<mi>[^<]*</mi>", r"<mover>\g<0><mo>&#x2D9;</mo></mover>", inner(part), count=1)
-        rows.append(display(f"{factor}{dotted}<mo>=</mo>{in_lines(right_side(equations, number))}"))
-    return rows
-
-
-def display(content: str):
-    """A line of its own."""
-    from markupsafe import Markup
-    return Markup(f'<math display="block"><mrow>{content}</mrow></math>')
-
-
-def inline(expression):
-    """An expression within a sentence."""
-    from markupsafe import Markup
-    return Markup(f"<math><mrow>{inner(expression)}</mrow></math>")
-
-
-def symbol(name: str):
-    """A symbol by its name: lambda1 with its Greek letter and its index."""
-    from sympy import Symbol
-    return inline(Symbol(name))
-
-
-def law(balance) -> str:
-    """The quantity of a law, and its rate where that is not zero; empty where too long to be read."""
-    from sympy import Integer, count_ops
-    quantity, rate = rounded(balance.quantity), rounded(Integer(0) + balance.rate)
-    if count_ops(quantity) + count_ops(rate) > LONG:
-        return ""
-    changes = ("<mtext>&#x2009;constant</mtext>" if rate == 0
-               else f"<mo>)</mo><mo>&#x2D9;</mo><mo>=</mo>{inner(rate)}")
-    return display(f"{'' if rate == 0 else '<mo>(</mo>'}{in_lines(quantity)}{changes}")
-
-
-def rounded(expression):
-    """The expression with numbers of many digits rounded to six."""
-    from sympy import Float, Integer, Rational
-    expression = Integer(0) + expression
-    return expression.xreplace({number: Float(number, 6) for number in expression.atoms(Rational)
-                                if len(str(number)) > 8})
-
-
-def in_lines(expression) -> str:
-    """A sum in as many lines as it takes, one below the other; everything else as `inner`."""
-    from sympy import Add, Integer
-    expression = Integer(0) + expression
-    if not isinstance(expression, Add) or sum(map(_width, expression.args)) <= LINE:
-        return inner(expression)
-    lines: list[list] = [[]]
-    for term in expression.as_ordered_terms():
-        if lines[-1] and sum(map(_width, lines[-1])) + _width(term) > LINE:
-            lines.append([])
-        lines[-1].append(term)
-    rows = ""
-    for number, terms in enumerate(lines):  # the later ones begin with their sign
-        sign = "<mo>+</mo>" if number and not terms[0].could_extract_minus_sign() else ""
-        rows += f'<mtr><mtd style="text-align: left"><mrow>{sign}{inner(Add(*terms))}</mrow></mtd></mtr>'
-    return f'<mtable displaystyle="true">{rows}</mtable>'
-
-
-def _width(term) -> float:
-    """How many symbols and digits stand beside each other in a term: a fraction counts by its wider part."""
-    from sympy import fraction
-    return max(sum(len(word) if word[0].isdigit() else 1.3
-                   for word in re.findall(r"[A-Za-z]\w*|[\d.]+|[-+(]", str(part))) for part in fraction(term))
-
-
-def inner(expression) -> str:
-    """The expression as presentation MathML, without the element around it."""
-    from sympy import Integer
-    from sympy.printing.mathml import mathml
-    text = numbered(mathml(Integer(0) + expression, printer="presentation"))
-    # eHl2: SymPy sees an index
-    text = re.sub(r"<msub><mi>(\w+)</mi><mi>(\d)</mi></msub>",
-                  lambda found: _product(found[1] + found[2]) or found[0], text)
-    text = re.sub(r"<mi>(\w+)</mi>", lambda found: _product(found[1]) or found[0], text)
-    for product in map(_product, PRODUCTS):  # a power is that of all its letters
-        text = text.replace(f"<msup>{product}", f"<msup><mrow><mo>(</mo>{product}<mo>)</mo></mrow>")
-    return text
-
-
-def numbered(mathml: str) -> str:
-    """MathML of SymPy with the minus, the i and the e of a book, which SymPy has struck twice, with bars that
-    browsers draw over conjugates, and whole numbers of six digits without a zero behind their point."""
-    mathml = mathml.replace("&ImaginaryI;", "i").replace("&ExponentialE;", "e")
-    mathml = mathml.replace("<mo>-</mo>", "<mo>&#x2212;</mo>").replace("<mn>-", "<mn>&#x2212;")
-    mathml = re.sub(r'<menclose notation="top">(.*?)</menclose>',
-                    r'<mover accent="true"><mrow>\1</mrow><mo>&#xAF;</mo></mover>', mathml)
-    return re.sub(r"<mn>([^<>]*\d)\.0</mn>", r"<mn>\1</mn>", mathml)
-
-
-def _product(name) -> str:
-    """What a name stands for as a product of letters with indices and powers; empty where for itself."""
-    made = (re.split("([_^])", word) for word in PRODUCTS.get(name, "").split())
-    kind = {"_": "msub", "^": "msup"}
-    letters = "".join(f"<{kind[part[1]]}><mi>{part[0]}</mi><mi>{part[2]}</mi></{kind[part[1]]}>"
-                      if len(part) > 1 else f"<mi>{part[0]}</mi>" for part in made)
-    return letters and f"<mrow>{letters}</mrow>"

@@ -33,11 +33,11 @@ from ..plot.subject import subject
 from ..space import data
 from ..terminal import greek, printed, some
 from ..text.classification import open_fate, uncertain_text, what_changes
-from ..text.headline import headline, judged, lines_of, look
+from ..text.headline import exceeded, headline, judged, lines_of, look
 from ..text.motion import constants, margins, shown, state
 from ..text.scene import fates, key_columns, latex, of_motions
 from ..units import DIGITS, but_for_rounding, number, parameter_unit, units_of, with_unit
-from . import html
+from . import formulas, html
 from .html import picture
 from .tables import equilibrium_table, sensitivity, tiles
 
@@ -47,7 +47,7 @@ def space(one, at_rest, units) -> dict:
     """What the script draws of a subject, the legend, and words on the separatrix. at_rest: equilibria."""
     found = space_of(one, map(printed, one.scene.components), units.rates, at_rest, reaching=True)
     drawn = data(found, lambda places: b64encode(places).decode("ascii"))
-    reason = "; ".join(filter(None, (found.words, found.part)))
+    reason = "; ".join(filter(None, (found.caption, found.part)))
     return {"drawn": drawn, "legend": drawn["legend"], "reason": printed(units.words(reason)),
             "clipped": any(max(map(abs, found.box.share(at))) > 1 + 1e-9 for _, branch in found.branches
                            for at in branch.points)}
@@ -149,7 +149,8 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     page = {"name": case.name, "title": case.heading, "source": case.source,
             "path": case.path, "text": case.text,
             "headline": printed("; ".join(filter(None, (answer, what_changes(box, units))))),
-            "law": law, "caveats": list(map(printed, caveats)),
+            "law": law, "exceeded": "" if held else printed(exceeded([(case, moved.validity)], units)),
+            "caveats": list(map(printed, caveats)),
             "fate": "" if moved is None else "undecided" if open_fate(box) else moved.fate.word,
             "look": "" if moved is None else "conditional" if open_fate(box) else look(moved),
             "tiles": [], "facts": [], "extremes": [], "over": "", "pictures": [], "sensitivity": None,
@@ -230,10 +231,10 @@ def equations(case) -> dict:
     """Equations of motion, parameters and laws, typeset."""
     made, physical = derive(case.scene), case.variables == "physical"
     unit = lambda name: f" {parameter_unit(name)}".rstrip() if physical else ""
-    return {"equations": html.equations_of_motion(made), "latex": latex(made),
-            "parameters": [(html.symbol(name), printed(number(float(value), DIGITS) + unit(name)))
+    return {"equations": formulas.equations_of_motion(made), "latex": latex(made),
+            "parameters": [(formulas.symbol(name), printed(number(float(value), DIGITS) + unit(name)))
                            for name, value in made.parameters.items()],
-            "laws": [(printed(axes_of(case).sentence(law.words)), html.law(law))
+            "laws": [(printed(axes_of(case).sentence(law.words)), formulas.law(law))
                      for law in invariants(case.scene)]}
 
 
@@ -280,7 +281,7 @@ def sections_of_sweep(cases, folder: Path, stem: str) -> dict:
             "picture": _picture(moved, keys, cases, units, folder / f"{stem}-sweep.png") if moved else None,
             "headline": f"{some(len(rows), 'combination')}: {'; '.join(answers)}",
             "look": seen.pop() if len(seen) == 1 else "",
-            "law": "; ".join(lines_of(beyond, units))}
+            "law": "; ".join(lines_of(beyond, units)), "exceeded": exceeded(beyond, units)}
 
 
 def _answer(case):

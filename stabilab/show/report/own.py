@@ -2,7 +2,6 @@
 are several, a first page that lists them."""
 from __future__ import annotations
 
-import re
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
@@ -96,11 +95,10 @@ def of_one(made, around) -> dict:
 def listed(stem, made) -> dict:
     """The row of an entry in a list of pages."""
     found = made.get("sweep") or made["case"]
-    # by how much; why that matters stands on the page
-    beyond = re.match(r"BEYOND THE LAW: .*?, limit [\d.]+", found["law"])
     return {"file": f"{stem}.html", "name": stem, "title": found["title"], "headline": found["headline"],
             "look": found["look"],
-            "beyond": " ".join(filter(None, [beyond and beyond[0], *found["caveats"]]))}
+            # by how much; why that matters stands on the page
+            "beyond": " ".join(filter(None, [found["exceeded"], *found["caveats"]]))}
 
 
 def pages(cases, folder: Path, tell, wanted: Wanted, workers=None, **around) -> list[tuple[str, bool]]:

@@ -236,5 +236,5 @@ def _tilt(case, answer, units):
         return [f"{one} {ASK_TILT}" for one in told]
     if answer.tilt.ranges:
         return told
-    lines = [re.sub(r"  +", " ", line.strip()) for line in tilt_lines(case, answer, units)]
+    lines = [" ".join(line.split()) for line in tilt_lines(case, answer, units)]
     return [*told, "; ".join(lines) + "."]

@@ -25,10 +25,10 @@ MOST = 4          # helpers need memory too: some 400 MB each
 
 @dataclass(frozen=True)
 class Task:
-    """words: what it does, for the one who waits; home: "module:function" below `stabilab`, called with
+    """label: what it does, for the one who waits; home: "module:function" below `stabilab`, called with
     `arguments`; weight: s it takes, roughly."""
 
-    words: str
+    label: str
     home: str
     arguments: tuple
     weight: float = 1.0
@@ -58,7 +58,7 @@ def done(tasks, folder: Path, tell, workers: int | None = None) -> list:
 
 
 def _told(task, tell):
-    tell(task.words)
+    tell(task.label)
     return run(task)
 
 

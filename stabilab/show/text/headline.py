@@ -94,6 +94,12 @@ def lines_of(judged, units: Units = SI) -> list[str]:
     return together([_of_alike(group, cases, units) for group in groups])
 
 
+def exceeded(judged, units: Units) -> str:
+    """By how much the first law of `lines_of` is left; empty where none is."""
+    group = next(iter(_alike([one for one in judged if one[1] is not None and not one[1].held])), ())
+    return units.said(worst(*(found for _, found in group)).brief) if group else ""
+
+
 def _told(found, units) -> str:
     return units.said(found.reason)
 
@@ -148,7 +154,7 @@ def verdict(case: Case, motion: Motion, units: Units | None = None) -> str:
     units = (units_of(case) if units is None else replace(units, axes=axes_of(case)) if units.axes == PLAIN
              else units)
     parts = [*outcome(motion, units), cause(motion, units), largest(motion, units), margin(motion, units),
-             period(motion, units)]
+             period(motion, units), units.axes.direction_clause(motion.axis)]
     return "; ".join(part for part in parts if part)
 
 
@@ -187,7 +193,7 @@ def fate_parts(motion: Motion, units: Units, tilt: bool = True) -> tuple[str, st
         words = f"{words if any(motion.at[:3]) else REST}{stable_word(motion)}"
     if ended := ending.words(motion.ending, units):
         return *ended, where
-    about = f" about {units.axes.whole(motion.axis)}, {direction(motion.sense)}" if motion.axis else ""
+    about = f" about {units.axes.head(motion.axis)}, {direction(motion.sense)}" if motion.axis else ""
     return words, about + known_as(motion), where
 
 

@@ -252,7 +252,8 @@ def row_of(case, one) -> dict:
             "momentum_direction": in_file(case, one.momentum_direction),
             **values_of(one, "cone lean nutation_period turn_angle"),
             "turn_axis": in_file(case, one.turn_axis),
-            **values_of(one, "error decimals because"), "reason": one.reason and one.reason.as_dict()
+            **values_of(one, "error decimals because"),
+            "reason": one.reason.as_dict() if one.reason else None
             } | limiting.key(case, one.caveats) | frame.key(case)
 
 

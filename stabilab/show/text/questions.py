@@ -4,7 +4,6 @@ With how many digits were checked, or, for a limit, what a tilt of the torque do
 from __future__ import annotations
 
 import math
-import re
 from dataclasses import replace
 
 from ...errors import printable
@@ -115,7 +114,7 @@ def asked(limit, units):
     """A limit in words: "|omega| = 60 deg/s", of several "|ωx| or |ωy| = 5 deg/s" where it is one number."""
     unit = {"energy": units.of("J"), "tilt": units.angles}.get(limit.kind, units.rates)
     # the rate about an axis as everywhere else: "|omega 3|" is |ω3|, and "|omega z|" |ωz|
-    names = [units.axes.sentence(re.sub(r"\|(omega|x) ([123xyz])\|", r"|\1\2|", name))
+    names = [name.replace(" ", "") if limit.kind == "component" else units.axes.sentence(name)
              for name in limit.names]
     told = [units.told(most, unit, DIGITS) for most in limit.limits]
     if len(set(told)) == 1:

@@ -4,7 +4,6 @@ The table has a column for each key that varies, then the answer's numbers."""
 from __future__ import annotations
 
 import math
-import re
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
@@ -12,6 +11,7 @@ from fractions import Fraction
 
 from ...answers.caveats import of_case
 from ...errors import InputError
+from ...numbers.exact import exact
 from ...numbers.units import DIMENSIONS, NAMES
 from ...orbit.result import HEADS
 from ...physics.coefficients import shape_factors, to_scaled
@@ -77,9 +77,16 @@ def _unit(key: str, values) -> str:
     """The unit of plain numbers of a key; nothing where they bring their own."""
     path = key.split(".")
     of = DIMENSIONS.get(".".join([path[0], path[-1]]) if path[0] in ("thrusters", "wheels") else key)
-    if of is None or not all(re.fullmatch(r"[-+.\d_eE/ ]+", str(value)) for value in values):
-        return ""
-    return greek(NAMES[of].partition("(")[2].rstrip(")"))
+    return "" if of is None or not all(map(_bare, values)) else greek(NAMES[of].partition("(")[2].rstrip(")"))
+
+
+def _bare(value) -> bool:
+    """Whether a value of a key is a number without a unit."""
+    try:
+        exact(value)
+    except InputError:
+        return False
+    return True
 
 
 def counted(answers: Sequence[tuple], words: Mapping[str, str], units: Units, between: str) -> str:

@@ -41,7 +41,7 @@ def text(case, run, units: Units, known: int | None = None, width: int | None = 
             for name, value in run.invariant_drift.items()]
     how = f"# {run.method}, rtol {run.rtol:.3g}" if run.rtol else f"# {run.model}: {lettered(run.method)}"
     notes = [] if run.reason == ALL_REACHED else [f"# {units.said(run.reason)}"]
-    notes += [f"# {', '.join(PARTS[name].components)}: {PARTS[name].words}" for name in run.state
+    notes += [f"# {', '.join(PARTS[name].components)}: {PARTS[name].description}" for name in run.state
               if name in ATTITUDES]
     return "\n".join([f"{case.name}: {headline(case, run, units)}",
                       *_columns(head, cells, width, 13 if known is None else ALL + 7), how, *laws, *notes,
@@ -102,7 +102,7 @@ def as_dict(case, run) -> dict:
             "time": case.scene.time_unit,
             **values_of(run, "t state error invariant_drift counters method rtol status"),
             "reason": run.because, "why": run.reason.as_dict(),
-            **{name: PARTS[name].words for name in ATTITUDES if name in run.state}
+            **{name: PARTS[name].description for name in ATTITUDES if name in run.state}
             } | frame.rows(case, run) | frame.key(case)
 
 

@@ -49,7 +49,8 @@ def _row(row, case) -> dict:
             "margin_direction": {name: margin.direction for name, margin in margins},
             "margin_until": {name: margin.until and Endless(margin.until) for name, margin in margins},
             "margin_because": {name: margin.because for name, margin in margins},
-            "margin_reason": {name: margin.reason and margin.reason.as_dict() for name, margin in margins},
+            "margin_reason": {name: margin.reason.as_dict() if margin.reason else None
+                              for name, margin in margins},
             "helpers": [values_of(h, "thrusters duty effect torque_left fate time_to_limit")
                         for h in row.helpers]} | limiting.key(case, row.caveats)
 

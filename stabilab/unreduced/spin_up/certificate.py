@@ -61,12 +61,11 @@ from typing import Any
 
 import numpy as np
 
-from ...integrate.quadratic_series import in_unit
 from ...numbers.exact import sqrt_fraction
 from ...numbers.numba_door import compiled
 from ...numbers.vectors import dot
 from ...orbit.result import Fate
-from ...reasons import Reason, Sentence
+from ...reasons import Reasoned, Sentence
 from . import kernel
 from .centres import FixedCentre, MovingCentre, Terms, moving_centre, sizes
 from .form import forms_of
@@ -124,7 +123,7 @@ SYMMETRIC_GROWS = Sentence(
 
 
 @dataclass(frozen=True)
-class Closed:
+class Closed(Reasoned):
     """A closed solution, in exact numbers (roots to 240 bits). law: its name; direction: of the growth, any
     length, None where the motion is bounded; gain: the rate grows at least so fast along it; most: what is
     across it, or the whole rate of a bounded motion, is never larger; reason: why it is closed."""
@@ -133,7 +132,6 @@ class Closed:
     direction: Sequence[Fraction] | None
     gain: Fraction | None
     most: Fraction
-    reason: Reason
 
     @property
     def about(self) -> tuple[int, int]:
@@ -152,7 +150,7 @@ def closed(scene, state) -> Closed | None:
     x = [Fraction(v) for v in state]
     if not any(M):
         return Closed("free", None, None, sqrt_fraction(dot(D, [v * v for v in x]) / min(D)),
-                      NO_TORQUE)
+                      reason=NO_TORQUE)
     if D[0] == D[1] == D[2]:
         return _sphere(D[0], l, M, x)
     i = axis_of_symmetry(D)
@@ -162,13 +160,13 @@ def closed(scene, state) -> Closed | None:
 def _sphere(D, l, M, x):
     if not any(l):
         return Closed("sphere", M, _size(M) / D, _across(x, M),
-                      SPHERE_ALONE)
+                      reason=SPHERE_ALONE)
     along, across = dot(l, M), _across(x, l) + 2 * _across(M, l) / _size(l)
     if not along:
         return Closed("sphere", None, None, across + abs(dot(x, l)) / _size(l),
-                      SPHERE_WHEEL_ACROSS)
+                      reason=SPHERE_WHEEL_ACROSS)
     return Closed("sphere", [v if along > 0 else -v for v in l], abs(along) / _size(l) / D, across,
-                  SPHERE_WHEEL)
+                  reason=SPHERE_WHEEL)
 
 
 def _symmetric(i, D, l, M, x):
@@ -179,13 +177,13 @@ def _symmetric(i, D, l, M, x):
         turning = abs(D[i] - D[j]) * abs(M[i]) / (D[i] * D[j])  # of the turn's own rate
         return Closed(law, [Fraction((n == i) * (1 if M[i] > 0 else -1)) for n in range(3)],
                       abs(M[i]) / D[i], cone + 8 * push / sqrt_fraction(turning),
-                      SYMMETRIC_LINEAR)
+                      reason=SYMMETRIC_LINEAR)
     turn = ((D[i] - D[j]) * x[i] + l[i]) / D[j]
     if turn:
         return Closed(law, None, None, cone + 2 * push / abs(turn) + abs(x[i]),
-                      SYMMETRIC_TURNS)
+                      reason=SYMMETRIC_TURNS)
     return Closed(law, flat, push, _across(x, flat),
-                  SYMMETRIC_GROWS)
+                  reason=SYMMETRIC_GROWS)
 
 
 def _size(vector):
@@ -214,7 +212,7 @@ def exactly(scene, state) -> SpinUp | None:
         bounded[axis - 1] = (start, math.inf) if sense > 0 else (-math.inf, -start)
         trap = SteadyTrap(axis, sense, start, float(found.gain), tuple(bounded))
     return SpinUp(Fate.SPIN_UP if direction else Fate.BOUNDED, axis, sense, direction, "exact", trap, 0.0,
-                  tuple(map(float, state)), 0, found.reason, 1.0)
+                  tuple(map(float, state)), 0, 1.0, reason=found.reason)
 
 
 def equatorial(scene) -> MovingCentre | None:
@@ -315,26 +313,6 @@ def _distinct(a, b):
         return np.zeros((2, 1), np.int64), np.zeros(0, np.int64)
     pairs, which = np.unique(np.stack([a, b]), axis=1, return_inverse=True)
     return np.ascontiguousarray(pairs), which.ravel()
-
-
-@lru_cache(maxsize=32)
-def natural(scene):
-    """(scene in natural units, unit of rates): powers of two near the mean moment and near the root of torque
-    over moment. Kept, for a certificate and its proof ask for it in turn."""
-    if scene.variables == "scaled":
-        torque, mass = max(map(abs, scene.exact_mu)), 1
-    else:
-        torque, mass = max(map(abs, scene.vector("constant_torque"))), sum(scene.body.exact) / 3
-    if not torque:
-        return scene, 1.0
-    weight = 2.0 ** round(_log2(mass))
-    unit = 2.0 ** round((_log2(torque) - _log2(mass)) / 2)
-    return scene if unit == weight == 1 else in_unit(scene, unit, weight), unit
-
-
-def _log2(value):
-    return (math.log2(value.numerator) - math.log2(value.denominator) if hasattr(value, "numerator")
-            else math.log2(value))
 
 
 class Tests:

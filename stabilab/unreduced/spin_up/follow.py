@@ -21,12 +21,13 @@ from ...orbit import one_state
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate, Needs
 from ...physics.coefficients import effective, three_floats
+from ...physics.own_unit import natural
 from ...physics.scene import AnyScene
 from ...physics.states import checked_states
 from ...reasons import Axis, Quantity, Reason, Sentence
 from ...validation import checked_scene
 from ..enclosure import proved
-from .certificate import Tests, exactly, loaded, natural, stored, tests_of
+from .certificate import Tests, exactly, loaded, stored, tests_of
 from .drift import Leaps, Runs
 from .form import island, recurs, seen
 from .result import SpinUp, Trap
@@ -180,10 +181,11 @@ def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int
     own, unit = natural(scene)
     tests = tests_of(own)
     if not tests:
-        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, seen(scene, state), 1.0)
+        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, 1.0,
+                      reason=seen(scene, state))
     if not follows(state, unit):
         reason = RATE_TOO_LARGE(most=Quantity(FARTHEST), unit=Quantity(unit, f"1/{scene.time_unit}", 3))
-        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, reason, 1.0)
+        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, 1.0, reason=reason)
     plain = _plain_steps(1, fast, proof)
     found = chase(own, tests, np.array([state]) / unit, NATURAL_TIMES if t_max is None else t_max * unit,
                   BUDGET if budget is None else budget, after * unit,
@@ -227,8 +229,8 @@ def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
     t, state = float(found.t[row]) / unit, tuple((found.states[row] * unit).tolist())
     steps, condition, passed = int(found.steps[row]), float(found.condition[row]), float(found.passed[row])
     if found.fired[row] < 0 and not all(map(math.isfinite, (t, *state))):
-        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, BROKE_OFF(steps=steps),
-                      condition, passed)
+        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, condition, passed,
+                      reason=BROKE_OFF(steps=steps))
     if found.fired[row] < 0:
         recurrent = recurs(found.largest[row].tolist(), found.least[row].tolist(), steps)
         reason = seen(scene, state, island(scene, t) if recurrent else None).then(FOLLOWED(
@@ -237,8 +239,8 @@ def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
             reason = reason.then(ROUNDING_DECIDES, ", ")
         if row in found.given_up:
             reason = reason.then(found.given_up[row])
-        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, reason, condition,
-                      passed)
+        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, condition,
+                      passed, reason=reason)
     field, orders = found.tests.asked[found.fired[row]]
     trap = Trap(field, field.name, orders, *map(float, found.constants[:, row]), unit, t,
                 float(found.blur[row]) / unit)  # type: ignore[call-arg]  # six constants
@@ -246,8 +248,8 @@ def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
     axis, sense = (0, 1) if field.axis is None else (field.axis + 1, field.sense)
     reason = (CERTIFIED_ABOUT(axis=Axis(axis)) if axis else CERTIFIED_EQUATOR).then(
         BY_INEQUALITY(form=field.name, energy=orders[0], amplitude=orders[1]))
-    return SpinUp(Fate.SPIN_UP, axis, sense, direction, "certified", trap, t, state, steps, reason, condition,
-                  passed)
+    return SpinUp(Fate.SPIN_UP, axis, sense, direction, "certified", trap, t, state, steps, condition,
+                  passed, reason=reason)
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...orbit.result import Fate
-from ...reasons import Reason
-from ...representation import Shown
+from ...reasons import Reasoned
+from ...representation import Answer
 
 WIDER = 1e-12  # relative widening of what is told: the rounding of these few lines
 
@@ -126,7 +126,7 @@ class SteadyTrap:
 
 
 @dataclass(frozen=True, repr=False)
-class SpinUp(Shown):
+class SpinUp(Answer, Reasoned):
     """The fate of one motion as far as spin-up decides it.
 
     fate: SPIN_UP, BOUNDED (exact cases alone) or UNDECIDED. axis: 1, 2, 3 of the body, 0 where it is none;
@@ -150,14 +150,13 @@ class SpinUp(Shown):
     t: float
     state: tuple
     steps: int
-    reason: Reason
     condition: float
     passed: float = 0.0
 
     @property
     def cause(self) -> str:
         """What was seen, in words and SI units."""
-        return self.reason.text()
+        return self.because
 
 
 def _delay(c, M1, start, rise):

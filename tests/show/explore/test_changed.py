@@ -66,7 +66,7 @@ def test_moments_change_one_by_one_and_the_axes_are_called_by_the_new_ones():
     case, new = moved("thruster-stuck-major-axis", inertia=[None, "12.5", None])
     assert new.scene.body.exact == (12, Fraction(25, 2), Fraction(13, 2)) and new.exact_state == case.exact_state
     assert axes_of(new) == with_moments(axes_of(case), new.scene.body.exact)
-    assert axes_of(new).words == ("intermediate", "major", "minor")
+    assert axes_of(new).ranks == ("intermediate", "major", "minor")
     case, new = moved("cubesat-3u", inertia=["0.05", "0.05", "0.05"])  # of a full tensor: no letters, no ranks
     assert with_moments(axes_of(case), new.scene.body.exact).letters == ("axis 1", "axis 2", "axis 3")
 

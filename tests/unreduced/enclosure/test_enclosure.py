@@ -213,7 +213,7 @@ def test_a_band_is_one_piece_and_ends_at_the_time_asked_for():
 
 def test_steps_that_run_out_are_told():
     found = enclose(EXAMPLE, (.1, 1, 2), 50.0, steps=3)
-    assert found.status == "stopped" and found.steps == 3 and 0 < found.t < 50 and "used up" in found.reason
+    assert found.status == "stopped" and found.steps == 3 and 0 < found.t < 50 and "used up" in found.because
 
 
 def test_what_is_no_start_or_time_is_refused():

@@ -7,8 +7,8 @@ import pytest
 
 from benchmarks.spin_up import random_scene as benchmark_scene
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
+from stabilab.physics.own_unit import natural
 from stabilab.unreduced.spin_up import drift
-from stabilab.unreduced.spin_up.certificate import natural
 from stabilab.unreduced.spin_up.drift import Returns, Runs, window
 from stabilab.unreduced.spin_up.follow import spin_up
 
