@@ -115,10 +115,10 @@ def _checked(client: Any, address: str) -> int:
     found = client.run(version, "stabilab", on_error="return")
     for worker, answer in found.items():
         if answer != __version__:
-            cure = f"install stabilab {__version__} there, as here, with the same libraries"
-            if isinstance(answer, str):
-                raise InputError(f"worker {worker}: has stabilab {answer}: {cure}")
-            raise InputError(f"worker {worker}: lacks the package stabilab ({_first_line(answer)}): {cure}")
+            raise InputError(
+                (f"worker {worker}: has stabilab {answer}" if isinstance(answer, str)
+                 else f"worker {worker}: lacks the package stabilab ({_first_line(answer)})")
+                + f": install stabilab {__version__} there, as here, with the same libraries")
     return sum(client.nthreads().values())
 
 
