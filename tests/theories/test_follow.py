@@ -166,6 +166,9 @@ def test_compare_names_the_attracting_spin_of_a_body_with_a_liquid():
     (found,) = (row["values"] for row in rows if "attracting" in row["about"])
     assert found["spin"] == pytest.approx(-1 / 3, rel=1e-9) and found["amplitude"] == 0
     assert any(rate == pytest.approx([-0.02, 0]) for rate in found["rates"])
+    assert all(row["reason"].code and str(row["reason"]) == row["words"] for row in rows)
+    (steady,) = (row["reason"] for row in rows if "attracting" in row["about"])
+    assert steady.quantities["spin"].value == pytest.approx(-1 / 3, rel=1e-9)  # by hand, as above
 
 
 def test_the_periodic_motion_precesses_as_the_exact_one_through_it():
