@@ -206,9 +206,9 @@ def corrected(body: ChargedBody, t) -> AxisymmetricMotion:
 
 def _motion_of(terms, momentum) -> AxisymmetricMotion:
     body, angles = terms.body, terms.angles()
-    places = terms.translation() if body.mass is not None else (None, None)
+    velocity, position = terms.translation() if body.mass is not None else (None, None)
     status, reason = verdict(tilt_of(angles), terms.t, horizon(body))
-    return AxisymmetricMotion(terms.t, terms.angular_velocity(), angles, momentum, *places, status,
+    return AxisymmetricMotion(terms.t, terms.angular_velocity(), angles, momentum, velocity, position, status,
                               reason=reason)
 
 

@@ -20,7 +20,7 @@ from ...numbers.vectors import Float3, Number
 from ...orbit.reduction import Reduction
 from ...orbit.result import Fate, Motion
 from ...physics.scene import Scene
-from ...reasons import DIGITS, Momentum, Quantity, Rate, Reason, Reasoned, Sentence, Torque
+from ...reasons import DIGITS, Momentum, Quantity, Rate, Reason, Reasoned, Sentence, Torque, as_reason
 from ...representation import Shown
 from ..caveats import STEADY
 from ..tilt import Spread, Tilt
@@ -214,7 +214,7 @@ def _rate(scenario: Scenario, motion: Motion, family: Family | None) -> Margin:
         return Margin(reason=motion.velocity_reason or NO_SEPARATRIX_NEAR)
     change = [b - a for a, b in zip(scenario.start, motion.velocity_witness)]
     direction = _unit(scenario.in_file(change)) if any(change) else None
-    reason = motion.velocity_reason
+    reason = as_reason(motion.velocity_reason)
     if _walled(family):
         return Margin(motion.margin_velocity, direction, motion.margin_velocity,
                       reason=reason.then(ALONE) if reason else ALONE)
