@@ -72,6 +72,30 @@ PerSecond = partial(Quantity, unit="1/s")
 
 
 @dataclass(frozen=True, slots=True)
+class Moment:
+    """A point in time in the unit of its scene, with the name of the time: "t = 2.5 s", "tau = 2.5" of a
+    scaled one. digits, side: as of `Quantity`."""
+
+    value: float
+    digits: int | None = None
+    side: int = 0
+
+    @property
+    def lower(self) -> Moment:
+        """As a lower bound: rounded down where it is printed."""
+        return replace(self, side=-1)
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """A time from one moment to another, in s, or in tau of a scaled scene."""
+
+    start: float
+    end: float
+    unit: str = "s"
+
+
+@dataclass(frozen=True, slots=True)
 class Axis:
     """A principal axis by its number, 1 to 3; the reader's view names it."""
 
@@ -142,8 +166,8 @@ class Formula:
 
 Symbolic = (Coefficient, Unit, Power, Formula)
 # str: a user's name, or a word without a number
-Filling: TypeAlias = ("Quantity | Axis | Level | int | str | Reason | Coefficient | Unit | Power | Formula "
-                      "| tuple[Filling, ...]")
+Filling: TypeAlias = ("Quantity | Moment | Span | Axis | Level | int | str | Reason | Coefficient | Unit "
+                      "| Power | Formula | tuple[Filling, ...]")
 
 
 @dataclass(frozen=True)
@@ -249,6 +273,14 @@ class Reasoned:
         return self.reason.text()
 
 
+def chained(*reasons: Reason | None, joint: str = "; ") -> Reason | None:
+    """Those that there are as one, each a clause behind the one before; None where there is none."""
+    first, *rest = [*filter(None, reasons), None]
+    for one in rest:
+        first = first and first.then(one, joint)
+    return first
+
+
 def quantities_of(reason: Reason) -> dict[str, Any]:
     """The quantities of a reason by their names as JSON holds them."""
     return {name: plain(value) for name, value in reason.filled}
@@ -258,6 +290,10 @@ def plain(value: Any) -> Any:
     """A filling as JSON holds it."""
     if isinstance(value, Quantity):
         return [*map(float, value.value)] if isinstance(value.value, tuple) else float(value.value)
+    if isinstance(value, Moment):
+        return float(value.value)
+    if isinstance(value, Span):
+        return [float(value.start), float(value.end)]
     if isinstance(value, Axis):
         return value.number
     if isinstance(value, Coefficient):
@@ -321,6 +357,10 @@ def in_si(value: Any, axis: Callable[[int], str] = "axis {}".format) -> str:
         numbers = ", ".join(number(one, value.digits or DIGITS, value.side) for one in many)
         return f"({numbers}) {value.unit}".rstrip() if isinstance(value.value, tuple) else (
             f"{numbers} {value.unit}".rstrip())
+    if isinstance(value, Moment):
+        return f"t = {number(value.value, value.digits or DIGITS, value.side)}"
+    if isinstance(value, Span):
+        return f"{value.unit} in [{value.start:g}, {value.end:g}]"
     if isinstance(value, Axis):
         return axis(value.number)
     if isinstance(value, Symbolic):

@@ -22,9 +22,8 @@ class OutputLost(StabilabError):
 
     def __init__(self, number: int | None = None):
         gone = number == errno.EPIPE
-        super().__init__("" if gone
-                         else f"stdout: cannot be written: "
-                              f"{os.strerror(number) if number else 'it is closed'}")
+        why = os.strerror(number) if number else "it is closed"
+        super().__init__("" if gone else "stdout: cannot be written: " + why)
         self.exit_code = PIPE_CLOSED if gone else BAD_INPUT
 
 

@@ -56,7 +56,7 @@ def scene_and_state(given, state):
 def came(value) -> str:
     """What was given, in a few words: a short value itself, of anything else its type."""
     return (f"{value!r:.80}" if value is None or isinstance(value, (str, int, float, complex))
-            else f"an object of type {type(value).__name__}")
+            else "an object of type " + type(value).__name__)
 
 
 def checked_case(case):

@@ -26,12 +26,17 @@ from ..orbit.one_orbit import Orbit
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate
 from ..physics.scene import AnyScene, QuadraticForm
+from ..reasons import Sentence
 from ..version import __version__
 
 if TYPE_CHECKING:
     from ..equilibrium.result import RationalCurve
     from ..numbers.vectors import Number
 
+
+NO_REDUCTION = Sentence(
+    "certificate-without-reduction", "motion: the scene has no reduction to one degree of freedom")()
+MOTION_NOT_CERTIFIED = Sentence("motion-not-certified", "motion: {fate}: {why}")
 SCHEMA = "stabilab.certificate/1"
 ROOT_BITS = 150  # roots are known to 160 bits and more (`polynomial.real_roots`)
 BOX_BITS = 120
@@ -153,7 +158,7 @@ def _motion(scene: AnyScene, state: tuple[Fraction, ...], uncertified: list[str]
     found = fate_of(scene, orbit)
     label = Fate(found.label)
     if label not in (Fate.BOUNDED, Fate.SPIN_UP):
-        uncertified.append(f"motion: {label.word}: {found.because}")
+        uncertified.append(MOTION_NOT_CERTIFIED(fate=label.word, why=found.reason).text())
         return None
     extremes = [[_ends(v) for v in pair] for pair in extreme_balls(orbit, label, certain=int(DIGITS * 3.33))]
     period = _ends(period_ball(orbit), PERIOD_DIGITS) if label == Fate.BOUNDED else None
@@ -168,7 +173,7 @@ def _without_reduction(scene: AnyScene, state: tuple[Fraction, ...], claims: dic
         return claims | closed
     found, why = certified_spin_up(scene, state)
     if found is None:
-        uncertified.append(f"motion: the scene has no reduction to one degree of freedom; {why}")
+        uncertified.append(NO_REDUCTION.then(why).text())
         return None
     return (claims | {"fate": Fate.SPIN_UP.word, "axis": found["axis"], "sense": found["sense"],
                       "spin_up": found})

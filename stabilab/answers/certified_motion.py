@@ -20,7 +20,7 @@ import numpy as np
 from ..orbit.result import Fate
 from ..physics.own_unit import natural
 from ..physics.scene import AnyScene
-from ..reasons import number
+from ..reasons import Moment, Reason, Sentence
 from ..unreduced import enclosure_kernel
 from ..unreduced.enclosure import Course, allowed
 from ..unreduced.spin_up.certificate import Tests, closed, tests_of
@@ -28,6 +28,13 @@ from ..unreduced.spin_up.follow import spin_up
 
 if TYPE_CHECKING:
     from ..unreduced.spin_up.result import SpinUp
+
+
+NOT_CERTIFIED = Sentence("fate-not-certified", "{fate}: {why}")
+NOT_ENCLOSED = Sentence(
+    "way-not-enclosed", "{fate}: {why}; it was not enclosed up to {time} in {steps} validated steps")
+NO_INEQUALITY = Sentence(
+    "no-known-inequality", "{fate}: {why}; no inequality that a checker knows holds up to {time}")
 
 # relative, of what is claimed of gain and size: another's rounding of the roots in them
 ROOM = Fraction(1, 10**9)
@@ -58,11 +65,12 @@ DIGITS = 9  # of the checkpoints' brackets, relative to the greatest rate; wider
 SURE = Fraction(1 << 20, (1 << 20) + 1)
 
 
-def certified_spin_up(scene: AnyScene, state: Sequence[Any]) -> tuple[dict[str, Any] | None, str]:
-    """(claims, "") of the spin-up from a state (three Fractions), or (None, why there are none)."""
+def certified_spin_up(scene: AnyScene,
+                      state: Sequence[Any]) -> tuple[dict[str, Any], None] | tuple[None, Reason]:
+    """(claims, None) of the spin-up from a state (three Fractions), or (None, why there are none)."""
     found = spin_up(scene, state, budget=BUDGET)
     if found.fate is not Fate.SPIN_UP or found.level == "exact":
-        return None, f"{found.fate.word}: {found.cause}"
+        return None, NOT_CERTIFIED(fate=found.fate.word, why=found.reason)
     own, unit = natural(scene)
     ways = list(_inequalities(tests_of(own), found))
     times = [found.t * later for later in LATER] if found.t else [0.0]
@@ -70,17 +78,14 @@ def certified_spin_up(scene: AnyScene, state: Sequence[Any]) -> tuple[dict[str, 
     for later in times:
         box = _box(course, later, state)
         if box is None:
-            return (None,
-                    f"{found.fate.word}: {found.cause}; it was not enclosed up to t = "
-                    f"{number(later, side=1)} in {STEPS} "
-                    "validated steps")
+            return None, NOT_ENCLOSED(fate=found.fate.word, why=found.reason, time=Moment(later, side=1),
+                                      steps=STEPS)
         inequality = _holding(tests_of(own), ways, box, unit)
         if inequality:
             t = Fraction(course.t) if course else Fraction(0)
             return {"axis": found.axis, "sense": found.sense, "t": str(t), **inequality,
-                    "way": _checkpoints(scene, state, course, t)}, ""
-    return (None, f"{found.fate.word}: {found.cause}; no inequality that a checker knows holds up to t = "
-            f"{times[-1]:.6g}")
+                    "way": _checkpoints(scene, state, course, t)}, None
+    return None, NO_INEQUALITY(fate=found.fate.word, why=found.reason, time=Moment(times[-1]).lower)
 
 
 def _inequalities(tests: Tests, found: SpinUp) -> Iterator[tuple[str, Any, tuple[int, int]]]:

@@ -16,6 +16,7 @@ from ..physics.scene import AnyScene, hold_on, judge_starts, slices
 from ..physics.states import checked_starts, float_array
 from ..physics.states import row_of as row_of
 from ..physics.to_numpy import equations_of
+from ..reasons import Quantity, Reason, Sentence
 from ..representation import Answer
 from ..unreduced.chaos import TURNS, growth, turn_of
 from ..validation import checked_scene
@@ -28,6 +29,26 @@ if TYPE_CHECKING:
 FLAT = 2.5        # MEGNO of a regular motion stays below: it tends to 2, or to less, from either side
 STEEP = 4.0       # of a chaotic one has come so far at least ...
 DOUBLES = 1.5     # ... and goes on growing, by so much at least while the time doubles
+
+NEVER_BACK = Sentence(
+    "chaos-of-spin-up", "its fate is spin-up: it does not come back, and chaos is a property of motions that "
+    "do")()
+TOO_STIFF = Sentence(
+    "chaos-too-stiff", "stopped, because the motion is too stiff: something in it changes so fast beside its "
+    "turn that it would be followed in too short steps")()
+OUT_OF_RANGE = Sentence("numbers-out-of-range", "its numbers exceed the range of doubles")()
+BETWEEN = Sentence(
+    "megno-between", "after {turns} turns MEGNO is {megno}, neither near 2 nor growing with time: follow it "
+    "for longer")
+GROWS = Sentence(
+    "megno-grows", "after {turns} turns MEGNO is {megno} ({half} at half that time): it grows with time, "
+    "neighbours part exponentially")
+STAYS = Sentence(
+    "megno-stays", "after {turns} turns MEGNO is {megno} ({half} at half that time); it tends to 2 on tori, "
+    "to less where neighbours stay or come together")
+AT_REST = Sentence(
+    "megno-of-equilibrium", "it is an equilibrium (every rate stays as it is), whatever becomes of its "
+    "neighbours, which MEGNO measures: {megno} after {turns} turns")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -54,32 +75,28 @@ class Chaos(Answer):
         return [Order(int(label)).word for label in np.ravel(self.labels)]
 
     @property
-    def because(self) -> str:
+    def reason(self) -> Reason:
         """Of one motion: how the label is known."""
         if np.shape(self.labels):
             raise InputError("because: expected one motion, got several: give one state")
-        label, after = int(self.labels), f"{self.times[-1] / self.turn:,.0f} turns"
+        label, turns = int(self.labels), round(float(self.times[-1] / self.turn))
         if label == Order.SPIN_UP:
-            return "its fate is spin-up: it does not come back, and chaos is a property of motions that do"
+            return NEVER_BACK
         if label == Order.UNDECIDED and self.stiff:
-            return ("stopped, because the motion is too stiff: something in it changes so fast beside its "
-                    "turn that it would be followed in too short steps")
-        megno, before = _shown(float(self.megno)), f"{_shown(self.history[-2])} at half that time"
-        seen = f"after {after} MEGNO is {megno}"
+            return TOO_STIFF
+        megno, half = (Quantity(round(float(v), 3), digits=12) for v in (self.megno, self.history[-2]))
         if label == Order.UNDECIDED:
-            return ("its numbers exceed the range of doubles" if not np.isfinite(self.megno) else
-                    f"{seen}, neither near 2 nor growing with time: follow it for longer")
+            return BETWEEN(turns=turns, megno=megno) if np.isfinite(self.megno) else OUT_OF_RANGE
         if label == Order.CHAOTIC:
-            return f"{seen} ({before}): it grows with time, neighbours part exponentially"
+            return GROWS(turns=turns, megno=megno, half=half)
         if self.megno < FLAT:
-            return f"{seen} ({before}); it tends to 2 on tori, to less where neighbours stay or come together"
-        return ("it is an equilibrium (every rate stays as it is), whatever becomes of its neighbours, which "
-                f"MEGNO measures: {megno} after {after}")
+            return STAYS(turns=turns, megno=megno, half=half)
+        return AT_REST(turns=turns, megno=megno)
 
-
-def _shown(megno: float) -> str:
-    """Three places, and no minus before zeros."""
-    return f"{0.0 if abs(megno) < 5e-4 else megno:.3f}"
+    @property
+    def because(self) -> str:
+        """The same in words."""
+        return self.reason.text()
 
 
 def chaos(scene: AnyScene, states: ArrayLike, until: float | None = None,

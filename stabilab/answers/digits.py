@@ -288,7 +288,7 @@ def _over_span(scene: AnyScene, state: Any, span: Any, known: Motion, digits: in
     """The extremes over the span: by a second run where its difference from the first is small enough, else
     in many digits. slack: digits that may be missing."""
     if known.extremes is None or span is None and known.bounds:
-        return nothing("extremes", digits, known.extremes_over)
+        return nothing("extremes", digits, known.over)
     if scene.variables != "scaled":  # a force at the centre of mass does not turn the body
         scene = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
     length = reach_of(span) or 0.0

@@ -18,6 +18,8 @@ CAUTION = 4  # differences between runs are samples of the error, not bounds: se
 
 BY_OWN_BOUND = Sentence(
     "rounding-bounded", "formulas that bound their own rounding by {error}, balls beyond")
+TOO_FEW = Sentence("too-few-digits", "{wanted} digits asked for, {reached} reached ({why})")
+ASK_FOR_FEWER = Sentence("ask-for-fewer-digits", "ask for fewer")()
 
 
 @dataclass(frozen=True)
@@ -46,7 +48,13 @@ class Told(Reasoned):
 
 def short(told: Told) -> str:
     """What is missing, in words."""
-    return f"{told.asked} digits asked for, {told.digits:.1f} reached ({told.because}); ask for fewer"
+    return too_few(told).then(ASK_FOR_FEWER).text()
+
+
+def too_few(checked: Any) -> Reason:
+    """Of an answer, or a run, with the digits that its check showed: how many are missing, and why."""
+    return TOO_FEW(wanted=checked.asked, reached=Quantity(round(checked.digits, 1), digits=3),
+                   why=checked.reason)
 
 
 def checked_digits(digits: int, most: int) -> int:

@@ -32,11 +32,28 @@ from ..physics.states import (
     to_space,
 )
 from ..physics.to_numpy import to_numpy
-from .digits_asked import CAUTION, DEFAULT, MOST, NEAR, checked_digits, digits_of
+from ..reasons import Moment, Quantity, Reason, Reasoned, Sentence
+from .digits_asked import CAUTION, DEFAULT, MOST, NEAR, checked_digits, digits_of, too_few
 from .simulate import LOST, STIFF_METHOD, Simulation, errors_of, in_quaternions, simulated
 
 if TYPE_CHECKING:
     from ..case.read import Case
+
+
+ASK_FOR_LESS = Sentence("ask-for-fewer-or-shorter", "ask for fewer or for a shorter span")()
+NO_DIGIT_AT = Sentence("no-digit-at", "no digit of the state is known at {time}")
+NOR_LATER = Sentence("nor-at-others", "nor at {others} other times")
+CHECK_STOPPED = Sentence("check-stopped", "the check of {method} stopped early")
+FROM_MOVED_START = Sentence(
+    "method-from-moved-start", "{method} with rtol {rtol} from a start moved in its last place differs by "
+    "{error}")
+MORE_NODES = Sentence("more-nodes", "reduced with {nodes} nodes differs by {error}, and a start moved in its "
+                      "last place by {moved}")
+TOO_FAR = Sentence("too-far-for-doubles", "the motion goes too far for its start in doubles")()
+REDUCED_COORDINATE = Sentence("over-reduced-coordinate",
+                              "time as an integral over the reduced coordinate, {nodes} nodes")
+ROUNDED_SERIES = Sentence(
+    "series-rounded-once", "Taylor series in {fewer} and {more} digits differ by {error}; rounded once")
 
 # --- The reduced form as one of the ways to follow a motion: `reduced_motion` at a given resolution
 POINTS = (2, 4, 6, 8, 12, 16)  # of Gauss's rule on each panel
@@ -65,15 +82,14 @@ COUNTED = 1.0  # rad: angles this near to those of a run in doubles have the sam
 
 
 @dataclass(frozen=True)
-class Reached:
-    """A motion, with the errors that the check showed, and its digits. because: how they were checked. gaps:
+class Reached(Reasoned):
+    """A motion, with the errors that the check showed, and its digits. reason: how they were checked. gaps:
     (n,) what the check differs by at each time, relative to the size of each part; None where it did not come
     so far."""
 
     run: Simulation
     asked: int
     digits: float
-    because: str
     gaps: np.ndarray | None = field(default=None, repr=False, compare=False)
 
     @property
@@ -84,9 +100,8 @@ class Reached:
 def missed(case: Any, found: Any) -> str:
     """Why digits were not reached, in words."""
     if found.run.status != "reached":
-        return f"{case.place}: {found.run.reason}"
-    return (f"{case.place}: {found.asked} digits asked for, {found.digits:.1f} reached ({found.because}); "
-            "ask for fewer or for a shorter span")
+        return f"{case.place}: {found.run.because}"
+    return f"{case.place}: {too_few(found).then(ASK_FOR_LESS)}"
 
 
 def best_reached(case: Case, times: np.ndarray, digits: int = DEFAULT, aim: bool = False) -> Reached:
@@ -122,13 +137,12 @@ def _known(found: Reached) -> Reached:
     if gaps is None or (gaps <= LOST).all():
         return found
     held = gaps <= LOST
-    first = min(run.t[~held], key=abs)
+    first = float(min(run.t[~held], key=abs))
     others = len(run.t) - int(held.sum()) - 1
-    reason = (f"no digit of the state is known at t = {first:.6g}"
-              + f", nor at {others} other times" * (others > 0))
+    reason = NO_DIGIT_AT(time=Moment(first)).then(NOR_LATER(others=others) if others else None, ", ")
     state = {name: values[held] for name, values in run.state.items()}
     return replace(found, run=replace(run, t=run.t[held], state=state, status="stopped",
-                                      reason=f"{reason}: {found.because}"), gaps=gaps[held])
+                                      reason=reason.then(found.reason, ": ")), gaps=gaps[held])
 
 
 def _hopeless(method: str, best: Reached, far: bool) -> bool:
@@ -180,19 +194,20 @@ def _checked(case: Any, times: np.ndarray, method: str, value: Any, asked: int) 
     other_value = _other(method, value)
     other = _integrated(_moved(case), times, method, other_value) if run.status == "reached" else run
     if other.status != "reached":
-        return Reached(run, asked, 0.0, f"the check of {method} stopped early")
+        return Reached(run, asked, 0.0, reason=CHECK_STOPPED(method=method))
     gaps = _distances(run, other)
     gap = float(gaps.max())
     return _told(run, asked, CAUTION * gap,
-                 f"{method} with rtol {other_value:.2g} from a start moved in its last place differs by "
-                 f"{gap:.1e}", CAUTION * gaps)
+                 FROM_MOVED_START(method=method, rtol=Quantity(other_value, digits=2),
+                                  error=Quantity(gap, digits=2)), CAUTION * gaps)
 
 
-def _told(run: Simulation, asked: int, error: float, because: str, gaps: np.ndarray | None = None) -> Reached:
+def _told(run: Simulation, asked: int, error: float, reason: Reason,
+          gaps: np.ndarray | None = None) -> Reached:
     """A run whose parts are off by so much of their size; gaps: at each time."""
     digits = digits_of(error)
     known = replace(run, error=errors_of(run.state, 10.0**-digits)) if digits >= 1 else run
-    return Reached(known, asked, digits, because, gaps)
+    return Reached(known, asked, digits, gaps, reason=reason)
 
 
 def _checked_reduced(case: Case, times: np.ndarray, run: Simulation, nodes: float,
@@ -208,9 +223,8 @@ def _checked_reduced(case: Case, times: np.ndarray, run: Simulation, nodes: floa
     own, far = float(apart.max()), float(away.max())
     gap = max(own, far / SHIFT) if far < STRAIGHT else 1.0
     return _told(run, asked, CAUTION * gap,
-                 f"reduced with {2 * nodes:g} nodes differs by {own:.1e}, and a start moved in its last "
-                 f"place by {far / SHIFT:.1e}" if far < STRAIGHT
-                 else "the motion goes too far for its start in doubles",
+                 MORE_NODES(nodes=int(2 * nodes), error=Quantity(own, digits=2),
+                            moved=Quantity(far / SHIFT, digits=2)) if far < STRAIGHT else TOO_FAR,
                  CAUTION * np.where(away < STRAIGHT, np.maximum(apart, away / SHIFT), 1.0))
 
 
@@ -247,7 +261,7 @@ def _reduced(case: Case, times: np.ndarray, method: str, nodes: float) -> Simula
     counters = {"evaluations": int(orbit.evaluations)}  # of the integrand in its preparation
     return Simulation(times, {_first(case): orbit.states(times)}, "exact", REDUCED_FORM, None,
                       counters=counters,
-                      reason=f"time as an integral over the reduced coordinate, {int(nodes)} nodes")
+                      reason=REDUCED_COORDINATE(nodes=int(nodes)))
 
 
 def _first(case: Case) -> str:
@@ -282,11 +296,11 @@ def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
             return None
         # phi and theta magnify the rounding of the quaternion
         error += 2.0**-51 / np.abs(np.cos(parts["angles"][:, 0])).min()
-    because = (f"Taylor series in {found.digits[0]} and {found.digits[1]} digits differ by "
-               f"{found.error.max():.0e}; rounded once")
+    reason = ROUNDED_SERIES(fewer=found.digits[0], more=found.digits[1],
+                            error=Quantity(float(found.error.max()), digits=1))
     run = Simulation(times, parts, "exact", MANY, None, counters={"multiplications": found.work},
-                     reason=because, validity=validity)
-    return _told(run, asked, error, because)
+                     reason=reason, validity=validity)
+    return _told(run, asked, error, reason)
 
 
 def _with_angles(case: Any, times: np.ndarray, parts: dict[str, np.ndarray]) -> dict[str, np.ndarray] | None:

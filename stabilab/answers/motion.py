@@ -73,7 +73,7 @@ def _largest(twin: AnyScene, found: Motion) -> float | None:
     pairs = found.extremes
     if found.fate == Fate.EQUILIBRIUM:
         return math.hypot(*found.at[:3])
-    if not twin.plain or found.period is None or pairs is None or found.extremes_over != "all time":
+    if not twin.plain or found.period is None or pairs is None or not found.for_all_time:
         return None
     sizes = [max(map(abs, pair)) for pair in pairs if None not in pair]
     most = (largest(twin.quadratic(), found.at[:3], found.period) if len(sizes) == 3

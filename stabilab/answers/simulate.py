@@ -15,7 +15,7 @@ import numpy as np
 from ..case.given import Given, Start, as_case, no_start, renamed, started, time_in
 from ..case.sections import attitude_of
 from ..errors import InputError
-from ..integrate.trajectory import SCIPY_METHODS, Trajectory, departures, integrated, watcher
+from ..integrate.trajectory import ALL_REACHED, SCIPY_METHODS, Trajectory, departures, integrated, watcher
 from ..numbers.principal import PrincipalAxes, oblique
 from ..orbit.flow import axis_way, reduced_motion
 from ..physics.equations import Equations, rotation
@@ -35,6 +35,7 @@ from ..physics.states import (
     unwrapped,
 )
 from ..physics.to_numpy import to_numpy
+from ..reasons import Moment, PerSecond, Quantity, Reason, Reasoned, Sentence, chained
 from ..representation import Answer, Compared
 from .caveats import answered
 
@@ -43,6 +44,18 @@ if TYPE_CHECKING:
 
     from ..case.read import Case
     from ..physics.law_limits import Validity
+
+
+BY_QUADRATURE = Sentence("by-quadrature", "all times reached, without steps: time as an integral over the "
+                         "reduced coordinate, inverted")()
+NO_DIGIT = Sentence("no-digit-known", "no digit of the state is known at {time}: after so many periods of "
+                    "{period} a start in doubles leaves the phase open")
+IS_STIFF = Sentence(
+    "stiff", "stiff: the fastest decay, {decay}, runs down {times} times over the span, so the implicit "
+    "method {method} was taken")
+PASSES_SINGULAR = Sentence(
+    "passes-singular-angle", "near {time} the attitude passes the singular angle cos ψ = 0; φ and θ take the "
+    "short way there")
 
 
 # --- The state at asked-for times: followed in steps, or by quadrature where the motion has an orbit
@@ -103,15 +116,13 @@ def _by_quadrature(scene: AnyScene, equations: Equations, state: np.ndarray, tim
     watch = watcher(scene, equations, state)
     for row in states[known] if watch else ():
         watch.note(row)
-    status, words = "reached", ("all times reached, without steps: time as an integral over the reduced "
-                                "coordinate, inverted")
+    status, reason = "reached", BY_QUADRATURE
     if not known.all():
-        first = min(times[~known], key=abs)
         status = "stopped"
-        words = (f"no digit of the state is known at t = {first:.6g}: after so many periods of "
-                 f"{motion.period:.6g} a start in doubles leaves the phase open")
+        reason = NO_DIGIT(time=Moment(float(min(times[~known], key=abs))),
+                          period=Quantity(motion.period, scene.time_unit))
     return Trajectory(times[known], states[known], REDUCED, None, drift, {"evaluations": motion.evaluations},
-                      status, words, validity=watch and watch.result())
+                      status, validity=watch and watch.result(), reason=reason)
 
 
 STIFF = 1e6  # fastest decay times duration beyond which an explicit method would only shorten its steps
@@ -126,7 +137,7 @@ INSIDE = 5  # points a step: a Taylor step to the last digit turns the body by u
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Simulation(Answer, Compared):
+class Simulation(Answer, Compared, Reasoned):
     """States of one model at the asked-for times.
 
     t: (n,), s (tau when scaled); state: name -> (n, m): omega (x when scaled), gamma, angles (psi, phi,
@@ -147,7 +158,7 @@ class Simulation(Answer, Compared):
     invariant_drift: dict[str, float] = field(default_factory=dict)
     counters: dict[str, int] = field(default_factory=dict)
     status: str = "reached"
-    reason: str = ""
+    reason: Reason = field(default=ALL_REACHED, kw_only=True)
     validity: Validity | None = None
     error: dict[str, np.ndarray] = field(default_factory=dict)
     frame: PrincipalAxes | None = field(default=None, repr=False, compare=False)
@@ -270,40 +281,39 @@ def in_quaternions(scene: Scene, state: dict[str, np.ndarray]) -> dict[str, np.n
                      "momentum": to_space(q, body_momentum(scene, first | state))} | state)
 
 
-def _simulation(run: Trajectory, state: dict[str, np.ndarray], *why: str) -> Simulation:
+def _simulation(run: Trajectory, state: dict[str, np.ndarray], *why: Reason | None) -> Simulation:
     """why: what is to be said of its method, in place of that all times were reached."""
-    told = "; ".join(filter(None, (run.reason if run.status != "reached" else "", *why)))
+    reason = chained(run.reason if run.status != "reached" else None, *why) or run.reason
     return Simulation(run.t, state, "exact", run.method, run.rtol, run.invariant_drift, run.counters,
-                      run.status, told or run.reason, run.validity,
-                      errors_of(state, max(run.rtol or 0.0, ROUNDING)))
+                      run.status, run.validity, errors_of(state, max(run.rtol or 0.0, ROUNDING)),
+                      reason=reason)
 
 
 def _chosen(scene: AnyScene, start: Mapping[str, Sequence[float]], times: np.ndarray, method: str | None,
-            rtol: float | None) -> tuple[str, float | None, str]:
+            rtol: float | None) -> tuple[str, float | None, Reason | None]:
     """(method, rtol, why) with the stiff method where nothing was asked for and the decay is too fast."""
     if method is not None or not any(not e.keeps_volume for e in scene.effects):
-        return "taylor" if method is None else method, rtol, ""
+        return "taylor" if method is None else method, rtol, None
     equations, state = equations_and_start(scene, start)
     with np.errstate(all="ignore"):
         slopes = to_numpy(equations).jacobian(state)
     if not np.isfinite(slopes).all():
-        return "taylor", rtol, ""
+        return "taylor", rtol, None
     # Euler's own terms keep volume: a pair of rates that they part and bring together is no decay
     fastest = min(float(np.max(-np.linalg.eigvals(slopes).real, initial=0.0)),
                   max(-float(np.trace(slopes)), 0.0))
     stiffness = fastest * float(np.abs(times).max(initial=0.0))
     turn = float(np.linalg.norm(start["omega"])) if len(equations.blocks) > 1 else 0.0
     if stiffness <= STIFF or fastest < TURNING * turn:
-        return "taylor", rtol, ""
-    return STIFF_METHOD, STIFF_RTOL if rtol is None else rtol, (
-        f"stiff: the fastest decay, {fastest:.3g}/s, runs down {stiffness:.2g} times over the span, so the "
-        f"implicit method {STIFF_METHOD} was taken")
+        return "taylor", rtol, None
+    return STIFF_METHOD, STIFF_RTOL if rtol is None else rtol, IS_STIFF(
+        decay=PerSecond(fastest, digits=3), times=Quantity(stiffness, digits=2), method=STIFF_METHOD)
 
 
 def _with_attitude(scene: Scene, start: Any, first: Any, times: np.ndarray, method: str, rtol: float | None,
-                   why: str) -> Simulation:
+                   why: Reason | None) -> Simulation:
     """The run with angles unwrapped over a grid fine enough that no turn is missed."""
-    inner, first, doubtful = _grid(scene, start, times, method, rtol), np.asarray(first, float), ""
+    inner, first, doubtful = _grid(scene, start, times, method, rtol), np.asarray(first, float), None
     for _ in range(ROUNDS):
         run = trajectory(scene, start, inner, method, rtol)
         q = run.block("attitude")
@@ -318,8 +328,7 @@ def _with_attitude(scene: Scene, start: Any, first: Any, times: np.ndarray, meth
             break
         inner = np.unique(np.concatenate([inner, *(0.5 * (run.t[wide] + run.t[wide + 1]),)]))
     if len(wide) and run.status == "reached":
-        doubtful = (f"near t = {run.t[wide[0]]:.6g} the attitude passes the singular angle cos psi = 0; "
-                    "phi and theta take the short way there")
+        doubtful = PASSES_SINGULAR(time=Moment(float(run.t[wide[0]])))
     ordered_times = np.sort(times)
     at = np.searchsorted(run.t, ordered_times if run.status == "reached"
                          else ordered_times[np.isin(ordered_times, run.t)])

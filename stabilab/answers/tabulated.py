@@ -21,9 +21,30 @@ from ..physics.coefficients import effective
 from ..physics.own_unit import exact_unit
 from ..physics.scene import AnyScene, QuadraticForm, hold_on
 from ..physics.states import equations_and_start
-from ..reasons import number as in_digits
+from ..reasons import Quantity, Reason, Reasoned, Sentence, chained
 from .digits_asked import MOST_DECIMALS, checked_digits
 from .limit import flow_of
+
+ZEROS_ENCLOSED = Sentence(
+    "zeros-enclosed", "zeros and extremes of each rate after the start, by roots along the enclosed motion: "
+    "none is passed over (below {least} counts as zero)")
+OPEN_ZEROS = Sentence("zeros-open", "but where the digits leave open whether there is one ({places})")
+OPEN_ZERO = Sentence("open-zero", "{component}, {what}, about {time}")
+AND_SO_ON = Sentence("and-so-on", "and so on")()
+NOT_LOOKED_FOR = Sentence("events-not-looked-for", "not asked for")()
+EVENTS_NEED = Sentence(
+    "events-need-enclosure", "events are found where a wheel and a constant torque are all that acts, as "
+    "their enclosure needs")()
+SERIES_ENCLOSED = Sentence("series-enclosed",
+                           "Taylor series in integers with a proved bound of their error")()
+PROVED_UP_TO = Sentence("proved-up-to", "proved up to {time}: {beyond}")
+BITS_SPENT = Sentence("bits-spent", "beyond, the motion is too sensitive for {bits} bits")
+WORK_SPENT = Sentence("work-spent", "the work allowed goes no further")()
+BEYOND = Sentence("enclosure-ends", "beyond, {why}")
+SERIES_AGREE = Sentence("series-agree",
+                        "Taylor series in {fewer} and {more} digits agree; no bound is proved")
+ONLY_UP_TO = Sentence("only-up-to", "only up to {time}")
+
 
 # --- A motion in many digits and how well each of them is known
 PROVED, TWICE = "proved", "two precisions agree"
@@ -41,12 +62,12 @@ class Event:
 
 
 @dataclass(frozen=True)
-class Tabulated:
+class Tabulated(Reasoned):
     """States (balls) at times, each within 10^-digits of the largest rate (or of the largest number of its
     kind), as `level` says: PROVED or TWICE.
 
-    t: the times that were reached, of all that were asked for where `reached`; because: how, or why the run
-    ended. events: in order of time, those after the start; events_because: how they were found, or what is
+    t: the times that were reached, of all that were asked for where `reached`; reason: how, or why the run
+    ended. events: in order of time, those after the start; events_reason: how they were found, or what is
     left out.
     """
 
@@ -55,10 +76,14 @@ class Tabulated:
     components: tuple[str, ...]
     digits: int
     level: str
-    because: str
     reached: bool
     events: tuple[Event, ...]
-    events_because: str
+    events_reason: Reason
+
+    @property
+    def events_because(self) -> str:
+        """How the events were found, in words and SI units."""
+        return self.events_reason.text()
 
 
 MOST_BOXES = 500  # of a piece and a function
@@ -73,8 +98,9 @@ SETTLED = 20  # the share of it that shows a motion's pace
 MORE_DIGITS = 14  # of the second run of two
 
 
-def events_of(scene: AnyScene, pieces: Sequence[Any], until: Fraction) -> tuple[tuple[Event, ...], str]:
-    """(events after the start in order of time, words on how they were found). To be called with more than
+def events_of(scene: AnyScene, pieces: Sequence[Any], until: Fraction
+              ) -> tuple[tuple[Event, ...], Reason]:
+    """(events after the start in order of time, how they were found). To be called with more than
     enough bits at work."""
     found, open_at, form = [], [], scene.quadratic()
     names = scene.components
@@ -84,15 +110,15 @@ def events_of(scene: AnyScene, pieces: Sequence[Any], until: Fraction) -> tuple[
             for order, kind in enumerate(("zero", "extreme")):
                 roots, clear = _roots(curve, i, order, number == 0)
                 if not clear:
-                    open_at.append(f"{names[i]}, {kind}, about {float(piece.start):.4g}")
+                    open_at.append(OPEN_ZERO(component=names[i], what=kind,
+                                             time=Quantity(float(piece.start), scene.time_unit, 4)))
                 found += [_event(curve, i, kind, s) for s in roots]
     found = [one for one in found if one.t <= _ball(until)]
-    words = ("zeros and extremes of each rate after the start, by roots along the enclosed motion: none is "
-             f"passed over (below 1e-{NOTHING} counts as zero)")
-    if open_at:
-        places = "; ".join(open_at[:3]) + " and so on" * (len(open_at) > 3)
-        words += f", but where the digits leave open whether there is one ({places})"
-    return tuple(sorted(found, key=lambda one: one.t.mid())), words
+    reason = ZEROS_ENCLOSED(least=Quantity(10.0**-NOTHING))
+    if places := chained(*open_at[:3]):
+        places = places.then(AND_SO_ON if len(open_at) > 3 else None, " ")
+        reason = reason.then(OPEN_ZEROS(places=places), ", ")
+    return tuple(sorted(found, key=lambda one: one.t.mid())), reason
 
 
 def _event(curve: _Curve, i: int, kind: str, s: Any) -> Event:
@@ -190,14 +216,13 @@ def _enclosed(scene: AnyScene, start: Sequence[Fraction], times: Sequence[Fracti
     count, states, pieces, why, _ = best
     reached = count == len(times)
     with working(MOST_BITS):
-        events, words = (events_of(scene, pieces, times[count - 1] if count else Fraction(0)) if asked
-                         else ((), "not asked for"))
-    because = "Taylor series in integers with a proved bound of their error" if reached else (
-        f"proved up to {in_digits(float(times[count - 1]) if count else 0.0, side=-1)} {scene.time_unit}: "
-        + (f"beyond, the motion is too sensitive for {MOST_BITS} bits" if why == "bits"
-           else "the work allowed goes no further" if why == "work" else f"beyond, {why}"))
+        events, how = (events_of(scene, pieces, times[count - 1] if count else Fraction(0)) if asked
+                       else ((), NOT_LOOKED_FOR))
+    last = Quantity(float(times[count - 1]) if count else 0.0, scene.time_unit).lower
+    reason = SERIES_ENCLOSED if reached else PROVED_UP_TO(time=last, beyond=(
+        BITS_SPENT(bits=MOST_BITS) if why == "bits" else WORK_SPENT if why == "work" else BEYOND(why=why)))
     return Tabulated(tuple(times[:count]), tuple(states[:count]), tuple(scene.components), digits, PROVED,
-                     because, reached, events, words)
+                     reached, events, how, reason=reason)
 
 
 def _attempt(scene: AnyScene, start: Sequence[Fraction], times: Sequence[Fraction], digits: int, bits: int,
@@ -274,12 +299,9 @@ def _twice(scene: AnyScene, start: Any, exact: Any, times: Sequence[Fraction], d
                 break
             states.append(tuple(numbers.around(v, gap) for v in high))
     reached = len(states) == len(times)
-    because = (
-        f"Taylor series in {digits + GUARD} and {digits + GUARD + MORE_DIGITS} digits agree; no bound is "
-        "proved")
+    reason = SERIES_AGREE(fewer=digits + GUARD, more=digits + GUARD + MORE_DIGITS)
     if not reached:
         last = float(times[len(states) - 1]) if states else 0.0
-        because += f"; only up to {in_digits(last, side=-1)} {scene.time_unit}"
-    return Tabulated(tuple(times[:len(states)]), tuple(states), components, digits, TWICE, because, reached,
-                     (), "events are found where a wheel and a constant torque are all that acts, as their "
-                     "enclosure needs")
+        reason = reason.then(ONLY_UP_TO(time=Quantity(last, scene.time_unit).lower))
+    return Tabulated(tuple(times[:len(states)]), tuple(states), components, digits, TWICE, reached, (),
+                     EVENTS_NEED, reason=reason)

@@ -156,7 +156,7 @@ def _never_of_rationals(scene: AnyScene, state: Float3, exact: Exact3, limit: Li
                         ) -> tuple[Found | None, float | None]:
     """`never` of a start that is no double: next to a separatrix its rounding is another motion."""
     known = motion(scene, state, needs=Needs.RETURN, exact=exact)
-    pairs = known.extremes if known.extremes_over == "all time" else None
+    pairs = known.extremes if known.for_all_time else None
     if pairs is not None and limit.beyond(pairs, SLACK):
         return Found(math.inf, math.inf, "exact", reason=NEVER_BY_EXTREMES), None
     repeats = known.period if kind_of(scene) == "orbit" and known.fate == Fate.BOUNDED else None

@@ -23,6 +23,7 @@ from ..orbit.result import Motion, Needs
 from ..physics.coefficients import loses
 from ..physics.scene import BLOCKS, AnyScene, later, slices, torque_axis
 from ..physics.states import equations_and_start, moved_row, start_of
+from ..reasons import Reasoned, Sentence
 from ..representation import Answer
 from .caveats import STEADY, answered, caveats_of, limited, loose_forces, misaligned, seen, stated
 from .dissipation.ending import ending
@@ -40,14 +41,19 @@ SAMPLES = 16     # of a step of the run: between them a function is looked at fo
 MOST = 400_000   # samples of a run
 
 
+CHANGES_OF_SIGN = Sentence(
+    "changes-of-sign", "changes of sign between {samples} samples of every step of a run ({method}), each "
+    "found to rounding; two zeros between neighbouring samples are not seen")
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class Crossings(Answer):
+class Crossings(Answer, Reasoned):
     """Zeros of events along a motion, for each event in its order.
 
     t: a row (k,) of times an event, in the scene's time; states: (k, N) there; error: (k,) of the times, from
     a second run whose start is moved in its last places, inf where that has not as many zeros; until: the
     time that was reached; status: "reached", "ended" by an event with `terminal`, or "stopped"; reason: how
-    they are known, in words.
+    they are known.
     """
 
     t: tuple[np.ndarray, ...]
@@ -55,7 +61,6 @@ class Crossings(Answer):
     error: tuple[np.ndarray, ...]
     until: float
     status: str
-    reason: str
 
 
 def crossings(scene: AnyScene, start: Any, until: float, events: Any) -> Crossings:
@@ -86,9 +91,8 @@ def crossings(scene: AnyScene, start: Any, until: float, events: Any) -> Crossin
     within = lambda rows: tuple(row[one <= end] for row, one in zip(rows, times))
     return Crossings(within(times), within(states), within(error), end,
                      "ended" if ends else "reached" if run.status == "reached" else "stopped",
-                     f"changes of sign between {SAMPLES} samples of every step of a run ({run.method}), each "
-                     "found to rounding; two zeros between neighbouring samples are not seen"
-                     + ("" if run.status == "reached" else f"; {run.reason}"))
+                     reason=CHANGES_OF_SIGN(samples=SAMPLES, method=run.method).then(
+                         None if run.status == "reached" else run.reason))
 
 
 def _blocks(equations: Any, state: np.ndarray) -> dict[str, np.ndarray]:

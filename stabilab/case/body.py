@@ -80,7 +80,7 @@ def _frame(table: Table) -> PrincipalAxes | None:
     rows, off = _tensor(table) if nested else (_with_products(table), Fraction(0))
     wrong = rows and fault_of(rows)
     if wrong:
-        table.fault(wrong, "inertia")
+        table.fault(wrong.text(), "inertia")
     return None if wrong or rows is None else principal_axes(rows, off)
 
 

@@ -7,7 +7,7 @@ from functools import partial
 
 from ..answers.caveats import of_case
 from ..answers.digits_asked import DEFAULT
-from ..answers.digits_run import Reached, best_reached, missed
+from ..answers.digits_run import best_reached, missed
 from ..answers.simulate import Simulation, in_matrices, with_quaternion
 from ..answers.stuck.chain import simulate_burn
 from ..case.read import Case, blamed_on, fires_on_schedule, load_burning
@@ -15,11 +15,11 @@ from ..errors import InputError, ToleranceNotMet
 from ..show import endings, terminal
 from ..show import reference as shown
 from ..show.data import as_json
-from ..show.terminal import lettered, say, tell
+from ..show.terminal import say, tell
 from ..show.text import headline, simulation
 from ..theories.euler_angles import with_euler_angles
 from ..theories.follow import follow
-from ..theories.theory import lines, theory
+from ..theories.theory import theory
 from .common import exact_times_asked, load_cases, one_by_one, say_repeated, times_asked, units_asked
 from .writing import all_reached, hold_laws, write, write_each, write_json
 
@@ -87,8 +87,9 @@ def _followed(case, times, model, method, rtol, order, digits):
         return reached.run, reached
 
 
-def _as_dict(case: Case, run: Simulation, reached: Reached) -> dict:
-    told = reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because}
+def _as_dict(case, run, reached) -> dict:
+    told = reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because,
+                        "reason": reached.reason.as_dict()}
     return (simulation.as_dict(case, run) | {"digits": told} | {"theory": _theory(case, run)}
             | headline.key(run.validity, case))
 
@@ -96,7 +97,7 @@ def _as_dict(case: Case, run: Simulation, reached: Reached) -> dict:
 def _as_text(case, run, reached, digits, units, width) -> str:
     checked = "checked to " if digits is None else ""
     last = f"\n# {checked}{reached.digits:.1f} digits: {reached.because}" if reached else ""
-    told = "".join(f"\n# {lettered(units.words(line))}" for line in lines(_theory(case, run)))
+    told = "".join(f"\n# {line}" for line in simulation.theory_lines(_theory(case, run), units))
     # as many as the check vouches for, those asked for at least: exit code 5 says where they are not reached
     known = None if digits is None else max(digits, int(min(reached.digits, 99.0)))
     table = simulation.text(case, run, units, known, width)

@@ -199,7 +199,7 @@ def _single(scene: AnyScene, start: np.ndarray, times: np.ndarray, rtol: float, 
     run = integrated(scene, start, times, "taylor", rtol, laws=False)
     out[:] = np.inf
     out[np.isin(times, run.t)] = run.states
-    return ("" if run.status == "reached" else run.reason), run
+    return ("" if run.status == "reached" else run.because), run
 
 
 def _one_by_one(scene, starts, times, rtol):

@@ -15,10 +15,11 @@ import numpy as np
 
 from ..physics.states import equations_and_start
 from ..physics.to_numpy import Form, evaluate, to_numpy
-from .guard import Guard, full
+from ..reasons import Reason, Sentence
+from .guard import STEPS_NOT_ENOUGH, Guard, full
 from .own_units import in_units, scale_of, units_of
 from .to_heyoka import TAYLOR_TOLERANCE, heyoka_available, taylor_events
-from .trajectory import FALLBACK_RTOL, floor, root_between, sign_changes, stand_in
+from .trajectory import FALLBACK_RTOL, NUMBERS_OVERFLOWED, floor, root_between, sign_changes, stand_in
 
 if TYPE_CHECKING:
     from ..numbers.vectors import Float3
@@ -32,13 +33,16 @@ SETTLED, PATIENCE = 100_000, 2  # of `guard`: a search that does not come to its
 # overflow
 LONGEST = 1e6
 
+STOPPED = Sentence("search-stopped", "stopped: {why}")
+RATES_OVERFLOW = Sentence("rates-overflow", "the rates overflow at the start")()
+
 
 @dataclass(frozen=True)
 class Passed:
     """A run and the zeros on its way, in the order of the run.
 
     times: (m,) theirs; which: (m,) of the expressions; states: (m, N) there; t, state: where it ended; steps:
-    taken; reason: why it ended before its time, else empty."""
+    taken; reason: why it ended before its time, else None."""
 
     times: np.ndarray
     which: np.ndarray
@@ -46,7 +50,7 @@ class Passed:
     t: float
     state: np.ndarray
     steps: int
-    reason: str
+    reason: Reason | None
 
     @property
     def first(self) -> float | None:
@@ -55,7 +59,7 @@ class Passed:
 
 
 def _passed(zeros: Sequence[tuple[float, int, np.ndarray]], t: float, state: np.ndarray, steps: int,
-            reason: str) -> Passed:
+            reason: Reason | None) -> Passed:
     """zeros: (time, which of the expressions, state) each."""
     return Passed(*_columns(zeros, len(state)), t, state, steps, reason)
 
@@ -83,9 +87,8 @@ def zeros_passed(forms: Form, state: np.ndarray, rates: np.ndarray | Sequence[fl
         return _by_scipy(forms, state, float(t_end), steps, tolerance, first, whole)
 
 
-def _by_taylor(forms: Form, state: np.ndarray, t_end: float, steps: int, tolerance: float, first: bool,
-               whole: bool, longest: float) -> Passed:
-    parts, done, noted, why, size = [], 0, 0, "", len(forms.state)
+def _by_taylor(forms, state, t_end, steps, tolerance, first, whole, longest) -> Passed:
+    parts, done, noted, why, size = [], 0, 0, None, len(forms.state)
     guard = Guard(t_end, steps, SETTLED, PATIENCE)
     with taylor_events(forms, tolerance) as (integrator, found):
         integrator.time = 0.0
@@ -100,7 +103,8 @@ def _by_taylor(forms: Form, state: np.ndarray, t_end: float, steps: int, toleran
             noted += len(met)
             if outcome.name != "step_limit" or done >= steps or (first and parts):
                 break
-            why = (whole and guard.look_in_time(done, float(integrator.time))) or full(noted, size + 2)
+            why = guard.look_in_time(done, float(integrator.time)) if whole else None
+            why = why or full(noted, size + 2)
             if why:
                 break
         now, end = float(integrator.time), integrator.state.copy()
@@ -109,9 +113,9 @@ def _by_taylor(forms: Form, state: np.ndarray, t_end: float, steps: int, toleran
     times, which, states = times[order], which[order], states[order]
     if not np.isfinite(end).all():
         now, end = (float(times[-1]), states[-1]) if len(times) else (0.0, state)
-    reason = ("" if outcome.name == "time_limit" else f"stopped: {why}" if why
-              else f"stopped: {steps} steps were not enough"
-              if outcome.name == "step_limit" else f"stopped: {outcome.name}")
+    reason = (None if outcome.name == "time_limit" else STOPPED(why=why) if why
+              else STOPPED(why=STEPS_NOT_ENOUGH(steps=steps)) if outcome.name == "step_limit"
+              else STOPPED(why=outcome.name))
     return Passed(times, which, states, now, end, done, reason)
 
 
@@ -134,19 +138,19 @@ def _by_scipy(forms: Form, state: np.ndarray, t_end: float, steps: int, toleranc
         return stand_in(lambda x: moving.function(*x, *moving.numbers), y, end, t, rtol, atol)
 
     if t_end == 0:
-        return _passed([], 0.0, state, 0, "")
+        return _passed([], 0.0, state, 0, None)
     solver, zeros, done, guard = run(0.0, state, t_end), [], 0, Guard(t_end, steps, SETTLED, PATIENCE)
     while solver.status == "running" and done < steps and not (first and zeros):
         begin, before = solver.t, solver.y.copy()
         solver.step()
         if solver.status == "failed" or not np.isfinite(solver.y).all():
-            return _passed(zeros, begin, before, done, "stopped: the numbers overflowed")
+            return _passed(zeros, begin, before, done, STOPPED(why=NUMBERS_OVERFLOWED))
         done += 1
         zeros += sorted(_zeros_of_step(behind, solver, before, run), key=lambda zero: abs(zero[0]))
-        why = (whole and guard.look_in_time(done, float(solver.t))) or full(len(zeros), n + 30)
+        why = (guard.look_in_time(done, float(solver.t)) if whole else None) or full(len(zeros), n + 30)
         if why:
-            return _passed(zeros, float(solver.t), solver.y, done, f"stopped: {why}")
-    reason = "" if solver.status == "finished" else f"stopped: {steps} steps were not enough"
+            return _passed(zeros, float(solver.t), solver.y, done, STOPPED(why=why))
+    reason = None if solver.status == "finished" else STOPPED(why=STEPS_NOT_ENOUGH(steps=steps))
     return _passed(zeros, float(solver.t), solver.y, done, reason)
 
 
@@ -191,7 +195,7 @@ class RateRoots:
     t_reached: float
     method: str
     steps: int
-    reason: str
+    reason: Reason | None
 
     def extremes(self, components: Sequence[int] = (0, 1, 2)):
         """(m, 2) smallest and largest value of the components over the span, its two ends included."""
@@ -220,7 +224,7 @@ def roots_of_rates(scene: AnyScene, state: np.ndarray | Sequence[float] | Mappin
     with np.errstate(all="ignore"):
         rates = to_numpy(equations)(state)
     if not np.isfinite(rates).all():
-        return _roots(_passed([], 0.0, state, 0, "stopped: the rates overflow at the start"), state, "none")
+        return _roots(_passed([], 0.0, state, 0, STOPPED(why=RATES_OVERFLOW)), state, "none")
     units = units_of(equations, state)
     scale, system = scale_of(equations, units), to_numpy(in_units(equations, units))
     passed = zeros_passed(system.motion_and_rates, state / scale, rates / scale / units.pace,

@@ -13,11 +13,21 @@ from __future__ import annotations
 
 import math
 
+from ..reasons import Quantity, Reason, Sentence
+
 PATIENCE = 5
 FIRST = 400  # steps before the first look
 BYTES = 2**28  # of memory that one run may fill with what it meets on the way: 256 MB
 # radians or so of a motion's turn beyond which it is followed by itself, not in step with others
 FARTHEST = 1e9
+
+GIVEN_UP = Sentence(
+    "given-up", "given up after {steps} steps: at their pace the rest takes some {left}, more than the "
+    "{allowed} allowed")
+GIVEN_UP_ENDLESS = Sentence("given-up-endless",
+                            "given up after {steps} steps: at their pace the rest has no end")
+MEMORY_FULL = Sentence("memory-full", "{places} of its places fill the memory allowed ({megabytes} MB)")
+STEPS_NOT_ENOUGH = Sentence("steps-not-enough", "{steps} steps were not enough")
 
 
 class Guard:
@@ -33,16 +43,16 @@ class Guard:
         """How many more steps the time ahead takes at the pace of those since the last look."""
         return (steps - self.passed) * float(abs(self.end - time) / (abs(time - self.time) or 1e-300))
 
-    def look(self, steps: int, time: float) -> str:
-        """Why a run that came to a time in so many steps is given up; empty where it goes on."""
+    def look(self, steps: int, time: float) -> Reason | None:
+        """Why a run that came to a time in so many steps is given up; None where it goes on."""
         left = self.ahead(steps, time)
         self.passed, self.time = steps, time
         return (why_given_up(steps, left, self.steps)
-                if too_far(steps, left, self.steps, self.settled, self.patience) else "")
+                if too_far(steps, left, self.steps, self.settled, self.patience) else None)
 
-    def look_in_time(self, steps: int, time: float) -> str:
+    def look_in_time(self, steps: int, time: float) -> Reason | None:
         """`look`, where it is time for the next: the pace is that of the later half of a run."""
-        return self.look(steps, time) if steps - self.passed >= self.next(self.passed) else ""
+        return self.look(steps, time) if steps - self.passed >= self.next(self.passed) else None
 
     def next(self, steps: int) -> int:
         """How many steps to take before the next look, after so many."""
@@ -54,14 +64,13 @@ def too_far(steps: float, left: float, allowed: float, settled: float, patience:
     return left * min(steps / settled, 1.0) ** 2 > patience * allowed
 
 
-def why_given_up(steps: float, left: float, allowed: float) -> str:
+def why_given_up(steps: float, left: float, allowed: float) -> Reason:
     """Why a run is given up after so many steps, at whose pace the rest takes `left` more."""
-    return (f"given up after {steps:.0f} steps: at their pace the rest takes some "
-            f"{left:.1g}, more than the {allowed:.1g} allowed" if math.isfinite(left)
-            else f"given up after {steps:.0f} steps: at their pace the rest has no end")
+    if not math.isfinite(left):
+        return GIVEN_UP_ENDLESS(steps=round(steps))
+    return GIVEN_UP(steps=round(steps), left=Quantity(left, digits=1), allowed=Quantity(allowed, digits=1))
 
 
-def full(noted: int, numbers: int) -> str:
-    """Why a run stops that has noted so many rows of so many numbers; empty where there is room."""
-    return (f"{noted} of its places fill the memory allowed ({BYTES // 2**20} MB)"
-            if 8 * noted * numbers > BYTES else "")
+def full(noted: int, numbers: int) -> Reason | None:
+    """Why a run stops that has noted so many rows of so many numbers; None where there is room."""
+    return (MEMORY_FULL(places=noted, megabytes=BYTES // 2**20) if 8 * noted * numbers > BYTES else None)

@@ -21,6 +21,7 @@ from ..numbers.balls import DOUBLE_BITS, Digits, working
 from ..numbers.vectors import Number
 from ..physics.equations import Equations, derive
 from ..physics.scene import AnyScene, hold_on, slices
+from ..reasons import Moment, Quantity, Reasoned, Sentence
 from .guard import too_far
 
 if TYPE_CHECKING:
@@ -28,6 +29,15 @@ if TYPE_CHECKING:
 
 RETURNED = 1e-12  # a passage through the starting plane within this share of the orbit's size is a return
 PIECES = 6  # of a step, each searched for one root
+
+
+AGREE = Sentence("precisions-agree", "two precisions agree at every time")()
+AGREE_UP_TO = Sentence("precisions-agree-up-to",
+                       "{fewer} and {more} digits agree up to {time} of {end}, and {beyond}")
+NO_FURTHER = Sentence("multiplications-spent", "the multiplications allowed went no further")()
+SENSITIVE = Sentence("too-sensitive", "not beyond: the motion is too sensitive")()
+TOO_MUCH_WORK = Sentence("digits-take-too-long",
+                         "a run in {digits} digits takes more than the {work} multiplications allowed")
 
 
 class Exhausted(Exception):
@@ -241,7 +251,7 @@ GUARD = 8  # digits that the roundings of a run may use up
 
 
 @dataclass(frozen=True)
-class Reference:
+class Reference(Reasoned):
     """States (n, N) at times t (n,) as unevaluated sums states + rest of two doubles.
 
     error: (n,) the difference between the last two runs, relative as of `relative_errors`; digits: of those
@@ -261,7 +271,6 @@ class Reference:
     extremes: np.ndarray | None = None
     extremes_error: float | None = None
     status: str = "agrees"
-    reason: str = "two precisions agree at every time"
     work: int = 0
 
 
@@ -347,7 +356,7 @@ def reference(scene: AnyScene, start: Sequence[float | Fraction] | np.ndarray,
         else:
             now = one_run(recursion, start, times, digits, budget, orbit)
         if before is not None:
-            found = _compared(times, before, now, parts, work - budget[0])
+            found = _compared(times, before, now, parts, work - budget[0], scene.time_unit)
             best = found if best is None or len(found.t) >= len(best.t) else best
         if budget[0] < 0 or (best and best.status == "agrees"
                              and (best.period is None or best.period[2] <= AGREEMENT)):
@@ -355,12 +364,12 @@ def reference(scene: AnyScene, start: Sequence[float | Fraction] | np.ndarray,
         before = digits, now
     return best or Reference(np.empty(0), empty, empty, np.empty(0), DIGITS[:2], parts, status="stopped",
                              work=work - budget[0],
-                             reason=f"a run in {DIGITS[0]} digits takes more than the {work:.1g} "
-                                    "multiplications allowed")
+                             reason=TOO_MUCH_WORK(digits=DIGITS[0], work=Quantity(work, digits=1)))
 
 
-def _compared(times, before, now, parts, work) -> Reference:
-    """The part of the times on which two runs agree, (digits, run) of the one before and the one now."""
+def _compared(times, before, now, parts, work, unit: str) -> Reference:
+    """The part of the times on which two runs agree, (digits, run) of the one before and the one now. unit:
+    of the times."""
     (low_digits, (low, low_loop)), (high, loop) = before, now
     n = min(len(low), len(high))
     states, rest = pairs(high[:n])
@@ -370,16 +379,14 @@ def _compared(times, before, now, parts, work) -> Reference:
     good = error <= AGREEMENT
     reach = n if good.all() else int(np.argmin(good))
     ok, end = reach == len(times), times[reach - 1] if reach else 0.0
-    why = "two precisions agree at every time" if ok else (
-        f"{low_digits} and {DIGITS[DIGITS.index(low_digits) + 1]} digits agree up to t = {end:.6g} of "
-        f"{times[-1]:.6g}, and "
-        + ("the multiplications allowed went no further" if reach == n
-           else "not beyond: the motion is too sensitive"))
-    period, extremes, extremes_error = _orbits(low_loop, loop)
     high_digits = DIGITS[DIGITS.index(low_digits) + 1]
+    why = AGREE if ok else AGREE_UP_TO(
+        fewer=low_digits, more=high_digits, time=Moment(float(end)).lower,
+        end=Quantity(float(times[-1]), unit), beyond=NO_FURTHER if reach == n else SENSITIVE)
+    period, extremes, extremes_error = _orbits(low_loop, loop)
     return Reference(times[:reach], states[:reach], rest[:reach], error[:reach], (low_digits, high_digits),
                      parts, period, extremes,
-                     extremes_error, "agrees" if ok else "stopped", why, work)
+                     extremes_error, "agrees" if ok else "stopped", work, reason=why)
 
 
 def pairs(rows: Sequence[list[arb]]):

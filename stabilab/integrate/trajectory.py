@@ -20,14 +20,27 @@ from ..physics.coefficients import limits_of
 from ..physics.scene import AnyScene, slices, stopped, time_left
 from ..physics.states import checked_rtol, checked_times, equations_and_start
 from ..physics.to_numpy import System, to_numpy
+from ..reasons import Moment, Quantity, Reason, Reasoned, Sentence
 from ..representation import Answer, Compared
-from .guard import PATIENCE, Guard, full
+from .guard import PATIENCE, STEPS_NOT_ENOUGH, Guard, full
 from .own_units import Units, in_units, scale_of, units_of
 from .to_heyoka import FEATHER, TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 
 if TYPE_CHECKING:
     from ..physics.equations import Equations
     from ..physics.law_limits import Validity
+
+
+ALL_REACHED = Sentence("all-times-reached", "all times reached")()
+STAND_IN = Sentence(
+    "stand-in-for-taylor", "all times reached; heyoka is not installed, SciPy's DOP853 took its place")()
+NUMBERS_OVERFLOWED = Sentence("numbers-overflowed", "the numbers overflowed")()
+MESSAGE = Sentence("message-of-integrator", "{message}")
+CRAWLS = Sentence(
+    "steps-too-short", "the last {steps} steps went from {first} to {last}, the rest would take some {left} "
+    "steps")
+BROKE_OFF_AT = Sentence("run-stopped-at", "the run stopped after {last}: {why}")
+NEVER_BEGAN = Sentence("run-stopped-at-start", "the run stopped after the start: {why}")
 
 
 # --- Past the end of an effect
@@ -118,7 +131,7 @@ REPORT = 1_000_000
 NOTED = 4  # numbers that the end of a step, in a list, takes the memory of
 # of SciPy's methods, whose steps take a hundred times as long; an implicit one has a system to solve in each
 SCIPY_REPORT, IMPLICIT_LIMIT = 10_000, 200_000
-OUTCOMES = {"err_nf_state": "the numbers overflowed"}
+OUTCOMES = {"err_nf_state": NUMBERS_OVERFLOWED}
 
 
 def integrated(scene, state, times, method: str = "taylor", rtol: float | None = None,
@@ -134,10 +147,10 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
         if (whole := through_the_end(scene, state, times, follow, steps)) is not None:
             return whole
     equations, state = equations_and_start(scene, state)
-    reason, landing = "all times reached", False
+    reason, landing = ALL_REACHED, False
     if method == "taylor" and not heyoka_available():
         method, rtol, landing = "DOP853", max(rtol or 0.0, FALLBACK_RTOL), True
-        reason = "all times reached; heyoka is not installed, SciPy's DOP853 took its place"
+        reason = STAND_IN
     units = units_of(equations, state) if method == "taylor" else Units()
     scale, system = scale_of(equations, units), to_numpy(in_units(equations, units))
     if method == "taylor":
@@ -151,11 +164,11 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
     start, passed = state / scale, None if steps is None else list[float]()
     before, still, after = parted(units.times(times))
     drift: dict[str, float] = {}
-    failures, found = [], [(np.zeros(still), start[None][:still])]
+    failure, found = None, [(np.zeros(still), start[None][:still])]
     for grid, place in ((before, 0), (after, 2)):
         if grid.size:
-            points, failure = run.run(start, grid, passed, note)
-            failures += [failure] if failure else []
+            points, stop = run.run(start, grid, passed, note)
+            failure = stop if failure is None else failure.then(stop)
             for row in points if note else ():
                 note(row[:state.size])
             for name, departure in departures(system, start, points).items() if laws else ():
@@ -167,8 +180,8 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
     way = 1 if times.size < 2 or times[1] > times[0] else -1
     reached, states = (np.concatenate(parts)[::way] for parts in zip(*found))
     return Trajectory(reached / units.pace, states * scale, method, rtol, drift,
-                      run.counters, "stopped" if failures else "reached", "; ".join(failures) or reason,
-                      slices(equations.blocks), watch and watch.result())
+                      run.counters, "stopped" if failure else "reached", slices(equations.blocks),
+                      watch and watch.result(), reason=failure or reason)
 
 
 def parted(times: np.ndarray) -> tuple[np.ndarray, int, np.ndarray]:
@@ -208,9 +221,8 @@ def steps_left(passed, ahead, steps=None) -> float:
     return float(abs(ahead) / (abs(passed) or 1e-300) * (steps or REPORT))
 
 
-def _crawling(last: float, now: float, left: float, steps: int) -> str:
-    return (f"the last {steps} steps went from t = {last:.9g} to {now:.9g}, the rest would take some "
-            f"{left:.1g} steps")
+def _crawling(first: float, last: float, left: float, steps: int) -> Reason:
+    return CRAWLS(steps=steps, first=Moment(first), last=Moment(last), left=Quantity(left, digits=1))
 
 
 class _Taylor:
@@ -247,13 +259,13 @@ class _Taylor:
         return out, None if len(out) == len(grid) else _stopped(out, grid / self.pace, failure)
 
     def _given_up(self, ta, begin, grid):
-        """(why a run over the grid is given up or "", how many of its times are worth REPORT steps all the
+        """(why a run over the grid is given up or None, how many of its times are worth REPORT steps all the
         same): where the first step is too short by far, a trial run shows the motion's pace."""
         begin()
         ta.propagate_until(grid[-1], max_steps=1)
         end, limit = abs(grid[-1]), PATIENCE * STEP_LIMIT
         if not np.isfinite(ta.state).all() or end <= limit * abs(ta.time):
-            return "", len(grid)
+            return None, len(grid)
         begin()
         guard, done = Guard(grid[-1], STEP_LIMIT, REPORT), 0
         while done < REPORT:
@@ -265,7 +277,7 @@ class _Taylor:
             if guard.look(done, ta.time):
                 why = _crawling(last / self.pace, ta.time / self.pace, left, taken)
                 return why, int(np.count_nonzero(np.abs(grid) <= abs(ta.time) * (REPORT / done)))
-        return "", len(grid)
+        return None, len(grid)
 
     def _passed(self, ta, grid, note):
         """(states at the times of `grid` that were reached, why not all or None)."""
@@ -284,7 +296,7 @@ class _Taylor:
                 rows.append(_of_the_last_step(ta, grid[done + len(rows[-1]):]))
             if outcome.name != "step_limit" or sum(map(len, rows)) == grid.size:
                 found = rows[0] if len(rows) == 1 else np.concatenate(rows)
-                return found, OUTCOMES.get(outcome.name, outcome.name)
+                return found, OUTCOMES.get(outcome.name) or MESSAGE(message=outcome.name)
             if note and (why := full(self.counters["steps"] - begun, NOTED)):
                 return np.concatenate(rows), why
             left = steps_left(ta.time - last, grid[-1] - ta.time)
@@ -340,22 +352,22 @@ class _SciPy:
         try:
             solver = self._solver(t, y, grid[-1], h)
         except (ValueError, OverflowError) as error:
-            return y, h, str(error)
+            return y, h, MESSAGE(message=str(error))
         done = 0
         while solver.status == "running":
             try:
                 message = solver.step()
             except (ValueError, OverflowError) as error:  # SciPy's linear algebra refuses infinite entries
-                return y, h, str(error)
+                return y, h, MESSAGE(message=str(error))
             self.counters["steps"] += 1
             if passed is not None:
                 passed.append(solver.t)
             if watch is not None:
                 watch(solver.y[:n].copy())
             if solver.status == "failed" or not np.isfinite(solver.y[:n]).all():
-                return y, h, message or "the numbers overflowed"
+                return y, h, MESSAGE(message=message) if message else NUMBERS_OVERFLOWED
             if self.counters["steps"] >= self.most:
-                return y, h, f"{self.most} steps were not enough"
+                return y, h, STEPS_NOT_ENOUGH(steps=self.most)
             if self.counters["steps"] % SCIPY_REPORT == 0:
                 left = steps_left(solver.t - self.reported, end - solver.t, SCIPY_REPORT)
                 if left > PATIENCE * self.most:
@@ -393,13 +405,14 @@ class _SciPy:
         return jacobian
 
 
-def _stopped(points: np.ndarray, grid: np.ndarray, why: str):
-    last = f"t = {grid[len(points) - 1]:.17g}" if len(points) else "the start"
-    return f"the run stopped after {last}: {why}"
+def _stopped(points, grid, why: Reason | None) -> Reason:
+    why = why or NUMBERS_OVERFLOWED  # which is why its last states were left out
+    return (BROKE_OFF_AT(last=Moment(float(grid[len(points) - 1])), why=why) if len(points)
+            else NEVER_BEGAN(why=why))
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Trajectory(Answer, Compared):
+class Trajectory(Answer, Compared, Reasoned):
     """States at the asked-for times.
 
     t: (n,) times; states: (n, N), blocks: where each block of the state stands in the N columns;
@@ -416,7 +429,6 @@ class Trajectory(Answer, Compared):
     invariant_drift: dict[str, float]
     counters: dict[str, int]
     status: str
-    reason: str
     blocks: dict = field(default_factory=lambda: {"omega": slice(0, 3)})
     validity: Validity | None = None
 

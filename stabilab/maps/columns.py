@@ -12,6 +12,7 @@ from ..answers.caveats import CONDITIONS, HOLDS, NO_SUCH_BODY, UNSTABLE_POINT
 from ..errors import InputError, printable
 from ..orbit.fate import Basis
 from ..orbit.result import Fate, Order
+from ..reasons import Sentence
 
 if TYPE_CHECKING:
     from ..answers.passage import TimeTo
@@ -59,6 +60,8 @@ class Answer(NamedTuple):
 
 
 NOT_KNOWN = "NaN where it is not known"
+COUNTS = Sentence(
+    "column-counts", "{curves}: curves of them, {open}: not all of them are known, {none}: no case")
 FOLLOWED = "over all time, or over the span of the case where no law holds and the motion is followed"
 # of motions that have none
 PERIODS = {Fate.EQUILIBRIUM: 0.0, Fate.SPIN_UP: np.inf, Fate.SEPARATRIX: np.inf}
@@ -105,7 +108,7 @@ ANSWERS: dict[str, Answer] = {
     "margin": Answer("motions", (0, 0), (
         Column("margin", "f8", ENERGY, "height of the barrier ahead less the energy",
                lambda rows: rows.fates.margins, lambda motion: motion.margin_energy,
-               note=f"-inf without a barrier ahead, +inf where none bounds the motion, {NOT_KNOWN}"),)),
+               note="-inf without a barrier ahead, +inf where none bounds the motion, " + NOT_KNOWN),)),
     "distance": Answer("motions", (3e-2, 0), (
         Column("distance", "f8", RATE, "smallest change of the rates that reaches the separatrix",
                lambda rows: rows.fates.velocity_margins, lambda motion: motion.margin_velocity,
@@ -120,7 +123,7 @@ ANSWERS: dict[str, Answer] = {
     "period": Answer("motions", (1e-5, 0), (
         Column("period", "f8", TIME, "period of the motion", lambda rows: rows.periods,
                lambda motion: (PERIODS.get(motion.fate, np.nan) if motion.period is None else motion.period),
-               note=f"+inf where it never repeats, {NOT_KNOWN}, 0 at rest"),)),
+               note="+inf where it never repeats, " + NOT_KNOWN + ", 0 at rest"),)),
     "when": Answer("limit", (0.1, 0.1), (
         Column("when_low", "f8", TIME, "the limit is not reached before",
                lambda found: found.low, lambda found: found.low, note="+inf: never"),
@@ -131,7 +134,7 @@ ANSWERS: dict[str, Answer] = {
                lambda found: _limit_level(found)[0], LIMIT_LEVELS, note="-1: no case", no_case=-1))),
     "equilibria": Answer("equilibria", (0, 0), (
         Column("equilibria", "i4", "", "number of equilibria", *_counted("equilibria"),
-               note=f"{ENDLESS}: curves of them, {OPEN}: not all of them are known, {NONE}: no case",
+               note=COUNTS(curves=ENDLESS, open=OPEN, none=NONE).text(),
                no_case=NONE),)),
     "verdict": Answer("equilibria", (0, 0), (
         Column("stable", "i4", "", "stable equilibria, and stable pieces of curves of them",

@@ -216,13 +216,13 @@ def _claim(plan: Plan, folder: Path, command: str) -> None:
                          "move them, or give another --out")
     if claim.exists() and any(folder.glob("part-*")):  # of one killed before its first part nothing is lost
         if plan.digest not in claim.read_text(encoding="utf-8"):
-            raise InputError(_of_another(folder, claim, command))
+            raise _of_another(folder, claim, command)
         return
     with whole_file(claim) as waiting:
         waiting.write_text(json.dumps({"digest": plan.digest, "command": command}) + "\n", encoding="utf-8")
 
 
-def _of_another(folder: Path, claim: Path, command: str) -> str:
+def _of_another(folder: Path, claim: Path, command: str) -> InputError:
     """What stands there, how it goes on, and how it is replaced."""
     try:
         told = json.loads(claim.read_text(encoding="utf-8"))["command"]
@@ -234,11 +234,10 @@ def _of_another(folder: Path, claim: Path, command: str) -> str:
     if told == command:
         what = "this command, before the case file or the program changed"
     else:
-        what = (f"another command, which goes on from them: {printable(told)} --out {file}" if told
+        what = ("another command, which goes on from them: " + f"{printable(told)} --out {file}" if told
                 else "another command or version")
-    return (
-        f"{folder}: holds finished parts ({number}) of {what}; to replace them: rm -r "
-        f"{shlex.join(map(str, folders))}; or give another --out")
+    return InputError(f"{folder}: holds finished parts ({number}) of {what}; to replace them: rm -r "
+                      f"{shlex.join(map(str, folders))}; or give another --out")
 
 
 def write(plan: Plan, folder: Path, number: int, rows: bytes) -> None:

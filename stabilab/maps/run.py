@@ -115,10 +115,10 @@ def _checked(client: Any, address: str) -> int:
     found = client.run(version, "stabilab", on_error="return")
     for worker, answer in found.items():
         if answer != __version__:
-            has = (f"has stabilab {answer}" if isinstance(answer, str)
-                   else f"lacks the package stabilab ({_first_line(answer)})")
-            raise InputError(f"worker {worker}: {has}: install stabilab {__version__} there, as here, with "
-                             "the same libraries")
+            raise InputError(
+                (f"worker {worker}: has stabilab {answer}" if isinstance(answer, str)
+                 else f"worker {worker}: lacks the package stabilab ({_first_line(answer)})")
+                + f": install stabilab {__version__} there, as here, with the same libraries")
     return sum(client.nthreads().values())
 
 
@@ -172,16 +172,18 @@ def by_workers(plan: Plan, folder: Path, left: list[int], number: int) -> Iterat
         for _ in left:
             word, what = told.get()
             if word == FAILED:
-                raise what if isinstance(what, StabilabError) else WorkerLost(_lost(plan, folder, *what))
+                if isinstance(what, StabilabError):
+                    raise what
+                _raise_lost(plan, folder, *what)
             yield what
 
 
-def _lost(plan: Plan, folder: Path, chunk: int, code: int) -> str:
+def _raise_lost(plan: Plan, folder: Path, chunk: int, code: int) -> NoReturn:
     why = f"signal {-code} ({signal.Signals(-code).name})" if code < 0 else f"exit code {code}"
     cure = "; it may have run out of memory: try fewer --workers" if code == -signal.SIGKILL else ""
-    return (f"{folder}: a worker ended by {why} while it computed chunk {chunk + 1} of "
-            f"{len(plan.chunks)}{cure}; finished chunks are kept where --out names "
-            "a file, and the same command goes on from them")
+    raise WorkerLost(f"{folder}: a worker ended by {why} while it computed chunk {chunk + 1} of "
+                     f"{len(plan.chunks)}{cure}; finished chunks are kept where --out names "
+                     "a file, and the same command goes on from them")
 
 
 def _feed(worker, waiting, told) -> None:

@@ -19,6 +19,7 @@ from itertools import combinations
 from typing import TypeAlias
 
 from ..errors import InputError
+from ..reasons import Inertia, Quantity, Reason, Sentence
 from .balls import rational
 from .exact import Rounded, sqrt_fraction
 from .polynomial import Poly, real_roots
@@ -30,6 +31,7 @@ BITS = 240  # of the numbers that cannot be rational
 IDENTITY = tuple(tuple(Fraction(i == j) for j in range(3)) for i in range(3))
 TURNED = (IDENTITY[1], IDENTITY[2], IDENTITY[0])  # as good as any of a sphere that is not diagonal
 NAMES = "xyz"
+ENTRY = 15  # digits of an entry in an error, which all decimals of so many keep
 # of a vector: a component as small is what irrational axes, good to BITS, leave of zero
 NOTHING = Fraction(1, 1 << 200)
 # of the largest entry of a matrix that was turned and written again: what counts as zero
@@ -191,7 +193,7 @@ def principal_axes(tensor: Sequence[Sequence[Number]], off: Fraction = Fraction(
     rows = tuple(tuple(Fraction(v) for v in row) for row in tensor)
     wrong = fault_of(rows)
     if wrong:
-        raise InputError(wrong)
+        raise InputError(wrong.text())
     # of the tensor's norm, and so of every moment
     slack = 3 * max(off, rounding(entries(rows)))
     if not any(rows[i][j] for i in range(3) for j in range(3) if i != j):
@@ -249,21 +251,27 @@ def principal_minors(rows: Sequence[Sequence[Number]]) -> Iterator[tuple[int, Nu
     yield 3, a * (e * k - f * h) - b * (d * k - f * g) + c * (d * h - e * g)
 
 
-def fault_of(rows: Rows) -> str | None:
-    """What keeps a 3 x 3 tensor of rationals from being symmetric with positive principal moments, in words;
-    None where nothing does."""
+NOT_SYMMETRIC = Sentence(
+    "tensor-not-symmetric", "the tensor is not symmetric: its {entry} entry is {value} and its {mirrored} "
+    "entry {other}, they differ by {difference}; write the same number in both places")
+NOT_POSITIVE = Sentence(
+    "tensor-not-positive", "the tensor is not positive definite: its least principal moment is {least}, and "
+    "those of a body are positive; are the products too large, or their sign convention another one?")
+
+
+def fault_of(rows: Rows) -> Reason | None:
+    """What keeps a 3 x 3 tensor of rationals from being symmetric with positive principal moments; None where
+    nothing does."""
     for i, j in ((0, 1), (0, 2), (1, 2)):
         if rows[i][j] != rows[j][i]:
-            return (f"the tensor is not symmetric: its {NAMES[i]}{NAMES[j]} entry is {float(rows[i][j])!r} "
-                    f"and its {NAMES[j]}{NAMES[i]} entry {float(rows[j][i])!r}, they differ by "
-                    f"{float(abs(rows[i][j] - rows[j][i])):.6g}; write the same number in both places")
+            value, other = (Quantity(float(v), digits=ENTRY) for v in (rows[i][j], rows[j][i]))
+            return NOT_SYMMETRIC(entry=NAMES[i] + NAMES[j], value=value, mirrored=NAMES[j] + NAMES[i],
+                                 other=other, difference=Quantity(float(abs(rows[i][j] - rows[j][i]))))
     polynomial = _characteristic(rows)
     constant, linear, square, _ = polynomial.c
     if not (constant < 0 < linear and square < 0):  # the signs of three positive roots, as all are real
         least = float(real_roots(polynomial)[0])
-        return (f"the tensor is not positive definite: its least principal moment is {least:.6g} kg m^2, and "
-                f"those of a body are positive; "
-                "are the products too large, or their sign convention another one?")
+        return NOT_POSITIVE(least=Inertia(least))
     return None
 
 

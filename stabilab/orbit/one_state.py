@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 # --- The unit of rate in which numbers are of order one
 BEYOND = "beyond the range of doubles"
 LOST = Sentence("beyond-doubles", "beyond the range of doubles: {what}")
+NONE_IN_DOUBLES = Sentence("extremes-beyond-doubles", "none: beyond the range of doubles")()
 
 
 @contextmanager
@@ -109,7 +110,7 @@ def in_scene_unit(found: Motion, k: int, state, margin: float) -> Motion:
     reason = found.reason.then(LOST(what=", ".join(lost)) if lost else None)
     return replace(found, at=state, reason=reason, extremes=pairs,
                    invariants={n: v for n, v in invariants.items() if not math.isnan(v)},
-                   extremes_over=found.extremes_over if pairs or not found.extremes else f"none: {BEYOND}",
+                   over=found.over if pairs or not found.extremes else NONE_IN_DOUBLES,
                    **fields)
 
 
@@ -166,7 +167,7 @@ def apart_fields(orbit: Orbit, state: Sequence[float], decided: OneFate) -> dict
         return {"margin_velocity": 0.0, "velocity_bounds": (0.0, 0.0), "velocity_witness": state}
     found = distance_of(orbit.reduction, orbit.state, orbit)
     if not math.isfinite(found.upper):
-        return {"velocity_because": found.because}
+        return {"velocity_reason": found.reason}
     return {"margin_velocity": found.value, "velocity_bounds": (found.lower, found.upper),
             "velocity_witness": found.witness,
-            "velocity_because": found.because}
+            "velocity_reason": found.reason}

@@ -18,6 +18,11 @@ if TYPE_CHECKING:  # a scene of exact laws does not load it
 
 SPINS_ABOUT = Sentence("spins-up-about", "it spins up about {axis}")
 SPINS_ABOUT_TORQUE = Sentence("spins-up-about-torque", "it spins up about the torque")()
+# over what extremes are known
+ALL_TIME = Sentence("all-time", "all time")()
+AS_BOUNDS = Sentence("all-time-as-bounds", "all time, as bounds")()  # wider than those of the motion
+OVER_SPAN = Sentence("over-span", "{span}")
+NO_EXTREMES = Sentence("no-extremes", "none: {why}")
 
 
 class Fate(IntEnum):
@@ -135,9 +140,6 @@ class Flips:
     free: bool
 
 
-AS_BOUNDS = "all time, as bounds"  # extremes that are wider than those of the motion
-
-
 @dataclass(frozen=True, repr=False)
 class Motion(Answer, Reasoned):
     """Everything known about the motion from one state.
@@ -147,12 +149,13 @@ class Motion(Answer, Reasoned):
     this value of the invariant); without a torque the kinetic energy of the nearest saddle of the same
     momentum minus the motion's. margin_velocity: smallest change of the state that reaches the
     separatrix, at whatever value of the invariant, to 1e-6, or where that is not reached a number that it
-    is proved not to be below (None where the scene has none, or nothing is known: then velocity_because
+    is proved not to be below (None where the scene has none, or nothing is known: then velocity_reason
     says why). velocity_bounds: (proved lower bound, distance of velocity_witness), velocity_witness: a
-    state on the separatrix as near as that; velocity_because: why the two bounds are apart. period: None
+    state on the separatrix as near as that; velocity_reason: why the two bounds are apart. period: None
     where the motion does not repeat, or is undecided. extremes: ((min, max),) * 3 over t >= 0, entries
-    +-inf where unbounded, None where unknown; extremes_over: "all time" or the span they were searched
-    over. validity: of an approximate law (`stabilab.physics.law_limits`), with its largest value along
+    +-inf where unbounded, None where unknown; over: all time, or the span they were searched over, or why
+    there are none; velocity_because, extremes_over: these two in words, in SI units. validity: of an
+    approximate law (`stabilab.physics.law_limits`), with its largest value along
     the motion; None where all laws are exact. tilt: what a tilt of its torque off the axis does to a
     bounded motion (`answers.tilt`), where that was asked; first: the limit of its case and its
     `TimeTo`, likewise; caveats: all that limits the answer (`answers.caveats`). largest: |omega| at the
@@ -177,10 +180,10 @@ class Motion(Answer, Reasoned):
     margin_velocity: float | None = None
     velocity_bounds: tuple[float, float] | None = None
     velocity_witness: Float3 | None = None
-    velocity_because: str = ""
+    velocity_reason: Reason | None = None
     period: float | None = None
     extremes: tuple[tuple[float, float], ...] | None = None
-    extremes_over: str = "all time"
+    over: Reason = ALL_TIME
     invariants: dict[str, float] = field(default_factory=dict)
     evidence: dict[str, Any] = field(default_factory=dict)
     tolerance: float | None = None
@@ -200,9 +203,24 @@ class Motion(Answer, Reasoned):
     returns: float = field(default=math.nan, repr=False, compare=False)
 
     @property
+    def velocity_because(self) -> str:
+        """`velocity_reason` in words and SI units; empty where there is nothing to explain."""
+        return "" if self.velocity_reason is None else self.velocity_reason.text()
+
+    @property
+    def extremes_over(self) -> str:
+        """`over` in words and SI units: "all time", "s in [0, 5]"."""
+        return self.over.text()
+
+    @property
+    def for_all_time(self) -> bool:
+        """Whether its extremes, where they are known, are those over all time."""
+        return self.over == ALL_TIME
+
+    @property
     def extremes_side(self) -> int:
         """1 where its extremes are bounds, which are rounded outward; 0 where they are values."""
-        return int(self.extremes_over == AS_BOUNDS)
+        return int(self.over == AS_BOUNDS)
 
     @property
     def cause(self) -> str:

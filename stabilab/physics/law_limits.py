@@ -13,7 +13,7 @@ from functools import reduce
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from ..numbers.vectors import Number
-from ..reasons import Quantity, Reason, Sentence, old
+from ..reasons import Quantity, Reason, Sentence, as_reason, old
 from ..validation import checked_scene
 from .effects.base import Limit, effect_words
 from .scene import AnyScene, slices
@@ -26,6 +26,7 @@ Blocks: TypeAlias = dict[str, tuple[Number, ...]]
 BEYOND, WITHIN, OPEN = "BEYOND THE LAW", "within the law", "law not judged"
 JUDGED = Sentence("law-judged", "{status}: {effect}: ")
 NOT_GIVEN = Sentence("law-needs", "{number}: it needs {needs}, which is not given, limit {limit}")
+OVER_AT_MOST = Sentence("law-over-at-most", "over {over} at most")
 MEASURED = Sentence("law-measured", "{number}, {value} {over}, limit {limit}")
 ROWS = 4096  # of a run that are looked at together
 
@@ -47,7 +48,7 @@ class Validity:
     value: float | np.ndarray | None
     limit: float
     holds: bool | np.ndarray | None
-    over: str
+    over: Reason
     follows: str
     source: str
     needs: str = "a part of the state"
@@ -99,8 +100,8 @@ class Validity:
     def as_dict(self) -> dict[str, Any]:
         """What JSON says of it."""
         named = {name: getattr(self, name) for name in ("status", "effect", "number", "value", "limit",
-                                                        "holds", "over", "follows", "source")}
-        return named | {"also": [v.as_dict() for v in self.also]}
+                                                        "holds", "follows", "source")}
+        return named | {"over": self.over.text(), "also": [v.as_dict() for v in self.also]}
 
     def _judged(self, follows: bool = False) -> Reason:
         return JUDGED(status=self._head, effect=effect_words(self.effect)).then(self._measured(follows), "")
@@ -111,7 +112,7 @@ class Validity:
             return NOT_GIVEN(number=old(self.number), needs=self.needs, limit=Quantity(self.limit))
         most = _largest(self.value)
         found = MEASURED(number=old(self.number), value="unbounded" if math.isinf(most) else
-                         Quantity(float(f"{most:.3g}")), over=old(self.over), limit=Quantity(self.limit))
+                         Quantity(float(f"{most:.3g}")), over=self.over, limit=Quantity(self.limit))
         return found.then(old(self.follows), ": ") if follows and self.excess > 1 else found
 
 
@@ -121,7 +122,7 @@ def _largest(value: float | np.ndarray | None) -> float:
     return value if isinstance(value, float) else float(value.max())
 
 
-def validity(scene: AnyScene, states: States, over: str = "at the start") -> Validity | None:
+def validity(scene: AnyScene, states: States, over: Reason | str = "at the start") -> Validity | None:
     """How far the approximate laws of a scene hold at states (..., N): the blocks of the scene in order,
     omega alone, or a dict of blocks.
 
@@ -132,7 +133,7 @@ def validity(scene: AnyScene, states: States, over: str = "at the start") -> Val
     return _judged(checked_scene(scene), _blocks(scene, states), over, None)
 
 
-def along(scene: AnyScene, states: States, over: str) -> Validity | None:
+def along(scene: AnyScene, states: States, over: Reason | str) -> Validity | None:
     """The same over one motion, states (n, N) or a dict of them; over several motions, (k, n, N)."""
     return _judged(scene, _blocks(scene, states), over, -1)
 
@@ -143,7 +144,7 @@ def of_motion(scene: AnyScene, motion: Any) -> Validity | None:
     if motion.extremes is None:
         return validity(scene, motion.at)
     corner = (max(map(abs, pair)) for pair in motion.extremes)
-    return validity(scene, (*corner, *motion.at[3:]), f"over {motion.extremes_over} at most")
+    return validity(scene, (*corner, *motion.at[3:]), OVER_AT_MOST(over=motion.over))
 
 
 def at_equilibria(scene: AnyScene, found: Any) -> Validity | None:
@@ -216,20 +217,20 @@ def _components(values: np.ndarray | Sequence[float]) -> tuple[Number, ...]:
         return tuple(array[..., i] for i in range(array.shape[-1]))
 
 
-def _judged(scene: AnyScene, blocks: Blocks, over: str, axis: int | None) -> Validity | None:
+def _judged(scene: AnyScene, blocks: Blocks, over: Reason | str, axis: int | None) -> Validity | None:
     return of_values(scene, lambda limit: _value(limit, blocks, axis), over)
 
 
 def of_values(scene: AnyScene, value_of: Callable[[Limit], float | np.ndarray | None],
-              over: str) -> Validity | None:
+              over: Reason | str) -> Validity | None:
     """The validity of a scene whose limits have the values that `value_of` tells of each, found over what
     `over` says in words."""
-    found = []
+    found, place = [], as_reason(over)
     for effect in scene.approximate:
         for limit in effect.limits(scene):
             value = value_of(limit)
             holds = None if value is None else value <= limit.limit
-            found.append(Validity(effect.name, limit.number, value, limit.limit, holds, over, limit.follows,
+            found.append(Validity(effect.name, limit.number, value, limit.limit, holds, place, limit.follows,
                                   limit.source, limit.needs))
     return _together(found)
 

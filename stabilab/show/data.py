@@ -4,6 +4,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+from ..reasons import Reason
+
 # numbers by JSON's grammar, beyond all doubles: Python, JavaScript and MATLAB read them as infinite
 ENDLESS = {math.inf: "1e999", -math.inf: "-1e999"}
 MARK = "\0 endless "  # before such a number in the text until its quotes are taken off
@@ -40,6 +42,8 @@ def plain(value):
         return MARK + ENDLESS[value]
     if isinstance(value, float):
         return float(value) + 0.0 if math.isfinite(value) else None
+    if isinstance(value, Reason):
+        return plain(value.as_dict())
     if hasattr(value, "tolist"):  # NumPy scalars and arrays
         return plain(value.tolist())
     return value

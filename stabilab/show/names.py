@@ -21,7 +21,7 @@ FIRST, MANY = 0xF0000, 60_000  # letters of private use that stand for the names
 SUSPECT = re.compile(
     r"omega|lambda|mu|gamma|alpha|sigma|zeta|tau|beta|delta|eps|eta|theta|kappa|nu|pi|phi|psi|rho|sqrt|inf"
     r"|ax[ei]s [123]|l_|_[ijk]|\^|\+-|-\+|[<>]=|-[\d.(\w]| - | x | \. |[MHωλγ]\.|\d\.\d{6}|\de[-+]?\d"
-    r"|\d (?:rad|deg|days?|min|h|s|m|J|tau|N m)\b|s in \[|t = ", re.IGNORECASE)
+    r"|\d (?:rad|deg|days?|min|h|s|m|J|tau|N m)\b", re.IGNORECASE)
 VARIANT = r"(?:-\d+)*"  # which combination of a [sweep] it is, behind the name of a case
 _spared: dict[str, None] = {}
 _found: list[re.Pattern[str]] = []  # of all of them, the longest first; empty where it is to be made

@@ -208,7 +208,8 @@ def as_dict(found) -> dict:
             "times": r.t, "machine": machine(), "versions": versions(),
             "reference": {"digits": r.digits, "error": float(r.error.max()) if len(r.t) else None,
                           "status": r.status,
-                          "reason": r.reason, "multiplications": r.work, "period": r.period and r.period[0],
+                          "reason": r.because, "why": r.reason.as_dict(),
+                          "multiplications": r.work, "period": r.period and r.period[0],
                           "period_error": r.period and r.period[2], "extremes_error": r.extremes_error},
             "sensitivity": found.sensitivity, "points": [_row(found, p) for p in found.points],
             "digit_price": {q: {m: digit_price(found.of(q, m)) for m in methods(found, q)}
@@ -300,7 +301,7 @@ def _section(case, folder, effort):
     except InputError as error:
         return None, str(error)
     if not found.questions:
-        return None, found.reference.reason
+        return None, found.reference.because
     picture = None
     if effort == "brief":
         if case.name == FIRST:

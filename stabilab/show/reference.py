@@ -41,11 +41,12 @@ def as_dict(case: Case, times: Sequence[Fraction], digits: int,
             "time": case.scene.time_unit, "digits": digits,
             "provenance": _provenance(case, arguments),
             "subject": subject(effective(case.scene), case.exact_state),
-            "trajectory": {"level": run.level, "because": run.because, "components": list(run.components),
+            "trajectory": {"level": run.level, "because": run.because, "reason": run.reason.as_dict(),
+                           "components": list(run.components),
                            "rows": [{"t": decimal(t), "values": texts, "within": within(row, texts)}
                                     for t, row in zip(run.t, run.states)
                                     for texts in [[written(v, digits) for v in row]]]},
-            "events": {"because": run.events_because,
+            "events": {"because": run.events_because, "reason": run.events_reason.as_dict(),
                        "list": [{"kind": one.kind, "component": run.components[one.component],
                                  "t": t, "t_within": within([one.t], [t]),
                                  "value": value, "value_within": within([one.value], [value])}
@@ -96,7 +97,7 @@ def _told(told) -> dict:
     value = (None if values is None else [[str(v) for v in pair] for pair in values]
              if told.question == "extremes" else str(values))
     return {"value": value, "digits": None if told.digits is None else min(told.digits, 99.0),
-            "because": told.because}
+            "because": told.because, "reason": told.reason.as_dict()}
 
 
 def missing(case: Case, made: dict, run: Tabulated) -> list[tuple]:

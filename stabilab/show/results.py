@@ -182,7 +182,7 @@ def _across(name: str, values: np.ndarray) -> tuple[str, ...]:
 def _run_words(run, parts, method):
     span = f", {run.t[0]:.6g} to {run.t[-1]:.6g}" if len(run.t) else ""
     return (f"{some(len(run.t), 'time')}{span}; {', '.join(parts)}; {method}, "
-            f"{run.status if run.status == 'reached' else run.reason}")
+            f"{run.status if run.status == 'reached' else run.because}")
 
 
 def _simulation_words(run):
@@ -193,7 +193,7 @@ def _simulation(run):
     notes = {f"departure_from_{name}": value for name, value in run.invariant_drift.items()}
     return Variables(("time",), of_parts(run.state, errors=run.error),
                      {"time": (run.t, {"units": "1" if "x" in run.state else "s"}), **AXIS},
-                     values_of(run, "model method status reason") | notes)
+                     values_of(run, "model method status") | {"reason": run.because} | notes)
 
 
 def _trajectory_words(run):
@@ -206,7 +206,7 @@ def _trajectory(run):
     plain = {name: (dims, values, {"long_name": words["long_name"]})
              for name, (dims, values, words) in parts.items()}
     return Variables(("time",), plain, {"time": (run.t, {}), **AXIS},
-                     values_of(run, "method status reason"))
+                     values_of(run, "method status") | {"reason": run.because})
 
 
 def _fates_words(found):
@@ -317,7 +317,7 @@ def _equilibria(found: Equilibria):
 def _motion_words(m: Motion):
     parts = [m.fate.word + _about(m) + ("" if m.level in ("exact", "undecided") else f", {m.level}"),
              _named("margin in energy", m.margin_energy),
-             _named("in rate", m.margin_velocity, -bool(m.velocity_because)), _named("period", m.period),
+             _named("in rate", m.margin_velocity, -bool(m.velocity_reason)), _named("period", m.period),
              "" if m.extremes is None else f"extremes over {m.extremes_over}"]
     return "; ".join(filter(None, parts))
 
@@ -489,7 +489,7 @@ def _crossings(found):
               "t": (("zero",), np.concatenate(found.t), {}),
               "error": (("zero",), np.concatenate(found.error), {"long_name": "of the time"}),
               "state": (("zero", "component"), np.concatenate(found.states), {})}
-    return Variables(("zero",), values, {}, values_of(found, "until status reason"))
+    return Variables(("zero",), values, {}, values_of(found, "until status") | {"reason": found.because})
 
 
 def _chaos_words(found):

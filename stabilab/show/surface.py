@@ -341,7 +341,7 @@ def summarise(case, found, meshes) -> dict:
             "vertices": sum(r["vertices"] for r in rows),
             "triangles": sum(r["triangles"] for r in rows),
             "largest_residual": max((r["largest_residual"] for r in rows), default=0.0),
-            "reason": found.because}
+            "reason": found.because, "why": found.reason.as_dict()}
 
 
 def write_meshes(meshes: list[Mesh], out: Path, name: str) -> list[Path]:

@@ -10,7 +10,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, printable
-from ..reasons import Axis, Quantity, Reason, Symbolic, listed, outward
+from ..reasons import Axis, Moment, Quantity, Reason, Span, Symbolic, listed, outward
 from .axes import PLAIN, Axes, axes_of
 from .names import around
 from .terminal import lettered
@@ -22,20 +22,16 @@ if TYPE_CHECKING:
 DIGITS = 6  # of a number in a table
 SHORT = 4  # of a number within a sentence
 WHOLE = 1e6  # below it no power of ten: 15904 and not 1.59e+04
-OWN = ("rad", "rad/s", "s", "tau")  # units of quantities that have others for people
+OWN = ("rad", "rad/s", "rad/s^2", "s", "tau")  # units of quantities that have others for people
 Unit = tuple[str, float]  # its name, and how many of it make one in SI
 TURN = 180 / math.pi
 NUMBER = r"(-?\d+(?:\.\d+)?(?:e[-+]?\d+)?)"
-SPAN = re.compile(r"\b(s|tau) in \[([^],]+), ([^]]+)\]")
-MOMENT = re.compile(rf"\bt = {NUMBER}(?!\w|\.\d|\s*[-+*/^])(?: (?:s|tau)\b)?")
 IN_RADIANS = re.compile(rf"(?<![\w.])(?:{NUMBER}( to | and ))?{NUMBER} rad(/s\^2|/s)?(?![\w/^])")
-AFTER = re.compile(rf"\b(after|before|within) {NUMBER} s(?![\w^])")
 # before a bound within a sentence, which is rounded outward
 UPPER = re.compile(
     r"(?:<=|\b(?:at most|no more than|never above|enclosed, within|certain from|from t =))\s*$")
 LOWER = re.compile(
     r"(?:>=|\b(?:at least|not before|up to(?: t =)?|until|not reached (?:by|before)(?: t =)?))\s*$")
-OF_RATES = re.compile(r"\((-?\d[-+.\de]*(?:, -?\d[-+.\de]*)+)\) rad/s(?![\w^])")
 
 
 @dataclass(frozen=True)
@@ -119,6 +115,10 @@ class Units:
             return value.text(self.of, True)
         if isinstance(value, tuple):
             return listed(tuple(self.filled(one, digits, whole) for one in value))
+        if isinstance(value, Moment):
+            return self.moment(value.value, value.digits or digits, value.side)
+        if isinstance(value, Span):
+            return self.span(value.unit, value.start, value.end)
         if not isinstance(value, Quantity):
             return f"{value:,}" if type(value) is int else printable(str(value))
         digits = value.digits or (digits if value.unit in OWN else DIGITS)
@@ -135,15 +135,11 @@ class Units:
 
     @around
     def words(self, words: str, digits: int = DIGITS - 1) -> str:
-        """A sentence of the analysis, whose angles and rates are in rad and rad/s and whose times in s, with
-        all in these units; "s in [0, 20]" becomes "0 to 20 s", and with names for the numbers of axes."""
-        words = AFTER.sub(lambda found: f"{found[1]} {self.time(float(found[2]), digits, _side(found, 2))}",
-                          self.axes.sentence(words))
-        words = SPAN.sub(lambda found: self.span(found[1], float(found[2]), float(found[3])), words)
-        words = MOMENT.sub(lambda found: self.moment(float(found[1]), digits, _side(found, 1)), words)
+        """A sentence without quantities of its own, whose angles and rates are in rad and rad/s, with these
+        in these units, and with names for the numbers of axes."""
+        words = self.axes.sentence(words)
         if self.rates[0] in ("rad/s", ""):
             return words
-        words = OF_RATES.sub(lambda found: self.vector(found[1].split(", "), self.rates, digits), words)
         return IN_RADIANS.sub(partial(self._turned, digits), words)
 
     def _turned(self, digits: int, found: re.Match[str]) -> str:
@@ -157,7 +153,8 @@ class Units:
         """The unit in which numbers of this SI unit are printed; those of a scaled case have none."""
         name, one = self.rates
         turns = {"rad/s": self.rates, "rad": self.angles,
-                 "(rad/s)^2": (f"({name})²" if name else "", one * one)}
+                 "(rad/s)^2": (f"({name})²" if name else "", one * one),
+                 "rad/s^2": ("" if self.scaled else f"{self.angles[0]}/s²", self.angles[1])}
         return turns.get(unit, ("" if self.scaled and unit != "1" else lettered(unit), 1.0))
 
     def vector(self, values: Float3 | list[str], unit: Unit, digits: int = DIGITS) -> str:

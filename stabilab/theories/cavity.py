@@ -39,7 +39,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -47,10 +47,11 @@ import numpy as np
 
 from ..answers.simulate import Simulation
 from ..errors import InputError
-from ..integrate.trajectory import FALLBACK_RTOL
+from ..integrate.trajectory import ALL_REACHED, FALLBACK_RTOL
 from ..physics.equations import derive
 from ..physics.states import numbers_in_a_row, three_numbers
 from ..physics.to_numpy import lambdified, to_numpy
+from ..reasons import Moment, Quantity, Reason, Reasoned, Sentence, Time, old
 from .cavity_normal_form import NAMES, NormalForm, check, constants, normal_form
 from .printed.evaluate import printed_formulas
 
@@ -75,7 +76,7 @@ LEAST = -230.0
 
 
 @dataclass(frozen=True)
-class AveragedMotion:
+class AveragedMotion(Reasoned):
     """What the averaged equations say at the asked-for times.
 
     t: (n,) s; amplitude A, rad/s, spin r, rad/s, phase phi, rad, unwrapped: (n,), the averaged variables;
@@ -83,7 +84,7 @@ class AveragedMotion:
     variables, so omega at t = 0 is the given state). At A = 0 the phase is that of the turn alone. order: 1
     or 2; eps: the small parameter. floor: absolute tolerance of the spin, and of p and q where a torque lies
     across axis 3, rad/s; else these are as well known as their size. status: "reached", or "stopped" with t
-    up to where the run came; reason: why; horizon: in words, how far to trust it.
+    up to where the run came; reason: why; horizon: how far to trust it.
     """
 
     t: np.ndarray
@@ -95,8 +96,7 @@ class AveragedMotion:
     eps: float
     floor: tuple[float, float, float]
     status: str
-    reason: str
-    horizon: str
+    horizon: Reason
 
 
 def averaged(scene: Scene, state: Sequence[float], times: np.ndarray, order: int = 1) -> AveragedMotion:
@@ -118,27 +118,41 @@ def averaged(scene: Scene, state: Sequence[float], times: np.ndarray, order: int
     small.refuse()
     model = _Model(scene, numbers, omega, order)
     start = model.inward(omega)
-    w0, failures = complex(start[0], -start[1]), []
+    w0, failure = complex(start[0], -start[1]), None
     rows: dict[Any, Any] = {}
     for sense in (-1, 1):
         grid = np.unique(times[times * sense > 0] * sense)
         if grid.size:
-            found, failure = model.run(w0, start[2], grid, sense)
+            found, ended = model.run(w0, start[2], grid, sense)
             rows |= {sense * t: row for t, row in zip(grid, found)}
-            failures += [failure] if failure else []
+            failure = ended if failure is None else failure.then(ended)
     rows[0.0] = (w0, start[2], 0.0, math.atan2(w0.imag, w0.real))
     reached = np.array([t for t in times if t in rows])
     W, r, psi, angle = (np.array([rows[t][i] for t in reached]) for i in range(4))
     omega = model.outward(W * np.exp(1j * psi), r.real)
     return AveragedMotion(reached, np.abs(W), r.real, psi.real + angle.real, omega, order, small.eps,
                           model.floor,
-                          "stopped" if failures else "reached", "; ".join(failures) or "all times reached",
-                          small.horizon(order))
+                          "stopped" if failure else "reached", small.horizon(order),
+                          reason=failure or ALL_REACHED)
 
 
 def omega_of(state) -> np.ndarray:
     """Three numbers, or the block omega of a state."""
     return three_numbers(state["omega"] if isinstance(state, dict) and "omega" in state else state)
+
+
+ERRORS_UP_TO = Sentence(
+    "averaging-errors-up-to", "errors of order ε^{order} (ε = {small}) in amplitude and spin up to about t = "
+    "{time} (the time of the slow change), in the phase they grow with time")
+ERRORS_ALWAYS = Sentence(
+    "averaging-errors-always", "errors of order ε^{order} (ε = {small}) in amplitude and spin up to about "
+    "all times (the time of the slow change), in the phase they grow with time")
+DOUBTFUL = Sentence("averaging-doubtful", "doubtful here, for {ratio} is {value}")
+STOPPED_AT = Sentence("averaged-run-stopped", "the run stopped at {time}: {why}")
+NO_REAL_VALUE = Sentence(
+    "printed-no-real-value", "the printed q has no real value at {time}: (D1'r - g)(D2'r - g) is not "
+    "positive there")
+AVERAGED = Sentence("averaged-model", "averaged equations of order {order}, ε = {small}")
 
 
 @dataclass(frozen=True)
@@ -181,14 +195,15 @@ class Smallness:
                                  f"below 1 (much "
                                  "below 1 for a close answer); use the exact motion (`trajectory`) here")
 
-    def horizon(self, order: int) -> str:
-        """How far the answer may be trusted, in words."""
+    def horizon(self, order) -> Reason:
+        """How far the answer may be trusted."""
         ratios = self.ratios | (self.soft if order == 1 else {})
         largest = max(ratios, key=ratios.get)
-        worst, reach = ratios[largest], f"t = {1 / self.slow:.3g} s" if self.slow else "all times"
-        doubt = f"; doubtful here, for {largest} is {worst:.2g}" if worst > 0.3 else ""
-        return (f"errors of order eps^{order} (eps = {self.eps:.3g}) in amplitude and spin up to about "
-                f"{reach} (the time of the slow change), in the phase they grow with time{doubt}")
+        worst, small = ratios[largest], Quantity(self.eps, digits=3)
+        found = (ERRORS_UP_TO(order=order, small=small, time=Time(1 / self.slow, digits=3)) if self.slow
+                 else ERRORS_ALWAYS(order=order, small=small))
+        return found.then(DOUBTFUL(ratio=old(largest), value=Quantity(float(worst), digits=2))
+                          if worst > 0.3 else None)
 
 
 def _over(a: float, b: float):
@@ -291,7 +306,8 @@ class _Model:
         W, angle = (np.exp(W), W.imag) if self.logarithmic else (W, np.unwrap(np.angle(W)))
         wanted = np.isin(run.t, grid)
         rows = list(zip(W[wanted], run.y[2][wanted], run.y[3][wanted], angle[wanted]))
-        return rows, None if run.success else f"the run stopped at t = {sense * run.t[-1]:.6g}: {run.message}"
+        return rows, None if run.success else STOPPED_AT(
+            time=Moment(float(sense * run.t[-1])), why=run.message)
 
 
 @lru_cache(maxsize=32)
@@ -344,7 +360,7 @@ def polar(scene: Scene, state: Sequence[float], times: np.ndarray) -> dict[str, 
 
 # --- The polynomials as printed
 @dataclass(frozen=True)
-class PrintedMotion:
+class PrintedMotion(Reasoned):
     """The printed solution at the asked-for times.
 
     t: (n,) s, up to where it exists; amplitude a of p, rad/s, spin r, rad/s, phase phi, rad: (n,); omega: (n,
@@ -357,7 +373,7 @@ class PrintedMotion:
     phase: np.ndarray
     omega: np.ndarray
     status: str = "reached"
-    reason: str = "all times reached"
+    reason: Reason = field(default=ALL_REACHED, kw_only=True)
 
 
 @dataclass(frozen=True)
@@ -428,11 +444,9 @@ def printed(scene: Scene, state: Sequence[float], times: np.ndarray) -> PrintedM
     a, r, phi, w = poly.at(times)
     good = np.isfinite(w).all(axis=1)
     count = len(times) if good.all() else int(np.argmin(good))
-    reason = ("all times reached" if count == len(times) else
-              f"the printed q has no real value at t = {times[count]:.6g}: (D1'r - g)(D2'r - g) is not "
-              f"positive there")
+    reason = ALL_REACHED if count == len(times) else NO_REAL_VALUE(time=Moment(float(times[count])))
     return PrintedMotion(times[:count], a[:count], r[:count], phi[:count], w[:count],
-                         "reached" if count == len(times) else "stopped", reason)
+                         "reached" if count == len(times) else "stopped", reason=reason)
 
 
 # --- The averaged models of a body with a liquid or a resistance, as models of a case
@@ -461,8 +475,8 @@ def follow(model, case, times, order=None) -> Simulation:
         found = run = averaged(case.scene, case.state, times, order=int(model[-1]))
         error = {"omega": np.array(found.floor), "amplitude": np.array(found.floor[0]),
                  "spin": np.array(found.floor[2])}
-        how, reason = (f"averaged equations of order {found.order}, eps = {found.eps:.6g}",
-                       f"{found.reason}; {found.horizon}")
+        how, reason = (AVERAGED(order=found.order, small=Quantity(found.eps)).text(),
+                       found.reason.then(found.horizon))
     state = {"omega": run.omega, "amplitude": run.amplitude, "spin": run.spin, "phase": run.phase}
     return Simulation(np.asarray(run.t), state, model, how, None, status=run.status, reason=reason,
                       error=error)

@@ -30,12 +30,13 @@ from ..errors import InputError
 from ..numbers.vectors import Number
 from ..physics.effects.base import effect_words
 from ..physics.equations import derive
-from ..reasons import Reasoned, as_reason
+from ..reasons import Axis, Quantity, Rate, Reason, Reasoned, Sentence
 
 if TYPE_CHECKING:
     from sympy import Expr
 
     from ..physics.scene import Scene
+
 
 ORDERS = 3  # X0, X1, X2
 ALLOWED = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity"}
@@ -229,6 +230,38 @@ def _harmonics(f: Expr, Z: Expr, Zc: Expr, shift: int, m: Expr, K: Expr, S: Expr
     return mean, kept, near
 
 
+SPIN_ALONE = Sentence(
+    "averaged-spin-alone", "spin about {axis}: amplitude and spin change each at their own rate")
+PRECESSION = Sentence(
+    "averaged-precession", "regular precession: the liquid feeds the amplitude as fast as the rest takes "
+    "it")()
+EVERY_SPIN = Sentence(
+    "averaged-every-spin", "every spin about {axis} (A = 0, any r): in these equations nothing attracts or "
+    "repels")
+EVERY_SPIN_GROWS = Sentence(
+    "averaged-every-spin-grows", "every spin about {axis} (A = 0, any r), the amplitude growing at the rate "
+    "{rate}")
+EVERY_STATE = Sentence(
+    "averaged-every-state", "every amplitude and spin: in these equations nothing changes them")()
+COMES_BACK = Sentence(
+    "averaged-comes-back", "the angular velocities with r = {spin} and any A: the turn stands still there; a "
+    "neighbour comes back at the rate {rate} A² 1/s (A in rad/s)")
+LEAVES = Sentence(
+    "averaged-leaves", "the angular velocities with r = {spin} and any A: the turn stands still there; a "
+    "neighbour leaves at the rate {rate} A² 1/s (A in rad/s)")
+ALL_STEADY = Sentence(
+    "averaged-all-steady", "averaged equations A' = A α(r), r' = ρ0(r) + A² ρ1(r) of the body with D1 = D2: "
+    "all their steady states")()
+NO_RESISTANCE = Sentence(
+    "averaged-no-resistance", "there is none: the torque M3 has no resistance to balance it")()
+THERE_IS_NONE = Sentence("averaged-none", "there is none")()
+AVERAGE_OUT = Sentence(
+    "averaged-torques-out", "the torques M1, M2 average out: the true motion keeps a small oscillation of "
+    "the size M/(J0 ν), and is not covered near ν = 0")()
+DIFFERENCE_OUT = Sentence(
+    "averaged-difference-out", "D1 - D2 averages out as long as ν is much larger than |D1 - D2| |ω|/(2 J0)")()
+
+
 @dataclass(frozen=True)
 class SteadyState(Reasoned):
     """A steady state of the averaged motion: amplitude A and spin r (rad/s), kind "attracting", "repelling",
@@ -242,13 +275,12 @@ class SteadyState(Reasoned):
 
 
 @dataclass(frozen=True)
-class Attractors:
-    """All isolated steady states; families: curves of them, in words with their rates; reason: why these and
+class Attractors(Reasoned):
+    """All isolated steady states; families: curves of them, with their rates; reason: why these and
     no others."""
 
     points: tuple[SteadyState, ...]
-    families: tuple[str, ...]
-    reason: str
+    families: tuple[Reason, ...]
 
     @property
     def attracting(self) -> tuple[SteadyState, ...]:
@@ -272,7 +304,7 @@ def attractors(scene: Scene) -> Attractors:
         if swept != 0 and -rho0.eval(root) / swept > 0:
             points.append(_state(alpha, rho0, rho1, root, -rho0.eval(root) / swept))
     families = tuple(_families(alpha, rho0, rho1))
-    return Attractors(tuple(points), families, _reason(numbers, points, families))
+    return Attractors(tuple(points), families, reason=_reason(numbers, points, families))
 
 
 def _by_amplitude(rate, S):
@@ -291,14 +323,14 @@ def _state(alpha, rho0, rho1, r, S) -> SteadyState:
     down = rho0.diff().eval(r) + S * rho1.diff().eval(r)
     if S == 0:
         first, second = alpha.eval(r), down
-        because = "spin about axis 3: amplitude and spin change each at their own rate"
+        reason = SPIN_ALONE(axis=Axis(3))
     else:
         det = -2 * S * alpha.diff().eval(r) * rho1.eval(r)
         root = sqrt(down**2 - 4 * det)
         first, second = (down + root) / 2, (down - root) / 2
-        because = "regular precession: the liquid feeds the amplitude as fast as the rest takes it"
+        reason = PRECESSION
     rates = (complex(Integer(0) + first), complex(Integer(0) + second))
-    return SteadyState(float(sqrt(S)), float(r), _kind(rates), rates, reason=as_reason(because))
+    return SteadyState(float(sqrt(S)), float(r), _kind(rates), rates, reason=reason)
 
 
 def _kind(rates):
@@ -312,19 +344,17 @@ def _families(alpha, rho0, rho1):
     """Curves of steady states: where a factor vanishes identically or for all A at once."""
     if rho0.is_zero:
         if alpha.is_zero:
-            yield "every spin about axis 3 (A = 0, any r): in these equations nothing attracts or repels"
+            yield EVERY_SPIN(axis=Axis(3))
         else:
-            yield "every spin about axis 3 (A = 0, any r), the amplitude growing at the rate " + _words(alpha)
+            yield EVERY_SPIN_GROWS(axis=Axis(3), rate=_words(alpha))
     if alpha.is_zero and rho0.is_zero and rho1.is_zero:
-        yield "every amplitude and spin: in these equations nothing changes them"
+        yield EVERY_STATE
         return
     for r in _roots(alpha) if not alpha.is_zero else ():
         if rho1.eval(r) == 0 and rho0.eval(r) == 0:
             rate = float(rho1.diff().eval(r))
-            yield (f"the angular velocities with r = {float(r):.10g} and any A: the turn stands still there; "
-                   f"a neighbour comes back at the rate {-rate:.10g} A^2 1/s (A in rad/s)" if rate < 0 else
-                   f"the angular velocities with r = {float(r):.10g} and any A: the turn stands still there; "
-                   f"a neighbour leaves at the rate {rate:.10g} A^2 1/s (A in rad/s)")
+            neighbour = COMES_BACK if rate < 0 else LEAVES
+            yield neighbour(spin=Rate(float(r)), rate=Quantity(abs(rate), digits=10))
 
 
 def _words(polynomial):
@@ -334,15 +364,9 @@ def _words(polynomial):
 
 
 def _reason(numbers, points, families):
-    parts = [
-        "averaged equations A' = A alpha(r), r' = rho0(r) + A^2 rho1(r) of the body with D1 = D2: all their "
-        "steady states"]
+    found = ALL_STEADY
     if not points and not families:
-        parts.append("there is none: the torque M3 has no resistance to balance it" if numbers["M3"]
-                     else "there is none")
+        found = found.then(NO_RESISTANCE if numbers["M3"] else THERE_IS_NONE)
     if numbers["M1"] or numbers["M2"]:
-        parts.append("the torques M1, M2 average out: the true motion keeps a small oscillation of the size "
-                     "M/(J0 nu), and is not covered near nu = 0")
-    if numbers["h"]:
-        parts.append("D1 - D2 averages out as long as nu is much larger than |D1 - D2| |omega|/(2 J0)")
-    return "; ".join(parts)
+        found = found.then(AVERAGE_OUT)
+    return found.then(DIFFERENCE_OUT if numbers["h"] else None)

@@ -50,8 +50,8 @@ import numpy as np
 from ..answers.simulate import Simulation
 from ..errors import InputError
 from ..numbers.double_double import divided_differences
-from ..reasons import number
-from .charged_modes import SMALL_ANGLE, ChargedBody, Modes, horizon, modes, spin_words
+from ..reasons import Angle, Reason, Reasoned, Sentence, Time
+from .charged_modes import SMALL_ANGLE, ChargedBody, Modes, horizon, modes, spin_reason
 from .printed.evaluate import printed_formulas
 
 if TYPE_CHECKING:
@@ -164,7 +164,7 @@ WITHIN, BEYOND = "small angles", "beyond small angles"
 
 
 @dataclass(frozen=True, eq=False)
-class AxisymmetricMotion:
+class AxisymmetricMotion(Reasoned):
     """The motion by one of the models at the asked-for times; arrays (..., 3) over t, None
     where not asked for.
 
@@ -181,7 +181,6 @@ class AxisymmetricMotion:
     velocity: np.ndarray | None
     position: np.ndarray | None
     status: str
-    reason: str
 
     @property
     def tilt(self) -> np.ndarray:
@@ -212,9 +211,10 @@ def corrected(body: ChargedBody, t: np.ndarray) -> AxisymmetricMotion:
 
 def _motion_of(terms, momentum) -> AxisymmetricMotion:
     body, angles = terms.body, terms.angles()
-    places = terms.translation() if body.mass is not None else (None, None)
+    velocity, position = terms.translation() if body.mass is not None else (None, None)
     status, reason = verdict(tilt_of(angles), terms.t, horizon(body))
-    return AxisymmetricMotion(terms.t, terms.angular_velocity(), angles, momentum, *places, status, reason)
+    return AxisymmetricMotion(terms.t, terms.angular_velocity(), angles, momentum, velocity, position, status,
+                              reason=reason)
 
 
 def one_frequency(body: ChargedBody) -> Modes:
@@ -249,18 +249,28 @@ def times(t: float | np.ndarray):
     return t
 
 
-def verdict(tilt, t, until):
+NOT_REACHED_BEFORE = Sentence(
+    "tilt-not-reached-before", "a tilt of {angle} is not reached before t = {time} (estimate from the torque "
+    "and the start)")
+STAYS_BELOW = Sentence("tilt-stays-below", "the tilt stays below {angle} for all time")
+EXCEEDED = Sentence(
+    "small-angles-exceeded", "the model's tilt reaches {largest} and exceeds {angle} at t = {time} or "
+    "before: the small-angle equations no longer describe the body")
+OF_MODEL = Sentence("linear-model-status", "{status}: {why}")
+NO_ANGLES = Sentence("rates-without-angles", "the rates ask for no small angles")()
+ANGLE_HELD = Sentence("charge-angle-held", "the charge's angle is held at its first value")()
+
+
+def verdict(tilt, t, until) -> tuple[str, Reason]:
     """Status and reason of a motion with this tilt at the times t."""
-    promise = (f"a tilt of {SMALL_ANGLE:g} rad is not reached before t = {number(until, side=-1)} s "
-               "(estimate from the torque and the start)")
-    if until == np.inf:
-        promise = f"the tilt stays below {SMALL_ANGLE:g} rad for all time"
+    small = Angle(SMALL_ANGLE)
+    promise = (STAYS_BELOW(angle=small) if until == np.inf
+               else NOT_REACHED_BEFORE(angle=small, time=Time(float(until)).lower))
     if np.all(tilt <= SMALL_ANGLE):
         return WITHIN, promise
-    first = np.min(np.abs(t[tilt > SMALL_ANGLE]))
-    return BEYOND, (f"the model's tilt reaches {np.max(tilt):.4g} rad and exceeds {SMALL_ANGLE:g} rad at t = "
-                    f"{number(first, side=1)} s or before: the small-angle equations no longer describe "
-                    f"the body; {promise}")
+    first = float(np.min(np.abs(t[tilt > SMALL_ANGLE])))
+    return BEYOND, EXCEEDED(largest=Angle(float(np.max(tilt)), digits=4), angle=small,
+                            time=Time(first).upper).then(promise)
 
 
 # --- The formulas as printed
@@ -443,11 +453,9 @@ def follow(model, case, times, order=None) -> Simulation:
     run, how = _motion(model, body, times, wanted)
     parts = {part: getattr(run, part) for part in wanted}
     held = case.scene.effect("charge") is not None and case.scene.effect("charge").follows_attitude
-    held = "the charge's angle is held at its first value" if held else ""
-    angles = f"{run.status}: {run.reason}" if "angles" in parts else "the rates ask for no small angles"
-    told = angles, spin_words(body, run.omega, run.t)
-    return Simulation(run.t, parts, model, how, None, status="reached",
-                      reason="; ".join(filter(None, (*told, held))))
+    angles = OF_MODEL(status=run.status, why=run.reason) if "angles" in parts else NO_ANGLES
+    reason = angles.then(spin_reason(body, run.omega, run.t)).then(ANGLE_HELD if held else None)
+    return Simulation(run.t, parts, model, how, None, status="reached", reason=reason)
 
 
 def _motion(model: str, body: ChargedBody, times: np.ndarray, wanted: Sequence[str]):

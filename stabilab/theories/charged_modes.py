@@ -27,7 +27,7 @@ import numpy as np
 
 from ..errors import InputError, told
 from ..numbers.exact import sqrt_fraction
-from ..reasons import number
+from ..reasons import Inertia, Rate, Reason, Reasoned, Sentence
 
 FIELDS = {"inertia": 3, "spin": 0, "gyrostat": 0, "charge_moment": 0, "torque": 2, "rates": 2, "attitude": 3,
           "force": 3, "mass": 0, "velocity": 3, "position": 3}
@@ -145,25 +145,35 @@ def modes(body: ChargedBody) -> Modes:
 NEAR = 1e-6  # of a resonance
 
 
-def resonances(body: ChargedBody) -> tuple[str, ...]:
-    """The resonances and the unstable band that the data meet, in words, to `NEAR` of the largest rate among
+NO_SPIN = Sentence("resonance-no-spin", "r0 = 0: no spin; a transverse torque tilts the body without bound")()
+NO_FREQUENCY = Sentence(
+    "resonance-no-frequency", "ω = 0: a or b vanishes; p or q grows steadily under a torque, or the motion "
+    "drifts")()
+NO_AXIAL_MOMENTUM = Sentence(
+    "resonance-no-axial-momentum", "r0 = -ω, D3 r0 + Λ = 0: no axial momentum is left to hold the axis; the "
+    "tilt grows steadily")()
+FREQUENCIES_MEET = Sentence(
+    "resonance-frequencies-meet", "r0 = ω, D3 r0 + Λ = (D1 + D2) r0: frequencies meet, a = b, nothing "
+    "grows")()
+UNSTABLE_BAND = Sentence(
+    "unstable-band", "unstable band: a b < 0, the spin axis lies between the two others; p and q grow "
+    "exponentially")()
+SPIN_CONSTANT = Sentence("spin-constant", "D1 = D2: r is constant and p, q are those of Euler's equations")()
+SPIN_HELD = Sentence(
+    "spin-held", "r is held at r0; with D1 - D2 = {difference} it changes by {change} at most over these "
+    "times, by the model's p and q")
+
+
+def resonances(body: ChargedBody) -> tuple[Reason, ...]:
+    """The resonances and the unstable band that the data meet, to `NEAR` of the largest rate among
     r0, a, b. Nothing is singular at a resonance: the closed forms pass through it."""
     m, r0 = modes(body), body.spin
     small = NEAR * max(map(abs, (m.a, m.b, Fraction(r0))))
     sides = sqrt(body.inertia[0] * body.inertia[1])
-    found = {
-        "r0 = 0: no spin; a transverse torque tilts the body without bound": abs(r0) <= small,
-        "omega = 0: a or b vanishes; p or q grows steadily under a torque, or the motion drifts":
-            abs(m.root) <= small,
-        "r0 = -omega, D3 r0 + Lambda = 0: no axial momentum is left to hold the axis; the tilt grows "
-        "steadily":
-            abs(m.X) <= small * sides,
-        "r0 = omega, D3 r0 + Lambda = (D1 + D2) r0: frequencies meet, a = b, nothing grows":
-            abs(m.Y) <= small * sides,
-        "unstable band: a b < 0, the spin axis lies between the two others; p and q grow exponentially":
-            m.unstable,
-    }
-    return tuple(words for words, here in found.items() if here)
+    found = {NO_SPIN: abs(r0) <= small, NO_FREQUENCY: abs(m.root) <= small,
+             NO_AXIAL_MOMENTUM: abs(m.X) <= small * sides, FREQUENCIES_MEET: abs(m.Y) <= small * sides,
+             UNSTABLE_BAND: m.unstable}
+    return tuple(reason for reason, here in found.items() if here)
 
 
 SMALL_ANGLE = 0.1  # rad: cos differs from 1 by 0.5 %, and so the linear rates from the true ones
@@ -197,16 +207,15 @@ def largest_tilt(body: ChargedBody) -> float:
     return inf if parts is None else sum(map(abs, (parts.steady, parts.coning, parts.B, parts.C)))
 
 
-def spin_words(body: ChargedBody, omega: np.ndarray, t: np.ndarray) -> str:
+def spin_reason(body: ChargedBody, omega, t) -> Reason:
     """How far the spin r, held at r0, is from constant: D3 r' = (D1 - D2) p q, so |r - r0| <= |D1 - D2|
     max(p^2 + q^2) |t|/(2 D3) along the rates omega (n, 3) at the times t (n,)."""
     D1, D2, D3 = body.inertia
     if D1 == D2:
-        return "D1 = D2: r is constant and p, q are those of Euler's equations"
+        return SPIN_CONSTANT
     change = (abs(D1 - D2) / (2 * D3) * float((omega[..., 0]**2 + omega[..., 1]**2).max(initial=0.0))
               * float(np.abs(t).max(initial=0.0)))
-    return (f"r is held at r0; with D1 - D2 = {D1 - D2:.6g} kg m^2 it changes by {number(change, 2, 1)} "
-            "rad/s at most over these times, by the model's p and q")
+    return SPIN_HELD(difference=Inertia(D1 - D2), change=Rate(change, digits=2).upper)
 
 
 @dataclass(frozen=True)
@@ -247,12 +256,12 @@ def tilt_parts(body: ChargedBody) -> TiltParts | None:
 
 # --- Where the body points on average, and how its spin angle runs away from r0 t: for frequencies 0, r0, w
 # that differ, read off the four rotating parts of the tilt
-MEAN = ("mean exists", "r0, D3 r0 + Lambda and omega differ from zero, and a b > 0")
-NO_MEAN = ("no mean", "r0 = 0, omega = 0, r0 = -omega or a b <= 0 for some data: the tilt grows or stands")
+MEAN = Sentence("mean-exists", "r0, D3 r0 + Λ and ω differ from zero, and a b > 0")()
+NO_MEAN = Sentence("no-mean", "r0 = 0, ω = 0, r0 = -ω or a b ≤ 0 for some data: the tilt grows or stands")()
 
 
 @dataclass(frozen=True)
-class Pointing:
+class Pointing(Reasoned):
     """Mean directions; status "mean exists" or "no mean" (reason: which resonance).
 
     momentum: mean inertial angular momentum across the axis, G1 + i G2, kg m^2/s; momentum_error: the angle
@@ -266,7 +275,6 @@ class Pointing:
     momentum_radius: float
     velocity_ratio: complex
     status: str
-    reason: str
 
 
 def pointing(body: ChargedBody) -> Pointing:
@@ -279,16 +287,17 @@ def pointing(body: ChargedBody) -> Pointing:
     """
     parts, r0, k = tilt_parts(body), body.spin, body.charge_moment
     if parts is None or not r0:
-        return Pointing(inf, inf, inf, inf, *NO_MEAN)
+        return Pointing(inf, inf, inf, inf, "no mean", reason=NO_MEAN)
     swing = 1j * body.pull / r0
     mean = body.turn * (body.across - 1j * body.tilt * (body.along - k) + swing - 1j * k * parts.coning)
     f1, f2, f3 = body.force.tolist()
     across, along = -1j * f3 * body.turn * parts.coning, f3 - f1 * parts.steady.imag + f2 * parts.steady.real
-    return Pointing(mean, atan2(abs(mean), body.along), abs(swing), across / along if along else 0j, *MEAN)
+    return Pointing(mean, atan2(abs(mean), body.along), abs(swing), across / along if along else 0j,
+                    "mean exists", reason=MEAN)
 
 
 @dataclass(frozen=True)
-class SpinDrift:
+class SpinDrift(Reasoned):
     """How theta leaves theta0 + r0 t in the second order of the tilt, averaged over the oscillations.
 
     rate: rad/s; acceleration: rad/s^2 of the mean spin rate, not zero when M1 M2 (D1 - D2) is not (then rate
@@ -298,7 +307,6 @@ class SpinDrift:
     rate: float
     acceleration: float
     status: str
-    reason: str
 
 
 def spin_drift(body: ChargedBody) -> SpinDrift:
@@ -310,7 +318,7 @@ def spin_drift(body: ChargedBody) -> SpinDrift:
     """
     z, r0 = tilt_parts(body), body.spin
     if z is None or not r0 or abs(r0) == abs(z.frequency):
-        return SpinDrift(inf, inf, *NO_MEAN)
+        return SpinDrift(inf, inf, "no mean", reason=NO_MEAN)
     D1, D2, D3 = body.inertia.tolist()
     tilting = r0 * (z.steady**2 + 2 * z.B * z.C).real / 2
     with_rate = (z.rate * z.steady + z.plus * z.C + z.minus * z.B + z.rate.conjugate() * z.steady
@@ -320,4 +328,4 @@ def spin_drift(body: ChargedBody) -> SpinDrift:
     spun = (asymmetry * (2 * z.rate * (z.plus - z.minus) + (z.plus**2 - z.minus**2) / 2).real
             / (2 * z.frequency))
     return SpinDrift(tilting - with_rate + spun, asymmetry * (z.rate**2 + 2 * z.plus * z.minus).imag / 2,
-                     *MEAN)
+                     "mean exists", reason=MEAN)

@@ -19,6 +19,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import InputError
+from ..integrate.trajectory import ALL_REACHED
+from ..reasons import Angle, Reason, Reasoned, Sentence, Time, chained
 from .follow import follow
 
 if TYPE_CHECKING:
@@ -31,7 +33,7 @@ FINEST = 2**16  # samples of one revolution, at the most
 
 
 @dataclass(frozen=True)
-class EulerAngles:
+class EulerAngles(Reasoned):
     """psi, theta, phi (n,), rad, at t (n,), s; theta in [0, pi], psi and phi unwrapped, psi = 0 at the
     first time. error: estimated error of psi, rad. status: "regular",
     "singular" (theta reaches 0 or pi), "coarse" (the samples are too far apart for psi); reason: in words."""
@@ -42,7 +44,6 @@ class EulerAngles:
     phi: np.ndarray
     error: float
     status: str
-    reason: str
 
 
 def euler_angles(t: np.ndarray, omega: np.ndarray, gamma: np.ndarray) -> EulerAngles:
@@ -64,7 +65,8 @@ def euler_angles(t: np.ndarray, omega: np.ndarray, gamma: np.ndarray) -> EulerAn
     psi = _psi(t, omega, gamma, phi)
     error = (float(np.abs(_psi(t[::2], omega[::2], gamma[::2], phi[::2]) - psi[::2]).max()) / 15
              if t.size > 4 else 0.0)
-    return EulerAngles(t, psi, _theta(gamma), phi, error, *_verdict(t[singular], error))
+    status, reason = _verdict(t[singular], error)
+    return EulerAngles(t, psi, _theta(gamma), phi, error, status, reason=reason)
 
 
 def _unit(gamma: np.ndarray):
@@ -78,13 +80,20 @@ def _theta(gamma: np.ndarray):
     return np.arctan2(np.hypot(gamma[:, 0], gamma[:, 1]), gamma[:, 2])
 
 
-def _verdict(times: np.ndarray, error: float):
+THETA_SINGULAR = Sentence(
+    "theta-singular", "θ is 0 or π at t = {time}: there only the sum (or difference) of ψ and φ means "
+    "something; φ keeps its last value")
+TOO_COARSE = Sentence("samples-too-coarse", "the samples are too far apart: ψ is known to about {error}")
+THETA_REGULAR = Sentence("theta-regular", "θ stays away from 0 and π at all samples")()
+WITH_ANGLES = Sentence("with-euler-angles", "Euler angles: {angles}, ψ known to about {error}")
+
+
+def _verdict(times, error) -> tuple[str, Reason]:
     if times.size:
-        return "singular", (f"theta is 0 or pi at t = {times[0]:.6g} s: there only the sum (or difference) "
-                            "of psi and phi means something; phi keeps its last value")
+        return "singular", THETA_SINGULAR(time=Time(float(times[0])))
     if error > COARSE:
-        return "coarse", f"the samples are too far apart: psi is known to about {error:.2g} rad"
-    return "regular", "theta stays away from 0 and pi at all samples"
+        return "coarse", TOO_COARSE(error=Angle(float(error), digits=2))
+    return "regular", THETA_REGULAR
 
 
 def _moment(omega: np.ndarray, gamma: np.ndarray):
@@ -172,8 +181,8 @@ def with_euler_angles(case, run, model: str = "exact", order: int | None = None)
     found = angles_along(case, run.t, model, order)
     at, start = np.searchsorted(found.t, run.t), int(np.argmin(np.abs(found.t)))
     angles = np.stack([found.psi - found.psi[start], found.theta, found.phi], axis=-1)[at]
-    words = f"Euler angles: {found.reason}, psi known to about {found.error:.1g} rad"
-    reason = words if run.reason in ("", "all times reached") else f"{run.reason}; {words}"
+    reason = chained(None if run.reason == ALL_REACHED else run.reason,
+                     WITH_ANGLES(angles=found.reason, error=Angle(found.error, digits=1)))
     return replace(run, state=run.state | {"euler": angles}, reason=reason)
 
 

@@ -14,13 +14,13 @@ from ..case.given import Given, Span, Start, as_case, time_in, with_start
 from ..errors import InputError
 from ..integrate.events import roots_of_rates
 from ..physics.states import checked_times
-from ..reasons import number
+from ..reasons import Angle, Filling, PerSecond, Quantity, Rate, Reason, Sentence, Time, as_reason
+from ..reasons import Span as Reach
 from ..representation import Answer, Compared
 from .cavity_normal_form import attractors
 from .charged import MISPRINTS, body_of
 from .charged_modes import (
     SMALL_ANGLE,
-    ChargedBody,
     horizon,
     largest_tilt,
     modes,
@@ -30,11 +30,52 @@ from .charged_modes import (
 )
 from .euler_angles import COARSE, angles_along, mean_precession
 from .follow import family, follow, models_of
-from .top import ORDER, state_of
+from .top import OF_EXPANSION, ORDER, state_of
 from .top_lindstedt import lindstedt
 
 if TYPE_CHECKING:
     from ..answers.simulate import Simulation
+
+
+NO_ANSWER = Sentence("theory-no-answer", "no answer: {why}")
+RUN_ENDED = Sentence("theory-run-ended", "no answer: the run {why} at t = {time}")
+MISPRINT = Sentence("misprint", "{what}: {wrong}; the model corrected takes {right}")
+NO_RESONANCE = Sentence("no-resonance", "none: no frequency of the data vanishes or meets another")()
+GROW = Sentence("linear-model-grows", "in the linear model p and q grow by e in {time}")
+TURN = Sentence("linear-model-turns", "in the linear model p and q turn at {rate}, the tilt also at {spin}")
+STAYS = Sentence("linear-tilt-stays", "in the linear model the tilt stays below {angle} {long}")
+ALWAYS = Sentence("linear-tilt-always", "for all time")()
+UP_TO = Sentence("linear-tilt-up-to", "up to t = {time} at least (estimate)")
+LARGEST = Sentence("linear-tilt-largest", "its largest value there is {tilt}")
+WITHOUT_BOUND = Sentence("linear-tilt-grows", "it grows without bound")()
+OF_LINEAR = Sentence("linear-mean-status", "in the linear model: {status}: {why}")
+POINTS = Sentence(
+    "linear-mean-pointing", "in the linear model the angular momentum points {angle} off inertial axis 3 on "
+    "average and circles with radius {radius}")
+TENDS = Sentence(
+    "linear-velocity-tends", "in the linear model its direction tends to v1/v3 = {first}, v2/v3 = {second} "
+    "as time grows")
+DRIFTS = Sentence(
+    "linear-spin-drifts", "in the linear model θ leaves θ0 + r0 t at {rate} and {acceleration} (second order "
+    "of the tilt, on average)")
+OUTGROWN = Sentence("linear-model-outgrown", "that is not of the exact motion, whose tilt is not small")()
+STEADY = Sentence(
+    "averaged-steady-state", "of the averaged equations: amplitude {amplitude}, spin {spin}; neighbours "
+    "change at the rates {rates} (negative: they come back); {why}")
+STEADY_TURNING = Sentence(
+    "averaged-steady-turning", "of the averaged equations: amplitude {amplitude}, spin {spin}; neighbours "
+    "change at the rate {rate} (negative: they come back), turning at {turning}; {why}")
+FAMILY = Sentence("averaged-family", "of the averaged equations: {states}")
+AT_DISTANCE = Sentence("top-resonance-at", "{resonance}, at a distance of {distance}")
+PERIODIC = Sentence(
+    "top-periodic-motion", "through r and γ of the start, by the expansion of order {order}: period "
+    "{period}, {precession}; p, q of the start are {departure} off it; a small free wobble about it turns at "
+    "Ω² = {square} of the squared spin")
+PRECESSES = Sentence("top-precesses", "ψ turns at {rate} on average")
+NO_PRECESSION = Sentence("top-no-precession", "no mean precession: {why}")
+NUTATES = Sentence("top-nutates-over", "θ of the exact motion over {span} between {least} and {greatest}")
+PRECESSES_EXACTLY = Sentence(
+    "top-precesses-over", "ψ of the exact motion over {span} turns at {rate} on average")
 
 # --- What the theory says beyond the motion
 GAMMA = (3, 4, 5)  # of the state of a top
@@ -42,8 +83,9 @@ GAMMA = (3, 4, 5)  # of the state of a top
 
 def theory(case: Given, order: int | None = None, model: str | None = None,
            end: float | None = None, *, state: Start | None = None, span: Span | None = None) -> list[dict]:
-    """What the analytic theories know of a case: a list of {"about", "words", "values"}. The words say of
-    which motion a number is: of a model's equations, or of the exact motion.
+    """What the analytic theories know of a case: a list of {"about", "words", "reason", "values"}. The words
+    say of which motion a number is: of a model's equations, or of the exact motion; reason: the same as a
+    `stabilab.reasons.Reason`.
 
     case: in any form, or a scene with `state`. values by name, with the unit in the words; none where no
     theory applies or the case gives no motion. order: of the top's expansion; model: "printed" adds the
@@ -61,20 +103,15 @@ def theory(case: Given, order: int | None = None, model: str | None = None,
         rows = told[module.__name__.split(".")[-1]](case, order, end)
         return rows + (_misprints() if model == "printed" and module.MODELS[0] == "linear" else [])
     except InputError as error:
-        return [_row("theory", f"no answer: {error}")]
+        return [_row("theory", NO_ANSWER(why=str(error)))]
 
 
-def lines(rows) -> list[str]:
-    """A line of text per row."""
-    return [f"{row['about']}: {row['words']}" for row in rows]
-
-
-def _row(about: str, words: str, **values):
-    return {"about": about, "words": words, "values": values}
+def _row(about: str, reason: Reason, **values: object) -> dict:
+    return {"about": about, "words": reason.text(), "reason": reason, "values": values}
 
 
 def _misprints():
-    return [_row(f"misprint, {where}", f"{what}: {wrong}; the model corrected takes {right}")
+    return [_row(f"misprint, {where}", MISPRINT(what=what, wrong=as_reason(wrong), right=as_reason(right)))
             for where, (what, wrong, right) in MISPRINTS.items() if wrong]
 
 
@@ -86,75 +123,61 @@ def _axisymmetric(case, order, end):
     body = body_of(case)
     m, until, tilt = modes(body), horizon(body), largest_tilt(body)
     root = float(m.root)
-    rows = ([_row("resonance", words) for words in resonances(body)]
-            or [_row("resonance", "none: no frequency of the data vanishes or meets another")])
-    rows.append(_row("instability", f"{LINEAR} p and q grow by e in {1 / abs(root):.6g} s",
-                     growth_rate=abs(root)) if m.unstable else
-                _row("frequencies",
-                     f"{LINEAR} p and q turn at {root:.10g} rad/s, the tilt also at "
-                     f"{float(body.spin):.10g} rad/s", omega=root,
+    rows = [_row("resonance", one) for one in resonances(body) or (NO_RESONANCE,)]
+    rows.append(_row("instability", GROW(time=Time(1 / abs(root))), growth_rate=abs(root)) if m.unstable else
+                _row("frequencies", TURN(rate=Rate(root), spin=Rate(float(body.spin))), omega=root,
                      spin=float(body.spin)))
-    bound = ("for all time" if until == float("inf")
-             else f"up to t = {number(until, side=-1)} s at least (estimate)")
-    rows.append(_row("small angles", f"{LINEAR} the tilt stays below {SMALL_ANGLE:g} rad {bound}" + (
-        f"; its largest value there is {tilt:.6g} rad" if tilt < float("inf")
-        else "; it grows without bound"), horizon=until, largest_tilt=tilt))
-    return rows + _means(body, "" if tilt <= SMALL_ANGLE else OUTGROWN)
+    long = ALWAYS if until == float("inf") else UP_TO(time=Time(until).lower)
+    rows.append(_row("small angles", STAYS(angle=Angle(SMALL_ANGLE), long=long).then(
+        LARGEST(tilt=Angle(tilt)) if tilt < float("inf") else WITHOUT_BOUND),
+        horizon=until, largest_tilt=tilt))
+    return rows + _means(body, None if tilt <= SMALL_ANGLE else OUTGROWN)
 
 
-LINEAR, OUTGROWN = "in the linear model", "; that is not of the exact motion, whose tilt is not small"
-
-
-def _means(body: ChargedBody, outgrown: str):
+def _means(body, outgrown: Reason | None):
     """What the linear model says on average. outgrown: what is added where its angles are not small."""
     rows, aim, drift = [], pointing(body), spin_drift(body)
     if aim.status != "mean exists":
-        rows.append(_row("mean pointing", f"{LINEAR}: {aim.status}: {aim.reason}"))
+        rows.append(_row("mean pointing", OF_LINEAR(status=aim.status, why=aim.reason)))
     else:
-        rows.append(_row("mean pointing",
-                         f"{LINEAR} the angular momentum points {float(aim.momentum_error):.6g} rad off "
-                         f"inertial axis 3 on average and "
-                         f"circles with radius {float(aim.momentum_radius):.6g} kg m^2/s{outgrown}",
-                         momentum=_pair(aim.momentum),
+        points = POINTS(angle=Angle(float(aim.momentum_error)),
+                        radius=Quantity(float(aim.momentum_radius), "kg m^2/s"))
+        rows.append(_row("mean pointing", points.then(outgrown), momentum=_pair(aim.momentum),
                          angle=float(aim.momentum_error), radius=float(aim.momentum_radius)))
         if body.mass is not None and body.force.any():
             ratio = complex(aim.velocity_ratio)
-            rows.append(_row("velocity",
-                             f"{LINEAR} its direction tends to v1/v3 = {ratio.real:.6g}, v2/v3 = "
-                             f"{ratio.imag:.6g} as time grows{outgrown}",
-                             velocity_ratio=_pair(ratio)))
+            tends = TENDS(first=Quantity(ratio.real), second=Quantity(ratio.imag))
+            rows.append(_row("velocity", tends.then(outgrown), velocity_ratio=_pair(ratio)))
     if drift.status != "mean exists":
-        return rows + [_row("spin drift", f"{LINEAR}: {drift.status}: {drift.reason}")]
-    return rows + [_row("spin drift",
-                        f"{LINEAR} theta leaves theta0 + r0 t at {float(drift.rate):.6g} rad/s and "
-                        f"{float(drift.acceleration):.6g} rad/s^2 "
-                        f"(second order of the tilt, on average){outgrown}", rate=float(drift.rate),
-                        acceleration=float(drift.acceleration))]
+        return rows + [_row("spin drift", OF_LINEAR(status=drift.status, why=drift.reason))]
+    rate, acceleration = float(drift.rate), float(drift.acceleration)
+    drifts = DRIFTS(rate=Rate(rate), acceleration=Quantity(acceleration, "rad/s^2"))
+    return rows + [_row("spin drift", drifts.then(outgrown), rate=rate, acceleration=acceleration)]
 
 
 def _averaged(case, order, end):
     found = attractors(case.scene)
     rows = []
     for p in found.points:
-        speeds = ", ".join(f"{v.real:.6g}" + (f" {v.imag:+.6g}i" if v.imag else "") for v in p.rates)
-        rows.append(_row(f"steady state, {p.kind}",
-                         f"of the averaged equations: amplitude {p.amplitude:.10g} rad/s, spin {p.spin:.10g} "
-                         f"rad/s; neighbours "
-                         f"change at the rates {speeds} 1/s (negative: they come back); {p.because}",
-                         kind=p.kind, amplitude=p.amplitude, spin=p.spin,
+        place: dict[str, Filling] = {"amplitude": Rate(p.amplitude), "spin": Rate(p.spin), "why": p.reason}
+        if any(v.imag for v in p.rates):  # a conjugate pair, as the averaged equations are real
+            turning = PerSecond(abs(p.rates[0].imag))
+            reason = STEADY_TURNING(**place, rate=PerSecond(p.rates[0].real), turning=turning)
+        else:
+            reason = STEADY(**place, rates=PerSecond(tuple(v.real for v in p.rates)))
+        rows.append(_row(f"steady state, {p.kind}", reason, kind=p.kind, amplitude=p.amplitude, spin=p.spin,
                          rates=[_pair(v) for v in p.rates]))
-    rows += [_row("steady states, a family", f"of the averaged equations: {words}")
-             for words in found.families]
+    rows += [_row("steady states, a family", FAMILY(states=one)) for one in found.families]
     return rows + [_row("steady states", found.reason)]
 
 
 def _top(case, order, end):
     motion = lindstedt(case.scene, state_of(case), [0.0], ORDER if order is None else order)
-    rows = [_row("resonance", f"{r.condition}, at a distance of {r.distance:.6g}", harmonic=r.harmonic,
-                 distance=r.distance)
+    rows = [_row("resonance", AT_DISTANCE(resonance=r.condition, distance=Quantity(r.distance)),
+                 harmonic=r.harmonic, distance=r.distance)
             for r in motion.resonances]
     if motion.order < 0 or motion.status == "diverging":
-        rows.append(_row("periodic motion", f"{motion.status}: {motion.reason}"))
+        rows.append(_row("periodic motion", OF_EXPANSION(status=motion.status, why=motion.reason)))
     else:
         rows.append(_periodic(motion))
     return rows + (_exact_angles(case, float(end)) if end else [])
@@ -162,37 +185,34 @@ def _top(case, order, end):
 
 def _periodic(motion):
     """Of the expansion's own motion, which has the start's r and gamma and p, q of its own."""
-    values, words = {"period": motion.period, "Omega2": motion.Omega2,
-                     "departure": motion.departure.tolist()}, ""
+    values = {"period": motion.period, "Omega2": motion.Omega2, "departure": motion.departure.tolist()}
     try:
         values["precession"] = mean_precession(motion)
-        words = f", psi turns at {values['precession']:.10g} rad/s on average"
+        precession = PRECESSES(rate=Rate(values["precession"]))
     except InputError as error:
-        words = f", no mean precession: {error}"
-    return _row("periodic motion",
-                f"through r and gamma of the start, by the expansion of order {motion.order}: period "
-                f"{motion.period:.12g} s{words}; p, q of the start are ({motion.departure[0]:.6g}, "
-                f"{motion.departure[1]:.6g}) rad/s off it; a small free wobble about it turns at Omega^2 = "
-                f"{motion.Omega2:.6g} of the squared spin", **values)
+        precession = NO_PRECESSION(why=str(error))
+    reason = PERIODIC(order=motion.order, period=Time(motion.period), precession=precession,
+                      departure=Rate(tuple(values["departure"])), square=Quantity(motion.Omega2))
+    return _row("periodic motion", reason, **values)
 
 
 def _exact_angles(case, end):
     """Nutation and precession of the exact motion from the start to `end`, s: turning points as roots of
     gamma''s rate, psi along the run."""
-    over = f"of the exact motion over s in [{min(end, 0.0):g}, {max(end, 0.0):g}]"
+    span = Reach(min(end, 0.0), max(end, 0.0))
     found = roots_of_rates(case.scene, state_of(case), end)
     if found.reason:
-        return [_row("nutation", f"no answer: the run {found.reason} at t = {found.t_reached:.6g} s")]
+        return [_row("nutation", RUN_ENDED(why=found.reason, time=Time(found.t_reached)))]
     gamma = np.vstack([found.start, found.end, found.states[found.component == GAMMA[2]]])[:, GAMMA]
     theta = np.arctan2(np.hypot(gamma[:, 0], gamma[:, 1]), gamma[:, 2])
     least, greatest = float(theta.min()), float(theta.max())
-    rows = [_row("nutation", f"theta {over} between {least:.10g} and {greatest:.10g} rad", least=least,
+    rows = [_row("nutation", NUTATES(span=span, least=Angle(least), greatest=Angle(greatest)), least=least,
                  greatest=greatest)]
     angles = angles_along(case, [end])
     if angles.status == "singular" or angles.error > COARSE:
-        return [*rows, _row("mean precession", f"no answer: {angles.reason}")]
+        return [*rows, _row("mean precession", NO_ANSWER(why=angles.reason))]
     rate = float(angles.psi[-1] - angles.psi[0]) / abs(end) * (1 if end > 0 else -1)
-    return [*rows, _row("mean precession", f"psi {over} turns at {rate:.10g} rad/s on average", rate=rate)]
+    return [*rows, _row("mean precession", PRECESSES_EXACTLY(span=span, rate=Rate(rate)), rate=rate)]
 
 
 # --- Each model beside the exact motion

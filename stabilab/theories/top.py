@@ -35,6 +35,7 @@ import numpy as np
 from ..answers.simulate import Simulation
 from ..errors import InputError
 from ..physics.states import numbers_in_a_row
+from ..reasons import Reasoned, Sentence
 from .printed.evaluate import printed_formulas
 from .top_lindstedt import LindstedtMotion, fast_top, lindstedt
 
@@ -44,8 +45,15 @@ if TYPE_CHECKING:
     from ..physics.scene import AnyScene, Scene
 
 
+AS_PRINTED = Sentence(
+    "top-as-printed", "eqs. (10), (41) and (43) as they stand in print, misprints and all")()
+DIVIDES_BY_ZERO = Sentence(
+    "top-divides-by-zero", "C = B, Ω = 0 or Ω = 1: the printed solution divides by 0")()
+OF_EXPANSION = Sentence("expansion-status", "{status}: {why}")
+
+
 @dataclass(frozen=True)
-class PrintedMotion:
+class PrintedMotion(Reasoned):
     """The printed solution at t (n,), s: omega (n, 3) rad/s, gamma (n, 3) (not of length 1), psi, theta, phi
     (n,) rad of (43) with psi0 = 0. status: "as printed" or "pole" (a divisor is 0: no numbers, empty arrays);
     reason in words."""
@@ -58,7 +66,6 @@ class PrintedMotion:
     phi: np.ndarray
     epsilon: float
     status: str
-    reason: str
 
 
 def paper_numbers(scene: AnyScene, state: Mapping[str, Float3]) -> dict[str, float]:
@@ -109,8 +116,7 @@ def printed(scene: AnyScene, state: Mapping[str, Float3], times: np.ndarray) -> 
     except ZeroDivisionError:
         empty = np.empty(0)
         return PrintedMotion(empty, np.empty((0, 3)), np.empty((0, 3)), empty, empty, empty, top.epsilon,
-                             "pole",
-                             "C = B, Omega = 0 or Omega = 1: the printed solution divides by 0")
+                             "pole", reason=DIVIDES_BY_ZERO)
     formula, r0 = formulas(), values["r0"]
     tau = r0 * (times + values["t0"])
     omega, gamma = ([np.broadcast_to(formula(f"{name}_41", values, tau=tau), times.shape) for name in names]
@@ -119,7 +125,7 @@ def printed(scene: AnyScene, state: Mapping[str, Float3], times: np.ndarray) -> 
     scale = values["c"] * math.sqrt(values["g0"])
     return PrintedMotion(times, np.stack([scale * omega[0], scale * omega[1], r0 * omega[2]], -1),
                          values["g0"] * np.stack(gamma, -1), psi, theta, phi, values["ep"], "as printed",
-                         "eqs. (10), (41) and (43) as they stand in print, misprints and all")
+                         reason=AS_PRINTED)
 
 
 def _angles(values: Mapping[str, float], t: np.ndarray):
@@ -168,7 +174,8 @@ def follow(model: str, case: Case, times: np.ndarray, order: int | None = None) 
         how, reason = "Amer et al. 2023, first order", run.reason
     else:
         found = run = lindstedt(case.scene, state, times, ORDER if order is None else order)
-        how, reason = f"expansion of order {found.order}", f"{found.status}: {found.reason}"
+        how, reason = (f"expansion of order {found.order}",
+                       OF_EXPANSION(status=found.status, why=found.reason))
     reached = "reached" if len(run.t) == len(times) else "stopped"
     return Simulation(run.t, {"omega": run.omega, "gamma": run.gamma}, model, how, None, status=reached,
                       reason=reason)

@@ -39,6 +39,7 @@ from ..errors import InputError, told
 from ..numbers.exact import exact, mpmath_alone
 from ..numbers.vectors import Exact3, Float3
 from ..physics.states import numbers_in_a_row
+from ..reasons import PerSecond, Quantity, Rate, Reason, Reasoned, Sentence, chained
 
 if TYPE_CHECKING:
     from ..physics.scene import AnyScene
@@ -349,18 +350,54 @@ ROUNDING = 1e-14  # of the spin: a departure this small is none
 NEAR_SLACK = 1e-9  # so that a distance of 0.1 itself, rounded, is named
 
 
+WHOLE_NUMBER = Sentence("top-resonance", "Ω = {harmonic}")
+FIRST_OF_SPIN = Sentence("top-resonance-no-spin", "Ω = 1, C* = 0")()
+FIRST_OF_MOMENTS = Sentence("top-resonance-of-moments", "Ω = 1, C* = A + B")()
+ONE_MOMENT = Sentence("top-moment", "C* = {moment}")
+EQUAL_MOMENT = Sentence("top-moment-met", "C* = A or C* = B")()
+NEAR_RESONANCE = Sentence(
+    "near-resonance", "near the resonance {resonance} (distance {distance}): its small divisor magnifies the "
+    "terms")
+NOT_FAST = Sentence(
+    "top-not-fast", "{terms}: the top is not fast enough for this expansion (small parameter {small})")
+MISSES = Sentence(
+    "series-misses", "the series misses the equations of motion by {residual} of the spin, so it may be off "
+    "by {turned} after a revolution; its last terms are {terms}")
+UNSTABLE = Sentence(
+    "periodic-motion-unstable", "Ω² = {square} < 0 (C* lies between A and B): the periodic motion is "
+    "unstable, neighbours leave it at {rate}")
+EXACTLY_RESONANT = Sentence(
+    "exact-resonance", "exact resonance ({resonance}) under a forcing: {end}, order {order} does not exist")
+ENDS_AT = Sentence("expansion-ends", "the expansion ends at order {order}")
+NO_START = Sentence("no-periodic-motion", "there is no periodic motion to start from")()
+DO_NOT_FALL = Sentence("terms-do-not-fall", "the terms do not fall {terms}")
+NEXT_DO_NOT_FALL = Sentence("next-terms-do-not-fall", "the terms do not fall, {terms} and then {ahead}")
+MISSES_MORE = Sentence(
+    "series-misses-more", "the series misses the equations of motion by {residual} of the spin, no less than "
+    "its last terms, {terms}")
+DIFFERS = Sentence(
+    "start-differs-from-series", "the start's p, q differ by {change} from a series that does not converge "
+    "there")
+LIES_ON = Sentence(
+    "start-on-periodic-motion", "the start lies on the periodic motion to within what this order leaves out "
+    "there, {error}")
+IS_OFF = Sentence(
+    "start-off-periodic-motion", "the start is not on the periodic motion: p, q differ by {change}, a free "
+    "wobble of that size which the expansion leaves out")
+
+
 @dataclass(frozen=True)
 class Resonance:
-    """A resonance in reach of the orders asked for: harmonic m, its condition in words, |Omega - m| (for m =
+    """A resonance in reach of the orders asked for: harmonic m, its condition, |Omega - m| (for m =
     0 the relative distance of C* from A or B)."""
 
     harmonic: int
-    condition: str
+    condition: Reason
     distance: float
 
 
 @dataclass(frozen=True)
-class LindstedtMotion:
+class LindstedtMotion(Reasoned):
     """The periodic motion at the times t (s).
 
     omega: (n, 3) rad/s, body frame; gamma: (n, 3), of length 1 up to the order's error. order: what was
@@ -394,7 +431,6 @@ class LindstedtMotion:
     departure: np.ndarray
     left_out: float
     status: str
-    reason: str
     r0: float
     expansion: Expansion = field(repr=False, compare=False)
 
@@ -433,11 +469,11 @@ def lindstedt(scene: AnyScene, state: Mapping[str, Float3], times: np.ndarray | 
     status, reason = _verdict(top, expansion, near, int(order), ahead, residual)
     if exists:
         wobble = departure - (better - start) if beyond else departure
-        reason = "; ".join(filter(None, (reason, _how_far(departure, wobble, left_out, abs(r0), status))))
+        reason = chained(reason, _how_far(departure, wobble, left_out, abs(r0), status))
     return LindstedtMotion(times, omega, gamma, expansion.order, top.epsilon, top.size, nu * r0,
                            2 * np.pi / abs(nu * r0),
                            float(top.Omega2), near, expansion.terms, ahead, residual, departure, left_out,
-                           status, reason, r0, expansion)
+                           status, r0, expansion, reason=reason or NO_START)
 
 
 def _evaluate(expansion: Expansion, r0: float, times: np.ndarray):
@@ -477,7 +513,7 @@ def _residual(top: FastTop, expansion: Expansion) -> float:
 
 def _resonances(top: FastTop, order: int) -> tuple[Resonance, ...]:
     """Those within NEAR whose harmonic the orders reach; C* = A and C* = B concern every order."""
-    found = [Resonance(0, f"C* = {name}", abs(float(top.spin / moment - 1)))
+    found = [Resonance(0, ONE_MOMENT(moment=name), abs(float(top.spin / moment - 1)))
              for name, moment in (("A", top.a), ("B", top.b))]
     if top.Omega2 > 0:
         Omega = float(top.Omega2) ** 0.5
@@ -488,68 +524,61 @@ def _resonances(top: FastTop, order: int) -> tuple[Resonance, ...]:
                         key=lambda r: r.distance))
 
 
-def _condition(top: FastTop, m: int) -> str:
+def _condition(top, m) -> Reason:
     """For m = 1 the distance Omega^2 - 1 is C*(C* - A - B)/(A B): name the factor that is small."""
     if m != 1:
-        return f"Omega = {m}"
-    return f"Omega = 1, {'C* = 0' if abs(top.spin) < abs(top.spin - top.a - top.b) else 'C* = A + B'}"
+        return WHOLE_NUMBER(harmonic=m)
+    return FIRST_OF_SPIN if abs(top.spin) < abs(top.spin - top.a - top.b) else FIRST_OF_MOMENTS
 
 
-def _verdict(top: FastTop, expansion: Expansion, near: Sequence[Resonance], order: int,
-             ahead: Sequence[float], residual: float):
+def _verdict(top, expansion, near, order, ahead, residual) -> tuple[str, Reason | None]:
     r0, reasons, status = abs(float(top.r0)), [], "asymptotic"
     if near:
         status = "near resonance"
-        reasons += [f"near the resonance {r.condition} (distance {r.distance:.3g}): its small divisor "
-                    f"magnifies the terms"
+        reasons += [NEAR_RESONANCE(resonance=r.condition, distance=Quantity(r.distance, digits=3))
                     for r in near if r.distance]
-    if words := _diverging(expansion.terms, ahead, residual):
+    if terms := _diverging(expansion.terms, ahead, residual):
         status = "diverging"
-        reasons.append(
-            f"{words}: the top is not fast enough for this expansion (small parameter {expansion.size:.3g})")
+        reasons.append(NOT_FAST(terms=terms, small=Quantity(expansion.size, digits=3)))
     elif expansion.order >= 0:
-        reasons.append(f"the series misses the equations of motion by {residual:.2g} of the spin, so it may "
-                       f"be off by {2 * np.pi * residual:.2g} after a revolution; its last terms are "
-                       f"{', '.join(f'{x:.2g}' for x in expansion.terms[-2:])}")
+        reasons.append(MISSES(residual=Quantity(residual, digits=2),
+                              turned=Quantity(2 * np.pi * residual, digits=2),
+                              terms=Quantity(tuple(expansion.terms[-2:]), digits=2)))
     if top.Omega2 < 0:
         status = "unstable"
-        reasons.append(f"Omega^2 = {float(top.Omega2):.3g} < 0 (C* lies between A and B): the periodic "
-                       f"motion is unstable, "
-                       f"neighbours leave it at {r0 * abs(float(top.Omega2))**0.5:.3g} 1/s")
+        square = float(top.Omega2)
+        reasons.append(UNSTABLE(square=Quantity(square, digits=3),
+                                rate=PerSecond(r0 * abs(square)**0.5, digits=3)))
     if expansion.stopped is not None:
         status = "resonant"
-        what = _condition(top, expansion.stopped) if expansion.stopped else "C* = A or C* = B"
-        end = (f"the expansion ends at order {expansion.order}" if expansion.order >= 0
-               else "there is no periodic motion to start from")
-        reasons.append(f"exact resonance ({what}) under a forcing: {end}, order {order} does not exist")
-    return status, "; ".join(reasons)
+        what = _condition(top, expansion.stopped) if expansion.stopped else EQUAL_MOMENT
+        end = ENDS_AT(order=expansion.order) if expansion.order >= 0 else NO_START
+        reasons.append(EXACTLY_RESONANT(resonance=what, end=end, order=order))
+    return status, chained(*reasons)
 
 
-def _diverging(terms: Sequence[float], ahead: Sequence[float], residual: float) -> str:
-    """Why the series up to these terms is no approximation, "" where it is: what is left out must be smaller
-    than the last terms kept, by the terms of the next two orders and by the residual of the equations of
-    motion."""
+def _diverging(terms, ahead, residual) -> Reason | None:
+    """Why the series up to these terms is no approximation, None where it is: what is left out must be
+    smaller than the last terms kept, by the terms of the next two orders and by the residual of the equations
+    of motion."""
     if not terms or (kept := max(terms[-2:])) < SETTLED:
-        return ""
+        return None
     # a term is measured against the two before it: one of them may hold nothing
     if len(terms) > 1 and terms[-1] > 0 and terms[-1] >= max(terms[-3:-1]):
-        return f"the terms do not fall ({', '.join(f'{x:.3g}' for x in terms[-3:])})"
+        return DO_NOT_FALL(terms=Quantity(tuple(terms[-3:]), digits=3))
     if ahead and max(ahead) > 0 and max(ahead) >= kept:
-        return (f"the terms do not fall ({', '.join(f'{x:.3g}' for x in terms[-2:])}, then "
-                f"{', '.join(f'{x:.3g}' for x in ahead)})")
+        return NEXT_DO_NOT_FALL(terms=Quantity(tuple(terms[-2:]), digits=3),
+                                ahead=Quantity(tuple(ahead), digits=3))
     if residual >= kept:
-        return (f"the series misses the equations of motion by {residual:.3g} of the spin, no less than its "
-                f"last terms, {kept:.3g}")
-    return ""
+        return MISSES_MORE(residual=Quantity(residual, digits=3), terms=Quantity(kept, digits=3))
+    return None
 
 
-def _how_far(departure: np.ndarray, wobble: np.ndarray, left_out: float, r0: float, status: str) -> str:
+def _how_far(departure, wobble, left_out, r0, status) -> Reason:
     """What the given p, q say of the start; wobble: their departure from the series two orders further."""
-    differ = f"p, q differ by ({departure[0]:.6g}, {departure[1]:.6g}) rad/s"
+    change = Rate(tuple(map(float, departure)))
     if status == "diverging":
-        return f"the start's {differ} from a series that does not converge there"
+        return DIFFERS(change=change)
     if float(np.hypot(*wobble)) <= left_out + ROUNDING * r0:
-        return ("the start lies on the periodic motion to within what this order leaves out there, "
-                f"{left_out:.2g} rad/s")
-    return (f"the start is not on the periodic motion: {differ}, a free wobble of that size which the "
-            "expansion leaves out")
+        return LIES_ON(error=Rate(left_out, digits=2))
+    return IS_OFF(change=change)

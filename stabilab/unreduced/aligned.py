@@ -24,18 +24,21 @@ from ..orbit.landscape import landscape
 from ..orbit.one_orbit import Orbit
 from ..orbit.one_state import apart_fields
 from ..orbit.reduction import reduce
-from ..orbit.result import Fate, Motion, Needs, finite, judged, pairs, repeats
+from ..orbit.result import NO_EXTREMES, Fate, Motion, Needs, finite, judged, pairs, repeats
 from ..physics.coefficients import three_floats
 from ..physics.scene import Scene, Turn, aligned, rests
+from ..reasons import Sentence
 from . import growth
 from .evidence import extremes_over, seen_over
 from .growth import captured_fate, unbounded
 from .near_rest import beside_rest, small_loop
 
 TURN_ROUNDINGS = 16  # units of rounding that turning a state costs: nine products and sums
-NO_SPAN = (
-    "this motion does not repeat, and its torque acts between the axes: give span=T ({unit}), or a span in "
-    "the case's [motion]")
+NO_SPAN = Sentence(
+    "span-needed-between-axes", "this motion does not repeat, and its torque acts between the axes: give "
+    "span=T ({unit}), or a span in the case's [motion]")
+PERIOD_TOO_LONG = Sentence("run-of-period-too-long", "none: a run of one period was too long")()
+NOT_KNOWN = Sentence("distance-not-known", "not known: {why}")
 TURN_SHARE = 1e-36  # of the energies: half the digits of a turn by irrational numbers
 
 
@@ -54,9 +57,9 @@ def motion(scene: Scene, state: np.ndarray | Sequence[float], span: Sequence[flo
     if decided.label == Fate.EQUILIBRIUM or repeats(time) is not None:
         box = turned_extremes(scene, given, decided.label, time, None)
         fields |= ({"extremes": pairs(box)} if np.isfinite(box).all()
-                   else {"extremes_over": "none: a run of one period was too long"})
+                   else {"over": PERIOD_TOO_LONG})
     else:
-        fields |= ({"extremes_over": f"none: {NO_SPAN.format(unit=scene.time_unit)}"} if span is None
+        fields |= ({"over": NO_EXTREMES(why=NO_SPAN(unit=scene.time_unit))} if span is None
                    else seen_over(scene, state, span))
     return Motion(**fields, **(turned_apart(aligned(scene), orbit, state, decided)
                                if needs & Needs.DISTANCE else {}))
@@ -71,7 +74,7 @@ def turned_apart(turn: Turn, orbit: Orbit, state: Sequence[float], decided: OneF
     """The fields of a Motion that tell the distance from the separatrix: that of the twin, as a turn keeps
     distances."""
     if decided.label == Fate.UNDECIDED:
-        return {"velocity_because": f"not known: {decided.because}"}
+        return {"velocity_reason": NOT_KNOWN(why=decided.reason)}
     found = apart_fields(orbit, state, decided)
     witness = found.get("velocity_witness")
     if witness in (None, state):
@@ -158,7 +161,7 @@ def turned_extremes(scene, state, label, time, span):
     if label == Fate.BOUNDED and np.isfinite(time):
         return extremes_over(scene, state, 1.02 * time)
     if span is None:
-        raise InputError(f"extremes: {NO_SPAN.format(unit=scene.time_unit)}")
+        raise InputError(f"extremes: {NO_SPAN(unit=scene.time_unit)}")
     return extremes_over(scene, state, span)
 
 

@@ -12,12 +12,12 @@ import numpy as np
 from ..errors import InputError
 from ..integrate.events import RateRoots, roots_of_rates
 from ..integrate.trajectory import integrated
-from ..orbit.result import pairs
+from ..orbit.result import OVER_SPAN, pairs
 from ..physics.coefficients import limits_of
 from ..physics.scene import Scene
 from ..physics.states import equations_and_start, three_numbers
 from ..physics.to_numpy import equations_of, to_numpy
-from ..reasons import Quantity, Reason, Sentence, old
+from ..reasons import Quantity, Reason, Sentence, Span
 from ..validation import reach_of
 
 if TYPE_CHECKING:
@@ -43,6 +43,9 @@ SHARE, FASTER = 0.9, 10.0
 GROWS_ALONE = Sentence(
     "grows-alone", "it alone grows without a change of sign; least rate in the last half of the run {least}")
 NO_AXIS_HOLDS = Sentence("no-axis-holds-spin", "no axis holds the spin")()
+TOO_FAST = Sentence("extremes-too-fast",
+                    "none: the rates change too fast for a search over the span")()
+LAW_OVER = Sentence("law-over", "over {over}")
 SIZES = Sentence("size-over-span", "over the span the size of its rates went from {first} to {last} (largest "
                  "{largest}), and its energy {trend}")
 
@@ -73,7 +76,7 @@ def seen_over(scene, state, span) -> dict:
     energy = np.asarray(to_numpy(equations_of(scene)).invariants(points)["energy"])
     sizes = np.linalg.norm(np.vstack([points, roots.states]), axis=1)
     return {"extremes": pairs(roots.extremes()),
-            "extremes_over": f"{scene.time_unit} in [0, {roots.t_reached:g}]",
+            "over": OVER_SPAN(span=Span(0.0, roots.t_reached, scene.time_unit)),
             "evidence": {"span": roots.t_reached, "size_start": float(sizes[0]),
                          "size_end": float(sizes[len(points) - 1]), "size_largest": float(sizes.max()),
                          "energy_start": float(energy[0]), "energy_end": float(energy[-1]),
@@ -110,7 +113,7 @@ def growth(scene, state, t_max: float) -> Growth:
     while t < t_max and steps < STEP_BUDGET:
         run = integrated(scene, here, np.linspace(0, span, 257)[1:])
         if run.status == "stopped":
-            return Growth(0, 0, t, old(run.reason), steps)
+            return Growth(0, 0, t, run.reason, steps)
         t, here, steps = t + span, run.states[-1], steps + run.counters["steps"]
         squares = run.states**2
         share = (squares / squares.sum(axis=1, keepdims=True)).min(axis=0)
@@ -161,12 +164,12 @@ def seen_of_blocks(scene: Scene, start: Mapping[str, Float3], span: Sequence[flo
     J = system.jacobian(state)
     roots = np.linalg.eigvals(J) * length if np.isfinite(J).all() else np.array([np.inf])
     if abs(roots.real).max() > STIFF or abs(roots).max() > LONG:
-        return {"extremes_over": "none: the rates change too fast for a search over the span"}
+        return {"over": TOO_FAST}
     found = roots_of_rates(turning, start, length)
-    over = f"s in [0, {found.t_reached:g}]"
+    over = OVER_SPAN(span=Span(0.0, found.t_reached))
     ends = system.invariants(np.vstack([found.start, found.end]))["energy"]
     return {"extremes": tuple((float(a), float(b)) for a, b in found.extremes()),
-            "extremes_over": over,
+            "over": over,
             **_validity(turning, found, over),
             "evidence": {"span": found.t_reached, "energy_change": float(ends[1] - ends[0]),
                          "rate_end": [float(v) for v in found.end[:3]], "steps": found.steps,
@@ -174,10 +177,10 @@ def seen_of_blocks(scene: Scene, start: Mapping[str, Float3], span: Sequence[flo
                             if "gamma" in equations.blocks else {})}}
 
 
-def _validity(scene: Scene, found: RateRoots, over: str) -> dict:
+def _validity(scene: Scene, found: RateRoots, over: Reason) -> dict:
     """Of approximate laws, at every state that the search met: where a rate vanishes, and at both ends."""
     limits = limits_of(scene)
     if limits is None:
         return {}
     return {"validity": limits.along(scene, np.vstack([found.start, found.states, found.end]),
-                                     f"over {over}")}
+                                     LAW_OVER(over=over))}

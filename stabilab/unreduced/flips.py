@@ -30,7 +30,7 @@ def flips_of(scene: AnyScene, found: Motion) -> Flips | None:
     does not repeat, in scaled variables, under other effects than wheels and a constant torque, and so near a
     separatrix that doubles do not follow it round."""
     pairs, period = found.extremes, found.period
-    if (found.fate != Fate.BOUNDED or period is None or pairs is None or found.extremes_over != "all time"
+    if (found.fate != Fate.BOUNDED or period is None or pairs is None or not found.for_all_time
             or scene.variables == "scaled" or not scene.plain):
         return None
     inertia, wheel = scene.body.inertia, [float(v) for v in scene.vector("gyrostat")]

@@ -20,20 +20,34 @@ from ..errors import InputError
 from ..integrate.events import RateRoots, roots_of_rates
 from ..orbit.fate import as_double, at_rest, free_fate, scaled_double
 from ..orbit.fate_arrays import fates as free_fates
-from ..orbit.one_state import BEYOND, LOST, powered
-from ..orbit.result import BOX, ROUND, Fate, Motion, Needs, finite, judged, pairs, repeats
+from ..orbit.one_state import LOST, NONE_IN_DOUBLES, powered
+from ..orbit.result import (
+    ALL_TIME,
+    BOX,
+    OVER_SPAN,
+    ROUND,
+    Fate,
+    Motion,
+    Needs,
+    finite,
+    judged,
+    pairs,
+    repeats,
+)
 from ..orbit.separatrix.distance import has_no_saddle
 from ..physics.coefficients import three_floats
 from ..physics.own_unit import far, in_unit, mass_unit, own_exponent
 from ..physics.scene import QuadraticForm, Scene, rests
 from ..physics.states import equilibrium_mask, three_numbers
-from ..reasons import Reason, Sentence
+from ..reasons import Reason, Sentence, Span
 from .evidence import STEP_BUDGET
 from .near_rest import beside_rest, small_loop
 
-NO_BRANCHES = (
-    "not known: the separatrix of a free gyrostat whose moment has no zero component is known by its energy "
-    "on each momentum sphere, not as branches")
+NO_BRANCHES = Sentence(
+    "no-branches-of-free-gyrostat", "not known: the separatrix of a free gyrostat whose moment has no zero "
+    "component is known by its energy on each momentum sphere, not as branches")()
+NO_SEPARATRIX_OF_SPHERE = Sentence(
+    "sphere-without-separatrix", "with three equal moments there is no separatrix")()
 # Two points of a closed orbit are the same where they agree to this share of the orbit's size.
 SAME_POINT = 1e-9
 
@@ -50,12 +64,12 @@ CLOSED_MOTION = Sentence("closed-motion", "no torque: the motion is closed and p
 
 @dataclass(frozen=True)
 class PeriodExtremes:
-    """extremes: (3, 2) over `over` ("all time" or the span searched); period: inf on a separatrix, NaN where
+    """extremes: (3, 2) over `over` (all time or the span searched); period: inf on a separatrix, NaN where
     no return was found."""
 
     extremes: np.ndarray
     period: float
-    over: str
+    over: Reason
     reason: Reason
 
 
@@ -75,7 +89,7 @@ def extremes_over_period(scene, state) -> PeriodExtremes:
         raise InputError("the period by return is for motions without torque; this scene has one")
     exact = [Fraction(v) for v in given]
     if not any(form.rate(exact)):
-        return PeriodExtremes(np.stack([state, state], axis=1), 0.0, "all time", RESTS)
+        return PeriodExtremes(np.stack([state, state], axis=1), 0.0, ALL_TIME, RESTS)
     k, mass = far(own_exponent(exact, form.rate(exact))) or 0, mass_unit(scene)
     if k or mass != 1:
         unit = Fraction(2) ** k
@@ -87,7 +101,7 @@ def extremes_over_period(scene, state) -> PeriodExtremes:
         period, swings = loop
         return PeriodExtremes(np.array([[scaled_double(v, k) for v in pair] for pair in swings]),
                               _no_double_is_nan(scaled_double(period, -k)),
-                              "all time", CLOSED_SMALL)
+                              ALL_TIME, CLOSED_SMALL)
     tied = scene.variables == "physical" and free_fate(scene, exact).label == Fate.SEPARATRIX
     follow = _without_return if tied else _by_return
     return _in_scene_unit(follow(scene, form, state, k), k)
@@ -119,7 +133,7 @@ def _by_return(scene: Scene, form: QuadraticForm, state: np.ndarray, k: int) -> 
             return _one_period(scene, roots, closing)
         span *= 4
     return PeriodExtremes(roots.extremes(), math.nan,
-                          f"{scene.time_unit} in [0, {powered(roots.t_reached, -k):g}]",
+                          OVER_SPAN(span=Span(0.0, powered(roots.t_reached, -k), scene.time_unit)),
                           NO_RETURN(steps=roots.steps))
 
 
@@ -127,7 +141,7 @@ def _without_return(scene: Scene, form: QuadraticForm, state: np.ndarray, k: int
     """On a separatrix: a run would leave it by its rounding and return, which the motion never does."""
     roots = roots_of_rates(scene, state, _first_span(form, state))
     return PeriodExtremes(roots.extremes(), math.inf,
-                          f"{scene.time_unit} in [0, {powered(roots.t_reached, -k):g}]",
+                          OVER_SPAN(span=Span(0.0, powered(roots.t_reached, -k), scene.time_unit)),
                           DOES_NOT_RETURN)
 
 
@@ -158,7 +172,7 @@ def _one_period(scene: Scene, roots: RateRoots, closing: int):
         values = polished[roots.component[:closing] == i, i]
         if values.size:
             extremes[i] = values.min(), values.max()
-    return PeriodExtremes(extremes, float(abs(roots.t[closing] - roots.t[0])), "all time",
+    return PeriodExtremes(extremes, float(abs(roots.t[closing] - roots.t[0])), ALL_TIME,
                           CLOSED_MOTION)
 
 
@@ -196,24 +210,24 @@ def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL) -> Mot
     state = three_floats(state)
     given = exact or state
     decided = free_fate(scene, given)
-    fields: dict[str, Any] = {"velocity_because": NO_BRANCHES}
+    fields: dict[str, Any] = {"velocity_reason": NO_BRANCHES}
     if decided.label == Fate.SEPARATRIX:
         fields = {"margin_velocity": 0.0, "velocity_bounds": (0.0, 0.0), "velocity_witness": state}
     elif has_no_saddle(scene):
-        fields = {"velocity_because": "with three equal moments there is no separatrix"}
+        fields = {"velocity_reason": NO_SEPARATRIX_OF_SPHERE}
     lost, open_ = ["the margin in energy"] if math.isnan(decided.margin) else [], None
     if rests(scene.quadratic(), given):
         decided = at_rest(scene, decided)
         fields["extremes"] = tuple((v, v) for v in state)
     elif needs & (BOX | ROUND):
         closed = extremes_over_period(scene, given)
-        open_ = closed.reason if math.isnan(closed.period) and closed.over != "all time" else None
+        open_ = closed.reason if math.isnan(closed.period) and closed.over != ALL_TIME else None
         whole = bool(np.isfinite(closed.extremes).all())
         lost += ([] if whole else ["an extreme"]) + (["the period"] if math.isnan(closed.period)
-                                                     and closed.over == "all time" else [])
+                                                     and closed.over == ALL_TIME else [])
         fields |= {"extremes": pairs(closed.extremes) if whole else None, "period": repeats(closed.period),
                    "returns": closed.period,
-                   "extremes_over": closed.over if whole else f"none: {BEYOND}"}
+                   "over": closed.over if whole else NONE_IN_DOUBLES}
     known = judged(state, decided)
     known["reason"] = known["reason"].then(PERIOD_OPEN(why=open_) if open_ else None).then(
         LOST(what=", ".join(lost)) if lost else None)
@@ -235,7 +249,7 @@ def extremes(scene, states, span=None, fast: bool | None = None):
 
 
 def _for_all_time(found: PeriodExtremes) -> np.ndarray:
-    return found.extremes if found.over == "all time" else np.full((3, 2), np.nan)
+    return found.extremes if found.over == ALL_TIME else np.full((3, 2), np.nan)
 
 
 def periods(scene, states, fast: bool | None = None):

@@ -36,7 +36,7 @@ from ..numbers.vectors import CYCLE
 from ..orbit.fate import Basis, OneFate
 from ..orbit.fate_arrays import FateResult, at_rest, in_chunks, write_row
 from ..orbit.one_state import in_range
-from ..orbit.result import Fate, Motion, Needs, judged, pairs
+from ..orbit.result import NO_EXTREMES, Fate, Motion, Needs, judged, pairs
 from ..physics.coefficients import three_floats
 from ..physics.states import three_numbers
 from ..reasons import Axis, Quantity, Reasoned, Sentence
@@ -217,11 +217,11 @@ def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL) -> Mot
                     "level": LEVEL.get(found.certificate, "undecided")}, {}
     if needs & Needs.EXTREMES and (span is not None or _for_ever(found)):
         grown = captured_extremes(scene, state, found, reach_of(span), exact)
-        fields |= {"extremes": pairs(grown.box), "extremes_over": grown.over}
+        fields |= {"extremes": pairs(grown.box), "over": grown.over}
         seen = ({} if span is None
                 else seen_over(scene, state, (0.0, grown.span or reach_of(span)))["evidence"])
     elif needs & Needs.EXTREMES:
-        fields["extremes_over"] = f"none: {span_needed(scene)}"
+        fields["over"] = NO_EXTREMES(why=str(span_needed(scene)))
     return Motion(**fields, invariants={"J": found.J0, "J_rate": found.J_rate}, evidence={**seen, **known})
 
 

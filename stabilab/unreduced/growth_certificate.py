@@ -34,9 +34,11 @@ from ..integrate.events import roots_of_rates, zeros_passed
 from ..numbers.balls import FIRST_BITS, Digits, Unclear, settled
 from ..numbers.vectors import CYCLE, Float3, Number
 from ..orbit.extremes import CERTAIN_BITS
+from ..orbit.result import ALL_TIME, OVER_SPAN
 from ..physics.equations import derive
 from ..physics.scene import AnyScene, QuadraticForm, ScaledGyrostat
 from ..physics.to_numpy import form, to_numpy
+from ..reasons import Axis, Reason, Sentence, Span
 
 if TYPE_CHECKING:
     from flint import arb
@@ -243,17 +245,18 @@ def turning_run(c: float):
 # --- Extremes
 # Steps after which the finite end of a spin-up is given over the span run, unproved beyond it.
 EXTREMES_BUDGET = 300_000
-FOREVER = "all time"
+GROWS_FOR_EVER = Sentence("grows-for-ever-others-over", "{axis} for all time, the others over {span}")
+FINITE_OVER = Sentence("finite-entries-over", "finite entries over {span}")
 
 
 @dataclass(frozen=True)
 class GrowthExtremes:
-    """box: (3, 2) least and greatest of each component, +-inf where it grows; over: in words, what they are
+    """box: (3, 2) least and greatest of each component, +-inf where it grows; over: what they are
     known over; span: length of the run that the finite entries come from, None where no run was needed;
     whole: whether it came to its end."""
 
     box: np.ndarray
-    over: str
+    over: Reason
     span: float | None
     whole: bool = True
 
@@ -267,19 +270,20 @@ def captured_extremes(scene, state, answer, span: float | None = None, exact=Non
     """
     known = law_extremes(scene, exact or state, answer.certificate)
     if known is not None:
-        return GrowthExtremes(np.array([[float(v) for v in pair] for pair in known]), FOREVER, None)
+        return GrowthExtremes(np.array([[float(v) for v in pair] for pair in known]), ALL_TIME, None)
     change = standard_form(scene)
     unit = change.time if change else 1 / math.sqrt(max(abs(float(v)) for v in scene.quadratic().m))
     span = max(1.5 * (answer.t_certificate or 0.0), 20 * unit) if span is None else span
     roots, certain = _run_to_floor(scene, state, change, answer, span)
     box = roots.extremes()
-    over, whole = f"{scene.time_unit} in [0, {roots.t_reached:g}]", not roots.reason
+    reach, whole = Span(0.0, roots.t_reached, scene.time_unit), not roots.reason
+    over = OVER_SPAN(span=reach)
     if span < 0:  # nothing is known of what was before
         return GrowthExtremes(box, over, roots.t_reached, whole)
     if answer.certificate in ("spin-up", "bound", "well"):
         box[answer.axis - 1, 1 if answer.sense > 0 else 0] = answer.sense * np.inf
-        over = (f"axis {answer.axis} for all time, the others over {over}" if certain
-                else f"finite entries over {over}")
+        over = (GROWS_FOR_EVER(axis=Axis(answer.axis), span=reach) if certain
+                else FINITE_OVER(span=reach))
     return GrowthExtremes(box, over, roots.t_reached, whole)
 
 

@@ -64,7 +64,9 @@ def ranges_until(scene: Scene, state: Sequence[float], t: float,
 __all__ = ["extremes", "fates", "motion", "periods"]
 
 
-NO_BRANCHES = "not known: the torque is off the principal axes, and no separatrix is known there"
+NO_BRANCHES = Sentence(
+    "no-branches-off-axis", "not known: the torque is off the principal axes, and no separatrix is known "
+    "there")()
 PATIENCE = 600_000  # steps for which a motion is followed where nobody says how long: seconds
 AS_WRITTEN = 120  # times fewer steps where numba is not installed
 ENDLESS = 10**9     # steps where the caller names a time
@@ -74,9 +76,9 @@ PERIODIC_MIDDLE = Sentence(
     "about it by {angle} from passage to passage")
 REASON = {"undecided": Basis.OFF_AXIS, "certified": Basis.CERTIFIED, "proved": Basis.CERTIFIED,
           "exact": Basis.CLOSED_FORM}
-NO_SPAN = ("not known without a certificate of spin-up: give span=T ({unit}), or a span in the case's "
-           "[motion], to search them over a time span, "
-           "or follow=T to look for the certificate longer")
+NO_SPAN = Sentence(
+    "span-needed-off-axis", "not known without a certificate of spin-up: give span=T ({unit}), or a span in "
+    "the case's [motion], to search them over a time span, or follow=T to look for the certificate longer")
 
 
 def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL, follow: float | None = None,
@@ -87,15 +89,14 @@ def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL, follow
     if rests(scene.quadratic(), exact or state):
         decided = at_rest(scene, OneFate(Fate.UNDECIDED, Basis.OFF_AXIS, math.nan))
         return Motion(**judged(state, decided), margin_energy=finite(decided.margin),
-                      extremes=tuple((v, v) for v in state), velocity_because=NO_BRANCHES)
+                      extremes=tuple((v, v) for v in state), velocity_reason=NO_BRANCHES)
     start = list(exact or state) if proof else state
     found = spin_up(scene, start, **_limits(follow), tell=tell, proof=proof)
     decided = OneFate(found.fate, REASON[found.level], math.nan, found.axis, found.sense)
     bounds = bounds_for_ever(scene, start, found) if needs & Needs.EXTREMES else None
-    fields = {**judged(state, decided), "velocity_because": NO_BRANCHES, "level": found.level,
+    fields = {**judged(state, decided), "velocity_reason": NO_BRANCHES, "level": found.level,
               "finding": found.reason, "bounds": bounds,
-              "extremes": bounds, "extremes_over": AS_BOUNDS if bounds
-              else NO_SPAN.format(unit=scene.time_unit)}
+              "extremes": bounds, "over": AS_BOUNDS if bounds else NO_SPAN(unit=scene.time_unit)}
     fields["reason"] = decided.reason.then(found.reason)
     known = {"t_certificate" if found.fate == Fate.SPIN_UP else "followed_until": found.t,
              "steps_followed": found.steps,
@@ -236,7 +237,7 @@ def extremes(scene, states, span=None, fast: bool | None = None, follow: float |
     moving = np.flatnonzero(~rest)
     found = spin_up_many(scene, states[moving], **_limits(follow), tell=tell, fast=fast)
     if len(moving) and not (found.fate == Fate.SPIN_UP).any():
-        raise InputError(f"extremes: {NO_SPAN.format(unit=scene.time_unit)}")
+        raise InputError(f"extremes: {NO_SPAN(unit=scene.time_unit)}")
     for n, row in enumerate(moving):
         still[row] = bounds_for_ever(scene, states[row].tolist(), found.row(n)) or np.nan
     return still

@@ -139,7 +139,7 @@ def test_gamma_and_attitude_tell_the_same_vertical():
 def test_a_stiff_liquid_is_followed_by_an_implicit_method_that_says_so():
     scene = Scene(Body(("9.51", "9.3", 9)), make("liquid_cavity", 1250, "0.01", "1.9"))
     run = simulate(scene, (1.0, 0.5, 1.0), [2e5])
-    assert run.method == "Radau" and "stiff" in run.reason
+    assert run.method == "Radau" and "stiff" in run.because
     momentum = np.linalg.norm(np.array([9.51, 9.3, 9]) * run.state["omega"][0])
     # |H| is constant without rotor (theory)
     assert momentum == pytest.approx(np.linalg.norm([9.51, 4.65, 9.0]), rel=1e-6)
@@ -220,4 +220,4 @@ def test_a_run_over_1e14_turns_stops_and_says_so(monkeypatch, method):
     scene = Scene(Body((3, 2, 1)), effect_class("rate_damper")("1e-3"))
     run = simulate(scene, (1e12, 2e12, 3e12), [0.0, 100.0], method=None if method == "taylor" else method)
     assert (run.method, run.status) == (method, "stopped") and run.t.tolist() == [0.0]
-    assert re.search("the last [0-9]+ steps went from t = 0 to .*, the rest would take some", run.reason)
+    assert re.search("the last [0-9]+ steps went from t = 0 to .*, the rest would take some", run.because)

@@ -76,7 +76,7 @@ def test_reference_says_where_its_digits_end():
     short = reference(FREE.scene, FREE.state, np.linspace(1, 60, 12), work=whole.work // 2)
     assert whole.status == "agrees" and len(whole.t) == 12 and whole.work > 0
     # a third of the work is the first run's, so that the second can confirm what it reached
-    assert short.status == "stopped" and 0 < len(short.t) < 12 and "60" in short.reason
+    assert short.status == "stopped" and 0 < len(short.t) < 12 and "60" in short.because
     assert np.array_equal(short.states, whole.states[:len(short.t)]) and (short.error <= 1e-19).all()
     assert reference(FREE.scene, FREE.state, [1.0], work=10).t.size == 0
 

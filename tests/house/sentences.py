@@ -53,8 +53,8 @@ quantities have all digits.
 Why an answer is known stands in the same form under the key `reason` (of the margins of stuck thrusters under
 `margin_reason`, of checked digits under `digits`), with `text` in place of `words`, and with the clauses that
 follow it in a list under `then`. The key `because` has all of it as one text. Where `reason` is a text, as of
-all equilibria, the object stands beside it under `why`; name, equation and parametrisation of a curve of
-equilibria stand so under `description`.
+all equilibria, runs, models, references and surfaces, the object stands beside it under `why`; name, equation
+and parametrisation of a curve of equilibria stand so under `description`.
 
 In the sentences below a name in code, such as `time`, is such a quantity.
 `python -m tests.house.sentences` writes this page from the package.

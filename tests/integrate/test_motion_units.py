@@ -76,4 +76,4 @@ def test_a_run_that_stops_says_so_in_the_time_of_the_scene():
     # where the rates grow past every number: about equal rates 1e6 and a torque across, no run of doubles
     scene = Scene(Body((3, 2, 1.5)))
     run = stabilab.trajectory(scene, (1e30, 2e30, 1e30), [1e-30, 1e30])
-    assert run.status == "stopped" and "t = 1e-30" in run.reason.replace("1.0000000000000001e-30", "1e-30")
+    assert run.status == "stopped" and "t = 1e-30" in run.because.replace("1.0000000000000001e-30", "1e-30")

@@ -69,7 +69,7 @@ def test_spin_up_over_a_long_time_keeps_its_phase():
 def test_without_heyoka_dop853_takes_over_and_says_so(case, without_heyoka):
     assert not heyoka_available()
     run = trajectory(case[0], case[2], [-2.0, 0.5, 10.0])
-    assert run.method == "DOP853" and "heyoka is not installed" in run.reason and run.status == "reached"
+    assert run.method == "DOP853" and "heyoka is not installed" in run.because and run.status == "reached"
     exact = np.vstack([reference(case, [-2.0]), reference(case, [0.5, 10.0])])
     assert np.abs(run.states - exact).max() <= 2e-11 * np.abs(exact).max()
 
@@ -216,7 +216,7 @@ def test_a_run_that_would_crawl_for_ever_stops_and_says_what_is_left(monkeypatch
     monkeypatch.setattr(trajectories, "REPORT", 5_000)
     monkeypatch.setattr(trajectories, "STEP_LIMIT", 100_000)
     run = trajectory(scene, (1.0, 0.0, 1.0), [-0.25, -1.0, -1.5])
-    assert run.status == "stopped" and run.t.tolist() == [-0.25] and "steps went from t =" in run.reason
+    assert run.status == "stopped" and run.t.tolist() == [-0.25] and "steps went from t =" in run.because
     assert 5_000 <= run.counters["steps"] <= 100_000
 
 
@@ -276,4 +276,4 @@ def test_a_start_in_blocks_names_the_rate_and_no_others(state):
 def test_a_run_beyond_its_steps_stops_and_says_so(monkeypatch):
     monkeypatch.setattr(trajectories, "STEP_LIMIT", 7)
     run = trajectory(SCALED_MINOR, (2.5, 4.0, 0.1), [100.0], method="DOP853")
-    assert run.status == "stopped" and "7 steps" in run.reason
+    assert run.status == "stopped" and "7 steps" in run.because

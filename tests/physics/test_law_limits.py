@@ -276,6 +276,6 @@ def test_a_law_beside_other_answers_is_judged_along_the_first_turns_of_a_motion_
                           "effects": {"liquid_cavity": {"density": 1000, "viscosity": 1, "radius": 0.05}},
                           "motion": {"angular_velocity": [0, 0, "3e6 rad/s"], "span": [0, 15]}})
     found = headline.of_case(case)
-    assert found.over == "along the first 0.033 s of the run"
+    assert str(found.over) == "along the first 0.033 s of the run"
     assert found.value == pytest.approx(stabilab.validity(scene, (0, 0, 3e6)).value, rel=1e-9)
     assert "along the run" in headline.of_case(case, (0, 0.01)).words

@@ -4,6 +4,7 @@ whose names no pattern knows, with the other names put in."""
 from __future__ import annotations
 
 import json
+import math
 import re
 from dataclasses import replace
 from html import escape, unescape
@@ -195,7 +196,7 @@ def test_no_pattern_changes_a_name_that_is_spared(name):
         for text in ("the tilt of {}, {}", "{}: {} and another: {}", "{}"):
             assert change(text.format(name, name, name)) == text.format(name, name, name)
     assert lettered(f"{name}: omega1, lambda3") == f"{name}: ω1, λ3"
-    assert units.words(f"{name} about axis 2 after 180 s") == f"{name} about the y axis after 3 min"
+    assert units.words(f"{name} about axis 2 by {math.pi} rad") == f"{name} about the y axis by 180 deg"
 
 
 @pytest.mark.parametrize("name", NEVER_IN_FILES)

@@ -7,7 +7,8 @@ import pytest
 
 from stabilab import load
 from stabilab.errors import InputError
-from stabilab.show.units import DEG, SCALED, SI, bracket, number, units_of
+from stabilab.reasons import Angle, Moment, Quantity, Rate, Sentence, Span
+from stabilab.show.units import DEG, SCALED, SI, SYSTEMS, bracket, number, units_of
 
 CASE = """[body]
 inertia = [12, 9, 5]
@@ -36,15 +37,23 @@ def test_quantities_without_a_turn_are_the_same_in_both_systems():
 
 
 def test_a_sentence_has_its_angles_rates_and_times_in_these_units():
-    """90 deg are pi/2 rad."""
-    words = (
-        "turns at -1.5707963267948966 rad/s from 3.141592653589793 rad, by (0, 1.5707963267948966) rad/s and "
-        "1.5707963267948966 rad/s^2, at t = 600")
-    assert DEG.words(
-        words) == "turns at -90 deg/s from 180 deg, by (0, 90) deg/s and 90 deg/s^2, at t = 10 min"
+    """90 deg are pi/2 rad; the time of a scaled scene is called tau."""
+    turns = Sentence("turns", "turns at {rate} from {angle}, by {change} and {acceleration}, at {time}, over {span}")
+    right, reason = math.pi / 2, turns(
+        rate=Rate(-math.pi / 2), angle=Angle(math.pi), change=Rate((0.0, math.pi / 2)),
+        acceleration=Quantity(math.pi / 2, "rad/s^2"), time=Moment(600.0), span=Span(0.0, 1200.0))
+    assert DEG.said(reason) == ("turns at -90 deg/s from 180 deg, by (0, 90) deg/s and 90 deg/s^2, "
+                                "at t = 10 min, over 0 to 20 min")
+    assert str(reason) == ("turns at -1.5708 rad/s from 3.14159 rad, by (0, 1.5708) rad/s and 1.5708 rad/s^2, "
+                           "at t = 600, over s in [0, 1200]")
+    assert SYSTEMS["si"].said(turns(time=Moment(2.5), span=Span(0.0, 2.5), rate=right, angle=0, change=0,
+                                    acceleration=0)).endswith("at t = 2.5 s, over 0 to 2.5 s")
+    assert SCALED.said(Sentence("at", "at {time}")(time=Moment(2.5))) == "at tau = 2.5"
+    words = "turns at -1.5707963267948966 rad/s from 3.141592653589793 rad and 1.5707963267948966 rad/s^2"
+    assert DEG.words(words) == "turns at -90 deg/s from 180 deg and 90 deg/s^2"
     pairs = "between 1.5707963267948966 and 3.141592653589793 rad, from -1.5707963267948966 to 0 rad/s"
     assert DEG.words(pairs) == "between 90 and 180 deg, from -90 to 0 deg/s"
-    assert SI.words(words) == words + " s" and DEG.words("0.7 rad^2/s^2") == "0.7 rad^2/s^2"
+    assert SI.words(words) == words and DEG.words("0.7 rad^2/s^2") == "0.7 rad^2/s^2"
     assert (DEG.of("rad"), SI.of("rad/s"),
             DEG.of("m")) == (("deg", 180 / math.pi), ("rad/s", 1.0), ("m", 1.0))
 

@@ -120,10 +120,10 @@ def test_a_body_without_charge_torque_and_force_is_the_first_case_of_the_linear_
     t = np.linspace(0, 20, 41)
     exact, linear = (follow(case, t, model) for model in ("exact", "linear"))
     np.testing.assert_allclose(linear.state["omega"], exact.state["omega"], atol=1e-15)
-    assert "r is constant" in linear.reason and "small angles" in linear.reason
+    assert "r is constant" in linear.because and "small angles" in linear.because
     near = _written(PLAIN.format("8.6"))
     exact, linear = (follow(near, t, model) for model in ("exact", "linear"))
-    told = float(re.search(r"changes by ([\d.e-]+) rad/s at most", linear.reason)[1])
+    told = float(re.search(r"changes by ([\d.e-]+) rad/s at most", linear.because)[1])
     assert 0 < np.abs(exact.state["omega"][:, 2] - 0.3).max() < told < 1e-4
     assert models_of(_written(PLAIN.format("7.0")).scene) == ("exact",)
 
@@ -153,6 +153,9 @@ def test_compare_names_the_attracting_spin_of_a_body_with_a_liquid():
     (found,) = (row["values"] for row in rows if "attracting" in row["about"])
     assert found["spin"] == pytest.approx(-1 / 3, rel=1e-9) and found["amplitude"] == 0
     assert any(rate == pytest.approx([-0.02, 0]) for rate in found["rates"])
+    assert all(row["reason"].code and str(row["reason"]) == row["words"] for row in rows)
+    (steady,) = (row["reason"] for row in rows if "attracting" in row["about"])
+    assert steady.quantities["spin"].value == pytest.approx(-1 / 3, rel=1e-9)  # by hand, as above
 
 
 def test_the_periodic_motion_precesses_as_the_exact_one_through_it():

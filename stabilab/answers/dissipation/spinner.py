@@ -19,7 +19,7 @@ from ...physics.effects.base import effect_words
 from ...physics.scene import Scene, slices
 from ...physics.states import body_momentum, equations_and_start, start_of
 from ...physics.to_numpy import to_numpy
-from ...reasons import Quantity, Reason, Sentence, Time, as_reason
+from ...reasons import Quantity, Reason, Sentence, Time
 from ..simulate import trajectory
 
 STEPS = 5_000_000  # of a run: some ten seconds
@@ -194,7 +194,7 @@ class Run:
             times = np.linspace(0.0, self.length, POINTS + 1)
             run = self.over(self.state, times)
             if run.status != "reached":
-                self.why = as_reason(run.reason)
+                self.why = run.reason
                 return None
             taken = max(1, run.counters["steps"])
             self.steps, self.validity = self.steps + taken, run.validity

@@ -11,6 +11,7 @@ from ...case.read import Case
 from ...case.sections import vertical_of
 from ...orbit.result import Motion, Needs
 from ...physics.coefficients import limits_of
+from ...reasons import Sentence, Time
 from ..caveats import limited, misaligned
 from ..motion import motion, with_ending
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from ...physics.law_limits import Validity
 
 FASTEST = 1e100  # of a rate: beyond it, and below its inverse, squares of squares are no doubles
+ALONG_FIRST = Sentence("law-along-first", "along the first {time} of the run")
 MOST = 1e5  # rad of turn along which a law beside other answers is judged: seconds
 
 
@@ -52,7 +54,7 @@ def law_of(case: Case, span: Any = None, brief: bool = False) -> Any:
         return simulated(case.scene, case.state, span, case.blocks).validity
     first = tuple(t * MOST / (spin * longest) for t in span)
     found = simulated(case.scene, case.state, first, case.blocks).validity
-    over = f"along the first {MOST / spin:.2g} s of the run"
+    over = ALONG_FIRST(time=Time(MOST / spin, digits=2))
     return found and replace(found, over=over, also=tuple(replace(one, over=over) for one in found.also))
 
 

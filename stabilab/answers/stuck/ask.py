@@ -266,10 +266,11 @@ def _chosen(case: Case, scenario: Scenario, all_thrusters: bool) -> list[tuple[A
         return [(t,) for t in case.thrusters]
     marked = tuple(t for t in case.thrusters if t.stuck)
     if not marked and not any(scenario.base):
-        names = ", ".join(t.name for t in case.thrusters)
-        cure = (f"mark one of {names} with stuck = true, or ask with --all-thrusters" if names else
-                "describe one in a table [[thrusters]] with stuck = true, or give a torque")
-        raise InputError(f"no thruster is stuck and no torque acts: {cure}")
+        if names := ", ".join(t.name for t in case.thrusters):
+            raise InputError(f"no thruster is stuck and no torque acts: mark one of {names} with stuck = "
+                             "true, or ask with --all-thrusters")
+        raise InputError("no thruster is stuck and no torque acts: describe one in a table [[thrusters]] "
+                         "with stuck = true, or give a torque")
     return [marked] + ([(t,) for t in marked] if len(marked) > 1 else [])
 
 

@@ -44,7 +44,7 @@ from ...numbers.units import RATE, TIME, Dimension, in_si
 from ...numbers.vectors import Float3
 from ...orbit.result import Motion
 from ...physics.scene import Scene
-from ...reasons import Mass, Quantity, Rate, Reason, Reasoned, Sentence, Time
+from ...reasons import Mass, Quantity, Rate, Reason, Reasoned, Sentence, Time, chained
 from ..attitude import of_motion
 from ..attitude_result import Attitude
 from ..caveats import of_case
@@ -80,6 +80,9 @@ LEAST_OF = Sentence("closing-least-of", "the latest closing time is the least of
 
 REACHED_BEFORE = Sentence("reached-before-the-burn",
                           "the motion before the burn reaches it already")()
+CLOSED_THEN = Sentence("closed-then", "{thrusters}: closed at {time}, then {fate}")
+RATE_AT_MOST = Sentence("rate-at-most", "|ω| at most {rate}")
+CLOSE_BY = Sentence("close-by", "{rate} needs closing by {time} ({level})")
 WHENEVER = Sentence("never-whenever-closed", "never, whenever the thrusters close")()
 NOTHING_FIRES = Sentence("never-nothing-fires", "never, as nothing fires")()
 BY_ENERGY = Sentence("never-by-energy", "never, for 2T/D1 stays below its square")()
@@ -343,12 +346,14 @@ class Burned:
 
     def __repr__(self) -> str:
         left, largest = self.closed, self.closed.largest_rate
-        parts = [f"{' and '.join(self.thrusters)}: closed at {left.time:.6g} s, then "
-                 f"{left.motion.fate.word}",
-                 "" if largest is None else f"|omega| at most {largest:.6g} rad/s",
-                 "" if self.latest is None else f"{self.latest.limit:.6g} rad/s needs closing by "
-                 f"{self.latest.low:.6g} s ({self.latest.level})", *(one.words for one in self.caveats)]
-        return f"Burned({'; '.join(filter(None, parts))})"
+        needed = self.latest
+        parts = chained(
+            CLOSED_THEN(thrusters=self.thrusters, time=Time(left.time), fate=left.motion.fate.word),
+            None if largest is None else RATE_AT_MOST(rate=Rate(largest).upper),
+            None if needed is None else CLOSE_BY(rate=Rate(needed.limit), time=Time(needed.low).lower,
+                                                 level=str(needed.level)),
+            *(one.reason for one in self.caveats))
+        return f"Burned({parts})"
 
 
 def burn(burning: Any, stop: Amount | None = None, below: Amount | None = None) -> Burned:

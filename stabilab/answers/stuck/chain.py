@@ -21,12 +21,15 @@ from ...numbers.vectors import CYCLE, Exact3, Float3
 from ...physics.effects import effect_class
 from ...physics.scene import Scene
 from ...physics.states import checked_times, moved_row
-from ...reasons import Sentence
+from ...reasons import Rate, Sentence
 from ...validation import came
 from ..limit import AXES, Limit, enclosed
 from ..passage import MOVED, ROUNDING, Found, by_run
 from ..simulate import Simulation, in_matrices, quaternion_blocks, simulated, trajectory
 from ..time_to import down, of_one, up
+
+CLOSING_LIMIT = Sentence("limit-after-closing", "largest |ω| after closing = {rate}")
+SWITCHES = Sentence("switches-at-exact-times", "thrusters switch at exact times")()
 
 
 # --- The chain of motions
@@ -113,7 +116,7 @@ def weights_of_largest(scene: Scene) -> Exact3:
 def limit_after(scene: Scene, below: Fraction) -> Limit:
     """g = below, rad/s: closed then, |omega| reaches this limit in the free motion that follows."""
     return Limit("rate", ((tuple(zip(weights_of_largest(scene), AXES)), below**2),),
-                 f"largest |omega| after closing = {float(below):.10g} rad/s")
+                 CLOSING_LIMIT(rate=Rate(float(below), digits=10)).text())
 
 
 def simulate_burn(burning: Any, times: Any = None, attitude: str | None = None) -> Simulation:
@@ -160,7 +163,7 @@ def _joined(runs: Sequence[Simulation]) -> Simulation:
         state={name: np.concatenate([run.state[name] for run in runs]) for name in first.state},
         invariant_drift={name: float(v) for name, v in most([run.invariant_drift for run in runs]).items()},
         counters={name: sum(run.counters.get(name, 0) for run in runs) for name in first.counters},
-        error=most([run.error for run in runs]), reason=f"{last.reason}; thrusters switch at exact times")
+        error=most([run.error for run in runs]), reason=last.reason.then(SWITCHES))
 
 
 # --- The first crossing of a limit along it

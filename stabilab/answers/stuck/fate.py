@@ -39,6 +39,33 @@ if TYPE_CHECKING:
     from ...unreduced.spin_up.result import SpinUp
 
 
+NO_TORQUE = Sentence(
+    "wheel-without-torque", "no torque acts: the energy is constant, whatever the wheel does")()
+LEFT_ALONG = Sentence(
+    "momentum-left-along", "with any momentum left along the torque |H|²/2 - D T grows for ever; at one "
+    "momentum none is left")()
+OTHERS_ALONG = Sentence(
+    "momentum-of-others-along", "momentum of the others lies along the torque: |H|²/2 - D T then grows for "
+    "ever, whatever this wheel does")()
+SPHERE_ACROSS = Sentence(
+    "sphere-bounded-across", "three equal moments: bounded where the wheels' momentum is across the torque "
+    "and not zero")()
+ONLY_EQUILIBRIA = Sentence(
+    "off-axes-only-equilibria", "the torque is off the principal axes, and no bounded motion is known there "
+    "but equilibria")()
+NOT_ISOLATED = Sentence(
+    "momenta-not-isolated", "not known: the balls did not isolate the momenta at which the start lies on a "
+    "separatrix")()
+ENDS_ARE_TIES = Sentence(
+    "momenta-end-on-separatrix", "the ends are momenta at which the start lies on a separatrix: of "
+    "{candidates} candidates, isolated as roots, those where the exact fate changes")
+WALLED = Sentence(
+    "walls-bound-all", "the torque is on {where}: the potential has walls on both sides, so every motion is "
+    "bounded but for a set of measure zero")
+ALWAYS_LOOSE = Sentence(
+    "walls-never-hold", "not known: {walls}, in which the start lies with every momentum of this wheel")
+
+
 # --- A case with its thrusters stuck one way or another: what turns the body then
 @dataclass(frozen=True)
 class Scenario:
@@ -210,7 +237,7 @@ def _by_law(scenario: Scenario, scene: Scene) -> Outcome:
     when = _when(scenario, scene, None)
     repeats = None if spins or motion.period is None else TURN * motion.period
     largest = _largest(scenario, scene, when, repeats)
-    if largest is None and not spins and motion.extremes is not None and motion.extremes_over == "all time":
+    if largest is None and not spins and motion.extremes is not None and motion.for_all_time:
         bound = math.hypot(*(max(map(abs, pair)) for pair in motion.extremes))
         largest = bound if math.isfinite(bound) else None
     certificate = motion.evidence.get("certificate") if kind_of(scene) == "growth" else "law"
@@ -261,7 +288,7 @@ def _direction(scene: Scene, motion: Motion) -> Float3 | None:
 
 
 # --- Momenta of a wheel that keep the motion bounded
-Answer: TypeAlias = tuple[Intervals, str]  # and because
+Answer: TypeAlias = tuple[Intervals, Reason]
 Bracket: TypeAlias = tuple[float, float]
 
 
@@ -271,7 +298,7 @@ SAME = 1e-6  # relative: a run that ends so much sooner than the limit has not c
 
 
 def intervals(scene: Scene, state: Sequence[Fraction], axis: Exact3) -> Answer:
-    """(((least, greatest) momentum along a wheel's axis that keeps the motion bounded, N m s), ...), because.
+    """(((least, greatest) momentum along a wheel's axis that keeps the motion bounded, N m s), ...), reason.
 
     scene: with the momentum of every other wheel in it, but not of this one; state: exact; axis: exact unit
     vector, scene's axes. An end is a number that keeps it bounded, to the last places of a double; -inf, inf
@@ -279,7 +306,7 @@ def intervals(scene: Scene, state: Sequence[Fraction], axis: Exact3) -> Answer:
     """
     torque, wheel, D = scene.vector("constant_torque"), scene.vector("gyrostat"), scene.body.exact
     if not any(torque):
-        return EVERY, "no torque acts: the energy is constant, whatever the wheel does"
+        return EVERY, NO_TORQUE
     if D[0] == D[1] == D[2]:
         return _sphere(torque, wheel, axis)
     family = family_of(scene, state)
@@ -291,46 +318,41 @@ def intervals(scene: Scene, state: Sequence[Fraction], axis: Exact3) -> Answer:
     if step[i]:
         s = -start[i] / step[i]
         left = [Fraction(0) if n == i else v for n, v in enumerate(family.along(start, step, s))]
-        return (((float(s),) * 2,) if family.steady(left) else ()), (
-            "with any momentum left along the torque |H|^2/2 - D T grows for ever; at one momentum none is "
-            "left")
+        return (((float(s),) * 2,) if family.steady(left) else ()), LEFT_ALONG
     if start[i]:
-        return (), ("momentum of the others lies along the torque: |H|^2/2 - D T then grows for ever, "
-                    "whatever this wheel does")
+        return (), OTHERS_ALONG
     return across(family, start, tuple(step))
 
 
 def _sphere(torque: Sequence[Fraction], wheel: Exact3, axis: Exact3) -> Answer:
     """Three equal moments: bounded exactly if there is a wheel momentum and it is across the torque."""
     level, slope = dot(torque, wheel), dot(torque, axis)
-    words = "three equal moments: bounded where the wheels' momentum is across the torque and not zero"
     if slope:
         s = -level / slope
-        return (((float(s),) * 2,) if any(w + s * a for w, a in zip(wheel, axis)) else ()), words
+        return (((float(s),) * 2,) if any(w + s * a for w, a in zip(wheel, axis)) else ()), SPHERE_ACROSS
     if level:
-        return (), words
+        return (), SPHERE_ACROSS
     # with this, if with any, the wheels have none together
     s = next(-w / a for w, a in zip(wheel, axis) if a)
-    return EVERY if any(w + s * a for w, a in zip(wheel, axis)) else without([s]), words
+    return EVERY if any(w + s * a for w, a in zip(wheel, axis)) else without([s]), SPHERE_ACROSS
 
 
 def _wheel_off_axis(scene: Scene, state: Sequence[Fraction], axis: Exact3) -> Answer:
     """Off the axes only an equilibrium is known to be bounded: M - omega x (D omega + l) = s omega x a has
     one s or none."""
     form = scene.quadratic()
-    words = "the torque is off the principal axes, and no bounded motion is known there but equilibria"
     rate = form.rate(list(state))
     D = scene.body.exact
     pull = cross(axis, state)
     if not any(pull):
-        return (EVERY if rests(form, state) else ()), words
+        return (EVERY if rests(form, state) else ()), ONLY_EQUILIBRIA
     s = next(-r * d / p for r, d, p in zip(rate, D, pull) if p)
     resting = all(r * d + s * p == 0 for r, d, p in zip(rate, D, pull))
-    return (((float(s),) * 2,) if resting else ()), words
+    return (((float(s),) * 2,) if resting else ()), ONLY_EQUILIBRIA
 
 
 def across(family: Family, start: Sequence[Fraction], step: Sequence[Fraction]) -> Answer:
-    """The intervals, and because, of momenta start + s step that have no part along the torque."""
+    """The intervals, and the reason, of momenta start + s step that have no part along the torque."""
     at_0: Any  # none has a part along the torque, so both have a reduction
     at_1: Any
     at_0, at_1 = (family.reduction(family.along(start, step, s)) for s in (Fraction(0), Fraction(1)))
@@ -338,11 +360,10 @@ def across(family: Family, start: Sequence[Fraction], step: Sequence[Fraction]) 
         return _between_walls(family, start, step)
     found = candidates(Line(at_0, at_1, family.state, family.state))
     if found is None:
-        return (), "not known: the balls did not isolate the momenta at which the start lies on a separatrix"
+        return (), NOT_ISOLATED
     clearly = lambda s: family.clearly(wheel=family.along(start, step, s))
     kept = pieces(clearly, Fraction(family.momentum_unit), sorted(set(found)))
-    return kept, (f"the ends are momenta at which the start lies on a separatrix: of {len(found)} "
-                  "candidates, isolated as roots, those where the exact fate changes")
+    return kept, ENDS_ARE_TIES(candidates=len(found))
 
 
 def _between_walls(family: Family, start: Sequence[Fraction], step: Sequence[Fraction]) -> Answer:
@@ -350,14 +371,13 @@ def _between_walls(family: Family, start: Sequence[Fraction], step: Sequence[Fra
     roots of a quadratic in s. A root that is not rational is no momentum that a number can give."""
     wheels = [family.along(start, step, Fraction(s)) for s in (-1, 0, 1)]
     reductions: Any = [family.reduction(wheel) for wheel in wheels]  # none has a part along the torque
-    words = (f"the torque is on {reductions[0].geometry.where}: the potential has walls on both sides, so "
-             "every motion is bounded but for a set of measure zero")
+    reason = WALLED(where=reductions[0].geometry.where)
     for before, at, after in zip(*(loose(reduction, family.state) for reduction in reductions)):
         a, b, c = (before + after) / 2 - at, (after - before) / 2, at
         if a or b or c:
             roots = _rational_roots(a, b, c)
-            return without([s for s in roots if not family.steady(family.along(start, step, s))]), words
-    return (), f"not known: {words}, in which the start lies with every momentum of this wheel"
+            return without([s for s in roots if not family.steady(family.along(start, step, s))]), reason
+    return (), ALWAYS_LOOSE(walls=reason)
 
 
 def loose(reduction: Reduction, state: Sequence[Fraction]) -> tuple[Fraction, ...]:

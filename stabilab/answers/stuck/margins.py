@@ -211,11 +211,10 @@ def margins(scenario: Scenario, scene: Scene, seen: Outcome) -> dict[str, Margin
 def _rate(scenario: Scenario, motion: Motion, family: Family | None) -> Margin:
     """To the nearest separatrix as the motion knows it, and how far beyond it the fate is another."""
     if motion.margin_velocity is None or motion.velocity_witness is None:
-        return Margin(reason=as_reason(motion.velocity_because) if motion.velocity_because
-                      else NO_SEPARATRIX_NEAR)
+        return Margin(reason=motion.velocity_reason or NO_SEPARATRIX_NEAR)
     change = [b - a for a, b in zip(scenario.start, motion.velocity_witness)]
     direction = _unit(scenario.in_file(change)) if any(change) else None
-    reason = as_reason(motion.velocity_because) if motion.velocity_because else None
+    reason = as_reason(motion.velocity_reason)
     if _walled(family):
         return Margin(motion.margin_velocity, direction, motion.margin_velocity,
                       reason=reason.then(ALONE) if reason else ALONE)

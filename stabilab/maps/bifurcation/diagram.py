@@ -143,6 +143,9 @@ CURVE_ON_AXIS = Sentence("curve-on-axis",
 NONE_ON_AXIS = Sentence("none-on-axis",
                         "the torque falls on a principal axis that carries a wheel: no equilibrium")()
 NONE_BECAUSE = Sentence("no-equilibrium-because", "no equilibrium: {why}")
+CONNECTIONS_BY_BALLS = Sentence(
+    "connections-by-balls", "{connections} connections: the heights of saddles hold an angle and are "
+    "isolated by balls alone")
 CURVES_BECAUSE = Sentence("curves-because", "{curves}: {why}")
 
 
@@ -430,7 +433,8 @@ def diagram_certificate(found: Diagram) -> dict[str, Any]:
             "pieces": [{"equilibria": _count(piece.count), "stable": _stable(found, piece)}
                        for piece in pieces],
             "events": [{"t": _bounds(event), "equilibria": _count(event.count)} for event in events],
-            "uncertified": [CONNECTIONS(number=len(found.connections)).text()] if found.connections else []}
+            "uncertified": [CONNECTIONS_BY_BALLS(connections=len(found.connections)).text()]
+            if found.connections else []}
 
 
 def _changes(found: Diagram) -> tuple[list[Piece], list[Event]]:

@@ -292,7 +292,7 @@ def _answer(seen: _Seen, state: Sequence[float | Fraction], search: Search, char
     r, g, rates = seen.reduction, seen.reduction.constants, [0.0] * 3
     rates[r.j], rates[r.k] = float(state[r.j]) + g["flip"] * g["rx"] * x, float(state[r.k]) + g["rz"] * z
     rates[r.axis] = (1.0 if Fraction(state[r.axis]) + r.s >= 0 else -1.0) * w - float(r.s)
-    return Apart(found.lower, found.upper, _three(rates), "", found.boxes)
+    return Apart(found.lower, found.upper, _three(rates), None, found.boxes)
 
 
 class Shade:
@@ -380,7 +380,7 @@ def _on_parabolas(numbers, reduction, state, held) -> Apart:
     rates[r.j], rates[r.k] = (float(Fraction(state[axis]) + Fraction(more)) for axis, more in
                               ((r.j, first), (r.k, second)))
     rates[r.axis] = float((1 if state[r.axis] + r.s >= 0 else -1) * Fraction(turning) - r.s)
-    return Apart(found.lower, found.upper, _three(rates), "", found.boxes)
+    return Apart(found.lower, found.upper, _three(rates), None, found.boxes)
 
 
 def _rectangle(g: Mapping[str, float], upper: float):
@@ -460,4 +460,4 @@ def distance_of(reduction: Reduction | None, state: Sequence[float | Fraction],
         return UNKNOWN
     if found.upper != found.upper or found.lower != found.lower:
         return UNKNOWN
-    return found if found.settled else found._replace(because=ENDED)
+    return found if found.settled else found._replace(reason=ENDED)

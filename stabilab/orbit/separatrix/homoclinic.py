@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from math import acos, atan, atan2, copysign, cos, inf, log, nan, pi, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
-from ...reasons import Reasoned
+from ...reasons import Reason, Reasoned, Sentence
 from ...representation import Answer, Compared
 
 if TYPE_CHECKING:
@@ -63,14 +63,14 @@ class Apart(NamedTuple):
     """The distance of a state from the separatrix lies in [lower, upper]; witness: a point of it (three
     rates) at `upper`.
 
-    inf, inf, None where the scene has no separatrix. because: why the two are apart by more than AGREE, else
-    empty.
+    inf, inf, None where the scene has no separatrix. reason: why the two are apart by more than AGREE, else
+    None.
     """
 
     lower: float
     upper: float
     witness: tuple[float, float, float] | None
-    because: str = ""
+    reason: Reason | None = None
     boxes: int = 0
 
     @property
@@ -85,10 +85,13 @@ class Apart(NamedTuple):
 
 
 NO_SEPARATRIX = Apart(math.inf, math.inf, None)
-UNKNOWN = Apart(0.0, math.inf, None,
-                "the numbers of this scene are beyond what the search for the nearest point of the "
-                "separatrix holds")
-ENDED = "the search ended before its proved lower bound met the nearest point found"
+BEYOND_SEARCH = Sentence(
+    "beyond-search-of-separatrix", "the numbers of this scene are beyond what the search for the nearest "
+    "point of the separatrix holds")()
+ENDED = Sentence(
+    "search-of-separatrix-ended", "the search ended before its proved lower bound met the nearest point "
+    "found")()
+UNKNOWN = Apart(0.0, math.inf, None, BEYOND_SEARCH)
 
 
 EPS = 2.0**-52

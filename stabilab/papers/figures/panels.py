@@ -176,7 +176,7 @@ def _refused(column: Column, words: Mapping[str, str]) -> str:
 def _ending(ax, column):
     """In the panel, where curves leave room: which model ends early, and why."""
     from matplotlib.lines import Line2D
-    rows = [(f"ends at {run.t[-1]:.3g} s: {run.reason.split(' at t = ')[0]}",
+    rows = [(f"ends at {run.t[-1]:.3g} s: {run.because.split(' at t = ')[0]}",
              cost.END | {"color": LOOKS[name]["color"]})
             for name, run in column.runs.items() if cost.stops(run)]
     if rows:

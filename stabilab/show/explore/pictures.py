@@ -217,7 +217,7 @@ def over_time(bag: Bag, case: Case, motion: Motion | None, times: list[float], p
     symbol = "x" if units.scaled else "ω"
     extremes = period = reached = None
     if motion is not None:
-        if motion.extremes is not None and motion.extremes_over == "all time":
+        if motion.extremes is not None and motion.for_all_time:
             extremes = [[v * rate for v in pair] for pair in motion.extremes]
         period = None if motion.period is None else motion.period * one
         reached = None if (at := limit_time(motion)) is None else at * one

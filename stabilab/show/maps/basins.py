@@ -171,7 +171,8 @@ def json(found: Basins) -> str:
                      "separatrix": found.separatrix()},
         "box_dimension": {"value": rough.value, "uncertainty": rough.uncertainty,
                           "depths": list(rough.depths), "cells": list(rough.counts),
-                          "fitted_depths": list(rough.used), "because": rough.because}})
+                          "fitted_depths": list(rough.used), "because": rough.because,
+                          "reason": rough.reason.as_dict()}})
 
 
 def command(found: Basins) -> str:

@@ -158,7 +158,7 @@ def as_dict(case: Any, found: Chaos) -> dict[str, Any]:
     """One object of `stabilab chaos --json`."""
     return {"schema": SCHEMA, "case": case.name, "variables": case.variables,
             "answer": Order(int(found.labels)).word, "because": found.because,
-            "megno": float(found.megno), "lyapunov": float(found.lyapunov),
+            "reason": found.reason.as_dict(), "megno": float(found.megno), "lyapunov": float(found.lyapunov),
             "lyapunov_uncertainty": float(found.lyapunov_error),
             "turn": found.turn, "times": found.times.tolist(), "history": found.history.tolist()}
 

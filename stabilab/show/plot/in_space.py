@@ -372,7 +372,7 @@ def away(one: Subject, found: Space, scale: Measures) -> str:
     if (one.state is None or one.motion.velocity_witness is None or one.motion.margin_velocity is None
             or found.box.holds(one.motion.velocity_witness)):
         return ""
-    size = number(one.motion.margin_velocity * scale.rate[1], 4, -bool(one.motion.velocity_because))
+    size = number(one.motion.margin_velocity * scale.rate[1], 4, -bool(one.motion.velocity_reason))
     return (f"the separatrix is {size} {scale.rate[0]} away, "
             f"outside of this picture".replace("  ", " "))
 

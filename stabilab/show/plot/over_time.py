@@ -168,7 +168,7 @@ def _curve(ax: Axes, t: np.ndarray, values: np.ndarray, look: Mapping[str, Any],
 def _extremes(ax, one, per_rate):
     """Dotted lines at the least and greatest value of each component; the row of the legend."""
     found = one.motion.extremes
-    if found is None or one.motion.extremes_over != "all time":
+    if found is None or not one.motion.for_all_time:
         return []
     drawn = [(value, look) for pair, look in zip(found, COMPONENTS) for value in set(pair)
              if value is not None and math.isfinite(value)]

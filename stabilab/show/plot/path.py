@@ -131,7 +131,7 @@ def budget(case: Any, state: Any = None, ax: Axes | None = None, span: Any = Non
     found = measured(case, state, span, effort)
     if question not in found.questions:
         raise InputError(
-            f"question: expected one of {', '.join(found.questions) or 'none: ' + found.reference.reason}, "
+            f"question: expected one of {', '.join(found.questions) or 'none: ' + found.reference.because}, "
             f"got {question!r:.40}")
     with canvas.on(ax, size or SIZE) as target:
         panel(target, found, question)

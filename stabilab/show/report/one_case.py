@@ -158,7 +158,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
             "equations": _tried(absent, "Equations", lambda: equations(case))}
     if moved is not None:
         page |= {"tiles": tiles(moved, units), "facts": facts(case, moved, units),
-                 "extremes": extremes(case, moved, units), "over": _over(units.words(moved.extremes_over))}
+                 "extremes": extremes(case, moved, units), "over": _over(units.said(moved.over))}
         page["pictures"] = (_tried(absent, "Pictures",
                                    lambda: pictures(one, folder, stem, deep,
                                                     "deg" if units.scaled else units.name, found)) or [])
@@ -194,15 +194,15 @@ def _tried(absent, what, made):
 
 def facts(case, motion, units) -> list[tuple[str, str]]:
     """(what, its value) of everything known of the motion, in the order in which one asks."""
-    validity, axes, words = motion.validity, frame.rows_of_axes(case), units.words
+    validity, axes = motion.validity, frame.rows_of_axes(case)
     found = [("law", units.said(validity.reason))] if validity is not None and validity.held else []
     at = state(motion.at, units, case.scene.blocks)
     found += [("start", f"{at} at {'τ' if units.scaled else 't'} = 0")]
     found += [("because", units.said(motion.reason).removeprefix("undecided: "))]
     found += [] if motion.ending is None else [("its end", units.said(motion.ending.reason))]
-    explained = EXPLAINED | ({"margin, rate": ""} if motion.velocity_because else {})
+    explained = EXPLAINED | ({"margin, rate": ""} if motion.velocity_reason else {})
     found += [(name, told + explained.get(name, "")) for name, told in margins(motion, units)]
-    found += [("margin, rate", words(motion.velocity_because))] if motion.velocity_because else []
+    found += [("margin, rate", units.said(motion.velocity_reason))] if motion.velocity_reason else []
     found += [("frame", frame.lines(case)[0].removeprefix("frame: "))] if axes else []
     found += [(f"axis {name}", told) for name, told in axes]
     return [(name, printed(told)) for name, told in (*found, *constants(motion, units))]

@@ -98,7 +98,12 @@ def _distance(motion: Motion, units: Units):
         return height, "of energy, to the barrier"
     if motion.fate.word == "separatrix":
         return "none", "the smallest change decides"
-    return "not known", units.words(motion.velocity_because).removeprefix("not known: ")
+    return "not known", _explained(motion, units).removeprefix("not known: ")
+
+
+def _explained(motion: Motion, units: Units) -> str:
+    """Why the distance from the separatrix is not known, or its bounds are apart."""
+    return "" if motion.velocity_reason is None else units.said(motion.velocity_reason)
 
 
 # --- Tables
@@ -211,13 +216,13 @@ def _of_motion(scene, motion, units):
     if motion.margin_velocity is None or motion.velocity_witness is None:
         return []
     change = [b - a for a, b in zip(motion.at[:3], motion.velocity_witness)]
-    size, because = math.hypot(*change), [units.words(motion.velocity_because)]
+    size, because = math.hypot(*change), [_explained(motion, units)]
     along = [v / size for v in change] if size else None
     reduced = reduce(effective(scene))
     if reduced is not None and reduced.geometry.centred and (not reduced.sense or potential(reduced).walled):
         because.append("this does not change the fate: beyond the separatrix motions are bounded too, "
                        "about other centres or round the axis")
-    size = units.rate(motion.margin_velocity, side=-bool(motion.velocity_because))
+    size = units.rate(motion.margin_velocity, side=-bool(motion.velocity_reason))
     return [_change("rate", size, along, "; ".join(filter(None, because)))]
 
 

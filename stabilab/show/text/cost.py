@@ -3,7 +3,6 @@ JSON, CSV, and as a picture of histories."""
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,16 +11,17 @@ import numpy as np
 
 from ...cost.accuracy import EPS, WANTED, digit_price
 from ...files import write_text
-from ...integrate.trajectory import SCIPY_METHODS
+from ...integrate.trajectory import ALL_REACHED, SCIPY_METHODS
 from ...physics.scene import PARTS
 from ...processes import machine, versions
-from ...reasons import outward
+from ...reasons import Reason, outward
 from ...representation import values_of
-from ...theories.theory import lines as theory_lines
+from ...theories.theory import NO_ANSWER
 from .. import style
 from ..data import csv_lines
 from ..terminal import lettered, some, written
 from ..units import SHORT, Units, number, units_of
+from .simulation import theory_lines
 
 if TYPE_CHECKING:
     from types import SimpleNamespace
@@ -38,7 +38,6 @@ NAMES = {"taylor": "Taylor series (heyoka)",
          "reference": "series in many digits, twice"} | {
              name: f"{name} (SciPy)" for name in SCIPY_METHODS}
 DOUBLES = WANTED[:-1]  # that a run in doubles may have
-SPAN = re.compile(r"(up to t = [\d.e+-]+ of [\d.e+-]*\d)")
 BLAMED = 20  # an error this many times the effect of the start's last place has other causes
 SIX = 6  # digits at which the methods are set side by side
 FATES = {"energy": "{0}, by the energy in doubles with its error bound in {1}",
@@ -55,9 +54,8 @@ def words(found) -> list[str]:
 def _reference_words(found) -> str:
     r = found.reference
     if not len(r.t):
-        return f"Nothing was measured: {r.reason}."
-    whole = r.reason if found.case.variables == "scaled" else SPAN.sub(r"\1 s", r.reason)
-    reach = "" if r.status == "agrees" else f" Only so far: {whole}; the rest of the span is not judged."
+        return f"Nothing was measured: {r.because}."
+    reach = "" if r.status == "agrees" else f" Only so far: {r.because}; the rest of the span is not judged."
     return (f"Judged at {some(len(r.t), 'time')} up to {_moment(found)} by a Taylor series run in "
             f"{r.digits[0]} and in {r.digits[1]} "
             f"digits; the two differ by {outward(r.error.max(), 1, 1):.0e} of the state, which is the "
@@ -238,7 +236,8 @@ REACH = 1.6
 def as_dict(case, found) -> dict:
     """The object of `stabilab compare --json`."""
     return {"schema": "stabilab.compare/1", "case": case.name, "time": case.scene.time_unit, "t": found.t,
-            "models": {name: values_of(run, "status reason") for name, run in found.runs.items()}
+            "models": {name: {"status": run.status, "reason": run.because, "why": run.reason.as_dict()}
+                       for name, run in found.runs.items()}
             | {name: {"status": "refused", "reason": why} for name, why in found.refused.items()},
             "departures": [{**values_of(d, "model part error scale largest"),
                             "first": {f"{level:g}": time for level, time in d.first.items()}}
@@ -265,15 +264,14 @@ def text(case, found, units: Units) -> str:
 
 def _notes(found, units) -> list[str]:
     """What the models say of themselves, each once, then what the theory says beyond that."""
-    by_words: dict[str, list[str]] = {}
+    models: dict[Reason, list[str]] = {}
     for name, run in found.runs.items():
-        if run.reason and run.reason != "all times reached":
-            by_words.setdefault(run.reason, []).append(name)
+        if run.reason != ALL_REACHED:
+            models.setdefault(run.reason, []).append(name)
     for name, why in found.refused.items():
-        by_words.setdefault(f"no answer: {why}", []).append(name)
-    notes = [f"{', '.join(names)}: {words}" for words, names in by_words.items()]
-    beyond = [row for row in found.theory if row["words"] not in by_words]
-    return [lettered(units.words(note)) for note in (*notes, *theory_lines(beyond))]
+        models.setdefault(NO_ANSWER(why=why), []).append(name)
+    return [*(f"{', '.join(names)}: {lettered(units.said(reason))}" for reason, names in models.items()),
+            *theory_lines([row for row in found.theory if row["reason"] not in models], units)]
 
 
 def _closest(found) -> str:

@@ -16,14 +16,15 @@ from ...answers.motions.of_case import judged as judged
 from ...answers.motions.of_case import law_is_open
 from ...answers.motions.of_case import law_of as of_case
 from ...errors import Kind, printable
-from ...orbit.result import HEADS
+from ...orbit.result import HEADS, OVER_SPAN
 from .. import ending, limiting
 from ..axes import PLAIN, axes_of, direction
-from ..units import SHORT, SI, SPAN, Unit, Units, as_bound, number, units_of
+from ..units import SHORT, SI, Unit, Units, as_bound, number, units_of
 
 if TYPE_CHECKING:
     from ...case.read import Case
     from ...orbit.result import Motion
+    from ...reasons import Reason
 
 
 # --- How far an approximate law holds
@@ -276,25 +277,25 @@ def greatest(motion: Motion, units: Units) -> str:
 def _sizes(motion: Motion, units: Units):
     """({number of a component: the most that it reaches}, over which time in words, "" where that is all)."""
     pairs, over = motion.extremes, ""
-    if motion.extremes_over != "all time":
+    if not motion.for_all_time:
         pairs, over = ((motion.bounds, "") if motion.bounds is not None
-                       else (pairs, f" {span_words(motion.extremes_over, units)}"))
+                       else (pairs, f" {span_words(motion.over, units)}"))
     return {n: max(map(abs, pair)) for n, pair in enumerate(pairs or (), 1) if None not in pair}, over
 
 
 def largest_key(motion: Motion) -> dict:
     """The largest rates in JSON, SI: "value" is |omega| at the most, "bound" whether it is an upper bound and
     not the largest that is reached, "components" the most of each; null where it has no end or is unknown."""
-    pairs = motion.extremes if motion.extremes_over == "all time" else motion.bounds or motion.extremes
+    pairs = motion.extremes if motion.for_all_time else motion.bounds or motion.extremes
     most = [None if pair is None or None in pair else max(map(abs, pair)) for pair in pairs or (None,) * 3]
-    sharp = motion.largest is not None and motion.extremes_over == "all time"
+    sharp = motion.largest is not None and motion.for_all_time
     value = motion.largest if sharp else None if None in most else math.hypot(*most)
     return {"value": value, "bound": not sharp, "components": most}
 
 
-def span_words(over: str, units: Units) -> str:
+def span_words(over: Reason, units: Units) -> str:
     """What extremes are known over, with the units of people: "s in [0, 1200]" is "within 0 to 20 min"."""
-    return f"{'within' if SPAN.fullmatch(over) else 'over'} {units.words(over)}"
+    return f"{'within' if over.says(OVER_SPAN) else 'over'} {units.said(over)}"
 
 
 def margin(motion: Motion, units: Units) -> str:
@@ -318,7 +319,7 @@ def rate_and_height(motion: Motion, units: Units) -> tuple[str, str]:
 
 def rate_margin(motion: Motion, units: Units, digits: int) -> str:
     """The distance from the separatrix, or its bounds where it is not one to 1e-6; empty where unknown."""
-    if motion.velocity_because and motion.velocity_bounds:
+    if motion.velocity_reason and motion.velocity_bounds:
         return bracketed(*motion.velocity_bounds, units.rates, digits)
     return "" if motion.margin_velocity is None else units.rate(motion.margin_velocity, digits)
 

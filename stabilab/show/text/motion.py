@@ -107,11 +107,11 @@ def energy_margin(value: float, tell: Callable[[float], str]) -> str:
 
 def extreme_lines(case: Case, motion: Motion, units: Units) -> list[str]:
     """Least and greatest of every component under a head that says over which time."""
-    pairs, over = but_for_rounding(motion.extremes, motion.tolerance), motion.extremes_over
+    pairs = but_for_rounding(motion.extremes, motion.tolerance)
     if pairs is None:
         return []
-    when = over if over == "all time" else span_words(over, units).removeprefix("over ")
-    return [*_head(f"over {when}" if over == "all time" else when),
+    when = span_words(motion.over, units)
+    return [*_head(when if motion.for_all_time else when.removeprefix("over ")),
             *pair_lines(case, pairs, units, motion.extremes_side)]
 
 
@@ -149,9 +149,9 @@ def why(case: Case, motion: Motion, units: Units, proofs: bool) -> list[str]:
     lines = [f"why: {units.said(motion.reason)}"]
     if motion.ending is not None:
         lines.append(f"  its end: {units.said(motion.ending.reason)}")
-    if proofs and motion.velocity_because:
+    if proofs and motion.velocity_reason:
         rate = "" if motion.velocity_bounds else "margin, rate: "
-        lines.append(f"  {rate}{reason(motion.velocity_because, units)}")
+        lines.append(f"  {rate}{units.said(motion.velocity_reason)}")
     if proofs:
         lines += [row(*fact) for fact in constants(motion, units)]
     return lines

@@ -172,13 +172,13 @@ def extremes(case: Case, motion: Motion, told: Told, units: Units, all_digits: b
     shown = _with(motion, told)
     parts, most = [*outcome(shown, units), cause(shown, units)], [largest(shown, units)]
     parts = [*parts, *most] if motion.fate.word == "spin-up" else [*most, *parts]
-    rows = [f"  extremes: {shown.extremes_over}"]
+    rows = [f"  extremes: {units.said(shown.over)}"]
     if shown.extremes is not None:
         rows = _all_digits(case, shown, told) if all_digits else extreme_lines(case, shown, units)
     return "\n".join([f"{case.name}: {'; '.join(filter(None, parts))}", *rows,
                       *bound_lines(case, motion, units),
                       *(why(case, motion, units, proofs) if proofs else ()), *frame.note(case),
-                      *([_said(told, units)] * (say and told.because != shown.extremes_over))])
+                      *([_said(told, units)] * (say and told.reason != shown.over))])
 
 
 def _all_digits(case: Case, motion: Motion, told: Told):

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...files import whole_file, write_text
+from ...integrate.trajectory import ALL_REACHED
 from ...numbers.principal import oblique
 from ...packages import demand
 from ...physics.scene import ATTITUDES, PARTS
@@ -45,13 +46,17 @@ def text(case: Case, run: Simulation, units: Units, known: int | None = None,
     laws = [f"# {lettered(name)}: largest relative departure {value:.3g}"
             for name, value in run.invariant_drift.items()]
     how = f"# {run.method}, rtol {run.rtol:.3g}" if run.rtol else f"# {run.model}: {lettered(run.method)}"
-    notes = ([f"# {lettered(units.words(run.reason))}"] if run.reason and run.reason != "all times reached"
-             else [])
+    notes = [] if run.reason == ALL_REACHED else [f"# {units.said(run.reason)}"]
     notes += [f"# {', '.join(PARTS[name].components)}: {PARTS[name].description}" for name in run.state
               if name in ATTITUDES]
     return "\n".join([f"{case.name}: {headline(case, run, units)}",
                       *_columns(head, cells, width, 13 if known is None else ALL + 7), how, *laws, *notes,
                       *(f"# {line.strip()}" for line in frame.note(case))])
+
+
+def theory_lines(rows, units: Units) -> list[str]:
+    """What a theory says, a line a row."""
+    return [lettered(f"{row['about']}: {units.said(row['reason'])}") for row in rows]
 
 
 def zero_within(error: float) -> str:
@@ -64,7 +69,7 @@ def zero_within(error: float) -> str:
 def headline(case: Case, run: Simulation, units: Units) -> str:
     """How far the motion was followed, its size at both ends, and by how much first integrals vary."""
     if not len(run.t):
-        return f"NOT FOLLOWED: {run.reason}"
+        return f"NOT FOLLOWED: {units.said(run.reason)}"
     reached = "followed to" if run.status == "reached" else "STOPPED at"
     kept = f"; first integrals vary by {max(run.invariant_drift.values()):.2g}" if run.invariant_drift else ""
     return f"{reached} {units.time(float(run.t[-1]), SHORT)}{_sizes(run, units)}{kept}"
@@ -101,7 +106,8 @@ def as_dict(case: Case, run: Simulation) -> dict:
     """The object of `stabilab simulate --json`."""
     return {"schema": "stabilab.simulate/1", "case": case.name, "model": run.model,
             "time": case.scene.time_unit,
-            **values_of(run, "t state error invariant_drift counters method rtol status reason"),
+            **values_of(run, "t state error invariant_drift counters method rtol status"),
+            "reason": run.because, "why": run.reason.as_dict(),
             **{name: PARTS[name].description for name in ATTITUDES if name in run.state}
             } | frame.rows(case, run) | frame.key(case)
 

@@ -92,8 +92,8 @@ def _near(name: str, symbols: Mapping[str, Expr]):
     from difflib import get_close_matches
 
     close = get_close_matches(name, symbols, 3, 0.5)
-    return (f" (near it: {', '.join(close)}; declare new ones under [symbols])" if close
-            else " (declare it under [symbols])")
+    near = f"near it: {', '.join(close)}; declare new ones" if close else "declare it"
+    return f" ({near} under [symbols])"
 
 
 # --- What papers print, as data: a TOML file a paper, a row a claim. The format is in docs/audit.md

@@ -24,7 +24,7 @@ from ...physics.coefficients import effective, three_floats
 from ...physics.own_unit import natural
 from ...physics.scene import AnyScene
 from ...physics.states import checked_states
-from ...reasons import Axis, Quantity, Sentence, old
+from ...reasons import Axis, Quantity, Reason, Sentence
 from ...validation import checked_scene
 from ..enclosure import proved
 from .certificate import Tests, exactly, loaded, stored, tests_of
@@ -92,7 +92,7 @@ class Chased:
     passed: np.ndarray
     blur: np.ndarray
     reach: np.ndarray
-    given_up: dict[int, str] = field(default_factory=dict)
+    given_up: dict[int, Reason] = field(default_factory=dict)
 
 
 def chase(scene: AnyScene, tests: Tests, starts: np.ndarray, t_max: float, budget: int, after: float = 0.0,
@@ -242,7 +242,7 @@ def answer_of(scene: AnyScene, unit: float, found: Chased, row: int) -> SpinUp:
         if not condition * (1 + passed) * 2.0**-52 < 1 / 16:
             reason = reason.then(ROUNDING_DECIDES, ", ")
         if row in found.given_up:
-            reason = reason.then(old(found.given_up[row]))
+            reason = reason.then(found.given_up[row])
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, condition,
                       passed, reason=reason)
     field, orders = found.tests.asked[found.fired[row]]

@@ -197,7 +197,7 @@ def test_a_state_in_the_middle_of_its_circles_has_a_settled_distance():
 def test_a_state_exactly_on_the_separatrix_is_at_no_distance_from_it(scene, state):
     """Saddles, and states whose energy equals a barrier's in rational numbers: the search crept towards
     1e-80, or hung."""
-    assert distance_of(reduce(scene), state) == (0.0, 0.0, tuple(map(float, state)), "", 0)
+    assert distance_of(reduce(scene), state) == (0.0, 0.0, tuple(map(float, state)), None, 0)
 
 
 FAR = [((12, 9, 5), (0.8, 0, 0), (0, 0, 0.02), (0.1, None, 0.02)),

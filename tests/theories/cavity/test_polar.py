@@ -95,4 +95,4 @@ def test_an_averaged_motion_that_outgrows_doubles_stops():
     found = averaged(Scene(body(0.05, d=4.0).body,
                            *(e for e in body(0.05, M=(0, 0, 0)).effects if e.name == "resistance")),
                      (1, 0, 1), [0.0, -1e6])
-    assert found.status == "stopped" and "run stopped at" in found.reason and found.t.tolist() == [0.0]
+    assert found.status == "stopped" and "run stopped at" in found.because and found.t.tolist() == [0.0]

@@ -85,7 +85,7 @@ def test_nutation_and_precession_are_those_of_the_motion(tmp_path, omega, gamma)
 def test_a_top_that_starts_without_p_and_q_nutates(stabilab, tmp_path):
     path = top_file(tmp_path, *STARTS[0])
     out, low = stabilab("compare", path)[1], np.degrees(by_the_cubic(*STARTS[0])[0])
-    assert f"between {low:.5g} and 163.74 deg" in out and low < 163.6
+    assert f"between {low:.5g} deg and 163.74 deg" in out and low < 163.6
     row = next(row for row in json.loads(stabilab("compare", path, "--json")[1])["theory"]
                if row["about"] == "periodic motion")
     assert "through r and γ of the start" in out and "off it" in row["words"] and row["values"][
