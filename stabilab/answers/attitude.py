@@ -49,7 +49,7 @@ from ..numbers.balls import Digits, Unclear, settled
 from ..numbers.vectors import CYCLE, dot
 from ..orbit.result import Fate, Motion, Needs
 from ..physics.scene import Scene
-from ..reasons import Sentence
+from ..reasons import Sentence, as_reason
 from .attitude_result import (
     LONG,
     ROUND_AXIS,
@@ -241,7 +241,8 @@ def _at_start(scene: Scene, omega: Sequence[Fraction], found: Motion) -> Attitud
     H = [d * w + l for d, w, l in zip(scene.body.exact, omega, scene.vector("gyrostat"))]
     size = math.hypot(*map(float, H))
     along = tuple(float(v) / size for v in H) if size else None
-    return Attitude(found.at[:3], found.fate, None, size, along, reason=None, caveats=found.caveats)
+    return Attitude(found.at[:3], found.fate, None, size, along, reason=as_reason(None),
+                    caveats=found.caveats)
 
 
 def _of_free_body(D: Sequence[Fraction], omega: Sequence[Fraction], base: Attitude,

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..errors import InputError, ToleranceNotMet
 from ..orbit.result import Motion, no_period
-from ..reasons import Quantity, Reason, Reasoned, Sentence
+from ..reasons import Quantity, Reason, Reasoned, Sentence, as_reason
 
 DEFAULT = 10  # digits, where nothing else is asked for
 NEAR = 1.0  # a digit by which an aim that nobody asked for may be missed, rather than pay for many digits
@@ -85,4 +85,4 @@ def by_bound(question: str, motion: Motion) -> Told | None:
 
 def nothing(question: str, asked: int, why: Reason | str) -> Told:
     """The answer that there is no such number."""
-    return Told(question, None, asked, None, "none", reason=why)
+    return Told(question, None, asked, None, "none", reason=as_reason(why))

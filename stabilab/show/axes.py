@@ -69,7 +69,7 @@ class Axes:
         """Where an axis without a letter lies, a clause; empty of one with a letter."""
         if not number or self.letters[number - 1]:
             return ""
-        return f"the {self.words[number - 1]} axis is {self.direction(number)}{IN_FILE}"
+        return f"the {self.ranks[number - 1]} axis is {self.direction(number)}{IN_FILE}"
 
     def brief(self, number: int) -> str:
         """After another axis of the same line: "x", or what `whole` says where there is no letter."""

@@ -28,7 +28,7 @@ from ..errors import InputError
 from ..numbers.vectors import Number
 from ..physics.effects.base import effect_words
 from ..physics.equations import derive
-from ..reasons import Reasoned
+from ..reasons import Reasoned, as_reason
 
 ORDERS = 3  # X0, X1, X2
 ALLOWED = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity"}
@@ -291,7 +291,7 @@ def _state(alpha, rho0, rho1, r, S) -> SteadyState:
         first, second = (down + root) / 2, (down - root) / 2
         because = "regular precession: the liquid feeds the amplitude as fast as the rest takes it"
     rates = (complex(Integer(0) + first), complex(Integer(0) + second))
-    return SteadyState(float(sqrt(S)), float(r), _kind(rates), rates, reason=because)
+    return SteadyState(float(sqrt(S)), float(r), _kind(rates), rates, reason=as_reason(because))
 
 
 def _kind(rates):

@@ -30,7 +30,7 @@ from ...physics.coefficients import Content, content, loses
 from ...physics.scene import later, slices
 from ...physics.states import equations_and_start, moved_row, start_of
 from ...physics.to_numpy import to_numpy
-from ...reasons import Axis, Momentum, Rate, Reasoned, Sentence
+from ...reasons import Axis, Momentum, Rate, Reasoned, Sentence, as_reason
 from ...representation import Compared, Shown
 from ...unreduced.bounds import OPEN_DIRECTION
 from ..passage import MOVED, WIDER
@@ -152,7 +152,7 @@ def _inside(case: Any) -> Ending:
     try:
         return of_spin(of_case(case, WITHIN, spans=False))
     except InputError as error:  # a liquid in moments that no rigid body has
-        return Ending("undecided", "undecided", reason=str(error))
+        return Ending("undecided", "undecided", reason=as_reason(str(error)))
 
 
 def of_spin(found: FlatSpin) -> Ending:

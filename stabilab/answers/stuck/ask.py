@@ -25,7 +25,7 @@ from ...numbers.principal import NOTHING, without_trace
 from ...numbers.vectors import CYCLE, Exact3, dot
 from ...orbit.result import Fate
 from ...physics.scene import Scene, torque_axis
-from ...reasons import Sentence
+from ...reasons import Sentence, as_reason
 from ..at_equilibrium import of_gyrostat
 from ..caveats import STEADY, caveats_of
 from ..tilt import Spread, Tilt
@@ -335,4 +335,4 @@ def _wheel(scenario: Scenario, torque: Exact3, seen: Outcome, wheel: Any) -> Whe
     later = (None if kept or seen.fate in STEADY
              else delayed(scenario, torque, axis, wheel.momentum, seen.when.time))
     return WheelAnswer(wheel.name, tuple(map(float, wheel.axis)), float(wheel.momentum), kept, *(later or ()),
-                       reason=reason)
+                       reason=as_reason(reason))

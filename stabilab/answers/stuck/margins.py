@@ -220,12 +220,12 @@ def _rate(scenario: Scenario, motion: Motion, family: Family | None) -> Margin:
         return Margin(motion.margin_velocity, direction, motion.margin_velocity,
                       reason=reason.then(ALONE) if reason else ALONE)
     if family is None or not any(change):
-        return Margin(motion.margin_velocity, direction, reason=reason)
+        return Margin(motion.margin_velocity, direction, reason=as_reason(reason))
     until = _rate_again(family, change, Fraction(motion.margin_velocity))
     if until is not None and until < math.inf:
         again = _again(Rate(until, digits=DIGITS), family.fate() in STEADY)
         reason = reason.then(again) if reason else again
-    return Margin(motion.margin_velocity, direction, until, reason=reason)
+    return Margin(motion.margin_velocity, direction, until, reason=as_reason(reason))
 
 
 def _rate_again(family: Family, change: Sequence[Number], size: Fraction) -> float | None:
@@ -289,7 +289,7 @@ def _torque(scenario: Scenario, family: Family, steady: bool) -> Margin:
     if abs(change) < until < math.inf:
         reason = reason.then(_again(Torque(until), steady))
     direction = _direction(scenario, family, {family.axis: 1 if change > 0 else -1})
-    return Margin(float(abs(change)), direction, until, reason=reason)
+    return Margin(float(abs(change)), direction, until, reason=as_reason(reason))
 
 
 def _least_torque(family: Family, sign: int, size: Fraction) -> Fraction | None:

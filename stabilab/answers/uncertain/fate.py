@@ -37,7 +37,7 @@ from ...orbit.potential import derivatives_on_parabola
 from ...orbit.reduction import Reduction, reduce, reduction_about
 from ...orbit.result import Fate
 from ...physics.scene import QuadraticForm
-from ...reasons import Axis, Reason, Sentence
+from ...reasons import Axis, Reason, Sentence, as_reason
 from ..equilibria import equilibria
 from ..kinds import kind_of
 from ..motions.rows import fates
@@ -617,5 +617,5 @@ def uncertain(case: Any, questions: Sequence[str] = ("equilibria", "fate")) -> U
         box = box_of(case)
         found = {name: ask[name](box) for name in asked}
     except InputError as error:
-        found = {name: Over("undecided", None, reason=str(error)) for name in asked}
+        found = {name: Over("undecided", None, reason=as_reason(str(error))) for name in asked}
     return Uncertainty(case.uncertain, found.get("equilibria"), found.get("fate"))
