@@ -210,8 +210,8 @@ class Reason:
         return replace(self, rest=())
 
     def then(self, other: Reason | None, joint: str = "; ") -> Reason:
-        """With another clause behind it; as it is where there is none."""
-        return self if other is None else replace(self, rest=(*self.rest, (joint, other)))
+        """With another clause behind it; as it is where there is none, or it says nothing."""
+        return replace(self, rest=(*self.rest, (joint, other))) if other else self
 
     def clauses(self) -> Iterator[tuple[str, Reason]]:
         """(joint, clause) of all of it, the first behind no joint."""

@@ -288,7 +288,7 @@ def _torque(scenario: Scenario, family: Family, steady: bool) -> Margin:
     if abs(change) < until < math.inf:
         reason = reason.then(_again(Torque(until), steady))
     direction = _direction(scenario, family, {family.axis: 1 if change > 0 else -1})
-    return Margin(float(abs(change)), direction, until, reason=reason)
+    return Margin(float(abs(change)), direction, until, reason=as_reason(reason))
 
 
 def _least_torque(family: Family, sign: int, size: Fraction) -> Fraction | None:
