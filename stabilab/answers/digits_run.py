@@ -77,12 +77,12 @@ class Reached:
         return self.run.status == "reached" and self.digits >= self.asked
 
 
-def missed(case: Any, found: Any) -> str:
+def missed(found: Any) -> str:
     """Why digits were not reached, in words."""
     if found.run.status != "reached":
-        return f"{case.place}: {found.run.reason}"
-    return (f"{case.place}: {found.asked} digits asked for, {found.digits:.1f} reached ({found.because}); "
-            "ask for fewer or for a shorter span")
+        return str(found.run.reason)
+    return (f"{found.asked} digits asked for, {found.digits:.1f} reached ({found.because}); ask for fewer or "
+            "for a shorter span")
 
 
 def best_reached(case: Any, times: np.ndarray, digits: int = DEFAULT, aim: bool = False) -> Reached:

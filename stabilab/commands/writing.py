@@ -27,17 +27,20 @@ def either(json: bool, data, words):
         tell(words())
 
 
+def of_map(shown, found, case, files, json: bool, csv: bool, strict: bool, *more):
+    """Print a map of a case by json, csv or text of `shown`, and name its files; exit with 3 where strict and
+    something is undecided. more: for all but csv."""
+    write_answer(shown, found, json, csv, *more)
+    say_written(files)
+    leave_undecided(strict, strict and (shown.undecided(found) or unphysical([case])))
+
+
 def write_answer(shown, found, json: bool, csv: bool, *more):
     """What was found by json, csv or text of `shown`; `more`: for all but csv."""
     if json or csv:
         write(shown.json(found, *more) if json else shown.csv(found))
     else:
         tell(shown.text(found, *more))
-
-
-def write_json(cases, rows):
-    """An object for a case, a list of them for the combinations of a [sweep]."""
-    write(as_json(rows if any(case.variant for case in cases) else rows[0]))
 
 
 def write_each(out, writers):

@@ -57,7 +57,7 @@ DOORS = {
      "stabilab.integrate.limits_along"): "loaded for approximate laws alone",
     ("stabilab.answers.certificate", "stabilab.answers.certified_motion"): "loads numpy",
     ("stabilab.commands.classify", "stabilab.commands.certificates"): "loaded for --certify alone",
-    ("stabilab.commands.common",
+    ("stabilab.commands.runner",
      "stabilab.answers.uncertain.fate"): "loaded for uncertain numbers alone",
     ("stabilab.commands.common", "stabilab.answers.when"): "loads numpy",
     ("stabilab.commands.pictures", "stabilab.show.explore.serve"): "loads what serves or writes a page",

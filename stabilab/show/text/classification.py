@@ -19,7 +19,7 @@ from ...numbers.units import unit_of_key
 from ...numbers.vectors import CYCLE
 from ...reasons import Quantity
 from ...representation import values_of
-from .. import ending, frame, limiting
+from .. import ending, frame
 from ..axes import axes_of
 from ..terminal import lettered, written
 from ..units import DIGITS, SI, Units, as_bound, number
@@ -208,7 +208,7 @@ def as_dict(case, equilibria, motion) -> dict:
                                                       for s in c.segments]}
                                       for c in equilibria.curves]},
             "motion": None if motion is None else _motion_dict(case, motion) | _input(case, motion.at)
-            } | ({} if motion is None else limiting.key(case, motion.caveats)) | frame.key(case)
+            }
 
 
 def _input(case, at) -> dict:

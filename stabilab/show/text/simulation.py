@@ -97,7 +97,7 @@ def as_dict(case, run) -> dict:
             "time": case.scene.time_unit,
             **values_of(run, "t state error invariant_drift counters method rtol status reason"),
             **{name: PARTS[name].description for name in ATTITUDES if name in run.state}
-            } | frame.rows(case, run) | frame.key(case)
+            } | frame.rows(case, run)
 
 
 def columns(run) -> tuple[list[str], list[list[float]]]:
