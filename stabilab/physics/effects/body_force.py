@@ -37,5 +37,8 @@ class BodyForce(Effect):
             return None
         return super().from_case(table, context)
 
+    def terms(self) -> dict[str, Any]:
+        return {"forced": True}
+
     def force(self, motion: Any, p: Mapping[str, Number]) -> Triple:
         return tuple(p[name] for name in self.symbols)

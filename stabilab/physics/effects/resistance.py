@@ -18,6 +18,8 @@ class Resistance(Effect):
     zeta)."""
 
     name: ClassVar[str] = "resistance"
+    takes: ClassVar[str] = "outside"
+    agent: ClassVar[str] = "the medium"
     keys: ClassVar[tuple[str, ...]] = ("coefficient",)
     symbols: ClassVar[tuple[str, ...]] = ("zeta",)
     isotropic: ClassVar[bool] = True
@@ -38,6 +40,9 @@ class Resistance(Effect):
     def from_case(cls, table: Any, context: Any) -> Resistance | None:
         value = table.positive("coefficient", zero=True) if table.required("coefficient") else None
         return None if value is None else cls(value)
+
+    def terms(self) -> dict[str, Any]:
+        return {"c": self.exact}
 
     def torque_along(self, motion: Any, p: Mapping[str, Number]) -> Triple:
         return tuple(-p["zeta"] * d * w for d, w in zip(motion.D, motion.omega))
