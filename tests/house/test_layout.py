@@ -71,7 +71,6 @@ DOORS = {
     ("stabilab.show.explore.pictures", "stabilab.show.plot.turning"): "loads numpy",
     ("stabilab.show.explore.session", "stabilab.answers.when"): "loads numpy",
     ("stabilab.show.space", "stabilab.orbit.separatrix.branches"): "loads numpy",
-    ("stabilab.show.command_groups", "stabilab.show.plot.subject"): "loads numpy",
     ("stabilab.unreduced.bounds", "stabilab.unreduced.evidence"): "loads numpy",
 }
 
