@@ -14,6 +14,7 @@ from scipy.integrate import solve_ivp
 
 from stabilab.physics.effects import REGISTRY, effect_class
 from tests.house.rooms import PACKAGE
+from tests.shared import CASES
 
 KIND = '''"""A sphere without wheel and torque: whatever its rates are, they stay."""
 from __future__ import annotations
@@ -125,6 +126,50 @@ told = {"fate": moved.fate.word, "ending": moved.ending.kind, "why": why(case.sc
         "legend": [text.get_text() for text in legend.get_texts()]}
 print(json.dumps(told))
 """
+COLUMN_ROW = ("maps/columns.py", "ANSWERS", """    "swing": Answer("motions", (1e-5, 2e-2), (
+        Column("swing", "f8", RATE, "greatest less least rate about each principal axis",
+               lambda rows: rows.extremes[..., 1] - rows.extremes[..., 0],
+               lambda motion: motion.extremes and [b - a for a, b in motion.extremes], shape=(3,)),)),
+""")
+PICTURE = '''"""The energy of the motion over time."""
+import numpy as np
+
+from . import canvas
+from .path import along
+from .subject import check, subject
+
+
+def energy(case, units=None, size=None, ax=None):
+    """Draw the kinetic energy over the span of the case."""
+    one = subject(case)
+    check("energy", one)
+    times = np.linspace(*one.seen, 50)
+    with canvas.on(ax, size or (6, 4)) as target:
+        t, rates = along(one, times)
+        target.plot(t, (rates**2).sum(axis=1))
+        target.set_ylabel("size")
+    return target
+'''
+PICTURE_ROW = ("show/picture_kinds.py", "KINDS",
+               '    "energy": Picture("the energy over time", "energy.energy", "range"),\n')
+SEEN = """
+import json
+import sys
+from pathlib import Path
+from typing import get_type_hints
+import numpy as np
+import stabilab
+from stabilab.cli import runs
+from stabilab.show.plot.subject import offered, subject
+case = stabilab.load(sys.argv[1])
+found = stabilab.sweep(case, {"x[1]": "-4:4:3"}, answer="swing,extremes")
+apart = found["greatest"].values - found["least"].values
+alone = stabilab.sweep(case, {"x[1]": "-4:4:3"}, answer="swing")["swing"].values
+stabilab.plot.write(case, "energy.png", "energy")
+print(json.dumps({"swing": bool(np.array_equal(alone, apart) and np.array_equal(found["swing"].values, apart)),
+                  "kinds": offered(subject(case)), "drawn": Path("energy.png").stat().st_size,
+                  "help": str(get_type_hints(runs.plot, include_extras=True)["kind"].__metadata__[0].help)}))
+"""
 ASKED = """
 import json
 import stabilab
@@ -165,8 +210,8 @@ def added(package, file, text, row):
     (package / path).write_text("".join([*lines[:start + 1], line, *lines[start + 1:]]), encoding="utf-8")
 
 
-def told_by(folder, program=ASKED):
-    done = subprocess.run([sys.executable, "-c", program], cwd=folder,
+def told_by(folder, program=ASKED, *arguments):
+    done = subprocess.run([sys.executable, "-c", program, *arguments], cwd=folder,
                           env={**os.environ, "PYTHONPATH": str(folder)}, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)
@@ -206,3 +251,12 @@ def test_a_new_effect_with_a_fate_is_one_file_and_one_row(tmp_path):
                     rtol=1e-12, atol=1e-14)
     assert told["omega"] == pytest.approx(run.y[:, -1].tolist(), rel=1e-9)
     assert "brake, not drawn" in told["legend"]
+
+
+def test_a_new_column_of_a_sweep_is_one_row_and_a_new_kind_of_picture_one_file_and_one_row(tmp_path):
+    shutil.copytree(PACKAGE, tmp_path / "stabilab", ignore=shutil.ignore_patterns("__pycache__"))
+    added(tmp_path / "stabilab", "show/plot/energy.py", PICTURE, PICTURE_ROW)
+    added(tmp_path / "stabilab", "show/plot/energy.py", PICTURE, COLUMN_ROW)
+    told = told_by(tmp_path, SEEN, str(CASES / "minor-axis-100.toml"))
+    assert told["swing"] and "energy" in told["kinds"] and told["drawn"] > 1000
+    assert "energy, time" in told["help"]

@@ -12,7 +12,7 @@ from ...errors import InputError, printable
 from ...maps.columns import columns_of
 from ...maps.plan import Plan, from_json
 from ...maps.run import changes, known_exactly
-from ...orbit.result import Fate
+from ...orbit.result import OUTCOMES, Fate
 from ...packages import demand
 from .. import endings, style
 from ..plot import basins as basin_picture
@@ -324,7 +324,8 @@ def spread(data: Any, plan: Any, kind: str, moving: list[str], size: Any, plt: A
     if len(moving) == 1:
         return _shares(data, moving, size, plt)
     share = 100 * (data["fate"] == Fate.SPIN_UP).mean(shades.SAMPLE)
-    words = f"share of {data.sizes[shades.SAMPLE]:,} samples that spins up, lines at 5, 50 and 95"
+    words = (f"share of {data.sizes[shades.SAMPLE]:,} samples that {OUTCOMES[Fate.SPIN_UP].does}, lines at "
+             "5, 50 and 95")
     return fields(data.assign({SHARE: share.assign_attrs(long_name=words, units="%")}), plan, SHARE, moving,
                   _panels(data, moving), size, plt)
 

@@ -134,7 +134,7 @@ def _answer(row, units):
             about = f"about {units.axes.whole(row.axis)}, {direction(row.sense)}"
         elif row.direction:
             about = f"about the direction {vector(row.direction)} of the file's frame"
-        return f"SPINS UP {about}{', ' + when if when else ''}{known}"
+        return f"{FATES[row.fate]} {about}{', ' + when if when else ''}{known}"
     if row.fate == "undecided":
         if when:
             return f"UNDECIDED, but {when}"
