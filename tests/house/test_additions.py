@@ -166,6 +166,9 @@ found = stabilab.sweep(case, {"x[1]": "-4:4:3"}, answer="swing,extremes")
 apart = found["greatest"].values - found["least"].values
 alone = stabilab.sweep(case, {"x[1]": "-4:4:3"}, answer="swing")["swing"].values
 stabilab.plot.write(case, "energy.png", "energy")
+plan = stabilab.sweep(case, {"x[1]": "-4:4:3"}, answer="swing", out="swing.nc")
+from stabilab.show.maps import picture
+picture.write("swing.nc", "swing.png", "swing")
 print(json.dumps({"swing": bool(np.array_equal(alone, apart) and np.array_equal(found["swing"].values, apart)),
                   "kinds": offered(subject(case)), "drawn": Path("energy.png").stat().st_size,
                   "help": str(get_type_hints(runs.plot, include_extras=True)["kind"].__metadata__[0].help)}))
