@@ -74,9 +74,10 @@ def caveats_of(scene: AnyScene, steady: bool = False, tilt: Any = None,
     return tuple(dict.fromkeys(one for make in CAVEATS for one in make(known)))
 
 
-def of_case(case: Case, validity: Validity | None = None) -> tuple[Caveat, ...]:
-    """The caveats of an answer about a case that is no motion's. validity: of its approximate laws."""
-    return caveats_of(case.scene, validity=validity, file=case.caveats)
+def of_case(case: Case, validity: Validity | None = None, steady: bool = False) -> tuple[Caveat, ...]:
+    """The caveats of an answer about a case that is no motion's. validity: of its approximate laws; steady:
+    as of `Known`."""
+    return caveats_of(case.scene, steady, validity=validity, file=case.caveats)
 
 
 def answered(found: Limited, case: Case, validity: Validity | None = None) -> Limited:

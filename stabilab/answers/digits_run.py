@@ -97,11 +97,11 @@ class Reached(Reasoned):
         return self.run.status == "reached" and self.digits >= self.asked
 
 
-def missed(case: Any, found: Any) -> str:
+def missed(found: Any) -> str:
     """Why digits were not reached, in words."""
     if found.run.status != "reached":
-        return f"{case.place}: {found.run.because}"
-    return f"{case.place}: {too_few(found).then(ASK_FOR_LESS)}"
+        return found.run.because
+    return too_few(found).then(ASK_FOR_LESS).text()
 
 
 def best_reached(case: Case, times: np.ndarray, digits: int = DEFAULT, aim: bool = False) -> Reached:

@@ -7,6 +7,7 @@ from typing import Annotated  # typer reads the annotations at run time
 import typer
 
 from ..show import command_groups
+from ..show.picture_kinds import KINDS
 from .options import CaseFile, Folder, Json, Order, Strict, UnitsOption, argument, flag, opens, option
 
 commands = typer.Typer()
@@ -50,8 +51,7 @@ def simulate(
 def plot(
         case: CaseFile,
         kind: Annotated[str | None, option("KIND",
-            "time, phase, potential, sphere, space, section, equilibria, budget, tilt, wheel, body, state "
-            "or attitude (an animation). Default: the one that shows most of the case.",
+            f"{', '.join(KINDS)} (attitude: an animation). Default: the one that shows most of the case.",
             autocompletion=command_groups.kinds)] = None,
         out: Annotated[Path | None, option("FILE.png|.svg|.pdf",
             "Picture to write; default: CASE.png in the current folder. For --kind attitude: .html, .gif "

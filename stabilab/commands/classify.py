@@ -5,6 +5,7 @@ motion.
 `attitude`: how it turns in space."""
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 from ..answers.attitude import attitude as turning
@@ -13,22 +14,41 @@ from ..answers.digits_asked import DEFAULT, by_bound, short
 from ..answers.equilibria import equilibria
 from ..answers.motion import Needs
 from ..case.read import blamed_on
-from ..show.data import as_json
 from ..show.text import classification, headline, questions, scene
-from ..show.text.motion import attitude_dict, attitude_text, row_of
+from ..show.text.motion import attitude_object, attitude_objects, attitude_text, row_of
 from ..show.units import DEG
-from .common import (
-    answers_of,
-    load_cases,
-    motion_of,
-    one_by_one,
-    over_boxes,
-    swept_motions,
-    tell_all,
-    tilted,
-    units_asked,
-)
-from .writing import all_reached, hold_laws, leave_undecided, write
+from .common import answers_of, load_cases, motion_of, one_by_one, tilted, units_asked
+from .runner import View, collected, every, judge, over_boxes, run, show
+
+
+def _swept(rows, units):
+    """The table of the motions of a sweep; of each row the last but one is its motion."""
+    motions = [row[-2] for row in rows]
+    if None in motions:
+        return f"{motions.count(None)} of them state no motion", [], [[] for _ in motions]
+    return scene.fates(motions, units), *scene.of_motions(motions, units)
+
+
+def _swept_extremes(rows, units):
+    motions = [motion for _, motion, _ in rows]
+    return scene.fates(motions, units), *scene.of_extremes(motions, rows[0][0].scene.components, units)
+
+
+CLASSIFY = View(
+    text=classification.text, swept=_swept, axes=True, boxes=("equilibria", "fate"), packed=every,
+    data=lambda case, found, motion, turn: (classification.as_dict(case, found, motion)
+                                            | {"attitude": turn and row_of(case, turn)}),
+    law=lambda case, found, motion, turn: headline.worst(found.validity, motion and motion.validity),
+    open=lambda found, motion, turn: classification.undecided(found, motion))
+_ONE = View(text=questions.fate, data=questions.fate_dict, swept=_swept, between="\n", axes=True,
+            packed=every, law=lambda case, motion, told: motion.validity,
+            open=lambda motion, told: motion.fate.word == "undecided")
+QUESTIONS = {"fate": replace(_ONE, boxes=("fate",)),
+             "extremes": replace(_ONE, text=questions.extremes, data=questions.extremes_dict,
+                                 csv=questions.EXTREMES_CSV, swept=_swept_extremes),
+             "period": replace(_ONE, text=questions.period, data=questions.period_dict)}
+ATTITUDE = View(text=attitude_text, data=attitude_object, packed=attitude_objects,
+                open=lambda found: found.fate.word == "undecided")
 
 
 def classify(cases, json, strict, certify, out, follow, tilt, units, why):
@@ -41,26 +61,15 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
     rests = answers_of(loaded, equilibria)
     motions = [tilted(case, motion_of(case, follow=follow, proof=certify), tilt) if case.state else None
                for case in one_by_one(loaded)]
-    boxes, motions = over_boxes(loaded, motions, "equilibria", "fate")
-    answered = [(case, found, motion, of_motion(case.scene, case.exact_state or case.state, motion)
-                 if motion is not None and in_closed_form(case.scene) else None)
-                for (case, found), motion in zip(rests, motions)]
-    laws = [headline.worst(found.validity, motion and motion.validity) for _, found, motion, _ in answered]
-    if json:
-        write(as_json([classification.as_dict(case, found, motion)
-                               | {"attitude": turn and row_of(case, turn)}
-                               | headline.key(held, case if motion is None else None)
-                               | classification.uncertain_dict(box)
-                               for (case, found, motion, turn), held, box in zip(answered, laws, boxes)]))
-    else:
-        swept = lambda rows, units: swept_motions([motion for _, _, motion, _ in rows], units)
-        tell_all(answered, systems, partial(classification.text, proofs=why), None if why else swept, laws,
-                 boxes)
+    boxes, motions = over_boxes(CLASSIFY, loaded, motions)
+    turns = [of_motion(case.scene, case.exact_state or case.state, motion)
+             if motion is not None and in_closed_form(case.scene) else None
+             for case, motion in zip(loaded, motions)]
+    view = replace(CLASSIFY, text=partial(classification.text, proofs=why), swept=None if why else _swept)
+    rows = collected(view, loaded, systems, list(zip([found for _, found in rests], motions, turns)), boxes)
+    show(view, rows, json)
     certified = all([certificates.certified(case, out) for case in loaded]) if certify else True
-    undecided = (any(classification.undecided(found, motion) for _, found, motion, _ in answered)
-                 or any(map(classification.open_in_box, boxes)))
-    leave_undecided(strict, not certified or undecided)
-    hold_laws(strict, laws, loaded)
+    judge(view, rows, strict, certified)
 
 
 def answer(question, cases, json, digits, strict, units, why, csv=False, follow=None, tilt=None,
@@ -73,22 +82,11 @@ def answer(question, cases, json, digits, strict, units, why, csv=False, follow=
         found = motion_of(case, _needed(question, why or bool(case.variant and not json)), follow, certify)
         motions.append(tilted(case, found, tilt) if question == "fate" else found)
         digits_of.append(_told(question, case, motions[-1], digits))
-    boxes, motions = over_boxes(loaded, motions, *(["fate"] if question == "fate" else []))
-    answered = list(zip(loaded, motions, digits_of))
-    if json:
-        write(as_json([
-            getattr(questions, f"{question}_dict")(case, found, told) | headline.key(found.validity)
-            | classification.uncertain_dict(box)
-            for (case, found, told), box in zip(answered, boxes)]))
-    elif csv:
-        write(questions.extremes_csv(answered))
-    else:
-        _tell(question, answered, systems, digits, boxes, why)
-    if digits is not None:
-        all_reached((case, f"{question}: {short(told)}") for case, _, told in answered if not told.enough)
-    leave_undecided(strict, any(motion.fate.word == "undecided" for _, motion, _ in answered)
-                    or any(map(classification.open_in_box, boxes)))
-    hold_laws(strict, (motion.validity for _, motion, _ in answered), loaded)
+    view = _view(question, digits, why)
+    boxes, motions = over_boxes(view, loaded, motions)
+    rows = collected(view, loaded, systems, list(zip(motions, digits_of)), boxes)
+    show(view, rows, json, csv)
+    judge(view, rows, strict)
 
 
 def _needed(question: str, whole: bool):
@@ -98,20 +96,14 @@ def _needed(question: str, whole: bool):
     return Needs.QUICK if question == "extremes" else Needs.ALL
 
 
-def _tell(question, answered, systems, digits, boxes, why):
-    """The answers as text."""
-    def text(case, motion, told, units):
-        return getattr(questions, question)(case, motion, told, units, digits is not None,
-                                            digits is not None or not told.enough, why)
-
-    def swept(rows, units):
-        motions = [motion for _, motion, _ in rows]
-        if question != "extremes":
-            return swept_motions(motions, units)
-        return scene.fates(motions, units), *scene.of_extremes(motions, rows[0][0].scene.components, units)
-
-    tell_all(answered, systems, text, None if why or digits is not None else swept,
-             [motion.validity for _, motion, _ in answered], boxes, "\n")
+def _view(question, digits, why):
+    """How the question is printed, with the digits that were asked for, or with proofs."""
+    view, asked = QUESTIONS[question], digits is not None
+    return replace(view, swept=None if why or asked else view.swept,
+                   text=lambda case, motion, told, units: view.text(case, motion, told, units, asked,
+                                                                    asked or not told.enough, why),
+                   short=lambda motion, told: ([f"{question}: {short(told)}"] if asked and not told.enough
+                                               else []))
 
 
 def _told(question, case, motion, digits):
@@ -130,9 +122,4 @@ def attitude(cases, json, digits, strict, units):
     """How each motion turns in space: answer every case, every combination where it has a [sweep]."""
     loaded = load_cases(cases, motion=True)
     systems = [DEG if system.scaled else system for system in units_asked(loaded, units)]  # all is in SI here
-    answered = answers_of(loaded, partial(turning, digits=digits))
-    if json:
-        write(as_json(attitude_dict(answered)))
-    else:
-        tell_all(answered, systems, attitude_text)
-    leave_undecided(strict, any(found.fate.word == "undecided" for _, found in answered))
+    run(ATTITUDE, loaded, partial(turning, digits=digits), systems=systems, json=json, strict=strict)

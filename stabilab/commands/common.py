@@ -3,22 +3,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
-from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from ..answers.caveats import of_case, seen
 from ..answers.motion import Needs, motion
 from ..case.limit_options import stated_tilt
 from ..case.read import Case, blamed_on, load_all
-from ..errors import InputError, Kind, printable
+from ..errors import InputError, printable
 from ..numbers.units import NONE, TIME, quantity, split
-from ..show import terminal
 from ..show.names import spare_case
 from ..show.progress import each
 from ..show.terminal import say
-from ..show.text import classification, headline, scene
+from ..show.text import headline
 from ..show.units import DEG, DIGITS, SCALED, SI, Units, number, units_of
 from ..streams import Progress
 
@@ -148,58 +145,3 @@ def tilted(case, motion, angle: str | None):
     from ..answers.when import with_tilt
     with blamed_on(case):
         return with_tilt(case, motion, None if angle is None else stated_tilt(angle))
-
-
-def over_boxes(cases, motions, *questions):
-    """(what uncertain numbers do to the verdicts of each case, None where it has none; the motions, with what
-    samples show of that and no proof as a caveat)."""
-    if not questions or not any(case.uncertain for case in cases):
-        return [None] * len(cases), motions
-    from ..answers.uncertain.fate import uncertain
-    boxes = [uncertain(case, questions) for case in cases]
-    return boxes, [motion if motion is None or box is None
-                   else replace(motion, caveats=(*seen(motion.caveats, box=box.fate), *box.caveats))
-                   for motion, box in zip(motions, boxes)]
-
-
-# --- The answers of several cases as text: one after the other, or the combinations of a [sweep] as one
-# table
-def tell_all(answered, systems, text, swept=None, laws=None, boxes=None, between="\n\n"):
-    """The answers as text to stdout; of a [sweep] as one table where `swept` is given.
-
-    answered: (case, what was found ...) of each; text(case, what was found ..., units); swept(answered,
-    units): (answer in a line, columns, rows) of a table; systems: the units of each; laws: how far the
-    approximate laws of each hold, or None; boxes: what uncertain numbers do to each, or None.
-    """
-    nothing = [None] * len(answered)
-    laws, boxes, cases = laws or nothing, boxes or nothing, [case for case, *_ in answered]
-    below = list(map(classification.in_si, boxes, systems))
-    tabled, parts = swept is not None and any(case.variant for case in cases), []
-    for of in scene.groups(cases) if tabled else [[n] for n in range(len(cases))]:
-        first, units = of[0], systems[of[0]]
-        if tabled and cases[first].variant:
-            words = scene.text([cases[n] for n in of], *swept([answered[n] for n in of], units))
-        else:
-            words = classification.first(boxes[first], text(*answered[first], units), units)
-        # without those on uncertain numbers where the words on their box follow; of a table those of the file
-        caveats = dict.fromkeys(one for n in of for one in (cases[n].caveats if tabled and cases[n].variant
-                                                            else _caveats(answered[n]))
-                                if not below[n] or one.kind not in (Kind.UNCERTAIN, Kind.SAMPLES))
-        parts.append(headline.first(headline.worst(*(laws[n] for n in of)), words, units, caveats)
-                     + "".join(dict.fromkeys(below[n] for n in of)))
-    terminal.tell(("\n\n" if tabled else between).join(parts))
-
-
-def _caveats(row):
-    """Those of what was found last, as a motion says more than the equilibria; of the case where that has
-    none."""
-    case, *found = row
-    return next((one.caveats for one in reversed(found) if getattr(one, "caveats", None) is not None),
-                of_case(case))
-
-
-def swept_motions(motions, units):
-    """The table of the motions of a sweep."""
-    if None in motions:
-        return f"{motions.count(None)} of them state no motion", [], [[] for _ in motions]
-    return scene.fates(motions, units), *scene.of_motions(motions, units)

@@ -14,7 +14,7 @@ from ..show.maps import bifurcation_picture
 from ..show.maps import to_file as map_files
 from ..show.terminal import say
 from ..show.units import units_of
-from .writing import leave_undecided, say_written, unphysical, write_answer
+from .writing import of_map, say_written, write_answer
 
 
 def bifurcation(case, vary, curve, out, certify, csv, json):
@@ -42,9 +42,7 @@ def basin(case, vary, depth, out, workers, scheduler, follow, csv, json, strict)
     with basins(case, split_keys(vary or [], "KEY=FROM:TO or KEY=FROM:TO:N"), depth,
                 map_files.data_of(targets), workers, scheduler, follow) as found:
         files = [map_files.write_basins(found, path) for path in targets]
-    write_answer(basins_shown, found, json, csv)
-    say_written(files)
-    leave_undecided(strict, strict and (basins_shown.undecided(found) or unphysical([found.plan.case])))
+    of_map(basins_shown, found, found.plan.case, files, json, csv, strict)
 
 
 def atlas(case, torque, wheel, level, refine, certify, follow, no_time, out, workers, scheduler, units, csv,
@@ -54,6 +52,4 @@ def atlas(case, torque, wheel, level, refine, certify, follow, no_time, out, wor
     system, targets = units_of(plan.case, units), map_files.checked(out or [], map_files.PAGES)
     with drawn(plan, targets[0] if targets else None, workers, scheduler) as found:
         files = [map_files.write_atlas(found, target, system) for target in targets]
-    write_answer(atlas_shown, found, json, csv, system)
-    say_written(files)
-    leave_undecided(strict, strict and (atlas_shown.undecided(found) or unphysical([plan.case])))
+    of_map(atlas_shown, found, plan.case, files, json, csv, strict, system)

@@ -8,30 +8,38 @@ motion, and at what cost.
 """
 from __future__ import annotations
 
-from functools import partial
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ..answers.caveats import of_case
 from ..answers.motion import Needs
 from ..case.formats import IMPORTERS, importer_of
 from ..case.imported import case_text, faults_of
-from ..case.read import Case, blamed_on
+from ..case.read import Case
 from ..case.source import EXAMPLES, command_of, source_text
 from ..case.source import example as text_of
 from ..case.write import data_of
 from ..cost.accuracy import precision as measure
 from ..errors import InputError, printable
 from ..files import write_text
-from ..show import endings
 from ..show import precision as shown
 from ..show.space import natural, seen
 from ..show.terminal import say, tell
-from ..show.text import cost, headline
+from ..show.text import cost
 from ..show.text.scene import of_all
+from ..show.units import SI
 from ..theories.follow import models_of
 from ..theories.theory import compare as set_side_by_side
-from .common import answers_of, load_cases, motion_of, one_by_one, time_asked, units_asked
-from .writing import all_reached, hold_laws, write, write_each, write_json
+from .common import load_cases, motion_of, time_asked
+from .runner import View, run
+from .writing import write
+
+COMPARE = View(text=cost.text, data=cost.as_dict, law=lambda case, found: found.validity, files=(".csv",),
+               drawn=lambda case, found, units, path: cost.write(case, found, path))
+PRECISION = View(text=lambda case, found, units: shown.text(found),
+                 data=lambda case, found: shown.as_dict(found), csv=shown.CSV,
+                 law=lambda case, found: found.validity, files=shown.FILES,
+                 drawn=lambda case, found, units, path: shown.write(found, path),
+                 short=lambda found: [] if found.questions else [found.reference.reason])
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -88,26 +96,14 @@ def _written(text, file, out, stuck, said=(), omitted=()):
 def compare(case, order, out, json, strict, units):
     """Set the models of a case beside its exact motion."""
     loaded = load_cases([case], motion=True)
-    systems = units_asked(loaded, units)
-    if out:
-        endings.file(out, (".csv",))
     for one in loaded:
         if one.span is None:
             raise InputError(f"{one.place}: motion: no span; compare needs span = [0, T] in [motion]")
         if models_of(one.scene) == ("exact",):
             raise InputError(
                 f"{one.place}: no analytic model applies to this scene; there is nothing to compare")
-    compared = answers_of(loaded, lambda one: set_side_by_side(one, order=order))
-    if out:
-        write_each(out, [(one, partial(cost.write, one, found)) for one, found in compared])
-    if json:
-        write_json(loaded, [cost.as_dict(one, found) | headline.key(found.validity, one)
-                            for one, found in compared])
-    else:
-        tell("\n\n".join(headline.first(found.validity, cost.text(one, found, system), system,
-                                         of_case(one))
-                         for (one, found), system in zip(compared, systems)))
-    hold_laws(strict, (found.validity for _, found in compared), loaded)
+    run(COMPARE, loaded, lambda one: set_side_by_side(one, order=order), units=units, out=out, json=json,
+        strict=strict)
 
 
 def precision(case, json, csv, out, until, quick, all_settings, strict):
@@ -115,24 +111,10 @@ def precision(case, json, csv, out, until, quick, all_settings, strict):
     if out:
         shown.checked(out)
     loaded = load_cases([case], motion=True)
-    effort = "quick" if quick else "full"
-    measured = []
-    for one in one_by_one(loaded):
-        end = _end(one, until)
-        with blamed_on(one):
-            measured.append(measure(one, effort, end))
-    if out:
-        write_each(out, [(found.case, partial(shown.write, found)) for found in measured])
-    if json:
-        write_json(loaded, [shown.as_dict(found) | headline.key(found.validity, found.case)
-                            for found in measured])
-    elif csv:
-        write(shown.csv(*measured))
-    else:
-        tell("\n\n".join(headline.first(found.validity, shown.text(found, all_settings),
-                                   caveats=of_case(found.case)) for found in measured))
-    all_reached((found.case, found.reference.reason) for found in measured if not found.questions)
-    hold_laws(strict, (found.validity for found in measured), [found.case for found in measured])
+    ends = {one.place: _end(one, until) for one in loaded}
+    view = replace(PRECISION, text=lambda one, found, units: shown.text(found, all_settings))
+    run(view, loaded, lambda one: measure(one, "quick" if quick else "full", ends[one.place]),
+        systems=[SI] * len(loaded), out=out, json=json, csv=csv, strict=strict)
 
 
 def _end(case: Case, until: str | None):

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import sys
-from functools import partial
+from dataclasses import replace
 from pathlib import Path
 
 import typer
@@ -22,8 +22,16 @@ from ..show.surface import write_all
 from ..show.terminal import lettered, say, tell
 from ..show.text import headline
 from ..show.units import units_of
-from .common import answers_of, load_cases, tell_all, time_asked, units_asked
-from .writing import hold_laws, leave_undecided, say_written, write, write_json, written
+from .common import load_cases, time_asked, units_asked
+from .runner import View, collected, judge, run, show
+from .writing import hold_laws, write
+
+SURFACE = View(text=lambda case, summary, units: "", data=lambda case, summary: summary, between="\n",
+               law=lambda case, summary: headline.of_case(case), steady=True)
+CHAOS = View(text=chaos_shown.text, data=chaos_shown.as_dict, csv=chaos_shown.CSV, swept=chaos_shown.swept,
+             between="\n", law=lambda case, found: headline.of_case(case),
+             open=lambda found: int(found.labels) == Order.UNDECIDED,
+             drawn=lambda case, found, units, path: chaos_shown.write(case, found, path))
 
 AN_EXAMPLE = Path(__file__).parents[1] / "cases" / "thruster-stuck-major-axis.toml"
 
@@ -31,25 +39,22 @@ AN_EXAMPLE = Path(__file__).parents[1] / "cases" / "thruster-stuck-major-axis.to
 def surface(case, out, json, strict):
     """Write the separatrix of a case; the summary first, then what kept a picture from being drawn."""
     loaded, unavailable = load_cases([case]), None
-    laws = [headline.of_case(one) for one in loaded]
+    systems = units_asked(loaded, None)
     try:
         summaries = write_all(loaded, out, arguments=sys.argv[1:])
     except RenderingUnavailable as error:
         if not hasattr(error, "summaries"):
             raise
         summaries, unavailable = error.summaries, error
-    if json:
-        write_json(loaded, [summary | headline.key(held, one, True) for one, summary,
-                            held in zip(loaded, summaries, laws)])
-    else:
-        tell("\n".join(headline.first(held, surface_text(summary, out), caveats=of_case(one))
-                       for one, summary, held in zip(loaded, summaries, laws)))
+    view = replace(SURFACE, text=lambda one, summary, units: surface_text(summary, out))
+    rows = collected(view, loaded, systems, [(summary,) for summary in summaries])
+    show(view, rows, json)
     for one, summary in zip(loaded, summaries if json else ()):
         if not summary["sheets"]:
             say(f"{one.name}: no surface to write: {summary['reason']}")
     if unavailable:
         raise unavailable
-    hold_laws(strict, laws, loaded)
+    judge(view, rows, strict)
 
 
 def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
@@ -80,22 +85,9 @@ def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
 def chaos(cases, until, out, csv, json, strict):
     """Say of each motion whether it is regular, and draw what that looks like."""
     loaded = load_cases(cases, motion=True)
-    if out:
-        endings.file(out, endings.PICTURES)
-    rows = answers_of(loaded, lambda case: answered(
+    run(CHAOS, loaded, lambda case: answered(
         ask_chaos(case.scene, row_of(case.scene, case.state, case.blocks), time_asked(until, case, "until")),
-        case))
-    drawn = written(out, [(case, partial(chaos_shown.write, case, found)) for case, found in rows])
-    laws = [headline.of_case(case) for case in loaded]
-    if json:
-        write(chaos_shown.json(rows, laws))
-    elif csv:
-        write(chaos_shown.csv(rows, laws))
-    else:
-        tell_all(rows, units_asked(loaded, None), chaos_shown.text, chaos_shown.swept, laws, between="\n")
-    say_written(drawn)
-    leave_undecided(strict, any(int(found.labels) == Order.UNDECIDED for _, found in rows))
-    hold_laws(strict, laws, loaded)
+        case), out=out, json=json, csv=csv, strict=strict)
 
 
 def explore(case, port, browser, static, pyodide):

@@ -5,23 +5,24 @@ from __future__ import annotations
 import sys
 from functools import partial
 
-from ..answers.caveats import of_case
+from ..answers.caveats import answered
 from ..answers.digits_asked import DEFAULT
 from ..answers.digits_run import best_reached, missed
 from ..answers.simulate import Simulation, in_matrices, with_quaternion
 from ..answers.stuck.chain import simulate_burn
 from ..case.read import Case, blamed_on, fires_on_schedule, load_burning
-from ..errors import InputError, ToleranceNotMet
+from ..errors import InputError
 from ..show import endings, terminal
 from ..show import reference as shown
 from ..show.data import as_json
-from ..show.terminal import say, tell
+from ..show.terminal import say
 from ..show.text import headline, simulation
 from ..theories.euler_angles import with_euler_angles
 from ..theories.follow import follow
 from ..theories.theory import theory
 from .common import exact_times_asked, load_cases, one_by_one, say_repeated, times_asked, units_asked
-from .writing import all_reached, hold_laws, write, write_each, write_json
+from .runner import View, collected, judge, show
+from .writing import all_reached, write, write_each
 
 
 def simulate(case, at, model, order, method, rtol, digits, angles, attitude, matrix, out, json, strict,
@@ -56,11 +57,11 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, mat
             runs[n] = one, with_euler_angles(one, run, model, order), reached
     if out:
         write_each(out, [(one, partial(simulation.write, one, run)) for one, run, _ in runs])
-    if json:
-        write_json(loaded, [_as_dict(*followed) for followed in runs])
-    elif not out:
-        tell("\n\n".join(_as_text(*followed, digits, system, terminal.width())
-                         for followed, system in zip(runs, systems)))
+    view = _view(digits)
+    rows = collected(view, loaded, systems, [(answered(run, one, run.validity), reached)
+                                             for one, run, reached in runs])
+    if json or not out:
+        show(view, rows, json)
     else:
         for line in headline.lines_of([(one, run.validity) for one, run, _ in runs]):
             say(line)
@@ -70,8 +71,23 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, mat
         for one, run, _ in runs:
             for name, error in simulation.lost_columns(run):
                 say(f"{one.place}: {name}: {simulation.zero_within(error)} where it is smaller than that")
-    _judge(runs, digits)
-    hold_laws(strict, (run.validity for _, run, _ in runs), loaded)
+    judge(view, rows, strict)
+
+
+def _view(digits):
+    """How runs are printed of which so many digits were asked for, None where none were."""
+    width = terminal.width()
+
+    def text(case, run, reached, units):
+        return _as_text(case, run, reached, digits, units, width)
+
+    def short(run, reached):
+        """Why a run stopped or digits were not reached, unasked where none was."""
+        if run.status != "reached":
+            return [run.reason]
+        missing = reached and not reached.enough and (digits is not None or reached.digits < 1)
+        return [missed(reached)] if missing else []
+    return View(text=text, data=_as_dict, law=lambda case, run, reached: run.validity, axes=True, short=short)
 
 
 def _followed(case, times, model, method, rtol, order, digits):
@@ -90,8 +106,7 @@ def _followed(case, times, model, method, rtol, order, digits):
 def _as_dict(case, run, reached) -> dict:
     told = reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because,
                         "reason": reached.reason.as_dict()}
-    return (simulation.as_dict(case, run) | {"digits": told} | {"theory": _theory(case, run)}
-            | headline.key(run.validity, case))
+    return simulation.as_dict(case, run) | {"digits": told, "theory": _theory(case, run)}
 
 
 def _as_text(case, run, reached, digits, units, width) -> str:
@@ -100,23 +115,13 @@ def _as_text(case, run, reached, digits, units, width) -> str:
     told = "".join(f"\n# {line}" for line in simulation.theory_lines(_theory(case, run), units))
     # as many as the check vouches for, those asked for at least: exit code 5 says where they are not reached
     known = None if digits is None else max(digits, int(min(reached.digits, 99.0)))
-    table = simulation.text(case, run, units, known, width)
-    return headline.first(run.validity, table + last + told, units, of_case(case))
+    return simulation.text(case, run, units, known, width) + last + told
 
 
 def _theory(case: Case, run: Simulation) -> list:
     """What the theory of an analytic model says, as rows; nothing of an exact run."""
     return ([] if run.model == "exact"
             else theory(case, model=run.model, end=max(map(float, run.t), key=abs, default=None)))
-
-
-def _judge(runs, digits):
-    """Exit with 5 where a run stopped or digits were not reached, unasked where none was."""
-    all_reached((case, run.reason) for case, run, _ in runs if run.status != "reached")
-    short = [(case, reached) for case, _,
-             reached in runs if reached and not reached.enough and (digits is not None or reached.digits < 1)]
-    if short:
-        raise ToleranceNotMet("\n".join(missed(*row) for row in short))
 
 
 def reference(case, at, digits, out, json):

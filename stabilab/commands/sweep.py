@@ -4,7 +4,7 @@ from __future__ import annotations
 from ..maps.plan import planned, split_keys
 from ..maps.run import run
 from ..show.maps import sweep as sweep_shown
-from .writing import leave_undecided, say_written, unphysical, write_answer
+from .writing import of_map
 
 
 def sweep(case, vary, samples, seed, answer, follow, out, workers, scheduler, csv, json, strict, **limits):
@@ -14,6 +14,4 @@ def sweep(case, vary, samples, seed, answer, follow, out, workers, scheduler, cs
         sweep_shown.checked(out)
     with run(plan, out, workers, scheduler) as found:
         files = [sweep_shown.write(sweep_shown.dataset(found), out)] if out else []
-    write_answer(sweep_shown, found, json, csv)
-    say_written(files)
-    leave_undecided(strict, strict and (sweep_shown.undecided(found) or unphysical([plan.case])))
+    of_map(sweep_shown, found, plan.case, files, json, csv, strict)

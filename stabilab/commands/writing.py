@@ -16,10 +16,8 @@ from ..show.text import headline
 
 if TYPE_CHECKING:
     from pathlib import Path
-    from types import ModuleType
 
     from ..case.read import Case
-    from ..maps.bifurcation.equations import Diagram
 
 
 def write(text: str):
@@ -36,7 +34,15 @@ def either(json: bool, data, words):
         tell(words())
 
 
-def write_answer(shown: ModuleType, found: Diagram, json: bool, csv: bool, *more):
+def of_map(shown, found, case, files, json: bool, csv: bool, strict: bool, *more):
+    """Print a map of a case by json, csv or text of `shown`, and name its files; exit with 3 where strict and
+    something is undecided. more: for all but csv."""
+    write_answer(shown, found, json, csv, *more)
+    say_written(files)
+    leave_undecided(strict, strict and (shown.undecided(found) or unphysical([case])))
+
+
+def write_answer(shown, found, json: bool, csv: bool, *more):
     """What was found by json, csv or text of `shown`; `more`: for all but csv."""
     if json or csv:
         write(shown.json(found, *more) if json else shown.csv(found))
@@ -44,12 +50,7 @@ def write_answer(shown: ModuleType, found: Diagram, json: bool, csv: bool, *more
         tell(shown.text(found, *more))
 
 
-def write_json(cases: Sequence[Case], rows: Sequence[dict[str, str]]):
-    """An object for a case, a list of them for the combinations of a [sweep]."""
-    write(as_json(rows if any(case.variant for case in cases) else rows[0]))
-
-
-def write_each(out: Path, writers: Sequence[tuple[Case, Callable[..., Any]]]):
+def write_each(out, writers):
     """Let write(path) of every (case, write) make its file; each is named."""
     say_written(written(out, writers))
 

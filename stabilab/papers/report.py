@@ -19,6 +19,7 @@ from ..case.given import Given, Span, Start, as_text
 from ..case.read import Case, load_all
 from ..errors import StabilabError
 from ..interrupt import undoing
+from ..orbit.result import OUTCOMES, Fate
 from ..packages import demand
 from ..physics.equations import derive
 from ..physics.scene import PARTS, Scene, torque_axis
@@ -274,9 +275,9 @@ GROUPS = (("Constant torque along a principal axis",
 
 
 # look of the answer -> title
-OUTCOMES = {"changes": "Spins up, or reaches its limit",
-            "conditional": "Bounded on a condition, or undecided",
-            "bounded": "Bounded for ever", "": "Sweeps, and cases without a motion"}
+LOOKS = {"changes": f"{OUTCOMES[Fate.SPIN_UP].does.capitalize()}, or reaches its limit",
+         "conditional": "Bounded on a condition, or undecided",
+         "bounded": OUTCOMES[Fate.BOUNDED].head.capitalize(), "": "Sweeps, and cases without a motion"}
 
 
 def _acts(scene: Scene):
@@ -296,14 +297,14 @@ def _cases(cases, folder, found, nav, around):
     """A page a case, and the page that lists them by outcome, those of one kind of scene side by side;
     (title, number) of the groups."""
     order = [title for title, _ in GROUPS]
-    rows: dict[str, list] = {look: [] for look in OUTCOMES}
+    rows: dict[str, list] = {look: [] for look in LOOKS}
     for stem, _ in sorted(own.entries(cases), key=lambda one: order.index(group(one[1][0]))):
         made = found[f"case {stem}"]
         own.write(made, folder / own.FOLDER / f"{stem}.html", "", nav=nav, up="../", below="cases.html",
                   **own.of_one(made, around))
         row = own.listed(stem, made)
         rows["" if "sweep" in made else row["look"]].append(row | {"file": f"{own.FOLDER}/{row['file']}"})
-    groups = [{"title": title, "rows": rows[look]} for look, title in OUTCOMES.items() if rows[look]]
+    groups = [{"title": title, "rows": rows[look]} for look, title in LOOKS.items() if rows[look]]
     html.write(folder / "cases.html", "list.html", title="Cases by outcome", groups=groups, nav=nav,
                here="cases.html", **around)
     return [(one["title"], len(one["rows"])) for one in groups]

@@ -41,25 +41,21 @@ from .scene import ZERO3, AnyScene, Body, ScaledGyrostat, Scene
 if TYPE_CHECKING:
     import numpy as np
 
-KNOWN = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity", "newtonian_field", "gravity",
-         "body_force", "viscous_damper", "rate_damper", "eddy_currents", "wheel_motor"}
+LOSS_UNPROVED = Sentence(
+    "liquid-loss-unproved",
+    "undecided: the liquid takes energy for the moments of a rigid body alone, and no rigid body has these")()
 CHARGE_AS_WHEEL = Sentence(
     "charge-as-wheel", "the charge turns the body as a gyrostatic moment -k e3 would: Λ = λ - k e3, as long "
     "as the angle of {axis} to the field is the constant one, which is judged where an attitude is given")
 FORCE_ASIDE = Sentence(
     "force-aside", "the force at the centre of mass does not turn the body: the rotation is judged as if it "
     "were absent")()
-LOSS_UNPROVED = Sentence(
-    "liquid-loss-unproved",
-    "undecided: the liquid takes energy for the moments of a rigid body alone, and no rigid body has these")()
-TAKE = ("viscous_damper", "liquid_cavity")  # energy, and keep the angular momentum
-TAKE_BOTH = ("resistance", "rate_damper", "eddy_currents")
 ZERO = Fraction(0)
 
 
 def loses(scene: AnyScene) -> bool:
     """Whether something in a scene takes energy."""
-    return any(one.name in TAKE + TAKE_BOTH for one in scene.effects)
+    return any(one.takes for one in scene.effects)
 
 
 @dataclass(frozen=True)
@@ -143,40 +139,21 @@ class Content:
 
 def content(scene: AnyScene) -> Content | None:
     """The coefficients of a scene; None where it has an effect that is not in the equations above."""
-    if scene.variables == "scaled" or {e.name for e in scene.effects} - KNOWN:
+    if scene.variables == "scaled":
         return None
-    lam, numbers = list(scene.vector("gyrostat")), {}
-    charge, liquid, gravity = (scene.effect(name) for name in ("charge", "liquid_cavity", "gravity"))
-    if charge is not None:
-        if charge.follows_attitude:
-            numbers["E"] = charge.exact
-        else:
-            lam[2] -= shortened(charge.exact)
-            numbers["charged"] = bool(charge.exact)
-    if liquid is not None:
-        numbers |= {"kappa": liquid.exact, "printed": liquid.law == "printed"}
-    if (damper := scene.effect("viscous_damper")) is not None:
-        numbers |= dict(zip(("inside", "friction"), damper.exact))
-    if (eddy := scene.effect("eddy_currents")) is not None:
-        numbers["eddy"] = eddy.parameters()["kB2"]
-    if (motor := scene.effect("wheel_motor")) is not None:
-        numbers |= {"u": motor.exact, "duration": motor.duration}
-    for name, key in (("resistance", "c"), ("newtonian_field", "N"), ("gravity", "s"), ("rate_damper", "C")):
-        if (effect := scene.effect(name)) is not None:
-            numbers[key] = effect.exact
-    return Content(scene.body.exact, tuple(lam), scene.vector("constant_torque"),
-                   forced=scene.effect("body_force") is not None,
-                   **numbers)
+    numbers: dict[str, Any] = {"Lambda": ZERO3, "M": ZERO3}
+    for effect in scene.effects:
+        terms = effect.terms()
+        if terms is None:
+            return None
+        numbers |= {name: _sum(numbers[name], value) if name in numbers else value
+                    for name, value in terms.items()}
+    return Content(scene.body.exact, **numbers)
 
 
-def shortened(value: Fraction) -> Fraction:
-    """A cosine known to 240 bits, cut to 96: far within a double, and polynomials with it stay short. Short
-    numbers stay exact."""
-    excess = value.denominator.bit_length() - 96
-    if excess <= 32:
-        return value
-    shift = 96 + value.denominator.bit_length() - value.numerator.bit_length()
-    return round(value * Fraction(2)**shift) / Fraction(2)**shift
+def _sum(one: Any, other: Any) -> Any:
+    """Of numbers, or of rows of them."""
+    return tuple(map(_sum, one, other)) if isinstance(one, tuple) else one + other
 
 
 @dataclass(frozen=True)
@@ -188,6 +165,9 @@ class Together(Effect):
 
     exact: Exact3
     symbols: ClassVar[tuple[str, ...]] = ("lambda1", "lambda2", "lambda3")
+
+    def terms(self) -> dict[str, Any]:
+        return {"Lambda": self.exact}
 
     def momentum(self, p: Mapping[str, Number]) -> Triple:
         return tuple(p[name] for name in self.symbols)

@@ -7,6 +7,8 @@ from typing import Any
 
 from typer.core import TyperGroup
 
+from .picture_kinds import KINDS
+
 # title of a group in the help -> the file of `cli` that declares its commands, and the question of each
 GROUPS = {
     "Answers about a motion": ("motions", {
@@ -108,7 +110,6 @@ sources = _among("nesc", "basilisk", "orekit", "42")
 
 def kinds(incomplete: str) -> list[str]:
     """Kinds of plots."""
-    from .plot.subject import KINDS
     return [kind for kind in KINDS if kind.startswith(incomplete)]
 
 

@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .. import errors
 from ..answers.caveats import HOLDS
 from ..errors import Caveat, Kind
 from ..reasons import Reason, in_si
+from . import ending
 from .axes import axes_of
+from .data import csv_lines
 from .units import SHORT, Units
 
 if TYPE_CHECKING:
@@ -63,11 +65,13 @@ def ahead(caveats: Iterable[Caveat], text: str, named: bool = True) -> str:
     return f"{name}: {words}; {answer}" if named and colon and "\n" not in name else f"{words}; {text}"
 
 
-def noted(caveats: Iterable[Caveat], text: str, units: Units) -> str:
-    """The text with a line below its first for every caveat that the text itself does not state."""
+def noted(caveats: Iterable[Caveat], text: str, units: Units, law: bool = False) -> str:
+    """The text with a line below its first for every caveat that the text itself does not state. law: that on
+    an approximate law, too, which else has a line of its own."""
     caveats = list(caveats)
     first, *rest = ahead(caveats, text).split("\n")
-    return "\n".join([first, *lines(unsaid(caveats, text, units), units), *rest])
+    laws = [one for one in caveats if law and one.kind is Kind.LAW]
+    return "\n".join([first, *lines([*unsaid(caveats, text, units), *laws], units), *rest])
 
 
 def beside(caveats: Iterable[Caveat], units: Units, text: str = "") -> list[str]:
@@ -111,6 +115,24 @@ def key(case: Case, caveats: Iterable[Caveat]) -> dict[str, list[dict]]:
 def cell(case: Any, caveats: Iterable[Caveat]) -> str:
     """The column "caveats" of a CSV, with the names of the axes of a case."""
     return errors.cell(caveats, _filled(case))
+
+
+class Line(NamedTuple):
+    """A line of CSV. caveats: where it has others than its answer; ending: how a motion ends that loses
+    energy."""
+
+    cells: Sequence[Any]
+    caveats: Iterable[Caveat] | None = None
+    ending: Any = None
+
+
+def table(head: Sequence[str], rows: Iterable[tuple[Any, Iterable[Caveat], Iterable[Line]]]) -> str:
+    """The CSV of (case, caveats of its answer, lines): with a column of caveats, and with those of
+    `ending.beside`."""
+    lines = [(case, caveats, line) for case, caveats, of in rows for line in of]
+    cells = [(*line.cells, cell(case, caveats if line.caveats is None else line.caveats))
+             for case, caveats, line in lines]
+    return csv_lines(ending.beside([(*head, "caveats"), *cells], [line.ending for *_, line in lines]))[:-1]
 
 
 def _filled(case: Any) -> Callable[[Any], str]:

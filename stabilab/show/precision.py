@@ -16,7 +16,6 @@ from ..packages import demand
 from ..physics.equations import derive
 from ..processes import machine, versions
 from . import endings, limiting, style
-from .data import csv_lines
 from .report import html
 from .terminal import RAISED, written
 from .text.cost import (
@@ -227,14 +226,21 @@ def _row(found: Precision, p: Point) -> dict:
     return dict(zip(COLUMNS, values))
 
 
-def csv(*measured) -> str:
-    """One line per point of every case; empty where a count does not exist, inf where no answer came."""
-    lines: list = [(*COLUMNS, "caveats")]
-    for found in measured:
-        case = found.case
-        caveats = of_case(case, found.validity)
-        lines += [(*_row(found, p).values(), limiting.cell(case, caveats)) for p in found.points]
-    return csv_lines(lines)[:-1]
+def lines(case, found):
+    """A line per point for CSV; empty where a count does not exist, inf where no answer came."""
+    return [limiting.Line(tuple(_row(found, p).values())) for p in found.points]
+
+
+CSV = (COLUMNS, lines)
+
+
+def csv(found) -> str:
+    """The points as a file."""
+    case = found.case
+    return limiting.table(COLUMNS, [(case, of_case(case, found.validity), lines(case, found))])
+
+
+FILES = (*endings.PICTURES, ".csv")
 
 
 def write(found, path, size=None, most=None) -> Path:
@@ -248,7 +254,7 @@ def write(found, path, size=None, most=None) -> Path:
 
 def checked(path) -> Path:
     """The path, if its ending is one that can be written."""
-    path = endings.file(path, (*endings.PICTURES, ".csv"))
+    path = endings.file(path, FILES)
     if endings.ending(path) != ".csv":
         demand(*style.PACKAGES)
     return path

@@ -9,6 +9,7 @@ import re
 import sys
 from collections.abc import Callable, Sequence
 
+from ..orbit.result import OUTCOMES, Fate
 from ..reasons import ASCII
 from .names import around
 
@@ -112,9 +113,12 @@ LINE = 100   # letters of a line that holds several clauses
 USUAL = 80   # columns of a terminal that does not say how wide it is
 GAP = 2      # columns between those of a table
 NARROW = 40  # columns below which nothing is wrapped any narrower
-COLOURS = {r"\bBOUNDED\b|\bNEVER\b|\bAT REST\b|\bSTEADY ROTATION\b|\bPROVED\b": "bold green",
-           r"\bSPINS UP\b|BEYOND THE LAW|\bREFUTED\b": "bold red",
-           r"\bUNDECIDED\b|ON THE SEPARATRIX|NOT KNOWN": "bold yellow"}
+# how the line of an outcome begins
+HEADED = {fate: re.findall(r"^[A-Z ]*[A-Z]", one.head) for fate, one in OUTCOMES.items()}
+COLOURS = {"bold green": (*HEADED[Fate.BOUNDED], *HEADED[Fate.EQUILIBRIUM], "NEVER", "AT REST", "PROVED"),
+           "bold red": (*HEADED[Fate.SPIN_UP], "BEYOND THE LAW", "REFUTED"),
+           "bold yellow": (*HEADED[Fate.UNDECIDED], *HEADED[Fate.SEPARATRIX], "NOT KNOWN")}
+COLOURED = {rf"\b(?:{'|'.join(map(re.escape, words))})\b": colour for colour, words in COLOURS.items()}
 BLANK = "\0"  # stands for a blank that no line is broken at
 STABLE = {r"\bunstable\b": "red", r"(?<!un)\b(?:asymptotically )?stable\b": "green",
           r"\bundecided\b": "yellow"}
@@ -239,7 +243,7 @@ def _in_colours(text: str):
     from rich.console import Console
     from rich.text import Text
     shown = Text(text, end="")
-    for table in (STABLE, COLOURS):
+    for table in (STABLE, COLOURED):
         for words, style in table.items():
             shown.highlight_regex(words, style)
     Console(file=sys.stdout, highlight=False, soft_wrap=True, width=10_000).print(shown, end="")

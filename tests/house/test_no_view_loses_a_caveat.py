@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import inspect
 import json
+from dataclasses import replace
 
 import pytest
 
 import stabilab as package
 from stabilab import cli
 from stabilab.answers import caveats
+from stabilab.commands.runner import View, run
 from stabilab.errors import Caveat, Kind
 from stabilab.packages import present
 from stabilab.reasons import Sentence
 from stabilab.representation import Shown
+from stabilab.show import limiting
 from stabilab.show.explore.session import Session
 from stabilab.show.report import one_case
 from stabilab.show.results import KINDS
@@ -78,6 +81,21 @@ def test_every_command_shows_a_new_caveat_in_every_view(stabilab, probed, usual,
                 yield from lists(one)
         found = [one for rows in lists(json.loads(out)) for one in rows]
         assert any(one["code"] == "probe" and one["kind"] == "stated" for one in found)
+
+
+def test_a_command_whose_views_say_nothing_shows_every_caveat(case_file, capsys):
+    """Text, JSON and CSV get them from the runner, that on a law as well, though this command judges none."""
+    case = package.load(case_file(USUAL, "usual"))
+    law = Caveat(Kind.LAW, Sentence("probe-law", "a law that does not hold")())
+    found = replace(package.motion(case), caveats=(Caveat(Kind.STATED, PROBE()), law))
+    silent = View(text=lambda *found: "silent", data=lambda *found: {},
+                  csv=((), lambda *found: [limiting.Line(())]))
+    said = {}
+    for view in ("text", "json", "csv"):
+        run(silent, [case], lambda one: found, **({} if view == "text" else {view: True}))
+        said[view] = capsys.readouterr().out
+    assert all(WORDS in out and "a law that does not hold" in out for out in said.values()), said
+    assert [one["kind"] for one in json.loads(said["json"])["caveats"]] == ["stated", "law"]
 
 
 def test_without_the_function_no_view_has_it(stabilab, usual):

@@ -87,8 +87,8 @@ def test_every_public_class_says_its_units_or_what_it_stands_for():
 
 
 def test_every_case_stands_in_the_gallery_under_its_outcome_below_the_questions(tmp_path, monkeypatch):
-    from stabilab.papers.report import OUTCOMES
-    outcomes = list(OUTCOMES.values())
+    from stabilab.papers.report import LOOKS
+    outcomes = list(LOOKS.values())
 
     def undrawn(path, folder):
         folder.mkdir(exist_ok=True)

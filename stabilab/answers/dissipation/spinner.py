@@ -14,7 +14,6 @@ from ...errors import InputError
 from ...integrate.trajectory import root_between
 from ...numbers.exact import sqrt_fraction
 from ...numbers.vectors import CYCLE, dot
-from ...physics.coefficients import TAKE, TAKE_BOTH
 from ...physics.effects.base import effect_words
 from ...physics.scene import Scene, slices
 from ...physics.states import body_momentum, equations_and_start, start_of
@@ -46,8 +45,8 @@ class Spinner:
         scene = case.scene
         if case.state is None or case.variables != "physical":
             raise InputError("flat-spin: give the start as [motion] angular_velocity, in rad/s")
-        others = [one.with_article for one in scene.effects if one.name not in TAKE]
-        if outside := [effect_words(one.name) for one in scene.effects if one.name in TAKE_BOTH]:
+        others = [one.with_article for one in scene.effects if one.takes != "inside"]
+        if outside := [effect_words(one.name) for one in scene.effects if one.takes == "outside"]:
             raise InputError(f"flat-spin: {' and '.join(outside)}: a torque from outside, which changes the "
                              "angular momentum, too, so that no flat spin need be the end: `stabilab "
                              "classify` says where the motion tends")

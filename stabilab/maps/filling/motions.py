@@ -1,7 +1,7 @@
 """Fates, levels, margins, extremes and periods of a sweep's states."""
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -31,6 +31,7 @@ class Rows:
     plan: Plan
     case: Case
     states: np.ndarray
+    known: dict[tuple[bool, bool], tuple[Any, Any]] = field(default_factory=dict)
 
     @cached_property
     def fates(self) -> FateResult:
@@ -44,18 +45,22 @@ class Rows:
     @property
     def extremes(self) -> np.ndarray:
         """(n, 3, 2)."""
-        return self._extremes_and_periods[0]
+        return self._extremes_and_periods(True, "period" in self.plan.answers)[0]
 
     @property
     def periods(self) -> np.ndarray:
         """(n,)."""
-        return self._extremes_and_periods[1]
+        return self._extremes_and_periods("extremes" in self.plan.answers, True)[1]
 
-    @cached_property
-    def _extremes_and_periods(self) -> tuple[Any, Any]:
-        """Those that are asked. Whether numba serves depends on the number of states alone, not on what this
-        process did before: its last digits are not those of plain Python."""
-        box, times = "extremes" in self.plan.answers, "period" in self.plan.answers
+    def _extremes_and_periods(self, box: bool, times: bool) -> tuple[Any, Any]:
+        """Both at once where a sweep has both, each worked out once."""
+        if (box, times) not in self.known:
+            self.known[box, times] = self._worked_out(box, times)
+        return self.known[box, times]
+
+    def _worked_out(self, box: bool, times: bool) -> tuple[Any, Any]:
+        """Whether numba serves depends on the number of states alone, not on what this process did before:
+        its last digits are not those of plain Python."""
         scene, kind = self.case.scene, kind_of(effective(self.case.scene))
         if kind == "orbit":
             return extremes_and_periods(scene, self.states, box=box, period=times,

@@ -73,6 +73,9 @@ class Effect(metaclass=Asked):
     approximate: ClassVar[bool] = False
     symbols: ClassVar[tuple[str, ...]] = ()  # of the numbers in `exact`, in order
     isotropic: ClassVar[bool] = False  # True: it is the same along all axes
+    # energy: "inside", where the angular momentum stays as it is, or "outside"
+    takes: ClassVar[str] = ""
+    agent: ClassVar[str] = ""  # what acts, as the subject of a sentence: "the medium"
 
     @classmethod
     def from_case(cls, table: Any, context: Any) -> Effect | None:
@@ -96,6 +99,11 @@ class Effect(metaclass=Asked):
         """Symbol name to exact value, in the order of declaration."""
         exact: Any = getattr(self, "exact", ())
         return dict(zip(self.symbols, exact if isinstance(exact, tuple) else (exact,)))
+
+    def terms(self) -> dict[str, Any] | None:
+        """What it adds to the equations of `physics.coefficients`, by the names of `Content`; None where it
+        stands in none of them, so that the fate of no motion with it is known."""
+        return None
 
     @property
     def with_article(self) -> str:

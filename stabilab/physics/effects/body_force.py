@@ -11,7 +11,7 @@ from ...numbers.vectors import Exact3, Given, Number, Triple
 from .base import Effect
 
 if TYPE_CHECKING:
-    from ..equations import MotionView
+    pass
 
 
 @dataclass(frozen=True)
@@ -40,5 +40,8 @@ class BodyForce(Effect):
             return None
         return super().from_case(table, context)
 
-    def force(self, motion: MotionView, p: Mapping[str, Number]) -> Triple:
+    def terms(self) -> dict[str, Any]:
+        return {"forced": True}
+
+    def force(self, motion: Any, p: Mapping[str, Number]) -> Triple:
         return tuple(p[name] for name in self.symbols)

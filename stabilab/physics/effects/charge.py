@@ -32,6 +32,7 @@ class Charge(Effect):
 
     name: ClassVar[str] = "charge"
     article: ClassVar[str] = "a"
+    agent: ClassVar[str] = "the charge"
     keys: ClassVar[tuple[str, ...]] = ("charge", "field", "arm", "angle")
     works: ClassVar[bool] = False
 
@@ -101,6 +102,11 @@ class Charge(Effect):
     def needs(self) -> tuple[str, ...]:  # type: ignore[override]
         return ("gamma",) if self.follows_attitude else ()
 
+    def terms(self) -> dict[str, Any]:
+        if self.follows_attitude:
+            return {"E": self.exact}
+        return {"Lambda": (Fraction(0), Fraction(0), -shortened(self.exact)), "charged": bool(self.exact)}
+
     def parameters(self) -> dict[str, Fraction]:
         return {"eHl2" if self.follows_attitude else "k": self.exact}
 
@@ -116,3 +122,13 @@ class Charge(Effect):
         if self.follows_attitude:
             return p["eHl2"] * motion.gamma[2] ** 2 / 2
         return p["k"] * motion.gamma[2]
+
+
+def shortened(value: Fraction) -> Fraction:
+    """A cosine known to 240 bits, cut to 96: far within a double, and polynomials with it stay short. Short
+    numbers stay exact."""
+    excess = value.denominator.bit_length() - 96
+    if excess <= 32:
+        return value
+    shift = 96 + value.denominator.bit_length() - value.numerator.bit_length()
+    return round(value * Fraction(2)**shift) / Fraction(2)**shift

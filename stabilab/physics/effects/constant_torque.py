@@ -48,6 +48,9 @@ class ConstantTorque(Effect):
             table.fault(f"{error}; give torque in N m", key)
             return None
 
+    def terms(self) -> dict[str, Any]:
+        return {"M": self.exact}
+
     def turned(self, frame: PrincipalAxes) -> ConstantTorque:
         return ConstantTorque(frame.turned(self.exact))
 

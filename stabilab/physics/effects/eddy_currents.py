@@ -29,6 +29,8 @@ class EddyCurrents(Effect):
     """
 
     name: ClassVar[str] = "eddy_currents"
+    takes: ClassVar[str] = "outside"
+    agent: ClassVar[str] = "the eddy currents"
     keys: ClassVar[tuple[str, ...]] = ("coefficient", "field")
     isotropic: ClassVar[bool] = True
     small: ClassVar[bool] = True
@@ -54,6 +56,9 @@ class EddyCurrents(Effect):
         complete = table.required(*cls.keys)
         k, B = (table.positive(key, zero=True) for key in cls.keys)
         return cls(k, B) if complete and None not in (k, B) else None
+
+    def terms(self) -> dict[str, Any]:
+        return {"eddy": self.parameters()["kB2"]}
 
     def written(self) -> dict[str, Any]:
         return dict(zip(self.keys, self.exact))

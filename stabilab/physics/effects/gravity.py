@@ -23,6 +23,7 @@ class Gravity(Effect):
     direction of the weight (Amer et al. 2023, fast top: eq. (2)). Potential energy -M g c . gamma."""
 
     name: ClassVar[str] = "gravity"
+    agent: ClassVar[str] = "the weight"
     keys: ClassVar[tuple[str, ...]] = ("weight", "centre_of_mass")
     symbols: ClassVar[tuple[str, ...]] = ("Mgx", "Mgy", "Mgz")
     needs = ("gamma",)
@@ -44,6 +45,9 @@ class Gravity(Effect):
             return None
         weight, centre = table.number("weight"), table.vector("centre_of_mass")
         return None if weight is None or centre is None else cls(weight, centre)
+
+    def terms(self) -> dict[str, Any]:
+        return {"s": self.exact}
 
     def turned(self, frame: PrincipalAxes) -> Gravity:
         weight = exact(self.weight)

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from ...numbers.exact import floats
 from ...numbers.principal import PrincipalAxes
@@ -33,6 +33,9 @@ class Gyrostat(Effect):
     def __post_init__(self) -> None:
         object.__setattr__(self, "exact", vector_in_si(self.moment, MOMENTUM, "momentum"))
         object.__setattr__(self, "moment", floats(self.exact))
+
+    def terms(self) -> dict[str, Any]:
+        return {"Lambda": self.exact}
 
     def turned(self, frame: PrincipalAxes) -> Gyrostat:
         return Gyrostat(frame.turned(self.exact))

@@ -82,6 +82,8 @@ class LiquidCavity(Effect):
 
     name: ClassVar[str] = "liquid_cavity"
     article: ClassVar[str] = "a"
+    takes: ClassVar[str] = "inside"
+    agent: ClassVar[str] = "the liquid"
     keys: ClassVar[tuple[str, ...]] = ("density", "viscosity", "P0", "radius", "torque")
     symbols: ClassVar[tuple[str, ...]] = ("kappa",)
     isotropic: ClassVar[bool] = True
@@ -131,6 +133,9 @@ class LiquidCavity(Effect):
             return None
         make = cls if shape == "P0" else cls.of_sphere
         return make(values["density"], values["viscosity"], values[shape], law)
+
+    def terms(self) -> dict[str, Any]:
+        return {"kappa": self.exact, "printed": self.law == "printed"}
 
     def written(self) -> dict[str, Any]:
         return {"density": self.density, "viscosity": self.viscosity, "P0": self.P0, "torque": self.law}

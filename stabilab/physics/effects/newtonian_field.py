@@ -30,6 +30,7 @@ class NewtonianField(Effect):
 
     name: ClassVar[str] = "newtonian_field"
     article: ClassVar[str] = "a"
+    agent: ClassVar[str] = "the field"
     keys: ClassVar[tuple[str, ...]] = ("strength", "lambda", "R")
     symbols: ClassVar[tuple[str, ...]] = ("N",)
     isotropic: ClassVar[bool] = True
@@ -83,6 +84,9 @@ class NewtonianField(Effect):
                       "the field's torque is the first term of a series in this number, so near a centre the "
                       "body does not move as computed",
                       "Amer et al. 2023, fast top: eq. (2)"),)
+
+    def terms(self) -> dict[str, Any]:
+        return {"N": self.exact}
 
     def written(self) -> dict[str, Any]:
         if self.distance is None:

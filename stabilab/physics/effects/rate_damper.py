@@ -27,6 +27,8 @@ class RateDamper(Effect):
 
     name: ClassVar[str] = "rate_damper"
     article: ClassVar[str] = "a"
+    takes: ClassVar[str] = "outside"
+    agent: ClassVar[str] = "the damper"
     keys: ClassVar[tuple[str, ...]] = ("coefficient",)
     small: ClassVar[bool] = True
     keeps_volume: ClassVar[bool] = False
@@ -53,6 +55,9 @@ class RateDamper(Effect):
         if why:
             table.fault(why, "coefficient")
         return None if value is None or why else cls(value)
+
+    def terms(self) -> dict[str, Any]:
+        return {"C": self.exact}
 
     def written(self) -> dict[str, Any]:
         C = self.exact

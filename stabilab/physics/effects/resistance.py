@@ -12,9 +12,8 @@ from ...numbers.vectors import Given, Number, Triple
 from .base import Effect
 
 if TYPE_CHECKING:
-    from types import SimpleNamespace
 
-    from ..equations import MotionView
+    pass
 
 
 @dataclass(frozen=True)
@@ -23,6 +22,8 @@ class Resistance(Effect):
     zeta)."""
 
     name: ClassVar[str] = "resistance"
+    takes: ClassVar[str] = "outside"
+    agent: ClassVar[str] = "the medium"
     keys: ClassVar[tuple[str, ...]] = ("coefficient",)
     symbols: ClassVar[tuple[str, ...]] = ("zeta",)
     isotropic: ClassVar[bool] = True
@@ -44,5 +45,8 @@ class Resistance(Effect):
         value = table.positive("coefficient", zero=True) if table.required("coefficient") else None
         return None if value is None else cls(value)
 
-    def torque_along(self, motion: SimpleNamespace | MotionView, p: Mapping[str, Number]) -> Triple:
+    def terms(self) -> dict[str, Any]:
+        return {"c": self.exact}
+
+    def torque_along(self, motion: Any, p: Mapping[str, Number]) -> Triple:
         return tuple(-p["zeta"] * d * w for d, w in zip(motion.D, motion.omega))

@@ -36,6 +36,8 @@ class ViscousDamper(Effect):
 
     name: ClassVar[str] = "viscous_damper"
     article: ClassVar[str] = "a"
+    takes: ClassVar[str] = "inside"
+    agent: ClassVar[str] = "the damper"
     keys: ClassVar[tuple[str, ...]] = ("inertia", "coefficient")
     symbols: ClassVar[tuple[str, ...]] = ("kd", "cd")
     isotropic: ClassVar[bool] = True
@@ -67,6 +69,9 @@ class ViscousDamper(Effect):
             table.fault(why, "inertia")
             return None
         return made
+
+    def terms(self) -> dict[str, Any]:
+        return dict(zip(("inside", "friction"), self.exact))
 
     def written(self) -> dict[str, Any]:
         return dict(zip(self.keys, self.exact))

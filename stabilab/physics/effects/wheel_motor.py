@@ -76,6 +76,9 @@ class WheelMotor(Effect):
             return None
         return cls(torque, duration)
 
+    def terms(self) -> dict[str, Any]:
+        return {"u": self.exact, "duration": self.duration}
+
     def written(self) -> dict[str, Any]:
         return {"torque": self.exact} | ({} if self.duration is None else {"duration": self.duration})
 

@@ -34,7 +34,7 @@ from ...orbit.result import Motion
 from ...packages import demand, present
 from ...physics.coefficients import content
 from ...physics.effects.base import effect_words
-from ...physics.scene import AnyScene, QuadraticForm, Scene
+from ...physics.scene import AnyScene, QuadraticForm
 from ...verify.numbers import shown
 from ..data import plain
 from ..space import limit_time, packed
@@ -246,10 +246,6 @@ ORBIT_POINTS, MOST = 1200, 6000  # of a motion that is drawn: at least, at most
 FRAMES = 400  # of the body that turns
 CLOSE = 0.25  # rad of turn from one to the next, where so many are enough
 NOT_YET = {"reason": "Keep still, and the equilibria are looked for.", "rows": []}
-TAKES = {"liquid_cavity": "the liquid", "resistance": "the medium",
-         "viscous_damper": "the damper", "rate_damper": "the damper",
-         "eddy_currents": "the eddy currents"}  # energy away
-TURNS = {"newtonian_field": "the field", "gravity": "the weight"}  # acts by the attitude
 
 
 def needed(scene: AnyScene) -> bool:
@@ -277,13 +273,9 @@ def check(case: Case) -> None:
 
 def why(scene: AnyScene) -> str:
     """What the page does not show, and why."""
-    names = [effect.name for effect in scene.effects]
-    taking = [TAKES[name] for name in names if name in TAKES]
-    turning = [TURNS[name] for name in names if name in TURNS]
-    if isinstance(scene,
-                  Scene) and (charge := scene.effect("charge")) is not None and charge.follows_attitude:
-        turning.append("the charge")
-    motors = ["the motor"] * ("wheel_motor" in names)
+    taking = [effect.agent for effect in scene.effects if effect.takes]
+    turning = [effect.agent for effect in scene.effects if "gamma" in effect.needs and not effect.takes]
+    motors = ["the motor"] * ("wheel" in scene.blocks)
     parts = ((taking, "take", "energy away"), (turning, "act", "by the attitude"),
              (motors, "change", "the momentum of its wheel"))
     reasons = [f"{' and '.join(some)} {word}{'s' * (len(some) == 1)} {how}"

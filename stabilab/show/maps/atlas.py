@@ -68,9 +68,9 @@ def kind_words(atlas: Atlas, fate: int, axis: int, island: int = 0) -> str:
     """What a cell does, for a legend: "spins up about −z (minor)"."""
     if fate == Fate.SPIN_UP:
         if not axis:
-            return f"spins up about {other_axis(atlas)}"
+            return f"{FATES[Fate.SPIN_UP][0]} about {other_axis(atlas)}"
         axes, sign = axes_of(atlas.asked.case), "−" if axis < 0 else "+"
-        return f"spins up about {sign}{axes.name(abs(axis))}"
+        return f"{FATES[Fate.SPIN_UP][0]} about {sign}{axes.name(abs(axis))}"
     return FATES[Fate(fate)][0] + ("", ", an island may exist", ", an island is seen")[island]
 
 
@@ -268,7 +268,8 @@ def does(atlas: Atlas, n: int) -> str:
     """What the motion does under the n-th direction with a name."""
     record = atlas.named_records[n]
     fate, axis = Fate(int(record["fate"])), int(record["spin_axis"])
-    return f"spins up about {_signed(atlas, axis)}" if fate == Fate.SPIN_UP else DOES[fate][1]
+    about = f" about {_signed(atlas, axis)}" if fate == Fate.SPIN_UP else ""
+    return DOES[fate][1] + about
 
 
 def _signed(atlas: Atlas, axis: int) -> str:

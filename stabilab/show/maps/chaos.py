@@ -2,24 +2,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ...answers.caveats import of_case
 from ...answers.chaos import FLAT, Chaos, Order, chaos
 from ...errors import printable
 from ...orbit.result import OUTCOMES, Fate
 from ...packages import demand
 from .. import endings, style
-from ..data import as_json, csv_lines
-from ..limiting import cell
+from ..limiting import Line
 from ..plot import phase_plane
 from ..plot import subject as subjects
 from ..plot.subject import Measures, Subject, measures, subject
-from ..text import headline
 from ..units import number
 from .shades import light
 
@@ -163,19 +159,11 @@ def as_dict(case: Any, found: Chaos) -> dict[str, Any]:
             "turn": found.turn, "times": found.times.tolist(), "history": found.history.tolist()}
 
 
-def json(rows: list[tuple[Any, Chaos]], laws: Sequence[Any]) -> str:
-    """One object a case, a list of them for several. laws: how far the approximate laws of each hold, or
-    None."""
-    told = [as_dict(*row) | headline.key(held, row[0]) for row, held in zip(rows, laws)]
-    return as_json(told if len(told) > 1 else told[0])
+def lines(case: Any, found: Chaos) -> list[Line]:
+    """A line of CSV for each time."""
+    word = Order(int(found.labels)).word
+    return [Line((case.name, word, time, None if math.isnan(value) else value))
+            for time, value in zip(found.times.tolist(), found.history.tolist())]
 
 
-def csv(rows: list[tuple[Any, Chaos]], laws: Sequence[Any]) -> str:
-    """A line for each case and time. laws: as of `json`."""
-    told = [cell(case, of_case(case, held))
-            for (case, _), held in zip(rows, laws)]
-    return csv_lines([["case", "answer", "time", "megno", "caveats"],
-                        *([case.name, Order(int(found.labels)).word, time,
-                           None if math.isnan(value) else value, caveats]
-                          for (case, found), caveats in zip(rows, told)
-                          for time, value in zip(found.times.tolist(), found.history.tolist()))])
+CSV = ("case", "answer", "time", "megno"), lines

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...errors import InputError, printable
-from ...maps.columns import columns_of
+from ...maps.columns import ANSWERS, columns_of
 from ...maps.plan import Plan, from_json
 from ...maps.run import changes, known_exactly
-from ...orbit.result import Fate
+from ...orbit.result import OUTCOMES, Fate
 from ...packages import demand
 from .. import endings, style
 from ..plot import basins as basin_picture
@@ -32,8 +32,12 @@ if TYPE_CHECKING:
 
 # --- A sweep along one axis: a curve for every number, the fate (or how it is known) as the colour behind
 # it
-TOGETHER = (("margin",), ("distance",), ("least", "greatest"), ("period",), ("when_low", "when_high"),
-            ("equilibria", "stable", "unstable", "open"))
+COUNTS = tuple(one.name for answer in ANSWERS.values() for one in answer.columns if one.kind == "i4")
+# numbers in one panel: those of an answer that have a unit in common, and all counts
+TOGETHER = (*(tuple(one.name for one in answer.columns if one.kind == "f8" and one.unit == unit)
+              for answer in ANSWERS.values()
+              for unit in dict.fromkeys(one.unit for one in answer.columns if one.kind == "f8")), COUNTS)
+NUMBERS = tuple(one.name for answer in ANSWERS.values() for one in answer.columns if one.kind != "i1")
 
 
 def curves(data: Any, plan: Any, kind: str, along: str, size: Any, plt: Any) -> Any:
@@ -86,7 +90,7 @@ def _lines(ax, data, x, order, names):
         values = np.where(np.isfinite(values), values, np.nan)
         if name != "margin":
             values = _broken(data, order, values)
-        if name in ("equilibria", "stable", "unstable", "open"):
+        if name in COUNTS:
             ax.step(x[order], np.where(values < 0, np.nan, values), where="mid", color=style.SERIES[n],
                     linestyle=("-", "--", ":", "-.")[n], label=name)
             ax.yaxis.get_major_locator().set_params(integer=True)
@@ -119,7 +123,6 @@ def _broken(data, order, values):
 
 # --- A sweep along two axes: a map of the fate with the boundary and lines of equal margin, or of any
 # number; several side by side
-COUNTS = ("equilibria", "stable", "unstable", "open")
 # what an infinite value means
 ENDS = {"period": "never repeats", "least": "unbounded", "greatest": "unbounded", "when_low": "never",
         "when_high": "never"}
@@ -328,7 +331,8 @@ def spread(data: Any, plan: Any, kind: str, moving: list[str], size: Any, plt: A
     if len(moving) == 1:
         return _shares(data, moving, size, plt)
     share = 100 * (data["fate"] == Fate.SPIN_UP).mean(shades.SAMPLE)
-    words = f"share of {data.sizes[shades.SAMPLE]:,} samples that spins up, lines at 5, 50 and 95"
+    words = (f"share of {data.sizes[shades.SAMPLE]:,} samples that {OUTCOMES[Fate.SPIN_UP].does}, lines at "
+             "5, 50 and 95")
     return fields(data.assign({SHARE: share.assign_attrs(long_name=words, units="%")}), plan, SHARE, moving,
                   _panels(data, moving), size, plt)
 
@@ -384,8 +388,6 @@ def _shares(data, moving, size, plt):
 # --- A sweep's file as a picture: curves along one axis, a map along two, small maps side by side along
 # more
 PANELS = 6  # small maps of a picture
-NUMBERS = ("margin", "distance", "least", "greatest", "period", "when_low", "when_high", "equilibria",
-           "stable", "unstable", "open", "megno", "lyapunov")
 
 
 def write(path: str | Path, out: str | Path, kind: str | None = None, size: tuple[float, float] | None = None,

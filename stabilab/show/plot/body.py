@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...physics.effects.base import effect_words
 from .. import style
 from ..axes import PLAIN
 from . import canvas
@@ -50,7 +51,7 @@ def body(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
         _box(target, sides, PLAIN if bare else one.axes)
         rows = [(f"{BOX}: D = {_vector(scene.body.inertia)} kg m²",
                  {"color": style.GREY, "linewidth": 8, "alpha": 0.4, "solid_capstyle": "butt"})]
-        rows += [PARTS[effect.name][1](target, one, effect, sides) for effect in scene.effects]
+        rows += [_effect(target, one, effect, sides) for effect in scene.effects]
         if not bare and one.physical:
             rows += _start(target, one) + ([] if one.case is None else _craft(target, one.case, sides))
         target.set(xlim=(-0.8, 0.8), ylim=(-0.8, 0.8), zlim=(-0.7, 0.9))
@@ -65,6 +66,13 @@ def body(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
         if legend:
             style.legend(target.figure, rows, columns=1)
     return target
+
+
+def _effect(ax: Any, one: Subject, effect: Any, sides: np.ndarray) -> tuple[str, dict[str, Any]]:
+    """What an effect is drawn by; a row of the legend alone where PARTS has no sketch of it."""
+    if effect.name not in PARTS:
+        return f"{effect_words(effect.name)}, not drawn", {"linestyle": "none"}
+    return PARTS[effect.name][1](ax, one, effect, sides)
 
 
 def _start(ax: Any, one: Subject) -> list[tuple[str, dict[str, Any]]]:

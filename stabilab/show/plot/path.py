@@ -149,9 +149,10 @@ def measured(case: Any, state: Any = None, span: Any = None, effort: str = "quic
     return precision(one, effort)
 
 
-def whole(case: Any, plt: Any, size: tuple[float, float] | None = None) -> Any:
+def whole(case: Any, units: str | None = None, size: tuple[float, float] | None = None) -> list[Any]:
     """The figure with a panel for every question that the motion has, or for as many as a figure of this size
-    has room for."""
+    has room for. units: of no use here."""
     import matplotlib
+    from matplotlib import pyplot as plt
     with matplotlib.rc_context(style.RC | style.letters(size)):
-        return picture(plt, measured(case), size)
+        return [picture(plt, measured(case), size)]

@@ -24,6 +24,7 @@ from ...unreduced.periodic import LEAST, crossed
 from ...validation import checked_scene, checked_span
 from .. import space
 from ..axes import PLAIN, Axes, axes_of
+from ..picture_kinds import KINDS
 from ..text import headline
 from ..units import SYSTEMS, Units, suited
 
@@ -143,23 +144,6 @@ def _blocks_of(scene: AnyScene, state: Any) -> dict[str, Any]:
 
 
 # --- Which kinds of plot a scene has, and why it has not the others
-# kind -> what it shows
-KINDS = {
-    "time": "the rates over time, with limits, extremes and period",
-    "phase": "the plane of the reduced motion: turn about the torque's axis and its rate",
-    "potential": "the reduced potential: its wells, the energy of the motion and the barrier ahead",
-    "sphere": "the surface on which the motion stays, with the other motions on it",
-    "space": "the motion in the space of rates, beside the separatrix",
-    "section": "the Poincaré section: passages of a plane, with neighbours and the periodic motion in the "
-               "middle of an island",
-    "equilibria": "all equilibria, stable and unstable",
-    "budget": "what accuracy costs in time",
-    "state": "every part of the state over time, the analytic models beside the exact motion",
-    "attitude": "the body as it turns, as an animation",
-    "tilt": "the time to the limit against the tilt of the torque",
-    "wheel": "how much later the limit is reached with another momentum of a wheel",
-    "body": "the body as the box of its moments, with thrusters, wheels and what else acts on it",
-}
 FAR = (
     "rates, torque or wheel are so large or so small that their squares leave the range of doubles: choose "
     "other units")
@@ -174,14 +158,11 @@ def why_not(kind: str, one: Subject) -> str:
     """Why a subject has no plot of a kind; empty where it has one."""
     if kind not in KINDS:
         return f"there is no such kind; expected one of {', '.join(KINDS)}"
-    if kind == "equilibria":
-        return _equilibria(one)
-    if kind == "body":
-        return "" if bodily(one) is not None else NO_BODY
-    if one.state is None:
+    needed, why = NEEDS[KINDS[kind].needs]
+    if needed and one.state is None:
         return ("it needs a motion: add [motion] with angular_velocity or x" if one.case is not None
                 else "it needs a state: three rates at t = 0")
-    return _REASONS.get(kind, lambda one: "")(one)
+    return why(one)
 
 
 def check(kind: str, one: Subject) -> None:
@@ -302,13 +283,17 @@ def _beyond(one: Subject) -> str:
     return f"{', '.join(others)} and {last}" if others else last
 
 
-_REASONS: dict[str, Callable[[Subject], str]] = {
-    "phase": _phase, "potential": _phase, "sphere": _sphere, "tilt": _tilt, "wheel": _wheel, "time": _far,
-    "space": _far, "section": _section,
-    "state": lambda one: ALIKE * one.scene.plain,
-    "attitude": lambda one: "scaled variables have no body to turn: give the case in physical units"
-                            * (not one.physical),
-    "budget": lambda one: "it needs a span: the time up to which the motion is followed" * (one.span is None)}
+# what a kind of picture needs -> (whether a motion, why a subject has none)
+NEEDS: dict[str, tuple[bool, Callable[[Subject], str]]] = {
+    "motion": (True, lambda one: ""), "range": (True, _far), "plane": (True, _phase),
+    "surface": (True, _sphere), "section": (True, _section), "tilt": (True, _tilt), "wheel": (True, _wheel),
+    "equilibria": (False, _equilibria),
+    "body": (False, lambda one: NO_BODY * (bodily(one) is None)),
+    "body that turns": (True, lambda one: "scaled variables have no body to turn: give the case in physical "
+                                          "units" * (not one.physical)),
+    "theory": (True, lambda one: ALIKE * one.scene.plain),
+    "span": (True, lambda one: "it needs a span: the time up to which the motion is followed"
+             * (one.span is None))}
 
 
 # --- The units of the axes of a plot: name and factor of rates, times and angles, and the names of

@@ -3,31 +3,28 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from ...errors import InputError
 from ...packages import demand
 from .. import endings, style
+from ..picture_kinds import KINDS
 from . import subject as subjects
-from .body import body
-from .equilibria import equilibria
-from .in_space import space
-from .over_time import states, tilt, time, wheel
-from .path import whole as budget
-from .phase_plane import phase, potential, section
 from .subject import Subject, subject
-from .surfaces import sphere
-from .turning import ENDINGS, film
+from .turning import ENDINGS
 
 LEAST, MOST, SHARP = 1.0, 60.0, 1200  # inches of a side, dots an inch
 PIXELS = 20_000  # of a side: what Matplotlib draws
 TELEPHONE = (4.6, 4.4)  # inches: letters of 8.5 points have 9.5 px where the picture has 370
 
-# kind -> axes(subject, units, size)
-AXES: dict[str, Callable[..., Any]] = {
-    "time": time, "phase": phase, "potential": potential, "sphere": sphere, "space": space,
-    "section": section, "equilibria": equilibria, "tilt": tilt, "wheel": wheel, "body": body}
+
+def _drawing(kind: str) -> Callable[..., Any]:
+    """What draws a kind of picture: its file is loaded where it is drawn."""
+    module, _, name = KINDS[kind].draws.partition(".")
+    drawn: Callable[..., Any] = getattr(import_module(f".{module}", __package__), name)
+    return drawn
 
 
 def write(case: Any, path: str | Path, kind: str | None = None, size: tuple[float, float] | None = None,
@@ -45,7 +42,7 @@ def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[
     .gif, .mp4), whole or not at all; returns the path, and those of more pictures beside it
     (NAME-2.png, ...) where a state has more parts than one takes.
 
-    kind: one of `which.KINDS`; None: the one that says most of the case. size: (width, height) in inches;
+    kind: one of `KINDS`; None: the one that says most of the case. size: (width, height) in inches;
     dpi: dots an inch of a .png. units: "deg" or "si", None for those of the case. span: in place of the
     case's own. neighbours: of a section, how many motions are shown beside it, None for six. narrow: a file
     for the same picture as a telephone shows it, without its title, of kind "time".
@@ -61,21 +58,21 @@ def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[
         raise InputError(f"neighbours: a section alone shows them (kind section), got kind {chosen}")
     demand(*style.PACKAGES)
     check_size(size, dpi)
-    with style.drawing() as plt:
+    with style.drawing():
         if chosen == "attitude":
-            return [film(one, Path(path), units, size, dpi)]
-        figures = (states(one, units=units, size=size) if chosen == "state"
-                   else [budget(one, plt, size) if chosen == "budget"
-                         else AXES[chosen](one, units=units, size=size).figure])
+            return [_drawing(chosen)(one, Path(path), units, size, dpi)]
+        made = _drawing(chosen)(one, units=units, size=size)
+        figures = made if isinstance(made, list) else [made.figure]
         for figure in figures:
             if size is not None:
                 figure.set_size_inches(*size)
             if not titled:
                 figure.axes[0].set_title("")
-        made = [style.save(figure, endings.numbered(path, n), dpi) for n, figure in enumerate(figures, 1)]
+        files = [style.save(figure, endings.numbered(path, n), dpi)
+                 for n, figure in enumerate(figures, 1)]
         if narrow is not None:
             style.save(narrowed(figures[0]), narrow, dpi)
-        return made
+        return files
 
 
 def narrowed(figure: Any) -> Any:

@@ -23,6 +23,7 @@ from ...physics.equations import derive, invariants
 from ...theories.follow import models_of
 from ...verify import verify_file
 from .. import certification, frame, limiting, style
+from ..picture_kinds import KINDS
 from ..plot import subject as subjects
 from ..plot import to_file
 from ..plot.in_space import space_of
@@ -52,28 +53,9 @@ def space(one, at_rest, units) -> dict:
                            for at in branch.points)}
 
 
-# kind -> (title, caption)
-SHOWN = {
-    "time": ("Rates over time", "The rates along the principal axes."),
-    "phase": ("Phase plane",
-              "Turn about one axis since the start, and the rate about it. A motion stays on its curve; "
-              "black curves, where there are any, part motions of different kinds."),
-    "potential": ("Reduced potential",
-                  "The motion stays where its energy is above the potential; a barrier holds it."),
-    "sphere": ("The surface on which the motion stays", "With the other motions on it."),
-    "equilibria": ("All equilibria", "Stable and unstable ones in the space of the rates."),
-    "state": ("Analytic models beside the exact motion",
-              "Each part of the state over time; stabilab compare tells when a model is off by 1 % "
-              "and 10 %."),
-    "tilt": ("Time to the limit against the tilt",
-             "From the earliest to the latest of runs at directions round the edge of each cone."),
-    "wheel": ("Time gained by another momentum of a wheel", "The other wheels left as they are."),
-    "body": ("The body and what acts on it", "Directions are those of the case, lengths of arrows are not.")}
-TITLED = ("sphere", "equilibria", "state")  # by what no heading of the page says
-SIZES = {"tilt": (6.0, 3.8), "wheel": (6.0, 3.8), "body": (5.2, 5.2)}  # inches, of the smaller ones
+SHOWN = {kind: row.page for kind, row in KINDS.items() if row.page is not None}
 ALONE = ("Every part of the state over time", "No approximate theory comes with these effects.")
 OF_THE_FILE = "The rates along the axes of the file, about which its limits are."
-BRIEF = ("time", "phase", "state")  # on a page among many
 
 
 def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg", at_rest=None) -> list[dict]:
@@ -89,8 +71,9 @@ def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg", at_re
     spared = {"equilibria": at_rest is not None and not at_rest.curves, "body": not acted_on,
               "sphere": "phase" in offered and not subjects.free(one), "state": subjects.rates_alone(one)}
     exact_alone = models_of(one.scene) == ("exact",)
-    for kind, (title, caption) in SHOWN.items():
-        if kind in offered and (deep or kind in BRIEF) and not spared.get(kind):
+    for kind, page in SHOWN.items():
+        if kind in offered and (deep or page.brief) and not spared.get(kind):
+            title, caption = page.title, page.caption
             if kind == "state" and exact_alone:
                 title, caption = ALONE
             if kind == "time" and file_axes(one) is not None:
@@ -98,9 +81,9 @@ def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg", at_re
             if kind == "time":
                 caption += _later(one)
             narrow = None if found or kind != "time" else folder / f"{stem}-{kind}-narrow.png"
-            made, *more = to_file.write_all(one, folder / f"{stem}-{kind}.png", kind, SIZES.get(kind),
-                                            units=units, narrow=narrow, titled=kind in TITLED)
-            found.append(picture(made, "", narrow, caption=caption, kind=kind, title=title,
+            made, *more = to_file.write_all(one, folder / f"{stem}-{kind}.png", kind, page.size,
+                                            units=units, narrow=narrow, titled=page.titled)
+            found.append(picture(made, "", narrow, caption=caption, kind=kind, title=title, place=page.place,
                                  more=[path.name for path in more],
                                  command=f"stabilab plot {one.path} --kind {kind}"))
     return found
@@ -163,8 +146,8 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
                                    lambda: pictures(one, folder, stem, deep,
                                                     "deg" if units.scaled else units.name, found)) or [])
         missing: dict[str, list[str]] = {}  # titles by their reason
-        for kind, (title, _) in SHOWN.items():
-            missing.setdefault(subjects.why_not(kind, one), []).append(title)
+        for kind, about in SHOWN.items():
+            missing.setdefault(subjects.why_not(kind, one), []).append(about.title)
         absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
         page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(one, units))
     page["space"] = _tried(absent, "Space of the rates", lambda: space(one, found, units))

@@ -20,7 +20,7 @@ from ...numbers.units import unit_of_key
 from ...numbers.vectors import CYCLE
 from ...reasons import Quantity, Reason
 from ...representation import values_of
-from .. import ending, frame, limiting
+from .. import ending, frame
 from ..axes import axes_of
 from ..terminal import lettered, plain, written
 from ..units import DIGITS, SI, Unit, Units, as_bound, number
@@ -212,7 +212,7 @@ def as_dict(case: Case, equilibria: Equilibria, motion: Motion | None) -> dict:
                            "points": [_point_dict(case, p) | _input(case, p.at) for p in equilibria.points],
                            "curves": [_curve_dict(case, c) for c in equilibria.curves]},
             "motion": None if motion is None else _motion_dict(case, motion) | _input(case, motion.at)
-            } | ({} if motion is None else limiting.key(case, motion.caveats)) | frame.key(case)
+            }
 
 
 def _input(case: Case, at: Sequence[float]) -> dict:

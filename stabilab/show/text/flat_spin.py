@@ -5,7 +5,7 @@ import math
 
 from ...answers.dissipation.ending import of_spin
 from ...representation import values_of
-from .. import ending, limiting
+from .. import ending
 from ..axes import Axes, axes_of
 from ..units import DIGITS, Units, number
 from .motion import in_file, row
@@ -31,7 +31,7 @@ def flat_spin_dict(case, found) -> dict:
             "decay_time": found.decay,
             "changes": {one.name: [one.down, one.up] for one in found.spans},
             "phase_about": in_file(case, tuple(float(n == found.minor - 1) for n in range(3))),
-            "steps": found.steps} | axes_of(case).key(found.axis) | limiting.key(case, found.caveats)
+            "steps": found.steps} | axes_of(case).key(found.axis)
 
 
 def flat_spin_text(case, found, units: Units) -> str:

@@ -32,7 +32,7 @@ def first(validity, text: str, units: Units = SI, caveats=()) -> str:
     """The text with the caveats of its case, and with what is to be said of its law: behind the answer where
     the law holds; where it does not, as what follows is then no motion of such a body, that it does not
     before the answer, and by how much in a line below. units: of times."""
-    text = limiting.noted(caveats, text, units)
+    text = limiting.noted(caveats, text, units, law=validity is None)
     if validity is None:
         return text
     answer, *rest = text.split("\n")

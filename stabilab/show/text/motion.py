@@ -245,10 +245,14 @@ MODES = {"long-axis": "LONG-AXIS MODE", "short-axis": "SHORT-AXIS MODE", "separa
          "steady": HEADS["equilibrium"], "heavy top": "HEAVY TOP"}
 
 
-def attitude_dict(answered) -> dict:
+def attitude_objects(rows) -> dict:
     """The object of `stabilab attitude --json`: a row a case, vectors in the frame of the file, s and rad."""
-    return {"schema": "stabilab.attitude/1",
-            "rows": [{"case": case.name} | row_of(case, found) for case, found in answered]}
+    return {"schema": "stabilab.attitude/1", "rows": rows}
+
+
+def attitude_object(case, found) -> dict:
+    """A row of it."""
+    return {"case": case.name} | row_of(case, found)
 
 
 def row_of(case: Case, one: Attitude) -> dict:
@@ -341,7 +345,7 @@ def circular_orbit_dict(case, found) -> dict:
                             "axis": one.axis and in_file(case, one.axis)} for one in result.families],
             "momentum_spans": None if found.spans is None else
             [{"low": one.low, "high": one.high, "families" if one.families else "equilibria": one.count,
-              "minima": one.minima} for one in found.spans]} | limiting.key(case, found.caveats)
+              "minima": one.minima} for one in found.spans]}
 
 
 def _object(case, found, one) -> dict:
@@ -376,7 +380,7 @@ def circular_orbit_text(case, found, units: Units) -> str:
     lines += [f"why: {units.said(result.reason)}",
               *(f"  {verdict}: {units.said(because)}" for verdict, because in reasons),
               f"assumed: {ASSUMED}"]
-    return limiting.noted(found.caveats, "\n".join(lines), units)
+    return "\n".join(lines)
 
 
 def _orbit_headline(result) -> str:

@@ -12,7 +12,6 @@ from ...orbit.result import Fate, Motion, no_period
 from ...representation import values_of
 from .. import ending, frame, limiting
 from ..axes import axes_of
-from ..data import csv_lines
 from ..terminal import lettered, listed
 from ..units import DIGITS, Units, bracket, number
 from .headline import cause, flips, largest, outcome, rate_margin, verdict
@@ -36,7 +35,7 @@ if TYPE_CHECKING:
 
 # --- When a limit is reached
 WORDS = {"yes": "reached by", "unknown": "NOT KNOWN of", "never": "NEVER by"}
-CSV = ("case", "quantity", "limit", "time_low", "time_high", "level", "caveats")
+COLUMNS = ("case", "quantity", "limit", "time_low", "time_high", "level")
 
 
 def as_dict(case, limit, found) -> dict:
@@ -49,16 +48,17 @@ def as_dict(case, limit, found) -> dict:
             "time": [low, high] if math.isfinite(high) else None, "not_before": low,
             "level": str(found.level), "because": str(found.words),
             "reason": found.reason.as_dict(), "tilt": tilt_dict(found.tilt)
-            } | ending.key(case, found.ending) | limiting.key(case, found.caveats) | frame.key(case)
+            } | ending.key(case, found.ending)
 
 
-def csv(answers) -> str:
-    """A line a case, SI units; inf: never reached, an empty upper end: not known."""
-    rows = [(case.name, "/".join(limit.names), "/".join(map(repr, limit.limits)),
-             *(None if math.isnan(v) else float(v) for v in (found.low, found.high)),
-             str(found.level), limiting.cell(case, found.caveats))
-            for case, limit, found in answers]
-    return csv_lines(ending.beside([CSV, *rows], [found.ending for *_, found in answers]))[:-1]
+def lines(case, limit, found):
+    """A line of CSV, SI units; inf: never reached, an empty upper end: not known."""
+    ends = (None if math.isnan(v) else float(v) for v in (found.low, found.high))
+    return [limiting.Line((case.name, "/".join(limit.names), "/".join(map(repr, limit.limits)), *ends,
+                           str(found.level)), ending=found.ending)]
+
+
+CSV = COLUMNS, lines
 
 
 def text(case, limit, found, units: Units) -> str:
@@ -230,8 +230,7 @@ def _object(question, case, motion, told, found) -> dict:
             | {"digits": {"asked": told.asked, "reached": shown}
                | values_of(told, "method because decimals") | {"reason": told.reason.as_dict()}}
             | {"reason": motion.reason.as_dict(), "numbers": numbers(motion),
-               "flips": flips_dict(case, motion)} | ending.key(case, motion.ending)
-            | limiting.key(case, motion.caveats) | frame.key(case))
+               "flips": flips_dict(case, motion)} | ending.key(case, motion.ending))
 
 
 def extremes_dict(case: Case, motion: Motion, told: Told) -> dict:
@@ -261,10 +260,11 @@ def period_dict(case: Case, motion: Motion, told: Told) -> dict:
                    {"period": told.values, "time": case.scene.time_unit})
 
 
-def extremes_csv(answered) -> str:
-    """A line a component of (case, motion, digits), every digit asked for; inf: unbounded, empty: unknown."""
-    rows = [((case.name, name, *pair, moved.extremes_over, limiting.cell(case, moved.caveats)), moved.ending)
-            for case, moved, told in answered for pairs in [told.decimals or _with(moved, told).extremes]
-            for name, pair in zip(case.scene.components, pairs or ((None, None),) * 3)]
-    head = ("case", "component", "min", "max", "over", "caveats")
-    return csv_lines(ending.beside([head, *(row for row, _ in rows)], [one for _, one in rows]))[:-1]
+def extremes_lines(case, motion, told):
+    """A line of CSV a component, every digit asked for; inf: unbounded, empty: unknown."""
+    pairs = told.decimals or _with(motion, told).extremes or ((None, None),) * 3
+    return [limiting.Line((case.name, name, *pair, motion.extremes_over), ending=motion.ending)
+            for name, pair in zip(case.scene.components, pairs)]
+
+
+EXTREMES_CSV = ("case", "component", "min", "max", "over"), extremes_lines

@@ -109,7 +109,7 @@ def as_dict(case: Case, run: Simulation) -> dict:
             **values_of(run, "t state error invariant_drift counters method rtol status"),
             "reason": run.because, "why": run.reason.as_dict(),
             **{name: PARTS[name].description for name in ATTITUDES if name in run.state}
-            } | frame.rows(case, run) | frame.key(case)
+            } | frame.rows(case, run)
 
 
 def columns(run: Simulation) -> tuple[list[str], list[list[float]]]:

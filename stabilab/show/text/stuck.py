@@ -9,7 +9,7 @@ from ...orbit.result import HEADS, OUTCOMES, Fate
 from ...representation import values_of
 from .. import limiting
 from ..axes import axes_of, direction
-from ..data import Endless, csv_lines
+from ..data import Endless
 from ..units import DIGITS, SHORT, Units, bracket, number, vector
 from .classification import what_changes
 from .headline import REST
@@ -18,9 +18,9 @@ from .motion import row as entry
 from .questions import reached, tilt_dict
 from .scene import counted
 
-CSV = ("case", "thrusters", "torque_x", "torque_y", "torque_z", "torque_1", "torque_2", "torque_3", "fate",
-       "level", "axis", "axis_name", "sense", "limit", "time_low", "time_high", "largest_rate",
-       "margin_rate", "margin_wheel", "margin_torque", "caveats")
+COLUMNS = ("case", "thrusters", "torque_x", "torque_y", "torque_z", "torque_1", "torque_2", "torque_3",
+           "fate", "level", "axis", "axis_name", "sense", "limit", "time_low", "time_high", "largest_rate",
+           "margin_rate", "margin_wheel", "margin_torque")
 WORDS = {"rate": "rate", "wheel": "wheel momentum", "torque": "torque"}
 # bounded is not for ever here: another torque may come
 FATES = HEADS | {Fate.BOUNDED.word: OUTCOMES[Fate.BOUNDED].does.upper()}
@@ -55,17 +55,18 @@ def _row(row, case) -> dict:
                         for h in row.helpers]} | limiting.key(case, row.caveats)
 
 
-def csv(answers) -> str:
-    """A line a row of (case, answer), SI units; empty where a number does not exist."""
-    lines: list = [CSV]
-    for case, row in ((case, row) for case, found in answers for row in found.rows):
+def lines(case, found):
+    """A line of CSV a row, SI units; empty where a number does not exist."""
+    for row in found.rows:
         limit = "/".join(map(repr, row.limit)) if isinstance(row.limit, tuple) else row.limit
-        lines.append((printable(case.name), printable("+".join(row.thrusters)), *row.torque,
-                      *row.torque_principal, row.fate, row.level, row.axis,
-                      axes_of(case).key(row.axis)["axis_name"], row.sense, limit,
-                      *(row.time_to_limit or (None, None)), row.largest_rate,
-                      *_margin_sizes(row).values(), limiting.cell(case, row.caveats)))
-    return csv_lines(lines)
+        yield limiting.Line((printable(case.name), printable("+".join(row.thrusters)), *row.torque,
+                             *row.torque_principal, row.fate, row.level, row.axis,
+                             axes_of(case).key(row.axis)["axis_name"], row.sense, limit,
+                             *(row.time_to_limit or (None, None)), row.largest_rate,
+                             *_margin_sizes(row).values()), row.caveats)
+
+
+CSV = COLUMNS, lines
 
 
 def _margin_sizes(row) -> dict:
@@ -133,7 +134,7 @@ def _answer(row, units):
             about = f"about {units.axes.whole(row.axis)}, {direction(row.sense)}"
         elif row.direction:
             about = f"about the direction {vector(row.direction)} of the file's frame"
-        return f"SPINS UP {about}{', ' + when if when else ''}{known}"
+        return f"{FATES[row.fate]} {about}{', ' + when if when else ''}{known}"
     if row.fate == "undecided":
         if when:
             return f"UNDECIDED, but {when}"
@@ -320,7 +321,13 @@ def burn_dict(case, found) -> dict:
                           "torque": in_file(case, one.torque), "rates": in_file(case, one.rates)}
                          for one in found.switches],
             "closed": _closed(case, found.closed), "latest": _latest(found.latest),
-            "closed_latest": _closed(case, found.closed_latest)} | limiting.key(case, found.caveats)
+            "closed_latest": _closed(case, found.closed_latest)}
+
+
+def burn_undecided(found) -> bool:
+    """Whether the motion that it leaves, or by when to close, is undecided."""
+    late = found.latest is not None and found.latest.level == "undecided"
+    return late or found.closed.motion.fate.word == "undecided"
 
 
 def _closed(case, one) -> dict | None:
@@ -360,8 +367,7 @@ def burn_text(case, found, units: Units) -> str:
                                                  f"{units.vector(_seen(case, one.rates), units.rates)}"))
     if len(found.switches) > SHOWN:
         lines.append(entry("", f"and {len(found.switches) - SHOWN} more switches, in --json"))
-    words = "\n".join([*lines, f"why: {units.said(found.closed.motion.reason)}"])
-    return limiting.noted(found.caveats, words, units)
+    return "\n".join([*lines, f"why: {units.said(found.closed.motion.reason)}"])
 
 
 def _headline(found, units: Units) -> str:

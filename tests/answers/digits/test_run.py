@@ -43,8 +43,7 @@ def test_digits_that_no_way_gives_are_told(tmp_path):
     case = stabilab.load(path)
     assert precision_digits._many_digits(case, np.array([-1.0, 1.0]), 20) is None  # one run goes one way
     run = SimpleNamespace(status="stopped", because="it ran out of steps")
-    words = [precision_digits.missed(case, SimpleNamespace(run=one, asked=12, digits=3.25, reason="a check"))
-             for one in
-             (run, SimpleNamespace(status="reached", because=""))]
+    words = [precision_digits.missed(SimpleNamespace(run=one, asked=12, digits=3.25, reason="a check"))
+             for one in (run, SimpleNamespace(status="reached", because=""))]
     assert words[0].endswith("it ran out of steps") and "12 digits asked for, 3.2 reached (a check)" in words[
         1]
