@@ -120,3 +120,8 @@ PARABOLIC = {
     "wheel on the symmetry axis": physical((2, 2, 1), (0, 0, 0.5), (0.5, 0, 0)),
     "a sphere": physical((2, 2, 2), (0, 0.5, 1), (0.5, 0, 0))}
 SCALED_MINOR = ScaledGyrostat("0.2", "0.4", (0, 0, 1))
+
+
+def in_one_line(out):
+    """An answer whose clauses stand below each other, in one line again."""
+    return "; ".join(map(str.strip, out.splitlines()))

@@ -359,7 +359,8 @@ def test_a_sweep_is_one_table_with_a_column_for_each_swept_key(stabilab, swept, 
     """The answer, two lines of heads, and a row a combination that begins with what varies, as the file has
     it; no line is wider than a terminal."""
     code, out, err = stabilab(command, "six.toml")
-    lines = out.splitlines()
+    answer, _, table = out.partition("\n   ")  # of a long answer each clause has a line of its own
+    lines = [answer.replace("\n  ", "; "), *("   " + table).splitlines()]
     keys = tomllib.loads(SWEPT)["sweep"]
     moving = {key: [i for i in range(3) if len({row[i] for row in rows}) > 1] for key, rows in keys.items()}
     expected = [[str(value[i]) for key, value in zip(keys, one) for i in moving[key]]
@@ -470,7 +471,7 @@ def test_an_intact_certificate_of_another_case_does_not_pass_for_this_one(stabil
                                   "state: the certificate's 1/10 1/20 1/50, the case's 11/100 1/20 1/50",
                                   "wheel:")):
         code, out, err = stabilab("verify", proof, "--case", other)
-        assert code == 5 and out.startswith(f"OF ANOTHER CASE than {other}; its own claims: PROVED: ")
+        assert code == 5 and out.replace("\n  ", "; ").startswith(f"OF ANOTHER CASE than {other}; its own claims: PROVED: ")
         assert words in err and silent not in err and other.name in err
     scaled = case_file("[scaled]\na = 0.2\nb = 0.4\nmu = [0, 0, 1]\n", "scaled")
     code, _, err = stabilab("verify", proof, "--case", scaled)

@@ -40,10 +40,10 @@ LEAD = (
 def write(docs: Path, cases: list[Path] | None = None) -> list[str]:
     """Write gallery.md, gallery/<group>.md and gallery/<case>.png; the names of all cases, in the order of
     the pages. cases: None for all."""
-    from stabilab.papers.report import OUTCOMES
+    from stabilab.papers.report import LOOKS
     entries = [entry(path, docs / FOLDER) for path in cases or sorted((ROOT / "cases").glob("*.toml"))]
     grouped = {title: sorted((one for one in entries if one["group"] == title), key=lambda one: one["scene"])
-               for title in OUTCOMES.values()}
+               for title in LOOKS.values()}
     grouped = {title: rows for title, rows in grouped.items() if rows}
     page(docs / "gallery.md", overview(grouped))
     known = ({f"{slug(title)}.md" for title in grouped}
@@ -73,11 +73,11 @@ def made(path: Path, folder: Path) -> dict:
     """Title, source, outcome, number of its kind of scene, answer and kind of picture of a case, which is
     drawn. Of a sweep the first combination is drawn."""
     from stabilab.case.read import load_all
-    from stabilab.papers.report import GROUPS, OUTCOMES, group
+    from stabilab.papers.report import GROUPS, LOOKS, group
     from stabilab.show.plot import subject as which
     from stabilab.show.plot import write
     from stabilab.show.plot.subject import subject
-    from stabilab.show.terminal import greek, written
+    from stabilab.show.terminal import written
     from stabilab.show.text.headline import headline, look
     case, *others = load_all(path)
     one = subject(case)
@@ -86,9 +86,9 @@ def made(path: Path, folder: Path) -> dict:
     first = f"The first of {1 + len(others)} combinations is drawn: " if others else ""
     return {"title": written(case.title), "source": written(case.source or ""),
             "scene": [title for title, _ in GROUPS].index(group(case)),
-            "group": OUTCOMES["" if others or case.state is None else look(one.motion)],
+            "group": LOOKS["" if others or case.state is None else look(one.motion)],
             "kind": which.default(one),
-            "answer": first + greek(headline(case, one.motion))}
+            "answer": first + headline(case, one.motion)}
 
 
 def program() -> str:

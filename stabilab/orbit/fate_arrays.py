@@ -137,7 +137,8 @@ def _cause(row) -> str:
 def _told(reason: int, label: int, margin: float, axis: int, sense: int) -> str:
     known = (margin == margin or reason in (Basis.OFF_AXIS, Basis.TURN_ROUNDS, Basis.CERTIFIED,
                                             Basis.CLOSED_FORM) or label == Fate.EQUILIBRIUM)
-    return str(REASONS[Basis(reason)].then(spins_about(label, int(axis), int(sense)))
+    about = None if reason == Basis.CERTIFIED else spins_about(label, int(axis), int(sense))
+    return str(REASONS[Basis(reason)].then(about)
                .then(None if known else LOST(what="the margin in energy")))
 
 

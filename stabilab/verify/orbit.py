@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache, partial
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from flint import acb, arb, ctx, fmpq_poly, fmpz_poly
 
@@ -36,9 +36,6 @@ from .numbers import (
     word,
     working,
 )
-
-if TYPE_CHECKING:
-    import numpy as np
 
 LAWS = ("free", "sphere", "axis of symmetry")
 BITS = 192
@@ -431,7 +428,7 @@ def _poly(coefficients: Sequence[arb], alpha: arb | acb):
     return total
 
 
-def _shift(rates: Rates, axis: int | np.ndarray):
+def _shift(rates: Rates, axis: int):
     """s with which both rates across the axis are multiples of (x_i + s), and no torque acts there; None
     without one."""
     j, k = AHEAD[axis]

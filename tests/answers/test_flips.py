@@ -90,7 +90,7 @@ def test_a_racket_says_in_every_view_how_often_it_turns_over(stabilab, tmp_path)
     words = "turns over every 1.674 s"
     for question in ("fate", "extremes", "period", "classify"):
         code, out, _ = stabilab(question, path)
-        assert code == 0 and words in out.splitlines()[0], question
+        assert code == 0 and words in out, question
     told = json.loads(stabilab("fate", path, "--json")[1])[0]["flips"]
     assert told["axis"] == 2 and told["times"] == pytest.approx([gaps[0]], rel=1e-8)
     assert words in headline(load(path), found, SI)

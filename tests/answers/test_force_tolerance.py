@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 import stabilab as package
 from stabilab.answers.uncertain.boxes import box_of
-from tests.shared import craft_file
+from tests.shared import craft_file, in_one_line
 
 DEGREE = math.pi / 180
 ON_AXIS = craft_file([412.0, 297.5, 351.2], ([0.5, 0, 0], [0, 0, -1], "2.2 N +- 30 %"), [([1, 0, 0], 14)],
@@ -100,7 +100,7 @@ def test_a_limit_that_only_a_larger_force_reaches_is_said(stabilab, case_file):
     true = [SMALL.first(np.array([0, size, 0]), DEGREE) for size in (0.07, 0.1, 0.13)]
     assert true[0] == true[1] == math.inf
     code, out, _ = stabilab("when", case_file(FEEBLE), "--rate", "1 deg/s", "--strict")
-    line = out.splitlines()[0]
+    line = in_one_line(out)
     assert code == 3 and "NEVER reaches |ω| = 1 deg/s with the force as stated" in line
     told = line.split("BUT with the force of A within 30 % it reaches 1 deg/s after ")[1]
     assert float(told.split()[0]) == pytest.approx(true[2], rel=2e-4)

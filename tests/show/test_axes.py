@@ -16,6 +16,7 @@ from stabilab.show.axes import PLAIN, axes_of
 from stabilab.show.data import as_json
 from stabilab.show.text import stuck as shown
 from stabilab.show.units import units_of
+from tests.shared import in_one_line
 
 MOMENTS = (100, 90, 40)
 TEXT = """[body]
@@ -98,16 +99,15 @@ def test_every_command_names_the_axis_along_which_a_run_grows(stabilab, case_fil
     letter = "xyz"[np.abs(grows).argmax()]
     texts = [shown.text(case, found, units_of(case)),
              *(stabilab(command, path)[1] for command in ("fate", "classify"))]
-    for first in (text.splitlines()[0] for text in texts):
+    for first in map(in_one_line, texts):
         if diagonal:
             sense = "positive" if grows["xyz".index(letter)] > 0 else "negative"
             assert f"SPINS UP about {letter} ({word} axis), {sense} direction" in first
         else:
-            seen = re.search(
-                rf"SPINS UP about the {word} axis, \((.*?), (.*?), (.*?)\) in the file's frame, "
-                rf"(positive|negative) direction", first)
-            assert {"positive": 1,
-                    "negative": -1}[seen[4]] * np.array(seen.groups()[:3], float) @ grows > 0.998
+            seen = re.search(rf"(?:SPINS UP about the {word} axis, (positive|negative) direction.*?the {word} axis is "
+                             rf"|SPINS UP about the {word} axis, )\((.*?), (.*?), (.*?)\) in the file's frame"
+                             rf"(?:, (positive|negative) direction)?", first)
+            assert {"positive": 1, "negative": -1}[seen[1] or seen[5]] * np.array(seen.groups()[1:4], float) @ grows > 0.998
     head, lines = shown.CSV
     written = limiting.table(head, [(case, (), lines(case, found))])
     cells = dict(zip(*(line.split(",") for line in written.splitlines())))

@@ -50,5 +50,5 @@ def test_show_prints_the_scaled_constants_of_a_body_in_SI(stabilab, case_file):
     u = np.sqrt(k[0] * k[1] * (500 / 1000) ** 2) / k.prod()
     a, b = 100 / (1000 * np.sqrt(u * k[0])), 100 / (500 * np.sqrt(u * k[0]))
     assert (f"k1 = {k[0]:.6g}, k2 = {k[1]:.6g}, k3 = {k[2]:.6g}, u = {u:.6g}, a = {a:.6g}, b = {b:.6g}, "
-            "mu = (0, 0, 1)") in text
+            "μ = (0, 0, 1)") in text
     assert "(ω2 (D1 - D2)/D3, (D1 ω1 - D2 ω1 + λ1)/D3, 0)" in text

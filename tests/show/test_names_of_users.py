@@ -79,8 +79,8 @@ def write_case(folder, name, stem=None, burns=False, more=""):
 
 
 def one_blank(text):
-    """Columns are as wide as the names in them."""
-    return re.sub(r"\s+", " ", text)
+    """Columns are as wide as the names in them, and a long line is broken between its clauses."""
+    return re.sub(r"\s+", " ", text.replace("; ", " "))
 
 
 def same_but_for_names(told, name):

@@ -23,7 +23,7 @@ from stabilab.show.space import Box
 from stabilab.show.terminal import printed
 from stabilab.show.text import headline
 from stabilab.show.units import DEG, units_of
-from tests.shared import CASES
+from tests.shared import CASES, in_one_line
 
 MINOR = CASES / "minor-axis-100.toml"
 
@@ -264,8 +264,8 @@ def test_a_page_of_a_sweep_begins_with_the_answer_of_the_commands_and_tells_the_
     stabilab, tmp_path):
     path = CASES / "charged-sweep.toml"
     found = one_case.sections_of_sweep(load_all(path), tmp_path, "charged-sweep")
-    first = stabilab("fate", path)[1].splitlines()[0]
-    assert first.endswith(f"; by that law: charged-sweep: {found['headline']}")
+    first = in_one_line(stabilab("fate", path)[1])
+    assert first.startswith(f"BEYOND THE LAW; by that law: charged-sweep: {found['headline']}")
     assert found["headline"].startswith(
         "27 combinations: each BOUNDED only while the torque is exactly along x ")
     assert headline.of_cases(load_all(path)) == found["law"] and "27 of 27 combinations" in found["law"]

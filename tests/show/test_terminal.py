@@ -67,9 +67,18 @@ def test_no_line_is_wider_than_the_terminal_and_no_word_is_lost(shown, words, co
     assert without_colour(narrow).split() == plain.split()
 
 
-def test_the_answer_is_one_line_in_a_pipe(shown):
-    first = shown(Screen(False), "fate", MINOR, columns=40).splitlines()[0]
-    assert first.startswith("minor-axis-100: BOUNDED") and "; period " in first and len(first) > 100
+def test_a_clause_is_one_line_in_a_pipe(shown):
+    """Wherever a terminal would break it; what has no room in the first hundred letters has lines of its own."""
+    first, *rest = shown(Screen(False), "fate", MINOR, columns=40).splitlines()
+    assert first.startswith("minor-axis-100: BOUNDED") and len(first) <= letters.LINE
+    assert any(line.startswith("  period ") for line in rest) and max(map(len, rest)) > 100
+
+
+def test_a_long_line_is_broken_between_its_clauses_alone():
+    long = " ".join(["word"] * 12)
+    assert letters.by_clauses(f"a; {long}; b; c (d; e) {long}") == f"a; {long}; b\n  c (d; e) {long}"
+    assert letters.by_clauses(f"  {long}; [x; {long}]; \"y; z\"") == f"  {long}\n    [x; {long}]\n    \"y; z\""
+    assert letters.by_clauses("a; b; c") == "a; b; c"
 
 
 def test_colour_is_on_a_terminal_alone_and_never_where_it_is_not_wanted(shown):
@@ -234,9 +243,9 @@ def test_thrusters_that_do_nothing_are_named_before_the_answer(stabilab, tmp_pat
     (tmp_path / "silent.toml").write_text(text)
     (tmp_path / "stuck.toml").write_text(text + "stuck = true\n")
     for command in ("fate", "classify", "extremes"):
-        first, second = stabilab(command, tmp_path / "silent.toml")[1].split("\n")[:2]
+        first, *others = stabilab(command, tmp_path / "silent.toml")[1].split("\n")
         assert first.startswith("silent: no thruster fires; ")
-        assert second == "  caveat: no thruster fires: stuck = true in a table [[thrusters]] makes one act for ever (T1)"
+        assert "  caveat: no thruster fires: stuck = true in a table [[thrusters]] makes one act for ever (T1)" in others
         assert "no thruster fires" not in stabilab(command, tmp_path / "stuck.toml")[1]
 
 

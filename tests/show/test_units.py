@@ -42,13 +42,13 @@ def test_a_sentence_has_its_angles_rates_and_times_in_these_units():
     right, reason = math.pi / 2, turns(
         rate=Rate(-math.pi / 2), angle=Angle(math.pi), change=Rate((0.0, math.pi / 2)),
         acceleration=Quantity(math.pi / 2, "rad/s^2"), time=Moment(600.0), span=Span(0.0, 1200.0))
-    assert DEG.said(reason) == ("turns at -90 deg/s from 180 deg, by (0, 90) deg/s and 90 deg/s^2, "
+    assert DEG.said(reason) == ("turns at -90 deg/s from 180 deg, by (0, 90) deg/s and 90 deg/s², "
                                 "at t = 10 min, over 0 to 20 min")
     assert str(reason) == ("turns at -1.5708 rad/s from 3.14159 rad, by (0, 1.5708) rad/s and 1.5708 rad/s^2, "
                            "at t = 600, over s in [0, 1200]")
     assert SYSTEMS["si"].said(turns(time=Moment(2.5), span=Span(0.0, 2.5), rate=right, angle=0, change=0,
                                     acceleration=0)).endswith("at t = 2.5 s, over 0 to 2.5 s")
-    assert SCALED.said(Sentence("at", "at {time}")(time=Moment(2.5))) == "at tau = 2.5"
+    assert SCALED.said(Sentence("at", "at {time}")(time=Moment(2.5))) == "at τ = 2.5"
     words = "turns at -1.5707963267948966 rad/s from 3.141592653589793 rad and 1.5707963267948966 rad/s^2"
     assert DEG.words(words) == "turns at -90 deg/s from 180 deg and 90 deg/s^2"
     pairs = "between 1.5707963267948966 and 3.141592653589793 rad, from -1.5707963267948966 to 0 rad/s"

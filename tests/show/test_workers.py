@@ -8,7 +8,7 @@ from stabilab.show.report.workers import Task
 
 def _tasks(number):
     """Tasks that need next to nothing: a symbol, typeset."""
-    return [Task(f"symbol {n}", "show.report.html:symbol", (f"omega{n}",), float(n))
+    return [Task(f"symbol {n}", "show.report.formulas:symbol", (f"omega{n}",), float(n))
             for n in range(number)]
 
 

@@ -114,7 +114,7 @@ def _rates(ax: Axes, t: np.ndarray, omega: np.ndarray, names: Sequence[str], sca
 
 def _answer(one: Subject, scale: Measures):
     """The answer in one line; of uncertain numbers only their middles are drawn."""
-    told = headline(one.case, one.motion, scale.system)
+    told = headline(one.case, one.motion, scale.system, placed=False)
     return told + ("; for the middles of the uncertain numbers" if one.case.uncertain else "")
 
 

@@ -22,7 +22,7 @@ from ...reasons import Quantity, Reason
 from ...representation import values_of
 from .. import ending, frame
 from ..axes import axes_of
-from ..terminal import lettered, plain, written
+from ..terminal import LINE, clauses_of, lettered, plain, written
 from ..units import DIGITS, SI, Unit, Units, as_bound, number
 from . import questions
 from .headline import largest_key, verdict
@@ -352,11 +352,22 @@ def _of_file(units: Units, unit: str) -> tuple[str, float]:
     return (SI if units.scaled else units).of(unit)
 
 
+# Behind the outcome on a first line that has no room for all that uncertain numbers do to it
+IN_SHORT = {"holds": "", "depends": ", BUT not over all uncertainties", "sampled": ", uncertainties sampled",
+            "undecided": ", uncertainties undecided"}
+
+
 def first(found, told: str, units: Units) -> str:
-    """The text with what the box does to its answer at the end of the first line."""
+    """The text with what the box does to its answer at the end of the first line; where that is broken, in
+    short behind the outcome, too."""
     words = what_changes(found, units)
+    if not words:
+        return told
     answer, *rest = told.split("\n")
-    return "\n".join([f"{answer}; {words}", *rest]) if words else told
+    if len(answer) + len(words) + 2 > LINE:
+        outcome, *others = clauses_of(answer)
+        answer = "; ".join([outcome + IN_SHORT[(found.fate or found.equilibria).answer], *others])
+    return "\n".join([f"{answer}; {words}", *rest])
 
 
 def what_changes(found, units: Units) -> str:

@@ -142,20 +142,21 @@ LEVELS = {"run": "by a run alone"}
 CLAUSE = 110  # letters of a cause that the line has room for
 
 
-def headline(case: Case, motion: Motion, units: Units | None = None) -> str:
+def headline(case: Case, motion: Motion, units: Units | None = None, placed: bool = True) -> str:
     """The line of every page, picture and explorer, without the name of the case: the verdict, behind a
     warning where it is that of an approximate law that does not hold. units: of the case where None; their
-    names of axes, where they have any, go before those of the case."""
-    return warned(motion.validity, limiting.ahead(motion.caveats, verdict(case, motion, units), named=False))
+    names of axes, where they have any, go before those of the case. placed: as of `verdict`."""
+    return warned(motion.validity, limiting.ahead(motion.caveats, verdict(case, motion, units, placed),
+                                                  named=False))
 
 
-def verdict(case: Case, motion: Motion, units: Units | None = None) -> str:
+def verdict(case: Case, motion: Motion, units: Units | None = None, placed: bool = True) -> str:
     """The outcome, its axis and the condition that it rests on; when the limit of the case is reached; what a
-    tilt does; then its numbers."""
+    tilt does; then its numbers. placed: with where an axis without a letter lies."""
     units = (units_of(case) if units is None else replace(units, axes=axes_of(case)) if units.axes == PLAIN
              else units)
     parts = [*outcome(motion, units), cause(motion, units), largest(motion, units), margin(motion, units),
-             period(motion, units), units.axes.direction_clause(motion.axis)]
+             period(motion, units), units.axes.direction_clause(motion.axis) if placed else ""]
     return "; ".join(part for part in parts if part)
 
 

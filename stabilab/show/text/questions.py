@@ -171,7 +171,7 @@ def extremes(case: Case, motion: Motion, told: Told, units: Units, all_digits: b
     """The largest rate and the fate, a line a component, and bounds for all times."""
     shown = _with(motion, told)
     parts, most = [*outcome(shown, units), cause(shown, units)], [largest(shown, units)]
-    parts = [*parts, *most] if motion.fate.word == "spin-up" else [*most, *parts]
+    parts = [*parts, *most] if motion.fate.word in ("spin-up", "equilibrium") else [*most, *parts]
     rows = [f"  extremes: {units.said(shown.over)}"]
     if shown.extremes is not None:
         rows = _all_digits(case, shown, told) if all_digits else extreme_lines(case, shown, units)

@@ -31,12 +31,12 @@ def test_axes_are_those_of_the_file_that_was_opened_also_of_a_changed_case():
     half a degree."""
     case = case_of("geostationary-22n")
     _, axes = np.linalg.eigh([[5830, -38, 112], [-38, 1240, -24], [112, -24, 5410]])
-    minor = f"the minor axis, ({', '.join(f'{v:.3f}' for v in axes[:, 0] * np.sign(axes[1, 0]))})"
+    where = f"({', '.join(f'{v:.3f}' for v in axes[:, 0] * np.sign(axes[1, 0]))}) in the file's frame"
     for changes in ({}, {"wheel": ["0.6", None, None]}):
         told, _ = ask(Session(case), **changes)
-        assert f"SPINS UP about {minor} in the file's frame, negative direction" in told["headline"]
-        assert told["rows"][0][0] == "axes" and told["rows"][0][1].endswith(
-            f"; ω3 about {minor} in the file's frame")
+        assert "SPINS UP about the minor axis, negative direction" in told["headline"]
+        assert f"; the minor axis is {where}" in told["headline"]
+        assert told["rows"][0][0] == "axes" and told["rows"][0][1].endswith(f"; ω3 about the minor axis, {where}")
 
 
 def test_the_verdict_is_that_of_the_case_that_is_saved(case_file):
