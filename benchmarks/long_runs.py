@@ -150,4 +150,5 @@ def write(folder, turns: float = 1e6, others: float = 1e5, motions: int = 6) -> 
 
 if __name__ == "__main__":
     import sys
-    print(*write(sys.argv[1] if sys.argv[1:] else "figures", *map(float, sys.argv[2:4])), sep="\n")  # type: ignore[arg-type]
+    # type: ignore[arg-type]
+    print(*write(sys.argv[1] if sys.argv[1:] else "figures", *map(float, sys.argv[2:4])), sep="\n")

@@ -14,7 +14,7 @@ from typing import Any
 from .errors import INTERRUPTED
 
 # s that the main thread has to answer the signal itself; compiled code may keep it busy for hours
-PATIENCE = 0.3
+GRACE_SECONDS = 0.3
 _undo: list[Any] = []   # what to undo on the way out, last first
 
 
@@ -77,6 +77,6 @@ def _watch():
     def listen():
         while os.read(heard, 1)[0] != signal.SIGINT:
             pass
-        time.sleep(PATIENCE)
+        time.sleep(GRACE_SECONDS)
         _end()
     _thread.start_new_thread(listen, ())

@@ -22,7 +22,7 @@ from ..physics.scene import AnyScene
 from ..reasons import Sentence
 from .equilibria import equilibria
 
-NEAR = 1e-9  # of the size of a state: an equilibrium that is found in doubles is the same as the state
+SAME_STATE = 1e-9  # of the size of a state: an equilibrium that is found in doubles is the same as the state
 ON_CURVE = 1e-7  # the same for a curve, along which the nearest place is searched
 LOOKS, HALVINGS = 400, 60  # along a piece of a curve of equilibria; of the interval round the nearest look
 GROWS = 1e-7  # of the size of the Jacobian: a real part below it may be rounding
@@ -122,7 +122,7 @@ def _apart(one: Sequence[float], at: Sequence[float]) -> float:
 
 def _nearest(samples: Sequence[EquilibriumPoint], at: Sequence[float]) -> EquilibriumPoint | None:
     near = min(samples, key=lambda one: _apart(one.at, at), default=None)
-    return near if near is not None and _apart(near.at, at) <= NEAR else None
+    return near if near is not None and _apart(near.at, at) <= SAME_STATE else None
 
 
 def _beside(curve: EquilibriumCurve, piece: tuple[float, float], at: Sequence[float]) -> float:

@@ -60,7 +60,8 @@ MOVING_ORDERS = ((2, 4), (4, 6), (8, 10))
 # times, over that of the first certificate, at which the inequality is asked
 LATER = (1.0, 1.0625, 1.25, 1.5, 2.0, 3.0, 5.0, 8.0)
 CHECKPOINTS = 4
-DIGITS = 9  # of the checkpoints' brackets, relative to the greatest rate; wider where the enclosure is
+# of the checkpoints' brackets, relative to the greatest rate; wider where the enclosure is
+BRACKET_DIGITS = 9
 # what is claimed of the gain is less by this: the inequality's own rounding
 SURE = Fraction(1 << 20, (1 << 20) + 1)
 
@@ -147,7 +148,7 @@ def _checkpoints(scene: AnyScene, state: Sequence[Any], course: Course | None,
     for n in range(1, CHECKPOINTS + 1):
         again.advance(float(t) * n / CHECKPOINTS)
         now = again.now
-        size = Fraction(float(np.abs(now.middle).max())) / 10**DIGITS
+        size = Fraction(float(np.abs(now.middle).max())) / 10**BRACKET_DIGITS
         out.append({"t": str(Fraction(again.t)), "box": [_bracket(low, high, size) for low, high in now.box]})
     return out
 

@@ -29,8 +29,9 @@ from .caveats import of_case
 
 MIDDLES = Caveat(Kind.UNCERTAIN,
                  Sentence("of-the-middles-alone", "of the middles of the uncertain numbers")())
-MOST = Fraction(10)**50
-BITS = 64  # more than doubles have; of 240, as a case has them, elimination makes numbers of pages
+LARGEST_SIZE = Fraction(10)**50
+# more than doubles have; of 240, as a case has them, elimination makes numbers of pages
+ELIMINATION_BITS = 64
 ROUNDED = Sentence("numbers-rounded",
                    "as some numbers are irrational ({names}), all are taken to {bits} bits")
 
@@ -77,11 +78,11 @@ def circular_orbit(orbiting: Any, up_to: Amount | None = None) -> CircularOrbit:
                          "right?")
     irrational = [*case.inexact, *(["principal axes"] if case.frame and not case.frame.exact else [])]
     if irrational:
-        satellite = satellite.rounded(BITS)
+        satellite = satellite.rounded(ELIMINATION_BITS)
     equilibria = orbit_equilibria(satellite)
     if irrational:
         equilibria = replace(equilibria, reason=equilibria.reason.then(
-            ROUNDED(names=", ".join(irrational), bits=BITS)))
+            ROUNDED(names=", ".join(irrational), bits=ELIMINATION_BITS)))
     rate = math.sqrt(orbiting.rate_squared)
     return CircularOrbit(rate, 2 * math.pi / rate, tuple(map(float, satellite.moments)),
                          tuple(map(float, satellite.momentum)), equilibria,
@@ -107,8 +108,8 @@ def _in_range(satellite: Satellite) -> bool:
     """Whether the numbers of the answer are doubles by far."""
     least, greatest = min(satellite.moments), max(satellite.moments)
     share = dot(satellite.momentum, satellite.momentum) / satellite.rate_squared / least**2
-    return (MOST**-2 < satellite.rate_squared < MOST**2 and greatest < MOST * least
-            and MOST**-1 < greatest < MOST and share < MOST**2)
+    return (LARGEST_SIZE**-2 < satellite.rate_squared < LARGEST_SIZE**2 and greatest < LARGEST_SIZE * least
+            and LARGEST_SIZE**-1 < greatest < LARGEST_SIZE and share < LARGEST_SIZE**2)
 
 
 def _varied(satellite: Satellite, up_to: Fraction) -> tuple[MomentumSpan, ...]:

@@ -17,8 +17,8 @@ import numpy as np
 
 from ..integrate.events import roots_of_rates
 from ..integrate.reference import (
-    DIGITS,
     GUARD,
+    RUN_DIGITS,
     SEARCH,
     WORK,
     Exhausted,
@@ -47,9 +47,9 @@ from ..unreduced.near_rest import beside_rest, small_loop
 from ..validation import reach_of
 from .digits_asked import (
     CAUTION,
-    MOST,
+    DIGITS_MISSED,
+    DOUBLE_DIGITS,
     MOST_DECIMALS,
-    NEAR,
     Told,
     checked_digits,
     digits_of,
@@ -106,7 +106,7 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
         return _margin_without_reduction(twin, known, digits, exact or known.at[:3])
     if land is not None:
         orbit = Orbit(land.reduction, exact or known.at[:3])
-        balls = _balls(question, orbit, known.fate, max(digits, MOST) + 1)
+        balls = _balls(question, orbit, known.fate, max(digits, DOUBLE_DIGITS) + 1)
         return (_tie(question, digits) if balls is None  # on the separatrix
                 else _judged(question, number_of(question, known), balls, digits))
     if known.fate == Fate.EQUILIBRIUM:
@@ -119,7 +119,7 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
         return _judged(question, known.extremes, [list(pair) for pair in balls], digits)
     if known.period:
         return _by_return(question, twin, known, digits, exact or known.at[:3])
-    return _over_span(scene, state, span, known, digits, exact, NEAR * aim)
+    return _over_span(scene, state, span, known, digits, exact, DIGITS_MISSED * aim)
 
 
 def ask_all(question: str, scene: AnyScene, states: Any, digits: int, values: Any, span: Any = None) -> Told:
@@ -157,7 +157,7 @@ def _tie(question: str, digits: int) -> Told:
 def _judged(question: str, values: Any, balls: Any, digits: int) -> Told:
     """The formulas' values where the balls (to max(digits, MOST) + 1 digits) confirm so many digits, else the
     balls'."""
-    wanted = max(digits, MOST) + 1
+    wanted = max(digits, DOUBLE_DIGITS) + 1
     with working(DOUBLE_BITS):
         error = _gap(values, balls)
     if digits <= FORMULA_DIGITS and error <= 10.0**-digits:
@@ -170,8 +170,8 @@ def _judged(question: str, values: Any, balls: Any, digits: int) -> Told:
 
 def _of_balls(question: str, balls: Any, digits: int, held: float, method: str, reason: Reason) -> Told:
     """The balls as floats, and written out where more digits are asked for than these have. held: digits."""
-    more = digits > MOST
-    return Told(question, _floats(balls), digits, held if more else min(held, MOST + 0.95), method,
+    more = digits > DOUBLE_DIGITS
+    return Told(question, _floats(balls), digits, held if more else min(held, DOUBLE_DIGITS + 0.95), method,
                 _decimals(balls, digits) if more else None, reason=reason)
 
 
@@ -230,7 +230,7 @@ def _decimals(balls: Any, digits: int) -> Any:
 
 
 def _margin_without_reduction(scene: AnyScene, known: Motion, digits: int, state: Any) -> Told:
-    wanted = max(digits, MOST) + 1
+    wanted = max(digits, DOUBLE_DIGITS) + 1
     if is_free(scene):
         margin = free_margin(scene, state, wanted)
         balls = None if margin.tie else margin.ball
@@ -258,7 +258,7 @@ def _by_return(question: str, scene: AnyScene, known: Any, digits: int, state: A
         own = max(exact.period[2] if question == "period" else exact.extremes_error, 1e-31)
         error = max(_gap(values, found), own)
         pair: dict[str, Filling] = {"fewer": int(exact.digits[0]), "more": int(exact.digits[1])}
-        if digits <= MOST and error <= 10.0**-digits:
+        if digits <= DOUBLE_DIGITS and error <= 10.0**-digits:
             reason = RETURN_OF_RUN(**pair, error=Quantity(error, digits=2))
             return Told(question, values, digits, digits_of(error), "run", reason=reason)
         return _of_balls(question, found, digits, digits_of(own, 31.0), "many digits",
@@ -268,7 +268,7 @@ def _by_return(question: str, scene: AnyScene, known: Any, digits: int, state: A
 def _by_small_loop(question: str, form: QuadraticForm, values: Any, digits: int, state: Any) -> Told:
     """A closed motion that starts next to an equilibrium: two runs of its series from the start, the second
     with more digits."""
-    more = max(digits, MOST) + 8
+    more = max(digits, DOUBLE_DIGITS) + 8
     with working(2 * int(3.33 * more) + 400):
         found = [loop and loop[question != "period"]
                  for loop in (small_loop(form, state, n) for n in (more, more + 8))]
@@ -276,7 +276,7 @@ def _by_small_loop(question: str, form: QuadraticForm, values: Any, digits: int,
             return Told(question, values, digits, 0.0, "run",
                         reason=NO_RETURN_IN_DIGITS)
         error = max(_balls_apart(found[1], found[0]), 10.0**-more)
-        if digits <= MOST and (gap := max(_gap(values, found[1]), error)) <= 10.0**-digits:
+        if digits <= DOUBLE_DIGITS and (gap := max(_gap(values, found[1]), error)) <= 10.0**-digits:
             return Told(question, values, digits, digits_of(gap), "run",
                         reason=SERIES_FROM_START(error=Quantity(gap, digits=2)))
         return _of_balls(question, found[1], digits, digits_of(error, more), "many digits",
@@ -300,7 +300,7 @@ def _over_span(scene: AnyScene, state: Any, span: Any, known: Motion, digits: in
     error = CAUTION * _apart(values, other.extremes()) if not other.reason else math.inf
     reason = MOVED_RUN(rtol=Quantity(8 * TAYLOR_TOLERANCE, digits=2),
                        error=Quantity(error / CAUTION, digits=2))
-    if digits <= MOST and error <= 10.0 ** (slack - digits):
+    if digits <= DOUBLE_DIGITS and error <= 10.0 ** (slack - digits):
         return Told("extremes", values, digits, digits_of(error), "run", reason=reason)
     left = time_left(scene)
     one_law = left is None or left >= length
@@ -334,7 +334,7 @@ def _many_digits(equations: Equations, start: Sequence[Number], length: float, d
     """Extremes over the span by a Taylor series, each precision checked by the one before; None where the
     work allowed is not enough."""
     recursion, before = Recursion(equations), None
-    for n in DIGITS:
+    for n in RUN_DIGITS:
         budget = [WORK // 12 if before is None else WORK // 4]  # the second run costs twice the first
         with working(int((n + GUARD) * 3.33)) as numbers:
             try:

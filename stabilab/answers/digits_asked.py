@@ -10,8 +10,9 @@ from ..orbit.result import Motion, no_period
 from ..reasons import Quantity, Reason, Reasoned, Sentence, as_reason
 
 DEFAULT = 10  # digits, where nothing else is asked for
-NEAR = 1.0  # a digit by which an aim that nobody asked for may be missed, rather than pay for many digits
-MOST = 15  # decimal digits that every double holds
+# a digit by which an aim that nobody asked for may be missed, rather than pay for many digits
+DIGITS_MISSED = 1.0
+DOUBLE_DIGITS = 15  # decimal digits that every double holds
 MOST_DECIMALS = 50  # digits that are given as decimals
 CAUTION = 4  # differences between runs are samples of the error, not bounds: several times their size counts
 
@@ -64,7 +65,7 @@ def checked_digits(digits: int, most: int) -> int:
     return digits
 
 
-def digits_of(error: float, most: float = MOST + 0.95) -> float:
+def digits_of(error: float, most: float = DOUBLE_DIGITS + 0.95) -> float:
     """Correct digits of a relative error, at most what the numbers hold."""
     if not error > 0:
         return most if error == 0 else 0.0

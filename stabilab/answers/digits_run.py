@@ -33,7 +33,7 @@ from ..physics.states import (
 )
 from ..physics.to_numpy import to_numpy
 from ..reasons import Moment, Quantity, Reason, Reasoned, Sentence
-from .digits_asked import CAUTION, DEFAULT, MOST, NEAR, checked_digits, digits_of, too_few
+from .digits_asked import CAUTION, DEFAULT, DIGITS_MISSED, DOUBLE_DIGITS, checked_digits, digits_of, too_few
 from .simulate import LOST, STIFF_METHOD, Simulation, errors_of, in_quaternions, simulated
 
 if TYPE_CHECKING:
@@ -56,14 +56,14 @@ ROUNDED_SERIES = Sentence(
     "series-rounded-once", "Taylor series in {fewer} and {more} digits differ by {error}; rounded once")
 
 # --- The reduced form as one of the ways to follow a motion: `reduced_motion` at a given resolution
-POINTS = (2, 4, 6, 8, 12, 16)  # of Gauss's rule on each panel
+GAUSS_POINTS = (2, 4, 6, 8, 12, 16)  # of Gauss's rule on each panel
 
 
 def ladder(scene: AnyScene, state: np.ndarray | Sequence[float]) -> tuple[int, ...]:
     """Resolutions worth trying for this motion."""
     if reduced_motion(scene, state).period == 0:
         raise InputError("the state is an equilibrium: there is nothing to follow")
-    return POINTS
+    return GAUSS_POINTS
 
 
 MANY, REDUCED_FORM = "many digits", "reduced form"
@@ -71,7 +71,7 @@ MANY, REDUCED_FORM = "many digits", "reduced form"
 OWN: tuple[Any, Any] = (None, None)  # method and tolerance as `simulate` chooses
 STIFF_FINE = (STIFF_METHOD, 1e-12)
 SAFETY = 1.0  # digits that a stiff run at its own tolerance must have to spare
-FAR = 1e4  # radians or so from which the reduced form, whose cost does not grow, is cheaper than a run
+LONG_TURN = 1e4  # radians or so from which the reduced form, whose cost does not grow, is cheaper than a run
 # radians beyond which a run in many digits takes more than the work allowed (`integrate.reference.WORK`)
 FARTHEST = 1e5
 NODES = (-4, -1)  # which of the reduced form's resolutions are tried: one that mostly does, and the finest
@@ -112,19 +112,19 @@ def best_reached(case: Case, times: np.ndarray, digits: int = DEFAULT, aim: bool
     aim: nobody asked for the digits: the last `NEAR` of them may be missing, and many digits go no farther
     than FAR.
     """
-    checked_digits(digits, MOST)
+    checked_digits(digits, DOUBLE_DIGITS)
     times = np.atleast_1d(np.asarray(times, float))
     best: Any = None  # `simulate`'s own way always has an answer
     turned, reduced = _turned(case, times), [("reduced", nodes) for nodes in _resolutions(case, times)]
-    far = turned > (FAR if aim else FARTHEST)
+    far = turned > (LONG_TURN if aim else FARTHEST)
     # what `simulate` chooses itself and many digits, with the reduced form before the one that costs more
-    for method, value in [*reduced, OWN, (MANY, 0.0)] if turned > FAR else [OWN, *reduced, (MANY, 0.0)]:
+    for method, value in [*reduced, OWN, (MANY, 0.0)] if turned > LONG_TURN else [OWN, *reduced, (MANY, 0.0)]:
         if best is not None and method != "reduced" and _hopeless(method, best, far):
             continue
         found = _checked(case, times, method, value, digits)
         if found is None:
             continue
-        if found.run.status == "reached" and found.digits >= digits - NEAR * aim:
+        if found.run.status == "reached" and found.digits >= digits - DIGITS_MISSED * aim:
             return found
         best = max(best or found, found, key=lambda one: (one.run.status == "reached", one.digits))
     return best if best.digits >= 1 or best.run.status != "reached" else _known(best)

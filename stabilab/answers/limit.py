@@ -191,7 +191,7 @@ SHORT_WORK = 8_000_000  # likewise, where compiled steps go on: a second, as lon
 # after this part of the work a way that would take so many times what is left is given up
 TRIED, HOPELESS = 16, 8
 STEADY = 1.125  # steps that grow faster than this are those of the first search for a length
-STEPS = 60_000  # validated ones; some two seconds
+ENCLOSED_STEPS = 60_000  # validated ones; some two seconds
 
 
 def enclosed(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: Fraction | None = None,
@@ -284,7 +284,7 @@ class _Attempt:
 
 
 def banded(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: float,
-           steps: int = STEPS) -> Crossing | None:
+           steps: int = ENCLOSED_STEPS) -> Crossing | None:
     """The first crossing of the motion from three rationals by compiled steps; None where numba is not there
     to compile them."""
     if not installed():

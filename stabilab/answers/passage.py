@@ -139,7 +139,7 @@ def times_of(found: Sequence[Found], shape: tuple[int, ...], quantity: str, scen
 
 
 DRIFT_ROUNDING = 1e-9  # of the limit's square: far beyond the rounding of these lines
-POINTS = 720  # to a turn of the phase; between them a bound of the slope counts
+PHASES = 720  # to a turn of the phase; between them a bound of the slope counts
 BEHIND = 4  # turns that are looked at against the torque
 HALVINGS = 50
 
@@ -182,8 +182,8 @@ class _Well:
         self.energy = 0.5 * float(D @ omega**2)
         self.pull = sideways * math.sqrt(max(abs(a) / D[1:]))  # of |mu|
         ahead = math.copysign(1.0, along[0] * self.n)
-        self.step = 2 * math.pi / POINTS
-        self.behind, self.ahead = (sense * np.arange(turns * POINTS + 1) * self.step
+        self.step = 2 * math.pi / PHASES
+        self.behind, self.ahead = (sense * np.arange(turns * PHASES + 1) * self.step
                                    for sense, turns in ((-ahead, BEHIND), (ahead, 1)))
 
     def holds(self, t: float) -> bool:
@@ -224,7 +224,7 @@ class _Well:
         return ends + constant + factor * np.maximum(*(m / self.n * way for m in self.along))
 
 
-STEPS = 300_000  # of each of the two runs
+RUN_STEPS = 300_000  # of each of the two runs
 MOVED = 2.0  # places by which the second run's start is moved
 WIDER = 4.0  # times what the two runs differ by
 ROUNDING = 2.0**-50  # relative, of a time that both find alike
@@ -234,7 +234,7 @@ FARTHEST = 10**300  # squares of rates that no run in doubles reaches
 PRODUCTS = tuple(combinations_with_replacement(range(3), 2))  # of two rates
 
 
-def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, steps: int = STEPS,
+def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, steps: int = RUN_STEPS,
            beside: np.ndarray | None = None) -> Found:
     """The first crossing of the motion of any scene. start: numbers or blocks, as `trajectory` takes them;
     t_max: the scene's time; beside: the state from which the second run starts (None: moved in the start's
@@ -266,7 +266,7 @@ def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, s
 
 
 def run_once(scene: AnyScene, state: Sequence[float], limit: Limit, t_max: float = math.inf,
-             steps: int = STEPS) -> tuple[float, float]:
+             steps: int = RUN_STEPS) -> tuple[float, float]:
     """(time of the first crossing by one run, inf where none was found; the time until which none was): no
     word on their error.
 

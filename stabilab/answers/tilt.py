@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 DEGREE = math.pi / 180  # taken where nothing states an angle
 AZIMUTHS, REFINED = 12, 4  # looked at round the edge of the cone; halvings of the interval about the nearest
 EDGE = [2 * math.pi * n / AZIMUTHS for n in range(AZIMUTHS)]
-STEPS = 60_000  # of a run at one azimuth
+AZIMUTH_STEPS = 60_000  # of a run at one azimuth
 SIDES, FEW = 6, 20_000  # directions of a cone that is one of many, and steps of a run at one
 HALVINGS, BEND = 3, 0.02  # of an interval of angles; relative: by so much a time is off a power of the angle
 WORK = 8_000_000  # multiplications for a proof of the shortest time
@@ -346,7 +346,7 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
 
     def time(azimuth: float) -> tuple[float, float]:
         """The earliest of the torques there, and until when none of them was followed."""
-        found = [run_once(tilted(scene, cone.at(azimuth, sizes)), state, limit, steps=STEPS)
+        found = [run_once(tilted(scene, cone.at(azimuth, sizes)), state, limit, steps=AZIMUTH_STEPS)
                  for sizes in cone.corners]
         return min(t for t, _ in found), min(until for _, until in found)
     tried: Tried = []
@@ -363,7 +363,7 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
     if np.isfinite(times).any():
         azimuth = float(azimuths[np.argmin(times)])
         torque = min((cone.at(azimuth, sizes) for sizes in cone.corners), key=lambda one: run_once(
-            tilted(scene, one), state, limit, steps=STEPS)[0])
+            tilted(scene, one), state, limit, steps=AZIMUTH_STEPS)[0])
         # by runs: the validated steps of a proof take a machine ten seconds to compile, which nobody who asks
         # for the first time awaits
         first = time_to(tilted(scene, torque), state, **question, exact=exact, work=0)
@@ -395,7 +395,7 @@ def spread(scene: Scene, state: Sequence[float], cone: Cone, ask: dict[str, Any]
         return Spread(cone.angle, cone.subject, len(torques), fates=tuple(found.most_common()),
                       within=cone.within)
     limit = asked(scene, **ask)
-    time = lambda torque: run_once(tilted(scene, torque), state, limit, steps=STEPS)
+    time = lambda torque: run_once(tilted(scene, torque), state, limit, steps=AZIMUTH_STEPS)
     times, ends = map(list, zip(*map(time, torques)))
     followed, untilted = min(ends), None
     if followed < math.inf:  # a run ended early: as long as the torque itself takes, or not

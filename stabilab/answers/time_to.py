@@ -45,8 +45,8 @@ from ..unreduced.spin_up.follow import spin_up
 from ..validation import checked_scene
 from .caveats import caveats_of
 from .kinds import kind_of
+from .limit import ENCLOSED_STEPS as BAND_STEPS
 from .limit import SHORT_WORK, WORK, Limit, along_axes, asked, banded, enclosed
-from .limit import STEPS as BAND_STEPS
 from .motion import motion
 from .motions.rows import extremes, fates, periods
 from .passage import BY_ROOTS, MOVED, ROUNDING, Found, TimeTo, by_run, times_of

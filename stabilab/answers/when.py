@@ -38,7 +38,7 @@ from .time_to import time_of_case, time_to
 
 # --- Zeros of functions along a motion
 SAMPLES = 16     # of a step of the run: between them a function is looked at for a change of its sign
-MOST = 400_000   # samples of a run
+MAX_SAMPLES = 400_000   # samples of a run
 
 
 CHANGES_OF_SIGN = Sentence(
@@ -128,7 +128,7 @@ def _zeros(scene: AnyScene, start: Any, until: float, events: Sequence[Any]
     ends: list[float] = []
     trajectory(scene, start, [0.0, until], steps=ends, laws=False)
     knots = np.unique([0.0, until, *(t for t in ends if 0 < t < until)])
-    grid = np.unique([*denser(knots, SAMPLES, MOST), until])
+    grid = np.unique([*denser(knots, SAMPLES, MAX_SAMPLES), until])
     run = trajectory(scene, start, grid, laws=False)
     times, states = [], []
     for event in events:

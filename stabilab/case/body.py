@@ -235,7 +235,7 @@ WIDE = Sentence(
     "size-beyond-thrusters", "the radius of gyration is {radius} and the farthest thruster stands {reach} "
     "from the centre of mass, beyond all reason for one craft: is the tensor in kg mm^2 or another unit that "
     "the file leaves out")
-FAR = Sentence(
+IMPLAUSIBLE = Sentence(
     "thrusters-beyond-size", "the radius of gyration is {radius} and the farthest thruster stands {reach} "
     "from the centre of mass, beyond all reason for one craft: is the position in mm, or the tensor in "
     "another unit that the file leaves out")
@@ -252,7 +252,7 @@ def far_off(body: Body | None, thrusters: Iterable[Thruster]) -> tuple[Caveat, .
     sizes = {"radius": Length(body.gyration, digits=4), "reach": Length(reach, digits=4)}
     if body.gyration > FARTHEST * reach:
         return (Caveat(Kind.SIZE, WIDE(**sizes)),)
-    return (Caveat(Kind.SIZE, FAR(**sizes)),) if reach > FARTHEST * body.gyration else ()
+    return (Caveat(Kind.SIZE, IMPLAUSIBLE(**sizes)),) if reach > FARTHEST * body.gyration else ()
 
 
 def limits_of(top: Table) -> Limits | None:

@@ -13,7 +13,7 @@ from typing import Any
 
 from ..errors import InputError
 
-FAR = Fraction(10) ** 30  # products of some ten such numbers and their inverses are doubles
+HUGE = Fraction(10) ** 30  # products of some ten such numbers and their inverses are doubles
 
 
 @contextmanager
@@ -29,7 +29,7 @@ def in_doubles(case: Any, place: str = "") -> Iterator[None]:
         key, value = worst
         raise InputError(f"{place}{key} = {value}: this question takes powers of its numbers, which leave "
                          "the range of doubles (2e-308 to 1.8e308); expected 0, or a size between "
-                         f"{float(1 / FAR):.0e} and {float(FAR):.0e}: check its exponent and unit, or "
+                         f"{float(1 / HUGE):.0e} and {float(HUGE):.0e}: check its exponent and unit, or "
                          "choose other units") from None
 
 
@@ -38,7 +38,7 @@ def farthest(case: Any) -> tuple[str, str] | None:
     that can be computed with."""
     found = [(abs(_log(value)), key, value) for key, value in _numbers(case) if value]
     size, key, value = max(found, default=(0.0, "", Fraction(1)))
-    return (key, f"{_decimal(value)}") if size > _log(FAR) else None
+    return (key, f"{_decimal(value)}") if size > _log(HUGE) else None
 
 
 def _numbers(case: Any) -> Iterator[tuple[str, Fraction]]:

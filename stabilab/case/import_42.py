@@ -31,7 +31,8 @@ if TYPE_CHECKING:
 
 # Matrices (3, 3) and vectors (3,) are arrays of Fractions: products of these are exact.
 ONE = np.array([[Fraction(i == j) for j in range(3)] for i in range(3)])
-DIGITS = 12  # of the largest number of a vector or a tensor: products of decimals and cosines do not end
+# of the largest number of a vector or a tensor: products of decimals and cosines do not end
+TENSOR_DIGITS = 12
 
 
 class Part(NamedTuple):
@@ -113,8 +114,8 @@ def decimals(numbers: Iterable[Fraction]) -> list[str]:
     """The numbers to so many digits of the largest of them, as a case file writes them."""
     numbers = list(numbers)
     most = max(map(abs, numbers))
-    places = DIGITS - 1 - math.floor(math.log10(most)) if most else 0
-    return [f"{float(round(v, places)) + 0.0:.{DIGITS}g}" for v in numbers]
+    places = TENSOR_DIGITS - 1 - math.floor(math.log10(most)) if most else 0
+    return [f"{float(round(v, places)) + 0.0:.{TENSOR_DIGITS}g}" for v in numbers]
 
 
 _TITLE = re.compile(r"\s*([*=<]{3,})\s*(.*?)\s*[*=>]*\s*")
@@ -126,7 +127,7 @@ USED = {"mass", "moments of inertia", "products of inertia", "location of mass c
         "body"}
 PLACED = {"inner, outer", "rotdof, seq", "trndof, seq", "initial angles", "initial displacements", "bi to gi",
           "go to bo", "position wrt"}
-WORDS = {1: "a number", 2: "two numbers", 3: "three numbers", 4: "three angles and a sequence"}
+COUNTS = {1: "a number", 2: "two numbers", 3: "three numbers", 4: "three angles and a sequence"}
 
 
 class Entry(NamedTuple):
@@ -357,7 +358,7 @@ def _numbers(entries: Sequence[Entry], label: str, count: int, path: Path):
     numbers = all(_NUMBER.fullmatch(word) for word in words[:count])
     if len(words) < count or not numbers or (len(words) > count and _NUMBER.fullmatch(words[count])):
         raise InputError(
-            f"{path}:{entry.line}: {entry.label}: expected {WORDS[count]}, got \"{entry.value[:60]}\"")
+            f"{path}:{entry.line}: {entry.label}: expected {COUNTS[count]}, got \"{entry.value[:60]}\"")
     return [_written(word) for word in words[:count]]
 
 

@@ -123,7 +123,7 @@ def rate_squared(table: Table) -> Fraction | None:
 
 # --- Burns
 BURN_KEYS = ("start", "stop", "period", "duty", "on_time", "propellant", "mass_flow")
-MOST = 10_000  # pulses: each is a run of its own
+PULSES = 10_000  # pulses: each is a run of its own
 BURN_ONLY = ("this thruster fires on a schedule, and this question takes a torque that never changes: ask "
         "`stabilab burn` (stabilab.burn), or take away its keys {} and write stuck = true for one that fires "
         "for ever")
@@ -219,8 +219,8 @@ def burn_of(table: Table) -> Burn | None:
     if len(table.faults.problems) > before:
         return None
     burn = Burn(start, stop, period, on, mass, flow)
-    if burn.pulses() > MOST:
-        table.fault(f"{float(burn.pulses()):.6g} pulses are more than the {MOST} that are followed one by "
+    if burn.pulses() > PULSES:
+        table.fault(f"{float(burn.pulses()):.6g} pulses are more than the {PULSES} that are followed one by "
                     f"one: give a longer period, or the mean force without pulses", "period")
     return burn
 

@@ -152,7 +152,7 @@ def _not_toml(message: str, text: str, line: int | None) -> Problem:
 
 
 # --- [sweep] of a case file: keys that take several values, every combination of them one case
-MOST = 10_000  # combinations; a sweep beyond that is a program's work, not a file's
+MAX_COMBINATIONS = 10_000  # combinations; a sweep beyond that is a program's work, not a file's
 SWEPT = ("body", "effects", "scaled", "motion", "thrusters", "wheels", "limits")
 
 
@@ -185,8 +185,8 @@ def swept(top: Table) -> tuple[list[tuple], list[list]]:
     count = 1
     for values in choices:
         count *= len(values)
-    if count > MOST:
-        table.fault(f"{count} combinations; at most {MOST} are run from one file")
+    if count > MAX_COMBINATIONS:
+        table.fault(f"{count} combinations; at most {MAX_COMBINATIONS} are run from one file")
         return [], []
     return paths, choices
 

@@ -129,7 +129,7 @@ def reference(case, at, digits, out, json):
     loaded, made = load_cases([case], motion=True), []
     say_repeated(loaded[0], at)
     if out:
-        endings.file(out, shown.KINDS)
+        endings.file(out, shown.SUFFIXES)
     for one in loaded:
         with blamed_on(one):
             made.append((one, *shown.as_dict(one, exact_times_asked(one, at), digits, sys.argv[1:])))

@@ -361,7 +361,7 @@ def _singular(factors: Iterable[fmpq_mpoly], variable: str) -> Iterator[fmpq_pol
 
 
 # --- Their branches over it, for pictures
-POINTS = 24  # of a span: close at its ends, where branches meet as square roots do
+SPAN_POINTS = 24  # of a span: close at its ends, where branches meet as square roots do
 BRANCH_BITS = 24  # of all numbers, far more than a picture shows: short ones are eliminated soon
 FINE = 1 << 16  # the share of a span, far above what `BITS` leave open, that momenta are whole numbers of
 
@@ -397,8 +397,8 @@ def branches(satellite: Satellite, spans: Iterable[MomentumSpan]) -> list[Branch
 
 def _momenta(span: MomentumSpan) -> list[Fraction]:
     low, width = Fraction(span.low), Fraction(span.high) - Fraction(span.low)
-    steps = dict.fromkeys(min(FINE - 1, max(1, round(FINE * (1 - cos(pi * n / POINTS)) / 2)))
-                          for n in range(POINTS + 1))
+    steps = dict.fromkeys(min(FINE - 1, max(1, round(FINE * (1 - cos(pi * n / SPAN_POINTS)) / 2)))
+                          for n in range(SPAN_POINTS + 1))
     return [low + width * n / FINE for n in steps]
 
 

@@ -150,7 +150,7 @@ def _zeros(f: arb_poly) -> list[float]:
     while f.degree() >= 0 and f[f.degree()].contains(0):  # a degree that only rounding has
         f = arb_poly(f.coeffs()[:-1])
     found = np.roots([float(v.mid()) for v in reversed(f.coeffs())])  # pairs next to the line may be double
-    return [2 * atan(z.real) for z in found.tolist() if abs(z.imag) <= NEAR * (1 + abs(z.real))]
+    return [2 * atan(z.real) for z in found.tolist() if abs(z.imag) <= ROOT_TOLERANCE * (1 + abs(z.real))]
 
 
 def _turned(rotation: Rotation, t: float) -> Rotation:
@@ -179,7 +179,7 @@ def around(Omega: Fraction, rotation: Rotation):
 # far above the 2**-45 by which a branch differs on the two sides of a cut, far below the distance of two
 # branches
 SAME = 2.0**-30
-NEAR = 1e-6    # of a zero of a polynomial: how far from the real line doubles may put a double one
+ROOT_TOLERANCE = 1e-6    # of a zero of a polynomial: how far from the real line doubles may put a double one
 SPHERE_AT = Sentence("sphere-at-rate", "sphere at Ω = {rate}")
 CIRCLE_AT = Sentence("circle-at-rate", "circle at Ω = {rate}")
 AROUND = Sentence("turns-at-rate", "Ω = {rate}, ({components}) of length {length}")

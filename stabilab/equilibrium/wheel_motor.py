@@ -18,7 +18,7 @@ FED = Sentence(
     "motor-may-be-fed",
     "undecided: the outer torque has the motor's component along its line, and may feed the wheel while the "
     "body keeps its rates")()
-BESIDE = Sentence(
+MOTOR_WITH_OTHERS = Sentence(
     "equilibria-motor-beside",
     "undecided: of a running wheel motor beside a medium, a damper, a liquid or a field not all equilibria "
     "are known")()
@@ -28,7 +28,7 @@ def equilibria_with_a_motor(parts: Content) -> Equilibria:
     """None where wheels and a torque act besides that has not the motor's component along its line; undecided
     beside anything else."""
     if parts.without_motor.kind != "gyrostat" or parts.kappa:
-        return Equilibria("undecided", reason=BESIDE)
+        return Equilibria("undecided", reason=MOTOR_WITH_OTHERS)
     if dot(parts.u, parts.M) == dot(parts.u, parts.u):
         return Equilibria("undecided", reason=FED)
     return Equilibria("none", reason=NONE)

@@ -16,7 +16,7 @@ from ..numbers.vectors import CYCLE
 from ..physics.scene import QuadraticForm
 
 ORDER = 14
-SHARE = 1e-8  # of the size of the state: the last term of a step
+TERM_TOLERANCE = 1e-8  # of the size of the state: the last term of a step
 STEPS = 120    # of a motion at most; a revolution takes some five
 INSIDE = 12     # points a step
 SEEN = 1e-3    # of the largest rate: what is seen in a picture
@@ -45,7 +45,7 @@ def followed(form: QuadraticForm, start: tuple[float, ...], until: float, steps:
                              "and these torques and momenta the powers of its series exceed what a double "
                              "holds (1.8e308); expected numbers of a body that can be built, in SI units")
         size = max(abs(one[0]) for one in series) or max(map(abs, form.coefficients[3]))
-        h = min(length(series, SHARE * size), until - t)
+        h = min(length(series, TERM_TOLERANCE * size), until - t)
         for n in range(1, INSIDE + 1):
             share = h * n / INSIDE
             times.append(t + share)
@@ -65,7 +65,7 @@ def largest(form: QuadraticForm, start: tuple[float, ...], until: float) -> floa
         series = coefficients(form, x)
         if not all(map(math.isfinite, (c for one in series for c in one))):
             return None
-        h = min(length(series, SHARE * (max(map(abs, x)) or size)), until - t)
+        h = min(length(series, TERM_TOLERANCE * (max(map(abs, x)) or size)), until - t)
         at = partial(_size, series)
         places = [h * n / INSIDE for n in range(INSIDE + 1)]
         sizes = [at(place) for place in places]
@@ -90,7 +90,7 @@ def parting(form: QuadraticForm, path: Path) -> int:
     of the largest rate. A zero stays: what holds a rate at zero holds it in floats too."""
     times, states = path
     width = SEEN * max(abs(v) for x in states for v in x)
-    x = tuple(v * (1 + n * SHARE) for v, n in zip(states[0], APART))
+    x = tuple(v * (1 + n * TERM_TOLERANCE) for v, n in zip(states[0], APART))
     for end in range(INSIDE, len(times), INSIDE):
         h = times[end] - times[end - INSIDE]
         x = tuple(summed(one, h) for one in coefficients(form, x))

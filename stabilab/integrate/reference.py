@@ -241,7 +241,7 @@ def _unit():
     return arb(2) ** (4 - ctx.prec)
 
 
-DIGITS = (30, 42, 84, 168, 336)  # of successive runs; each is checked by the one before
+RUN_DIGITS = (30, 42, 84, 168, 336)  # of successive runs; each is checked by the one before
 # two runs agree where they differ by less than this share of the state: far below a double's 1e-16
 AGREEMENT = 1e-19
 WORK = 60_000_000  # multiplications of all runs together, some ten seconds
@@ -348,7 +348,7 @@ def reference(scene: AnyScene, start: Sequence[float | Fraction] | np.ndarray,
     parts, before, best = slices(equations.blocks), None, None
     orbit = orbit and not (times < 0).any()
     empty = np.empty((0, recursion.size))
-    for digits in DIGITS:
+    for digits in RUN_DIGITS:
         if before is None:  # a third of the work: the second run, which checks the first, costs twice as much
             budget[0], later = budget[0] - budget[0] * 2 // 3, budget[0] * 2 // 3
             now = one_run(recursion, start, times, digits, budget, orbit)
@@ -362,9 +362,9 @@ def reference(scene: AnyScene, start: Sequence[float | Fraction] | np.ndarray,
                              and (best.period is None or best.period[2] <= AGREEMENT)):
             break
         before = digits, now
-    return best or Reference(np.empty(0), empty, empty, np.empty(0), DIGITS[:2], parts, status="stopped",
+    return best or Reference(np.empty(0), empty, empty, np.empty(0), RUN_DIGITS[:2], parts, status="stopped",
                              work=work - budget[0],
-                             reason=TOO_MUCH_WORK(digits=DIGITS[0], work=Quantity(work, digits=1)))
+                             reason=TOO_MUCH_WORK(digits=RUN_DIGITS[0], work=Quantity(work, digits=1)))
 
 
 def _compared(times, before, now, parts, work, unit: str) -> Reference:
@@ -379,7 +379,7 @@ def _compared(times, before, now, parts, work, unit: str) -> Reference:
     good = error <= AGREEMENT
     reach = n if good.all() else int(np.argmin(good))
     ok, end = reach == len(times), times[reach - 1] if reach else 0.0
-    high_digits = DIGITS[DIGITS.index(low_digits) + 1]
+    high_digits = RUN_DIGITS[RUN_DIGITS.index(low_digits) + 1]
     why = AGREE if ok else AGREE_UP_TO(
         fewer=low_digits, more=high_digits, time=Moment(float(end)).lower,
         end=Quantity(float(times[-1]), unit), beyond=NO_FURTHER if reach == n else SENSITIVE)

@@ -42,7 +42,7 @@ from .run import run
 # --- What an atlas is asked: body, start, size of the torque, wheel momenta, how fine the cells are; each
 # part checked
 LEVEL, REFINE = 3, 2  # 512 cells, and twice as fine along the boundaries, twice
-MOST = 2_000_000  # cells of the first round
+MAX_CELLS = 2_000_000  # cells of the first round
 WHEEL = Key("wheel", (("wheels", "momentum"),))  # its dimension is that of a wheel in a case
 PRINCIPAL = "123"
 
@@ -215,9 +215,9 @@ def _judge_cells(level: int, refine: int, wheels: int) -> None:
     if level + refine > DEEPEST:
         raise InputError(f"level {level} with {refine} refinements: at most {DEEPEST} in all, whose cells "
                          "are a fiftieth of a degree wide")
-    if count(level) * wheels > MOST:
+    if count(level) * wheels > MAX_CELLS:
         raise InputError(f"level {level} has {count(level):,} cells, with {wheels} wheel momenta "
-                         f"{count(level) * wheels:,}; at most {MOST:,} are asked")
+                         f"{count(level) * wheels:,}; at most {MAX_CELLS:,} are asked")
 
 
 # --- Running an atlas: a round of the sweep's machinery over all cells, then one for the parts of those

@@ -115,8 +115,9 @@ def _names_in_words(names: list[str]) -> str:
 
 
 # --- The values that a swept number takes: "0:30:31 deg/s", "0.1:10:21:log", "1, 2, 5"
-MOST = 100_000_000  # points of a sweep
-DIGITS = 40  # of the decimals in which a logarithmic range is divided: the same doubles on every machine
+MAX_POINTS = 100_000_000  # points of a sweep
+# of the decimals in which a logarithmic range is divided: the same doubles on every machine
+RANGE_DIGITS = 40
 _COUNT = re.compile(r"\s*([+-]?\d+)\s*([^\s.\d].*|)", re.DOTALL)
 _LOG = re.compile(r"\s*log\b\s*(.*)", re.DOTALL)
 EXPECTED = (
@@ -216,8 +217,8 @@ def _with_one_unit(words: list[str], unit: str, text: str,
 
 
 def _spread(start: Fraction, stop: Fraction, count: int, log: bool) -> list[float]:
-    if not 0 < count <= MOST:
-        raise InputError(f"expected at least one point and at most {MOST:,}, got {count}")
+    if not 0 < count <= MAX_POINTS:
+        raise InputError(f"expected at least one point and at most {MAX_POINTS:,}, got {count}")
     if count == 1:
         if start != stop:
             raise InputError(
@@ -227,7 +228,7 @@ def _spread(start: Fraction, stop: Fraction, count: int, log: bool) -> list[floa
         return [_double(start + (stop - start) * n / (count - 1)) for n in range(count)]
     if start * stop <= 0:
         raise InputError("a logarithmic range needs two ends of one sign, neither zero")
-    with localcontext(Context(prec=DIGITS)):
+    with localcontext(Context(prec=RANGE_DIGITS)):
         first, last = (Decimal(abs(v).numerator) / Decimal(abs(v).denominator) for v in (start, stop))
         step = (last / first).ln() / (count - 1)
         inner = [first * (step * n).exp() for n in range(1, count - 1)]

@@ -33,7 +33,7 @@ from .run import Swept, changes, known_exactly, run
 
 FEWEST = 3     # depths of a fit
 COARSEST = 8   # cells that a boundary shall fill at the coarsest depth that counts
-SHARE = 2      # standard errors
+STANDARD_ERRORS = 2      # standard errors
 NO_BOUNDARY = Sentence("no-boundary", "there is no boundary")()
 TOO_FEW_DEPTHS = Sentence(
     "too-few-depths",
@@ -84,12 +84,13 @@ def dimension(counts: tuple[int, ...]) -> Dimension:
     far = np.array(used) - np.mean(used)
     one_cell = np.abs(far) @ [1 / (counts[n] * math.log(2)) for n in used] / (far @ far)
     reason = SLOPE(first=used[0], last=used[-1]).then(UNCERTAINTY)
-    return Dimension(float(slope), float(SHARE * math.sqrt(variance[0, 0]) + moved + one_cell), depths,
+    error = float(STANDARD_ERRORS * math.sqrt(variance[0, 0]) + moved + one_cell)
+    return Dimension(float(slope), error, depths,
                      counts, used, reason=reason)
 
 
 Ask = Callable[[np.ndarray], np.ndarray]  # keys of places (n,), rising -> their labels (n,)
-MOST = 4_000_000  # places asked for
+MAX_PLACES = 4_000_000  # places asked for
 
 
 @dataclass
@@ -157,7 +158,7 @@ def refined(cells: tuple[int, int], depth: int, ask: Ask) -> Mesh:
     while any(map(len, found := _to_split(mesh))):
         wanted = np.unique(np.concatenate([mesh.corners(n + 1, _children(mesh, n, chosen)).ravel()
                                            for n, chosen in enumerate(found)]))
-        if len(mesh.keys) + len(wanted) > MOST:
+        if len(mesh.keys) + len(wanted) > MAX_PLACES:
             return _ended(mesh)
         for n, chosen in enumerate(found):
             _split(mesh, n, chosen)
@@ -391,9 +392,9 @@ def _planned(case, vary, depth, follow) -> Plan:
                          "two of [motion] x or angular_velocity; stabilab sweep maps other numbers")
     if min(plan.shape) < 2:
         raise InputError("a plane needs two points at least along each axis")
-    if plan.points > MOST:
+    if plan.points > MAX_PLACES:
         raise InputError(f"{' x '.join(map(str, plan.shape))} are {plan.points:,} points before any is "
-                         f"refined; at most {MOST:,} are asked: take fewer, and a depth")
+                         f"refined; at most {MAX_PLACES:,} are asked: take fewer, and a depth")
     return plan
 
 

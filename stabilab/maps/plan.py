@@ -29,7 +29,7 @@ from ..errors import InputError, printable
 from ..numbers.units import NONE, TIME, in_si
 from ..physics.coefficients import effective
 from ..version import __version__
-from .axes import MOST, Axis, Key, axis_of, each_once, key_of, keys_of, si_unit
+from .axes import MAX_POINTS, Axis, Key, axis_of, each_once, key_of, keys_of, si_unit
 from .columns import ANSWERS, asked_answers
 from .pointed import Pointed, pointed_from
 
@@ -80,8 +80,9 @@ def samples_of(case: Case, known: dict[str, Key], taken: set[tuple[Any, ...]], c
     vary by themselves."""
     if count is None:
         return None
-    if isinstance(count, bool) or not isinstance(count, int) or not 0 < count <= MOST:
-        raise InputError(f"samples: expected at least one point and at most {MOST:,}, got {count!r:.40}")
+    if isinstance(count, bool) or not isinstance(count, int) or not 0 < count <= MAX_POINTS:
+        raise InputError(f"samples: expected at least one point and at most {MAX_POINTS:,}, "
+                         f"got {count!r:.40}")
     if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
         raise InputError(f"seed: expected a whole number that is not negative, got {seed!r:.40}")
     by_path = {path: key for key in known.values() for path in key.paths}
@@ -324,9 +325,9 @@ def _judge(plan: Plan) -> None:
     each_once(axis.key for axis in plan.axes)
     if len(plan.shape) > AXES:
         raise InputError(f"expected at most {AXES} axes, got {len(plan.shape)}")
-    if plan.points > MOST:
+    if plan.points > MAX_POINTS:
         raise InputError(
-            f"{' x '.join(map(str, plan.shape))} are {plan.points:,} points; at most {MOST:,} are run")
+            f"{' x '.join(map(str, plan.shape))} are {plan.points:,} points; at most {MAX_POINTS:,} are run")
     if plan.limit and "when" not in plan.answers:
         raise InputError(f"{plan.limit[0][0]}: belongs to the answer when, which is not asked for: add it, "
                          "as in --answer fate,when")

@@ -42,7 +42,7 @@ from .parts import answered, case_of, states_at
 from .plan import Plan, from_json
 
 ADDRESS = re.compile(r"\w+://[^\s/]+:\d+")
-PATIENCE = 10  # seconds in which a scheduler answers, and its first worker shows up
+ANSWER_SECONDS = 10  # seconds in which a scheduler answers, and its first worker shows up
 # chunks that wait at each thread of a worker: none is idle, and no more records lie about than that
 AHEAD = 3
 
@@ -75,7 +75,7 @@ def by_cluster(plan: Plan, folder: Path, left: list[int], address: str) -> Itera
                 running.add(more)
             yield number
     finally:
-        client.close(timeout=PATIENCE)
+        client.close(timeout=ANSWER_SECONDS)
 
 
 def computed(text: str, number: int) -> tuple[str, bytes | str]:
@@ -97,7 +97,7 @@ def _client(address: str) -> Any:
     # of a scheduler that is gone it would print a page
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     try:
-        return Client(address, timeout=PATIENCE, set_as_default=False)
+        return Client(address, timeout=ANSWER_SECONDS, set_as_default=False)
     except (OSError, TimeoutError, ValueError, ImportError) as error:
         raise InputError(f"scheduler {printable(address)[:80]}: does not answer ({_first_line(error)}): "
                          f"start one with `dask scheduler` and give the "
@@ -108,7 +108,7 @@ def _checked(client: Any, address: str) -> int:
     """How many threads the workers have, once every worker is known to have this version."""
     from importlib.metadata import version
     try:
-        client.wait_for_workers(1, timeout=PATIENCE)
+        client.wait_for_workers(1, timeout=ANSWER_SECONDS)
     except TimeoutError:
         raise InputError(f"scheduler {printable(address)[:80]}: has no workers: start some with `dask worker "
                          f"{printable(address)[:60]}`") from None

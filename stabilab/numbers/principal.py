@@ -27,7 +27,7 @@ from .vectors import Exact3, Number, Triple, cross, dot
 
 Rows: TypeAlias = Sequence[Sequence[Fraction]]  # of a 3 x 3 matrix
 Moment: TypeAlias = tuple[Fraction, bool]  # and whether it is exact
-BITS = 240  # of the numbers that cannot be rational
+IRRATIONAL_BITS = 240  # of the numbers that cannot be rational
 IDENTITY = tuple(tuple(Fraction(i == j) for j in range(3)) for i in range(3))
 TURNED = (IDENTITY[1], IDENTITY[2], IDENTITY[0])  # as good as any of a sphere that is not diagonal
 NAMES = "xyz"
@@ -38,9 +38,9 @@ NOTHING = Fraction(1, 1 << 200)
 SLACK = Fraction(1, 1 << 100)
 MANY_DIGITS, MANY_BITS = 12, 46  # of a decimal and of a double: so many are of a number that was computed
 LONG = 230  # bits of a denominator that only a rounded root has
-EPS = Fraction(1, 1 << 52)
+ULP = Fraction(1, 1 << 52)
 DOUBLES = Fraction(1, 1 << 48)  # of the largest number: what a rotation in doubles leaves
-MOST = Fraction(1, 1 << 26)  # of a vector: a component that is as large is not made zero
+MAX_ZEROED = Fraction(1, 1 << 26)  # of a vector: a component that is as large is not made zero
 
 
 def rounding(values: Iterable[Number]) -> Fraction:
@@ -58,12 +58,12 @@ def _last_digit(value: Fraction) -> Fraction:
         while bottom % prime == 0:
             bottom, powers[n] = bottom // prime, powers[n] + 1
     if bottom > 1:  # a ratio, as it is meant or as roots make them
-        return abs(value) * EPS if value.denominator.bit_length() > LONG else Fraction(0)
+        return abs(value) * ULP if value.denominator.bit_length() > LONG else Fraction(0)
     if powers[0] and not powers[1] and abs(value.numerator).bit_length() >= MANY_BITS:
-        return abs(value) * EPS
+        return abs(value) * ULP
     places = max(powers)
     digits = len(str(abs(value.numerator) * 10**places // value.denominator).rstrip("0"))
-    return Fraction(0) if digits < MANY_DIGITS else max(Fraction(1, 10**places), abs(value) * EPS)
+    return Fraction(0) if digits < MANY_DIGITS else max(Fraction(1, 10**places), abs(value) * ULP)
 
 
 def settled(vector: Exact3) -> Exact3:
@@ -76,7 +76,7 @@ def crossed(first: Exact3, second: Exact3) -> Exact3:
     """Their cross product, without components that are within what their roundings leave."""
     off, large = (rounding(first), rounding(second)), (max(map(abs, first)), max(map(abs, second)))
     slack = 2 * (off[0] * large[1] + off[1] * large[0])
-    return tuple(Fraction(0) if abs(v) <= slack <= MOST * large[0] * large[1] else v
+    return tuple(Fraction(0) if abs(v) <= slack <= MAX_ZEROED * large[0] * large[1] else v
                  for v in cross(first, second))
 
 
@@ -86,7 +86,7 @@ def summed(vectors: Sequence[Exact3]) -> Exact3:
     for column in zip(*vectors):
         total, terms = sum(column, Fraction(0)), [v for v in column if v]
         slack = sum(map(rounding, vectors), Fraction(0)) if total and len(terms) > 1 else 0
-        found.append(Fraction(0) if abs(total) <= slack <= MOST * max(map(abs, terms), default=0) else total)
+        found.append(Fraction(0) if abs(total) <= slack <= MAX_ZEROED * max(map(abs, terms), default=0) else total)
     return tuple(found)
 
 
@@ -121,7 +121,7 @@ class PrincipalAxes(Rounded):
         if not all(isinstance(v, (int, Fraction)) for v in vector) or not any(found):
             return found
         own, largest = 2 * rounding(vector), max(map(abs, found))
-        return tuple(v * 0 if v and abs(v) <= own + self._leak(i, found) <= MOST * largest else v
+        return tuple(v * 0 if v and abs(v) <= own + self._leak(i, found) <= MAX_ZEROED * largest else v
                      for i, v in enumerate(found))
 
     def _leak(self, i: int, vector: Triple) -> Fraction:
@@ -150,7 +150,7 @@ class PrincipalAxes(Rounded):
 
     def _led(self, free: Sequence[int], parts: Triple) -> PrincipalAxes:
         """With the first of the free axes along a vector of these components."""
-        axes, bits = list(self.axes), BITS + 32
+        axes, bits = list(self.axes), IRRATIONAL_BITS + 32
         mixed = lambda *shares: tuple(sum(share * axes[i][n] for share, i in zip(shares, free))
                                       for n in range(3))
         new = ([mixed(parts[free[0]], parts[free[1]]), mixed(-parts[free[1]], parts[free[0]])]
@@ -159,7 +159,7 @@ class PrincipalAxes(Rounded):
             axes[i] = _unit(direction if self.exact else _rounded(direction, bits), bits)
         exact = self.exact and all(dot(axis, axis) == 1 for axis in axes)
         return replace(self, axes=tuple(axes), exact=exact,
-                       error=self.error if exact else max(self.error, Fraction(1, 1 << BITS)))
+                       error=self.error if exact else max(self.error, Fraction(1, 1 << IRRATIONAL_BITS)))
 
     def back(self, vector: Sequence[Number]) -> Triple:
         """The components in the input frame of a vector given along the principal axes."""
@@ -176,7 +176,7 @@ def without_trace(vector: Exact3, other: Exact3) -> Exact3:
     least = NOTHING * NOTHING * size * dot(vector, vector)
     terms = sum(abs(v * o) for v, o in zip(vector, other))
     open_ = sum(abs(v) for v in vector) * rounding(other) + sum(abs(v) for v in other) * rounding(vector)
-    if level * level > least and not abs(level) <= open_ <= MOST * terms:
+    if level * level > least and not abs(level) <= open_ <= MAX_ZEROED * terms:
         return vector
     return tuple(v - level / size * o for v, o in zip(vector, other))
 
@@ -202,13 +202,13 @@ def principal_axes(tensor: Sequence[Sequence[Number]], off: Fraction = Fraction(
         alike = _made_equal([(given[i], True) for i in order], slack)
         return PrincipalAxes(tuple(alike[order.index(i)][0] for i in range(3)), IDENTITY, True, Fraction(0),
                              slack)
-    polynomial, bits = _characteristic(rows), BITS + 32
+    polynomial, bits = _characteristic(rows), IRRATIONAL_BITS + 32
     while True:
         moments = _made_equal(_moments(rows, polynomial, bits), slack)
         if len({value for value, _ in moments}) == 1:  # a sphere, to its last digit: any axes do
             return PrincipalAxes(tuple(value for value, _ in moments), TURNED, True, Fraction(0), slack)
         found = _axes(rows, moments, bits)
-        if found and found.error < Fraction(1, 1 << BITS):
+        if found and found.error < Fraction(1, 1 << IRRATIONAL_BITS):
             return replace(found, rounding=slack)
         bits *= 2
 

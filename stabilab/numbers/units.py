@@ -45,7 +45,7 @@ OTHERS = {"min": ("60", "s"), "h": ("3600", "s"), "day": ("86400", "s"), "week":
           "lb": ("453.59237", "g"), "t": ("1000000", "g"),
           "in": ("0.0254", "m"), "ft": ("0.3048", "m"), "lbf": ("4.4482216152605", "N"),
           "slug": ("44482216152605/3048000000", "g"), "Nmm": ("0.001", "Nm"), "Ncm": ("0.01", "Nm")}
-WORDS = {name: symbol for symbol, names in {
+SYMBOLS_BY_NAME = {name: symbol for symbol, names in {
     "s": "second sec", "min": "minute min", "h": "hour hr", "day": "day", "week": "week", "m": "metre meter",
     "g": "gram", "kg": "kilogram kg",
     "t": "tonne", "N": "newton", "J": "joule", "W": "watt", "Pa": "pascal", "C": "coulomb", "V": "volt",
@@ -259,7 +259,7 @@ def _single(word: str, words: str) -> Unit:
         base = _single(word[1:], words)
         return Unit(Fraction(10) ** PREFIXES[word[0]] * base.size, base.dimension)
     lower = word.lower()
-    known = WORDS.get(lower) or WORDS.get(lower.removesuffix("s")) or CAPITALS.get(word)
+    known = SYMBOLS_BY_NAME.get(lower) or SYMBOLS_BY_NAME.get(lower.removesuffix("s")) or CAPITALS.get(word)
     if known:
         return _single(known, words)
     if lower == "hz":
@@ -270,7 +270,7 @@ def _single(word: str, words: str) -> Unit:
 
 def _near(word: str) -> str:
     from difflib import get_close_matches
-    known = [*BASE, *TURNS, *OTHERS, *WORDS, "mN", "cm", "mm", "km", "kN"]
+    known = [*BASE, *TURNS, *OTHERS, *SYMBOLS_BY_NAME, "mN", "cm", "mm", "km", "kN"]
     near = (get_close_matches(word, known, n=1, cutoff=0.6)
             or get_close_matches(word.lower(), known, n=1, cutoff=0.6))
     return f", did you mean {near[0]}?" if near else ""

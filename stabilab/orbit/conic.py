@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 SHORT = 1e-9  # a last step of Newton's method that leaves its square
 FOLD_BITS = 200
-BESIDE = 0.1  # of |h|: nearer to the centre of the orbits than that
+CENTRE_WIDTH = 0.1  # of |h|: nearer to the centre of the orbits than that
 
 
 class Piece(NamedTuple):
@@ -201,7 +201,7 @@ class Conic:
         ends = np.ones(Q.shape), 1 + np.log(hi / lo)
         t = bracketed_newton(fun, *ends, 1 + np.log(start / lo), (Q, lo), rising=piece.rising, enough=SHORT)
         h = sign * lo * np.exp(t - 1)
-        near = np.hypot((K / h - c) / G, h - s) < BESIDE * np.abs(h)
+        near = np.hypot((K / h - c) / G, h - s) < CENTRE_WIDTH * np.abs(h)
         # there Q bends within the orbit's size, and a step that is short against h is none against that
         if near.any():
             some = tuple(v[near] for v in (*ends, t, Q, lo))

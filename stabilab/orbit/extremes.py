@@ -23,7 +23,7 @@ CERTAIN_BITS = 56  # the balls of the extremes are this much narrower than the c
 # A root's ball in units of the height's over the slope: y is exact, so its height may be much narrower than
 # its neighbours'.
 WIDER = 4, 64, 4096
-STEPS = 128  # of Newton's method, after which a bracket's ends count by their powers of two
+NEWTON_STEPS = 128  # of Newton's method, after which a bracket's ends count by their powers of two
 MOST_BITS = 1 << 13  # a component that is still not settled is zero to this precision
 
 
@@ -102,7 +102,7 @@ def solve(orbit: BallOrbit, inner: arb, outer: arb):
             hi = y
         slope = -orbit.force(y)
         new = (y - value / slope).mid() if 0 not in slope else None
-        far = _between_scales(lo, hi, step - STEPS) if step >= STEPS else None
+        far = _between_scales(lo, hi, step - NEWTON_STEPS) if step >= NEWTON_STEPS else None
         if far is not None:
             new = far
         elif (new is None or not (lo < new < hi or hi < new < lo)

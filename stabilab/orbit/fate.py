@@ -119,7 +119,7 @@ def _on_conic(orbit, spot) -> bool:
 
 
 # --- The sign of the margin of one state is decided in balls, with as many digits as that takes
-SHARE = 1e-12  # of a margin: with less certainty balls do not settle it
+MARGIN_TOLERANCE = 1e-12  # of a margin: with less certainty balls do not settle it
 EXACT_BITS = 512  # from these bits on algebra is asked whether two energies are equal
 
 
@@ -145,7 +145,7 @@ def decide(orbit: Orbit, bits: int = START_BITS) -> Tie:
             return Tie(-1, float("-inf"), bits)
         if _ties(orbit, margin):
             return Tie(0, 0.0, bits)
-        if not SHARE * abs(margin) > margin.rad():
+        if not MARGIN_TOLERANCE * abs(margin) > margin.rad():
             raise Unclear
         return Tie(sign(margin), float(margin.mid()), bits)
     return orbit.settled(question, bits)

@@ -19,10 +19,10 @@ from .one_state import own
 from .profile import TOO_FINE, ByPanels, InOwnUnit, Motion, Relief, Resting, Spot, relief
 from .reduction import reduce
 from .result import Fate
-from .spin_up import POINTS, Panels, Passing, SpinUp, Turn, Turning, turning_offset
+from .spin_up import NODES, Panels, Passing, SpinUp, Turn, Turning, turning_offset
 
 PERIODS_AGREE = 1e-10  # ten times what either is off by
-DIGITS = 1e-11  # rounding of the potential about an equilibrium beyond which doubles are not enough
+ROUNDING_LIMIT = 1e-11  # rounding of the potential about an equilibrium beyond which doubles are not enough
 
 
 def reduced_motion(scene, state, nodes: int | None = None, backwards: bool = False):
@@ -73,7 +73,7 @@ def _motion(ground: Relief, state, nodes, backwards):
         return Resting(state)
     if ground.turn and not any(s.kind > 0 and s.at > 0 and s.kinetic < 0 for s in ground.spots):
         _refuse_ties(ground.spots)
-        return SpinUp(ground, nodes or POINTS, backwards)
+        return SpinUp(ground, nodes or NODES, backwards)
     if ground.closed and not any(s.kind > 0 and s.kinetic < 0 for s in ground.spots):
         _refuse_ties(ground.spots)
         return _rotation(ground, nodes)
@@ -86,7 +86,7 @@ def _refuse_ties(spots: Sequence[Spot]):
         raise InputError("the motion is on a separatrix: it tends to an equilibrium, and its reduced form "
                          "takes for ever; take "
                          "method taylor")
-    if any(s.blur > DIGITS for s in spots):
+    if any(s.blur > ROUNDING_LIMIT for s in spots):
         raise InputError(
             "about an equilibrium the reduced potential is flatter than doubles tell; take method taylor")
 
@@ -142,7 +142,7 @@ def _rotation(ground: Relief, nodes: int | None):
 
 
 def _by_panels(chain, nodes, number, y, w, sense):
-    panels = Panels(chain, nodes or POINTS)
+    panels = Panels(chain, nodes or NODES)
     start = panels.time_at(number, chain[number].x_of(y, w))
     motion = ByPanels(panels, start if sense or w >= 0 else -start, sense)
     motion.evaluations = panels.evaluations

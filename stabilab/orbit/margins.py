@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 # of the kinetic energy and the barrier's height: half of the rounding that `fate` admits
 MARGIN_SHARE = 5e-13
-STEPS = 4  # of Newton's method at a barrier
+NEWTON_STEPS = 4  # of Newton's method at a barrier
 # of the way along the orbit: the next step would be some 1e-26, of which the energy's error takes account
 SETTLED = 1e-13
 ENOUGH = 1e-12  # of the way to the nearest other equilibrium, or of one: the last step leaves its square
@@ -106,7 +106,7 @@ def _settled(land, u, v, X, Z):
     """(places, slopes and last steps) of the equilibria next to (u, v) on the orbits of (X, Z), all (k,)."""
     k = land.twofold
     Q, last, live = Z * Z - X * X, np.full(len(u.high), np.nan), np.arange(len(u.high))
-    for _ in range(STEPS):
+    for _ in range(NEWTON_STEPS):
         some, other, step = _stepped(k, *(Twofold(a.high[live], a.low[live]) for a in (u, v, Q)))
         for whole, part in ((u, some), (v, other)):
             whole.high[live], whole.low[live] = part.high, part.low

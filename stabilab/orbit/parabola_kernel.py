@@ -19,7 +19,7 @@ from ..numbers.error_free import add, exact_sum, scaled, times
 if TYPE_CHECKING:
     import numpy as np
 
-EPS = 2.220446049250313e-16
+ULP = 2.220446049250313e-16
 INFINITY = float("inf")
 BOX, PERIOD = 1, 2  # bits: wanted, and left open
 DIGITS, PERIOD_DIGITS = 1e-12, 1e-11  # promised, relative
@@ -27,7 +27,8 @@ ROUNDED = 8.0  # roundings of a coefficient, by the size of its terms
 TWOFOLD = 2.0**-96  # roundings of a sum of twofold numbers, by the size of its terms
 # times its error: so far a height is from the energy, and a force from zero, where the side is certain
 CLEAR = 64.0
-BESIDE = 1e-8  # of the two terms of the discriminant: nearer to a fold balls say which equilibria there are
+# of the two terms of the discriminant: nearer to a fold balls say which equilibria there are
+FOLD_WIDTH = 1e-8
 SIXTH = 0.16666666666666666, 9.25185853854297e-18
 POLISH, STEPS, DOUBLINGS = 3, 80, 1100
 # steps of Newton's method at an equilibrium and in twofold numbers; at an end, most of them; doublings of a
@@ -79,7 +80,7 @@ def polished(y: float, c: Sequence[tuple[float, float]]):
     for _ in range(POLISH):
         step = fine_quartic(y, c) / fine_cubic(y, c)
         y -= step
-    return y, abs(step) + EPS * abs(y)
+    return y, abs(step) + ULP * abs(y)
 
 
 def quartic(y: float, k0: float, f0: float, f1: float, f2: float, f3: float):
@@ -106,7 +107,7 @@ def equilibria(f0: float, f1: float, f2: float, f3: float, spots: np.ndarray):
     d, rest = bend(middle, f1, f2, f3), cubic(middle, f0, f1, f2, f3)
     p, q = 6 * d / f3, 6 * rest / f3  # t^3 + p t + q = 0 about the middle
     cubed, square = 4 * p * p * p, 27 * q * q
-    if p == 0 or not abs(cubed + square) > BESIDE * (abs(cubed) + square):
+    if p == 0 or not abs(cubed + square) > FOLD_WIDTH * (abs(cubed) + square):
         return 0, False
     size = 2 * sqrt(abs(p) / 3)
     share = 3 * abs(q) / (abs(p) * size)
@@ -147,7 +148,7 @@ def crossing(inner: float, outer: float, k0: float, f0: float, f1: float, f2: fl
         if not (min(inner, outer) <= new <= max(inner, outer)):
             new = 0.5 * (inner + outer)
         step, y = abs(new - y), new
-        if step <= 2 * EPS * abs(y) or value == 0:
+        if step <= 2 * ULP * abs(y) or value == 0:
             break
     return y
 
@@ -182,7 +183,7 @@ def terms_of(y: float, k0: float, t0: float, t1: float, t2: float, t3: float):
 
 def blur_of_force(y: float, t0: float, t1: float, t2: float, t3: float):
     y = abs(y)
-    return ROUNDED * EPS * (t0 + y * (t1 + y * (t2 / 2 + y * t3 / 6)))
+    return ROUNDED * ULP * (t0 + y * (t1 + y * (t2 / 2 + y * t3 / 6)))
 
 
 def place_at(at: float, speed: tuple[float, float], curve: tuple[float, float], y: float):
@@ -223,11 +224,11 @@ def period_of(left: float, right: float, f3: float, blurs: tuple[float, float], 
     second = 0.5 * (root + 0.5 * (p + s) - 2 * c)
     if not second > 0:
         return 0.0, INFINITY
-    wide = (blurs[0] + blurs[1]) / rho + 2 * EPS * max(abs(left), abs(right)) / rho
-    off_p, off_s = p * (forces[0] / at_left + wide + 4 * EPS), s * (forces[1] / at_right + wide + 4 * EPS)
+    wide = (blurs[0] + blurs[1]) / rho + 2 * ULP * max(abs(left), abs(right)) / rho
+    off_p, off_s = p * (forces[0] / at_left + wide + 4 * ULP), s * (forces[1] / at_right + wide + 4 * ULP)
     first = 0.25 * (off_p / p + off_s / s)
-    off = 0.5 * root * (off_p / p + off_s / s) + 0.5 * (off_p + off_s) + 2 * c * (2 * wide + 8 * EPS)
-    return sqrt(2.0) * pi / mean(sqrt(root), sqrt(second)), max(first, 0.25 * off / second) + 8 * EPS
+    off = 0.5 * root * (off_p / p + off_s / s) + 0.5 * (off_p + off_s) + 2 * c * (2 * wide + 8 * ULP)
+    return sqrt(2.0) * pi / mean(sqrt(root), sqrt(second)), max(first, 0.25 * off / second) + 8 * ULP
 
 
 def rows(states: np.ndarray, open_rows: np.ndarray, axes: Sequence[int], fine: np.ndarray, spots: np.ndarray,
@@ -256,17 +257,17 @@ def rows(states: np.ndarray, open_rows: np.ndarray, axes: Sequence[int], fine: n
         t3 = 3 * abs(kappa) * (abs(q) * a_size * a_size + abs(p) * b_size * b_size)
         # at the place of an equilibrium to rounding doubles do not tell on which side of it a state is, nor
         # whether it is at rest
-        walled = f1 < -CLEAR * ROUNDED * EPS * t1 if t2 == 0 and t3 == 0 else f3 < -CLEAR * ROUNDED * EPS * t3
-        if abs(f0) <= CLEAR * ROUNDED * EPS * t0 or not (walled and t3 < INFINITY and k0 < INFINITY):
+        walled = f1 < -CLEAR * ROUNDED * ULP * t1 if t2 == 0 and t3 == 0 else f3 < -CLEAR * ROUNDED * ULP * t3
+        if abs(f0) <= CLEAR * ROUNDED * ULP * t0 or not (walled and t3 < INFINITY and k0 < INFINITY):
             continue
         count, sure = equilibria(f0, f1, f2, f3, spots)
         if not sure:
             continue
-        fastest, fog = k0, EPS * k0
+        fastest, fog = k0, ULP * k0
         for n in range(count):
             blurred = blur_of_force(spots[n], t0, t1, t2, t3)
             overs[n] = fine_quartic(spots[n], c)
-            hazes[n] = TWOFOLD * terms_of(spots[n], k0, t0, t1, t2, t3) + EPS * abs(overs[n])
+            hazes[n] = TWOFOLD * terms_of(spots[n], k0, t0, t1, t2, t3) + ULP * abs(overs[n])
             hazes[n] += blurred * blurred / abs(bend(spots[n], f1, f2, f3))
         if count == 3 and not abs(overs[1]) > CLEAR * hazes[1]:
             continue
@@ -291,7 +292,7 @@ def rows(states: np.ndarray, open_rows: np.ndarray, axes: Sequence[int], fine: n
             low_v, high_v = swept(v, b, qa, left, right)
             low_w, high_w = min(states[row, i], -top - shift), max(states[row, i], top - shift)
             good = (0.5 * fog / fastest
-                    + EPS) * top + EPS * abs(shift) <= DIGITS * max(abs(low_w), abs(high_w))
+                    + ULP) * top + ULP * abs(shift) <= DIGITS * max(abs(low_w), abs(high_w))
             for side in range(2):
                 y, blur = (right, blurs[1]) if side else (left, blurs[0])
                 fast_u, fast_v = abs(a[0] + pb[0] * y), abs(b[0] + qa[0] * y)
@@ -303,8 +304,8 @@ def rows(states: np.ndarray, open_rows: np.ndarray, axes: Sequence[int], fine: n
                 boxes[row, i, 0], boxes[row, i, 1] = low_w, high_w
                 asked -= BOX
         if asked & PERIOD:
-            forces = (2 * EPS * pulls[0] + abs(bend(left, f1, f2, f3)) * blurs[0],
-                      2 * EPS * pulls[1] + abs(bend(right, f1, f2, f3)) * blurs[1])
+            forces = (2 * ULP * pulls[0] + abs(bend(left, f1, f2, f3)) * blurs[0],
+                      2 * ULP * pulls[1] + abs(bend(right, f1, f2, f3)) * blurs[1])
             period, off = period_of(left, right, f3, blurs, pulls, forces)
             if off <= PERIOD_DIGITS:
                 periods[row] = period

@@ -16,7 +16,7 @@ import numpy as np
 
 from ..numbers.error_free import add, exact_product, exact_sum, less, scaled, times, value
 
-EPS = 2.220446049250313e-16
+ULP = 2.220446049250313e-16
 TURN, PI = 6.283185307179586, 3.141592653589793
 INFINITY = float("inf")
 BOX, PERIOD = 1, 2  # bits: wanted, and left open
@@ -41,7 +41,7 @@ NARROW = 0.5  # half-widths below it take series where closed forms cancel
 FINE = 2.0**-92
 # relative, of E - V at a stop and half-way between two; the period's promise is `PERIOD_DIGITS`
 PIECE_DIGITS = 3e-12
-NEAR = 1e-6  # of the force at an end: what a step there may change it by, whose square is left
+STEP_CHANGE = 1e-6  # of the force at an end: what a step there may change it by, whose square is left
 NEWTON = 3  # steps to an end in twofold numbers
 HALVINGS, SERIES = 6, 12  # of a way, before its sine is summed; terms of the sum: 0.2^24/24! is 1e-41
 # columns of a spot: its offset from the state, E - V there, whether it is a barrier, the place, dF/dtheta,
@@ -162,7 +162,7 @@ class Circle:
         twin[:] = spot
         twin[OFFSET] += turn
         twin[OVER] += turn * mu
-        twin[ERROR] += ROUNDED * EPS * TURN * mu
+        twin[ERROR] += ROUNDED * ULP * TURN * mu
         return count + 1
 
     @staticmethod
@@ -373,7 +373,7 @@ def guessed(piece: np.ndarray, conic: Sequence[float], Q: float, xi: float, eta:
             new, step = np.sqrt(low) * np.sqrt(high), 2.0
         before = 0.7 * abs(step) if step < 1.0 else INFINITY
         h = new
-        if abs(step) < 1e-7 or high - low <= 4 * EPS * high:
+        if abs(step) < 1e-7 or high - low <= 4 * ULP * high:
             break
     at = sign * h
     x, z = (K / at - c) / G, at - shift
@@ -449,7 +449,7 @@ def end_of_modes(mu: float, slope: float, a: float, b: float, s: float, h: float
 def rounding_of(y: float, terms: float, s: float, h: float, pull: float, tilt: float):
     """Size of the error of a rise: of its terms, which grow like an exponential of y, and of what the
     equilibrium's force and slope are off by."""
-    return (ROUNDED + 2 * abs(y)) * EPS * terms + pull * abs(s) + 2 * tilt * h * h
+    return (ROUNDED + 2 * abs(y)) * ULP * terms + pull * abs(s) + 2 * tilt * h * h
 
 
 def placed(u: tuple[float, float], v: tuple[float, float], X: tuple[float, float], Z: tuple[float, float],
@@ -478,7 +478,7 @@ def spots_of_row(fine: np.ndarray, conic: Sequence[float], pieces: np.ndarray, l
     xi, eta, q = value(add(X, Z)), value(less(X, Z)), value(Q)
     mu, count = conic[3], 0
     for fold in folds:
-        if not abs(q - fold) > ROUNDINGS * EPS * (wide * wide + abs(fold)):
+        if not abs(q - fold) > ROUNDINGS * ULP * (wide * wide + abs(fold)):
             return 0, False
     radius = np.sqrt(abs(q))
     kinetic, x, z = 0.5 * w * w, value(X), value(Z)
@@ -498,7 +498,7 @@ def spots_of_row(fine: np.ndarray, conic: Sequence[float], pieces: np.ndarray, l
         placed(u, v, X, Z, wide, last, conic, way, slope, spot)
         rise, _, terms, s, h = rise_and_force(mu, -way, slope, spot[MODE_A], spot[MODE_B])
         spot[OVER], spot[BARRIER] = kinetic + rise, 1.0 if slope > 0 else 0.0
-        spot[ERROR] = (rounding_of(way, terms, s, h, spot[PULL], spot[TILT]) + ROUNDED * EPS * kinetic
+        spot[ERROR] = (rounding_of(way, terms, s, h, spot[PULL], spot[TILT]) + ROUNDED * ULP * kinetic
                        + abs(force) * spot[ASTRAY])
         count = repeated(spots, count + 1, mu)
     for i in range(1, count):
@@ -559,15 +559,15 @@ def sharpened_ends(fine: np.ndarray, X: tuple[float, float], Z: tuple[float, flo
             end[FORCE] = value(add(add(times(v, across), mu), times(d, u)))
             end[END_BEND] = slope_of(G, d, u, v, across)
             step, steep = -over / end[FORCE], abs(end[END_BEND] / end[FORCE])
-            if not abs(step) * steep <= NEAR:
+            if not abs(step) * steep <= STEP_CHANGE:
                 turns[k] = ends[k]
                 break
             end[END] += step
             far = abs(u[0]) + abs(v[0]) + wide
             terms = kinetic[0] + mu[0] * (1 + abs(end[END])) + (abs(G[0]) * far + abs(c[0]) + abs(d[0])) * far
             end[HAZE] = FINE * terms
-            end[BLUR] = end[HAZE] / abs(end[FORCE]) + step * step * steep + EPS * abs(end[END])
-            if abs(step) <= EPS * abs(end[END]):
+            end[BLUR] = end[HAZE] / abs(end[FORCE]) + step * step * steep + ULP * abs(end[END])
+            if abs(step) <= ULP * abs(end[END]):
                 break
 
 
@@ -627,12 +627,12 @@ def turned(mu: float, count: int, spots: np.ndarray, side: int, end: np.ndarray)
             before, t, found = abs(step), t - step, small or rise == level
         else:
             before, t = high - low, 0.5 * (low + high)
-            found = high - low <= 2 * EPS * high
+            found = high - low <= 2 * ULP * high
     y = t * towards
     _, force, terms, s, h = rise_and_force(mu, y, slope, mode_a, mode_b)
     haze = rounding_of(y, terms, s, h, spot[PULL], spot[TILT])
     end[END], end[FORCE], end[HAZE] = spot[OFFSET] + y, force, haze
-    end[BLUR] = haze / abs(force) + EPS * abs(spot[OFFSET])
+    end[BLUR] = haze / abs(force) + ULP * abs(spot[OFFSET])
     end[LEVEL] = spot[OVER]
     end_of_modes(mu, slope, mode_a, mode_b, s, h, end)
     return found and abs(end[END]) < INFINITY
@@ -665,7 +665,7 @@ def spanned(mu: float, w: float, count: int, spots: np.ndarray, ends: np.ndarray
         ends[k, BLUR] += off / abs(ends[k, FORCE]) + astray
         # no number is not: the largest of some would pass over it
         clear = clear and ends[k, BLUR] < INFINITY and ends[k, HAZE] < INFINITY
-    return clear and (barred or WALLED), fastest, off + EPS * fastest, closest
+    return clear and (barred or WALLED), fastest, off + ULP * fastest, closest
 
 
 def boxed(form: Sequence[float], axes: Sequence[int], state: np.ndarray, x: float, z: float, xi: float,
@@ -679,7 +679,7 @@ def boxed(form: Sequence[float], axes: Sequence[int], state: np.ndarray, x: floa
         y, blur = ends[at, END], ends[at, BLUR]
         dx, dz, rx, rz = change(x, z, xi, eta, y)
         low_x, high_x, low_z, high_z = min(low_x, dx), max(high_x, dx), min(low_z, dz), max(high_z, dz)
-        off_x, off_z = max(off_x, abs(z + dz) * blur + EPS * rx), max(off_z, abs(x + dx) * blur + EPS * rz)
+        off_x, off_z = max(off_x, abs(z + dz) * blur + ULP * rx), max(off_z, abs(x + dx) * blur + ULP * rz)
         if not abs(dx) + abs(dz) + rx + rz < INFINITY:
             return False
     for row in range(2):
@@ -687,16 +687,16 @@ def boxed(form: Sequence[float], axes: Sequence[int], state: np.ndarray, x: floa
         while at < right:
             dx, dz, rx, rz = change(x, z, xi, eta, at)
             low_x, high_x, low_z, high_z = min(low_x, dx), max(high_x, dx), min(low_z, dz), max(high_z, dz)
-            off_x, off_z = max(off_x, EPS * rx), max(off_z, EPS * rz)
+            off_x, off_z = max(off_x, ULP * rx), max(off_z, ULP * rz)
             at += 0.5 * ROUND
     a, b = form[0] * low_x, form[0] * high_x
     box[j, 0], box[j, 1] = state[j] + min(a, b), state[j] + max(a, b)
-    good = (abs(form[0]) * off_x + 4 * EPS * (abs(state[j]) + max(abs(a), abs(b))) <= DIGITS
+    good = (abs(form[0]) * off_x + 4 * ULP * (abs(state[j]) + max(abs(a), abs(b))) <= DIGITS
             * max(abs(box[j, 0]), abs(box[j, 1])))
     a, b = form[1] * low_z, form[1] * high_z
     box[k, 0], box[k, 1] = state[k] + min(a, b), state[k] + max(a, b)
     good = (good and abs(form[1]) * off_z
-            + 4 * EPS * (abs(state[k]) + max(abs(a), abs(b))) <= DIGITS * max(abs(box[k, 0]), abs(box[k, 1])))
+            + 4 * ULP * (abs(state[k]) + max(abs(a), abs(b))) <= DIGITS * max(abs(box[k, 0]), abs(box[k, 1])))
     top = np.sqrt(2 * fastest)
     a, b = form[2] * top - form[3], -form[2] * top - form[3]
     box[i, 0], box[i, 1] = min(a, b, state[i]), max(a, b, state[i])
@@ -824,11 +824,11 @@ def timed(conic: Sequence[float], x: float, z: float, xi: float, eta: float, w: 
     even, odd = modes_pair(data, rho, whole_s, whole_c, 0.0)
     first, last, inner = even + odd, even - odd, modes_pair(data, rho, whole_s, whole_c, 0.5)[0]
     # on a long hyperbola H over a barrier may be far less than at both ends and in the middle
-    sharp = EPS * modes_terms(data, 4, rho, whole_s, whole_c, share) <= PERIOD_DIGITS * dip
+    sharp = ULP * modes_terms(data, 4, rho, whole_s, whole_c, share) <= PERIOD_DIGITS * dip
     for sizes in range(0, 8, 4):
-        sharp = (sharp and EPS * modes_terms(data, sizes, rho, whole_s, whole_c, 0.0) <= PERIOD_DIGITS * first
-                 and EPS * modes_terms(data, sizes, rho, whole_s, whole_c, 0.5) <= PERIOD_DIGITS * inner
-                 and EPS * modes_terms(data, sizes, rho, whole_s, whole_c, 1.0) <= PERIOD_DIGITS * last)
+        sharp = (sharp and ULP * modes_terms(data, sizes, rho, whole_s, whole_c, 0.0) <= PERIOD_DIGITS * first
+                 and ULP * modes_terms(data, sizes, rho, whole_s, whole_c, 0.5) <= PERIOD_DIGITS * inner
+                 and ULP * modes_terms(data, sizes, rho, whole_s, whole_c, 1.0) <= PERIOD_DIGITS * last)
     most, lowest = max(first, inner, last), min(first, inner, last)
     if not (sharp and blur * (most - lowest) <= PERIOD_DIGITS * rho * lowest):
         return np.nan, False
@@ -933,9 +933,9 @@ def rows(states: np.ndarray, open_rows: np.ndarray, fine: np.ndarray, form: Sequ
             continue
         # whether a state is at rest is decided exactly, elsewhere
         terms = conic[3] + abs(conic[2] * x * z) + abs(conic[0] * z) + abs(conic[1] * x)
-        still = abs(turn) <= ROUNDINGS * EPS * (abs(state[i]) + abs(form[3]))
+        still = abs(turn) <= ROUNDINGS * ULP * (abs(state[i]) + abs(form[3]))
         if still and abs(conic[3] + conic[2] * x * z + conic[0] * z
-                         + conic[1] * x) <= ROUNDINGS * EPS * terms * (1 + wide / (abs(x) + abs(z))):
+                         + conic[1] * x) <= ROUNDINGS * ULP * terms * (1 + wide / (abs(x) + abs(z))):
             continue
         count, sure = spots_of_row(fine, conic, pieces, lines, form[5], folds, X, Z, w, wide, spots)
         if not sure:

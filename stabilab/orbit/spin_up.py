@@ -32,7 +32,7 @@ from ..errors import InputError
 from ..numbers.polynomial import held_newton
 from .profile import EPS, TOO_FINE, TURN, Motion, OnCircle, Relief, Spot
 
-POINTS = 16
+NODES = 16
 FIXED, MOST_PARTS = TURN / 8, 64  # longest panel of an angle; most of one way before any is cut
 SETTLED = 4e-15  # last coefficients against the first: some ten times what rounding leaves of them mostly
 ROUNDED = 1e-12  # the most that rounding may leave of them
@@ -201,9 +201,9 @@ class Panels:
     their ends and half lengths; values (n, points): dt/dx at the nodes; rates, integrals: Chebyshev
     coefficients of dt/dx and of t."""
 
-    def __init__(self, chain: Sequence[Passing | Turning], points: int = POINTS):
+    def __init__(self, chain: Sequence[Passing | Turning], points: int = NODES):
         self.chain, self.points, self.evaluations = chain, points, 0
-        found = [self._cut(passage, points >= POINTS) for passage in chain]
+        found = [self._cut(passage, points >= NODES) for passage in chain]
         self.owner = [n for n, part in enumerate(found) for _ in part[0]]
         columns = found[0] if len(found) == 1 else [np.concatenate(column) for column in zip(*found)]
         self.low, self.half, self.values, self.rates = columns
@@ -323,7 +323,7 @@ class SpinUp(Motion):
 
     period = math.inf
 
-    def __init__(self, relief: Relief, points: int = POINTS, backwards: bool = False):
+    def __init__(self, relief: Relief, points: int = NODES, backwards: bool = False):
         self.w, self.work, self.round = relief.w, relief.turn, Turn(relief)
         number, y = self.round.where()
         rest = max(relief.drops, key=lambda drop: drop[0].at - TURN * drop[1])

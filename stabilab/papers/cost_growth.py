@@ -45,7 +45,7 @@ MANY = (3, 6, 9, 12, 16, 18, 21, 24, 27, 30)
 DOUBLES = 15
 DISTANCES = tuple(range(1, 16))  # decades of relative distance in energy to the separatrix
 NODE_DIGITS, MOST_NODES = 8, 1 << 15
-BITS = range(16, 129, 4)
+TESTED_BITS = range(16, 129, 4)
 QUESTIONS: dict[str, Callable[..., Any]] = {"fate": fates, "extremes": extremes, "period": periods}
 SLOW, ENOUGH = 1.0, 0.1  # seconds of the first run after which only one follows; seconds of all runs together
 
@@ -192,7 +192,7 @@ def with_closeness(case, tell=lambda words: None) -> list[Growth]:
 
 def bits_needed(scene: Scene, state: Float3 | np.ndarray) -> int | None:
     """The least working precision at which the balls of every barrier part from the energy's."""
-    for bits in BITS:
+    for bits in TESTED_BITS:
         try:
             with working(bits) as numbers:
                 for margin in ball_orbit(landscape(scene).reduction, state, numbers).margins():

@@ -70,7 +70,7 @@ class Chapter:
     weight: float
 
 
-POINTS = 401  # times at which models are set beside the exact motion
+TIMES = 401  # times at which models are set beside the exact motion
 _SWEEP = "charged-sweep"
 CHAPTERS = (
     Chapter("charged", "A charged, nearly axisymmetric body",
@@ -144,11 +144,11 @@ def _parameters(case: Case):
 
 def _errors(case, end, found=None):
     """A row per model and part of the state: first times of 1 % and 10 %, and the largest error."""
-    found = found or compare(case, np.linspace(0.0, end, POINTS))
-    rows = [{"case": case.name, "model": panels.WORDS[d.model], "part": written(d.part),
+    found = found or compare(case, np.linspace(0.0, end, TIMES))
+    rows = [{"case": case.name, "model": panels.MODEL_LABELS[d.model], "part": written(d.part),
              "one": _time(d.first[0.01]), "ten": _time(d.first[0.1]),
              "largest": so_many(d.largest / d.scale if d.scale else d.largest, 2)} for d in found.departures]
-    return rows + [{"case": case.name, "model": panels.WORDS[name], "part": "", "one": "no answer",
+    return rows + [{"case": case.name, "model": panels.MODEL_LABELS[name], "part": "", "one": "no answer",
                     "ten": written(why), "largest": ""}
                    for name, why in found.refused.items()]
 
@@ -160,7 +160,7 @@ def _time(value):
 def _sensible(chapter, folder):
     """The variant: its errors and its picture."""
     case = sweep(chapter.sensible)[""]
-    found = compare(case, np.linspace(0.0, chapter.sensible_end, POINTS))
+    found = compare(case, np.linspace(0.0, chapter.sensible_end, TIMES))
     runs, _ = side_by_side(case, np.linspace(0.0, chapter.window, 1001))
     with style.drawing() as plt:
         path = style.save(cost_text.picture(plt, case, runs, chapter.parts, units=SI),

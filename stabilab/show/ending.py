@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from ..answers.dissipation.ending import Ending
     from ..case.read import Case
 
-WORDS = {"flat spin": "FLAT SPIN", "nutation dies out": "NUTATION DIES OUT", "rest": "COMES TO REST",
+ENDING_HEADS = {"flat spin": "FLAT SPIN", "nutation dies out": "NUTATION DIES OUT", "rest": "COMES TO REST",
          "rotation about the field": "TENDS TO ROTATION ABOUT THE FIELD",
          "steady rotation": "TENDS TO STEADY ROTATION"}
 
@@ -25,7 +25,7 @@ def words(one: Ending | None, units: Units) -> tuple[str, str] | None:
     known = " (by a run)" * (one.level == "run" and one.kind in ("steady rotation", "rest"))
     if one.kind == "steady rotation" and one.rates:
         rate = f" at {units.vector(units.axes.in_file(one.rates), units.rates, SHORT)}"
-    return WORDS[one.kind], f"{about(one, units)}{',' * bool(rate and about(one, units))}{rate}{known}"
+    return ENDING_HEADS[one.kind], f"{about(one, units)}{',' * bool(rate and about(one, units))}{rate}{known}"
 
 
 def about(one: Ending, units: Units) -> str:

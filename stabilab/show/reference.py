@@ -24,10 +24,10 @@ from .data import as_json, csv_lines
 if TYPE_CHECKING:
     from ..case.read import Case
 
-SCHEMA = "stabilab.reference/1"
+REFERENCE_SCHEMA = "stabilab.reference/1"
 VERSIONS = ("python", "python-flint")
-KINDS = (".csv", ".json")
-BITS = 1100  # more than any run has
+SUFFIXES = (".csv", ".json")
+READ_BITS = 1100  # more than any run has
 
 
 def as_dict(case: Case, times: Sequence[Fraction], digits: int,
@@ -37,7 +37,7 @@ def as_dict(case: Case, times: Sequence[Fraction], digits: int,
     known = motion(case.scene, case.start, case.span, exact=case.exact_state)
     told = {question: ask(question, case.scene, case.start, digits, case.span, known, case.exact_state)
             for question in ("period", "extremes")}
-    return {"schema": SCHEMA, "case": case.name, "title": case.title, "variables": case.variables,
+    return {"schema": REFERENCE_SCHEMA, "case": case.name, "title": case.title, "variables": case.variables,
             "time": case.scene.time_unit, "digits": digits,
             "provenance": _provenance(case, arguments),
             "subject": subject(effective(case.scene), case.exact_state),
@@ -75,19 +75,19 @@ def decimal(t) -> str:
     if rest != 1:
         return str(t)
     with localcontext() as context:
-        context.prec = BITS
+        context.prec = READ_BITS
         return f"{(Decimal(t.numerator) / t.denominator).normalize():f}"
 
 
 def written(ball, digits) -> str:
     """The digits of a ball that are right, some more than were asked for at most; 0 where it holds zero."""
-    with working(BITS):
+    with working(READ_BITS):
         return "0" if 0 in ball else ball.str(digits + 4, radius=False)
 
 
 def within(balls, texts) -> float:
     """How far the written numbers are from the true ones at most."""
-    with working(BITS) as numbers:
+    with working(READ_BITS) as numbers:
         return max(math.nextafter(float((ball - numbers.ball(Fraction(text))).abs_upper()), math.inf)
                    for ball, text in zip(balls, texts))
 

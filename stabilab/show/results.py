@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from ..equilibrium.result import Equilibria
 
-MOST = 10  # rows of a page
+MAX_ROWS = 10  # rows of a page
 
 
 @dataclass(frozen=True)
@@ -631,8 +631,8 @@ def html(result: Equilibria | Motion) -> str:
     number = len(rows[0][1])
     body = "".join(
         f"<tr><th>{_cell(labels[n])}</th>{''.join(f'<td>{_cell(values[n])}</td>' for _, values in rows)}</tr>"
-        for n in range(min(MOST, number)))
-    more = f"<p>and {number - MOST} more</p>" if number > MOST else ""
+        for n in range(min(MAX_ROWS, number)))
+    more = f"<p>and {number - MAX_ROWS} more</p>" if number > MAX_ROWS else ""
     return (f"<div><p><b>{_text(short(result))}</b></p><table><thead><tr>{head}</tr></thead>"
             f"<tbody>{body}</tbody></table>{more}</div>")
 

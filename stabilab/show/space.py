@@ -92,7 +92,7 @@ def spread(low: float, high: float, number: int) -> list[float]:
 
 
 # --- The box, and what is drawn in it
-NEAR = 2.0     # times the motion's own size: a separatrix or an equilibrium so near is in the picture
+SHOWN_SIZE = 2.0     # times the motion's own size: a separatrix or an equilibrium so near is in the picture
 ROOM = 1.25    # of a box about the things in it
 SMALL = 0.22   # of a box: a motion that fills less gets a box of its own, a limit that does is not drawn
 # of the longest side: an axis along which less happens has a scale of its own, of which that fills a share
@@ -213,7 +213,7 @@ def space(names: Iterable[str], rate: tuple[str, float], box: Box, branches: Ite
     named = tuple(with_unit(name, unit) for name in names)
     limits = [(f"{LIMIT}, {per * limit:.4g} {unit}", arc) for arc
               in (_cut(limit, box) if limit and limit > SMALL * max(box.half) else ())]
-    shown = [(style.BESIDE[n % len(style.BESIDE)],
+    shown = [(style.OTHER_COLOURS[n % len(style.OTHER_COLOURS)],
               replace(branch, name=f"{branch.name.capitalize()} of the separatrix{more}"))
              for n, branch in enumerate(branches) if _comes_in(branch, box)]
     return Space(named, per, box, tuple(shown), (*curves, *limits),
@@ -292,7 +292,7 @@ def box_of(path: list[Point], marks: Iterable[tuple[str, Point]], branches: Iter
                 kept or any(a > SMALL * b for a, b in zip(own.half, box.half))):
             return box
     own = _cube(shown)
-    near = [at for words, at in marks if reaching and words == NEAREST or own.holds(at, NEAR)]
+    near = [at for words, at in marks if reaching and words == NEAREST or own.holds(at, SHOWN_SIZE)]
     box, whole = _about([*shown, *near]), _about([*shown, *near, *surface])
     return whole if max(whole.half) <= most * max(box.half) else box
 
@@ -338,7 +338,7 @@ def marks_of(start: Point | None, motion: Motion | None,
 def nearest(found: Equilibria | None, path: list[Point]) -> list[tuple[str, Point]]:
     """Of each curve of equilibria that comes near a motion the nearest place, as a mark for its box."""
     own = _cube(path)
-    wide = Box(own.middle, tuple(NEAR * h for h in own.half))
+    wide = Box(own.middle, tuple(SHOWN_SIZE * h for h in own.half))
     return [(words, min(places, key=lambda at: math.dist(at, own.middle)))
             for words, places in curves_of(found, wide, PLACES[0], PLACES[0])]
 

@@ -63,7 +63,7 @@ SPACE = {  # words of a legend -> how that is drawn in the space of rates
     **{words: MEANING[kind] for kind, words in EQUILIBRIA.items()}}
 BRANCHES = (SKY, ORANGE, GREEN, PURPLE, YELLOW, BLUE, VERMILION)  # surfaces, in order
 # surfaces beside a motion, which is orange, and their nearest point, a yellow ball
-BESIDE = (SKY, GREEN, PURPLE, "#B59A6A")
+OTHER_COLOURS = (SKY, GREEN, PURPLE, "#B59A6A")
 SERIES = (BLUE, ORANGE, GREEN, PURPLE, VERMILION)               # one curve each for a list of parameters
 
 PACKAGES = ("matplotlib", "PIL")  # of every picture
@@ -150,7 +150,7 @@ def _of_few_colours(image):
     """A Pillow image in 256 colours, those of the house among them: stripes below it make them common, and
     are cut off again."""
     from PIL import Image
-    ours = dict.fromkeys((BLACK, "#FFFFFF", GREY, BROWN, *BRANCHES, *BESIDE))
+    ours = dict.fromkeys((BLACK, "#FFFFFF", GREY, BROWN, *BRANCHES, *OTHER_COLOURS))
     tall = Image.new("RGB", (image.width, image.height + 4 * len(ours)))
     tall.paste(image)
     for n, colour in enumerate(ours):

@@ -269,7 +269,7 @@ def _label(ax: Any, found: Space) -> None:
 
 
 # --- The files
-SCHEMA = "stabilab.surface/1"
+SURFACE_SCHEMA = "stabilab.surface/1"
 
 
 def write_all(cases, out, arguments=None) -> list[dict]:
@@ -336,7 +336,7 @@ def summarise(case, found, meshes) -> dict:
                      "invariant": [float(invariant.min()), float(invariant.max())],
                      "bounds": [[float(v) for v in pair]
                                 for pair in zip(mesh.points.min(0), mesh.points.max(0))]})
-    return {"schema": SCHEMA, "case": case.name, "variables": case.scene.variables,
+    return {"schema": SURFACE_SCHEMA, "case": case.name, "variables": case.scene.variables,
             "components": list(case.scene.components), "sheets": rows,
             "vertices": sum(r["vertices"] for r in rows),
             "triangles": sum(r["triangles"] for r in rows),

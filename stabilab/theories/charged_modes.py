@@ -142,7 +142,7 @@ def modes(body: ChargedBody) -> Modes:
                  (D3 - D1 - D2) * r0 + Lam)
 
 
-NEAR = 1e-6  # of a resonance
+RESONANCE_WIDTH = 1e-6  # of a resonance
 
 
 NO_SPIN = Sentence("resonance-no-spin", "r0 = 0: no spin; a transverse torque tilts the body without bound")()
@@ -168,7 +168,7 @@ def resonances(body: ChargedBody) -> tuple[Reason, ...]:
     """The resonances and the unstable band that the data meet, to `NEAR` of the largest rate among
     r0, a, b. Nothing is singular at a resonance: the closed forms pass through it."""
     m, r0 = modes(body), body.spin
-    small = NEAR * max(map(abs, (m.a, m.b, Fraction(r0))))
+    small = RESONANCE_WIDTH * max(map(abs, (m.a, m.b, Fraction(r0))))
     sides = sqrt(body.inertia[0] * body.inertia[1])
     found = {NO_SPIN: abs(r0) <= small, NO_FREQUENCY: abs(m.root) <= small,
              NO_AXIAL_MOMENTUM: abs(m.X) <= small * sides, FREQUENCIES_MEET: abs(m.Y) <= small * sides,

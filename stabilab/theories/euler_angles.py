@@ -161,7 +161,7 @@ def mean_precession(motion) -> float:
 
 
 TO_A_TURN = 60  # points to a turn of the fastest rate: psi is then known to some 1e-7
-MOST = 400_000
+MAX_STEPS = 400_000
 
 
 def with_euler_angles(case, run, model: str = "exact", order: int | None = None):
@@ -194,7 +194,7 @@ def angles_along(case: Case, times: np.ndarray, model: str = "exact",
     reach, row = float(np.abs(times).max()), np.asarray(follow(case, times, model,
                                                                order=order).state["omega"])
     fastest = float(np.linalg.norm(np.vstack([row, case.state]), axis=1).max())
-    count = int(min(MOST, 2 + np.ceil(reach * fastest * TO_A_TURN / (2 * np.pi))))
+    count = int(min(MAX_STEPS, 2 + np.ceil(reach * fastest * TO_A_TURN / (2 * np.pi))))
     sides = [sign * np.linspace(0.0, reach, count) for sign in (1, -1) if (sign * times > 0).any()]
     whole = follow(case, np.unique(np.concatenate([[0.0], times, *sides])), model, order=order)
     return euler_angles(whole.t, whole.state["omega"], whole.state["gamma"])

@@ -344,7 +344,8 @@ HIGHEST_ORDER = 24  # the cost grows as the fourth power of the order; double pr
 # orders beyond the one asked for, by which it is judged: without l_x, l_y odd ones hold p, q alone, even ones
 # the rest
 FURTHER = 2
-NEAR = 0.1  # a divisor Omega - m this small makes the coefficients grow tenfold and more, order by order
+# a divisor Omega - m this small makes the coefficients grow tenfold and more, order by order
+SMALL_DIVISOR = 0.1
 SETTLED = 1e-12  # terms below are rounding, and do not fall any more
 ROUNDING = 1e-14  # of the spin: a departure this small is none
 NEAR_SLACK = 1e-9  # so that a distance of 0.1 itself, rounded, is named
@@ -520,7 +521,7 @@ def _resonances(top: FastTop, order: int) -> tuple[Resonance, ...]:
         for m in range(1, order + 1):
             # (Omega^2 - m^2)/(Omega + m) keeps the digits of a small distance
             found.append(Resonance(m, _condition(top, m), abs(float(top.Omega2 - m * m)) / (Omega + m)))
-    return tuple(sorted((r for r in found if r.distance <= NEAR * (1 + NEAR_SLACK)),
+    return tuple(sorted((r for r in found if r.distance <= SMALL_DIVISOR * (1 + NEAR_SLACK)),
                         key=lambda r: r.distance))
 
 

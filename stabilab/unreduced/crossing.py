@@ -22,7 +22,7 @@ from ..physics.scene import AnyScene
 from . import enclosure_kernel
 from .enclosure import Band, Course, allowed
 
-FAR = 2.0**24  # natural units of time: beyond what any number of steps reaches
+LAST_TIME = 2.0**24  # natural units of time: beyond what any number of steps reaches
 BLUR, PIECES = 2.0**-40, 8
 
 
@@ -35,7 +35,7 @@ def first_crossing(scene: AnyScene, state: Sequence[Any], thresholds: Sequence[T
     scene, state, direction: as of `enclosure.Course`. t_max: how far to look (None: as far as so many steps
     reach; these None: as many as take some seconds).
     """
-    end = t_max if t_max is not None else FAR / natural(scene)[1]
+    end = t_max if t_max is not None else LAST_TIME / natural(scene)[1]
     course, searches = Course(scene, state, end, direction=direction), [Search(one) for one in thresholds]
     steps = allowed() if steps is None else steps
     while course.status == enclosure_kernel.GOING and course.steps < steps:

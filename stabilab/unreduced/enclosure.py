@@ -45,7 +45,7 @@ if TYPE_CHECKING:
 # at most, unless others are asked for: compiled some three seconds, else some ten
 STEPS, SLOW_STEPS = 200_000, 2_000
 CHUNK = 512  # steps kept at a time between which the band is asked for
-BITS = 112  # of a step in integers: far beyond its doubles
+STEP_BITS = 112  # of a step in integers: far beyond its doubles
 TOLERANCE = 2.0**-88  # of a step's tail, beside the state: as small as the rounding of its coefficients
 WHY = {enclosure_kernel.DONE: Sentence("enclosure-done", "enclosed")(),
        enclosure_kernel.GOING: Sentence(
@@ -94,13 +94,13 @@ class Band:
 
     def piece(self, i: int, unit: Fraction) -> Piece:
         """Step i in integers of BITS bits, its rates over `unit`, a power of two, its time the scene's."""
-        shift = BITS - (unit.numerator.bit_length() - unit.denominator.bit_length())
-        places = [shift] * 3 + [BITS] * (self.polynomials.shape[1] - 3)
+        shift = STEP_BITS - (unit.numerator.bit_length() - unit.denominator.bit_length())
+        places = [shift] * 3 + [STEP_BITS] * (self.polynomials.shape[1] - 3)
         rows = [[int(math.ldexp(v, n)) for v in row] for n, row in zip(places, self.polynomials[i].tolist())]
         # beside what is cut of each coefficient
         radii = [math.ceil(math.ldexp(r, n)) + len(rows[0]) for n, r in zip(places, self.radii[i].tolist())]
         begin, end = map(Fraction, self.times[i:i + 2].tolist())
-        return Piece(begin, end - begin, BITS, rows, radii, [sum(map(abs, row)) for row in rows])
+        return Piece(begin, end - begin, STEP_BITS, rows, radii, [sum(map(abs, row)) for row in rows])
 
 
 @dataclass(frozen=True)

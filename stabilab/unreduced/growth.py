@@ -59,7 +59,7 @@ if TYPE_CHECKING:
     from ..physics.scene import AnyScene, QuadraticForm, Scene
 
 # How long to look where the caller names no time, in the motion's own unit 1/sqrt(g |m|).
-PATIENCE = 1e6
+MAX_TIME = 1e6
 # How well the axis is known by each kind of certificate; that the motion is unbounded is exact.
 LEVEL = {"axis": "exact", "law": "exact", "bound": "exact", "spin-up": "certified", "well": "certified",
          "evidence": "run"}
@@ -166,7 +166,7 @@ def _by_certificate(change, y, t_max, second):
     axis, other = Axis(i + 1), Axis(q + 1)
     spin = dict(fate=Fate.SPIN_UP, axis=i + 1, sense=1 if change.rates[0] > 0 else -1)
     vanishing = release_estimate(c, angle_of(c, y)[2]) * unit if c > 0 else None
-    t_max = PATIENCE * unit if t_max is None else t_max
+    t_max = MAX_TIME * unit if t_max is None else t_max
     name, t, end, last, steps = search_certificate(c, y, t_max / unit)
     if c < 0 and steps and name != "none" and (reach := nearest_other(c, y, t_max / unit, name, steps)):
         return dict(steps=steps, reason=BETWEEN_TWO_AXES(axis=axis, other=other,
@@ -196,7 +196,7 @@ def _without_form(scene, state, axis, t_max):
     if not any(form.kappa):
         return dict(fate=Fate.SPIN_UP, release_time=0.0, certificate="law", t_certificate=0.0,
                     reason=ALONG_WHEEL)
-    t_max = PATIENCE / math.sqrt(abs(form.m[axis])) if t_max is None else t_max
+    t_max = MAX_TIME / math.sqrt(abs(form.m[axis])) if t_max is None else t_max
     seen = seen_growth(scene, state, t_max)
     span = Quantity(seen.span, scene.time_unit)
     shown = (RUN_SPINS_UP(axis=Axis(seen.axis), time=span, seen=seen.reason) if seen.axis

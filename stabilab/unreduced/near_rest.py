@@ -21,15 +21,15 @@ if TYPE_CHECKING:
     from ..physics.scene import QuadraticForm
 
 # A run in doubles loses the ratio of the terms of the rates to the rates: from here on more than five digits.
-BESIDE = 1e-5
-DIGITS = 24  # of the return, where a saddle costs none
+REST_WIDTH = 1e-5
+RETURN_DIGITS = 24  # of the return, where a saddle costs none
 WORK = 6_000_000  # multiplications, about a second
 
 
 def beside_rest(form: QuadraticForm, state: np.ndarray | Sequence[float | Fraction]) -> bool:
     """Whether the rates at the state (floats or Fractions) are that small against their terms, but not all
     zero."""
-    return 0 < smallness(form, state) <= BESIDE
+    return 0 < smallness(form, state) <= REST_WIDTH
 
 
 def smallness(form: QuadraticForm, state: np.ndarray | Sequence[float | Fraction]) -> Fraction:
@@ -53,7 +53,7 @@ class FromStart(Recursion):
             self.rates.append([(row, c) for row, c in rate if c])
 
 
-def small_loop(form, state, digits: int = DIGITS):
+def small_loop(form, state, digits: int = RETURN_DIGITS):
     """(period, [(least, greatest)] * 3) of a closed motion as balls; None where it did not return within the
     work allowed."""
     share = smallness(form, state)

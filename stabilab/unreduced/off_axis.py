@@ -67,7 +67,7 @@ __all__ = ["extremes", "fates", "motion", "periods"]
 NO_BRANCHES = Sentence(
     "no-branches-off-axis", "not known: the torque is off the principal axes, and no separatrix is known "
     "there")()
-PATIENCE = 600_000  # steps for which a motion is followed where nobody says how long: seconds
+MAX_STEPS = 600_000  # steps for which a motion is followed where nobody says how long: seconds
 AS_WRITTEN = 120  # times fewer steps where numba is not installed
 ENDLESS = 10**9     # steps where the caller names a time
 BOUND_DIGITS = 10  # decimals of a bound for all times
@@ -119,7 +119,7 @@ def _middle(scene, state) -> Reason | None:
 def _limits(follow: float | None) -> dict:
     """How far a motion is followed: to a time, or for PATIENCE steps, fewer where nothing is compiled."""
     if follow is None:
-        return {"budget": PATIENCE if installed() else PATIENCE // AS_WRITTEN}
+        return {"budget": MAX_STEPS if installed() else MAX_STEPS // AS_WRITTEN}
     return {"t_max": float(follow), "budget": ENDLESS}
 
 
@@ -132,7 +132,7 @@ def bounds_for_ever(scene: Scene, state: Sequence[float], found: SpinUp) -> tupl
     later = tuple((outward(a, ROUND_FLOOR), outward(b, ROUND_CEILING)) for a, b in found.trap.bounds())
     if not found.t:
         return later
-    before = (_extremes_until(scene, state, found) if found.passed <= PATIENCE
+    before = (_extremes_until(scene, state, found) if found.passed <= MAX_STEPS
               else _reach(scene, state, found.t))
     return before and tuple((min(a, c), max(b, d)) for (a, b), (c, d) in zip(later, before))
 

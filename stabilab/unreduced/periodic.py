@@ -32,7 +32,7 @@ from ..numbers.vectors import CYCLE
 ORDER, TOLERANCE = 20, 1e-17
 STEPS = 800      # from one passage to the next, at most
 PASSES = 15      # of Newton's method
-FAR = 2          # times the size of a state: no periodic motion is looked for so far from it
+SEARCH_SIZE = 2          # times the size of a state: no periodic motion is looked for so far from it
 CLOSED = 1e-11   # relative distance of a passage from the next at a periodic motion
 RETURNS = 48, 160  # passages whose mean is where the search for a centre begins
 NARROW = 2.0**-24  # of a step: two zeros nearer than that are a touch
@@ -117,7 +117,7 @@ def periodic(scene: Any, state: Any, section: Section) -> Periodic | None:
             x[across] += np.linalg.solve(np.eye(2) - slope, gap)
         except np.linalg.LinAlgError:
             return None
-        if not math.dist(x, state) < FAR * math.hypot(*state):
+        if not math.dist(x, state) < SEARCH_SIZE * math.hypot(*state):
             return None
     return None
 

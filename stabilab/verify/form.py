@@ -98,7 +98,7 @@ def _strangers(value, known, where):
 
 # --- What a certificate is about: the numbers of its scene and state, in a line, and compared with those of
 # a case
-WORDS = {"inertia": "moments", "momentum": "wheel"}
+BODY_LABELS = {"inertia": "moments", "momentum": "wheel"}
 # of a scene that is not scaled
 UNITS = {"inertia": "kg m²", "momentum": "N m s", "torque": "N m", "state": "rad/s"}
 
@@ -121,7 +121,7 @@ def line(told: dict) -> str:
     if "range" in told:
         return diagram.line(told)
     units = UNITS if told.get("variables") == "physical" else {}
-    parts = [f"{WORDS.get(key, key)} {_short(value)} {units.get(key, '')}".rstrip()
+    parts = [f"{BODY_LABELS.get(key, key)} {_short(value)} {units.get(key, '')}".rstrip()
              for key, value in told.items() if key != "variables"]
     return f"about: {', '.join(parts) or 'no scene'}" + ("" if "state" in told or not told else ", no state")
 
@@ -132,7 +132,7 @@ def differences(told: dict, case: dict) -> list[str]:
     if "range" in told:
         return diagram.differences(told, case)
     keys = [*told, *(key for key in case if key not in told and key != "state")]
-    return [f"{WORDS.get(key, key)}: the certificate's {_short(told.get(key))}, the case's "
+    return [f"{BODY_LABELS.get(key, key)}: the certificate's {_short(told.get(key))}, the case's "
             f"{_short(case.get(key))}"
             for key in keys if _exact(told.get(key)) != _exact(case.get(key))]
 

@@ -23,8 +23,8 @@ from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly
 
 # --- Exact numbers, brackets and balls as a certificate writes them
 # of a whole number, and of an exponent's value: Python's own limit; longer is an attack, not a certificate
-DIGITS = 4300
-MOST = 64  # entries of a list: no scene has nearly as many equilibria, curves, pieces or coefficients
+MAX_DIGITS = 4300
+MAX_ENTRIES = 64  # entries of a list: no scene has nearly as many equilibria, curves, pieces or coefficients
 NUMBER = re.compile(r"[-+]?([0-9]+(/[0-9]+)?|([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]{1,5})?)")
 LINEAR, VERDICT = ("stable", "unstable", "degenerate"), ("stable", "unstable", "undecided")
 
@@ -53,11 +53,13 @@ def number(text: str | Sequence[list[str]], where: str) -> Fraction:
     if not isinstance(text, str):
         raise Malformed(f"{where}: expected a number as a string, got {shown(text)}")
     _, _, exponent = text.lower().partition("e")
-    plain = len(text) <= 2 * DIGITS + 2 and NUMBER.fullmatch(text)
+    plain = len(text) <= 2 * MAX_DIGITS + 2 and NUMBER.fullmatch(text)
     if not plain or max(map(len, re.findall("[0-9]+",
-                                            text))) > DIGITS or (exponent and abs(int(exponent)) > DIGITS):
+                                            text))) > MAX_DIGITS or (exponent and
+                                                                   abs(int(exponent)) > MAX_DIGITS):
         raise Malformed(
-            f"{where}: expected an integer, a decimal or p/q of at most {DIGITS} digits, got {shown(text)}")
+            f"{where}: expected an integer, a decimal or p/q of at most {MAX_DIGITS} digits, "
+            f"got {shown(text)}")
     try:
         return Fraction(text)
     except (ValueError, ZeroDivisionError):
@@ -66,9 +68,10 @@ def number(text: str | Sequence[list[str]], where: str) -> Fraction:
 
 def numbers(values, where: str, count: int | None = None) -> list[Fraction]:
     """A list of exact numbers."""
-    if not isinstance(values, list) or len(values) > MOST or (count is not None and len(values) != count):
+    if not isinstance(values, list) or len(values) > MAX_ENTRIES or (count is not None
+                                                                     and len(values) != count):
         raise Malformed(
-            f"{where}: expected a list of {count or f'at most {MOST}'} numbers, got {shown(values)}")
+            f"{where}: expected a list of {count or f'at most {MAX_ENTRIES}'} numbers, got {shown(values)}")
     return [number(v, f"{where}[{i}]") for i, v in enumerate(values)]
 
 
@@ -122,8 +125,8 @@ def entries(table: Mapping[str, Any], key: str, where: str) -> list:
     """table[key], a list; [] where it is missing or null."""
     if isinstance(table, dict) and table.get(key) is None:
         return []
-    if len(field(table, key, where, list)) > MOST:
-        raise Malformed(f"{where}.{key}: expected at most {MOST} entries, got {len(table[key])}")
+    if len(field(table, key, where, list)) > MAX_ENTRIES:
+        raise Malformed(f"{where}.{key}: expected at most {MAX_ENTRIES} entries, got {len(table[key])}")
     return table[key]
 
 

@@ -47,7 +47,7 @@ from .numbers import (
     working,
 )
 
-PATIENCE = 20  # times the present step that later ones may be, in the mean
+STEP_RATIO = 20  # times the present step that later ones may be, in the mean
 LINEAR_BITS, LINEAR_ORDER = 64, 9  # of J: what it errs by multiplies the width of the set alone
 
 
@@ -87,7 +87,7 @@ class Way:
     def _step(self, t: Fraction):
         a = _series(self.numbers, self.centre, self.order)
         h = self._length(a)
-        if t - self.t > PATIENCE * h * (self.allowed - self.steps):
+        if t - self.t > STEP_RATIO * h * (self.allowed - self.steps):
             raise Lost(f"not followed beyond t = {brief(self.t)}: at this pace {self.allowed} steps do not "
                        f"reach {brief(t)}")
         around = [c + r for c, r in zip(self.centre, self._reach())]
@@ -257,7 +257,7 @@ def _value(row: Sequence[arb], h: arb):
 
 
 # --- What a certificate says of a spin-up, read and judged
-BITS = (96, 192, 384)  # of the way: more where fewer leave something open
+TRIED_BITS = (96, 192, 384)  # of the way: more where fewer leave something open
 MOST_STEPS = 40_000  # of all ways together: some minute
 
 
@@ -315,7 +315,7 @@ def check_spin_up(rates: Rates, state: Sequence[Fraction], claims: SpinUpClaims,
     """Findings on the way and on the inequality; ("proved", "refuted" or "not checked", reason) of the
     spin-up itself."""
     findings, verdict, left = [], ("not checked", ""), MOST_STEPS
-    for bits in BITS:
+    for bits in TRIED_BITS:
         way = Way(rates, state, bits, left)
         try:
             findings, verdict = _judged(rates, claims, way)

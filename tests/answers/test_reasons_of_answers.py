@@ -58,7 +58,7 @@ def test_a_spin_names_the_side_of_its_axis_and_how_it_was_confirmed():
 
 @pytest.mark.parametrize("inertia, code", [("12, 9, 5", "separatrix-not-crossed"), ("12, 12, 5", "plane-not-reached")])
 def test_a_spin_that_is_not_followed_to_its_end_says_so_also_of_two_equal_greatest_moments(inertia, code, monkeypatch):
-    monkeypatch.setattr(flat_spins, "STEPS", 500)
+    monkeypatch.setattr(flat_spins, "RUN_STEPS", 500)
     found = flat_spin(SPINNER.format(inertia=inertia, coefficient=1e-3, rates="0.01, 0.02, 1"))
     assert (found.outcome, found.reason.code) == (UNDECIDED, code)
     assert found.reason.quantities["why"].code in ("run-too-long", "run-not-enough")

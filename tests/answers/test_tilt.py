@@ -223,7 +223,7 @@ def test_rates_whose_squares_are_no_doubles_are_answered_in_words(stabilab, case
 
 def test_runs_that_end_before_the_untilted_time_do_not_read_as_if_a_tilt_helped(monkeypatch):
     """The time of the torque itself by DOP853 from Euler's equations."""
-    monkeypatch.setattr("stabilab.answers.tilt.STEPS", 40)
+    monkeypatch.setattr("stabilab.answers.tilt.AZIMUTH_STEPS", 40)
     inertia, torque = np.array([2.0, 3.0, 1.0]), np.array([0.0, 0.0, 0.02])
     start, limit = np.array([0.3, 0.06, 1.0]), 4
     scene = package.Scene(package.Body(inertia.tolist()), package.ConstantTorque(torque.tolist()))
@@ -238,6 +238,6 @@ def test_runs_that_end_before_the_untilted_time_do_not_read_as_if_a_tilt_helped(
     assert found.untilted[0] <= run.t[-1] * (1 + 1e-8) and run.t[-1] * (1 - 1e-8) <= found.untilted[1]
     assert "may reach 4 rad/s earlier or later: runs end after" in str(found.reason)
     assert f"untilted it is there after {sum(found.untilted) / 2:.6g} s" in str(found.reason)
-    monkeypatch.setattr("stabilab.answers.tilt.STEPS", 4000)
+    monkeypatch.setattr("stabilab.answers.tilt.AZIMUTH_STEPS", 4000)
     through = spread(scene, start, cone_of(scene, angle=math.radians(0.5)), {"rate": limit})
     assert through.untilted is None and through.earliest[0] < run.t[-1] < through.latest[1]

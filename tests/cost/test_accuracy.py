@@ -303,7 +303,7 @@ def test_digits_that_nothing_reaches_end_with_5_after_the_states_that_come_neare
     # off an unstable plane by rounding: not one digit is sure, so it is no answer whether or not digits were
     # asked for
     # those that this motion takes cost seconds
-    monkeypatch.setattr("stabilab.integrate.reference.DIGITS", (30, 42))
+    monkeypatch.setattr("stabilab.integrate.reference.RUN_DIGITS", (30, 42))
     for options, wanted in (((), 5), (("--digits", "10"), 5)):
         code, out, err = stabilab("simulate", CASES / "middle-axis-spin-up.toml", "--at", "0,20", "--json",
                                   *options)
@@ -370,5 +370,5 @@ def test_a_start_on_an_unstable_plane_is_beyond_doubles_but_not_beyond_many_digi
     assert reached.run.method == "many digits"
     x1, x2, x3 = reached.run.state["x"][-1]
     assert abs(x1 + one.scene.b) < 1e-20 and abs(x3) < 1e-20 and x2 > 5
-    monkeypatch.setattr("stabilab.integrate.reference.DIGITS", (30, 42))  # too few
+    monkeypatch.setattr("stabilab.integrate.reference.RUN_DIGITS", (30, 42))  # too few
     assert not best_reached(one, np.array([0.0, 20.0]), 10).enough

@@ -102,7 +102,7 @@ def test_where_a_printed_curve_leaves_its_panel_it_is_also_shown_whole():
 def test_printed_curves_of_the_velocity_are_the_printed_formulas():
     from stabilab.theories.charged import body_of, printed
     column = figures_charged._columns("lambda3")[0]
-    t, drawn = figures_charged.KINDS["velocity"][1][0].pick(column.runs["printed"])
+    t, drawn = figures_charged.PANELS["velocity"][1][0].pick(column.runs["printed"])
     np.testing.assert_array_equal(drawn, printed(body_of(sweep("charged-sweep")["-1-2-1"]), t).velocity[:, 0])
     assert {"printed", "corrected", "linear", "exact"} == set(column.runs)
 

@@ -42,14 +42,14 @@ if TYPE_CHECKING:
     from ...case.read import Case
 
 WITHIN = math.radians(5)  # of the nutation angle
-FAR = 1e100  # rad/s, and one over it: rates beyond it have squares and fourth powers that are no doubles
-NEAR = 0.01  # of the rates, or of the departure from the end
-STEPS = 2_000_000  # of a run of a body that something outside acts on
+HUGE = 1e100  # rad/s, and one over it: rates beyond it have squares and fourth powers that are no doubles
+END_REACHED = 0.01  # of the rates, or of the departure from the end
+RUN_STEPS = 2_000_000  # of a run of a body that something outside acts on
 FEWER = 100_000  # of one that is followed until its rates stay, whatever they do
 POLISHED = 5  # steps of Newton to the equilibrium by which they stay
 ENOUGH = 20_000  # steps, by which a pace is known
 FORECAST = 4  # times STEPS: a run that would need more is given up at once
-POINTS = 400  # of a part of a run
+SAMPLES = 400  # of a part of a run
 STAYS = 1e-4  # of the largest rate: what is left of a change
 STILL = 1e-9  # of the fastest eigenvalue: one that is zero
 FADED = 8.0  # time constants for which the rates stay
@@ -97,7 +97,7 @@ class Ending(Shown, Compared, Reasoned):
     sense: int = 0
     rate: float | None = None
     rates: Float3 | None = None
-    within: float = NEAR
+    within: float = END_REACHED
     times: tuple[tuple[str, Time], ...] = ()
     nutation: float | None = None
     growth: float | None = None
@@ -134,7 +134,7 @@ def ending(case: Any, motion: Motion) -> Ending | None:
     if parts is None or not parts.dissipative:
         return None
     size = math.hypot(*case.state[:3])
-    if size and not 1 / FAR < size < FAR:
+    if size and not 1 / HUGE < size < HUGE:
         return Ending("undecided", "undecided", reason=TOO_FAR(rate=Rate(size)))
     if _free(parts):
         return _inside(case)
@@ -185,7 +185,7 @@ def _outside(scene: AnyScene, parts: Content, start: np.ndarray, motion: Motion)
     if rests and not parts.directed and not parts.inside and first > 0:
         found = Ending("rest", "exact", reason=ENERGY_FALLS, rate=0.0, rates=(0.0,) * 3)
         slowest = float(decay(parts))
-        latest = math.log(1 / NEAR) / slowest if slowest and not any(parts.M) else None
+        latest = math.log(1 / END_REACHED) / slowest if slowest and not any(parts.M) else None
         return _timed(replace(found, at_the_latest=latest), scene, start, lambda y: energy(y) / first)[0]
     if _field_alone(parts):
         return _about_the_field(scene, parts, start, energy, first)
@@ -254,11 +254,11 @@ def _falls(scene: AnyScene, state: np.ndarray, share: Callable[[np.ndarray], np.
            ) -> tuple[float | None, np.ndarray | None]:
     """(the time at which the share is NEAR^2, the state then); (an estimate or None, None) where that takes
     too many steps."""
-    level, t, steps, here, ahead = NEAR * NEAR, 0.0, 0, 1.0, math.inf
+    level, t, steps, here, ahead = END_REACHED * END_REACHED, 0.0, 0, 1.0, math.inf
     length = _quick(to_numpy(scene).jacobian(state), state)
     over = lambda after, y, times: trajectory(later(scene, after), y, times, rtol=rtol, laws=False)
-    while steps < STEPS:
-        times = np.linspace(0.0, length, POINTS + 1)
+    while steps < RUN_STEPS:
+        times = np.linspace(0.0, length, SAMPLES + 1)
         run = over(t, state, times)
         if run.status != "reached":
             return None, None
@@ -274,7 +274,7 @@ def _falls(scene: AnyScene, state: np.ndarray, share: Callable[[np.ndarray], np.
         t, steps, state, before, here = t + length, steps + taken, run.states[-1], here, float(shares[-1])
         parts = math.log(here / level) / math.log(before / here) if here < before else math.inf
         ahead = t + length * parts
-        if steps > ENOUGH and parts * taken > FORECAST * STEPS:
+        if steps > ENOUGH and parts * taken > FORECAST * RUN_STEPS:
             break
         length *= 2.0
     return (ahead if math.isfinite(ahead) else None), None
@@ -296,7 +296,7 @@ def _settled(scene: AnyScene, start: np.ndarray, rests: bool) -> Ending:
     length, t, steps = _quick(form.jacobian(start), start), 0.0, 0
     times, rates = np.zeros(1), start[None, :3]
     while steps < FEWER:
-        run = trajectory(later(scene, t), state, np.linspace(0.0, length, POINTS + 1)[1:], laws=False)
+        run = trajectory(later(scene, t), state, np.linspace(0.0, length, SAMPLES + 1)[1:], laws=False)
         if run.status != "reached":
             break
         steps, state, new = steps + max(1, run.counters["steps"]), run.states[-1], run.states[:, :3]
@@ -316,7 +316,7 @@ def _settled(scene: AnyScene, start: np.ndarray, rests: bool) -> Ending:
 def _stays(times: np.ndarray, rates: np.ndarray, end: np.ndarray, small: float, rests: bool) -> Ending:
     """The answer of rates (n, 3) that stay at an end; small: what is left of a change, rad/s."""
     size = float(np.linalg.norm(end))
-    away = np.linalg.norm(rates - end, axis=1) > NEAR * max(float(np.linalg.norm(rates[0])), size)
+    away = np.linalg.norm(rates - end, axis=1) > END_REACHED * max(float(np.linalg.norm(rates[0])), size)
     found: tuple[tuple[str, Time], ...] = ()
     if away.any():
         last = int(np.nonzero(away)[0][-1])

@@ -152,7 +152,7 @@ class FlatSpin(Answer, Compared, Reasoned):
 LEAST = math.radians(0.01)  # of `within`: below, the energy in doubles does not tell the angle any more
 DRAWN = 32  # motions from the box of uncertain numbers
 SECOND_RTOL = 1e-13  # tolerance of the second run
-STEPS = 5_000_000  # of a run: some ten seconds
+RUN_STEPS = 5_000_000  # of a run: some ten seconds
 SPAN_STEPS = 6_000_000  # of all runs that look for changes of the outcome by one number
 
 
@@ -262,8 +262,8 @@ def _timed(spinner: Spinner, found: FlatSpin, angle: float, spans: bool) -> Flat
     if nutation is not None and nutation / 10 >= LEAST:
         levels["tenth"] = spinner.levels(nutation / 10)["settles"]
     ahead = {name: level for name, level in levels.items() if float(spinner.ratio) >= level}
-    runs = [Run(spinner, spinner.start, None, STEPS),
-            Run(spinner, moved_row(spinner.start, MOVED), SECOND_RTOL, STEPS)]
+    runs = [Run(spinner, spinner.start, None, RUN_STEPS),
+            Run(spinner, moved_row(spinner.start, MOVED), SECOND_RTOL, RUN_STEPS)]
     seen: list[dict[str, float]] = [{}, {}]
     directions = [0, 0]
     for n, run in enumerate(runs):

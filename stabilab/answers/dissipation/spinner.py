@@ -21,9 +21,9 @@ from ...physics.to_numpy import to_numpy
 from ...reasons import Quantity, Reason, Sentence, Time
 from ..simulate import trajectory
 
-STEPS = 5_000_000  # of a run: some ten seconds
-PATIENCE = 4  # times STEPS: a forecast beyond that ends a run
-POINTS = 200  # of a part of a run
+RUN_STEPS = 5_000_000  # of a run: some ten seconds
+FORECAST_LIMIT = 4  # times STEPS: a forecast beyond that ends a run
+SAMPLES = 200  # of a part of a run
 ENDED = Sentence("run-ended", "it ended before")()
 TOO_LONG = Sentence("run-too-long", "it would take some {steps} steps, {time} of the motion")
 NOT_ENOUGH = Sentence("run-not-enough", "{steps} steps, to t = {time}, were not enough: 2 T/|H|² is still "
@@ -178,7 +178,8 @@ class Spinner:
 class Run:
     """A motion followed forward, from one level of 2 T/|H|^2 to the next."""
 
-    def __init__(self, spinner: Spinner, state: np.ndarray, rtol: float | None, most: int = STEPS) -> None:
+    def __init__(self, spinner: Spinner, state: np.ndarray, rtol: float | None,
+                 most: int = RUN_STEPS) -> None:
         self.spinner, self.state, self.rtol, self.most = spinner, state, rtol, most
         self.t, self.steps, self.validity = 0.0, 0, None
         self.why: Reason | None = None
@@ -190,7 +191,7 @@ class Run:
     def falls(self, level: float) -> float | None:
         """The time at which the level is reached; None, with why, where the run ends before."""
         while self.steps < self.most:
-            times = np.linspace(0.0, self.length, POINTS + 1)
+            times = np.linspace(0.0, self.length, SAMPLES + 1)
             run = self.over(self.state, times)
             if run.status != "reached":
                 self.why = run.reason
@@ -202,7 +203,7 @@ class Run:
                 return self._land(run.states, times, max(0, int(below[0]) - 1), level)
             self.t, self.state = self.t + self.length, run.states[-1]
             wait = self.spinner.ahead(float(self.spinner.ratios(self.state)), level)
-            if (more := wait * taken / self.length) > PATIENCE * self.most:
+            if (more := wait * taken / self.length) > FORECAST_LIMIT * self.most:
                 self.why = TOO_LONG(steps=Quantity(more, digits=1), time=Time(wait, digits=1))
                 return None
             self.length *= min(2.0, max(0.1, (self.most - self.steps) / taken))

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 FASTEST = 1e100  # of a rate: beyond it, and below its inverse, squares of squares are no doubles
 ALONG_FIRST = Sentence("law-along-first", "along the first {time} of the run")
-MOST = 1e5  # rad of turn along which a law beside other answers is judged: seconds
+MAX_TURN = 1e5  # rad of turn along which a law beside other answers is judged: seconds
 
 
 def motion_of_case(case: Case, needs: Needs = Needs.ALL, follow: float | None = None,
@@ -50,11 +50,11 @@ def law_of(case: Case, span: Any = None, brief: bool = False) -> Any:
         return None
     from ..simulate import simulated
     spin, longest = math.hypot(*case.state), max(map(abs, span))
-    if spin * longest <= MOST:
+    if spin * longest <= MAX_TURN:
         return simulated(case.scene, case.state, span, case.blocks).validity
-    first = tuple(t * MOST / (spin * longest) for t in span)
+    first = tuple(t * MAX_TURN / (spin * longest) for t in span)
     found = simulated(case.scene, case.state, first, case.blocks).validity
-    over = ALONG_FIRST(time=Time(MOST / spin, digits=2))
+    over = ALONG_FIRST(time=Time(MAX_TURN / spin, digits=2))
     return found and replace(found, over=over, also=tuple(replace(one, over=over) for one in found.also))
 
 

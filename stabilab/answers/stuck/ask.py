@@ -32,7 +32,7 @@ from ..tilt import Spread, Tilt
 from ..uncertain.fate import Uncertainty, uncertain
 from ..when import limit_of, of_tilt
 from .fate import (
-    PATIENCE,
+    NEVER_AFTER,
     Outcome,
     Scenario,
     delayed,
@@ -50,7 +50,7 @@ NOT_SEEN = Sentence("tolerance-not-looked-at-here",
 NO_TORQUE = Fraction(1, 10**9)  # of the torque: what is left of it counts as none
 WORTH = Fraction(999, 1000)  # of the torque: a helper that leaves more is none
 Duty: TypeAlias = tuple[Fraction, ...]  # the share of the time that each fires
-MOST = 12  # helpers that are listed
+MAX_HELPERS = 12  # helpers that are listed
 TRIED = 6  # thrusters, and pairs, whose times are compared: those that leave the least torque
 SHARES = (Fraction(1), Fraction(3, 4), Fraction(1, 2), Fraction(1, 4))  # of the duty that leaves the least
 
@@ -76,7 +76,7 @@ def helpers(scenario: Scenario, torque: Sequence[Fraction], others: Sequence[Any
             if len(names) == 1:
                 done.add(names[0])
     told.sort(key=lambda one: (one[0].effect != "zero", len(one[0].thrusters), one[0].torque_left))
-    tried = [_timed(scenario, helper, left, seen) for helper, left in told[:MOST]]
+    tried = [_timed(scenario, helper, left, seen) for helper, left in told[:MAX_HELPERS]]
     if all(helper.effect == "none" for helper in tried):
         tried += _slowest(scenario, torque, sets, seen)
     tried.sort(key=_rank)
@@ -191,7 +191,7 @@ def _slowest(scenario: Scenario, torque: Sequence[Fraction], sets: Any, seen: Ou
 def _run(scenario: Scenario, torque: Sequence[Fraction], chosen: Any, duty: Duty, seen: Outcome) -> float:
     """The time of the limit by a plain run, inf where it is not reached for long."""
     left, alone = _left(torque, [arm for _, arm in chosen], duty), seen.when.time
-    return first_time(scenario, left, None, PATIENCE * (alone[0] if alone else seen.followed))
+    return first_time(scenario, left, None, NEVER_AFTER * (alone[0] if alone else seen.followed))
 
 
 def _in_the_box(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]]) -> list[Duty]:

@@ -100,7 +100,7 @@ EARLIEST = Sentence(
 # --- The latest closing time
 LOOKS = 2000  # closing times looked at after the first that is too late
 WHEEL_LOOKS = 100  # with wheels, where each takes a run: before it
-SHARE = 1e-12  # of the limit, to which the largest rate of a run over one period is known
+RATE_TOLERANCE = 1e-12  # of the limit, to which the largest rate of a run over one period is known
 TURNS = 1000.0  # rad: how long a motion is followed that does not return, next to a separatrix
 
 
@@ -229,7 +229,7 @@ def _by_runs(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
         return Latest(size, early.low if late.time else math.inf, end, "run",
                       reason=_known(size, NO_LOOK(looks=WHEEL_LOOKS).then(known)), surely=(early.low, end))
     one, times = bracket
-    slack = max(SHARE, *(np.abs(one.end - one.second_end) / size))
+    slack = max(RATE_TOLERANCE, *(np.abs(one.end - one.second_end) / size))
     low, high = (_root(base, one, times, size * (1 + sign * slack)) for sign in (-1, 1))
     begin = float(one.begin)
     low, high = math.nextafter(begin + low, -math.inf), math.nextafter(begin + high, math.inf)
@@ -245,8 +245,8 @@ def _bracket(base: Scene, links: Sequence[Link], span: tuple[float, float],
     look shows it."""
     for one, times in _looks(links, span, WHEEL_LOOKS):
         states = np.asarray(trajectory(one.scene, one.start, times, laws=False).states)
-        for n in np.flatnonzero(bound_of_largest(base, states) >= size * (1 - SHARE)).tolist():
-            if largest_of_run(base, states[n].tolist()) >= size * (1 - SHARE):
+        for n in np.flatnonzero(bound_of_largest(base, states) >= size * (1 - RATE_TOLERANCE)).tolist():
+            if largest_of_run(base, states[n].tolist()) >= size * (1 - RATE_TOLERANCE):
                 return one, (float(times[max(n - 1, 0)]), float(times[n]))
     return None
 

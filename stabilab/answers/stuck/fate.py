@@ -156,7 +156,7 @@ LITTLE, FEW = 2_000_000, 3_000  # multiplications and compiled steps: some tenth
 # validated steps without the compiler, fifteen milliseconds each: as long as loading what is compiled takes;
 # compiling it takes ten seconds
 PLAIN = 32
-PATIENCE = 100  # times the time without a change: a limit that is not reached by then counts as never
+NEVER_AFTER = 100  # times the time without a change: a limit that is not reached by then counts as never
 TURN = 1.001  # of a period: a motion that repeats is followed for so long
 EXACT = ("axis", "law")  # certificates of growth that are closed solutions
 
@@ -452,5 +452,5 @@ def _runs(scenario: Scenario, torque: Sequence[Fraction], axis: Exact3, now: Fra
 
     def until(s: Number) -> float:
         wheel = [w + Fraction(float(s)) * a for w, a in zip(others, axis)]
-        return first_time(scenario, torque, wheel, PATIENCE * time[0])
+        return first_time(scenario, torque, wheel, NEVER_AFTER * time[0])
     return others, reach, until

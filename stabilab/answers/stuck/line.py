@@ -49,9 +49,10 @@ BITS = 128
 CELLS = 16  # the turn at first
 ORDER = 12  # of Taylor's polynomial: the balls' overestimate is less by the cell's reach to this power
 NARROW = 1e-13  # a cell of h as narrow holds a zero as far as anybody can see
-MOST = 2_000  # cells that are looked at
+MAX_CELLS = 2_000  # cells that are looked at
 INF = math.inf
-NEAR = Fraction(1, 10**9)  # of the unit: how near to a candidate its change of fate is looked for first
+# of the unit: how near to a candidate its change of fate is looked for first
+CANDIDATE_WIDTH = Fraction(1, 10**9)
 # half a turn h -> the two quadratics, highest coefficient first
 Pair: TypeAlias = Callable[[Any], tuple[Triple, Triple]]
 Intervals: TypeAlias = tuple[tuple[float, float], ...]
@@ -259,7 +260,7 @@ def _isolated(pair: Pair) -> list[float] | None:
     step = math.pi * (1 + 1e-15) / CELLS
     cells = [(n * step, (n + 1) * step) for n in range(CELLS)]
     found: list[float] = []
-    for _ in range(MOST):
+    for _ in range(MAX_CELLS):
         if not cells:
             return found
         low, high = cells.pop()
@@ -330,7 +331,7 @@ def pieces(clearly: Judge, unit: Fraction, cuts: Sequence[float]) -> Intervals:
             continue
         inside, outside = (n, n + 1) if steady[n] else (n + 1, n)
         around = Bracket(samples[inside], samples[outside], (margins[inside], margins[outside]))
-        step = (1 if around.same > cut else -1) * NEAR * unit
+        step = (1 if around.same > cut else -1) * CANDIDATE_WIDTH * unit
         near = clearly(cut + step), clearly(cut - step)
         if near[0] > 0 > near[1]:
             around = Bracket(cut + step, cut - step, near)

@@ -154,9 +154,9 @@ class Stuck(Shown):
 
 # --- How little must change
 TURN = 2000  # places on the turn at which the rise of the potential is looked at, to find a direction
-MOST = 1000  # of the body's own momentum: changes of the wheel as great are not given
+MAX_CHANGE = 1000  # of the body's own momentum: changes of the wheel as great are not given
 # of a turn: directions beside that of a circle that is a point
-BESIDE = 2 * math.pi * np.geomspace(1e-4, 1e-2, 5)
+PHASES_BESIDE = 2 * math.pi * np.geomspace(1e-4, 1e-2, 5)
 FEW = 5  # nearest places that are looked at in exact numbers
 # of a change of wheel momentum, at first; steps nearer and nearer to the best of them
 DIRECTIONS, CLOSER = 180, 26
@@ -309,7 +309,7 @@ def _wheel(scenario: Scenario, family: Family, steady: bool) -> Margin:
         straight = list(unit_vector(straight))
         best = min(best, (*_along(family, straight, steady), straight))
     for angle, near in _nearest(heights, steady):
-        for turn in TURNS if near < min(MOST * family.momentum_unit, best[0] * (1 + CLOSE)) else ():
+        for turn in TURNS if near < min(MAX_CHANGE * family.momentum_unit, best[0] * (1 + CLOSE)) else ():
             step = [Fraction(0)] * 3
             step[j], step[k] = Fraction(math.cos(angle + turn)), Fraction(math.sin(angle + turn))
             found = _along(family, step, steady)
@@ -340,7 +340,7 @@ def _nearest(heights: _Rise, steady: bool) -> list[tuple[float, float]]:
     """(angle, size) of the least changes of momentum in the plane across the torque, each nearest among its
     neighbours, seen in doubles."""
     # a circle that is a point has no barrier: a small island of spin-up
-    centre = heights.centre + np.concatenate([-BESIDE[::-1], [0.0], BESIDE])
+    centre = heights.centre + np.concatenate([-PHASES_BESIDE[::-1], [0.0], PHASES_BESIDE])
     angles = np.sort(np.concatenate([np.linspace(0, 2 * math.pi, DIRECTIONS, endpoint=False),
                                      centre % (2 * math.pi)]))
     sizes = np.array([heights.first_change(a, steady) for a in angles])

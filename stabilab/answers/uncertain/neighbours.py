@@ -27,9 +27,9 @@ from .boxes import Box, Point
 from .result import Over, Witness, corners
 from .search import SEED
 
-MOST = DRAWN = 32  # corners, and points drawn at random, at which a motion is followed
+MAX_CORNERS = DRAWN = 32  # corners, and points drawn at random, at which a motion is followed
 STEPS, INSIDE = 4000, 8  # of a motion at most; points a step at which its departure is taken
-SHARE = 1e-13  # of the size of the state: the last terms of a step
+TERM_TOLERANCE = 1e-13  # of the size of the state: the last terms of a step
 STABLE = Sentence("stable-equilibrium", "stable")()
 STABILITY_UNDECIDED = Sentence("stability-undecided", "its stability is undecided")()
 MIDDLE_AND_ELSEWHERE = Sentence("stability-over-box",
@@ -101,7 +101,7 @@ def beside(box: Box, found: Over) -> Over:
     at_rest = not any(exact)
     best, far, number, turned = (0.0, 0.0), np.zeros(n), 0, False
     other = None  # a point at rest too, and as stable as the middle is not
-    points = np.concatenate([corners(n, MOST), np.random.default_rng(SEED).uniform(-1, 1, (DRAWN, n))])
+    points = np.concatenate([corners(n, MAX_CORNERS), np.random.default_rng(SEED).uniform(-1, 1, (DRAWN, n))])
     for point in points[box.rigid(points)]:
         gone = _departure(box, point)
         if gone is None:
@@ -166,7 +166,7 @@ def departure(form: QuadraticForm, start: Float3, until: float) -> tuple[float, 
         if t >= until:
             return angle, rate
         series = coefficients(form, x)
-        h = min(length(series, SHARE * (max(map(abs, x)) or 1.0)), until - t)
+        h = min(length(series, TERM_TOLERANCE * (max(map(abs, x)) or 1.0)), until - t)
         for k in range(1, INSIDE + 1):
             x = tuple(summed(one, h * k / INSIDE) for one in series)
             gap = math.dist(x, start)

@@ -40,8 +40,8 @@ BOTH_SIDES = Sentence("both-sides", "{middle} at the middle, {elsewhere} elsewhe
 NEITHER = Sentence("neither-proof-nor-contrary",
                    "neither a proof in {parts} parts of the box nor a contrary case was found")
 
-MOST = 100.0          # times the stated uncertainty
-LADDER = np.concatenate([10.0 ** np.arange(-9, -2), 2.0 ** np.arange(-6, 7) * (MOST / 64)])
+MAX_STRETCH = 100.0          # times the stated uncertainty
+LADDER = np.concatenate([10.0 ** np.arange(-9, -2), 2.0 ** np.arange(-6, 7) * (MAX_STRETCH / 64)])
 CORNERS, CHUNK = 512, 4096  # of so many corners all are tried, of more as many at random
 HALVINGS, ROUNDS, NEAREST = 14, 8, 16
 NEXT = 2.5  # times the first rung at which a ray changes: those that change by then are bisected
@@ -59,7 +59,7 @@ SMALLER = (0.3, 0.15, 0.05, 0.01, 0.001)  # tried where even the first of these 
 UNDECIDED = "undecided"  # as the signature of equilibria begins and ends where nothing is known of them
 Look: TypeAlias = Callable[[Point], tuple[str | None, float]]  # the answer, and a margin in energy or NaN
 STRETCHES = (1e-6, 1e-3, 1.0)  # at which single points are tried
-FARTHER = (2.0, 5.0, 10.0, 30.0, MOST)
+FARTHER = (2.0, 5.0, 10.0, 30.0, MAX_STRETCH)
 
 
 def worst(margins: Callable[[np.ndarray], np.ndarray], n: int) -> np.ndarray:

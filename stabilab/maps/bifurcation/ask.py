@@ -43,9 +43,10 @@ from .plane import Plane, plane
 
 # --- Where separatrices connect
 BITS = 160
-NEAR = Fraction(1, 10**9)  # of a piece: so near to its ends, where a saddle is lost, nothing is looked for
+# of a piece: so near to its ends, where a saddle is lost, nothing is looked for
+END_WIDTH = Fraction(1, 10**9)
 DEPTH = 48  # halvings of an interval
-MOST = 5000  # enclosures of a rise in one diagram: some ten seconds
+MAX_ENCLOSURES = 5000  # enclosures of a rise in one diagram: some ten seconds
 PARTS = (Fraction(1, 2), Fraction(5, 11), Fraction(6, 11))  # places where an interval may be divided
 CONNECTED = Sentence("saddles-connected",
                      "two saddles are at one height: the separatrix of each ends at the other")()
@@ -74,7 +75,7 @@ def connections(family: Family, system: Conics | OnLine, pieces: tuple[Piece, ..
     """All of them in the range of one number, rising; none where the motion is on no circle."""
     if not isinstance(system, Conics):
         return []
-    eliminated, found, budget = Eliminated(family, system), [], [MOST]
+    eliminated, found, budget = Eliminated(family, system), [], [MAX_ENCLOSURES]
     for piece in pieces:
         if sum(state.linear == "unstable" for state in piece.states) == 2:
             found += _of_piece(family, eliminated, system.axis, piece, budget)
@@ -88,7 +89,7 @@ def _of_piece(family: Family, eliminated: Eliminated, axis: int, piece: Piece,
     two such parts."""
     width = Fraction(piece.high) - Fraction(piece.low)
     # the ends are rounded to doubles
-    off = max(NEAR * width, max(abs(Fraction(piece.low)), abs(Fraction(piece.high))) / (1 << 50))
+    off = max(END_WIDTH * width, max(abs(Fraction(piece.low)), abs(Fraction(piece.high))) / (1 << 50))
     found, before = [], None
     for part in parts(family, LEAF, eliminated, piece):
         low, high = Fraction(part.low) + off, Fraction(part.high) - off

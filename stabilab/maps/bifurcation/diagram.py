@@ -342,7 +342,7 @@ def followed(before: Sequence[Float3], after: Sequence[Float3]) -> list[int]:
     return [found[n] for n in range(len(after))]
 
 
-POINTS = 64  # of a branch, closer towards both ends as a fold's parabola needs it
+BRANCH_POINTS = 64  # of a branch, closer towards both ends as a fold's parabola needs it
 
 
 @dataclass(frozen=True)
@@ -357,7 +357,7 @@ class Branch:
     states: tuple[Float3, ...]
 
 
-def branches(diagram: Diagram, points: int = POINTS) -> list[Branch]:
+def branches(diagram: Diagram, points: int = BRANCH_POINTS) -> list[Branch]:
     """Every branch of every piece."""
     system = chosen(diagram.family, diagram.kind == "borders")[2]
     if system is None:
@@ -399,11 +399,11 @@ def _solved(diagram: Diagram, eliminated: Eliminated, value: Fraction, count: in
 
 # --- Its certificate
 SCHEMA = "stabilab.diagram-certificate/1"
-BITS = 128  # of the bounds about an irrational value
+BOUND_BITS = 128  # of the bounds about an irrational value
 CONNECTIONS = Sentence(
     "connections-uncertified",
     "{number} connections: the heights of saddles hold an angle and are isolated by balls alone")
-MOST = 64  # events that a certificate may hold
+MAX_EVENTS = 64  # events that a certificate may hold
 
 
 def certifiable(spans: Sequence[Any]) -> None:
@@ -420,9 +420,10 @@ def diagram_certificate(found: Diagram) -> dict[str, Any]:
         raise InputError(f"--certify: {found.counted.alone}: stabilab classify --certify proves "
                          "them at one value")
     pieces, events = _changes(found)
-    if len(events) > MOST:
+    if len(events) > MAX_EVENTS:
         raise InputError(
-            f"--certify: a certificate holds at most {MOST} events, this range has {len(events)}: divide it")
+            f"--certify: a certificate holds at most {MAX_EVENTS} events, "
+            f"this range has {len(events)}: divide it")
     family, span = found.family, found.family.spans[0]
     axis = fixed_axis(family)
     return {"schema": SCHEMA, "program": f"stabilab {__version__}",
@@ -473,7 +474,7 @@ def _bounds(event: Event) -> list[str]:
     if event.exact is not None:
         return [str(event.exact)] * 2
     number = Algebraic(fmpq_poly(list(event.polynomial)), event.index)
-    ball = settled(lambda digits: number.ball(max(BITS, digits.bits)))
+    ball = settled(lambda digits: number.ball(max(BOUND_BITS, digits.bits)))
     return [str(end.fmpq()) for end in (ball.lower(), ball.upper())]
 
 

@@ -155,7 +155,7 @@ def _triple_root(R: fmpq_mpoly, p: arb, q: arb) -> arb:
     raise Unclear
 
 
-MOST = 200  # strips
+MAX_STRIPS = 200  # strips
 
 
 @dataclass(frozen=True)
@@ -216,8 +216,8 @@ def plane(family: Family, borders: bool = False) -> Plane:
     eliminated = Eliminated(family, system)
     curves = eliminated.critical
     found = cuts(_projected(family, curves), family.spans[0].low, family.spans[0].high)
-    if len(found) > MOST:
-        raise InputError(f"the curves of these ranges turn and meet at {len(found)} values; at most {MOST} "
+    if len(found) > MAX_STRIPS:
+        raise InputError(f"the curves of these ranges turn and meet at {len(found)} values; at most {MAX_STRIPS} "
                          "are followed: narrow the ranges")
     strips = []
     for gap in gaps(found, family.spans[0].low, family.spans[0].high):

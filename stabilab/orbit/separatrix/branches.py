@@ -57,10 +57,10 @@ TRIAL = 17              # rows and columns of the trial grid
 FLOOR = 0.1             # of the mean density: no gap where a branch happens to be straight
 STRAIGHT = 1e-6         # of a branch's size: less sag between neighbours of the trial grid does not matter
 TAIL = 10.0 ** -np.arange(3, 6.1, 0.5)  # 1 - s of the last trial rows towards a plane Q = 0
-NEAR = 1e-6             # a first row this near to the fold where the loop there is no point
+FOLD_WIDTH = 1e-6             # a first row this near to the fold where the loop there is no point
 DENSE = 129             # steps along a branch that trial rows are chosen from
 UNIFORM = 0.2           # of the fold's radius: up to there trial rows are uniform
-MOST = 1025             # rows and columns, at most, of a grid within an accuracy
+MAX_ROWS = 1025             # rows and columns, at most, of a grid within an accuracy
 
 
 @dataclass(frozen=True)
@@ -143,8 +143,8 @@ def shrinks(land, branch, side) -> bool:
     if (told := shrinks_far(land, branch, side)) is not None:
         return told
     pot, fold = land.potential, branch.place(0.0)
-    ahead, behind = (pot.slope(pot.move(fold, side * y)) for y in (NEAR, -NEAR))
-    return not ahead - behind > NEAR * NEAR * pot.terms(fold)
+    ahead, behind = (pot.slope(pot.move(fold, side * y)) for y in (FOLD_WIDTH, -FOLD_WIDTH))
+    return not ahead - behind > FOLD_WIDTH * FOLD_WIDTH * pot.terms(fold)
 
 
 def _trial_rows(land, branch, side):
@@ -152,7 +152,7 @@ def _trial_rows(land, branch, side):
     far out, where the branch only grows and hardly bends."""
     stretched, s = _stretched(land, branch)
     s = np.interp(np.linspace(0, stretched[-1], TRIAL), stretched, s)
-    s[0], s[-1] = 0.0 if shrinks(land, branch, side) else NEAR, 1.0
+    s[0], s[-1] = 0.0 if shrinks(land, branch, side) else FOLD_WIDTH, 1.0
     # there a loop need not close; on the way it grows like the root of log 1/(1 - s), without bound
     if branch.far == PLANE:
         inner = np.interp(np.linspace(0, 1, TRIAL - len(TAIL)), np.linspace(0, 1, TRIAL),
@@ -193,7 +193,8 @@ MIXTURES = np.array([0.7, 1.0, 1.5, 2.0])  # columns against rows, relative to w
 SAFETY = 1.05
 GROW = 6.0         # cells, at most, against those of the grid before
 ROUNDS = 14
-SHARE = 4000       # points: strips of unequal shapes are computed as one array where no more are wasted
+# points: strips of unequal shapes are computed as one array where no more are wasted
+BATCH_POINTS = 4000
 RIM = 0.1          # of how far its outline strays counts where `reach` cuts a branch off
 # where a branch bends within a cell, edges stray like their length and not its square: by that power denser
 # than the root of how far tells
@@ -215,7 +216,7 @@ def grids_within(land, strips, accuracy) -> list[Grid]:
             strays = np.array([forms.strays(1), forms.strays(-1)])
             for k, n in enumerate(group):
                 best = int(strays[:, k].argmin())
-                if attempt and (strays[best, k] <= accuracy or min(s.shape[1], u.shape[1]) == MOST
+                if attempt and (strays[best, k] <= accuracy or min(s.shape[1], u.shape[1]) == MAX_ROWS
                                 or attempt == ROUNDS - 1):
                     found[n] = Grid(made.of(k), (1, -1)[best], strays[best, k:k + 1], [parts[n]])
                 else:
@@ -229,7 +230,7 @@ def _groups(todo: dict[int, tuple[np.ndarray, np.ndarray]]):
     that wastes little."""
     groups: list[list[int]] = []
     for n in sorted(todo, key=lambda n: -len(todo[n][0]) * len(todo[n][1])):
-        if groups and _waste(todo, groups[-1], n) <= SHARE:
+        if groups and _waste(todo, groups[-1], n) <= BATCH_POINTS:
             groups[-1].append(n)
         else:
             groups.append([n])
@@ -376,7 +377,7 @@ class _Forms:
                 shapes.append((size * r.sum() + 1, size * p.sum() + 1))
         rows, columns = min(shapes, key=lambda shape: shape[0] * shape[1])
         less = min(np.sqrt(GROW * len(s) * len(u) / (rows * columns)), 1.0)
-        rows, columns = (int(min(max(np.ceil(number * less), 3), MOST)) for number in (rows, columns))
+        rows, columns = (int(min(max(np.ceil(number * less), 3), MAX_ROWS)) for number in (rows, columns))
         return _placed(r, s, rows), _placed(c, u, columns)
 
 

@@ -33,7 +33,7 @@ from .nearest import INF, SLACK, double, ends_of, halves, least_of
 if TYPE_CHECKING:
     from flint import arb
 
-NEAR = 1.0  # offsets on hyperbolas up to which loops are parametrised by them
+OFFSET_CHART = 1.0  # offsets on hyperbolas up to which loops are parametrised by them
 
 
 class Ranges(NamedTuple):
@@ -198,7 +198,8 @@ class HyperbolaChart(Chart):
         low_log, high_log, (fallen, risen) = _log(low), _log(high), logarithms(abs(E))
         # of the offset log(xi/r) = log(E/eta)
         start, end = max(low_log - far, fallen - high_log), high_log - near
-        if start > end or -NEAR <= start and end <= NEAR:  # a `LoopChart` has what is near a saddle
+        # a `LoopChart` has what is near a saddle
+        if start > end or -OFFSET_CHART <= start and end <= OFFSET_CHART:
             return None
         within = arb(self.sign * (low + high) / 2, (high - low) / 2)
         least, most = ends_of(self._height(within, arb(about, half)) - self._height(r, E))

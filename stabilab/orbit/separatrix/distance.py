@@ -36,7 +36,7 @@ from ..one_orbit import Orbit
 from ..potential import Circle, slope_at
 from ..reduction import Reduction, reduce
 from .charts import (
-    NEAR,
+    OFFSET_CHART,
     Chart,
     FromAnchor,
     Hyperbola,
@@ -179,7 +179,7 @@ def _on_hyperbolas(numbers: Digits, reduction: Reduction, state: Sequence[float 
     wide = first[0] * sum(1 / math.sqrt(plain[name]) for name in "ab") * WIDER
     # of the window about the state
     reach = math.sqrt(math.prod(abs(plain["X"] + flip * plain["Z"]) + wide for flip in (1, -1)))
-    near: tuple = (numbers.ball(-NEAR), numbers.ball(NEAR))
+    near: tuple = (numbers.ball(-OFFSET_CHART), numbers.ball(OFFSET_CHART))
     charts: list[Chart] = []
     for curve, low, high in seen.branches(reach):
         charts.append(LoopChart(g, curve, (low, high), near, 1))

@@ -96,7 +96,8 @@ UNKNOWN = Apart(0.0, math.inf, None, BEYOND_SEARCH)
 
 EPS = 2.0**-52
 TURN = 2 * pi
-FAR = 10          # powers of two: a wall beyond the last well of a hyperbola is nearer, or there is none
+# powers of two: a wall beyond the last well of a hyperbola is nearer, or there is none
+WALL_POWERS = 10
 OWN = 1e-9        # offsets below this are the saddle itself
 # barriers that differ less from the saddle's height, relative to the energy's terms, are as high
 LEVEL = 64 * EPS
@@ -148,7 +149,7 @@ def loop_end(pot: Circle | Hyperbola, sense: int, saddle: Sequence[float], side:
     if high == inf:
         if turns:
             return TURN, centre, True
-        walls = [TURN] if pot.e < 0 else [low + 2.0**n for n in range(FAR)]
+        walls = [TURN] if pot.e < 0 else [low + 2.0**n for n in range(WALL_POWERS)]
         high = next((t for t in walls if pot.rise(side * t, saddle) > 0), None)
         if high is None:  # towards the torque the next turn lies lower; beside an open plane is no wall
             return None

@@ -45,9 +45,9 @@ if TYPE_CHECKING:
     from .saddles import Branch
 
 # --- Loops whose orbits are centred far away
-FAR = 100.0   # times the size of a loop: from there canonical places lose two digits and more
+FAR_LOOP = 100.0   # times the size of a loop: from there canonical places lose two digits and more
 TURNED = 0.1  # of a radian, in which series of five terms end below rounding
-STEPS = 10    # of Newton's method with the slope of the parabola, which is off by a tenth of t at most
+NEWTON_STEPS = 10    # of Newton's method with the slope of the parabola, which is off by a tenth of t at most
 TINY = np.finfo(float).tiny
 
 
@@ -121,7 +121,7 @@ class Orbits:
             half = -0.5 * (second + np.copysign(np.sqrt(second * second - 4 * first * third), second))
             one, other = half / third, first / half
             x = np.where(one * self.side > 0, one, other)
-            for _ in range(STEPS):
+            for _ in range(NEWTON_STEPS):
                 step = function(x) / (second + 2 * third * x)
                 x = x - np.where(np.isfinite(step) & (np.abs(step) < 0.5 * np.abs(x)), step, 0.0)
             return np.where((first > 0) & (third < 0) & (x * self.side > 0), x, np.nan)
@@ -147,7 +147,7 @@ def saddles_of(land: ConicLandscape, branch: Branch, s: np.ndarray):
     h = branch.start + (branch.end - branch.start) * s
     u, v = product / h, rz * h
     size = np.abs(u) + np.abs(v) + 2 * (abs(first) + abs(second))
-    return (u, v), FAR * size < land.reduction.parabolic_shift_size
+    return (u, v), FAR_LOOP * size < land.reduction.parabolic_shift_size
 
 
 def shrinks_far(land: ConicLandscape, branch: Branch, side: int) -> bool | None:
@@ -176,7 +176,7 @@ def replaced(land: ConicLandscape, strips: Sequence[Part | tuple[Branch, int]], 
     end, deep = (np.where(fold, 0.0, v) for v in (orbits.ends(), orbits.centres()))
     good = np.isfinite(end) & np.isfinite(deep) & (g["n"] * np.abs(end) < TURNED)
     size = np.abs(orbits.moved(np.nan_to_num(end))).max(axis=0)
-    good &= FAR * size < r.parabolic_shift_size
+    good &= FAR_LOOP * size < r.parabolic_shift_size
     end, deep = np.where(good, end, 0.0), np.where(good, deep, 0.0)
     alpha = end[:, None] * shares_of(np.where(fold, 0.0, orbits.sharpness(end)), u[strip], strip)
     w = np.abs(alpha) * np.sqrt(2 * np.maximum(orbits.fall(alpha), 0.0))
@@ -231,7 +231,7 @@ LOOK = 24
 BEGIN = 1e-9   # s next to the fold
 # of s: so far from the seam the second saddle's height is known beside the first one's, and the parts' edges
 # lie within a millionth of the loop
-BESIDE = 1e-12
+TWIN_WIDTH = 1e-12
 PINCH = 0.02      # of a lobe's length: no bend at the second saddle is resolved below
 
 
@@ -297,7 +297,7 @@ def seam_of(land: ConicLandscape, branch: Branch, side: int) -> tuple[float, flo
         halvings += 1
         if halvings == LOOK and not _jumps(land, branch, side, low, high):
             return None  # as of most strips: the second half of the halvings is for seams alone
-    low, high = low * (1 - BESIDE), high * (1 + BESIDE)
+    low, high = low * (1 - TWIN_WIDTH), high * (1 + TWIN_WIDTH)
     return (low, high, 1 if behind else -1) if high < 1 and _jumps(land, branch, side, low, high) else None
 
 

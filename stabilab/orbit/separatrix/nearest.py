@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 CLOSE = 2e-10  # of the distance: lower bound and witness are brought so near
 FINE = 2.0**-44  # of the squared distance: the balls of a point must be so narrow
-MOST = 12000  # boxes; what is not closed by then is a bracket
+MAX_BOXES = 12000  # boxes; what is not closed by then is a bracket
 STEPS = 20
 SLACK = 1e-14  # relative: what some tens of roundings stay far below
 INF = math.inf
@@ -95,7 +95,7 @@ class Search:
             self._push(heap, 0.0, box)
         while heap and heap[0][0] < self.goal:
             low, _, side, (chart, t, dt, y, dy) = heapq.heappop(heap)
-            if self.boxes > MOST:
+            if self.boxes > MAX_BOXES:
                 return Found(math.sqrt(max(low, 0.0)), self.upper, self.at, self.boxes)
             for middle, half in chart.halves(*((t, dt), (y, dy))[side]) if side else halves(t, dt):
                 self._push(heap, low, (chart, t, dt, middle, half) if side else (chart, middle, half, y, dy))

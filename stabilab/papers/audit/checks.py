@@ -271,7 +271,7 @@ def residuals_of(row: Row):
     return tuple(abs(float(v)) for v in found)
 
 
-DIGITS = (50, 80)  # a claim "holds" by values only if its residual shrinks with the digits
+CLAIM_DIGITS = (50, 80)  # a claim "holds" by values only if its residual shrinks with the digits
 POINTS = 5
 SLACK = 14  # digits that cancellation may cost at points of order one
 APART = 1e-6  # relative difference at a point that settles it
@@ -305,19 +305,19 @@ def decide(pairs: Sequence[tuple[Expr, Expr]], setting: Setting, seed: str,
     if none:
         return Decision(None, float("nan"), none)
     worst, seen = {}, 0
-    for digits in DIGITS:
+    for digits in CLAIM_DIGITS:
         numbers = precise(digits)
         found = [residual(pairs, numbers, point, setting) for point in chosen]
         found = [r for r in found if r is not None]
         seen, worst[digits] = len(found), max(found, default=None)
-        if found and worst[digits] > 10.0 ** -(DIGITS[0] - SLACK):
+        if found and worst[digits] > 10.0 ** -(CLAIM_DIGITS[0] - SLACK):
             return Decision(False, float(worst[digits]), f"residual at random points, {digits} digits")
     if not seen:
         return Decision(None, float("nan"), "the formula has no value at any of the random points")
-    if worst[DIGITS[1]] > 10.0 ** -(DIGITS[1] - SLACK):
-        return Decision(None, float(worst[DIGITS[1]]), "the residual does not shrink with the digits")
-    return Decision(True, float(worst[DIGITS[1]]),
-                    f"residuals at {seen} random points, {DIGITS[0]} and {DIGITS[1]} digits")
+    if worst[CLAIM_DIGITS[1]] > 10.0 ** -(CLAIM_DIGITS[1] - SLACK):
+        return Decision(None, float(worst[CLAIM_DIGITS[1]]), "the residual does not shrink with the digits")
+    return Decision(True, float(worst[CLAIM_DIGITS[1]]),
+                    f"residuals at {seen} random points, {CLAIM_DIGITS[0]} and {CLAIM_DIGITS[1]} digits")
 
 
 def residual(pairs, numbers, point, setting: Setting):
@@ -362,7 +362,7 @@ def free(pairs: Sequence[tuple[Expr, Expr]], setting: Setting) -> list:
 
 def _apart(left: Expr, right: Expr, setting: Setting, chosen: Sequence[dict[str, Fraction]]):
     """Whether two expressions differ by so much at a point that no rounding of 50 digits makes up for it."""
-    found = [residual([(left, right)], precise(DIGITS[0]), point, setting) for point in chosen]
+    found = [residual([(left, right)], precise(CLAIM_DIGITS[0]), point, setting) for point in chosen]
     return any(r is not None and r > APART for r in found)
 
 

@@ -13,7 +13,7 @@ from . import cavity, charged, top
 from . import major_axis as major
 from . import middle_axis as middle
 from . import minor_axis as minor
-from .figure import POINTS, Figure, model_figure, words
+from .figure import GRID_POINTS, Figure, model_figure, words
 
 _LEVEL = "curves: level sets of the exact potential, in doubles"
 _LAW = ("x2² + x3² − 2(b−a)x1 falls by exactly 2(b−a)τ, so no motion is bounded and there is no equilibrium, "
@@ -95,7 +95,7 @@ FIGURES = (
            f"{middle.LAMBDA_BEYOND} the stretch between the two "
            f"folds is unstable. {middle.level_departure()}", middle.projections,
            "closed forms; motions: level sets of the exact potential; fourth surface as printed: traced on a "
-           f"grid of {POINTS} x {POINTS}"),
+           f"grid of {GRID_POINTS} x {GRID_POINTS}"),
     Figure(18, "Without a wheel: λ1 = 0 (not in the paper)", major.words, major.draw,
            f"{_LEVEL}; printed: its formulas", added=True),
 )

@@ -17,7 +17,7 @@ from .figure import family_figures, listed, model_figure
 PAPER = "Galal, Amer, Elneklawy, El-Kafly 2023, charged rigid body with a viscous liquid"
 FAMILIES, SPAN = families.FAMILIES["cavity"], families.SPANS["cavity"]
 # kind of figure -> (title, its rows); amplitude, spin and phase of the exact motion by `polar`
-KINDS = panels.RATES | {"slow": ("Amplitude, spin and phase", (
+PANELS = panels.RATES | {"slow": ("Amplitude, spin and phase", (
     panels.history("amplitude", None, "$a$", "rad/s"), panels.history("spin", None, "$r$", "rad/s"),
     panels.history("phase", None, r"$\varphi$", "rad")))}
 
@@ -26,7 +26,7 @@ def _lines(name: str, kind: str):
     """(row, columns) of every row of a figure."""
     columns = [replace(column, runs=runs)
                for column, runs in zip(panels.columns_of(FAMILIES[name], SPAN), runs_of(name))]
-    return [(row, columns) for row in KINDS[kind][1]]
+    return [(row, columns) for row in PANELS[kind][1]]
 
 
 # -- captions, with their numbers
@@ -121,7 +121,7 @@ def _charge(family, more="", own=False):
 
 OWN = (11, 13)  # figures whose panels have limits of their own
 FIGURES = (model_figure("liquid-base", "cavity"), *family_figures(
-    "cavity", KINDS, _lines, f"averaged: relative tolerance {RTOL:g}; printed: its polynomials",
+    "cavity", PANELS, _lines, f"averaged: relative tolerance {RTOL:g}; printed: its polynomials",
     ((2, "small", "slow", _real), (3, "large", "rates", _liquid),
      (4, "large", "planes", _liquid,
       "The text has closed curves; the true motion spirals in within one turn. "),

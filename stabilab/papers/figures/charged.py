@@ -19,7 +19,7 @@ PAPER = "Galal et al., charged rigid body with a gyrostatic moment (short form: 
 FAMILIES, SPAN = families.FAMILIES["charged"], families.SPANS["charged"]
 MOMENTUM = r"kg m$^2$/s"
 # kind of figure -> (title, its rows)
-KINDS: dict[str, tuple[str, tuple[panels.Row, ...]]] = panels.RATES | {
+PANELS: dict[str, tuple[str, tuple[panels.Row, ...]]] = panels.RATES | {
     "angles": ("Angles of the 3-1-2 sequence",
                panels.histories("angles", (r"$\psi$", r"$\phi$", r"$\theta$"), "rad")),
     "momentum": ("Angular momentum by (33)",
@@ -27,7 +27,7 @@ KINDS: dict[str, tuple[str, tuple[panels.Row, ...]]] = panels.RATES | {
                   panels.plane("momentum", 0, 1, ("$G_1$", "$G_2$"), MOMENTUM))),
     "velocity": ("Velocity", panels.histories("velocity", ("$v_1$", "$v_2$", "$v_3$"), "m/s")),
     "place": ("Displacement", panels.histories("position", (r"$\eta_1$", r"$\eta_2$", r"$\eta_3$"), "m"))}
-KINDS["circle"] = "Angular momentum by (35)", KINDS["momentum"][1]
+PANELS["circle"] = "Angular momentum by (35)", PANELS["momentum"][1]
 
 
 def _columns(name: str, span: Span = SPAN, marked: bool = True):
@@ -44,7 +44,7 @@ def _lines(name: str, kind: str):
         columns = [_without_corrected(c) for c in columns]
     if kind == "circle":
         columns = [_by_35(body, c) for body, c in zip(_bodies(name), columns)]
-    return [(row, columns) for row in KINDS[kind][1]]
+    return [(row, columns) for row in PANELS[kind][1]]
 
 
 def _without_corrected(column):
@@ -65,7 +65,7 @@ def _circle_lines():
     for end in (2.0, 10.0, SPAN.end):
         column = _without_corrected(_columns("M1", Span(end, SPAN.count), marked=False)[0])
         parts.append(replace(_by_35(body, column), heading=f"0 to {end:g} s"))
-    return [(row, parts) for row in KINDS["circle"][1][2:]]
+    return [(row, parts) for row in PANELS["circle"][1][2:]]
 
 
 def circle(plt):
@@ -202,7 +202,7 @@ def _exactness(names):
 AS_PRINTED = {"momentum": "as printed: (33)", "circle": "as printed: (35)"}  # kind -> of its printed curves
 FIGURES = tuple(sorted((
     model_figure("charged-body", "charged"), *family_figures(
-        "charged", KINDS, _lines, CLOSED,
+        "charged", PANELS, _lines, CLOSED,
         ((2, "lambda3", "rates", _rates),
          (3, "lambda3", "planes", "The printed ellipses are those of linear equations; the true curves are "
           "egg-shaped, because r is not constant."),

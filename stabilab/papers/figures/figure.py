@@ -109,14 +109,14 @@ def _of_family(family: Family, paper, number, title, caption, lines, models, loo
 
 # --- Level curves of an integral in a plane
 PRINTED = style.MEANING["printed"] | {"color": style.GREEN, "linestyle": "--", "linewidth": 1.6}
-POINTS = 1201  # of the grid on which a level curve is traced, along each axis
+GRID_POINTS = 1201  # of the grid on which a level curve is traced, along each axis
 PIECES = 16    # of a piece of a curve, where it is cut off at an edge
 
 
 def level_curves(integral: Callable, level: float, x_range: Sequence, y_range: Sequence) -> list[np.ndarray]:
     """The curves integral(x, y) = level in a rectangle, arrays (n, 2) each, traced on a grid; where the
     integral has no real value there is no curve."""
-    x, y = (np.linspace(low, high, POINTS) for low, high in (x_range, y_range))
+    x, y = (np.linspace(low, high, GRID_POINTS) for low, high in (x_range, y_range))
     with np.errstate(invalid="ignore", divide="ignore"):
         values = integral(*np.meshgrid(x, y))
     return levels(x, y, np.ma.masked_invalid(values), [level])

@@ -13,14 +13,14 @@ from ...orbit.separatrix.branches import separatrix
 from ...show import style
 from ...show.plot.phase_plane import draw
 from .. import table
-from .figure import POINTS, PRINTED, farthest, level_curves, listed, within
+from .figure import GRID_POINTS, PRINTED, farthest, level_curves, listed, within
 
 # alpha = 2 theta: both wells and their saddles, no equilibrium at an edge; the plane repeats every 4 pi
 WINDOW = (-7.0, 8.4)
 REACH = 5.0           # largest circle drawn in Fig. 5, in radii of the outer fold circle
 CIRCLES, FOLD_RADIUS = (2.0, 4.0, 6.0), np.sqrt(2)  # printed ones of Fig. 5, about the origin
 FOLDS = np.array([(1.0, -1.0, 0.0), (-1.0, 1.0, 0.0)])  # where the text has saddle and centre merge
-NEAR = 2.0            # largest circle of the enlargement of Fig. 5, in the same radii
+ENLARGED = 2.0            # largest circle of the enlargement of Fig. 5, in the same radii
 FINE = (400, 801)     # of the branches, to which distances are taken
 LEFT, RIGHT = style.MEANING["separatrix 2"], style.MEANING["separatrix"]
 COPY = RIGHT | {"linestyle": (0, (5, 2)), "linewidth": 1.1}
@@ -236,7 +236,8 @@ def surface_departure() -> str:
 def surfaces(plt):
     """Fig. 5: the surfaces, and their folds from another side, enlarged."""
     figure = plt.figure(figsize=(10.4, 5.4), layout="constrained")
-    for index, (reach, circles, view) in enumerate(((REACH, len(CIRCLES), (24, -60)), (NEAR, 1, (40, 35)))):
+    looks = (REACH, len(CIRCLES), (24, -60)), (ENLARGED, 1, (40, 35))
+    for index, (reach, circles, view) in enumerate(looks):
         ax = figure.add_subplot(1, 2, index + 1, projection="3d")
         ax.computed_zorder = False  # lines over the surfaces that they are on or beside
         for branch in branches(reach=reach).branches:
@@ -405,8 +406,8 @@ def _branches():
 
 def map_exactness() -> str:
     """How far the vertices of the map are from the surface; how the fourth surface is traced."""
-    return (f"{exactness(reach=MAP_REACH, shape=SHAPE)}; fourth surface: traced on grids of {POINTS} x "
-            f"{POINTS}")
+    return (f"{exactness(reach=MAP_REACH, shape=SHAPE)}; fourth surface: traced on grids of {GRID_POINTS} x "
+            f"{GRID_POINTS}")
 
 
 def _map(ax, scene, found, size):

@@ -48,12 +48,12 @@ PANELS = 6  # of a picture at most
 DASHES = ((":", 2.3), ("--", 2.2), ("-", 2.1))
 ALONE = tuple({"color": c, "linewidth": 1.6, "linestyle": s, "zorder": z}
               for c, (s, z) in zip((style.ORANGE, "#9A5B00", "#4A2C00"), DASHES))
-BESIDE = tuple({"color": c, "linewidth": 0.8, "linestyle": s, "zorder": z - 0.5}
+NEIGHBOUR_LOOKS = tuple({"color": c, "linewidth": 0.8, "linestyle": s, "zorder": z - 0.5}
                for c, (s, z) in zip((style.PURPLE, "#9C4A7B", "#4F2440"), DASHES))
 LINE = 13  # points from a line of words above a panel to the next
 # in the legend, after the exact motion
 ORDER = ("printed", "corrected", "averaged1", "linear", "averaged2", "lindstedt")
-WORDS = cost.WORDS | {"corrected": "corrected integrals, frequency (8)"}
+MODEL_LABELS = cost.MODEL_LABELS | {"corrected": "corrected integrals, frequency (8)"}
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ def exactness(runs) -> str:
 def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words="", own=False) -> list:
     """The figures of lines (Row, [Column, ...]), of at most PANELS panels each. A line shares its limits,
     unless each panel has its own; the last panels show printed curves alone that leave the limits shared."""
-    words, count = WORDS | (words or {}), len(lines[0][1])
+    words, count = MODEL_LABELS | (words or {}), len(lines[0][1])
     whole = [(row, columns, None) for row, columns in lines if not own and _leaves(row, columns)]
     cells = [[(row, columns, c) for c in columns] for row, columns in lines]
     cells += [whole[n:n + count] for n in range(0, len(whole), count)]
@@ -162,7 +162,7 @@ def _entries(lines, words, mark_words) -> list:
     alone = next((columns for _, columns, c in cells if c is None), ())
     rows += [(f"alone: {c.heading}", look) for c, look in zip(alone, ALONE)]
     thin = any("corrected" in c.runs for c in alone)
-    return rows + [("alone, thin: corrected integrals", BESIDE[1])] * thin
+    return rows + [("alone, thin: corrected integrals", NEIGHBOUR_LOOKS[1])] * thin
 
 
 def _refused(column: Column, words: Mapping[str, str]) -> str:
@@ -201,7 +201,7 @@ def _leaves(row: Row, columns: Sequence[Column]) -> bool:
 def _printed_alone(ax, row, columns):
     """The printed curves of all columns in one panel, whole, in limits of their own: what a reader of the
     paper knows."""
-    for model, looks in (("printed", ALONE), ("corrected", BESIDE)):
+    for model, looks in (("printed", ALONE), ("corrected", NEIGHBOUR_LOOKS)):
         for (_, x, y), look in zip(_picked(row, columns, model), looks):
             ax.plot(x, y, **look)
     if row.limits is not None:

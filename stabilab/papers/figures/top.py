@@ -23,7 +23,7 @@ SIX = [("omega", 0, "$p_1$", ""), ("omega", 1, "$q_1$", ""), ("omega", 2, "$r_1$
        ("gamma", 0, r"$\gamma_1$", THOUSAND), ("gamma", 1, r"$\gamma_1'$", THOUSAND),
        ("gamma", 2, r"$\gamma_1''$", THOUSAND)]
 # kind of figure -> (title, its rows)
-KINDS = {"histories": ("Histories", tuple(panels.history(*row) for row in SIX)),
+PANELS = {"histories": ("Histories", tuple(panels.history(*row) for row in SIX)),
          "planes": ("Phase planes", tuple(panels.phase(*row) for row in SIX)),
          "angles": ("Euler angles",
                     panels.histories("euler", (r"$\theta$", r"$\varphi$", r"$\psi$"), "rad"))}
@@ -34,7 +34,7 @@ def _lines(name: str, kind: str):
     family, seen = FAMILIES[name], _with_angles if kind == "angles" else _scaled
     columns = [replace(column, runs=seen(*case))
                for column, case in zip(panels.columns_of(family, SPAN), family.cases.values())]
-    return [(row, columns) for row in KINDS[kind][1]]
+    return [(row, columns) for row in PANELS[kind][1]]
 
 
 def _units() -> tuple[np.ndarray, float]:
@@ -122,7 +122,7 @@ def _nutation(family: str):
 
 
 FIGURES = (model_figure("top-lx30-lz30", "top"), *family_figures(
-    "top", KINDS, _lines, "printed and corrected: their formulas",
+    "top", PANELS, _lines, "printed and corrected: their formulas",
     ((2, "lx", "histories", _unit,
       "The text sees l_x change q and gamma'' only; in truth it changes all six. "),
      (3, "lz", "histories", _unit), (4, "lx", "planes", _free), (5, "lz", "planes", _free),

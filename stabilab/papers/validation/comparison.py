@@ -15,7 +15,7 @@ from ...physics.scene import Body, Scene
 from ...representation import values_of
 from ...show.report import html
 from . import quantities
-from .quantities import BALL_BITS, WORDS, At, at, reproduced
+from .quantities import BALL_BITS, METHOD_LABELS, At, at, reproduced
 
 if TYPE_CHECKING:
     from flint import arb
@@ -211,7 +211,7 @@ def _judged(printed: Printed, time: str, component: str, ball: arb, theirs: str,
     left = None if again is None else abs(again - float(theirs))
     verdict = ("agrees" if difference <= tolerance else "explained" if left is not None and left <= tolerance
                else "differs")
-    cause = (f"{WORDS[printed.scheme['method']].format(**printed.scheme)} gives theirs to {left:.1e}"
+    cause = (f"{METHOD_LABELS[printed.scheme['method']].format(**printed.scheme)} gives theirs to {left:.1e}"
              if verdict == "explained" else "")
     ours = "0" if 0 in ball else ball.str(SHOWN, radius=False)
     return Finding(printed, time, component, UNITS.get(printed.quantity, printed.motion.unit), ours,

@@ -78,7 +78,7 @@ def ab2(rates, x, h, before=None):
 
 
 RULES = {"rk4": rk4, "ab2": ab2}
-WORDS = {"rk4": "the classical Runge-Kutta rule of order 4 at {step} s",
+METHOD_LABELS = {"rk4": "the classical Runge-Kutta rule of order 4 at {step} s",
          "ab2": "the Adams-Bashforth rule of order 2, begun by Euler's, at {step} s",
          "leapfrog": "rates at the middle of the next step of {step} s, as a leapfrog rule leaves them (- "
                      "h^2/24 omega'')"}

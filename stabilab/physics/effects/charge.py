@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ..equations import MotionView
     from ..scene import Scene
 
-SHARE = 0.1  # of the torque, by which a constant angle may be wrong
+ANGLE_SHARE = 0.1  # of the torque, by which a constant angle may be wrong
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ class Charge(Effect):
                 a, b, c, d = state["attitude"]
                 return abs((a * a - b * b - c * c + d * d) / constant - 1)
             return abs(state["gamma"][2] / constant - 1) if "gamma" in state else None
-        return (Limit("change of cos sigma, held constant, with the attitude", SHARE, departure,
+        return (Limit("change of cos sigma, held constant, with the attitude", ANGLE_SHARE, departure,
                       "axis 3 turns away from the field, and the charge's torque with it: angle = "
                       "\"attitude\" follows that",
                       "Galal et al., charged body: eq. (3) ff.", "the attitude"),)

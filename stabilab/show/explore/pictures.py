@@ -71,7 +71,7 @@ def unframed(message: bytes) -> tuple[dict[str, Any], bytes]:
     return json.loads(message[4:4 + length]), message[4 + length + (-(4 + length) % 4):]
 
 
-POINTS = 361  # of the potential across the picture
+POTENTIAL_POINTS = 361  # of the potential across the picture
 CIRCLE = 1.35 * math.pi  # half of what is shown of a circle
 # of walls: heights above and below the motion's that are worth drawing, and how far to look for them
 LIFT, CELLAR, FARTHEST = 2.5, 6.0, 12.0
@@ -123,10 +123,10 @@ def plane_of(scene: AnyScene, state: tuple[float, ...]) -> Plane | None:
     if r.geometry.walled:
         low, high = _walls(pot, place, height, W0)
     else:  # of a circle: about the middle of the equilibria within half a turn
-        near = list(_rests(pot, place, [-math.pi + 2 * math.pi * n / POINTS for n in range(POINTS + 1)]))
+        near = list(_rests(pot, place, [-math.pi + 2 * math.pi * n / POTENTIAL_POINTS for n in range(POTENTIAL_POINTS + 1)]))
         middle = sum(near) / len(near) if near else 0.0
         low, high = middle - CIRCLE, middle + CIRCLE
-    y = [low + (high - low) * n / (POINTS - 1) for n in range(POINTS)]
+    y = [low + (high - low) * n / (POTENTIAL_POINTS - 1) for n in range(POTENTIAL_POINTS)]
     rests = [(at, height(at), pot.slope(pot.move(place, at)) > 0) for at in _rests(pot, place, y)]
     return Plane(r, pot, place, W0, unit, y, [height(v) for v in y], rests)
 
@@ -172,7 +172,7 @@ def _side(height, edge, sense, ceiling, cellar):
 
 
 # --- The two flat pictures of a page: the phase plane, and the rates over time
-DIGITS = 9  # of a start that was clicked
+CLICK_DIGITS = 9  # of a start that was clicked
 
 
 def drawn_planes(bag: Bag, scene: AnyScene, state: tuple[float, ...], units: Units) -> dict[str, Any] | None:
@@ -206,7 +206,7 @@ def clicked(scene: AnyScene, state: tuple[float, ...], at: Any, units: Units) ->
         raise InputError("click: this motion has no phase plane")
     angle = 1.0 if units.scaled else units.angles[1]
     one = units.rates[1]
-    return [f"{v * one + 0.0:.{DIGITS}g}" for v in plane.state(turn / angle, rate / one)]
+    return [f"{v * one + 0.0:.{CLICK_DIGITS}g}" for v in plane.state(turn / angle, rate / one)]
 
 
 def over_time(bag: Bag, case: Case, motion: Motion | None, times: list[float], path: list[tuple[float, ...]],

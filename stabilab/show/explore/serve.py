@@ -47,7 +47,7 @@ def page(about: dict[str, Any], backend: str, how: str, policy: str = "", **more
 
 HOST = "127.0.0.1"
 LONGEST = 1 << 23  # bytes of a question: a certificate has at most half
-PATIENCE = 60.0  # s without a word from a page that keeps its line open
+IDLE_SECONDS = 60.0  # s without a word from a page that keeps its line open
 POLICY = ("default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; "
           "connect-src 'self'; base-uri 'none'; form-action 'none'; "
           "frame-ancestors 'none'")
@@ -101,7 +101,7 @@ class Explorer(ThreadingHTTPServer):
 class _Handler(BaseHTTPRequestHandler):
     server: Explorer
     protocol_version = "HTTP/1.1"
-    timeout = PATIENCE
+    timeout = IDLE_SECONDS
     server_version, sys_version = "stabilab", ""
 
     def do_GET(self) -> None:

@@ -49,7 +49,7 @@ from .parameters import changed
 from .pictures import Bag, line
 
 # --- The tables beside the pictures: what is known of the motion, and the equilibria
-MOST = 12  # rows of equilibria
+MAX_ROWS = 12  # rows of equilibria
 
 
 def rows(case: Case, motion: Motion, units: Units) -> list[list[str]]:
@@ -82,9 +82,9 @@ def equilibrium_rows(found: Equilibria, units: Units) -> dict[str, Any]:
             slowest = min(samples, key=lambda sample: max(map(abs, sample.at[:3])))
             name = called(curve.description.name, units)
             told.append([f"{name}, such as {units.vector(slowest.at[:3], units.rates)}", verdict])
-    more = len(told) - MOST
+    more = len(told) - MAX_ROWS
     return {"reason": units.said(found.reason),
-            "rows": told[:MOST] + ([[f"and {more} more", ""]] if more > 0 else [])}
+            "rows": told[:MAX_ROWS] + ([[f"and {more} more", ""]] if more > 0 else [])}
 
 
 PLAIN = (18, 17)  # rows of a branch, and columns of half of it, while a slider moves
@@ -98,7 +98,7 @@ SWEPT = (
     "The file has a [sweep]: the page is about the numbers in its body; stabilab fate and report answer "
     "every combination.")
 QUICK = 2_000_000  # multiplications for the proof of a time at a limit: some tenths of a second
-PATIENCE = 0.12  # s: a motion whose kind took longer the last time waits until the slider rests
+SLOW_SECONDS = 0.12  # s: a motion whose kind took longer the last time waits until the slider rests
 
 
 class Stopped(Exception):
@@ -190,7 +190,7 @@ class Session:
         waiting, or NumPy is needed and not here."""
         kind = kind_of(self._twin(case) or case.scene)
         runs = KINDS[kind].follows
-        if moving and (runs or self._cost.get(kind, 0.0) > PATIENCE):
+        if moving and (runs or self._cost.get(kind, 0.0) > SLOW_SECONDS):
             return None, f"UNDECIDED so far: {FOLLOWED if runs else WORKED_OUT}" if present(
                 "numpy") else f"UNDECIDED: {NO_ARRAYS}"
 
@@ -217,7 +217,7 @@ class Session:
         """The equilibria; None where they wait until the slider rests, or are not known."""
         if twin is not None:
             return self._once("equilibria", twin, lambda: equilibria(twin))
-        slow = self._cost.get("equilibria", math.inf) > PATIENCE
+        slow = self._cost.get("equilibria", math.inf) > SLOW_SECONDS
         if moving and slow and self._kept.get("equilibria", (None,))[0] != case.scene:
             return None
         began = time.process_time()

@@ -110,7 +110,7 @@ def direction_words(vector: np.ndarray) -> str:
 
 
 # --- What an atlas says in words, the answer first, and as CSV and JSON of every cell
-SCHEMA = "stabilab.atlas/1"
+ATLAS_SCHEMA = "stabilab.atlas/1"
 ROWS = 12  # wheel momenta that are listed one by one
 
 
@@ -348,7 +348,7 @@ def json(atlas: Atlas, units: Units) -> str:
                  atlas.in_file(atlas.named_directions).tolist(), atlas.named_records)]
     frame = asked.case.frame
     told: dict[str, Any] = {
-        "schema": SCHEMA, "case": asked.case.name, "command": asked.command, "answer": answer(atlas, units),
+        "schema": ATLAS_SCHEMA, "case": asked.case.name, "command": asked.command, "answer": answer(atlas, units),
         "torque": float(asked.torque),
         "moments": list(map(float, asked.case.scene.body.exact)),  # type: ignore[union-attr]
         "axes": [[float(v) for v in row] for row in frame.axes] if frame is not None else None,

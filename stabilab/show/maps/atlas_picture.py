@@ -77,7 +77,7 @@ def rim() -> np.ndarray:
 PIXELS = 1500  # across one map
 MAPS = 6  # of a picture
 LOG = 8  # times of more than this ratio are shown by their logarithm
-KINDS = ("fate", "when", "equilibria", "level")
+COLOURED_BY = ("fate", "when", "equilibria", "level")
 NEVER, UNKNOWN = light(style.GREY, 0.25), light(style.YELLOW, 0.6)
 COUNTED = (light(style.GREY, 0.35), light(style.SKY, 0.7), light(style.ORANGE, 0.7), light(style.GREEN, 0.6),
            light(style.PURPLE, 0.7))
@@ -93,7 +93,7 @@ def write_picture(atlas: Atlas, path: Path, units: Units, kind: str | None = Non
 def chosen(atlas: Atlas, kind: str | None) -> tuple[str, ...]:
     """The maps of a picture. Raises InputError for a kind that there is none of."""
     timed = atlas.asked.stated_limit is not None
-    have = [name for name in KINDS if timed or name != "when"]
+    have = [name for name in COLOURED_BY if timed or name != "when"]
     if kind is not None and kind not in have:
         raise InputError(f"plot {printable(kind)[:40]}: this atlas has {', '.join(have)}")
     return (kind,) if kind else ("fate", "when" if timed else "equilibria")

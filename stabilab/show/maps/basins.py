@@ -39,7 +39,7 @@ from .sweep import checked, column_in, finished, origin, write
 if TYPE_CHECKING:
     import xarray
 
-SCHEMA = "stabilab.basin/1"
+BASIN_SCHEMA = "stabilab.basin/1"
 SMOOTH = 0.1  # of the dimension: less than this above 1 is called smooth where the uncertainty allows
 
 
@@ -161,7 +161,7 @@ def json(found: Basins) -> str:
              "cells": cells, "finest_cell": step}
             for axis, cells, step in zip(found.plan.axes, mesh.cells, found.steps)]
     return as_json(limiting.key(found.plan.case, limits_of(found.plan.case, found.records)) | {
-        "schema": SCHEMA, "case": found.plan.case.name, "variables": found.plan.case.variables,
+        "schema": BASIN_SCHEMA, "case": found.plan.case.name, "variables": found.plan.case.variables,
         "command": command(found), "axes": axes,
         "depth": mesh.depth, "complete": not mesh.full, "states_asked": len(mesh.keys),
         "basins": [{"basin": basin_name(found, label), "share": share}

@@ -14,7 +14,7 @@ from ..data import as_json, csv_lines
 from ..terminal import lettered, listed
 from ..units import Units, units_of, with_unit
 
-SCHEMA = "stabilab.bifurcation/1"
+BIFURCATION_SCHEMA = "stabilab.bifurcation/1"
 DIGITS = 10  # of a value, unless more are needed to tell two apart
 NAMES = {"fold": "fold", "pitchfork": "pitchfork", "crossing": "crossing", "touch": "touch",
          "infinity": "gone to infinity", "axis": "on a principal axis",
@@ -52,7 +52,7 @@ def json(found: Diagram | Plane) -> str:
     """Everything that is known: pieces and events each with their equilibria; curves as polynomials, strips
     with their cells, cusps."""
     case = found.family.case
-    return as_json({"schema": SCHEMA, "case": case.name, "variables": case.variables, "answer": answer(found),
+    return as_json({"schema": BIFURCATION_SCHEMA, "case": case.name, "variables": case.variables, "answer": answer(found),
                     "kind": found.kind, "what": found.what,
                     "reason": found.counted.as_dict(),
                     "axes": [_axis(span) for span in found.family.spans]}

@@ -67,7 +67,7 @@ def rows_apart(places: Sequence[float], texts: Sequence[str], size: float, rows:
     return out
 
 
-WORDS = {"stable": "stable (Lyapunov)", "unstable": "unstable",
+VERDICT_LABELS = {"stable": "stable (Lyapunov)", "unstable": "unstable",
          "undecided": "undecided by energy (gyroscopic)"}
 
 
@@ -102,7 +102,7 @@ def _drawn(case: Case, found: CircularOrbit, rows: Any, units: Units, plt: Any) 
     figure.suptitle(f"{style.literal(case.title or case.name)}\nin bold: the number of equilibria, two or "
                     "more a line", x=0.02, ha="left", fontsize=10.5, wrap=True)
     kinds = dict.fromkeys(branch.verdict for branch in rows)
-    style.legend(figure, {WORDS[kind]: style.MEANING[kind] for kind in kinds} | own[0])
+    style.legend(figure, {VERDICT_LABELS[kind]: style.MEANING[kind] for kind in kinds} | own[0])
     return figure
 
 

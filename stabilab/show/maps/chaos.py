@@ -106,7 +106,7 @@ def _alone(figure: Any, ax: Any, beside: Any, words: str) -> None:
 
 # --- Whether a motion is regular or chaotic, in words, JSON and CSV: the label, how it is known, MEGNO over
 # time
-SCHEMA = "stabilab.chaos/1"
+CHAOS_SCHEMA = "stabilab.chaos/1"
 FIRST = {Order.REGULAR: "REGULAR as far as it was followed", Order.CHAOTIC: "CHAOTIC",
          Order.SPIN_UP: "SPIN-UP", Order.UNDECIDED: "UNDECIDED"}
 
@@ -152,7 +152,7 @@ def _unit(case: Any) -> str:
 
 def as_dict(case: Any, found: Chaos) -> dict[str, Any]:
     """One object of `stabilab chaos --json`."""
-    return {"schema": SCHEMA, "case": case.name, "variables": case.variables,
+    return {"schema": CHAOS_SCHEMA, "case": case.name, "variables": case.variables,
             "answer": Order(int(found.labels)).word, "because": found.because,
             "reason": found.reason.as_dict(), "megno": float(found.megno), "lyapunov": float(found.lyapunov),
             "lyapunov_uncertainty": float(found.lyapunov_error),

@@ -146,7 +146,7 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
             rows |= _boundary(ax, here, plan, moving, _index(data, plan, place))
             if "margin" in here and len(panels) == 1:
                 rows |= _levels(ax, here, moving)
-        if kind == SHARE:
+        if kind == SHARE_COLUMN:
             x, y = (np.asarray(here[name]) for name in moving[:2])
             ax.contour(x, y, np.asarray(here[kind].transpose(*moving[:2])).T, levels=[5, 50, 95],
                        colors=style.BLACK, linewidths=(0.6, 1.2, 0.6))
@@ -206,7 +206,7 @@ def _blank(data, kind) -> dict[str, Any]:
 
 
 def _limits(data, kind) -> tuple[float, float]:
-    if kind == SHARE:
+    if kind == SHARE_COLUMN:
         return 0.0, 100.0
     values = np.asarray(values_of(data, kind), float)
     values = values[np.isfinite(values)]
@@ -318,7 +318,7 @@ def segments_of(fates: np.ndarray, x: np.ndarray, y: np.ndarray,
 # --- A sweep over random samples: how the numbers spread, or, beside other axes, what share of the samples
 # spins up
 BINS = 60
-SHARE = "share"  # a column of the share of the samples that spins up
+SHARE_COLUMN = "share"  # a column of the share of the samples that spins up
 
 
 def spread(data: Any, plan: Any, kind: str, moving: list[str], size: Any, plt: Any) -> Any:
@@ -333,7 +333,7 @@ def spread(data: Any, plan: Any, kind: str, moving: list[str], size: Any, plt: A
     share = 100 * (data["fate"] == Fate.SPIN_UP).mean(shades.SAMPLE)
     words = (f"share of {data.sizes[shades.SAMPLE]:,} samples that {OUTCOMES[Fate.SPIN_UP].does}, lines at "
              "5, 50 and 95")
-    return fields(data.assign({SHARE: share.assign_attrs(long_name=words, units="%")}), plan, SHARE, moving,
+    return fields(data.assign({SHARE_COLUMN: share.assign_attrs(long_name=words, units="%")}), plan, SHARE_COLUMN, moving,
                   _panels(data, moving), size, plt)
 
 

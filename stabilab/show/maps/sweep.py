@@ -33,7 +33,7 @@ from .shades import SAMPLE, dimensions, limits_of, names, of_every_point, said, 
 if TYPE_CHECKING:
     import xarray
 
-SCHEMA = "stabilab.sweep/1"
+SWEEP_SCHEMA = "stabilab.sweep/1"
 ROWS = 40  # points of a table
 FEW = 100  # points that are counted; of more their share is given
 # what points do, what one point does
@@ -216,7 +216,7 @@ def json(found: Swept) -> str:
                | ({"flags": list(column.flags)} if column.flags else {})
                | {"values": endless(found.records[column.name].ravel().tolist())}
                for column in columns_of(plan.answers)[1:]}
-    told: dict[str, Any] = {"schema": SCHEMA, "case": plan.case.name, "variables": plan.case.variables,
+    told: dict[str, Any] = {"schema": SWEEP_SCHEMA, "case": plan.case.name, "variables": plan.case.variables,
                             "command": plan.command,
                             "shape": list(plan.shape), "axes": axes}
     if plan.sampled:

@@ -15,7 +15,7 @@ from .. import style
 from ..space import Box, Space, curves_of, look, marks_of, spread
 from ..space import space as drawn_in
 from . import canvas, in_space
-from .in_space import POINTS, disc, holds, inside, marker, plane_of
+from .in_space import EQUILIBRIUM_LOOKS, disc, holds, inside, marker, plane_of
 from .subject import Subject, measures, subject
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
             in_space.line(target, folds[holds(box, folds)] * per, FOLD, zorder=9)
         else:
             _in_plane(target, drawn, folds, flat)
-        rows |= {f"{kind} equilibrium": POINTS[kind] for kind in map(style.kind_of, found.points)}
+        rows |= {f"{kind} equilibrium": EQUILIBRIUM_LOOKS[kind] for kind in map(style.kind_of, found.points)}
         rows |= {"change of stability": FOLD} if len(folds) else {}
         if one.state is not None:
             rows["start of the motion" if flat is None

@@ -259,7 +259,7 @@ def levels(x: np.ndarray, y: np.ndarray, height: np.ndarray,
 
 # --- Equilibria as curves and points to draw, and how each verdict looks
 CURVES: dict[str, Look] = {kind: style.MEANING[kind] for kind in style.EQUILIBRIA}
-POINTS: dict[str, Look] = {kind: style.MARKER[mark] for kind, mark in zip(
+EQUILIBRIUM_LOOKS: dict[str, Look] = {kind: style.MARKER[mark] for kind, mark in zip(
     style.EQUILIBRIA, ("centre", "saddle", "undecided"))}
 TURN = np.linspace(0, 2 * np.pi, 73)
 
@@ -354,7 +354,7 @@ def _head(at: np.ndarray, step: np.ndarray, found: Space) -> np.ndarray:
 
 def marker(words: str) -> Look:
     """How a point is drawn, by its words in a legend."""
-    return next((POINTS[kind] for kind, name in style.EQUILIBRIA.items() if name == words),
+    return next((EQUILIBRIUM_LOOKS[kind] for kind, name in style.EQUILIBRIA.items() if name == words),
                 look(words))
 
 

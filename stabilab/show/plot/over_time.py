@@ -14,7 +14,7 @@ import numpy as np
 
 from ...answers.caveats import STEADY
 from ...answers.simulate import trajectory
-from ...answers.stuck.fate import PATIENCE, scenario_of, times_over
+from ...answers.stuck.fate import NEVER_AFTER, scenario_of, times_over
 from ...answers.tilt import SIDES, by_angle
 from ...answers.uncertain.boxes import box_of
 from ...answers.when import limit_of
@@ -280,7 +280,7 @@ def _until(scenario, row, scene) -> float:
 
 
 # --- Every part of a longer state over time, the analytic models beside the exact motion
-POINTS = 801
+TIMES = 801
 ROWS = 2  # parts of a picture: six panels
 # turns of a rate or of the vertical: of more of them the first are shown, unless a span is asked for
 CROWDED, FEWER = 24, 0.95
@@ -307,11 +307,11 @@ def states(case: Any, start: Any = None, span: Any = None, size: tuple[float, fl
     subjects.check("state", one)
     scale = measures(one, units)
     begin, end = one.asked or (one.seen[0], max(*one.seen, *(one.span or ())))  # slow parts need all
-    runs, _ = side_by_side(one, np.linspace(begin, end, POINTS))
+    runs, _ = side_by_side(one, np.linspace(begin, end, TIMES))
     # again where so few times hide some of the turns
     while span is None and (turns := _turns(runs["exact"].state)) > CROWDED:
         end = begin + FEWER * (end - begin) * CROWDED / turns
-        runs, _ = side_by_side(one, np.linspace(begin, end, POINTS))
+        runs, _ = side_by_side(one, np.linspace(begin, end, TIMES))
     exact = runs["exact"].state
     have = [name for name in cost.SYMBOLS if name in exact]
     if parts is not None and not (0 < len(parts) <= ROWS and set(parts) <= set(have)):
@@ -333,7 +333,7 @@ def _turns(state: Any) -> int:
                 if np.ptp(row) > STILL * np.abs(part).max()), default=0)
 
 
-FAR = 10.0  # times the top of the picture: where a band ends that is open above
+OPEN_TOP = 10.0  # times the top of the picture: where a band ends that is open above
 TALL = 8.0  # times the least: of times farther apart the logarithm is drawn
 ANGLES = np.radians(np.geomspace(0.1, 10.0, 4))  # and more where times bend
 EARLIEST = {"color": style.VERMILION, "linewidth": 2.0}
@@ -373,7 +373,7 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
         top = (1.2 if ends else 3.0) * per * float(finite.max(initial=0.0))
         reached = np.isfinite(found.earliest)
         if reached.any():
-            target.fill_between(degrees, per * found.earliest, np.minimum(per * found.latest, FAR * top),
+            target.fill_between(degrees, per * found.earliest, np.minimum(per * found.latest, OPEN_TOP * top),
                                 where=reached, **BAND)
             target.plot(degrees[reached], per * found.earliest[reached], **EARLIEST)
             rows.append((f"to the latest of {SIDES} directions" + f", with {found.within}"
@@ -437,7 +437,7 @@ def wheel(case: Given | Subject, ax: Axes | None = None, units: str | None = Non
             if not reached.all():
                 top = per * float(gain[reached].max(initial=time[0]))
                 target.plot(momenta[~reached], np.full((~reached).sum(), top), color=look["color"], **NEVER)
-                rows.append((f"not within {PATIENCE} times as long", NEVER | {"color": look["color"]}))
+                rows.append((f"not within {NEVER_AFTER} times as long", NEVER | {"color": look["color"]}))
             if found.gain is not None:
                 best, later = found.best, per * found.gain
                 words = f"{number(best, SHORT)} N m s: {number(later, SHORT)} {unit}"

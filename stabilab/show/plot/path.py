@@ -28,7 +28,8 @@ FINE, FEWER = 20_001, 2001  # times of a line; those where each costs many digit
 SEEN = 1e-3  # of the largest rate: what an eye tells apart
 # last places by which a start is moved: it leaves every plane through two of its components
 APART = (1, 2, 3)
-DIGITS = 4  # of a run in doubles' place, where these are lost; more than one of them is needed for a line
+# of a run in doubles' place, where these are lost; more than one of them is needed for a line
+LOST_DIGITS = 4
 BINS, SOLID = 700, 500  # a curve with more turning points than this is drawn as a band of so many pieces
 
 
@@ -71,7 +72,7 @@ def _sure(scene: AnyScene, start: Sequence[float], t: np.ndarray, states: np.nda
 
 def _in_digits(one, times):
     """(times, rates) by the cheapest way that is sure of them; None where none is known."""
-    found = best_reached(one, times, DIGITS)
+    found = best_reached(one, times, LOST_DIGITS)
     if found.run.status != "reached" or found.digits <= 1:
         return None
     return found.run.t, found.run.state["x" if one.scene.variables == "scaled" else "omega"]

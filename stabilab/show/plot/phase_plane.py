@@ -175,7 +175,7 @@ STAYS, LEAVES = DOT | {"color": style.SKY}, DOT | {"color": style.VERMILION, "ma
 MIDDLE = style.MARKER["centre"]
 PASSAGES, MOST = 300, 20_000
 FAN, USUAL = 500, 6  # neighbours: at most, and where no number is asked for
-BESIDE = 150    # passages of each neighbour, if it does not leave
+NEIGHBOUR_PASSAGES = 150    # passages of each neighbour, if it does not leave
 ROUND = 1000    # passages, at most, for the sake of going round
 GONE = 3        # times the farthest of this motion's passages: a neighbour that far has left
 # of the picture around its points; half its side at least, of the size of the rates
@@ -204,7 +204,7 @@ def section(case: Any, states: Any = None, ax: Axes | None = None, units: str | 
     _check("passages", PASSAGES if passages is None else passages, 1, MOST)
     scale, until = measures(one, units), subjects.certain_from(one)
     orbit, plane = plane_of(one, until)
-    count, followed = passages or _round(PASSAGES, orbit), _round(BESIDE, orbit)
+    count, followed = passages or _round(PASSAGES, orbit), _round(NEIGHBOUR_PASSAGES, orbit)
     times, places = returns(one.twin, one.state, plane, count, until)
     sets = [(THIS, "this motion", places)]
     sets += [(OTHER, "the other states", found)

@@ -15,7 +15,7 @@ from . import canvas, in_space
 from . import subject as subjects
 from .in_space import (
     CURVES,
-    POINTS,
+    EQUILIBRIUM_LOOKS,
     SurfaceLines,
     between,
     disc,
@@ -148,12 +148,13 @@ def momentum_sphere(one: Subject) -> SurfaceLines:
     for kind, points in circles:
         found.add(LIFT * points, CURVES[kind], points)
     found.add(LIFT * way, style.MEANING["this motion"], way)
-    found.marks = ([(LIFT * H[None], POINTS[kind]) for kind, H in rest if H @ sight(view) >= 0]
+    found.marks = ([(LIFT * H[None], EQUILIBRIUM_LOOKS[kind]) for kind, H in rest if H @ sight(view) >= 0]
                    + [(LIFT * way[:1], style.MARKER["start"])])
     found.rows = [("this motion", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
                   *([("separatrix", style.MEANING["separatrix"])] if saddles else []),
                   *([] if flat else [("other energies", style.MEANING["level"])]),
-                  *((f"{kind} equilibrium", POINTS[kind]) for kind in POINTS if kind in dict(rest)),
+                  *((f"{kind} equilibrium", EQUILIBRIUM_LOOKS[kind]) for kind in EQUILIBRIUM_LOOKS
+                     if kind in dict(rest)),
                   *((f"{kind} equilibria", CURVES[kind]) for kind in CURVES if kind in dict(circles))]
     return found
 

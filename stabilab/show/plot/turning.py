@@ -170,10 +170,10 @@ SIZE = (5.2, 5.2)
 PER_SECOND, PICTURES = 20, 100  # of a film
 DPI = 80
 COLOURS = (style.VERMILION, style.GREEN, style.BLUE)  # faces across axes 1, 2, 3, and these axes
-FAR = 1.75  # half the picture, in half edges
+HALF_PICTURE = 1.75  # half the picture, in half edges
 OUT, WHEEL = 1.5, 1.25  # lengths of the body's axes, momentum and torque; of the wheels' momentum
 # of the eye, in half edges: ten units of Matplotlib, in which the box of the axes is zoom * 25/18 wide
-DISTANCE = 10 * 2 * FAR / (1.1 * 25 / 18)
+DISTANCE = 10 * 2 * HALF_PICTURE / (1.1 * 25 / 18)
 BEHIND, BEFORE = 1, 3  # the box
 
 
@@ -251,7 +251,7 @@ def _stage(ax: Axes3D, found: Turn, one: Subject, scale: Measures):
             for order in (BEHIND, BEFORE)]
     tips = found.rotations[:, :, int(np.argmax(np.abs(found.omega[0])))] * OUT
     for setter in (ax.set_xlim, ax.set_ylim, ax.set_zlim):
-        setter(-FAR, FAR)
+        setter(-HALF_PICTURE, HALF_PICTURE)
     for setter, letter in zip((ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), "XYZ"):
         setter(f"{letter} (space)", labelpad=-12)
     for setter in (ax.set_xticklabels, ax.set_yticklabels, ax.set_zticklabels):

@@ -24,7 +24,7 @@ from ..text.classification import called
 from ..text.headline import cause, fate_parts, largest, rate_and_height
 from ..text.motion import tilt_lines
 from ..text.questions import asked
-from ..text.stuck import WORDS, amount, holds_for, means
+from ..text.stuck import MARGIN_LABELS, amount, holds_for, means
 from ..units import DIGITS, SHORT, Units, number, vector
 from .html import css
 
@@ -195,7 +195,7 @@ def sensitivity(one, units) -> dict:
     why: dict[str, list] = {}
     for name, margin in row.margins.items():
         if margin.size is None:
-            why.setdefault(margin.reason, []).append(WORDS[name])
+            why.setdefault(margin.reason, []).append(MARGIN_LABELS[name])
     reasons = [f"No margin in {listed(names, 'or')}: {units.said(reason)}."
                for reason, names in why.items() if reason]
     rows = [_change(name, amount(name, margin.size, units), margin.direction, holds_for(margin, units))
@@ -207,7 +207,7 @@ def sensitivity(one, units) -> dict:
 def _change(name, size, along, because):
     """A row; a component of the direction that is rounding is zero."""
     direction = vector([0.0 if abs(v) < ROUNDING else v for v in along]) if along else ""
-    return {"what": WORDS[name], "size": printed(size), "direction": printed(direction),
+    return {"what": MARGIN_LABELS[name], "size": printed(size), "direction": printed(direction),
             "because": printed(because)}
 
 

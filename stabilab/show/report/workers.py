@@ -20,7 +20,7 @@ from ...interrupt import end_with_parent
 from ...processes import cores, helpers
 
 PLACE = ".tasks"  # folder inside that of the report, removed at the end
-MOST = 4          # helpers need memory too: some 400 MB each
+MAX_WORKERS = 4          # helpers need memory too: some 400 MB each
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Task:
 
 def done(tasks, folder: Path, tell, workers: int | None = None) -> list:
     """What the tasks give, in their order. workers: processes in all, this one counted; None: one a core."""
-    number = min(cores() if workers is None else workers, MOST, len(tasks))
+    number = min(cores() if workers is None else workers, MAX_WORKERS, len(tasks))
     if number < 2:
         return [_told(task, tell) for task in tasks]
     place = folder / PLACE

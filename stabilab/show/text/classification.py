@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from ...orbit.result import Motion
 
 FEW = 3  # curves that one line has room for
-WORDS = ("stable", "asymptotically stable", "unstable", "undecided")
+VERDICTS = ("stable", "asymptotically stable", "unstable", "undecided")
 
 
 def text(case: Case, equilibria: Equilibria, motion: Motion | None, turning: Attitude | None, units: Units,
@@ -85,7 +85,8 @@ def _count(verdicts) -> str:
 
 
 def _ordered(verdicts: set[str] | Counter[Any]):
-    return sorted(verdicts, key=lambda word: (WORDS.index(word) if word in WORDS else len(WORDS), word))
+    return sorted(verdicts, key=lambda word: (VERDICTS.index(word) if word in VERDICTS else len(VERDICTS),
+                                             word))
 
 
 def _equilibria(case, equilibria, units, proofs):

@@ -221,7 +221,7 @@ SYMBOLS = {"omega": (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"),
          "gamma": (r"$\gamma_1$", r"$\gamma_2$", r"$\gamma_3$"),
          "angles": (r"$\psi$", r"$\phi$", r"$\theta$"), "momentum": (r"$H_1$", r"$H_2$", r"$H_3$"),
          "velocity": (r"$v_1$", r"$v_2$", r"$v_3$"), "position": (r"$x_1$", r"$x_2$", r"$x_3$")}
-WORDS = {"exact": "exact motion", "printed": "as printed", "linear": "linear model, both rates",
+MODEL_LABELS = {"exact": "exact motion", "printed": "as printed", "linear": "linear model, both rates",
          "corrected": "corrected integrals",
          "averaged1": "averaged, first order", "averaged2": "averaged, second order",
          "lindstedt": "corrected expansion"}
@@ -320,7 +320,7 @@ def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = 
     for ax in axes[-1]:
         ax.set_xlabel(f"$t$ ({written(clock)})")
     figure.suptitle(style.literal(case.heading + more), fontsize=10 * style.share(), wrap=True)
-    rows = [(WORDS[name] + (f", ends at {run.t[-1] * second:.3g} {written(clock)}" if stops(run)
+    rows = [(MODEL_LABELS[name] + (f", ends at {run.t[-1] * second:.3g} {written(clock)}" if stops(run)
                             and len(run.t) else ""),
              looks[name] | ({"linewidth": 2.4} if LOOKS[name] != looks[name] else {}))  # of a ground: seen
             for name, run in runs.items()]

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from ...case.read import Case
 
 # --- When a limit is reached
-WORDS = {"yes": "reached by", "unknown": "NOT KNOWN of", "never": "NEVER by"}
+ANSWER_HEADS = {"yes": "reached by", "unknown": "NOT KNOWN of", "never": "NEVER by"}
 COLUMNS = ("case", "quantity", "limit", "time_low", "time_high", "level")
 
 
@@ -74,7 +74,7 @@ def text(case, limit, found, units: Units) -> str:
 def swept(answers, units: Units):
     """(the answer in a line, columns, rows) of a sweep: whether, when and how well known."""
     kinds = [reached(float(found.low), float(found.high)) for *_, found in answers]
-    counts = "; ".join(f"{words} {kinds.count(kind)}" for kind, words in WORDS.items() if kind in kinds)
+    counts = "; ".join(f"{words} {kinds.count(kind)}" for kind, words in ANSWER_HEADS.items() if kind in kinds)
     counts += limiting.shared([found.caveats for kind, (*_, found) in zip(kinds, answers) if kind == "never"],
                               units)
     ends = [float(found.high) for *_, found in answers if math.isfinite(found.high)]

@@ -108,7 +108,8 @@ def counted(answers: Sequence[tuple], words: Mapping[str, str], units: Units, be
 
 def fates(motions: Sequence, units: Units) -> str:
     """How many motions have which fate, and the range of their largest rates."""
-    words = counted([(_became(motion), motion.caveats) for motion in motions], HEADS | ending.WORDS, units,
+    words = counted([(_became(motion), motion.caveats) for motion in motions], HEADS | ending.ENDING_HEADS,
+                    units,
                     ", ")
     sizes = [(_largest(motion), motion.largest is None) for motion in motions]
     sizes = [size for size in sizes if size[0] is not None]

@@ -21,7 +21,7 @@ from .scene import counted
 COLUMNS = ("case", "thrusters", "torque_x", "torque_y", "torque_z", "torque_1", "torque_2", "torque_3",
            "fate", "level", "axis", "axis_name", "sense", "limit", "time_low", "time_high", "largest_rate",
            "margin_rate", "margin_wheel", "margin_torque")
-WORDS = {"rate": "rate", "wheel": "wheel momentum", "torque": "torque"}
+MARGIN_LABELS = {"rate": "rate", "wheel": "wheel momentum", "torque": "torque"}
 # bounded is not for ever here: another torque may come
 FATES = HEADS | {Fate.BOUNDED.word: OUTCOMES[Fate.BOUNDED].does.upper()}
 PRECISE = Context(prec=40)  # digits in which ends are rounded
@@ -70,7 +70,7 @@ CSV = COLUMNS, lines
 
 
 def _margin_sizes(row) -> dict:
-    return {name: row.margins[name].size if name in row.margins else None for name in WORDS}
+    return {name: row.margins[name].size if name in row.margins else None for name in MARGIN_LABELS}
 
 
 def text(case, found, units: Units) -> str:
@@ -183,12 +183,12 @@ def _margins(row, units) -> str:
                        if name in row.margins), None)
         return f"no distance to a separatrix, as {units.said(reason)}" if reason else ""
     ends = {name: _ends(name, m, units) for name, m in known.items()}
-    told = [" or ".join(f"{ends[name][0]} of {WORDS[name]}" for name, m in known.items()
+    told = [" or ".join(f"{ends[name][0]} of {MARGIN_LABELS[name]}" for name, m in known.items()
                         if (m.beyond or name == "torque") == beyond) for beyond in (True, False)]
     changes = [words + sizes for words, sizes in zip(
         ("the outcome changes with ", "only on a separatrix the outcome is another, nearest "), told)
         if sizes]
-    return "; ".join([*changes, *(f"beyond {back} of {WORDS[name]} it is again as now"
+    return "; ".join([*changes, *(f"beyond {back} of {MARGIN_LABELS[name]} it is again as now"
                                   for name, (_, back) in ends.items() if back)])
 
 

@@ -97,7 +97,7 @@ def _near(name: str, symbols: Mapping[str, Expr]):
 
 
 # --- What papers print, as data: a TOML file a paper, a row a claim. The format is in docs/audit.md
-KINDS = {  # kind -> keys that a row of it needs besides `equation` and `printed`
+ROW_KINDS = {  # kind -> keys that a row of it needs besides `equation` and `printed`
     "holds": (),  # left = right along every motion of the system
     "solves": ("variable",),  # the printed functions of `variable` are a motion
     "equilibrium": (),  # the printed point is at rest
@@ -112,7 +112,8 @@ OWN = "equation kind says printed corrected system where corrected_where domain"
 ROW_KEYS = {*OWN, *("variable speed start value small order test with defines because bound note solve "
                     "conditions residual verdict figures units repair").split()}
 KEYS = "name title source figures symbols formulas definitions systems conditions domain row".split()
-WORDS = set("equation kind says note because defines residual test system".split())  # of a row: no formulas
+# of a row: no formulas
+CLAIM_WORDS = set("equation kind says note because defines residual test system".split())
 NAME = re.compile(r"[A-Za-z_]\w*")
 FOLDER = Path(__file__).parent / "papers"
 MAIN = "constant-torque-gyrostat"
@@ -197,7 +198,8 @@ def _formulas(table: Mapping[str, str], symbols: Mapping[str, Expr], file: str) 
 def _expanded(value, formulas):
     """Texts of a row, or of what it holds, with named formulas put in, in brackets."""
     if isinstance(value, dict):
-        return {key: inner if key in WORDS else _expanded(inner, formulas) for key, inner in value.items()}
+        return {key: inner if key in CLAIM_WORDS else _expanded(inner, formulas)
+                for key, inner in value.items()}
     if isinstance(value, list):
         return [_expanded(inner, formulas) for inner in value]
     if not isinstance(value, str) or not formulas:
@@ -263,9 +265,9 @@ def _symbols(table: Mapping[str, str], place: str):
 def _row(data: Mapping[str, Any], number: int, file: str, symbols: dict[str, Expr]) -> Row:
     place = f"{file}, row {number} (equation {data.get('equation', '?')})"
     kind = data.get("kind", "holds")
-    if kind not in KINDS:
-        raise InputError(f"{place}: unknown kind {kind!r}; known are {', '.join(KINDS)}")
-    missing = [key for key in ("equation", *KINDS[kind]) if key not in data]
+    if kind not in ROW_KINDS:
+        raise InputError(f"{place}: unknown kind {kind!r}; known are {', '.join(ROW_KINDS)}")
+    missing = [key for key in ("equation", *ROW_KINDS[kind]) if key not in data]
     if missing:
         raise InputError(f"{place}: a row of kind {kind} needs {', '.join(missing)}")
     if unknown := set(data) - ROW_KEYS:

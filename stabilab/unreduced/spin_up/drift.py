@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 
 # --- Motions and a small change of each, step by step
 STEP_ERROR = 2.0**-52  # units of rounding by which a step may move a motion: a Taylor polynomial of 20 terms
-FAR = 2.0**-6    # changes beyond this share of the size, or delays of so many radians, tell no growth
+NO_GROWTH = 2.0**-6    # changes beyond this share of the size, or delays of so many radians, tell no growth
 
 
 class Runs:
@@ -156,7 +156,7 @@ class Twins:
         passed the same place delays (m,) later. error (m,): of the places, in all, but for the growth.
         Returns (m,) where they tell nothing: nothing is noted there."""
         unit, change, told = self._along(states), twins - states, np.ones(len(rows), bool)
-        speed, room = (self.rates(states) * unit).sum(axis=1), FAR * _size(states)
+        speed, room = (self.rates(states) * unit).sum(axis=1), NO_GROWTH * _size(states)
         # the twin where it was, or will be, beside the motion: to second order in the delay
         for _ in range(2):
             more = np.where(speed > 0, -(change * unit).sum(axis=1) / speed, 0.0)
@@ -205,7 +205,7 @@ UNIT = 2.0**-52
 MOST_STEPS = 500  # that a return may take
 ENDLESS = 1e300
 NEWTON = 6      # corrections of its time by the Taylor series; the last is a formula
-NEAR = 1e-6     # share of a radian, below which that formula errs by less than a unit of rounding
+SERIES_BELOW = 1e-6     # share of a radian, below which that formula errs by less than a unit of rounding
 # a return is told from other passages of the section: it comes so close to its start, as a share of the way
 # round
 CLOSED = 2e-2
@@ -228,13 +228,13 @@ class Returns:
         for _ in range(NEWTON):
             late, turned = self._late(places, normals)
             good &= np.isfinite(late) & ~(np.abs(late) > 0.3 * times)
-            rows = np.flatnonzero(good & (turned > NEAR))
+            rows = np.flatnonzero(good & (turned > SERIES_BELOW))
             if not rows.size:
                 break
             places[rows], _ = self.runs.carried(places[rows], -late[rows], MOST_STEPS)
             times[rows] -= late[rows]
         late, turned = self._late(places, normals)
-        good &= turned <= NEAR
+        good &= turned <= SERIES_BELOW
         rates = self.runs.rates(places)
         rates = self.runs.rates(places - 0.5 * late[:, None] * rates)  # the midpoint formula
         return places - late[:, None] * rates, times - late, good & (np.abs(times / guesses - 1) < 0.5)

@@ -24,7 +24,7 @@ TAIL = -56.0
 LONGEST = 64.0        # of a step: even of a motion at rest
 # base 2: what the last coefficients of a change may add to it; what is left out is then below a hundredth of
 # it
-BESIDE = -5.0
+START_EXPONENT = -5.0
 # base 2: of a step times the slopes: beyond, the terms left out of e^x would be greater than the last
 STEEP = 3.0
 STILL = 2.0**-8  # rates per size (or per natural unit) below which no delay is told from a change
@@ -130,7 +130,7 @@ def run(coefficients: np.ndarray, a: np.ndarray, v: np.ndarray, span: float, ste
         h = min(allowed(a, ORDER, 1.0, TAIL), STEEP - logarithm(steepest(scaled, a)))
         if beside:
             series_beside(scaled, a, v)
-            h = min(h, allowed(v, SIDE, 1e-200, BESIDE))
+            h = min(h, allowed(v, SIDE, 1e-200, START_EXPONENT))
         h = min(two_to(min(h, 100.0)) / scale, LONGEST, left)
         passed, left = passed + h, left - h
         ahead = math.copysign(h * scale, span)

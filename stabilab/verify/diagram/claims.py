@@ -10,7 +10,7 @@ from typing import Any
 from flint import fmpq_poly
 
 from ..numbers import (
-    MOST,
+    MAX_ENTRIES,
     Malformed,
     bracket,
     brief,
@@ -110,7 +110,7 @@ def _polynomials(value: Sequence[list[str]] | str | dict[str, Any], where: str, 
 
 def _count(table: Mapping[str, Any], key: str, where: str) -> int | None:
     value = field(table, key, where)
-    return None if value is None else whole(value, f"{where}.{key}", range(MOST + 1))
+    return None if value is None else whole(value, f"{where}.{key}", range(MAX_ENTRIES + 1))
 
 
 def _event(table: Mapping[str, Any], where: str) -> Event:

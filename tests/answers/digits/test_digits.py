@@ -191,7 +191,7 @@ def test_asking_too_much_of_far_times_ends_at_once(monkeypatch):
 
 
 def test_steps_that_stop_leave_the_reduced_form(monkeypatch):
-    monkeypatch.setattr(precision_digits, "FAR", 1e300)  # the run is tried first
+    monkeypatch.setattr(precision_digits, "LONG_TURN", 1e300)  # the run is tried first
     monkeypatch.setattr("stabilab.integrate.trajectory.REPORT", 1000)
     monkeypatch.setattr("stabilab.integrate.trajectory.STEP_LIMIT", 1000)
     found = best_reached(case("minor-axis-100"), [1e6], 6)

@@ -286,6 +286,6 @@ def test_a_slow_tumble_says_what_it_cost(no_search):
 
 
 def test_a_run_that_does_not_reach_the_separatrix_is_undecided(no_search, monkeypatch):
-    monkeypatch.setattr(dissipation, "STEPS", 500)
+    monkeypatch.setattr(dissipation, "RUN_STEPS", 500)
     found = flat_spin(case())
     assert found.outcome == "undecided" and "were not enough" in found.because

@@ -101,7 +101,7 @@ CROSSING = ((7, 6, 3), (0, 0, "1/2"), ("1/50", 0, 0), (0, -1, 1)), {"inertia[1]"
 @pytest.mark.slow
 def test_saddles_that_go_far_away_where_the_circle_opens_take_a_bounded_number_of_enclosures(tmp_path,
                                                                                              monkeypatch):
-    monkeypatch.setattr(ask, "MOST", 2500)
+    monkeypatch.setattr(ask, "MAX_ENCLOSURES", 2500)
     numbers, vary = CROSSING
     found = stabilab.bifurcation(written(tmp_path, *numbers), vary)
     assert not found.notes and not found.connections
@@ -111,7 +111,7 @@ def test_saddles_that_go_far_away_where_the_circle_opens_take_a_bounded_number_o
 
 
 def test_connections_that_the_enclosures_do_not_reach_are_said_to_be_undecided(tmp_path, monkeypatch):
-    monkeypatch.setattr(ask, "MOST", 60)
+    monkeypatch.setattr(ask, "MAX_ENCLOSURES", 60)
     numbers, vary = CROSSING
     found = stabilab.bifurcation(written(tmp_path, *numbers), vary)
     assert not found.connections and any("undecided: whether two saddles come to one height" in note
@@ -124,7 +124,7 @@ def test_a_spent_budget_is_never_taken_for_a_zero(tmp_path, monkeypatch):
     # is cut short tells nothing
     case = written(tmp_path, (12, 9, 5), ("0.8", 0, 0), (0, 0, "0.02"), ("0.1", "0.05", "0.02"))
     for most in (5, 20, 40, 60, 100):
-        monkeypatch.setattr(ask, "MOST", most)
+        monkeypatch.setattr(ask, "MAX_ENCLOSURES", most)
         found = stabilab.bifurcation(case, {"torque[3]": ("-0.01", "0.013")})
         assert [event.value
                 for event in found.connections] == [0.0] or (not found.connections and found.notes)

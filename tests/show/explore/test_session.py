@@ -72,7 +72,7 @@ def test_a_kind_of_motion_that_took_long_waits_until_the_hand_rests(monkeypatch)
     # a wheel along the torque leaves no integral
     session, along = Session(case_of("thruster-stuck-major-axis")), {"wheel": ["1", None, None]}
     assert ask(session, moving=True, **along)[0]["fate"] == "spin-up"
-    monkeypatch.setattr("stabilab.show.explore.session.PATIENCE", 0.0)  # any work takes longer
+    monkeypatch.setattr("stabilab.show.explore.session.SLOW_SECONDS", 0.0)  # any work takes longer
     assert ask(session, moving=True, **along)[0]["headline"].startswith("UNDECIDED so far: keep still")
     assert ask(session, **along)[0]["fate"] == "spin-up"
 
