@@ -150,5 +150,4 @@ def write(folder, turns: float = 1e6, others: float = 1e5, motions: int = 6) -> 
 
 if __name__ == "__main__":
     import sys
-    # type: ignore[arg-type]
-    print(*write(sys.argv[1] if sys.argv[1:] else "figures", *map(float, sys.argv[2:4])), sep="\n")
+    print(*write(sys.argv[1] if sys.argv[1:] else "figures", *map(float, sys.argv[2:4])), sep="\n")  # type: ignore[arg-type]

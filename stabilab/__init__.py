@@ -97,9 +97,9 @@ def __getattr__(name: str) -> Any:
     if name in _HOME:
         home = import_module(f"{__name__}.{_HOME[name]}")
         # a room of its own: plot
-        found = getattr(home, name) if hasattr(home, name) else import_module(f"{home.__name__}.{name}")
-        globals()[name] = found
-        return found
+        result = getattr(home, name) if hasattr(home, name) else import_module(f"{home.__name__}.{name}")
+        globals()[name] = result
+        return result
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

@@ -33,12 +33,12 @@ def _commands():
         return run
     except ImportError as error:
         from .packages import explained
-        words = explained(error)
-        if words is None:
+        text = explained(error)
+        if text is None:
             raise
         if sys.stderr:
-            print(words, file=sys.stderr)
-        sys.exit(words.exit_code)
+            print(text, file=sys.stderr)
+        sys.exit(text.exit_code)
 
 
 if __name__ == "__main__":

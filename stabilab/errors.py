@@ -50,20 +50,20 @@ class Caveat:
 
 def without(caveats: Iterable[Caveat], *kinds: Kind) -> tuple[Caveat, ...]:
     """The caveats of other kinds."""
-    return tuple(one for one in caveats if one.kind not in kinds)
+    return tuple(caveat for caveat in caveats if caveat.kind not in kinds)
 
 
 def key(caveats: Iterable[Caveat], fill: Callable[[Any], str] | None = None) -> dict[str, list[dict]]:
     """The key "caveats" of a JSON object: a list, empty where nothing limits the answer. fill: as of
     `Reason.text`."""
-    return {"caveats": [{"kind": str(one.kind), "words": one.reason.text(fill)}
-                        | {name: value for name, value in one.reason.as_dict(fill).items() if name != "text"}
-                        for one in caveats]}
+    return {"caveats": [{"kind": str(item.kind), "words": item.reason.text(fill)}
+                        | {name: value for name, value in item.reason.as_dict(fill).items() if name != "text"}
+                        for item in caveats]}
 
 
 def cell(caveats: Iterable[Caveat], fill: Callable[[Any], str] | None = None) -> str:
     """The column "caveats" of a CSV: the words of all, empty where nothing limits the answer."""
-    return "; ".join(one.reason.text(fill) for one in caveats)
+    return "; ".join(caveat.reason.text(fill) for caveat in caveats)
 
 
 OK, BUG, BAD_INPUT, UNDECIDED, NO_RENDERING, TOLERANCE_NOT_MET, INTERRUPTED = 0, 1, 2, 3, 4, 5, 130
@@ -90,8 +90,8 @@ def printable(text: str) -> str:
 def told(value: object) -> str:
     """What came instead of what was expected, as Python writes it: not more than 80 characters, and no
     address, which is another in every run."""
-    words = repr(value)
-    return (words if " at 0x" not in words else f"{type(value).__name__} that holds no numbers")[:80]
+    text = repr(value)
+    return (text if " at 0x" not in text else f"{type(value).__name__} that holds no numbers")[:80]
 
 
 @dataclass(frozen=True)

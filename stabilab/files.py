@@ -99,8 +99,8 @@ def _explained(path):
     try:
         yield
     except OSError as error:
-        place = Path(os.fsdecode(error.filename or path))
-        if place not in (path, *path.parents) and path.parent not in place.parents:
+        location = Path(os.fsdecode(error.filename or path))
+        if location not in (path, *path.parents) and path.parent not in location.parents:
             raise  # something else than writing
         raise InputError(f"{path}: cannot be written: {error.strerror or error}") from error
 

@@ -43,13 +43,13 @@ def explained(error: ImportError) -> StabilabError | None:
         return None
     package = INSTALLED_AS.get(module, module) or "a package"
     if isinstance(cause, ModuleNotFoundError):
-        words = f"{package} is not installed, and stabilab needs it for this: {cure(module)}"
+        text = f"{package} is not installed, and stabilab needs it for this: {cure(module)}"
     else:
         why = str(cause).strip().partition("\n")[0] or "no reason given"
-        words = (f"{package} cannot be loaded ({why}): install what that names, or the package anew; "
+        text = (f"{package} cannot be loaded ({why}): install what that names, or the package anew; "
                  "stabilab doctor names the versions that are there")
-    return (RenderingUnavailable(f"no picture can be drawn: {words}") if package in DRAWING
-            else InputError(words))
+    return (RenderingUnavailable(f"no picture can be drawn: {text}") if package in DRAWING
+            else InputError(text))
 
 
 def _cause(error):

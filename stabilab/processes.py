@@ -36,13 +36,13 @@ def versions() -> dict[str, str]:
     """The program's version and those of the libraries that do the work."""
     from importlib.metadata import PackageNotFoundError, version
 
-    found = {"stabilab": __version__, "Python": platform.python_version()}
+    entries = {"stabilab": __version__, "Python": platform.python_version()}
     for name in ("numpy", "scipy", "heyoka", "python-flint"):
         try:
-            found[name] = version(name)
+            entries[name] = version(name)
         except PackageNotFoundError:
-            found[name] = "not installed"
-    return found
+            entries[name] = "not installed"
+    return entries
 
 
 def cores() -> int:
@@ -51,7 +51,7 @@ def cores() -> int:
 
 
 @contextmanager
-def helpers(module: str, place: Path, number: int, **streams: Any) -> Iterator[list[subprocess.Popen]]:
+def helpers(module: str, index: Path, number: int, **streams: Any) -> Iterator[list[subprocess.Popen]]:
     """While the block runs: `number` fresh interpreters that run a module, given the place where they work.
     They are killed at its end, however it ends.
 
@@ -59,13 +59,13 @@ def helpers(module: str, place: Path, number: int, **streams: Any) -> Iterator[l
     a pipe as its standard input: by its end it learns that the one who started it was killed. streams: what
     `subprocess.Popen` shall do with the others.
     """
-    started = [subprocess.Popen([sys.executable, "-m", module, str(place)], stdin=subprocess.PIPE, **streams)
+    started = [subprocess.Popen([sys.executable, "-m", module, str(index)], stdin=subprocess.PIPE, **streams)
                for _ in range(number)]
 
     def stop_all() -> None:
-        for one in started:
-            one.kill()
-            one.wait()
+        for item in started:
+            item.kill()
+            item.wait()
 
     with undoing(stop_all):
         try:

@@ -116,15 +116,15 @@ class Coefficient:
 
     def text(self, of: Of | None, letters: bool) -> str:
         """Rounded to six digits but in SI."""
-        one = 1.0 if of is None else of(self.unit)[1]
-        found = decimal(self.value) if self.digits is None else number(self.value, self.digits)
-        if one != 1.0 or of is not None and len(found) > DIGITS + 2:
-            found = self._rounded(one)
-        return found.replace("inf", "∞") if letters else found
+        item = 1.0 if of is None else of(self.unit)[1]
+        result = decimal(self.value) if self.digits is None else number(self.value, self.digits)
+        if item != 1.0 or of is not None and len(result) > DIGITS + 2:
+            result = self._rounded(item)
+        return result.replace("inf", "∞") if letters else result
 
-    def _rounded(self, one: float) -> str:
+    def _rounded(self, item: float) -> str:
         """To six digits in a unit of which so many make one in SI."""
-        top, bottom = one.as_integer_ratio()
+        top, bottom = item.as_integer_ratio()
         value = self.value * top / bottom
         return number(float(value), DIGITS) if in_doubles(value) else decimal(value)
 
@@ -216,17 +216,17 @@ class Reason:
     def clauses(self) -> Iterator[tuple[str, Reason]]:
         """(joint, clause) of all of it, the first behind no joint."""
         yield "", self.alone
-        for joint, one in self.rest:
-            for inner, clause in one.clauses():
+        for joint, item in self.rest:
+            for inner, clause in item.clauses():
                 yield inner or joint, clause
 
     def says(self, *sentences: Sentence) -> bool:
         """Whether one of its clauses is one of these sentences."""
-        return any(one.sentence in sentences for _, one in self.clauses())
+        return any(item.sentence in sentences for _, item in self.clauses())
 
     def without(self, sentence: Sentence) -> Reason:
         """Without the clauses that are this sentence, as far as others are left."""
-        rest = tuple((joint, one) for joint, one in self.rest if one.sentence != sentence)
+        rest = tuple((joint, item) for joint, item in self.rest if item.sentence != sentence)
         if self.sentence != sentence or not rest:
             return replace(self, rest=rest)
         (_, first), *others = rest
@@ -239,7 +239,7 @@ class Reason:
         filled = in_si if fill is None else fill
         own = (template.format_map({name: filled(value) for name, value in self.filled}) if self.code
                else template)
-        return own + "".join(joint + one.text(fill, letters) for joint, one in self.rest)
+        return own + "".join(joint + item.text(fill, letters) for joint, item in self.rest)
 
     def __str__(self) -> str:
         return self.text()
@@ -253,8 +253,8 @@ class Reason:
     def as_dict(self, fill: Callable[[Any], str] | None = None) -> dict[str, Any]:
         """An object of JSON: "code", "text" and each quantity by its name in SI; "then": the clauses that
         follow."""
-        found = {"code": self.code, "text": self.alone.text(fill)} | quantities_of(self)
-        return found | ({"then": [one.as_dict(fill) for _, one in self.rest]} if self.rest else {})
+        result = {"code": self.code, "text": self.alone.text(fill)} | quantities_of(self)
+        return result | ({"then": [item.as_dict(fill) for _, item in self.rest]} if self.rest else {})
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -276,8 +276,8 @@ class Reasoned:
 def chained(*reasons: Reason | None, joint: str = "; ") -> Reason | None:
     """Those that there are as one, each a clause behind the one before; None where there is none."""
     first, *rest = [*filter(None, reasons), None]
-    for one in rest:
-        first = first and first.then(one, joint)
+    for item in rest:
+        first = first and first.then(item, joint)
     return first
 
 
@@ -309,14 +309,14 @@ def plain(value: Any) -> Any:
     return [*map(plain, value)] if isinstance(value, tuple) else value
 
 
-def as_reason(given: Reason | str | None) -> Reason:
+def as_reason(supplied: Reason | str | None) -> Reason:
     """A reason as it is, words as one, None as one that says nothing."""
-    return given if isinstance(given, Reason) else old(given or "")
+    return supplied if isinstance(supplied, Reason) else old(supplied or "")
 
 
-def old(words: str) -> Reason:
+def old(text: str) -> Reason:
     """Words that still hold digits, units and axes: they are read again where they are printed."""
-    return Reason(Sentence("", words))
+    return Reason(Sentence("", text))
 
 
 def number(value: float, digits: int = DIGITS, side: int = 0) -> str:
@@ -354,7 +354,7 @@ def in_si(value: Any, axis: Callable[[int], str] = "axis {}".format) -> str:
     """A filling as text, in SI units. axis: the name of an axis by its number."""
     if isinstance(value, Quantity):
         many = value.value if isinstance(value.value, tuple) else (value.value,)
-        numbers = ", ".join(number(one, value.digits or DIGITS, value.side) for one in many)
+        numbers = ", ".join(number(item, value.digits or DIGITS, value.side) for item in many)
         return f"({numbers}) {value.unit}".rstrip() if isinstance(value.value, tuple) else (
             f"{numbers} {value.unit}".rstrip())
     if isinstance(value, Moment):
@@ -368,10 +368,10 @@ def in_si(value: Any, axis: Callable[[int], str] = "axis {}".format) -> str:
     if isinstance(value, Reason):
         return value.text(partial(in_si, axis=axis))
     if isinstance(value, tuple):
-        return listed(tuple(in_si(one, axis) for one in value))
+        return listed(tuple(in_si(item, axis) for item in value))
     return f"{value:,}" if type(value) is int else str(value)
 
 
-def listed(words: tuple[str, ...]) -> str:
+def listed(text: tuple[str, ...]) -> str:
     """Words one after the other: "a", "a and b", "a, b and c"."""
-    return " and ".join(filter(None, (", ".join(words[:-1]), words[-1]))) if words else ""
+    return " and ".join(filter(None, (", ".join(text[:-1]), text[-1]))) if text else ""

@@ -21,26 +21,26 @@ def seen_through(view: Callable[[], ModuleType]) -> None:
     _view[:] = [view]
 
 
-def same(one: Any, other: Any) -> bool:
+def same(x: Any, other: Any) -> bool:
     """Whether two values hold the same: arrays with the same bytes, not a number as one that is none either.
     """
-    if type(one) is not type(other):
+    if type(x) is not type(other):
         return False
-    if hasattr(one, "tobytes") and hasattr(one, "dtype"):
-        if one.shape != other.shape or one.dtype != other.dtype:
+    if hasattr(x, "tobytes") and hasattr(x, "dtype"):
+        if x.shape != other.shape or x.dtype != other.dtype:
             return False
-        return (one.tobytes() == other.tobytes() if not one.dtype.hasobject
-                else same(one.tolist(), other.tolist()))
-    if isinstance(one, dict):
-        return one.keys() == other.keys() and all(same(value, other[key]) for key, value in one.items())
-    if isinstance(one, (list, tuple)):
-        return len(one) == len(other) and all(map(same, one, other))
-    return one is other or bool(one == other) or (isinstance(one, float) and one != one and other != other)
+        return (x.tobytes() == other.tobytes() if not x.dtype.hasobject
+                else same(x.tolist(), other.tolist()))
+    if isinstance(x, dict):
+        return x.keys() == other.keys() and all(same(value, other[key]) for key, value in x.items())
+    if isinstance(x, (list, tuple)):
+        return len(x) == len(other) and all(map(same, x, other))
+    return x is other or bool(x == other) or (isinstance(x, float) and x != x and other != other)
 
 
-def values_of(one: Any, names: str) -> dict[str, Any]:
+def values_of(item: Any, names: str) -> dict[str, Any]:
     """{name: value} of these attributes, whose names are parted by blanks."""
-    return {name: getattr(one, name) for name in names.split()}
+    return {name: getattr(item, name) for name in names.split()}
 
 
 class Compared:
@@ -50,7 +50,7 @@ class Compared:
     def __eq__(self, other: object) -> Any:
         if other.__class__ is not self.__class__:
             return NotImplemented
-        names = [one.name for one in fields(self) if one.compare]  # type: ignore[arg-type]
+        names = [field.name for field in fields(self) if field.compare]  # type: ignore[arg-type]
         return all(same(getattr(self, name), getattr(other, name)) for name in names)
 
     __hash__ = None  # type: ignore[assignment]

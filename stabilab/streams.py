@@ -94,11 +94,11 @@ class Progress:
         self.wanted = bool(sys.stderr and sys.stderr.isatty())
         self._next, self._every, self._shown = time.monotonic() + after, every, 0
 
-    def __call__(self, words: str):
+    def __call__(self, text: str):
         now = time.monotonic()
         if self.wanted and now >= self._next:
             self._next = now + self._every
-            self._write(words)
+            self._write(text)
 
     def __enter__(self):
         return self
@@ -107,10 +107,10 @@ class Progress:
         if self._shown:
             self._write("")
 
-    def _write(self, words):
-        sys.stderr.write("\r" + words.ljust(self._shown) + ("" if words else "\r"))
+    def _write(self, text):
+        sys.stderr.write("\r" + text.ljust(self._shown) + ("" if text else "\r"))
         sys.stderr.flush()
-        self._shown = len(words)
+        self._shown = len(text)
 
 
 def _lose(number):

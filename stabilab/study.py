@@ -36,10 +36,10 @@ T = TypeVar("T")
 def _in_doubles(question: Callable[P, T]) -> Callable[P, T]:
     """The question, with an error that names the number by which it leaves the range of doubles."""
     @wraps(question)
-    def ask(*given: P.args, **named: P.kwargs) -> T:
-        case: Any = given[0]
+    def ask(*supplied: P.args, **named: P.kwargs) -> T:
+        case: Any = supplied[0]
         with in_doubles(case, f"{case.place}: "):
-            return question(*given, **named)
+            return question(*supplied, **named)
     return ask
 
 
@@ -179,7 +179,7 @@ class Plots:
             raise AttributeError(f"there is no plot {kind!r:.60}; there are {', '.join(self.__dir__())}")
         from .show import plot
         draw = getattr(plot, kind)
-        return lambda *given, **named: draw(self._case, *given, **named)
+        return lambda *supplied, **named: draw(self._case, *supplied, **named)
 
     def __dir__(self) -> list[str]:
         from .show import plot
@@ -188,8 +188,8 @@ class Plots:
 
 def of(case: read.Case) -> Case:
     """The case with its questions."""
-    return case if isinstance(case, Case) else Case(**{one.name: getattr(case, one.name)
-                                                       for one in fields(read.Case)})
+    return case if isinstance(case, Case) else Case(**{field.name: getattr(case, field.name)
+                                                       for field in fields(read.Case)})
 
 
 def load(given: Given, state: Start | None = None, span: Span | None = None) -> Case:

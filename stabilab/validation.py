@@ -12,16 +12,16 @@ class Asked(type):
     """The class of what users make by its name: a call that gives it too much, too little or what it does not
     know is bad input."""
 
-    def __call__(cls, *given: Any, **named: Any) -> Any:
+    def __call__(cls, *supplied: Any, **named: Any) -> Any:
         try:
-            return super().__call__(*given, **named)
+            return super().__call__(*supplied, **named)
         except TypeError:
             takes = signature(cls.__init__)  # type: ignore[misc]  # the very class that was called
             try:
-                takes.bind(None, *given, **named)
+                takes.bind(None, *supplied, **named)
             except TypeError as error:
-                names = [str(one.replace(annotation=one.empty))
-                         for one in list(takes.parameters.values())[1:]]
+                names = [str(parameter.replace(annotation=parameter.empty))
+                         for parameter in list(takes.parameters.values())[1:]]
                 raise InputError(
                     f"{cls.__name__}: {error}; expected {cls.__name__}({', '.join(names)})") from None
             raise
@@ -36,17 +36,17 @@ def checked_scene(scene):
     return scene
 
 
-def is_case(given) -> bool:
+def is_case(supplied) -> bool:
     """Whether it is a case, which stands for its scene and its own motion."""
-    return hasattr(given, "scene") and hasattr(given, "exact_state")
+    return hasattr(supplied, "scene") and hasattr(supplied, "exact_state")
 
 
-def scene_and_state(given, state):
+def scene_and_state(supplied, state):
     """(scene, state) that a function is asked with; of a case its scene and, where no state is given, its own
     start."""
-    if is_case(given):
-        given, state = given.scene, given.start if state is None else state
-    scene = checked_scene(given)
+    if is_case(supplied):
+        supplied, state = supplied.scene, supplied.start if state is None else state
+    scene = checked_scene(supplied)
     if state is None:
         raise InputError(
             "state: expected three numbers for a scene; a case without a [motion] needs them too")

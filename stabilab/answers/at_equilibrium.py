@@ -33,12 +33,12 @@ NOT_FOUND = Verdict("undecided", Sentence(
     "the state was not found among the equilibria that are known of this scene")())
 
 
-def with_stability(scene: AnyScene, found: Motion, exact: Sequence[Number] | None = None) -> Motion:
+def with_stability(scene: AnyScene, result: Motion, exact: Sequence[Number] | None = None) -> Motion:
     """The motion of an equilibrium with its stability. exact: the three rates exactly."""
     twin = effective(scene)
-    stability = (of_gyrostat(twin, exact or tuple(map(Fraction, found.at[:3]))) if twin.plain
-                 else of_scene(scene, found.at))
-    return replace(found, stability=stability)
+    stability = (of_gyrostat(twin, exact or tuple(map(Fraction, result.at[:3]))) if twin.plain
+                 else of_scene(scene, result.at))
+    return replace(result, stability=stability)
 
 
 def of_gyrostat(scene: AnyScene, x: Sequence[Number]) -> Stability:
@@ -52,10 +52,10 @@ def of_gyrostat(scene: AnyScene, x: Sequence[Number]) -> Stability:
         except OverflowError:
             growth = math.inf
         return Stability("unstable", growth, reason=verdict.reason)
-    found = equilibria(scene)
-    if found.kind == "all":
-        return Stability("stable", reason=found.reason)
-    return _stability(_without_growth(found, tuple(map(float, x)), "stable" if m else "degenerate"))
+    result = equilibria(scene)
+    if result.kind == "all":
+        return Stability("stable", reason=result.reason)
+    return _stability(_without_growth(result, tuple(map(float, x)), "stable" if m else "degenerate"))
 
 
 def of_scene(scene: AnyScene, at: Sequence[float]) -> Stability:
@@ -87,42 +87,42 @@ def _growth(scene: AnyScene, at: Sequence[float]) -> float | None:
     return largest if largest > GROWS * float(np.abs(jacobian).max()) else None
 
 
-def _without_growth(found: Equilibria, at: Sequence[float], linear: str) -> Verdict:
+def _without_growth(out: Equilibria, at: Sequence[float], linear: str) -> Verdict:
     """The verdict where no eigenvalue has a positive real part: that of the same state, else of the pieces of
     curves of the same linear kind, where these agree."""
-    near = _nearest((*found.points, *(one for curve in found.curves for one in curve.samples)), at)
-    if near is not None:
-        return Verdict(near.verdict, near.reason)
-    alike = {one.verdict: Verdict(one.verdict, one.reason) for curve in found.curves for one in curve.segments
-             if one.linear == linear}
-    return alike.popitem()[1] if len(alike) == 1 else NOT_FOUND
+    nearby = _nearest((*out.points, *(sample for curve in out.curves for sample in curve.samples)), at)
+    if nearby is not None:
+        return Verdict(nearby.verdict, nearby.reason)
+    similar = {x.verdict: Verdict(x.verdict, x.reason) for curve in out.curves for x in curve.segments
+             if x.linear == linear}
+    return similar.popitem()[1] if len(similar) == 1 else NOT_FOUND
 
 
-def _looked_up(found: Equilibria, at: Sequence[float]) -> Verdict:
+def _looked_up(result: Equilibria, at: Sequence[float]) -> Verdict:
     """The verdict on the equilibrium that is at the state."""
-    if found.kind == "all":
-        return Verdict("stable", found.reason)
-    samples = [*found.points, *(one for curve in found.curves for one in curve.samples)]
-    near = _nearest(samples, at)
-    if near is not None:
-        return Verdict(near.verdict, near.reason)
-    pieces = [(_beside(curve, piece.t, at), n, piece) for curve in found.curves
+    if result.kind == "all":
+        return Verdict("stable", result.reason)
+    samples = [*result.points, *(sample for curve in result.curves for sample in curve.samples)]
+    nearby = _nearest(samples, at)
+    if nearby is not None:
+        return Verdict(nearby.verdict, nearby.reason)
+    pieces = [(_beside(curve, piece.t, at), n, piece) for curve in result.curves
               for n, piece in enumerate(curve.segments)]
     apart, _, piece = min(pieces, default=(math.inf, 0, None))
     if piece is not None and apart <= ON_CURVE:
         return Verdict(piece.verdict, piece.reason)
-    return Verdict("undecided", found.reason) if found.kind == "undecided" else NOT_FOUND
+    return Verdict("undecided", result.reason) if result.kind == "undecided" else NOT_FOUND
 
 
-def _apart(one: Sequence[float], at: Sequence[float]) -> float:
+def _apart(item: Sequence[float], at: Sequence[float]) -> float:
     """The distance of a state from the first components of another, in units of its size."""
-    here = at[:len(one)]
-    return math.dist(one, here) / (math.hypot(*here) or 1.0) if len(one) <= len(at) else math.inf
+    here = at[:len(item)]
+    return math.dist(item, here) / (math.hypot(*here) or 1.0) if len(item) <= len(at) else math.inf
 
 
 def _nearest(samples: Sequence[EquilibriumPoint], at: Sequence[float]) -> EquilibriumPoint | None:
-    near = min(samples, key=lambda one: _apart(one.at, at), default=None)
-    return near if near is not None and _apart(near.at, at) <= SAME_STATE else None
+    nearby = min(samples, key=lambda sample: _apart(sample.at, at), default=None)
+    return nearby if nearby is not None and _apart(nearby.at, at) <= SAME_STATE else None
 
 
 def _beside(curve: EquilibriumCurve, piece: tuple[float, float], at: Sequence[float]) -> float:

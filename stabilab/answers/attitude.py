@@ -97,14 +97,14 @@ def of_top(scene: Scene, axis: int, start: Sequence[Fraction], base: Attitude, d
     if top.vertical:
         return replace(steady(base, start[:3], digits), reason=ON_VERTICAL)
     balls: list[Any] = settled(
-        lambda numbers: [None if one is None else narrow(one, digits) for one in top.answer(numbers)])
-    least, greatest, nutation, precession = balls
-    if least is None and not top.steady:
+        lambda numbers: [None if item is None else narrow(item, digits) for item in top.answer(numbers)])
+    smallest, greatest, nutation, precession = balls
+    if smallest is None and not top.steady:
         return replace(base, mode=SEPARATRIX, reason=TO_VERTICAL)
     reason = (STEADY_LEAN if top.steady else TO_AND_FRO).then(UPRIGHT if precession is None else None)
-    found = replace(base, mode=TOP, lean=(float(least.mid()), float(greatest.mid())),
+    result = replace(base, mode=TOP, lean=(float(smallest.mid()), float(greatest.mid())),
                     reason=reason)
-    return with_periods(found, {"nutation_period": nutation, "precession_period": precession}, digits)
+    return with_periods(result, {"nutation_period": nutation, "precession_period": precession}, digits)
 
 
 class _Top:
@@ -149,12 +149,12 @@ class _Top:
         swing, m = high - low, (high - low) / (far - low)
         ends = (numbers.ball(0) if self.up else _lean(high / g),
                 numbers.pi() if self.down else _lean(low / g))
-        whole, _ = numbers.elliptic(numbers.ball(0), m)
-        nutation = 4 * whole / (numbers.ball(self.beta) * (far - low)).sqrt()
+        full, _ = numbers.elliptic(numbers.ball(0), m)
+        nutation = 4 * full / (numbers.ball(self.beta) * (far - low)).sqrt()
         if self.up or self.down:
             return *ends, nutation, None
-        ahead = numbers.elliptic(swing / (g - low), m)[1] / (whole * (g - low))
-        behind = numbers.elliptic(-swing / (g + low), m)[1] / (whole * (g + low))
+        ahead = numbers.elliptic(swing / (g - low), m)[1] / (full * (g - low))
+        behind = numbers.elliptic(-swing / (g + low), m)[1] / (full * (g + low))
         return *ends, nutation, _period(numbers, ((kappa - a * g) * ahead + (kappa + a * g) * behind) / 2)
 
 
@@ -190,10 +190,10 @@ def attitude(scene: Given, state: Start | None = None, digits: int | None = None
         others = ", ".join(sorted({effect.with_article for effect in of.beyond}))
         raise InputError("attitude: it is known of a body with wheels and a torque constant in the body, and "
                          f"of a heavy symmetric top; this scene also has {others}")
-    found = limited(motion(of, start, needs=Needs.RETURN, exact=exact), of, case)
+    result = limited(motion(of, start, needs=Needs.RETURN, exact=exact), of, case)
     if axis is None:
-        return of_motion(of, exact, found, digits)
-    return of_top(of, axis, (*exact, *map(Fraction, found.at[3:])), _at_start(of, exact, found), digits)
+        return of_motion(of, exact, result, digits)
+    return of_top(of, axis, (*exact, *map(Fraction, result.at[3:])), _at_start(of, exact, result), digits)
 
 
 ON_A_SEPARATRIX = Sentence(
@@ -201,22 +201,22 @@ ON_A_SEPARATRIX = Sentence(
 NOT_KNOWN_TO_REPEAT = Sentence("not-known-to-repeat", "the motion is not known to repeat")()
 
 
-def of_motion(scene: Scene, omega: Sequence[float | Fraction], found: Motion, digits: int | None = None
+def of_motion(scene: Scene, omega: Sequence[float | Fraction], result: Motion, digits: int | None = None
               ) -> Attitude:
     """How a motion that is known turns in space; omega: its rates at the start, taken exactly; digits: as
     `attitude` has it."""
     exact = [Fraction(w) for w in omega]
-    base = _at_start(scene, exact, found)
-    if found.fate == Fate.EQUILIBRIUM:
+    base = _at_start(scene, exact, result)
+    if result.fate == Fate.EQUILIBRIUM:
         return steady(base, exact, digits)
-    if found.fate == Fate.SEPARATRIX:
+    if result.fate == Fate.SEPARATRIX:
         return replace(base, mode=SEPARATRIX, reason=ON_A_SEPARATRIX)
-    if found.period is None:
-        return replace(base, reason=NOT_KNOWN_TO_REPEAT.then(found.reason, ": "))
+    if result.period is None:
+        return replace(base, reason=NOT_KNOWN_TO_REPEAT.then(result.reason, ": "))
     if in_closed_form(scene):
         return _of_free_body(scene.body.exact, exact, base, digits)
     from .attitude_followed import followed
-    answer = followed(scene, base, found, found.period)
+    answer = followed(scene, base, result, result.period)
     if digits is not None and answer.error is not None and answer.error > 0.1**digits:
         raise ToleranceNotMet(f"attitude: {digits} digits asked for, {digits_of(answer.error):.1f} reached "
                               "(with wheels or a torque the motion is followed); ask for fewer")
@@ -237,22 +237,22 @@ def in_closed_form(scene: AnyScene) -> bool:
         scene.vector("constant_torque"))
 
 
-def _at_start(scene: Scene, omega: Sequence[Fraction], found: Motion) -> Attitude:
+def _at_start(scene: Scene, omega: Sequence[Fraction], result: Motion) -> Attitude:
     H = [d * w + l for d, w, l in zip(scene.body.exact, omega, scene.vector("gyrostat"))]
     size = math.hypot(*map(float, H))
     along = tuple(float(v) / size for v in H) if size else None
-    return Attitude(found.at[:3], found.fate, None, size, along, reason=as_reason(None),
-                    caveats=found.caveats)
+    return Attitude(result.at[:3], result.fate, None, size, along, reason=as_reason(None),
+                    caveats=result.caveats)
 
 
 def _of_free_body(D: Sequence[Fraction], omega: Sequence[Fraction], base: Attitude,
                   digits: int | None) -> Attitude:
     """A body without wheels, by Jacobi's solution; see the module text."""
-    least, b, greatest = sorted(range(3), key=lambda i: D[i])
+    smallest, b, greatest = sorted(range(3), key=lambda i: D[i])
     T2 = dot(D, [w * w for w in omega])
     H2 = dot([d * d for d in D], [w * w for w in omega])
     long = H2 < T2 * D[b]
-    a, c = (least, greatest) if long else (greatest, least)
+    a, c = (smallest, greatest) if long else (greatest, smallest)
     A2 = (H2 - T2 * D[c]) / (D[a] * (D[a] - D[c]))
     m = 1 - (H2 - T2 * D[b]) / (D[a] * (D[a] - D[b])) / A2
     speed = A2 * (D[c] - D[a]) * (D[b] - D[a]) / (D[b] * D[c])
@@ -260,16 +260,16 @@ def _of_free_body(D: Sequence[Fraction], omega: Sequence[Fraction], base: Attitu
 
     def periods(numbers: Digits) -> list[Any]:
         ball = numbers.ball
-        whole, third = numbers.elliptic(ball(-m * D[a] ** 2 * A2 / across), ball(m))
-        period = 4 * whole / ball(speed).sqrt()
-        rate = ball(H2).sqrt() * (1 - ball((H2 - T2 * D[a]) / across) * third / whole) / ball(D[a])
+        full, third = numbers.elliptic(ball(-m * D[a] ** 2 * A2 / across), ball(m))
+        period = 4 * full / ball(speed).sqrt()
+        rate = ball(H2).sqrt() * (1 - ball((H2 - T2 * D[a]) / across) * third / full) / ball(D[a])
         turns = rate * period / (2 * numbers.pi())
-        return [narrow(one, digits) for one in (period, 2 * numbers.pi() / rate, turns - int(float(turns)))]
+        return [narrow(item, digits) for item in (period, 2 * numbers.pi() / rate, turns - int(float(turns)))]
 
     period, precession, turn = settled(periods)
     shares = [D[a] ** 2 * square / H2 for square in (A2, A2 * (1 - m))]  # cos^2 of the angle, greatest first
-    least_angle, greatest_angle = (math.atan2(math.sqrt(1 - share), math.sqrt(share)) for share in shares)
-    found = replace(base, mode=LONG if long else SHORT, cone=(least_angle, greatest_angle),
+    least_angle, greatest_angle = (math.atan2(math.sqrt(1 - part), math.sqrt(part)) for part in shares)
+    result = replace(base, mode=LONG if long else SHORT, cone=(least_angle, greatest_angle),
                     reason=ROUND_AXIS(axis="long" if long else "short"))
-    found = with_periods(found, {"rotation_period": period, "precession_period": precession}, digits)
-    return turned(found, float(turn.mid()))
+    result = with_periods(result, {"rotation_period": period, "precession_period": precession}, digits)
+    return turned(result, float(turn.mid()))

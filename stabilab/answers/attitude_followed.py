@@ -35,20 +35,20 @@ NUTATION = 1e-11  # squares of angles up to which the motion is linear
 FEWEST, MOST = 64, 1 << 17  # times of the sum
 
 
-def followed(scene: Scene, base: Attitude, found: Motion, period: float) -> Attitude:
+def followed(scene: Scene, base: Attitude, result: Motion, period: float) -> Attitude:
     """base: what is known at the start; found: the motion; period: its own."""
     if any(scene.vector("constant_torque")):
         return _under_torque(scene, base, period)
-    return _of_gyrostat(scene, base, found, period)
+    return _of_gyrostat(scene, base, result, period)
 
 
-def _of_gyrostat(scene: Scene, base: Attitude, found: Motion, period: float) -> Attitude:
+def _of_gyrostat(scene: Scene, base: Attitude, result: Motion, period: float) -> Attitude:
     """A body with wheels and no torque: sums over equal times of one period."""
     D, wheel = (np.array(v, float) for v in (scene.body.exact, scene.vector("gyrostat")))
     count, before, names = FEWEST, math.inf, _long_and_short(scene.body.exact)
     while True:
-        states = trajectory(scene, found.at, np.arange(1, count) * (period / count), laws=False).states
-        omega = np.vstack([found.at, states])
+        states = trajectory(scene, result.at, np.arange(1, count) * (period / count), laws=False).states
+        omega = np.vstack([result.at, states])
         h = D * omega + wheel
         h /= np.linalg.norm(h, axis=1)[:, None]
         # of each axis, the square of the sine of its angle from H; 1 - h^2 would cancel near an axis
@@ -56,7 +56,7 @@ def _of_gyrostat(scene: Scene, base: Attitude, found: Motion, period: float) -> 
         # the long or the short axis where H goes round it alone; else the axis that H keeps farthest from
         encircled = [i for i in names if _winding(h, i)]
         e = encircled[0] if len(encircled) == 1 else int(across.min(axis=0).argmax())
-        if (small := _small_nutation(scene, found, e, float(across[:, e].max()))) is not None:
+        if (small := _small_nutation(scene, result, e, float(across[:, e].max()))) is not None:
             mean, before = small
             break
         with np.errstate(all="ignore"):
@@ -70,8 +70,8 @@ def _of_gyrostat(scene: Scene, base: Attitude, found: Motion, period: float) -> 
     mode = names[e] if encircled == [e] else None
     reason = ROUND_AXIS(axis=mode.removesuffix("-axis")) if mode else ROUND_NEITHER
     cone = None
-    if mode and found.extremes is not None:
-        low, high = (min(1.0, max(-1.0, (D[e] * v + wheel[e]) / base.momentum)) for v in found.extremes[e])
+    if mode and result.extremes is not None:
+        low, high = (min(1.0, max(-1.0, (D[e] * v + wheel[e]) / base.momentum)) for v in result.extremes[e])
         low, high = (-high, -low) if low + high < 0 else (low, high)
         cone = math.acos(high), math.acos(low)
     return turned(replace(base, mode=mode, rotation_period=period, cone=cone, error=error, reason=reason,
@@ -79,7 +79,7 @@ def _of_gyrostat(scene: Scene, base: Attitude, found: Motion, period: float) -> 
                    mean * period / (2 * math.pi))
 
 
-def _small_nutation(scene: Scene, found: Motion, e: int, across: float) -> tuple[float, float] | None:
+def _small_nutation(scene: Scene, result: Motion, e: int, across: float) -> tuple[float, float] | None:
     """(mean rate of precession about axis e, another as far from it as it may be wrong) of the linear motion,
     where H keeps so near the axis that a run loses the digits of the small rates; else None. across: the
     square of the sine of their largest angle.
@@ -89,7 +89,7 @@ def _small_nutation(scene: Scene, found: Motion, e: int, across: float) -> tuple
     their sign, and the axis precesses at w + W. What is left out is of the second order in the angle over a
     bracket."""
     D, wheel = scene.body.exact, scene.vector("gyrostat")
-    w = Fraction(found.at[e])
+    w = Fraction(result.at[e])
     i, j = (n for n in range(3) if n != e)
     H = D[e] * w + wheel[e]
     brackets = [H - D[n] * w for n in (i, j)]

@@ -70,14 +70,14 @@ def narrow(ball: arb, digits: int | None = None) -> Any:
     return ball
 
 
-def with_periods(found: Attitude, periods: Mapping[str, Any], digits: int | None) -> Attitude:
+def with_periods(result: Attitude, periods: Mapping[str, Any], digits: int | None) -> Attitude:
     """With these periods, balls (or None) by the names of their fields, written out where digits are asked
     for."""
-    known = {name: ball for name, ball in periods.items() if ball is not None}
-    values: dict[str, Any] = {name: float(ball.mid()) for name, ball in known.items()}
+    info = {name: ball for name, ball in periods.items() if ball is not None}
+    values: dict[str, Any] = {name: float(ball.mid()) for name, ball in info.items()}
     if digits is not None:
-        values["decimals"] = {name: ball.mid().str(digits + 1, radius=False) for name, ball in known.items()}
-    return replace(found, **values, error=CLOSED_ERROR)
+        values["decimals"] = {name: ball.mid().str(digits + 1, radius=False) for name, ball in info.items()}
+    return replace(result, **values, error=CLOSED_ERROR)
 
 
 def steady(base: Attitude, omega: Sequence[Fraction], digits: int | None) -> Attitude:
@@ -89,8 +89,8 @@ def steady(base: Attitude, omega: Sequence[Fraction], digits: int | None) -> Att
                         {"rotation_period": turn}, digits)
 
 
-def turned(found: Attitude, turns: float) -> Attitude:
+def turned(result: Attitude, turns: float) -> Attitude:
     """With the turn after one period about the angular momentum, whose whole turns do not count."""
     angle = 2 * math.pi * (turns - round(turns))
-    h = found.momentum_direction or (0.0, 0.0, 0.0)
-    return replace(found, turn_angle=abs(angle), turn_axis=tuple(math.copysign(1, angle) * v for v in h))
+    h = result.momentum_direction or (0.0, 0.0, 0.0)
+    return replace(result, turn_angle=abs(angle), turn_axis=tuple(math.copysign(1, angle) * v for v in h))

@@ -69,9 +69,9 @@ def caveats_of(scene: AnyScene, steady: bool = False, tilt: Any = None,
                first: tuple[Any, Any] | None = None, validity: Any = None, file: Iterable[Caveat] = (),
                stability: Stability | None = None) -> tuple[Caveat, ...]:
     """The caveats of one answer, by every function of CAVEATS; arguments as of `Known`."""
-    known = Known(scene=scene, steady=steady, tilt=tilt, first=first, validity=validity, file=tuple(file),
+    resolved = Known(scene=scene, steady=steady, tilt=tilt, first=first, validity=validity, file=tuple(file),
                   stability=stability)
-    return tuple(dict.fromkeys(one for make in CAVEATS for one in make(known)))
+    return tuple(dict.fromkeys(item for make in CAVEATS for item in make(resolved)))
 
 
 def of_case(case: Case, validity: Validity | None = None, steady: bool = False) -> tuple[Caveat, ...]:
@@ -80,33 +80,33 @@ def of_case(case: Case, validity: Validity | None = None, steady: bool = False) 
     return caveats_of(case.scene, steady, validity=validity, file=case.caveats)
 
 
-def answered(found: Limited, case: Case, validity: Validity | None = None) -> Limited:
+def answered(result: Limited, case: Case, validity: Validity | None = None) -> Limited:
     """What was found of a case, and is no motion, with all that limits it. validity: of its approximate laws.
     """
-    return replace(found, caveats=of_case(case, validity))
+    return replace(result, caveats=of_case(case, validity))
 
 
-def of_file(known: Known) -> tuple[Caveat, ...]:
+def of_file(resolved: Known) -> tuple[Caveat, ...]:
     """What the file says itself, and what it states that an answer leaves out."""
-    return known.file
+    return resolved.file
 
 
-def of_equilibrium(known: Known) -> tuple[Caveat, ...]:
+def of_equilibrium(resolved: Known) -> tuple[Caveat, ...]:
     """That a state of equilibrium is not known to be stable, where it is not."""
-    stability = known.stability
+    stability = resolved.stability
     if stability is None or stability.stable:
         return ()
     if not stability.unstable:
         return (Caveat(Kind.UNSTABLE, STABILITY_OPEN()),)
     if stability.growth is None:
         return (Caveat(Kind.UNSTABLE, UNSTABLE_SLOWLY()),)
-    return (Caveat(Kind.UNSTABLE, UNSTABLE(time=Quantity(1 / stability.growth, known.scene.time_unit))),)
+    return (Caveat(Kind.UNSTABLE, UNSTABLE(time=Quantity(1 / stability.growth, resolved.scene.time_unit))),)
 
 
-def of_law(known: Known) -> tuple[Caveat, ...]:
+def of_law(resolved: Known) -> tuple[Caveat, ...]:
     """That an approximate law does not hold, where it does not."""
-    held = known.validity is None or known.validity.held
-    return () if held else (Caveat(Kind.LAW, known.validity.reason),)
+    held = resolved.validity is None or resolved.validity.held
+    return () if held else (Caveat(Kind.LAW, resolved.validity.reason),)
 
 
 def limited(motion: Motion, scene: AnyScene, case: Any = None) -> Motion:
@@ -126,11 +126,11 @@ def loose_forces(case: Case) -> tuple[str, ...]:
     return tuple(thruster.name for thruster in case.thrusters if thruster.stuck and thruster.force_tolerance)
 
 
-def seen(caveats: Iterable[Caveat], found: Any = None, box: Any = None) -> tuple[Caveat, ...]:
+def seen(caveats: Iterable[Caveat], result: Any = None, box: Any = None) -> tuple[Caveat, ...]:
     """The caveats of a case without those of tolerances and of misalignments, where these are looked at: by
     a `Tilt` or `Spread` found, tolerances also over a box."""
-    sizes = [Kind.TOLERANCE] if box is not None or (found is not None and found.within) else []
-    return without(caveats, *sizes, *([Kind.MISALIGNMENT] if found is not None else []))
+    sizes = [Kind.TOLERANCE] if box is not None or (result is not None and result.within) else []
+    return without(caveats, *sizes, *([Kind.MISALIGNMENT] if result is not None else []))
 
 
 def condition(scene: AnyScene) -> int:
@@ -149,40 +149,40 @@ def stated(limits: Any) -> Quantity | Reason:
     return IN_A_COMPONENT(rate=Rate(rates[0] if len(set(rates)) == 1 else rates, digits=DIGITS))
 
 
-def of_limit(known: Known) -> list[Caveat]:
+def of_limit(resolved: Known) -> list[Caveat]:
     """The time at which the limit of the case is reached, where it is."""
-    if known.first is None or not math.isfinite(known.first[1].high):
+    if resolved.first is None or not math.isfinite(resolved.first[1].high):
         return []
-    limit, found = known.first
-    after = Quantity(0.5 * float(found.low + found.high), known.scene.time_unit)
-    return [Caveat(Kind.LIMIT, REACHES(limit=limit, time=after, level=str(found.level)) if found.high > 0
+    limit, result = resolved.first
+    after = Quantity(0.5 * float(result.low + result.high), resolved.scene.time_unit)
+    return [Caveat(Kind.LIMIT, REACHES(limit=limit, time=after, level=str(result.level)) if result.high > 0
                    else AT_START(limit=limit))]
 
 
-def of_direction(known: Known) -> list[Caveat]:
+def of_direction(resolved: Known) -> list[Caveat]:
     """The condition of a steady motion, and what is known of a tilt."""
-    only, found = CONDITIONS[condition(known.scene)] if known.steady else None, known.tilt
+    only, result = CONDITIONS[condition(resolved.scene)] if resolved.steady else None, resolved.tilt
     holds = None if only is None else HOLDS(condition=only)
-    if found is not None and found.ranges:
-        return [Caveat(Kind.TILT, one) for one in (holds, found.reason) if one]
+    if result is not None and result.ranges:
+        return [Caveat(Kind.TILT, item) for item in (holds, result.reason) if item]
     if holds is None:
         return []
-    sizes = [] if found is None or found.forces is None else [Caveat(Kind.TILT, found.forces.reason)]
-    return [_off_axis(holds, found), *sizes]
+    sizes = [] if result is None or result.forces is None else [Caveat(Kind.TILT, result.forces.reason)]
+    return [_off_axis(holds, result), *sizes]
 
 
-def _off_axis(holds: Reason, found: Any) -> Caveat:
+def _off_axis(holds: Reason, result: Any) -> Caveat:
     """What a tilt does to a motion that rests on the torque's direction."""
-    if found is None or found.untilted:
+    if result is None or result.untilted:
         return Caveat(Kind.TILT, holds)
-    limit = Rate(found.limit, digits=DIGITS) if found.stated else Rate(found.limit)
-    known: dict[str, Any] = {"varied": varied(found.angle, found.within), "limit": limit}
-    if found.ends:
-        reached = TILTED_TO(**known, time=Time(found.low), level=found.level)
+    limit = Rate(result.limit, digits=DIGITS) if result.stated else Rate(result.limit)
+    settled: dict[str, Any] = {"varied": varied(result.angle, result.within), "limit": limit}
+    if result.ends:
+        reached = TILTED_TO(**settled, time=Time(result.low), level=result.level)
         return Caveat(Kind.TILT, holds.then(reached))
-    if found.not_before >= found.followed:
-        return Caveat(Kind.TILT, holds.then(TILTED_NOT_BEFORE(**known, time=Time(found.not_before).lower)))
-    return Caveat(Kind.TILT, holds.then(TILTED_NOT_FOUND(**known, time=Time(found.followed).lower)))
+    if result.not_before >= result.followed:
+        return Caveat(Kind.TILT, holds.then(TILTED_NOT_BEFORE(**settled, time=Time(result.not_before).lower)))
+    return Caveat(Kind.TILT, holds.then(TILTED_NOT_FOUND(**settled, time=Time(result.followed).lower)))
 
 
 def varied(angle: float, within: str) -> Reason:

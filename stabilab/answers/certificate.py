@@ -122,17 +122,17 @@ def _point(form: QuadraticForm, x: Isolated) -> dict[str, Any]:
 
 
 def _curve(form: QuadraticForm, curve: RationalCurve) -> dict[str, Any]:
-    found, cuts = curve_with_verdicts(form, curve), cuts_of(form, curve)
+    result, cuts = curve_with_verdicts(form, curve), cuts_of(form, curve)
     exact = {*curve.poles, *curve.crossings}
     marks = [_bracket(t, Fraction(0) if t in exact else abs(t) / 2**ROOT_BITS) for t in cuts]
     folds = [(t, mark) for t, mark in zip(cuts, marks) if t not in curve.poles]
-    at = {point.at: point for point in found.samples}
+    at = {point.at: point for point in result.samples}
     return {"numerators": [list(map(_text, p.c)) for p in curve.numerators],
             "denominator": list(map(_text, curve.denominator.c)),
             "segments": [{"t": ends, "linear": s.linear, "verdict": s.verdict}
-                         for s, ends in zip(found.segments, map(list, zip([None, *marks], [*marks, None])))],
-            "folds": [{"t": mark, "linear": at[place].linear, "verdict": at[place].verdict}
-                      for (_, mark), place in zip(folds, found.folds)]}
+                         for s, ends in zip(result.segments, map(list, zip([None, *marks], [*marks, None])))],
+            "folds": [{"t": mark, "linear": at[fold].linear, "verdict": at[fold].verdict}
+                      for (_, mark), fold in zip(folds, result.folds)]}
 
 
 def _plane(p: Pencil, d: Fraction) -> dict[str, Any]:
@@ -155,14 +155,14 @@ def _motion(scene: AnyScene, state: tuple[Fraction, ...], uncertified: list[str]
     if reduction is None:
         return _without_reduction(scene, state, claims, uncertified)
     orbit = Orbit(reduction, state)
-    found = fate_of(scene, orbit)
-    label = Fate(found.label)
+    result = fate_of(scene, orbit)
+    label = Fate(result.label)
     if label not in (Fate.BOUNDED, Fate.SPIN_UP):
-        uncertified.append(MOTION_NOT_CERTIFIED(fate=label.word, why=found.reason).text())
+        uncertified.append(MOTION_NOT_CERTIFIED(fate=label.word, why=result.reason).text())
         return None
     extremes = [[_ends(v) for v in pair] for pair in extreme_balls(orbit, label, certain=int(DIGITS * 3.33))]
     period = _ends(period_ball(orbit), PERIOD_DIGITS) if label == Fate.BOUNDED else None
-    return claims | {"fate": label.word, "axis": found.axis, "sense": found.sense, "extremes": extremes,
+    return claims | {"fate": label.word, "axis": result.axis, "sense": result.sense, "extremes": extremes,
                      "period": period}
 
 
@@ -171,12 +171,12 @@ def _without_reduction(scene: AnyScene, state: tuple[Fraction, ...], claims: dic
     from .certified_motion import certified_spin_up, closed_motion
     if closed := closed_motion(scene, state):
         return claims | closed
-    found, why = certified_spin_up(scene, state)
-    if found is None:
+    result, why = certified_spin_up(scene, state)
+    if result is None:
         uncertified.append(NO_REDUCTION.then(why).text())
         return None
-    return (claims | {"fate": Fate.SPIN_UP.word, "axis": found["axis"], "sense": found["sense"],
-                      "spin_up": found})
+    return (claims | {"fate": Fate.SPIN_UP.word, "axis": result["axis"], "sense": result["sense"],
+                      "spin_up": result})
 
 
 def _ends(value: Number, digits: int = DIGITS) -> Any:

@@ -43,12 +43,12 @@ ROOM = Fraction(1, 10**9)
 def closed_motion(scene: AnyScene, state: Sequence[Fraction]) -> dict[str, Any] | None:
     """Fate, axis, sense and the claims of the closed solution from a state (three Fractions); None for scenes
     that have none."""
-    found = closed(scene, state)
-    if found is None:
+    result = closed(scene, state)
+    if result is None:
         return None
-    growth, (axis, sense) = found.direction, found.about
-    claims = {"law": found.law, "direction": None if growth is None else [str(v) for v in growth],
-              "gain": found.gain and str(found.gain * (1 - ROOM)), "most": str(found.most * (1 + ROOM))}
+    growth, (axis, sense) = result.direction, result.about
+    claims = {"law": result.law, "direction": None if growth is None else [str(v) for v in growth],
+              "gain": result.gain and str(result.gain * (1 - ROOM)), "most": str(result.most * (1 + ROOM))}
     return {"fate": (Fate.SPIN_UP if growth else Fate.BOUNDED).word, "axis": axis, "sense": sense,
             "closed": claims}
 
@@ -69,36 +69,36 @@ SURE = Fraction(1 << 20, (1 << 20) + 1)
 def certified_spin_up(scene: AnyScene,
                       state: Sequence[Any]) -> tuple[dict[str, Any], None] | tuple[None, Reason]:
     """(claims, None) of the spin-up from a state (three Fractions), or (None, why there are none)."""
-    found = spin_up(scene, state, budget=BUDGET)
-    if found.fate is not Fate.SPIN_UP or found.level == "exact":
-        return None, NOT_CERTIFIED(fate=found.fate.word, why=found.reason)
+    result = spin_up(scene, state, budget=BUDGET)
+    if result.fate is not Fate.SPIN_UP or result.level == "exact":
+        return None, NOT_CERTIFIED(fate=result.fate.word, why=result.reason)
     own, unit = natural(scene)
-    ways = list(_inequalities(tests_of(own), found))
-    times = [found.t * later for later in LATER] if found.t else [0.0]
-    course = Course(scene, state, times[-1]) if found.t else None
+    ways = list(_inequalities(tests_of(own), result))
+    times = [result.t * later for later in LATER] if result.t else [0.0]
+    course = Course(scene, state, times[-1]) if result.t else None
     for later in times:
         box = _box(course, later, state)
         if box is None:
-            return None, NOT_ENCLOSED(fate=found.fate.word, why=found.reason, time=Moment(later, side=1),
+            return None, NOT_ENCLOSED(fate=result.fate.word, why=result.reason, time=Moment(later, side=1),
                                       steps=STEPS)
         inequality = _holding(tests_of(own), ways, box, unit)
         if inequality:
             t = Fraction(course.t) if course else Fraction(0)
-            return {"axis": found.axis, "sense": found.sense, "t": str(t), **inequality,
+            return {"axis": result.axis, "sense": result.sense, "t": str(t), **inequality,
                     "way": _checkpoints(scene, state, course, t)}, None
-    return None, NO_INEQUALITY(fate=found.fate.word, why=found.reason, time=Moment(times[-1]).lower)
+    return None, NO_INEQUALITY(fate=result.fate.word, why=result.reason, time=Moment(times[-1]).lower)
 
 
-def _inequalities(tests: Tests, found: SpinUp) -> Iterator[tuple[str, Any, tuple[int, int]]]:
+def _inequalities(tests: Tests, result: SpinUp) -> Iterator[tuple[str, Any, tuple[int, int]]]:
     """(what it is about, field, orders) of those that say what was found, in the order in which they are
     asked."""
-    if not found.axis:
+    if not result.axis:
         yield from (("equator", field, orders) for field in tests.equatorial for orders in MOVING_ORDERS)
         return
     for about, fields, all_ in (("fixed centre", tests.fixed, FIXED_ORDERS),
                                 ("moving centre", tests.moving, MOVING_ORDERS)):
         yield from ((about, field, orders) for field in fields
-                    if (field.axis + 1, field.sense) == (found.axis, found.sense) for orders in all_)
+                    if (field.axis + 1, field.sense) == (result.axis, result.sense) for orders in all_)
 
 
 def _box(course: Course | None, t: float, state: Sequence[Any]) -> Any:
@@ -117,9 +117,9 @@ def _holding(tests: Tests, ways: list[tuple[str, Any, tuple[int, int]]], box: tu
              unit: float) -> dict[str, Any] | None:
     """The first inequality that holds for the ball, its orders and constants in the scene's units; None where
     none does."""
-    middle, near = box
+    middle, nearby = box
     for about, field, orders in ways:
-        constants = tests.certifier(field, orders).constants(middle / unit, near / unit)
+        constants = tests.certifier(field, orders).constants(middle / unit, nearby / unit)
         if constants:
             A, z, eta, *_ = map(Fraction, constants)
             u = Fraction(unit)

@@ -126,11 +126,11 @@ def chaos(scene: AnyScene, states: ArrayLike, until: float | None = None,
     judge_starts(scene, equations.blocks, rows)
     fates = _fates(scene, rows, end)
     leaving = fates == Fate.SPIN_UP
-    found = growth(scene, rows[~leaving], end, turn, tell) if not leaving.all() else None
-    times = end / 2.0 ** np.arange(5, -1, -1) if found is None else found.times
+    result = growth(scene, rows[~leaving], end, turn, tell) if not leaving.all() else None
+    times = end / 2.0 ** np.arange(5, -1, -1) if result is None else result.times
     history, stiff = np.full((len(rows), len(times)), np.nan), np.zeros(len(rows), bool)
-    if found is not None:
-        history[~leaving], stiff[~leaving] = found.megno, found.stiff
+    if result is not None:
+        history[~leaving], stiff[~leaving] = result.megno, result.stiff
     before, last = history[:, -2:].T
     flat = (last < FLAT) & (before < FLAT)
     steep = (last > STEEP) & (last > DOUBLES * before)
@@ -138,8 +138,8 @@ def chaos(scene: AnyScene, states: ArrayLike, until: float | None = None,
                        [Order.SPIN_UP, Order.REGULAR, Order.CHAOTIC], Order.UNDECIDED)
     # MEGNO is half the rate times the time, where neighbours part exponentially
     now, change = 2 * last / times[-1], np.abs(2 * last / times[-1] - 2 * before / times[-2])
-    rate, error = (np.select([labels == Order.CHAOTIC, labels == Order.REGULAR], [known, 0.0], np.nan)
-                   for known in (now, change))
+    rate, error = (np.select([labels == Order.CHAOTIC, labels == Order.REGULAR], [resolved, 0.0], np.nan)
+                   for resolved in (now, change))
     shaped = lambda values: values.reshape(array.shape[:-1] + values.shape[1:])[()]
     return Chaos(shaped(labels), shaped(history[:, -1]), times, shaped(history), shaped(rate), shaped(error),
                  turn, scene, shaped(stiff))

@@ -87,29 +87,29 @@ def circular_orbit(orbiting: Any, up_to: Amount | None = None) -> CircularOrbit:
     return CircularOrbit(rate, 2 * math.pi / rate, tuple(map(float, satellite.moments)),
                          tuple(map(float, satellite.momentum)), equilibria,
                          None if up_to is None else _varied(satellite, in_si(up_to, MOMENTUM, "up_to")),
-                         tuple(MIDDLES if one.kind is Kind.UNCERTAIN else one for one in of_case(case)),
+                         tuple(MIDDLES if item.kind is Kind.UNCERTAIN else item for item in of_case(case)),
                          satellite)
 
 
-def followed(found: CircularOrbit) -> list[Branch]:
+def followed(result: CircularOrbit) -> list[Branch]:
     """The equilibria followed over the spans of an answer, their momenta in N m s. Raises InputError without
     spans, and where equilibria are families."""
-    if found.spans is None or found.satellite is None:
+    if result.spans is None or result.satellite is None:
         raise InputError("up_to: give the momentum up to which the equilibria are followed")
-    if any(span.families for span in found.spans) or found.equilibria.kind == "all":
+    if any(span.families for span in result.spans) or result.equilibria.kind == "all":
         raise InputError("circular_orbit: the equilibria of this body are families, which turn about an "
                          "axis: they are described in words, and there are no branches to draw")
-    size = math.hypot(*found.momentum)
-    own = [replace(one, low=one.low / size, high=one.high / size) for one in found.spans]
-    return [replace(one, momenta=[size * s for s in one.momenta]) for one in branches(found.satellite, own)]
+    size = math.hypot(*result.momentum)
+    own = [replace(span, low=span.low / size, high=span.high / size) for span in result.spans]
+    return [replace(x, momenta=[size * s for s in x.momenta]) for x in branches(result.satellite, own)]
 
 
 def _in_range(satellite: Satellite) -> bool:
     """Whether the numbers of the answer are doubles by far."""
-    least, greatest = min(satellite.moments), max(satellite.moments)
-    share = dot(satellite.momentum, satellite.momentum) / satellite.rate_squared / least**2
-    return (LARGEST_SIZE**-2 < satellite.rate_squared < LARGEST_SIZE**2 and greatest < LARGEST_SIZE * least
-            and LARGEST_SIZE**-1 < greatest < LARGEST_SIZE and share < LARGEST_SIZE**2)
+    smallest, greatest = min(satellite.moments), max(satellite.moments)
+    fraction = dot(satellite.momentum, satellite.momentum) / satellite.rate_squared / smallest**2
+    return (LARGEST_SIZE**-2 < satellite.rate_squared < LARGEST_SIZE**2 and greatest < LARGEST_SIZE * smallest
+            and LARGEST_SIZE**-1 < greatest < LARGEST_SIZE and fraction < LARGEST_SIZE**2)
 
 
 def _varied(satellite: Satellite, up_to: Fraction) -> tuple[MomentumSpan, ...]:
@@ -120,5 +120,5 @@ def _varied(satellite: Satellite, up_to: Fraction) -> tuple[MomentumSpan, ...]:
     if not size:
         raise InputError("up_to: the wheels have no momentum, which is varied along its direction: add "
                          "[[wheels]] or [effects.gyrostat] to the case")
-    return tuple(replace(one, low=one.low * float(size), high=one.high * float(size))
-                 for one in spans(satellite, up_to / size))
+    return tuple(replace(span, low=span.low * float(size), high=span.high * float(size))
+                 for span in spans(satellite, up_to / size))

@@ -86,7 +86,7 @@ MOVED_RUN = Sentence(
 
 
 def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = None,
-        known: Motion | None = None, exact: Exact3 | None = None, aim: bool = False) -> Told:
+        resolved: Motion | None = None, exact: Exact3 | None = None, aim: bool = False) -> Told:
     """The extremes, the period, or the margin of the "fate" of one state, to `digits` decimal digits (1 to
     50).
 
@@ -97,29 +97,29 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
     digits = checked_digits(digits, MOST_DECIMALS)
     twin = effective(scene)  # it turns alike and has nothing but a wheel and a torque, if `plain`
     land = landscape(twin) if twin.plain else None
-    if known is None:  # by a reduction none of the three questions needs the distance from the separatrix
-        known = motion(scene, state, span, needs=Needs.ALL if land is None else Needs.RETURN, exact=exact)
-    if question != "extremes" and number_of(question, known) is None:
-        return nothing(question, digits, no_period(known.fate) if question == "period"
+    if resolved is None:  # by a reduction none of the three questions needs the distance from the separatrix
+        resolved = motion(scene, state, span, needs=Needs.ALL if land is None else Needs.RETURN, exact=exact)
+    if question != "extremes" and number_of(question, resolved) is None:
+        return nothing(question, digits, no_period(resolved.fate) if question == "period"
                        else "there is no margin in energy to be judged")
     if question == "fate" and is_free(twin):
-        return _margin_without_reduction(twin, known, digits, exact or known.at[:3])
+        return _margin_without_reduction(twin, resolved, digits, exact or resolved.at[:3])
     if land is not None:
-        orbit = Orbit(land.reduction, exact or known.at[:3])
-        balls = _balls(question, orbit, known.fate, max(digits, DOUBLE_DIGITS) + 1)
+        orbit = Orbit(land.reduction, exact or resolved.at[:3])
+        balls = _balls(question, orbit, resolved.fate, max(digits, DOUBLE_DIGITS) + 1)
         return (_tie(question, digits) if balls is None  # on the separatrix
-                else _judged(question, number_of(question, known), balls, digits))
-    if known.fate == Fate.EQUILIBRIUM:
-        return Told(question, number_of(question, known), digits, math.inf, "exact",
+                else _judged(question, number_of(question, resolved), balls, digits))
+    if resolved.fate == Fate.EQUILIBRIUM:
+        return Told(question, number_of(question, resolved), digits, math.inf, "exact",
                     reason=IN_EQUILIBRIUM)
     if question == "fate":
-        return _margin_without_reduction(twin, known, digits, exact or known.at[:3])
-    if question == "extremes" and (balls := law_extremes(twin, exact or known.at[:3],
-                                                         known.evidence.get("certificate"), LAW_BITS)):
-        return _judged(question, known.extremes, [list(pair) for pair in balls], digits)
-    if known.period:
-        return _by_return(question, twin, known, digits, exact or known.at[:3])
-    return _over_span(scene, state, span, known, digits, exact, DIGITS_MISSED * aim)
+        return _margin_without_reduction(twin, resolved, digits, exact or resolved.at[:3])
+    if question == "extremes" and (balls := law_extremes(twin, exact or resolved.at[:3],
+                                                         resolved.evidence.get("certificate"), LAW_BITS)):
+        return _judged(question, resolved.extremes, [list(pair) for pair in balls], digits)
+    if resolved.period:
+        return _by_return(question, twin, resolved, digits, exact or resolved.at[:3])
+    return _over_span(scene, state, span, resolved, digits, exact, DIGITS_MISSED * aim)
 
 
 def ask_all(question: str, scene: AnyScene, states: Any, digits: int, values: Any, span: Any = None) -> Told:
@@ -128,20 +128,20 @@ def ask_all(question: str, scene: AnyScene, states: Any, digits: int, values: An
     array = checked_states(states)
     rows = array.reshape(-1, 3)
     picked = np.unique(np.linspace(0, len(rows) - 1, min(SAMPLE, len(rows))).astype(int))
-    whole = None if span is None else (0.0, float(span))
-    told = [ask(question, scene, rows[i], digits, whole) for i in picked]
-    if len(picked) < len(rows) and not all(t.method in ("formulas", "none") for t in told):
-        told = [ask(question, scene, row, digits, whole) for row in rows]
+    full = None if span is None else (0.0, float(span))
+    printed = [ask(question, scene, rows[i], digits, full) for i in picked]
+    if len(picked) < len(rows) and not all(t.method in ("formulas", "none") for t in printed):
+        printed = [ask(question, scene, row, digits, full) for row in rows]
     values = np.reshape(values, (len(rows), *np.shape(values)[array.ndim - 1:]))
-    if len(told) == len(rows):
+    if len(printed) == len(rows):
         values = np.array([old if t.values is None else t.values
-                           for old, t in zip(values, told)]).reshape(values.shape)
-    judged = [t for t in told if t.digits is not None]
-    worst = min(judged, key=lambda t: t.digits or 0.0) if judged else told[0]
-    sampled = SAMPLED(checked=len(told), states=len(rows)) if len(told) < len(rows) else None
+                           for old, t in zip(values, printed)]).reshape(values.shape)
+    judged = [t for t in printed if t.digits is not None]
+    worst = min(judged, key=lambda t: t.digits or 0.0) if judged else printed[0]
+    sampled = SAMPLED(checked=len(printed), states=len(rows)) if len(printed) < len(rows) else None
     shape = array.shape[:-1]
     texts = (None if worst.decimals is None
-             else np.array([t.decimals for t in told],
+             else np.array([t.decimals for t in printed],
                            dtype=object).reshape((*shape, *np.shape(worst.decimals))))
     return replace(worst, values=values.reshape((*shape, *values.shape[1:])),
                    reason=worst.reason.then(sampled), decimals=texts)
@@ -229,7 +229,7 @@ def _decimals(balls: Any, digits: int) -> Any:
 # -- motions without one
 
 
-def _margin_without_reduction(scene: AnyScene, known: Motion, digits: int, state: Any) -> Told:
+def _margin_without_reduction(scene: AnyScene, resolved: Motion, digits: int, state: Any) -> Told:
     wanted = max(digits, DOUBLE_DIGITS) + 1
     if is_free(scene):
         margin = free_margin(scene, state, wanted)
@@ -238,30 +238,30 @@ def _margin_without_reduction(scene: AnyScene, known: Motion, digits: int, state
         turn: Any = aligned(scene)  # between two equal moments, or there were no margin
         twin: Any = reduce(turn.twin)
         balls = precise_margin(Orbit(twin, turn(state)), wanted)
-    return _tie("fate", digits) if balls is None else _judged("fate", known.margin_energy, balls, digits)
+    return _tie("fate", digits) if balls is None else _judged("fate", resolved.margin_energy, balls, digits)
 
 
-def _by_return(question: str, scene: AnyScene, known: Any, digits: int, state: Any) -> Told:
+def _by_return(question: str, scene: AnyScene, resolved: Any, digits: int, state: Any) -> Told:
     """A closed motion: its return in doubles against the return of a Taylor series in many digits."""
-    values = number_of(question, known)
+    values = number_of(question, resolved)
     if beside_rest(scene.quadratic(), state):
         return _by_small_loop(question, scene.quadratic(), values, digits, state)
-    exact: Any = reference(scene, state, [0.5 * known.period], orbit=True)
+    exact: Any = reference(scene, state, [0.5 * resolved.period], orbit=True)
     if exact.period is None:
         return Told(question, values, digits, 0.0, "run",
                     reason=NO_RETURN_IN_DIGITS)
     with working(400) as numbers:
         add = lambda pair: numbers.ball(float(pair[0])) + numbers.ball(float(pair[1]))
-        found = (add(exact.period) if question == "period"
+        result = (add(exact.period) if question == "period"
                  else [[add(v) for v in pair] for pair in exact.extremes])
         # two doubles hold 32 digits
         own = max(exact.period[2] if question == "period" else exact.extremes_error, 1e-31)
-        error = max(_gap(values, found), own)
+        error = max(_gap(values, result), own)
         pair: dict[str, Filling] = {"fewer": int(exact.digits[0]), "more": int(exact.digits[1])}
         if digits <= DOUBLE_DIGITS and error <= 10.0**-digits:
             reason = RETURN_OF_RUN(**pair, error=Quantity(error, digits=2))
             return Told(question, values, digits, digits_of(error), "run", reason=reason)
-        return _of_balls(question, found, digits, digits_of(own, 31.0), "many digits",
+        return _of_balls(question, result, digits, digits_of(own, 31.0), "many digits",
                          RETURN_OF_SERIES(**pair, error=Quantity(own, digits=1)))
 
 
@@ -270,32 +270,32 @@ def _by_small_loop(question: str, form: QuadraticForm, values: Any, digits: int,
     with more digits."""
     more = max(digits, DOUBLE_DIGITS) + 8
     with working(2 * int(3.33 * more) + 400):
-        found = [loop and loop[question != "period"]
+        rows = [loop and loop[question != "period"]
                  for loop in (small_loop(form, state, n) for n in (more, more + 8))]
-        if None in found:
+        if None in rows:
             return Told(question, values, digits, 0.0, "run",
                         reason=NO_RETURN_IN_DIGITS)
-        error = max(_balls_apart(found[1], found[0]), 10.0**-more)
-        if digits <= DOUBLE_DIGITS and (gap := max(_gap(values, found[1]), error)) <= 10.0**-digits:
+        error = max(_balls_apart(rows[1], rows[0]), 10.0**-more)
+        if digits <= DOUBLE_DIGITS and (gap := max(_gap(values, rows[1]), error)) <= 10.0**-digits:
             return Told(question, values, digits, digits_of(gap), "run",
                         reason=SERIES_FROM_START(error=Quantity(gap, digits=2)))
-        return _of_balls(question, found[1], digits, digits_of(error, more), "many digits",
+        return _of_balls(question, rows[1], digits, digits_of(error, more), "many digits",
                          TWO_SERIES(error=Quantity(error, digits=1)))
 
 
-def _over_span(scene: AnyScene, state: Any, span: Any, known: Motion, digits: int, exact: Exact3 | None,
+def _over_span(scene: AnyScene, state: Any, span: Any, resolved: Motion, digits: int, exact: Exact3 | None,
                slack: float) -> Told:
     """The extremes over the span: by a second run where its difference from the first is small enough, else
     in many digits. slack: digits that may be missing."""
-    if known.extremes is None or span is None and known.bounds:
-        return nothing("extremes", digits, known.over)
+    if resolved.extremes is None or span is None and resolved.bounds:
+        return nothing("extremes", digits, resolved.over)
     if scene.variables != "scaled":  # a force at the centre of mass does not turn the body
         scene = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
     length = reach_of(span) or 0.0
-    equations, start = equations_and_start(scene, known.at)
+    equations, start = equations_and_start(scene, resolved.at)
     # a spin-up may have been run on to where its least rate is certain
-    length = max(length, known.evidence.get("span", length))
-    values = np.array(known.extremes)
+    length = max(length, resolved.evidence.get("span", length))
+    values = np.array(resolved.extremes)
     other = roots_of_rates(scene, moved_row(start), length, 8 * TAYLOR_TOLERANCE)
     error = CAUTION * _apart(values, other.extremes()) if not other.reason else math.inf
     reason = MOVED_RUN(rtol=Quantity(8 * TAYLOR_TOLERANCE, digits=2),
@@ -304,9 +304,9 @@ def _over_span(scene: AnyScene, state: Any, span: Any, known: Motion, digits: in
         return Told("extremes", values, digits, digits_of(error), "run", reason=reason)
     left = time_left(scene)
     one_law = left is None or left >= length
-    found = (_many_digits(equations, [*(exact or start[:3]), *start[3:]], length, digits)
+    result = (_many_digits(equations, [*(exact or start[:3]), *start[3:]], length, digits)
              if one_law else None)
-    return (_unbounded_again(found, values) if found
+    return (_unbounded_again(result, values) if result
             else Told("extremes", values, digits, digits_of(error), "run",
                       reason=as_reason(other.reason or reason)))
 
@@ -320,14 +320,14 @@ def _apart(values: Any, other: Any) -> float:
                            0.0) / np.where(size > 0, size, 1.0)).max())
 
 
-def _unbounded_again(told: Told, values: Any) -> Told:
+def _unbounded_again(text: Told, values: Any) -> Told:
     """What a run found, with the entries that are known to be infinite."""
-    known = values.tolist()
+    resolved = values.tolist()
 
-    def put(found: Any, kind: Callable[[Any], Any]) -> tuple[tuple[Any, ...], ...]:
+    def put(result: Any, kind: Callable[[Any], Any]) -> tuple[tuple[Any, ...], ...]:
         return tuple(tuple(kind(old) if math.isinf(old) else new for new, old in zip(*both))
-                     for both in zip(found, known))
-    return replace(told, values=put(told.values, float), decimals=told.decimals and put(told.decimals, str))
+                     for both in zip(result, resolved))
+    return replace(text, values=put(text.values, float), decimals=text.decimals and put(text.decimals, str))
 
 
 def _many_digits(equations: Equations, start: Sequence[Number], length: float, digits: int) -> Told | None:

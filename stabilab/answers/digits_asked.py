@@ -47,9 +47,9 @@ class Told(Reasoned):
         return self
 
 
-def short(told: Told) -> str:
+def short(printed: Told) -> str:
     """What is missing, in words."""
-    return too_few(told).then(ASK_FOR_FEWER).text()
+    return too_few(printed).then(ASK_FOR_FEWER).text()
 
 
 def too_few(checked: Any) -> Reason:
@@ -58,18 +58,18 @@ def too_few(checked: Any) -> Reason:
                    why=checked.reason)
 
 
-def checked_digits(digits: int, most: int) -> int:
+def checked_digits(digits: int, largest: int) -> int:
     """The number of digits, if it can be asked for."""
-    if not (isinstance(digits, int) and not isinstance(digits, bool) and 1 <= digits <= most):
-        raise InputError(f"digits: expected a whole number from 1 to {most}, got {digits!r}")
+    if not (isinstance(digits, int) and not isinstance(digits, bool) and 1 <= digits <= largest):
+        raise InputError(f"digits: expected a whole number from 1 to {largest}, got {digits!r}")
     return digits
 
 
-def digits_of(error: float, most: float = DOUBLE_DIGITS + 0.95) -> float:
+def digits_of(error: float, largest: float = DOUBLE_DIGITS + 0.95) -> float:
     """Correct digits of a relative error, at most what the numbers hold."""
     if not error > 0:
-        return most if error == 0 else 0.0
-    return max(0.0, min(-math.log10(error), most))
+        return largest if error == 0 else 0.0
+    return max(0.0, min(-math.log10(error), largest))
 
 
 def number_of(question: str, motion: Motion) -> Any:
@@ -92,6 +92,6 @@ def by_bound(question: str, motion: Motion) -> Told | None:
                 reason=BY_OWN_BOUND(error=Quantity(tolerance, digits=1).upper))
 
 
-def nothing(question: str, asked: int, why: Reason | str) -> Told:
+def nothing(question: str, request: int, why: Reason | str) -> Told:
     """The answer that there is no such number."""
-    return Told(question, None, asked, None, "none", reason=as_reason(why))
+    return Told(question, None, request, None, "none", reason=as_reason(why))

@@ -97,11 +97,11 @@ class Reached(Reasoned):
         return self.run.status == "reached" and self.digits >= self.asked
 
 
-def missed(found: Any) -> str:
+def missed(result: Any) -> str:
     """Why digits were not reached, in words."""
-    if found.run.status != "reached":
-        return found.run.because
-    return too_few(found).then(ASK_FOR_LESS).text()
+    if result.run.status != "reached":
+        return result.run.because
+    return too_few(result).then(ASK_FOR_LESS).text()
 
 
 def best_reached(case: Case, times: np.ndarray, digits: int = DEFAULT, aim: bool = False) -> Reached:
@@ -121,28 +121,28 @@ def best_reached(case: Case, times: np.ndarray, digits: int = DEFAULT, aim: bool
     for method, value in [*reduced, OWN, (MANY, 0.0)] if turned > LONG_TURN else [OWN, *reduced, (MANY, 0.0)]:
         if best is not None and method != "reduced" and _hopeless(method, best, far):
             continue
-        found = _checked(case, times, method, value, digits)
-        if found is None:
+        result = _checked(case, times, method, value, digits)
+        if result is None:
             continue
-        if found.run.status == "reached" and found.digits >= digits - DIGITS_MISSED * aim:
-            return found
-        best = max(best or found, found, key=lambda one: (one.run.status == "reached", one.digits))
+        if result.run.status == "reached" and result.digits >= digits - DIGITS_MISSED * aim:
+            return result
+        best = max(best or result, result, key=lambda item: (item.run.status == "reached", item.digits))
     return best if best.digits >= 1 or best.run.status != "reached" else _known(best)
 
 
-def _known(found: Reached) -> Reached:
+def _known(result: Reached) -> Reached:
     """A motion without the times at which not one digit of its state is known: such a state is none. Where
     the check did not come so far nothing is known of its digits, and it stays."""
-    run, gaps = found.run, found.gaps
+    run, gaps = result.run, result.gaps
     if gaps is None or (gaps <= LOST).all():
-        return found
+        return result
     held = gaps <= LOST
     first = float(min(run.t[~held], key=abs))
     others = len(run.t) - int(held.sum()) - 1
     reason = NO_DIGIT_AT(time=Moment(first)).then(NOR_LATER(others=others) if others else None, ", ")
     state = {name: values[held] for name, values in run.state.items()}
-    return replace(found, run=replace(run, t=run.t[held], state=state, status="stopped",
-                                      reason=reason.then(found.reason, ": ")), gaps=gaps[held])
+    return replace(result, run=replace(run, t=run.t[held], state=state, status="stopped",
+                                      reason=reason.then(result.reason, ": ")), gaps=gaps[held])
 
 
 def _hopeless(method: str, best: Reached, far: bool) -> bool:
@@ -169,16 +169,16 @@ def _resolutions(case: Any, times: np.ndarray) -> tuple[int, ...]:
     if case.blocks or case.scene.blocks != ("omega",) or (times < 0).any():
         return ()
     try:
-        found = ladder(case.scene, case.state)
+        result = ladder(case.scene, case.state)
     except InputError:
         return ()
-    return tuple(found[n] for n in NODES)
+    return tuple(result[n] for n in NODES)
 
 
-def _checked(case: Any, times: np.ndarray, method: str, value: Any, asked: int) -> Reached | None:
+def _checked(case: Any, times: np.ndarray, method: str, value: Any, request: int) -> Reached | None:
     """The motion by one setting with the digits that the check shows; None where that way has no answer."""
     if method == MANY:
-        return _many_digits(case, times, asked)
+        return _many_digits(case, times, request)
     try:
         run = (_reduced if method == "reduced" else _integrated)(case, times, method, value)
     except InputError:
@@ -187,42 +187,42 @@ def _checked(case: Any, times: np.ndarray, method: str, value: Any, asked: int) 
         return None
     if (method, value) == OWN:
         method, value = run.method, run.rtol
-        if method == STIFF_METHOD and value > STIFF_FINE[1] and asked > -math.log10(value) - SAFETY:
-            return _checked(case, times, *STIFF_FINE, asked)
+        if method == STIFF_METHOD and value > STIFF_FINE[1] and request > -math.log10(value) - SAFETY:
+            return _checked(case, times, *STIFF_FINE, request)
     if method == "reduced":
-        return _checked_reduced(case, times, run, value, asked)
+        return _checked_reduced(case, times, run, value, request)
     other_value = _other(method, value)
     other = _integrated(_moved(case), times, method, other_value) if run.status == "reached" else run
     if other.status != "reached":
-        return Reached(run, asked, 0.0, reason=CHECK_STOPPED(method=method))
+        return Reached(run, request, 0.0, reason=CHECK_STOPPED(method=method))
     gaps = _distances(run, other)
     gap = float(gaps.max())
-    return _told(run, asked, CAUTION * gap,
+    return _told(run, request, CAUTION * gap,
                  FROM_MOVED_START(method=method, rtol=Quantity(other_value, digits=2),
                                   error=Quantity(gap, digits=2)), CAUTION * gaps)
 
 
-def _told(run: Simulation, asked: int, error: float, reason: Reason,
+def _told(run: Simulation, request: int, error: float, reason: Reason,
           gaps: np.ndarray | None = None) -> Reached:
     """A run whose parts are off by so much of their size; gaps: at each time."""
     digits = digits_of(error)
-    known = replace(run, error=errors_of(run.state, 10.0**-digits)) if digits >= 1 else run
-    return Reached(known, asked, digits, gaps, reason=reason)
+    resolved = replace(run, error=errors_of(run.state, 10.0**-digits)) if digits >= 1 else run
+    return Reached(resolved, request, digits, gaps, reason=reason)
 
 
 def _checked_reduced(case: Case, times: np.ndarray, run: Simulation, nodes: float,
-                     asked: int) -> Reached | None:
+                     request: int) -> Reached | None:
     """By twice the nodes, and from a start moved by so many last places that the period, rounded, moves with
     it: what a period is off by grows with the number of periods, and two runs that round it alike would not
     show that."""
     try:
-        finer, moved = (_reduced(one, times, "reduced", 2 * nodes) for one in (case, _moved(case, SHIFT)))
+        finer, moved = (_reduced(item, times, "reduced", 2 * nodes) for item in (case, _moved(case, SHIFT)))
     except InputError:
         return None
     apart, away = _distances(run, finer), _distances(finer, moved)
     own, far = float(apart.max()), float(away.max())
     gap = max(own, far / SHIFT) if far < STRAIGHT else 1.0
-    return _told(run, asked, CAUTION * gap,
+    return _told(run, request, CAUTION * gap,
                  MORE_NODES(nodes=int(2 * nodes), error=Quantity(own, digits=2),
                             moved=Quantity(far / SHIFT, digits=2)) if far < STRAIGHT else TOO_FAR,
                  CAUTION * np.where(away < STRAIGHT, np.maximum(apart, away / SHIFT), 1.0))
@@ -242,10 +242,10 @@ def _moved(case: Any, places: float = 1.0) -> Any:
                            for name, row in case.blocks.items()})
 
 
-def _distances(one: Simulation, two: Simulation) -> np.ndarray:
+def _distances(item: Simulation, two: Simulation) -> np.ndarray:
     """(n,) how far two runs are apart at each time, relative to the largest size of each part."""
-    worst = np.zeros(len(one.t))
-    for name, values in one.state.items():
+    worst = np.zeros(len(item.t))
+    for name, values in item.state.items():
         size = np.abs(values).max() or 1.0
         apart = np.abs(values - two.state[name]).reshape(len(values), -1)
         worst = np.maximum(worst, apart.max(axis=1) / size)
@@ -268,7 +268,7 @@ def _first(case: Case) -> str:
     return "x" if case.scene.variables == "scaled" else "omega"
 
 
-def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
+def _many_digits(case: Any, times: np.ndarray, request: int) -> Reached | None:
     """The reference itself, rounded once; at times of one sign."""
     scaled = case.scene.variables == "scaled"
     equations, start = equations_and_start(case.scene, case.state if scaled
@@ -278,16 +278,16 @@ def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
         return None
     written = [*(case.exact_state or start[:3]), *start[3:]]  # the decimals
     order = np.argsort(np.abs(times), kind="stable")
-    found = reference(case.scene, written, times[order], equations.blocks)
-    if found.status != "agrees":
+    result = reference(case.scene, written, times[order], equations.blocks)
+    if result.status != "agrees":
         return None
-    states = np.empty_like(found.states)
-    states[order] = found.states
-    blocks: Any = {name: states[:, part] for name, part in found.slices.items()}
+    states = np.empty_like(result.states)
+    states[order] = result.states
+    blocks: Any = {name: states[:, part] for name, part in result.slices.items()}
     limits = limits_of(case.scene)
     validity = limits.along(case.scene, blocks, "at the times given") if limits else None
     parts: Any = {_first(case) if name == "omega" else name: values for name, values in blocks.items()}
-    error = float(found.error.max()) + 2.0**-53
+    error = float(result.error.max()) + 2.0**-53
     if as_quaternion(case.blocks.get("attitude", ())):
         parts = in_quaternions(case.scene, parts)
     elif "attitude" in parts:
@@ -296,25 +296,25 @@ def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
             return None
         # phi and theta magnify the rounding of the quaternion
         error += 2.0**-51 / np.abs(np.cos(parts["angles"][:, 0])).min()
-    reason = ROUNDED_SERIES(fewer=found.digits[0], more=found.digits[1],
-                            error=Quantity(float(found.error.max()), digits=1))
-    run = Simulation(times, parts, "exact", MANY, None, counters={"multiplications": found.work},
+    reason = ROUNDED_SERIES(fewer=result.digits[0], more=result.digits[1],
+                            error=Quantity(float(result.error.max()), digits=1))
+    run = Simulation(times, parts, "exact", MANY, None, counters={"multiplications": result.work},
                      reason=reason, validity=validity)
-    return _told(run, asked, error, reason)
+    return _told(run, request, error, reason)
 
 
 def _with_angles(case: Any, times: np.ndarray, parts: dict[str, np.ndarray]) -> dict[str, np.ndarray] | None:
     """Angles and momentum in place of the quaternion: turns counted by a run in doubles; None where it is too
     far off to count."""
-    near, q = _integrated(case, times, *OWN), parts.pop("attitude")
-    if near.status != "reached":
+    nearby, q = _integrated(case, times, *OWN), parts.pop("attitude")
+    if nearby.status != "reached":
         return None
-    ways = [found + 2 * np.pi * np.round((near.state["angles"] - found) / (2 * np.pi))
-            for found in (angles(q), beyond(angles(q)))]
-    gaps = [np.abs(way - near.state["angles"]).max(axis=1, keepdims=True) for way in ways]
+    ways = [out + 2 * np.pi * np.round((nearby.state["angles"] - out) / (2 * np.pi))
+            for out in (angles(q), beyond(angles(q)))]
+    gaps = [np.abs(route - nearby.state["angles"]).max(axis=1, keepdims=True) for route in ways]
     if np.minimum(*gaps).max() > COUNTED:
         return None
-    found = np.where(gaps[0] <= gaps[1], *ways)
+    result = np.where(gaps[0] <= gaps[1], *ways)
     first = {name: parts.pop(name) for name in ("omega", "gamma") if name in parts}
-    return (first | {"angles": found, "momentum": to_space(q, body_momentum(case.scene, first | parts))}
+    return (first | {"angles": result, "momentum": to_space(q, body_momentum(case.scene, first | parts))}
             | parts)

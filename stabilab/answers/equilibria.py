@@ -35,9 +35,9 @@ STARTED = Sentence(
     "of the body once the motor has stopped, from the momentum of its wheel in [motion] on")()
 
 
-def once_stopped(found: Equilibria) -> Reason | None:
+def once_stopped(result: Equilibria) -> Reason | None:
     """Of which body they are, where a motor stops; else None."""
-    return next((one for one in (STOPPED, STARTED) if found.reason.says(one.sentence)), None)
+    return next((item for item in (STOPPED, STARTED) if result.reason.says(item.sentence)), None)
 
 
 def equilibria(scene: Given) -> Equilibria:
@@ -53,21 +53,21 @@ def equilibria(scene: Given) -> Equilibria:
     """
     case = None if isinstance(scene, (Scene, ScaledGyrostat)) else as_case(scene)
     of: Any = scene if case is None else case.scene
-    if case is not None and of.ending and any(given := case.blocks.get("wheel", ())):
-        found = equilibria(_with_wheel(of, given))
-        found = replace(found, reason=found.reason.without(STOPPED.sentence).then(STARTED))
-        return answered(found, case, found.validity)
-    found = (None if of.plain else other_equilibria(of)) or gyrostat_equilibria(of)
+    if case is not None and of.ending and any(supplied := case.blocks.get("wheel", ())):
+        result = equilibria(_with_wheel(of, supplied))
+        result = replace(result, reason=result.reason.without(STOPPED.sentence).then(STARTED))
+        return answered(result, case, result.validity)
+    result = (None if of.plain else other_equilibria(of)) or gyrostat_equilibria(of)
     limits = limits_of(of)
-    found = replace(found, frame=of.frame, validity=limits.at_equilibria(of, found) if limits else None)
-    return found if case is None else answered(found, case, found.validity)
+    result = replace(result, frame=of.frame, validity=limits.at_equilibria(of, result) if limits else None)
+    return result if case is None else answered(result, case, result.validity)
 
 
 def _with_wheel(scene: Any, momentum: Any) -> Scene:
     """The scene whose wheels have so much more momentum, N m s, at the start."""
     total = tuple(a + Fraction(b) for a, b in zip(scene.vector("gyrostat"), momentum))
     return Scene(scene.body, effect_class("gyrostat")(total),
-                 *(one for one in scene.effects if one.name != "gyrostat"))
+                 *(effect for effect in scene.effects if effect.name != "gyrostat"))
 
 
 def other_equilibria(scene: AnyScene) -> Equilibria | None:
@@ -84,5 +84,5 @@ def other_equilibria(scene: AnyScene) -> Equilibria | None:
     stops = parts.duration is not None
     parts = parts.without_motor if stops else parts
     module, answer = BY_KIND[parts.kind]
-    found = getattr(import_module(f"..equilibrium.{module}", __package__), answer)(parts)
-    return replace(found, reason=found.reason.then(parts.note).then(STOPPED if stops else None))
+    result = getattr(import_module(f"..equilibrium.{module}", __package__), answer)(parts)
+    return replace(result, reason=result.reason.then(parts.note).then(STOPPED if stops else None))

@@ -52,17 +52,17 @@ def fate(scene: Given, state: Start | None = None, *, states: Starts | None = No
     case, array = asked_of(scene, state, states, span, "fate", frame)
     long: Any = time_in(case.scene, follow, "follow")
     options = _options(array, follow=long, proof=proof, fast=fast)
-    found = Motions(case, array, options, None if tilt is None else angle_of(tilt))
-    if found.by_rows:
-        vars(found)["rows"] = rows.fates(case.scene, array, **options, tell=tell)
-    elif found.one:
-        found.kept[Needs.FATE] = [motion_of_case(case, Needs.FATE, long, tell, proof)]
-    margins = found.margins  # what is bad input is said now
+    result = Motions(case, array, options, None if tilt is None else angle_of(tilt))
+    if result.by_rows:
+        vars(result)["rows"] = rows.fates(case.scene, array, **options, tell=tell)
+    elif result.one:
+        result.kept[Needs.FATE] = [motion_of_case(case, Needs.FATE, long, tell, proof)]
+    margins = result.margins  # what is bad input is said now
     if digits is not None:
-        told = _with_digits("fate", found, digits, margins)
-        if told.values is not None:
-            _put_margins(found, told)
-    return found
+        printed = _with_digits("fate", result, digits, margins)
+        if printed.values is not None:
+            _put_margins(result, printed)
+    return result
 
 
 def _options(array: np.ndarray, **options: Any) -> dict[str, Any]:
@@ -71,11 +71,11 @@ def _options(array: np.ndarray, **options: Any) -> dict[str, Any]:
             or (name == "fast" and value is False)}
 
 
-def _put_margins(found: Motions, told: Told) -> None:
-    if found.by_rows:
-        vars(found)["rows"] = replace(found.rows, margins=np.asarray(told.values))
+def _put_margins(result: Motions, printed: Told) -> None:
+    if result.by_rows:
+        vars(result)["rows"] = replace(result.rows, margins=np.asarray(printed.values))
     else:
-        found.kept[Needs.FATE] = [replace(found.motions(Needs.FATE)[0], margin=float(told.values))]
+        result.kept[Needs.FATE] = [replace(result.motions(Needs.FATE)[0], margin=float(printed.values))]
 
 
 def fate_grid(scene: Given, axes: Sequence[ArrayLike]) -> np.ndarray:
@@ -123,21 +123,21 @@ def extremes(scene: Given, state: Start | None = None, span: Span | None = None,
     """
     case, array = asked_of(scene, state, states, span, "extremes", frame)
     long: Any = time_in(case.scene, follow, "follow")
-    found = Motions(case, array, _options(array, follow=long, fast=fast), tilted=False)
+    result = Motions(case, array, _options(array, follow=long, fast=fast), tilted=False)
     over, why = "all time", ""
-    if found.by_rows:
+    if result.by_rows:
         values = rows.extremes(case.scene, array, reach_of(case.span), fast, long)
     else:
-        known = found.motions(Needs.EXTREMES)
-        pairs = [NONE if one.extremes is None else one.extremes for one in known]
-        values = np.array(pairs).reshape(*found.shape, 3, 2)
-        if found.one:
-            over = known[0].extremes_over
-            why = over if known[0].extremes is None else ""
-    told = None if digits is None else _with_digits("extremes", found, digits, values)
-    if told is not None and told.values is not None:
-        values = np.asarray(told.values, float)
-    return Values("extremes", values, found, told and told.decimals, over, why)
+        resolved = result.motions(Needs.EXTREMES)
+        pairs = [NONE if item.extremes is None else item.extremes for item in resolved]
+        values = np.array(pairs).reshape(*result.shape, 3, 2)
+        if result.one:
+            over = resolved[0].extremes_over
+            why = over if resolved[0].extremes is None else ""
+    printed = None if digits is None else _with_digits("extremes", result, digits, values)
+    if printed is not None and printed.values is not None:
+        values = np.asarray(printed.values, float)
+    return Values("extremes", values, result, printed and printed.decimals, over, why)
 
 
 def period(scene: Given, state: Start | None = None, *, states: Starts | None = None,
@@ -152,24 +152,24 @@ def period(scene: Given, state: Start | None = None, *, states: Starts | None = 
     """
     case, array = asked_of(scene, state, states, span, "period", frame)
     long: Any = time_in(case.scene, follow, "follow")
-    found, why = Motions(case, array, _options(array, follow=long, fast=fast), tilted=False), ""
-    if found.by_rows:
+    result, why = Motions(case, array, _options(array, follow=long, fast=fast), tilted=False), ""
+    if result.by_rows:
         values = rows.periods(case.scene, array, fast)
     else:
-        known = found.motions(Needs.PERIOD)
-        values = np.array([period_of(one) for one in known]).reshape(found.shape)
-        why = no_period(known[0].fate) if found.one and known[0].period is None else ""
-    told = None if digits is None else _with_digits("period", found, digits, values)
-    if told is not None and told.values is not None:
-        values = np.asarray(told.values, float)
-    return Values("period", values, found, told and told.decimals, "", why)
+        resolved = result.motions(Needs.PERIOD)
+        values = np.array([period_of(item) for item in resolved]).reshape(result.shape)
+        why = no_period(resolved[0].fate) if result.one and resolved[0].period is None else ""
+    printed = None if digits is None else _with_digits("period", result, digits, values)
+    if printed is not None and printed.values is not None:
+        values = np.asarray(printed.values, float)
+    return Values("period", values, result, printed and printed.decimals, "", why)
 
 
-def _with_digits(question: str, found: Motions, digits: int, values: Any) -> Told:
+def _with_digits(question: str, result: Motions, digits: int, values: Any) -> Told:
     """The answer with so many digits."""
-    case = found.case
-    if not found.one:
+    case = result.case
+    if not result.one:
         reach = reach_of(case.span) if question == "extremes" else None
-        return ask_all(question, case.scene, found.states, digits, values, reach).required()
-    known = found.motions(Needs.FATE if question == "fate" else Needs.RETURN)[0]
-    return ask(question, case.scene, case.start, digits, case.span, known, case.exact_state).required()
+        return ask_all(question, case.scene, result.states, digits, values, reach).required()
+    resolved = result.motions(Needs.FATE if question == "fate" else Needs.RETURN)[0]
+    return ask(question, case.scene, case.start, digits, case.span, resolved, case.exact_state).required()

@@ -47,7 +47,7 @@ class Limit:
             ((_, vector),), angle = self.parts[0]
             zero = (Fraction(0),) * 3
             return [Threshold(((Fraction(1), zero + vector),), precise("cos", angle, bits=COSINE_BITS), True)]
-        return [Threshold(terms, most / (unit * unit)) for terms, most in self.parts]
+        return [Threshold(terms, largest / (unit * unit)) for terms, largest in self.parts]
 
     @property
     def direction(self) -> Exact3 | None:
@@ -65,17 +65,17 @@ class Limit:
             return False
         sizes = [max(abs(low), abs(high)) * (1 + slack) for low, high in extremes]
 
-        def below(terms: Sequence[tuple[Fraction, tuple[Fraction, ...]]], most: Fraction) -> bool:
+        def below(terms: Sequence[tuple[Fraction, tuple[Fraction, ...]]], largest: Fraction) -> bool:
             """In exact numbers, as squares of doubles may be none."""
             own = [size if any(vector[n] for _, vector in terms) else 0.0 for n, size in enumerate(sizes)]
-            return all(map(math.isfinite, own)) and most > sum(
+            return all(map(math.isfinite, own)) and largest > sum(
                 c * sum(abs(a) * Fraction(size) for a, size in zip(vector, own)) ** 2 for c, vector in terms)
-        return all(below(terms, most) for terms, most in self.parts)
+        return all(below(terms, largest) for terms, largest in self.parts)
 
     def least_rate(self) -> float:
         """The largest |omega| below which it is surely not reached."""
-        return min(float(sqrt_fraction(Fraction(most) / max(c for c, _ in terms)))
-                   for terms, most in self.parts)
+        return min(float(sqrt_fraction(Fraction(largest) / max(c for c, _ in terms)))
+                   for terms, largest in self.parts)
 
 
 def along_axes(terms: Iterable[Any]) -> list[float] | None:
@@ -92,12 +92,12 @@ def along_axes(terms: Iterable[Any]) -> list[float] | None:
 def asked(scene: AnyScene, rate: Any = None, component: Any = None, energy: Any = None,
           tilt: Any = None) -> Limit:
     """The one limit that is given; InputError for none, several, and for numbers that are none."""
-    given = {name: value for name, value in (("rate", rate), ("component", component), ("energy", energy),
+    supplied = {name: value for name, value in (("rate", rate), ("component", component), ("energy", energy),
                                              ("tilt", tilt)) if value is not None}
-    if len(given) != 1:
+    if len(supplied) != 1:
         raise InputError(
-            f"time_to: expected one of rate, component, energy and tilt, got {', '.join(given) or 'none'}")
-    (name, value), = given.items()
+            f"time_to: expected one of rate, component, energy and tilt, got {', '.join(supplied) or 'none'}")
+    (name, value), = supplied.items()
     return {"rate": _rate, "component": _component, "energy": _energy, "tilt": _tilt}[name](scene, value)
 
 
@@ -105,33 +105,33 @@ def _rate(scene: AnyScene, value: Any) -> Limit:
     unit = _unit(scene)
     if hasattr(value, "__len__") and not isinstance(value, str):
         limits = exact_vector(value, "rate")
-        parts = tuple((((Fraction(1), axis),), _positive(most, "rate") ** 2)
-                      for axis, most in zip(AXES, limits))
+        parts = tuple((((Fraction(1), axis),), _positive(limit, "rate") ** 2)
+                      for axis, limit in zip(AXES, limits))
         return Limit("component", parts,
                      "|components| " + ", ".join(f"{float(v):.10g}" for v in limits) + f" {unit}")
-    most = _positive(value, "rate")
+    largest = _positive(value, "rate")
     letter = "x" if scene.variables == "scaled" else "omega"
-    return Limit("rate", ((tuple((Fraction(1), axis) for axis in AXES), most**2),),
-                 f"|{letter}| = {float(most):.10g} {unit}".rstrip())
+    return Limit("rate", ((tuple((Fraction(1), axis) for axis in AXES), largest**2),),
+                 f"|{letter}| = {float(largest):.10g} {unit}".rstrip())
 
 
 def _component(scene: AnyScene, value: Any) -> Limit:
-    several = isinstance(value, list) and value and all(isinstance(one, tuple) for one in value)
-    parts, words = [], []
-    for axis, most in (_pair(one, "component") for one in (value if several else [value])):
+    several = isinstance(value, list) and value and all(isinstance(item, tuple) for item in value)
+    parts, text = [], []
+    for axis, largest in (_pair(item, "component") for item in (value if several else [value])):
         vector, named = _direction(axis, "component")
-        most = _positive(most, "component")
-        parts.append((((Fraction(1), vector),), most**2))
-        words.append(f"|rate about {named}| = {float(most):.10g} {_unit(scene)}".rstrip())
-    return Limit("component", tuple(parts), " or ".join(words))
+        largest = _positive(largest, "component")
+        parts.append((((Fraction(1), vector),), largest**2))
+        text.append(f"|rate about {named}| = {float(largest):.10g} {_unit(scene)}".rstrip())
+    return Limit("component", tuple(parts), " or ".join(text))
 
 
 def _energy(scene: AnyScene, value: Any) -> Limit:
     if scene.variables == "scaled":
         raise InputError("energy: scaled variables know no kinetic energy: give a body")
-    most = _positive(value, "energy")
-    return Limit("energy", ((tuple((d / 2, axis) for d, axis in zip(scene.body.exact, AXES)), most),),
-                 f"kinetic energy = {float(most):.10g} J")
+    largest = _positive(value, "energy")
+    return Limit("energy", ((tuple((d / 2, axis) for d, axis in zip(scene.body.exact, AXES)), largest),),
+                 f"kinetic energy = {float(largest):.10g} J")
 
 
 def _tilt(scene: AnyScene, value: Any) -> Limit:
@@ -151,11 +151,11 @@ def _unit(scene: AnyScene) -> str:
 
 def _pair(value: Any, name: str) -> tuple[Any, Any]:
     try:
-        axis, most = value
+        axis, largest = value
     except (TypeError, ValueError):
         raise InputError(f"{name}: expected (axis, limit), the axis 1, 2, 3 or three numbers along it, got "
                          f"{value!r:.80}") from None
-    return axis, most
+    return axis, largest
 
 
 def _direction(axis: Any, name: str) -> tuple[Exact3, str]:
@@ -205,15 +205,15 @@ def enclosed(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: Frac
     which on another scene holds, of the same body and wheels. A first attempt, at few bits, is carried on
     beyond what its bits can prove, to learn how many it takes.
     """
-    unit = max(exact_unit(one, start) for one in (scene, *(one for _, one in later)))
-    switches = [(time * unit, one.quadratic()) for time, one in later]
+    unit = max(exact_unit(item, start) for item in (scene, *(item for _, item in later)))
+    switches = [(time * unit, item.quadratic()) for time, item in later]
     bits, best, spent = FIRST_BITS, Crossing(None, None, Fraction(0), False), 0
     while True:
         attempt = _Attempt(flow_of(scene, start, bits, unit, limit.direction), limit, unit, t_max, earliest,
                            switches)
-        found = attempt.run(work - spent)
+        result = attempt.run(work - spent)
         spent += attempt.flow.work
-        best = found if found.high is not None or found.until > best.until or found.done else best
+        best = result if result.high is not None or result.until > best.until or result.done else best
         if best.high is not None or best.done or attempt.needs is None or spent > work:
             return best
         bits = max(attempt.needs, bits + KEPT)
@@ -237,7 +237,7 @@ class _Attempt:
         self.end = None if t_max is None else t_max * unit
         self.earliest = (earliest if t_max is None else min(earliest, t_max)) * unit
         self.thresholds = limit.thresholds(unit)
-        self.proved = [Search(one) for one in self.thresholds]
+        self.proved = [Search(threshold) for threshold in self.thresholds]
 
     def run(self, work: int) -> Crossing:
         """Proved as far as the bits reach, then on, unproved, to where a proof would end."""
@@ -248,7 +248,7 @@ class _Attempt:
             if flow.work * (1 if proving else 1 + (needs / flow.bits) ** 2) > work or needs > MOST_BITS:
                 return self._answer(until, False)
             if proving and flow.error.bit_length() > flow.bits - KEPT:
-                proving, searches = False, [Search(one, exactly=False) for one in self.thresholds]
+                proving, searches = False, [Search(threshold, exactly=False) for threshold in self.thresholds]
             before = flow.work
             try:
                 piece = flow.step(self.switches[0][0] if self.switches else None)
@@ -274,8 +274,8 @@ class _Attempt:
                 return self._answer(until, False)
 
     def _answer(self, until: Fraction, done: bool) -> Crossing:
-        found = Crossing.of(self.proved, until, done)
-        low, high = found.low, found.high
+        result = Crossing.of(self.proved, until, done)
+        low, high = result.low, result.high
         if self.end is not None and low is not None and low > self.end:
             low = high = None
         scale = lambda t: None if t is None else t / self.unit

@@ -45,40 +45,40 @@ def motion(scene: Any, state: Any = None, span: Any = None, needs: Needs = Needs
     limits = limits_of(scene)
     if limits and needs:  # how far its law holds is seen by its extremes
         needs |= Needs.EXTREMES
-    found = _found(scene, state, checked_span(span), needs, exact, follow, tell, proof)
-    if found.fate == Fate.EQUILIBRIUM:
+    result = _found(scene, state, checked_span(span), needs, exact, follow, tell, proof)
+    if result.fate == Fate.EQUILIBRIUM:
         from .at_equilibrium import with_stability
-        found = with_stability(scene, found, exact)
-    found = (replace(found, validity=limits.of_motion(scene, found)) if limits and found.validity is None
-             else found)
+        result = with_stability(scene, result, exact)
+    result = (replace(result, validity=limits.of_motion(scene, result)) if limits and result.validity is None
+             else result)
     twin = effective(scene)
     integral = (None if not needs & Needs.INVARIANTS or not twin.plain
-                else energy_integral(twin, exact or found.at[:3], found.margin_energy))
-    found = replace(found, largest=_largest(twin, found) if needs & Needs.LARGEST else None,
-                    flips=flips_of(scene, found) if needs & Needs.FLIPS else None, energy_integral=integral)
-    found = limited(found, scene, case)
-    return found if own is None or not needs & Needs.ENDING else with_ending(own, found)
+                else energy_integral(twin, exact or result.at[:3], result.margin_energy))
+    result = replace(result, largest=_largest(twin, result) if needs & Needs.LARGEST else None,
+                    flips=flips_of(scene, result) if needs & Needs.FLIPS else None, energy_integral=integral)
+    result = limited(result, scene, case)
+    return result if own is None or not needs & Needs.ENDING else with_ending(own, result)
 
 
-def with_ending(case: Case, found: Motion) -> Motion:
+def with_ending(case: Case, result: Motion) -> Motion:
     """The motion of a case with how it ends and when, where something takes energy from it."""
-    if found.ending is not None or not loses(case.scene):
-        return found
+    if result.ending is not None or not loses(case.scene):
+        return result
     from .dissipation.ending import with_end
-    return with_end(case, found)
+    return with_end(case, result)
 
 
-def _largest(twin: AnyScene, found: Motion) -> float | None:
+def _largest(twin: AnyScene, result: Motion) -> float | None:
     """|omega| at the most, of a motion that repeats or rests, where its extremes are known over all time."""
-    pairs = found.extremes
-    if found.fate == Fate.EQUILIBRIUM:
-        return math.hypot(*found.at[:3])
-    if not twin.plain or found.period is None or pairs is None or not found.for_all_time:
+    pairs = result.extremes
+    if result.fate == Fate.EQUILIBRIUM:
+        return math.hypot(*result.at[:3])
+    if not twin.plain or result.period is None or pairs is None or not result.for_all_time:
         return None
     sizes = [max(map(abs, pair)) for pair in pairs if None not in pair]
-    most = (largest(twin.quadratic(), found.at[:3], found.period) if len(sizes) == 3
+    upper = (largest(twin.quadratic(), result.at[:3], result.period) if len(sizes) == 3
             and math.hypot(*sizes) < math.inf else None)
-    return None if most is None else min(max(most, *sizes), math.hypot(*sizes))
+    return None if upper is None else min(max(upper, *sizes), math.hypot(*sizes))
 
 
 def _found(scene: AnyScene, state: Any, span: tuple[float, float] | None, needs: Needs,
@@ -92,6 +92,6 @@ def _found(scene: AnyScene, state: Any, span: tuple[float, float] | None, needs:
             return one(scene).motion(scene, state, span, exact, needs,
                                      **following(scene, follow, tell, proof))
         twin = gyrostat_scene(parts)
-        found = one(twin).motion(twin, split(parts, state)[0], span, exact, needs,
+        result = one(twin).motion(twin, split(parts, state)[0], span, exact, needs,
                                  **following(twin, follow, tell, proof))
-    return replace(found, reason=found.reason.then(parts.note))
+    return replace(result, reason=result.reason.then(parts.note))

@@ -83,8 +83,8 @@ class TimeTo(Answer, Compared):
     def words(self) -> np.ndarray:
         """(...,) texts: the quantity and how the answer is known."""
         reasons = np.array(self.reason, object)
-        told = [f"{self.quantity}: {one}" if str(one) else self.quantity for one in reasons.ravel()]
-        return np.array(told, object).reshape(reasons.shape)[()]
+        printed = [f"{self.quantity}: {item}" if str(item) else self.quantity for item in reasons.ravel()]
+        return np.array(printed, object).reshape(reasons.shape)[()]
 
     @cached_property
     def validity(self) -> Validity | None:
@@ -130,10 +130,10 @@ class Found(Reasoned):
         return math.isinf(self.low)
 
 
-def times_of(found: Sequence[Found], shape: tuple[int, ...], quantity: str, scene: AnyScene,
+def times_of(result: Sequence[Found], shape: tuple[int, ...], quantity: str, scene: AnyScene,
              states: np.ndarray, caveats: tuple[Caveat, ...]) -> TimeTo:
     """The answers of motions, one after another, in this shape."""
-    column = lambda name, kind: np.array([getattr(one, name) for one in found], kind).reshape(shape)[()]
+    column = lambda name, kind: np.array([getattr(item, name) for item in result], kind).reshape(shape)[()]
     return TimeTo(column("low", float), column("high", float), column("level", object),
                   column("reason", object), quantity, scene, states, caveats=caveats)
 
@@ -151,9 +151,9 @@ def stays_below(scene: Scene, state: Float3, rate: float, sideways: float,
     on an axis; state: three floats, rad/s. 0 where nothing is proved."""
     D, l = (np.array([float(v) for v in row]) for row in (scene.body.exact, scene.vector("gyrostat")))
     # T = W^2/2: |W'| <= |D^(-1/2) M| bounds |omega| <= W/min(D)^(1/2)
-    least, torque = math.sqrt(D.min()), math.hypot(sideways, max(along, key=abs))
-    room = rate * least - math.sqrt(D @ np.square(state))
-    crude = max(0.0, room) * least / torque * (1 - DRIFT_ROUNDING)
+    smallest, torque = math.sqrt(D.min()), math.hypot(sideways, max(along, key=abs))
+    room = rate * smallest - math.sqrt(D @ np.square(state))
+    crude = max(0.0, room) * smallest / torque * (1 - DRIFT_ROUNDING)
     i = next(n for n, m in enumerate(scene.vector("constant_torque")) if m)
     j, k = CYCLE[i]
     a = np.array([D[j] - D[i], D[k] - D[i]])
@@ -195,12 +195,12 @@ class _Well:
         across = math.hypot(*self.centre) + rhos[1] / min(self.scale)
         energy = self.energy + t * (self.sideways * across + tilt * self.pull / rhos[0])
         inside = []
-        for way in (self.behind, self.ahead):  # up to the first place that the phase cannot pass
-            least = -self._greatest(way, rhos, -0.5 * self.D[1:], 1.0)
-            closed = np.nonzero(least > energy * (1 + DRIFT_ROUNDING))[0]
+        for route in (self.behind, self.ahead):  # up to the first place that the phase cannot pass
+            smallest = -self._greatest(route, rhos, -0.5 * self.D[1:], 1.0)
+            closed = np.nonzero(smallest > energy * (1 + DRIFT_ROUNDING))[0]
             if not closed.size:
                 return False
-            inside.append(way[:closed[0] + 1])
+            inside.append(route[:closed[0] + 1])
         # the most of |omega|^2 at these places and half a step around them
         weights = 1 - self.D[1:] / self.D[0]
         value = 2 * energy / self.D[0] + self._greatest(np.concatenate(inside), rhos, weights, 2 / self.D[0])
@@ -208,11 +208,11 @@ class _Well:
         slope = (2 * np.abs(weights) * fastest * rhos[1] / self.scale).sum() + 2 / self.D[0] * tilt
         return bool(value.max() + slope * self.step / 2 < self.rate**2 * (1 - DRIFT_ROUNDING))
 
-    def _greatest(self, way: np.ndarray, rhos: tuple[float, float], weights: np.ndarray,
+    def _greatest(self, route: np.ndarray, rhos: tuple[float, float], weights: np.ndarray,
                   factor: float) -> np.ndarray:
         """Greatest of weights . omega_perp^2 + factor (M_i/n)(theta - theta(0)) over the radii and the torque
         along the axis, at each place."""
-        theta = self.theta + way
+        theta = self.theta + route
         across = np.stack([np.cos(theta), -np.sin(theta)], axis=-1) / self.scale
         square, linear = across**2 @ weights, 2 * across @ (weights * self.centre)
         constant = float(self.centre**2 @ weights)
@@ -221,7 +221,7 @@ class _Well:
             top = -linear / (2 * square)
             ends = np.where((square < 0) & (rhos[0] < top) & (top < rhos[1]),
                             np.maximum(ends, -linear**2 / (4 * square)), ends)
-        return ends + constant + factor * np.maximum(*(m / self.n * way for m in self.along))
+        return ends + constant + factor * np.maximum(*(m / self.n * route for m in self.along))
 
 
 RUN_STEPS = 300_000  # of each of the two runs
@@ -241,28 +241,28 @@ def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, s
     last place)."""
     forms, state, rates, unit = _search(scene, start, limit)
     end = t_max * unit if math.isfinite(t_max) else 1e300
-    one = zeros_passed(forms, state, rates, end, steps, first=True)
-    if one.first is None:
-        low = one.t * (1 - ROUNDING) / unit
+    item = zeros_passed(forms, state, rates, end, steps, first=True)
+    if item.first is None:
+        low = item.t * (1 - ROUNDING) / unit
         until = Quantity(low, scene.time_unit).lower
-        ended = STEPS_END(time=until, steps=steps) if one.reason else TIME_ENDS(time=until)
-        return Found(low, math.nan, "run", one.steps, reason=BY_ROOTS.then(ended, ": "))
+        ended = STEPS_END(time=until, steps=steps) if item.reason else TIME_ENDS(time=until)
+        return Found(low, math.nan, "run", item.steps, reason=BY_ROOTS.then(ended, ": "))
     second = (moved_row(state, MOVED) if beside is None
               else np.concatenate([beside[:3] / unit, beside[3:]]))
     two = zeros_passed(forms, second, rates, end, 2 * steps, 4 * TAYLOR_TOLERANCE, first=True)
-    at = Quantity(one.first / unit, scene.time_unit)
+    at = Quantity(item.first / unit, scene.time_unit)
     if two.first is None:
-        return Found(0.0, math.nan, "undecided", one.steps, reason=SECOND_DOES_NOT(time=at))
-    blur = WIDER * abs(one.first - two.first) + ROUNDING * one.first
-    if blur > VAGUE * one.first:
-        raised = tuple((terms, most * (1 + HIGHER)) for terms, most in limit.parts)
+        return Found(0.0, math.nan, "undecided", item.steps, reason=SECOND_DOES_NOT(time=at))
+    blur = WIDER * abs(item.first - two.first) + ROUNDING * item.first
+    if blur > VAGUE * item.first:
+        raised = tuple((terms, largest * (1 + HIGHER)) for terms, largest in limit.parts)
         higher = _search(scene, start, replace(limit, parts=raised))[0]
-        end = min(end, one.first + 2 * blur)
+        end = min(end, item.first + 2 * blur)
         if zeros_passed(higher, state, rates, end, 2 * steps, first=True).first is None:
-            return Found(max(0.0, one.first - blur) / unit, math.nan, "undecided",
-                         one.steps, reason=ONLY_NEAR(time=at, share=Quantity(float(HIGHER), digits=1)))
-    return Found(max(0.0, one.first - blur) / unit, (one.first + blur) / unit, "run",
-                 one.steps, reason=BY_TWO_RUNS)
+            return Found(max(0.0, item.first - blur) / unit, math.nan, "undecided",
+                         item.steps, reason=ONLY_NEAR(time=at, share=Quantity(float(HIGHER), digits=1)))
+    return Found(max(0.0, item.first - blur) / unit, (item.first + blur) / unit, "run",
+                 item.steps, reason=BY_TWO_RUNS)
 
 
 def run_once(scene: AnyScene, state: Sequence[float], limit: Limit, t_max: float = math.inf,
@@ -274,10 +274,10 @@ def run_once(scene: AnyScene, state: Sequence[float], limit: Limit, t_max: float
     """
     forms, start, rates, unit = _search(scene, state, limit)
     end = t_max * unit if math.isfinite(t_max) else 1e300
-    found = zeros_passed(forms, start, rates, end, steps, first=True)
-    if found.first is not None:
-        return found.first / unit, math.inf
-    return math.inf, t_max if not found.reason and math.isfinite(t_max) else found.t / unit
+    result = zeros_passed(forms, start, rates, end, steps, first=True)
+    if result.first is not None:
+        return result.first / unit, math.inf
+    return math.inf, t_max if not result.reason and math.isfinite(t_max) else result.t / unit
 
 
 def _search(scene: AnyScene, start: Sequence[float], limit: Limit) -> tuple[Form, np.ndarray, Any, float]:
@@ -299,7 +299,7 @@ def largest_rate(scene: AnyScene, state: Sequence[float], until: float, budget: 
     own, unit, start = _in_own_unit(scene, state)
     rates = own.quadratic().rate(start.tolist())
     run = zeros_passed(_quadratic(own), start, rates, until * unit, budget)
-    sizes = [float(np.linalg.norm(one)) for one in (start, run.state, *run.states)]
+    sizes = [float(np.linalg.norm(item)) for item in (start, run.state, *run.states)]
     return max(sizes) * unit, run.t / unit
 
 
@@ -315,9 +315,9 @@ def _quadratic(scene: AnyScene, parts: Sequence[Any] = (), square: Fraction = Fr
     """The rates of a scene of wheel and torque, and the limit's parts over the square of the unit."""
     state, symbols, expressions = _structure(len(parts))
     numbers = [*sum(zip(*scene.quadratic().coefficients), ())]
-    for terms, most in parts:
+    for terms, largest in parts:
         numbers += ([float(sum(c * a[i] * a[j] * (1 + (i != j)) for c, a in terms)) for i, j in PRODUCTS]
-                    + [float(min(most / square, FARTHEST))])
+                    + [float(min(largest / square, FARTHEST))])
     return Form(state, expressions, symbols, tuple(numbers))
 
 
@@ -366,8 +366,8 @@ def _expressions(limit: Limit, equations: Equations, state: Sequence[float] | np
         omega = equations.state[:3]
         power = rational(Fraction(unit)) ** 2
         return [sum(rational(c) * sum(rational(a) * w for a, w in zip(vector, omega) if a) ** 2
-                    for c, vector in terms) - rational(most) / power
-                for terms, most in limit.parts]
+                    for c, vector in terms) - rational(largest) / power
+                for terms, largest in limit.parts]
     at = 3 + (3 if "gamma" in equations.blocks else 0)
     q = equations.state[at:at + 4]
     direction = limit.direction or ()

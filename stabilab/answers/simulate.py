@@ -83,12 +83,12 @@ def trajectory(scene: AnyScene, state: Any, times: ArrayLike, method: str = "tay
     `status` is "stopped", `reason` says why, and t, states hold the times that were reached. Raises
     InputError for states and times that are no such numbers and for an unknown method.
     """
-    given, method = method, KNOWN.get(method.lower() if isinstance(method, str) else "", "")
+    supplied, method = method, KNOWN.get(method.lower() if isinstance(method, str) else "", "")
     if not method:
-        close = difflib.get_close_matches(str(given).lower(), KNOWN, 1)
+        close = difflib.get_close_matches(str(supplied).lower(), KNOWN, 1)
         hint = f'; did you mean "{KNOWN[close[0]]}"?' if close else ""
-        known = ", ".join(KNOWN.values())
-        raise InputError(f"method: there is no {given!r:.80}; choose one of {known}{hint}")
+        resolved = ", ".join(KNOWN.values())
+        raise InputError(f"method: there is no {supplied!r:.80}; choose one of {resolved}{hint}")
     if steps is not None and not isinstance(steps, list):
         raise InputError(f"steps: expected a list that takes the ends of the steps, got {steps!r:.80}")
     if method == REDUCED:
@@ -112,16 +112,16 @@ def _by_quadrature(scene: AnyScene, equations: Equations, state: np.ndarray, tim
     # affine in that rate
     integrals = [row[0] * times + (row[1] - row[0]) * turned for row in system.law_rates(unit).values()]
     drift = departures(system, state, np.column_stack([states, *integrals]))
-    known = np.abs(times) * ROUNDING <= LOST * (motion.period or np.inf)
+    info = np.abs(times) * ROUNDING <= LOST * (motion.period or np.inf)
     watch = watcher(scene, equations, state)
-    for row in states[known] if watch else ():
+    for row in states[info] if watch else ():
         watch.note(row)
     status, reason = "reached", BY_QUADRATURE
-    if not known.all():
+    if not info.all():
         status = "stopped"
-        reason = NO_DIGIT(time=Moment(float(min(times[~known], key=abs))),
+        reason = NO_DIGIT(time=Moment(float(min(times[~info], key=abs))),
                           period=Quantity(motion.period, scene.time_unit))
-    return Trajectory(times[known], states[known], REDUCED, None, drift, {"evaluations": motion.evaluations},
+    return Trajectory(times[info], states[info], REDUCED, None, drift, {"evaluations": motion.evaluations},
                       status, validity=watch and watch.result(), reason=reason)
 
 
@@ -164,10 +164,10 @@ class Simulation(Answer, Compared, Reasoned):
     frame: PrincipalAxes | None = field(default=None, repr=False, compare=False)
 
 
-def errors_of(state: Mapping[str, np.ndarray], share: float) -> dict[str, np.ndarray]:
+def errors_of(state: Mapping[str, np.ndarray], fraction: float) -> dict[str, np.ndarray]:
     """The error of each component of the parts of a state, a share of the part's largest size over the times.
     """
-    return {name: np.full(values.shape[1:], share * np.abs(values).max(initial=0.0)) for name,
+    return {name: np.full(values.shape[1:], fraction * np.abs(values).max(initial=0.0)) for name,
             values in state.items()}
 
 
@@ -197,8 +197,8 @@ def simulate(scene: Given, state: Start | None = None, times: ArrayLike | None =
     wanted = case.span if times is None else time_in(case.scene, times, "times")
     if wanted is None:
         raise InputError("times: expected times for a scene; a case without a span needs them too")
-    found = simulated(case.scene, case.state, wanted, case.blocks, method, rtol, attitude)
-    return answered(replace(found, frame=oblique(case.frame)), case, found.validity)
+    result = simulated(case.scene, case.state, wanted, case.blocks, method, rtol, attitude)
+    return answered(replace(result, frame=oblique(case.frame)), case, result.validity)
 
 
 def simulated(scene: AnyScene, omega: Any, times: ArrayLike,
@@ -253,10 +253,10 @@ def with_quaternion(case: Case) -> Any:
 def quaternion_blocks(blocks: Mapping[str, Sequence[float]]) -> dict[str, Sequence[float]]:
     """The blocks of a state with their attitude, that of their vertical with theta = 0, or identity, as a
     unit quaternion with its scalar last; one that is given so stays."""
-    given, vertical = blocks.get("attitude"), blocks.get("gamma")
-    if given is not None and as_quaternion(given):
+    supplied, vertical = blocks.get("attitude"), blocks.get("gamma")
+    if supplied is not None and as_quaternion(supplied):
         return dict(blocks)
-    turned = given or (attitude_of(vertical) if vertical else (0.0, 0.0, 0.0))
+    turned = supplied or (attitude_of(vertical) if vertical else (0.0, 0.0, 0.0))
     return {**blocks, "attitude": tuple(scalar_last(quaternion(*turned)).tolist())}
 
 
@@ -350,8 +350,8 @@ def _grid(scene: Scene, start: Mapping[str, tuple[float, ...]], times: np.ndarra
     return np.unique(np.concatenate([base, denser(np.unique(np.concatenate([base, steps])), INSIDE, POINTS)]))
 
 
-def denser(ends: np.ndarray, inside: int, most: int) -> np.ndarray:
+def denser(ends: np.ndarray, inside: int, largest: int) -> np.ndarray:
     """Times from the first end on up to the last, itself left out, with so many in each step; `most` in all.
     """
-    inside = max(1, min(inside, most // len(ends)))
+    inside = max(1, min(inside, largest // len(ends)))
     return (ends[:-1, None] + np.diff(ends)[:, None] * (np.arange(inside) / inside)).ravel()

@@ -102,7 +102,7 @@ def events_of(scene: AnyScene, pieces: Sequence[Any], until: Fraction
               ) -> tuple[tuple[Event, ...], Reason]:
     """(events after the start in order of time, how they were found). To be called with more than
     enough bits at work."""
-    found, open_at, form = [], [], scene.quadratic()
+    rows, open_at, form = [], [], scene.quadratic()
     names = scene.components
     for number, piece in enumerate(pieces):
         curve = _Curve(piece, form)
@@ -112,13 +112,13 @@ def events_of(scene: AnyScene, pieces: Sequence[Any], until: Fraction
                 if not clear:
                     open_at.append(OPEN_ZERO(component=names[i], what=kind,
                                              time=Quantity(float(piece.start), scene.time_unit, 4)))
-                found += [_event(curve, i, kind, s) for s in roots]
-    found = [one for one in found if one.t <= _ball(until)]
+                rows += [_event(curve, i, kind, s) for s in roots]
+    rows = [item for item in rows if item.t <= _ball(until)]
     reason = ZEROS_ENCLOSED(least=Quantity(10.0**-NOTHING))
     if places := chained(*open_at[:3]):
         places = places.then(AND_SO_ON if len(open_at) > 3 else None, " ")
         reason = reason.then(OPEN_ZEROS(places=places), ", ")
-    return tuple(sorted(found, key=lambda one: one.t.mid())), reason
+    return tuple(sorted(rows, key=lambda item: item.t.mid())), reason
 
 
 def _event(curve: _Curve, i: int, kind: str, s: Any) -> Event:
@@ -156,11 +156,11 @@ def _roots(curve: _Curve, i: int, order: int, first: bool) -> tuple[list[Any], b
     """(balls of s, whether all of the piece is clear) of the zeros of a derivative. first: the piece begins
     at the start, whose own zero does not count."""
     from flint import arb
-    whole = lambda n: curve.derivative(i, n, arb(0.5, 0.5))
-    if whole(order).abs_upper() < curve.size ** (order + 1) * arb(10) ** -NOTHING:
+    full = lambda n: curve.derivative(i, n, arb(0.5, 0.5))
+    if full(order).abs_upper() < curve.size ** (order + 1) * arb(10) ** -NOTHING:
         return [], True  # a rate that is zero, or constant, throughout
     left, boxes = [(Fraction(0), Fraction(1))], 0
-    found: list[Any] = []
+    result: list[Any] = []
     while left:
         a, b = left.pop()
         boxes += 1
@@ -172,16 +172,16 @@ def _roots(curve: _Curve, i: int, order: int, first: bool) -> tuple[list[Any], b
             if first and a == 0 and 0 in low:
                 continue
             if 0 in low or 0 in high:
-                return found, False
+                return result, False
             if (low > 0) != (high > 0):
                 slope = lambda s: curve.derivative(i, order + 1, s) * _ball(curve.piece.length)
-                found.append(narrowed(lambda s: curve.derivative(i, order, s), slope, box))
+                result.append(narrowed(lambda s: curve.derivative(i, order, s), slope, box))
         elif boxes > MOST_BOXES:
-            return found, False
+            return result, False
         else:
             middle = a + (b - a) * UNEVEN
             left += [(a, middle), (middle, b)]
-    return found, True
+    return result, True
 
 
 def tabulated(scene: AnyScene, start: Sequence[Any], exact: Sequence[Fraction], times: Sequence[Fraction],
@@ -195,15 +195,15 @@ def tabulated(scene: AnyScene, start: Sequence[Any], exact: Sequence[Fraction], 
     twin = effective(scene)
     if not twin.plain:
         return _twice(scene, start, exact, times, digits, work)
-    found = _enclosed(twin, list(map(Fraction, exact)), times, digits, work, events)
-    if found.t:
-        return found
+    result = _enclosed(twin, list(map(Fraction, exact)), times, digits, work, events)
+    if result.t:
+        return result
     again = _twice(twin, list(map(float, exact)), exact, times, digits, work)
-    return again if again.t else found
+    return again if again.t else result
 
 
 def _enclosed(scene: AnyScene, start: Sequence[Fraction], times: Sequence[Fraction], digits: int, work: int,
-              asked: bool) -> Tabulated:
+              request: bool) -> Tabulated:
     """By as many bits as the digits take, while the motion lets that many be enough."""
     need = int(digits * 3.33) + SPARE
     bits, best = need + 40, None
@@ -216,7 +216,7 @@ def _enclosed(scene: AnyScene, start: Sequence[Fraction], times: Sequence[Fracti
     count, states, pieces, why, _ = best
     reached = count == len(times)
     with working(MOST_BITS):
-        events, how = (events_of(scene, pieces, times[count - 1] if count else Fraction(0)) if asked
+        events, how = (events_of(scene, pieces, times[count - 1] if count else Fraction(0)) if request
                        else ((), NOT_LOOKED_FOR))
     last = Quantity(float(times[count - 1]) if count else 0.0, scene.time_unit).lower
     reason = SERIES_ENCLOSED if reached else PROVED_UP_TO(time=last, beyond=(

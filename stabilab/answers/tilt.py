@@ -80,10 +80,10 @@ class Part(NamedTuple):
 
     def change(self, azimuth: float | None, size: float) -> np.ndarray:
         """(3,), N m, at an azimuth of its cone, None: without a tilt, and a size from -1 to 1."""
-        whole, first, second, a, share = self
-        turned = (0.0 if azimuth is None else (math.cos(a) - 1) * whole
+        full, first, second, a, fraction = self
+        turned = (0.0 if azimuth is None else (math.cos(a) - 1) * full
                   + math.sin(a) * (math.cos(azimuth) * first + math.sin(azimuth) * second))
-        return turned + size * share * (whole + turned)
+        return turned + size * fraction * (full + turned)
 
 
 @dataclass(frozen=True)
@@ -138,12 +138,12 @@ class Cone:
         cone."""
         axis = int(np.argmax(np.abs(self.torque)))
         across = [n for n in range(3) if n != axis]
-        side = sum((1 + r) * ((1 - math.cos(a)) * math.hypot(*whole[across])
+        side = sum((1 + r) * ((1 - math.cos(a)) * math.hypot(*full[across])
                               + math.sin(a) * np.linalg.norm(np.stack([first, second])[:, across], 2))
-                   + r * math.hypot(*whole[across]) for whole, first, second, a, r in self.parts)
-        along = sum((1 + r) * ((1 - math.cos(a)) * abs(whole[axis])
-                               + math.sin(a) * math.hypot(first[axis], second[axis])) + r * abs(whole[axis])
-                    for whole, first, second, a, r in self.parts)
+                   + r * math.hypot(*full[across]) for full, first, second, a, r in self.parts)
+        along = sum((1 + r) * ((1 - math.cos(a)) * abs(full[axis])
+                               + math.sin(a) * math.hypot(first[axis], second[axis])) + r * abs(full[axis])
+                    for full, first, second, a, r in self.parts)
         along += math.sin(self.angle) * sum(part.share * math.hypot(*part.whole[across])
                                             for part in self.parts)  # across by its size, along by the tilt
         blur = (UP - 1) * (float(np.abs(self.torque).max()) + side + along)
@@ -162,10 +162,10 @@ def cone_of(scene: Scene, case: Any = None, angle: float | None = None) -> Cone:
     torque = np.array([float(v) for v in scene.vector("constant_torque")])
     axis = int(np.argmax(np.abs(torque)))
     firing = [] if case is None else [t for t in case.thrusters if t.stuck]
-    whole = cone_of_forces(case, torque, firing, angle is None)
-    forces, within = whole.parts, whole.within
-    if whole.angle or angle is None:
-        return whole
+    full = cone_of_forces(case, torque, firing, angle is None)
+    forces, within = full.parts, full.within
+    if full.angle or angle is None:
+        return full
     first, second = (abs(torque[axis]) * np.eye(3)[(axis + n) % 3] for n in (1, 2))
     if np.count_nonzero(torque) > 1:
         first = np.cross(np.eye(3)[int(np.argmin(np.abs(torque)))], torque)
@@ -203,8 +203,8 @@ def _of_force(case: Any, thruster: Any, tilts: bool) -> Part:
     frame = np.array([[float(v) for v in axis] for axis in case.frame.axes])
     turned = [frame @ np.cross(arm, float(thruster.force) * v)
               for v in (force, first, np.cross(force, first))]
-    share = float(thruster.force_tolerance / thruster.force) if thruster.force_tolerance else 0.0
-    return Part(turned[0], turned[1], turned[2], float(thruster.misalignment) if tilts else 0.0, share)
+    fraction = float(thruster.force_tolerance / thruster.force) if thruster.force_tolerance else 0.0
+    return Part(turned[0], turned[1], turned[2], float(thruster.misalignment) if tilts else 0.0, fraction)
 
 
 def tilted(scene: Scene, torque: np.ndarray) -> Scene:
@@ -297,21 +297,21 @@ class Spread:
         """What is found."""
         if self.omitted:
             return NOT_LOOKED_AT(why=self.omitted)
-        known: dict[str, Filling] = {
+        resolved: dict[str, Filling] = {
             "varied": varied(self.angle, self.within),
             "looked": (TORQUES if self.within else DIRECTIONS)(directions=self.directions)}
         if self.limit is None:
             fates = ", ".join(f"{word} in {count}" for word, count in self.fates)
-            return BY_FATES(**known, fates=fates)
-        known |= {"limit": Rate(self.limit)}
+            return BY_FATES(**resolved, fates=fates)
+        resolved |= {"limit": Rate(self.limit)}
         if self.earliest is None and self.untilted:
-            return RUNS_END(**known, time=Time(self.followed).lower, untilted=Time(sum(self.untilted) / 2))
+            return RUNS_END(**resolved, time=Time(self.followed).lower, untilted=Time(sum(self.untilted) / 2))
         if self.earliest is None:
-            return NONE_REACHES(**known, time=Time(self.followed).lower)
-        known |= {"first": Time(self.earliest[0]).lower, "level": self.level}
+            return NONE_REACHES(**resolved, time=Time(self.followed).lower)
+        resolved |= {"first": Time(self.earliest[0]).lower, "level": self.level}
         if self.latest is None:
-            return (SOME_LATER if self.untilted else SOME_REACH)(**known, time=Time(self.followed).lower)
-        return ALL_REACH(**known, last=Time(self.latest[1]).upper)
+            return (SOME_LATER if self.untilted else SOME_REACH)(**resolved, time=Time(self.followed).lower)
+        return ALL_REACH(**resolved, last=Time(self.latest[1]).upper)
 
 
 def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = None, case: Any = None,
@@ -328,27 +328,27 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
     if scene.variables == "scaled" or not torque_axis(scene) or kind_of(scene) != "orbit":
         raise InputError("tilt: expected a body under a torque along one of its principal axes, without "
                          "wheel momentum along it")
-    known = motion(scene, state, needs=Needs.EXTREMES, exact=exact)
-    if known.fate not in STEADY:
+    resolved = motion(scene, state, needs=Needs.EXTREMES, exact=exact)
+    if resolved.fate not in STEADY:
         raise InputError("tilt: the motion is not bounded as it is: ask time_to of it")
     if angle is None and not (case is not None and any(t.stuck and t.misalignment for t in case.thrusters)):
         angle = DEGREE
     if angle is not None and not 0 < angle < math.pi / 2:
         raise InputError(
             f"tilt: expected an angle between 0 and a quarter turn (pi/2 rad), got {angle!r} rad")
-    stated = ask if rate is None else {"rate": rate}
-    question = stated or _twice_the_largest(known)
+    declared = ask if rate is None else {"rate": rate}
+    question = declared or _twice_the_largest(resolved)
     limit = asked(scene, **question)
     cone = cone_of(scene, case, angle)
-    least = limit.least_rate()
+    lower = limit.least_rate()
     exactly = time_to(scene, state, **question, exact=exact, work=WORK)
-    not_before = stays_below(scene, state, least, *cone.reach())
+    not_before = stays_below(scene, state, lower, *cone.reach())
 
     def time(azimuth: float) -> tuple[float, float]:
         """The earliest of the torques there, and until when none of them was followed."""
-        found = [run_once(tilted(scene, cone.at(azimuth, sizes)), state, limit, steps=AZIMUTH_STEPS)
+        rows = [run_once(tilted(scene, cone.at(azimuth, sizes)), state, limit, steps=AZIMUTH_STEPS)
                  for sizes in cone.corners]
-        return min(t for t, _ in found), min(until for _, until in found)
+        return min(t for t, _ in rows), min(until for _, until in rows)
     tried: Tried = []
     followed = math.inf
     for azimuth in EDGE:
@@ -359,27 +359,27 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
     if math.isfinite(min(tried)[0]):
         tried = nearest_round(lambda azimuth: time(azimuth)[0], tried)
     azimuths, times = np.array(sorted((azimuth, t) for t, azimuth in tried)).T
-    found: dict[str, Any] = {"low": None, "high": None, "level": "run", "azimuth": None, "torque": None}
+    out: dict[str, Any] = {"low": None, "high": None, "level": "run", "azimuth": None, "torque": None}
     if np.isfinite(times).any():
         azimuth = float(azimuths[np.argmin(times)])
-        torque = min((cone.at(azimuth, sizes) for sizes in cone.corners), key=lambda one: run_once(
-            tilted(scene, one), state, limit, steps=AZIMUTH_STEPS)[0])
+        torque = min((cone.at(azimuth, sizes) for sizes in cone.corners), key=lambda item: run_once(
+            tilted(scene, item), state, limit, steps=AZIMUTH_STEPS)[0])
         # by runs: the validated steps of a proof take a machine ten seconds to compile, which nobody who asks
         # for the first time awaits
         first = time_to(tilted(scene, torque), state, **question, exact=exact, work=0)
-        found = {"low": float(first.low), "high": float(first.high) if first.high == first.high
+        out = {"low": float(first.low), "high": float(first.high) if first.high == first.high
                  else float(times.min()), "level": str(first.level),
                  "azimuth": azimuth, "torque": tuple(torque.tolist())}
     forces = spread(scene, state, cone.sizes_alone(), question, exact) if cone.within else None
-    return Tilt(cone.angle, cone.subject, least, stated is not None, not_before, **found, followed=followed,
+    return Tilt(cone.angle, cone.subject, lower, declared is not None, not_before, **out, followed=followed,
                 azimuths=azimuths, times=times,
                 untilted=(float(exactly.low), float(exactly.high)) if exactly.high < math.inf else None,
                 within=cone.within, forces=forces)
 
 
-def _twice_the_largest(known: Motion) -> dict[str, Any]:
+def _twice_the_largest(resolved: Motion) -> dict[str, Any]:
     """The limit that is asked for where none is stated, of a motion whose extremes are known."""
-    return {"rate": TWICE * math.hypot(*(max(map(abs, pair)) for pair in known.extremes or ()))}
+    return {"rate": TWICE * math.hypot(*(max(map(abs, pair)) for pair in resolved.extremes or ()))}
 
 
 def spread(scene: Scene, state: Sequence[float], cone: Cone, ask: dict[str, Any] | None,
@@ -388,11 +388,11 @@ def spread(scene: Scene, state: Sequence[float], cone: Cone, ask: dict[str, Any]
     `Cone.corners`. ask: the limit, by its name as of `time_to`; None: the fates."""
     places = [(None, cone.corners[0]), *((at, sizes) for sizes in cone.corners for at in cone.edge),
               *((None, sizes) for sizes in (*cone.corners[1:], *cone.between))]
-    torques = [cone.at(*place) for place in places]
+    torques = [cone.at(*index) for index in places]
     if ask is None:
         fate = lambda torque: motion(tilted(scene, torque), state, needs=Needs.FATE, exact=exact).fate
-        found = Counter(OUTCOMES[fate(torque)].does for torque in torques)
-        return Spread(cone.angle, cone.subject, len(torques), fates=tuple(found.most_common()),
+        result = Counter(OUTCOMES[fate(torque)].does for torque in torques)
+        return Spread(cone.angle, cone.subject, len(torques), fates=tuple(result.most_common()),
                       within=cone.within)
     limit = asked(scene, **ask)
     time = lambda torque: run_once(tilted(scene, torque), state, limit, steps=AZIMUTH_STEPS)
@@ -405,20 +405,20 @@ def spread(scene: Scene, state: Sequence[float], cone: Cone, ask: dict[str, Any]
     if not np.isfinite(times).any():
         return Spread(cone.angle, cone.subject, len(torques), limit.least_rate(), followed=followed,
                       untilted=untilted, within=cone.within)
-    most, more = [], 0
+    largest, more = [], 0
     for sign in (1, -1):
-        best, place = min(((sign * t, place) for t, place in zip(times, places)), key=lambda one: one[0])
-        sizes = place[1] if place[1] in cone.corners else cone.corners[0]
+        best, location = min(((sign * t, index) for t, index in zip(times, places)), key=lambda item: item[0])
+        sizes = location[1] if location[1] in cone.corners else cone.corners[0]
         edge = [(sign * t, at) for t, (at, of) in zip(times, places) if at is not None and of == sizes]
         if edge:
             signed = lambda azimuth, sign=sign, sizes=sizes: sign * time(cone.at(azimuth, sizes))[0]
             nearer, azimuth = min(nearest_round(signed, edge))
-            place, more = (azimuth, sizes) if nearer < best else place, more + 2 * REFINED
-        most.append(cone.at(*place))
-    exactly = [time_to(tilted(scene, torque), state, **ask, exact=exact, work=WORK) for torque in most]
-    first, last = [(float(one.low), float(one.high)) for one in exactly]
+            location, more = (azimuth, sizes) if nearer < best else location, more + 2 * REFINED
+        largest.append(cone.at(*location))
+    exactly = [time_to(tilted(scene, torque), state, **ask, exact=exact, work=WORK) for torque in largest]
+    first, last = [(float(item.low), float(item.high)) for item in exactly]
     all_of_them = bool(np.isfinite(times).all())
-    levels = {str(one.level) for one in exactly[:1 + all_of_them]}
+    levels = {str(item.level) for item in exactly[:1 + all_of_them]}
     return Spread(cone.angle, cone.subject, len(torques) + more, limit.least_rate(), first,
                   last if all_of_them and math.isfinite(last[1]) else None,
                   levels.pop() if len(levels) == 1 else "run", followed, untilted=untilted,

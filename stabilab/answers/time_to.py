@@ -62,7 +62,7 @@ BY_GROWTH = Sentence(
 
 
 def by_clock(scene: AnyScene, state: Float3, limit: Limit, followed: float, reached: float,
-             found: Any = None) -> Found | None:
+             result: Any = None) -> Found | None:
     """Bounds of the first crossing of a motion whose spin-up is certified; None where none is, or where the
     limit is not of a rate along it.
 
@@ -72,50 +72,50 @@ def by_clock(scene: AnyScene, state: Float3, limit: Limit, followed: float, reac
     """
     if limit.kind == "tilt" or None in [along_axes(terms) for terms, _ in limit.parts]:
         return None
-    found = found or spin_up(scene, state)
-    if found.fate != Fate.SPIN_UP or not found.axis or found.trap is None:
+    result = result or spin_up(scene, state)
+    if result.fate != Fate.SPIN_UP or not result.axis or result.trap is None:
         return None
-    times = _times(found, limit)
+    times = _times(result, limit)
     if times is None:
         return None
-    sure = found.t <= followed or found.level == "exact"
-    if found.level == "certified" and times[0] > found.t:
-        found, times = _narrower(scene, state, limit, found, times, reached)
+    sure = result.t <= followed or result.level == "exact"
+    if result.level == "certified" and times[0] > result.t:
+        result, times = _narrower(scene, state, limit, result, times, reached)
     low = max(followed, times[0]) if sure else followed
-    reason = BY_GROWTH(axis=Axis(found.axis), level=Level(found.level),
-                       time=Quantity(found.t, scene.time_unit).upper)
-    return Found(low, max(times[1], low), found.level, reason=reason)
+    reason = BY_GROWTH(axis=Axis(result.axis), level=Level(result.level),
+                       time=Quantity(result.t, scene.time_unit).upper)
+    return Found(low, max(times[1], low), result.level, reason=reason)
 
 
-def _narrower(scene: AnyScene, state: Float3, limit: Limit, found: Any, times: Any, reached: float) -> Any:
+def _narrower(scene: AnyScene, state: Float3, limit: Limit, result: Any, times: Any, reached: float) -> Any:
     """(what is found, times) by certificates later on the way: as late as little work reaches, else as far as
     a run came. Each is met before the earliest time that the one before it gives."""
-    for share in LATER:
-        again = spin_up(scene, state, after=share * times[0], budget=LITTLE)
-        if again.fate != Fate.SPIN_UP and share == LATER[0]:
-            again = spin_up(scene, state, after=min(share * times[0], max(reached, found.t)))
+    for fraction in LATER:
+        again = spin_up(scene, state, after=fraction * times[0], budget=LITTLE)
+        if again.fate != Fate.SPIN_UP and fraction == LATER[0]:
+            again = spin_up(scene, state, after=min(fraction * times[0], max(reached, result.t)))
         if again.fate != Fate.SPIN_UP or again.t > times[0] or not (narrower := _times(again, limit)):
             # bounds that hold from a time on at which the limit may have been reached say nothing of the
             # first
             break
-        found, times = again, (max(times[0], narrower[0]), min(times[1], narrower[1]))
-    return found, times
+        result, times = again, (max(times[0], narrower[0]), min(times[1], narrower[1]))
+    return result, times
 
 
-def _times(found: Any, limit: Limit) -> Any:
+def _times(result: Any, limit: Limit) -> Any:
     """(earliest, latest) of all parts, or None where none of them grows with the spin."""
-    bounds, spin, times = found.trap.bounds(), found.axis - 1, []
-    for terms, most in limit.parts:
+    bounds, spin, times = result.trap.bounds(), result.axis - 1, []
+    for terms, largest in limit.parts:
         weights = cast(list[float], along_axes(terms))  # asked above
         across = sum(c * max(abs(low), abs(high)) ** 2
                      for n, (c, (low, high)) in enumerate(zip(weights, bounds)) if n != spin and c)
         if not weights[spin]:
-            if across >= float(most):
+            if across >= float(largest):
                 return None  # a rate across the spin may reach it at any time
             continue
-        late = found.trap.clock(math.sqrt(float(most) / weights[spin]))[1]
-        rest = float(most) - across
-        early = found.trap.clock(math.sqrt(rest / weights[spin]))[0] if rest > 0 else 0.0
+        late = result.trap.clock(math.sqrt(float(largest) / weights[spin]))[1]
+        rest = float(largest) - across
+        early = result.trap.clock(math.sqrt(rest / weights[spin]))[0] if rest > 0 else 0.0
         times.append((early, late))
     return (min(t for t, _ in times), min(t for _, t in times)) if times else None
 
@@ -155,11 +155,11 @@ def never(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> tuple[
 def _never_of_rationals(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit
                         ) -> tuple[Found | None, float | None]:
     """`never` of a start that is no double: next to a separatrix its rounding is another motion."""
-    known = motion(scene, state, needs=Needs.RETURN, exact=exact)
-    pairs = known.extremes if known.for_all_time else None
+    resolved = motion(scene, state, needs=Needs.RETURN, exact=exact)
+    pairs = resolved.extremes if resolved.for_all_time else None
     if pairs is not None and limit.beyond(pairs, SLACK):
         return Found(math.inf, math.inf, "exact", reason=NEVER_BY_EXTREMES), None
-    repeats = known.period if kind_of(scene) == "orbit" and known.fate == Fate.BOUNDED else None
+    repeats = resolved.period if kind_of(scene) == "orbit" and resolved.fate == Fate.BOUNDED else None
     return None, None if repeats is None else repeats * (1 + SLACK)
 
 
@@ -173,11 +173,11 @@ def never_bounded(scene: AnyScene, state: Any, limit: Limit) -> Found | None:
     where they do not."""
     if limit.kind == "tilt":
         return None
-    found = motion(scene, state, needs=Needs.FATE)
-    bound = found.invariants.get("rate_bound", math.inf)
-    if found.fate == Fate.EQUILIBRIUM:
+    result = motion(scene, state, needs=Needs.FATE)
+    bound = result.invariants.get("rate_bound", math.inf)
+    if result.fate == Fate.EQUILIBRIUM:
         reason = NEVER_AT_REST
-    elif found.fate == Fate.BOUNDED and bound * (1 + SLACK) < limit.least_rate():
+    elif result.fate == Fate.BOUNDED and bound * (1 + SLACK) < limit.least_rate():
         reason = NEVER_BY_BOUND(bound=Rate(bound).upper)
     else:
         return None
@@ -195,15 +195,15 @@ def earliest(scene: AnyScene, start: Sequence[Number], limit: Limit) -> Fraction
     if not push:
         return Fraction(0)
     begun = sqrt_fraction(sum((d * Fraction(w) ** 2 for d, w in zip(D, start)), Fraction(0)))
-    least = min(most / _share(terms, D) for terms, most in limit.parts)
-    return max(Fraction(0), (sqrt_fraction(least) * LESS - begun) / push * LESS)
+    smallest = min(largest / _share(terms, D) for terms, largest in limit.parts)
+    return max(Fraction(0), (sqrt_fraction(smallest) * LESS - begun) / push * LESS)
 
 
 def _share(terms: Sequence[Any], D: Sequence[Fraction]) -> Fraction:
     """q of a sum of squares."""
     shares = [c * sum(Fraction(v) ** 2 / d for v, d in zip(vector, D)) for c, vector in terms]
     axes = [[n for n, v in enumerate(vector) if v] for _, vector in terms]
-    apart = all(len(one) == 1 for one in axes) and len({one[0] for one in axes}) == len(axes)
+    apart = all(len(axis) == 1 for axis in axes) and len({axis[0] for axis in axes}) == len(axes)
     return max(shares) if apart else sum(shares, Fraction(0))
 
 
@@ -226,23 +226,23 @@ def past_the_end(scene: AnyScene, state: Any, limit: Limit, last: float) -> Foun
         start["attitude"] = attitude
         origin = to_space(attitude, [float(v) for v in direction])
         limit = replace(limit, origin=tuple(origin.tolist()))
-    found = by_run(scene, start, limit, left) if left else Found(0.0, math.nan, "run", reason=BY_ROOTS)
-    if math.isfinite(found.high) or found.level == "undecided" or found.low < left * (1 - 2 * ROUNDING):
-        return found
+    result = by_run(scene, start, limit, left) if left else Found(0.0, math.nan, "run", reason=BY_ROOTS)
+    if math.isfinite(result.high) or result.level == "undecided" or result.low < left * (1 - 2 * ROUNDING):
+        return result
     equations, row = equations_and_start(scene, start)
-    ends = [_blocks(equations, integrated(scene, _blocks(equations, one), [left], laws=False).states[-1])
-            for one in (row, moved_row(row, MOVED))]
+    ends = [_blocks(equations, integrated(scene, _blocks(equations, item), [left], laws=False).states[-1])
+            for item in (row, moved_row(row, MOVED))]
     after, there = stopped(scene, ends[0])
     rates = tuple(there["omega"])
     if after.plain and (surely := never(after, rates, tuple(map(Fraction, rates)), limit)[0]) is not None:
         return replace(surely, level="run", reason=surely.reason.then(FROM_ITS_END, ", "),
-                       steps=found.steps)
+                       steps=result.steps)
     later = by_run(after, rates if after.plain and direction is None else there, limit, last - left,
                    beside=np.concatenate([ends[1][name] for name in there]))
     until = Time(left + later.low).lower
     reason = AFTER_ITS_END.then(None if math.isfinite(later.high) else NOT_WITHIN(time=until), ": ")
     return replace(later, low=left + later.low, high=left + later.high, reason=reason,
-                   steps=found.steps + later.steps)
+                   steps=result.steps + later.steps)
 
 
 def _blocks(equations: Equations, row: np.ndarray) -> dict[str, np.ndarray]:
@@ -272,7 +272,7 @@ def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = Non
     most a second of it, as compiled steps go on); beyond that by roots along a run, the clock of the spin-up.
     Other effects: roots along a run. Raises InputError for scenes, states and limits that are none.
     """
-    given, scene = scene, effective(checked_scene(scene))
+    supplied, scene = scene, effective(checked_scene(scene))
     limit, end = asked(scene, rate, component, energy, tilt), _end(t_max)
     if isinstance(work, bool) or not isinstance(work, (int, np.integer)) or work < 0:
         raise InputError(
@@ -283,18 +283,18 @@ def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = Non
     if not scene.plain:
         rows, shape = _rows(states)
         array = np.array([equations_and_start(scene, row)[1] for row in rows]).reshape(*shape, -1)
-        found = [_of_any(scene, row, limit, end) for row in rows]
+        result = [_of_any(scene, row, limit, end) for row in rows]
     else:
         array = checked_states(states)
         rows, shape = array.reshape(-1, 3).tolist(), array.shape[:-1]
         starts = ([exact_vector(exact, "exact")] if exact is not None and len(rows) == 1
                   else [tuple(map(Fraction, row)) for row in rows])
-        found = [of_one(scene, row, start, limit, end, work) for row, start in zip(rows, starts)]
-    parts = content(given) if scene is not given else None
+        result = [of_one(scene, row, start, limit, end, work) for row, start in zip(rows, starts)]
+    parts = content(supplied) if scene is not supplied else None
     if parts is not None and parts.note:  # what the twin takes for granted of the scene
-        found = [replace(one, reason=one.reason.then(parts.note)) for one in found]
-    caveats = caveats_of(given, any(one.never for one in found))
-    return times_of(found, shape, limit.label, given, array, caveats)
+        result = [replace(item, reason=item.reason.then(parts.note)) for item in result]
+    caveats = caveats_of(supplied, any(item.never for item in result))
+    return times_of(result, shape, limit.label, supplied, array, caveats)
 
 
 def time_of_case(case: Any, ask: dict[str, Any], t_max: float | Fraction | None = None,
@@ -345,9 +345,9 @@ def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction 
     on longer; spun: what `spin_up` says of the motion, where it was asked already."""
     if limit.reached_by(start):
         return Found(0.0, 0.0, "exact", reason=AT_THE_START)
-    found, repeats = never(scene, state, start, limit)
-    if found:
-        return found
+    result, repeats = never(scene, state, start, limit)
+    if result:
+        return result
     last = end if repeats is None or (end is not None and end < repeats) else Fraction(repeats)
     before = earliest(scene, start, limit)
     if last is not None and before > last:
@@ -372,7 +372,7 @@ def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction 
 
 
 def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction | None,
-                     known: float, bands: int, spun: Any) -> Found:
+                     resolved: float, bands: int, spun: Any) -> Found:
     """The work allowed in integers is done, and the limit is not reached before `known`: a run follows longer
     ways, which compiled steps enclose, and the clock tells of the longest."""
     last = math.inf if end is None else float(end)
@@ -384,16 +384,16 @@ def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end:
             return Found(down(band.low), up(band.high), "proved",
                          reason=ENCLOSED_IN_STEPS(steps=band.steps))
         if band is not None:
-            known = max(known, down(band.until if band.low is None else band.low))
-    if run.high >= known:  # a run that the enclosure contradicts is worth nothing
+            resolved = max(resolved, down(band.until if band.low is None else band.low))
+    if run.high >= resolved:  # a run that the enclosure contradicts is worth nothing
         return run
-    clock = by_clock(scene, state, limit, max(run.low, known), run.low, spun) if end is None else None
+    clock = by_clock(scene, state, limit, max(run.low, resolved), run.low, spun) if end is None else None
     if clock is not None:
         return clock
-    if run.low > known and open_end:
+    if run.low > resolved and open_end:
         return run
-    return Found(known, math.nan, "proved",
-                 reason=PROVED_BEFORE(time=Quantity(known, scene.time_unit).lower).then(run.reason))
+    return Found(resolved, math.nan, "proved",
+                 reason=PROVED_BEFORE(time=Quantity(resolved, scene.time_unit).lower).then(run.reason))
 
 
 def _of_any(scene: AnyScene, state: Any, limit: Limit, end: Fraction | None) -> Found:
@@ -402,18 +402,18 @@ def _of_any(scene: AnyScene, state: Any, limit: Limit, end: Fraction | None) -> 
     if limit.reached_by([Fraction(v) for v in start[:3].tolist()]):
         return Found(0.0, 0.0, "exact", reason=AT_THE_START)
     last = math.inf if end is None else float(end)
-    if found := never_bounded(scene, state, limit):
-        return found
+    if result := never_bounded(scene, state, limit):
+        return result
     if not scene.ending:
         return by_run(scene, state, limit, last)
     return past_the_end(scene, state, limit, last)
 
 
 def down(value: Any) -> float:
-    near = float(value)
-    return near if near <= value else math.nextafter(near, -math.inf)
+    nearby = float(value)
+    return nearby if nearby <= value else math.nextafter(nearby, -math.inf)
 
 
 def up(value: Any) -> float:
-    near = float(value)
-    return near if near >= value else math.nextafter(near, math.inf)
+    nearby = float(value)
+    return nearby if nearby >= value else math.nextafter(nearby, math.inf)

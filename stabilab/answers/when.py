@@ -76,19 +76,19 @@ def crossings(scene: AnyScene, start: Any, until: float, events: Any) -> Crossin
     names = (scene.components if equations.blocks == ("omega",) else
              [name for block in equations.blocks for name in BLOCKS[block].components])
     single = isinstance(events, str) or not hasattr(events, "__iter__")
-    asked = [_event(one, list(names)) for one in ([events] if single else list(events))]
-    if not asked:
+    request = [_event(event, list(names)) for event in ([events] if single else list(events))]
+    if not request:
         raise InputError(
             "events: expected the name of a component, a function, or several of these; got none")
-    times, states, run = _zeros(scene, _blocks(equations, state), until, asked)
-    second = _zeros(scene, _blocks(equations, moved_row(state, MOVED)), until, asked)
-    error = [WIDER * np.abs(one - two) + 4 * EPS * one if len(one) == len(two)
-             else np.full(len(one), math.inf) for one, two in zip(times, second[0])]
+    times, states, run = _zeros(scene, _blocks(equations, state), until, request)
+    second = _zeros(scene, _blocks(equations, moved_row(state, MOVED)), until, request)
+    error = [WIDER * np.abs(time - two) + 4 * EPS * time if len(time) == len(two)
+             else np.full(len(time), math.inf) for time, two in zip(times, second[0])]
     end = float(run.t[-1]) if len(run.t) else 0.0
-    ends = [float(row[int(count) - 1]) for event, row in zip(asked, times)
+    ends = [float(row[int(count) - 1]) for event, row in zip(request, times)
             if (count := getattr(event, "terminal", 0) or 0) and len(row) >= int(count)]
     end = min(ends, default=end)
-    within = lambda rows: tuple(row[one <= end] for row, one in zip(rows, times))
+    within = lambda rows: tuple(row[time <= end] for row, time in zip(rows, times))
     return Crossings(within(times), within(states), within(error), end,
                      "ended" if ends else "reached" if run.status == "reached" else "stopped",
                      reason=CHANGES_OF_SIGN(samples=SAMPLES, method=run.method).then(
@@ -99,16 +99,16 @@ def _blocks(equations: Any, state: np.ndarray) -> dict[str, np.ndarray]:
     return {name: state[part] for name, part in slices(equations.blocks).items()}
 
 
-def _event(given: Any, names: list[str]) -> Callable[[float, np.ndarray], Any]:
-    if isinstance(given, str):
-        if given not in names:
-            raise InputError(f"events: there is no component {given!r:.60}; there are {', '.join(names)}")
-        at = names.index(given)
+def _event(source: Any, names: list[str]) -> Callable[[float, np.ndarray], Any]:
+    if isinstance(source, str):
+        if source not in names:
+            raise InputError(f"events: there is no component {source!r:.60}; there are {', '.join(names)}")
+        at = names.index(source)
         return lambda t, y: y[at]
-    if not callable(given):
+    if not callable(source):
         raise InputError(
-            f"events: expected the name of a component or a function of t and the state, got {given!r:.60}")
-    return given
+            f"events: expected the name of a component or a function of t and the state, got {source!r:.60}")
+    return source
 
 
 def _value(event: Callable[[float, np.ndarray], Any], t: float, y: np.ndarray) -> float:
@@ -133,9 +133,9 @@ def _zeros(scene: AnyScene, start: Any, until: float, events: Sequence[Any]
     times, states = [], []
     for event in events:
         values = np.array([_value(event, t, y) for t, y in zip(run.t.tolist(), run.states)])
-        found = [_root(scene, run, n, values, event) for n in _places(values, getattr(event, "direction", 0))]
-        times.append(np.array([t for t, _ in found]))
-        states.append(np.array([y for _, y in found]).reshape(len(found), run.states.shape[1]))
+        rows = [_root(scene, run, n, values, event) for n in _places(values, getattr(event, "direction", 0))]
+        times.append(np.array([t for t, _ in rows]))
+        states.append(np.array([y for _, y in rows]).reshape(len(rows), run.states.shape[1]))
     return times, states, run
 
 
@@ -190,13 +190,13 @@ def when(case: Given, state: Start | None = None, rate: Amount | None = None,
     if events is not None:
         if array.ndim > 1:
             raise InputError("when: events are those of one motion: give one state")
-        given = any(one is not None for one in (rate, component, energy, tilt))
-        return _crossings(case, events, until, given)
+        supplied = any(item is not None for item in (rate, component, energy, tilt))
+        return _crossings(case, events, until, supplied)
     limit = limit_stated(case, rate, component, energy, tilt, until)
     if array.ndim == 1:
         return limited_time(case, limit.ask, limit.until)
-    found = time_to(case.scene, whole_rows(case, array), **limit.ask, t_max=limit.until)
-    return replace(found, caveats=(*case.caveats, *found.caveats))
+    result = time_to(case.scene, whole_rows(case, array), **limit.ask, t_max=limit.until)
+    return replace(result, caveats=(*case.caveats, *result.caveats))
 
 
 def limit_stated(case: Any, rate: Any = None, component: Any = None, energy: Any = None, tilt: Any = None,
@@ -218,41 +218,41 @@ def _crossings(case: Case, events: Any, until: Any, limited: bool) -> Crossings:
     return answered(crossings(case.scene, start, end, events), case)
 
 
-def _text(given: Any) -> str | None:
+def _text(supplied: Any) -> str | None:
     """As a command line has it."""
-    if given is None or isinstance(given, str):
-        return given
-    return " = ".join(map(str, given)) if isinstance(given, (tuple, list)) else str(given)
+    if supplied is None or isinstance(supplied, str):
+        return supplied
+    return " = ".join(map(str, supplied)) if isinstance(supplied, (tuple, list)) else str(supplied)
 
 
 def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None = None) -> TimeTo:
     """As `time_of_case`; where it is never, with what a tilt of the torque does, by what the case states as
     misalignment, else by one degree; and with what the tolerances of its forces do."""
-    found = time_of_case(case, ask, t_max)
-    moved = motion(case, needs=Needs.FATE) if math.isinf(found.low) or loses(case.scene) else None
+    result = time_of_case(case, ask, t_max)
+    moved = motion(case, needs=Needs.FATE) if math.isinf(result.low) or loses(case.scene) else None
     end = None if moved is None or not loses(case.scene) else ending(case, moved)
     if end is not None and end.until is not None:
-        found = _to_the_end(case, ask, found, PAST * end.until, t_max)
-    never = math.isinf(found.low)
+        result = _to_the_end(case, ask, result, PAST * end.until, t_max)
+    never = math.isinf(result.low)
     stability = None if moved is None or not never else moved.stability
     off = of_tilt(case, None, ask, never)
-    return replace(found, ending=end, tilt=off,
+    return replace(result, ending=end, tilt=off,
                    caveats=caveats_of(case.scene, never, off, file=seen(case.caveats, off),
                                       stability=stability))
 
 
-def _to_the_end(case: Any, ask: dict[str, Any], found: TimeTo, until: float,
+def _to_the_end(case: Any, ask: dict[str, Any], result: TimeTo, until: float,
                 t_max: float | Fraction | None) -> TimeTo:
     """What is found, by a longer run where the first one broke off before the motion of a case had ended.
     until: s, when that is."""
     last = until if t_max is None else min(until, float(t_max))
-    if not math.isnan(found.high) or float(found.low) >= last or case.scene.ending:
-        return found
+    if not math.isnan(result.high) or float(result.low) >= last or case.scene.ending:
+        return result
     again = by_run(case.scene, start_of(case.scene, case.state, case.blocks), asked(case.scene, **ask), last,
                    LONGER)
-    if float(again.low) <= float(found.low):
-        return found
-    return times_of([again], (), found.quantity, case.scene, np.asarray(found.states), found.caveats)
+    if float(again.low) <= float(result.low):
+        return result
+    return times_of([again], (), result.quantity, case.scene, np.asarray(result.states), result.caveats)
 
 
 def with_first(case: Any, motion: Motion, work: int = WORK) -> Motion:
@@ -268,8 +268,8 @@ def with_first(case: Any, motion: Motion, work: int = WORK) -> Motion:
 def with_tilt(case: Any, motion: Motion, angle: float | None = None) -> Motion:
     """The motion of a case with what a tilt of its torque does to it. angle: rad; None: what its stuck
     thrusters state, else one degree."""
-    found = of_tilt(case, angle, limit_of(case), motion.fate in STEADY)
-    return limited(replace(motion, tilt=found), case.scene, case)
+    result = of_tilt(case, angle, limit_of(case), motion.fate in STEADY)
+    return limited(replace(motion, tilt=result), case.scene, case)
 
 
 def limit_of(case: Any) -> dict[str, Any] | None:

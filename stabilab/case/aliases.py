@@ -228,8 +228,8 @@ def cure_of_key(path: tuple[Any, ...], key: str, data: dict[str, Any],
     if not table:
         return _cure_of_table(key, name, value)
     if table == "effects":
-        known = EFFECTS.get(name)
-        return "" if not known else known if " " in known else f"it is written in [effects.{known}]"
+        settled = EFFECTS.get(name)
+        return "" if not settled else settled if " " in settled else f"it is written in [effects.{settled}]"
     if (table, name) in SAY_ELSE:
         return SAY_ELSE[table, name]
     if table == "body" and name in ENTRIES and not isinstance(value, (list, dict)):
@@ -240,21 +240,21 @@ def cure_of_key(path: tuple[Any, ...], key: str, data: dict[str, Any],
         return ATTITUDE
     if table == "motion" and name in PARTS and not isinstance(value, (list, dict)):
         return _rates(data)
-    found = _key(table, name, allowed)
-    if found:
-        return _line(found, value, "rpm" if name == "rpm" else "")
+    result = _key(table, name, allowed)
+    if result:
+        return _line(result, value, "rpm" if name == "rpm" else "")
     for suffix, unit in sorted(UNITS.items(), key=lambda pair: -len(pair[0])):
-        found = _key(table, name.removesuffix(suffix),
+        result = _key(table, name.removesuffix(suffix),
                      allowed) if name.endswith(suffix) and name != suffix else ""
-        if found:
-            return _line(found, value, f"{unit}/s" if found in RATES and unit in ("deg", "rad") else unit)
+        if result:
+            return _line(result, value, f"{unit}/s" if result in RATES and unit in ("deg", "rad") else unit)
     return ""
 
 
 def misnamed(path: tuple[Any, ...], key: str, data: dict[str, Any], *wanted: str) -> bool:
     """Whether a key that is not known stands for one of these, which are missing."""
     name, table = bare(key), ".".join(p for p in path if isinstance(p, str))
-    wanted = tuple(one for one in wanted if one not in data)
+    wanted = tuple(item for item in wanted if item not in data)
     if not wanted or key in wanted:
         return False
     if not table:
@@ -269,13 +269,13 @@ def misnamed(path: tuple[Any, ...], key: str, data: dict[str, Any], *wanted: str
     from difflib import get_close_matches
     if get_close_matches(key.lower()[:60], wanted, n=1, cutoff=0.6):
         return True
-    return cure_of_key(path, key, data, wanted).startswith(tuple(f"write {one} =" for one in wanted))
+    return cure_of_key(path, key, data, wanted).startswith(tuple(f"write {item} =" for item in wanted))
 
 
 def _key(table: str, name: str, allowed: Sequence[str] | Mapping[str, tuple[str, str]]) -> str:
-    same = next((one for one in allowed if bare(one) == name), "")
-    found = same or KEYS.get(table, {}).get(name, "")
-    return found if found in allowed else ""
+    same = next((item for item in allowed if bare(item) == name), "")
+    result = same or KEYS.get(table, {}).get(name, "")
+    return result if result in allowed else ""
 
 
 def _cure_of_table(key: str, name: str, value: Any) -> str:
@@ -292,15 +292,15 @@ def _cure_of_table(key: str, name: str, value: Any) -> str:
                   else "")
         return f"it is written in [effects.{EFFECTS[name]}]{inside}"
     for table in ("motion", "body"):
-        found = KEYS[table].get(name) if len(name) > 1 else None
-        if found or name in ("angularvelocity", "span", "inertia", "mass"):
-            home = "motion" if name in ("angularvelocity", "span") else "body" if not found else table
-            return f"it is written in [{home}]: {_line(found or key.lower(), value, '')}"
+        result = KEYS[table].get(name) if len(name) > 1 else None
+        if result or name in ("angularvelocity", "span", "inertia", "mass"):
+            home = "motion" if name in ("angularvelocity", "span") else "body" if not result else table
+            return f"it is written in [{home}]: {_line(result or key.lower(), value, '')}"
     return ""
 
 
 def _rows(value: Any) -> bool:
-    return isinstance(value, list) and bool(value) and all(isinstance(one, dict) for one in value)
+    return isinstance(value, list) and bool(value) and all(isinstance(item, dict) for item in value)
 
 
 def _line(key: str, value: Any, unit: str) -> str:
@@ -322,7 +322,7 @@ def shown(value: Any, unit: str = "") -> str:
 
 def _written(value: Any, unit: str) -> str:
     if isinstance(value, list):
-        return f"[{', '.join(_written(one, unit) for one in value)}]"
+        return f"[{', '.join(_written(item, unit) for item in value)}]"
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, dict):
@@ -408,15 +408,15 @@ def cure_of_numbers(path: tuple[Any, ...], key: str, value: Any, count: int) -> 
                     'inertia = [xx, yy, zz] and products = {xy = .., xz = .., yz = .., convention = '
                     '"positive"} (integrals '
                     'of x y dm) or "negative" (entries of the tensor)')
-    if key == "inertia" and any(isinstance(one, list) for one in value):
+    if key == "inertia" and any(isinstance(item, list) for item in value):
         return "write three rows of three, inertia = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]"
-    if len(flat) == 2 * count and all(re.fullmatch(r"[-+]?\d+", str(one)) for one in flat):
+    if len(flat) == 2 * count and all(re.fullmatch(r"[-+]?\d+", str(item)) for item in flat):
         pairs = ", ".join(f"{a}.{b}" for a, b in zip(flat[::2], flat[1::2]))
         return f"where commas were meant as points of decimals write {key} = [{pairs}]"
     if len(flat) == 4 and count == 3 and key == "attitude":
         return ATTITUDE
     if len(flat) == count + 1 and type(flat[-1]) is str and not re.search(r"\d", flat[-1].partition("^")[0]):
-        return f"write {key} = [{', '.join(_united(one, flat[-1]) for one in flat[:-1])}]"
+        return f"write {key} = [{', '.join(_united(item, flat[-1]) for item in flat[:-1])}]"
     if len(flat) == 1 and count == 2:
         return f"write {key} = [0, {shown(flat[0])}]"
     if count == 2 and len(flat) > 2:
@@ -430,11 +430,11 @@ def cure_of_numbers(path: tuple[Any, ...], key: str, value: Any, count: int) -> 
 
 def _axis(value: Any) -> str:
     """The vector of an axis that is given by its letter or number."""
-    found = re.fullmatch(r"\s*([-+]?)\s*([xyzXYZ123])\s*(?:-?axis)?\s*", str(value))
-    if not found or isinstance(value, bool):
+    result = re.fullmatch(r"\s*([-+]?)\s*([xyzXYZ123])\s*(?:-?axis)?\s*", str(value))
+    if not result or isinstance(value, bool):
         return ""
-    at = "xyz123".index(found[2].lower()) % 3
-    return str([(-1 if found[1] == "-" else 1) * (n == at) for n in range(3)])
+    at = "xyz123".index(result[2].lower()) % 3
+    return str([(-1 if result[1] == "-" else 1) * (n == at) for n in range(3)])
 
 
 def _united(value: Any, unit: str) -> str:
@@ -443,15 +443,15 @@ def _united(value: Any, unit: str) -> str:
 
 def cure_of_units(word: str) -> str:
     """Of [output] units: "; ..." with the word that is known."""
-    known = {"degree": "deg", "degrees": "deg", "deg per s": "deg/s", "rad": "si", "rad/s": "si",
+    resolved = {"degree": "deg", "degrees": "deg", "deg per s": "deg/s", "rad": "si", "rad/s": "si",
              "radian": "si",
              "radians": "si", "metric": "si", "rev/min": "rpm", "rps": "rev/s", "hz": "rev/s", "mks": "si"}
-    return f'; write units = "{known[word]}"' if word in known else ""
+    return f'; write units = "{resolved[word]}"' if word in resolved else ""
 
 
 def _of_table(key: str, value: dict[str, Any], count: int) -> str:
     names = ("x", "y", "z") if count == 3 else ("start", "end")
-    entries = {ENTRIES.get(bare(name), bare(name)): one for name, one in value.items()}
+    entries = {ENTRIES.get(bare(name), bare(name)): item for name, item in value.items()}
     if key == "inertia" and {"xx", "yy", "zz"} <= set(entries):
         return _tensor(value)
     if set(names) <= set(entries):
@@ -464,15 +464,15 @@ def _of_table(key: str, value: dict[str, Any], count: int) -> str:
 
 
 def _flat(value: list[Any]) -> list[Any]:
-    return [one for item in value for one in (_flat(item) if isinstance(item, list) else [item])]
+    return [entry for item in value for entry in (_flat(item) if isinstance(item, list) else [item])]
 
 
 def cure_of_truth(key: str, value: Any) -> str:
     """What to write where true or false is due."""
-    words = bare(str(value)) if isinstance(value, (str, int)) else ""
-    if words in ("yes", "on", "true", "1", "y", "open", "stuck", "stuckon", "stuckopen"):
+    text = bare(str(value)) if isinstance(value, (str, int)) else ""
+    if text in ("yes", "on", "true", "1", "y", "open", "stuck", "stuckon", "stuckopen"):
         return f"write {key} = true"
-    if words in ("no", "off", "false", "0", "n", "closed"):
+    if text in ("no", "off", "false", "0", "n", "closed"):
         return f"write {key} = false, or take it away"
     return f"write {key} = true"
 
@@ -485,7 +485,7 @@ def cure_of_title(path: tuple[Any, ...], key: str, value: Any) -> str:
     if title == "body.products":
         if not isinstance(value, list) or len(value) != 3:
             return 'write products = {xy = .., xz = .., yz = .., convention = "positive"}'
-        pairs = ", ".join(f"{name} = {shown(one)}" for name, one in zip(("xy", "xz", "yz"), value))
+        pairs = ", ".join(f"{name} = {shown(item)}" for name, item in zip(("xy", "xz", "yz"), value))
         return (f'write products = {{{pairs}, convention = "positive"}} (integrals of x y dm) or "negative" '
                 '(entries of '
                 "the tensor), each with its own name: their order differs from one program to another")

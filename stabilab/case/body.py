@@ -129,10 +129,10 @@ def _good(table: Table, moments: Sequence[Fraction]) -> bool:
 def _possible(table: Table, moments: Sequence[Fraction]) -> bool:
     """Whether all moments within the uncertainties are positive; a fault where not."""
     for index, moment in enumerate(moments):
-        given = table.faults.uncertain.get(table.path + ("inertia", index))
-        if given and moment <= given.half:
+        supplied = table.faults.uncertain.get(table.path + ("inertia", index))
+        if supplied and moment <= supplied.half:
             table.fault(f"number {index + 1}: the uncertainty reaches moments down to "
-                        f"{float(moment - given.half)!r}; no rigid body has these: "
+                        f"{float(moment - supplied.half)!r}; no rigid body has these: "
                         "make it smaller", "inertia", index)
             return False
     return True
@@ -211,24 +211,24 @@ class Limits(Rounded):
 
     def components(self, frame: PrincipalAxes) -> list[tuple[Exact3, Fraction]]:
         """(axis of the input frame as a unit vector along the principal axes, its limit) of `rates`."""
-        return [(frame.turned([Fraction(int(n == m)) for n in range(3)]), most) for m,
-                most in enumerate(self.rates or ())]
+        return [(frame.turned([Fraction(int(n == m)) for n in range(3)]), rate) for m,
+                rate in enumerate(self.rates or ())]
 
 
 def thrusters_of(top: Table, centre: Exact3 | None) -> tuple[Thruster, ...]:
     """Those without a fault."""
     tables = top.tables("thrusters")
-    found = [_thruster(table, f"thruster {i}", centre or ZERO3) for i, table in enumerate(tables, 1)]
+    rows = [_thruster(table, f"thruster {i}", centre or ZERO3) for i, table in enumerate(tables, 1)]
     _told_apart(tables, "thrusters", THRUSTER)
-    return tuple(one for one in found if one)
+    return tuple(item for item in rows if item)
 
 
 def wheels_of(top: Table) -> tuple[Wheel, ...]:
     """Those without a fault."""
     tables = top.tables("wheels")
-    found = [_wheel(table, f"wheel {i}") for i, table in enumerate(tables, 1)]
+    rows = [_wheel(table, f"wheel {i}") for i, table in enumerate(tables, 1)]
     _told_apart(tables, "wheels", WHEEL)
-    return tuple(one for one in found if one)
+    return tuple(item for item in rows if item)
 
 
 WIDE = Sentence(
@@ -245,9 +245,9 @@ FARTHEST = 50  # times: a twentieth of the mass in booms that reach so far makes
 def far_off(body: Body | None, thrusters: Iterable[Thruster]) -> tuple[Caveat, ...]:
     """That the thrusters and the mass do not belong to one craft: of moments I a thruster with its mount at
     the distance d has at most I/(m d^2) of the mass, and a radius of gyration is no larger than the craft."""
-    reach = max((math.sqrt(float(dot(one.arm, one.arm))) for one in thrusters), default=0.0)
+    reach = max((math.sqrt(float(dot(thruster.arm, thruster.arm))) for thruster in thrusters), default=0.0)
     if (body is None or body.gyration is None or not reach
-            or any(one.kind is Kind.SIZE for one in body.caveats)):
+            or any(caveat.kind is Kind.SIZE for caveat in body.caveats)):
         return ()
     sizes = {"radius": Length(body.gyration, digits=4), "reach": Length(reach, digits=4)}
     if body.gyration > FARTHEST * reach:
@@ -279,37 +279,37 @@ def judge_limits(top: Table, limits: Limits | None, state: Exact3 | None):
     """Note a limit that the motion has passed before it starts. state: rad/s, input frame."""
     if limits is None or state is None:
         return
-    given = top.data["motion"]["angular_velocity"]
-    plain = [shown(value) for value in given if not isinstance(value, str) or isinstance(value, Written)]
+    supplied = top.data["motion"]["angular_velocity"]
+    plain = [shown(value) for value in supplied if not isinstance(value, str) or isinstance(value, Written)]
     hint = (f'; a number alone is in rad/s, of degrees write "{plain[0]} deg/s"' if plain else "")
     table, degrees = Table(("limits",), top.data["limits"], top.faults), 180 / pi()
     if limits.rate is not None and dot(state, state) > limits.rate**2:
         _too_low(table, "", limits.rate, sqrt_fraction(dot(state, state)), degrees, hint, "rate")
-    for index, (most, now) in enumerate(zip(limits.rates or (), state)):
-        if abs(now) > most:
-            _too_low(table, f"number {index + 1}: ", most, abs(now), degrees, hint, "rate", index)
+    for index, (rate, now) in enumerate(zip(limits.rates or (), state)):
+        if abs(now) > rate:
+            _too_low(table, f"number {index + 1}: ", rate, abs(now), degrees, hint, "rate", index)
 
 
-def _too_low(table: Table, which: str, limit, now, degrees, hint: str, *place):
+def _too_low(table: Table, which: str, limit, now, degrees, hint: str, *location):
     digits = 6 if f"{float(limit):.6g}" != f"{float(now):.6g}" else 17
-    told = [f"{float(rate):.{digits}g} rad/s ({float(rate * degrees):.{digits}g} deg/s)"
+    text = [f"{float(rate):.{digits}g} rad/s ({float(rate * degrees):.{digits}g} deg/s)"
             for rate in (limit, now)]
     table.fault(
-        f"{which}the limit, {told[0]}, is below the rate that the motion starts with, {told[1]}: raise it or "
-        f"start slower{hint}", *place)
+        f"{which}the limit, {text[0]}, is below the rate that the motion starts with, {text[1]}: raise it or "
+        f"start slower{hint}", *location)
 
 
 def _told_apart(tables: list[Table], key: str, allowed: Sequence[str]):
     """Note what is no key, and names that two of them share."""
-    seen = set()
+    visited = set()
     for table in tables:
         table.known(allowed)
         name = table.data.get("name")
-        if isinstance(name, str) and name in seen:
+        if isinstance(name, str) and name in visited:
             table.fault(
                 f"two {key} have the name {described(name).removeprefix('the text ')}: give each its own",
                 "name")
-        seen |= {name} if isinstance(name, str) else set()
+        visited |= {name} if isinstance(name, str) else set()
 
 
 def _name(table: Table, otherwise: str) -> str:
@@ -336,8 +336,8 @@ def _thruster(table: Table, otherwise: str, centre: Exact3) -> Thruster | None:
     if not complete or None in (position, direction, force):
         return None
     if tolerance and (stuck or burn):  # the torque of a thruster that does not fire is certain: there is none
-        path, given = (*table.path, "force"), table.data.get("name")
-        label = given if isinstance(given, str) else table.path[-1] + 1
+        path, supplied = (*table.path, "force"), table.data.get("name")
+        label = supplied if isinstance(supplied, str) else table.path[-1] + 1
         table.faults.uncertain[path] = Uncertain(path, force, tolerance, f"thrusters.{label}.force")
     raw, length = direction
     arm = tuple(p - c for p, c in zip(position, centre))
@@ -379,13 +379,13 @@ def _tolerance(table: Table, force: Fraction | None):
     if not isinstance(value, str) or not value.rstrip().endswith("%"):
         return table.positive("force_tolerance", zero=True)
     try:
-        share = exact(value.rstrip()[:-1].strip())
+        fraction = exact(value.rstrip()[:-1].strip())
     except InputError as error:
         table.fault(str(error), "force_tolerance")
         return None
-    if share < 0:
+    if fraction < 0:
         table.fault(f"expected a tolerance that is not negative, got {described(value)}", "force_tolerance")
-    return None if force is None else abs(force) * share / 100
+    return None if force is None else abs(force) * fraction / 100
 
 
 def _direction(table: Table, key: str):
@@ -453,11 +453,11 @@ def added(effects: list, thrusters: Sequence[Thruster], wheels: Sequence[Wheel])
 def _with(effects, name, vectors):
     if not vectors:
         return effects
-    given = next((e for e in effects if e.name == name), None)
-    if given is None:
+    supplied = next((e for e in effects if e.name == name), None)
+    if supplied is None:
         return [*effects, effect_class(name)(summed(vectors))]
-    whole = effect_class(name)(summed([given.exact, *vectors]))
-    return [whole if e is given else e for e in effects]
+    full = effect_class(name)(summed([supplied.exact, *vectors]))
+    return [full if e is supplied else e for e in effects]
 
 
 def fitted(frame: PrincipalAxes | None, effects: list, motion) -> PrincipalAxes | None:
@@ -465,8 +465,8 @@ def fitted(frame: PrincipalAxes | None, effects: list, motion) -> PrincipalAxes 
     wheels, weight, motion and vertical."""
     if frame is None or frame.as_given:
         return frame
-    known = {effect.name: effect.exact for effect in effects if effect}
-    vectors = [known.get(name) for name in ("constant_torque", "gyrostat", "gravity")]
+    resolved = {effect.name: effect.exact for effect in effects if effect}
+    vectors = [resolved.get(name) for name in ("constant_torque", "gyrostat", "gravity")]
     return frame.fitted([v for v in (*vectors, motion.exact, motion.exact_vertical) if v])
 
 
@@ -475,8 +475,8 @@ def turned_effects(top: Table, effects: list, frame: PrincipalAxes | None) -> li
     if frame is None:
         return effects
     turned = along_principal_axes(effects, frame)
-    for effect, found in zip(effects, turned):
-        if found is None:
+    for effect, result in zip(effects, turned):
+        if result is None:
             top.fault(f"{OBLIQUE} {effect.name.replace('_', ' ')} is known along principal axes alone: give "
                       f"principal moments, and "
                       "the rest of the case along them", "effects", effect.name)
@@ -488,9 +488,9 @@ def judge_oblique(top: Table, frame: PrincipalAxes | None):
     if frame is None or frame.as_given:
         return
     motion, torque = top.data.get("motion"), top.data.get("effects")
-    for key, words in REFUSED.items():
+    for key, value in REFUSED.items():
         if isinstance(motion, dict) and key in motion:
-            top.fault(words, "motion", key)
+            top.fault(value, "motion", key)
     torque = torque.get("constant_torque") if isinstance(torque, dict) else None
     if isinstance(torque, dict) and "mu" in torque:
         top.fault(f"{OBLIQUE} mu counts along principal axes: give torque in N m, in the frame of the tensor",

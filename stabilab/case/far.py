@@ -17,7 +17,7 @@ HUGE = Fraction(10) ** 30  # products of some ten such numbers and their inverse
 
 
 @contextmanager
-def in_doubles(case: Any, place: str = "") -> Iterator[None]:
+def in_doubles(case: Any, location: str = "") -> Iterator[None]:
     """Context of an answer to a question of a case: InputError that names the number by which it leaves the
     range of doubles. place: what stands before the message."""
     try:
@@ -27,7 +27,7 @@ def in_doubles(case: Any, place: str = "") -> Iterator[None]:
         if worst is None:
             raise
         key, value = worst
-        raise InputError(f"{place}{key} = {value}: this question takes powers of its numbers, which leave "
+        raise InputError(f"{location}{key} = {value}: this question takes powers of its numbers, which leave "
                          "the range of doubles (2e-308 to 1.8e308); expected 0, or a size between "
                          f"{float(1 / HUGE):.0e} and {float(HUGE):.0e}: check its exponent and unit, or "
                          "choose other units") from None
@@ -36,8 +36,8 @@ def in_doubles(case: Any, place: str = "") -> Iterator[None]:
 def farthest(case: Any) -> tuple[str, str] | None:
     """(key, value) of the number of a case that is farthest from 1, in SI units; None where all are of a size
     that can be computed with."""
-    found = [(abs(_log(value)), key, value) for key, value in _numbers(case) if value]
-    size, key, value = max(found, default=(0.0, "", Fraction(1)))
+    rows = [(abs(_log(value)), key, value) for key, value in _numbers(case) if value]
+    size, key, value = max(rows, default=(0.0, "", Fraction(1)))
     return (key, f"{_decimal(value)}") if size > _log(HUGE) else None
 
 

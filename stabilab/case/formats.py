@@ -38,13 +38,13 @@ IMPORTERS = (
     Importer("a NASA 42 spacecraft file", is_42, "import_42", " (SC_*.txt)", bodies=True),
     Importer("JSON or a Python dictionary with Basilisk's names or with the tables of a case",
              lambda text: True, "import_basilisk"))
-FORMATS = ", and ".join(one.name + one.files for one in IMPORTERS)
+FORMATS = ", and ".join(importer.name + importer.files for importer in IMPORTERS)
 READ = f"`stabilab import` reads {FORMATS}"
 
 
 def importer_of(text: str) -> Importer:
     """The first that holds a text."""
-    return next(one for one in IMPORTERS if one.holds(text))
+    return next(importer for importer in IMPORTERS if importer.holds(text))
 
 
 # Of which the numbers go over by hand: what they are called there, and where they go.
@@ -78,15 +78,15 @@ def seems(text: str) -> str:
     ccsds = re.match(r"(?:COMMENT.*\n\s*)*CCSDS_([A-Z]{3})_VERS", head)
     if ccsds:
         return f"a CCSDS {CCSDS.get(ccsds[1], 'message')} ({ccsds[1]})"
-    if (one := importer_of(text)) is not IMPORTERS[-1]:
-        return one.name
+    if (item := importer_of(text)) is not IMPORTERS[-1]:
+        return item.name
     if re.match(r"\{\s*[\"}]|\[\s*\{", head):
         return "JSON"
     if _DICTIONARY.search(head):
         return "Python"
-    known = next((name for words, name in FIRST if head.startswith(words)), "")
-    if known:
-        return known
+    resolved = next((name for phrase, name in FIRST if head.startswith(phrase)), "")
+    if resolved:
+        return resolved
     lines = [line for line in head.splitlines() if line.strip() and not line.lstrip().startswith(("#", "//"))]
     if _columns(lines):
         return "a table of values (CSV)"

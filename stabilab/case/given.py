@@ -35,7 +35,7 @@ UNITS = {"omega": RATE, "x": NONE, "gamma": NONE, "attitude": ANGLE, "velocity":
          "position": LENGTH, "damper": RATE, "wheel": MOMENTUM}  # of the blocks of a state
 
 
-def as_case(given: Given, state: Start | None = None, span: Span | None = None,
+def as_case(supplied: Given, state: Start | None = None, span: Span | None = None,
             frame: str = "principal") -> Case:
     """The case that is given: a `Case`, whatever `load` takes, or a scene; with this start and span in place
     of its own, where they are given.
@@ -44,29 +44,29 @@ def as_case(given: Given, state: Start | None = None, span: Span | None = None,
     alone), or blocks by name; frame: in which its vectors are, "principal" or "file" (of a full tensor);
     span: (from, to), or its length, numbers or text with a unit. Raises InputError for what is none of these.
     """
-    case = (given if isinstance(given, Case)
-            else of_scene(given) if isinstance(given, (Scene, ScaledGyrostat)) else load(given))
+    case = (supplied if isinstance(supplied, Case)
+            else of_scene(supplied) if isinstance(supplied, (Scene, ScaledGyrostat)) else load(supplied))
     if state is not None:
         case = started(case, state, frame)
     return case if span is None else replace(case, span=checked_span(time_in(case.scene, span, "span")))
 
 
-def as_text(given: Given, state: Start | None = None, span: Span | None = None) -> Case:
+def as_text(supplied: Given, state: Start | None = None, span: Span | None = None) -> Case:
     """`as_case` for questions that vary what is written in a file."""
-    return with_text(as_case(given, state, span))
+    return with_text(as_case(supplied, state, span))
 
 
-def written(given: Given, state: Start | None = None, span: Span | None = None) -> Case | str | PathLike[str]:
+def written(raw: Given, state: Start | None = None, span: Span | None = None) -> Case | str | PathLike[str]:
     """The path of a file as it is; anything else as a case with its text."""
-    path = isinstance(given, PathLike) or isinstance(given, str) and "\n" not in given
+    path = isinstance(raw, PathLike) or isinstance(raw, str) and "\n" not in raw
     if path and state is None and span is None:
-        return given  # type: ignore[return-value]  # as the line above tells
-    return as_text(given, state, span)
+        return raw  # type: ignore[return-value]  # as the line above tells
+    return as_text(raw, state, span)
 
 
-def scene_of(given: Given) -> AnyScene:
+def scene_of(supplied: Given) -> AnyScene:
     """The scene that is given, or that of the case."""
-    return given if isinstance(given, (Scene, ScaledGyrostat)) else as_case(given).scene
+    return supplied if isinstance(supplied, (Scene, ScaledGyrostat)) else as_case(supplied).scene
 
 
 def of_scene(scene: AnyScene) -> Case:
@@ -75,7 +75,7 @@ def of_scene(scene: AnyScene) -> Case:
         return Case("scene", "", "", scene, "scaled")
     return Case("scene", "", "", scene, "physical", scene,
                 frame=scene.frame or PrincipalAxes(scene.body.exact, IDENTITY, True),
-                caveats=(*scene.body.caveats, *(one for effect in scene.effects for one in effect.caveats)))
+                caveats=(*scene.body.caveats, *(item for effect in scene.effects for item in effect.caveats)))
 
 
 def turning(case: Case, frame: str) -> PrincipalAxes | None:
@@ -92,9 +92,9 @@ def started(case: Case, state: Any, frame: str = "principal") -> Case:
         rates = axes.turned(rates)
         blocks |= {name: floats(axes.turned(tuple(map(Fraction, blocks[name]))))
                    for name in ("gamma", *INSIDE) if name in blocks}
-    kept = {} if isinstance(state, Mapping) else {name: value for name, value in case.blocks.items()
+    retained = {} if isinstance(state, Mapping) else {name: value for name, value in case.blocks.items()
                                                   if name not in blocks}
-    return replace(case, state=floats(rates), decimals=rates, blocks=kept | blocks)
+    return replace(case, state=floats(rates), decimals=rates, blocks=retained | blocks)
 
 
 def _parts(scene: AnyScene, state: Any) -> tuple[Exact3, dict[str, tuple[float, ...]]]:
@@ -113,11 +113,11 @@ def _parts(scene: AnyScene, state: Any) -> tuple[Exact3, dict[str, tuple[float, 
         else:
             short = [name for name in scene.blocks if name in ("omega", "gamma", *INSIDE)]
             # what the question needs, of which what turns inside may be left out at the end; or all of it
-            known = next((dict(list(parts.items())[:n + 1]) for parts in (slices(short), names)
+            resolved = next((dict(list(parts.items())[:n + 1]) for parts in (slices(short), names)
                           for n, part in enumerate(parts.values()) if len(row) == part.stop), None)
-            if known is None:
+            if resolved is None:
                 raise InputError(f"state: expected {_expected(scene)}, got {len(row)} of them")
-            blocks = {name: row[part] for name, part in known.items()}
+            blocks = {name: row[part] for name, part in resolved.items()}
             rates = blocks.pop("omega")
             if "attitude" in blocks:  # scalar first in a row of the state
                 blocks["attitude"] = (*blocks["attitude"][1:], blocks["attitude"][0])
@@ -170,9 +170,9 @@ def in_numbers(value: Any, unit: Dimension, name: str) -> Any:
         return float(in_si(value, unit, name)) if (split(value) or ("", ""))[1] else value
     if hasattr(value, "dtype") and value.dtype.kind == "U":
         value = value.tolist()
-    if not isinstance(value, (list, tuple)) or not any(isinstance(one, (str, list, tuple)) for one in value):
+    if not isinstance(value, (list, tuple)) or not any(isinstance(x, (str, list, tuple)) for x in value):
         return value
-    return [in_numbers(one, unit, name) for one in value]
+    return [in_numbers(item, unit, name) for item in value]
 
 
 def is_one(state: Any) -> bool:
@@ -182,7 +182,7 @@ def is_one(state: Any) -> bool:
     if hasattr(state, "ndim"):
         return bool(state.ndim == 1)
     return not isinstance(state, str) and hasattr(state, "__len__") and bool(len(state)) and not any(
-        isinstance(one, Mapping) or (hasattr(one, "__len__") and not isinstance(one, str)) for one in state)
+        isinstance(x, Mapping) or (hasattr(x, "__len__") and not isinstance(x, str)) for x in state)
 
 
 def no_start(case: Case, question: str) -> InputError:

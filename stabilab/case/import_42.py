@@ -60,17 +60,17 @@ Places = dict[int, tuple[np.ndarray, np.ndarray]]
 
 def turn(angles: Iterable[Fraction], sequence: str) -> np.ndarray:
     """What turns components by angles in deg about the axes of a sequence such as "312", the first first."""
-    found = ONE
+    result = ONE
     for angle, axis in zip(angles, sequence):
-        found = _about(int(axis) - 1, angle) @ found
-    return found
+        result = _about(int(axis) - 1, angle) @ result
+    return result
 
 
 def _about(axis: int, angle: Fraction) -> np.ndarray:
     j, k, c, s = (axis + 1) % 3, (axis + 2) % 3, _cosine(angle), _cosine(angle - 90)
-    found = ONE.copy()
-    found[j, j], found[j, k], found[k, j], found[k, k] = c, s, -s, c
-    return found
+    result = ONE.copy()
+    result[j, j], result[j, k], result[k, j], result[k, k] = c, s, -s, c
+    return result
 
 
 def _cosine(angle: Fraction) -> Fraction:
@@ -89,13 +89,13 @@ def _parallel(mass: Fraction, arm: np.ndarray) -> np.ndarray:
 def places(joints: Sequence[Joint], count: int) -> Places:
     """Of every body that joints tie to body 0: (what turns components of body 0 to its own, its origin in the
     frame of body 0)."""
-    found: Places = {0: (ONE, 0 * ONE[0])}
+    result: Places = {0: (ONE, 0 * ONE[0])}
     for _ in range(count):  # 42 wants inner bodies first; a tree in any other order is read too
         for joint in joints:
-            if joint.inner in found and joint.outer not in found:
-                to_inner, at = found[joint.inner]
-                found[joint.outer] = joint.turn @ to_inner, at + to_inner.T @ joint.origin
-    return found
+            if joint.inner in result and joint.outer not in result:
+                to_inner, at = result[joint.inner]
+                result[joint.outer] = joint.turn @ to_inner, at + to_inner.T @ joint.origin
+    return result
 
 
 def joined(parts: Sequence[Part], where: Places) -> Part:
@@ -113,8 +113,8 @@ def joined(parts: Sequence[Part], where: Places) -> Part:
 def decimals(numbers: Iterable[Fraction]) -> list[str]:
     """The numbers to so many digits of the largest of them, as a case file writes them."""
     numbers = list(numbers)
-    most = max(map(abs, numbers))
-    places = TENSOR_DIGITS - 1 - math.floor(math.log10(most)) if most else 0
+    largest = max(map(abs, numbers))
+    places = TENSOR_DIGITS - 1 - math.floor(math.log10(largest)) if largest else 0
     return [f"{float(round(v, places)) + 0.0:.{TENSOR_DIGITS}g}" for v in numbers]
 
 
@@ -150,11 +150,11 @@ def read(text: str, path: Path, body: int | None = None) -> Craft:
             f"--body {body}: no such body; the file has "
             f"{f'bodies 0 to {len(bodies) - 1}' if len(bodies) > 1 else 'body 0 alone'}")
     where = _places(entries, len(bodies), path)
-    alone, whole = bodies[body or 0], body is None and len(bodies) > 1
+    alone, full = bodies[body or 0], body is None and len(bodies) > 1
     craft.rate, craft.rate_unit = _numbers(entries, "ang vel (", 3, path), "deg/s"
     if body and craft.rate:
         craft.rate = decimals(where[body][0] @ [Fraction(v) for v in craft.rate])
-    if whole:
+    if full:
         parts = [_part(rows, _at_joint(entries), path) for rows in bodies]
         if sum(part.mass for part in parts) <= 0:
             raise InputError(
@@ -167,8 +167,8 @@ def read(text: str, path: Path, body: int | None = None) -> Craft:
         _wheel(craft, block, rows, where, body, path)
     for block, rows in _blocks(entries, "thr"):
         on = _on(rows, len(bodies), path)
-        if whole or on == (body or 0):
-            _thruster(craft, block, rows, where[on] if whole else None, path)
+        if full or on == (body or 0):
+            _thruster(craft, block, rows, where[on] if full else None, path)
     _relative(craft, entries, where[body or 0], path)
     craft.omitted += _left(entries)
     return craft
@@ -186,10 +186,10 @@ def _alone(craft: Craft, rows: Sequence[Entry], at_joint: bool, path: Path):
         craft.said.append("moments about the body's origin (REFPT_JOINT) are brought to its mass centre")
 
 
-def _together(craft: Craft, whole: Part, count: int):
+def _together(craft: Craft, full: Part, count: int):
     """Several bodies as one."""
-    craft.mass, craft.inertia = decimals([whole.mass])[0], _rows(whole)
-    craft.centre, craft.momentum = decimals(whole.centre), _acting(decimals(whole.momentum))
+    craft.mass, craft.inertia = decimals([full.mass])[0], _rows(full)
+    craft.centre, craft.momentum = decimals(full.centre), _acting(decimals(full.momentum))
     craft.said.append(f"{count} bodies are combined into one rigid body about their common mass centre, in "
                       "the frame of body 0, the joints locked as the file places them (--body N takes one "
                       "alone)")
@@ -202,12 +202,12 @@ def _rows(part: Part) -> list:
 
 
 def _moments(rows: Sequence[Entry], path: Path) -> list[str]:
-    found = _numbers(rows, "moments of inertia", 3, path)
-    if found is None:
+    result = _numbers(rows, "moments of inertia", 3, path)
+    if result is None:
         raise InputError(
             f"{path}: expected a line with three numbers and the label Moments of Inertia in the section "
             "Body Parameters")
-    return found
+    return result
 
 
 def _part(rows, at_joint: bool, path) -> Part:
@@ -233,14 +233,14 @@ def _at_joint(entries: Sequence[Entry]) -> bool:
 def _places(entries: Sequence[Entry], count: int, path: Path):
     """Of every body, what turns components of body 0 to its own, and its origin. Raises InputError where no
     joint leads to it."""
-    found = (places([_joint(rows, path) for _, rows in _blocks(entries, "joint")], count) if count > 1
+    result = (places([_joint(rows, path) for _, rows in _blocks(entries, "joint")], count) if count > 1
              else places((), 1))
-    missing = [str(n) for n in range(count) if n not in found]
+    missing = [str(n) for n in range(count) if n not in result]
     if missing:
         raise InputError(
             f"{path}: no joint of the section Joint Parameters ties body {', '.join(missing)} to body 0; "
             "--body N takes one body alone")
-    return found
+    return result
 
 
 def _joint(rows, path) -> Joint:
@@ -251,8 +251,8 @@ def _joint(rows, path) -> Joint:
     angles = _exact(rows, "initial angles", 3, path)[:int(free)]
     before, after = (_static(rows, label, path) for label in ("bi to gi", "go to bo"))
     slid = 0 * ONE[0]
-    for axis, way in zip(str(along), _exact(rows, "initial displacements", 3, path)[:int(slides)]):
-        slid[int(axis) - 1] += way
+    for axis, route in zip(str(along), _exact(rows, "initial displacements", 3, path)[:int(slides)]):
+        slid[int(axis) - 1] += route
     turned = after @ turn(angles, str(sequence)) @ before
     inside, outside = (_exact(rows, f"position wrt {word}", 3, path) for word in ("inner", "outer"))
     return Joint(inner, outer, turned, inside + before.T @ slid - turned.T @ outside)
@@ -265,12 +265,12 @@ def _static(rows, label, path):
 
 def _on(rows: Sequence[Entry], count: int, path: Path) -> int:
     """The body that a wheel or a thruster stands on."""
-    found = int(_exact(rows, "body", 1, path)[0])
-    if not 0 <= found < count:
+    result = int(_exact(rows, "body", 1, path)[0])
+    if not 0 <= result < count:
         raise InputError(
             f"{path}:{next(e.line for e in rows if e.label.lower().startswith('body'))}: Body: the file has "
-            f"no body {found}")
-    return found
+            f"no body {result}")
+    return result
 
 
 def _wheel(craft: Craft, block, rows, where, body, path):
@@ -293,20 +293,20 @@ def _wheel(craft: Craft, block, rows, where, body, path):
                              "momentum": momentum[0]})
 
 
-def _turned(place, vector) -> list[str]:
+def _turned(location, vector) -> list[str]:
     """A vector of a body in the frame of body 0."""
-    return decimals(place[0].T @ [Fraction(v) for v in vector])
+    return decimals(location[0].T @ [Fraction(v) for v in vector])
 
 
 def _thruster(craft, block, rows, where, path):
     axis, force = _numbers(rows, "thrust axis", 3, path), _numbers(rows, "thrust force", 1, path)
-    place = _numbers(rows, "location", 3, path)
+    location = _numbers(rows, "location", 3, path)
     if axis and where:
         axis = _turned(where, axis)
-    if place and where:
-        place = decimals([a + Fraction(b) for a, b in zip(where[1], _turned(where, place))])
-    if axis and force and place:
-        craft.thrusters.append({"name": block, "position": place, "direction": axis, "force": force[0]})
+    if location and where:
+        location = decimals([a + Fraction(b) for a, b in zip(where[1], _turned(where, location))])
+    if axis and force and location:
+        craft.thrusters.append({"name": block, "position": location, "direction": axis, "force": force[0]})
     elif axis and force:
         craft.omitted.append(f"{block}: {force[0]} N along [{', '.join(axis)}] at node "
                              f"{_value(rows, '', 'node')}, whose place is in a node file: add it as "
@@ -315,7 +315,7 @@ def _thruster(craft, block, rows, where, path):
 
 def _entries(text: str) -> list[Entry]:
     section = block = ""
-    found = []
+    rows = []
     for number, line in enumerate(text.splitlines(), 1):
         title = _TITLE.fullmatch(line)
         if title:
@@ -326,16 +326,16 @@ def _entries(text: str) -> list[Entry]:
             continue
         value, mark, label = line.partition("!")
         if mark:
-            found.append(Entry(section, block, value.strip().strip('"'), label.strip(), number))
-    return found
+            rows.append(Entry(section, block, value.strip().strip('"'), label.strip(), number))
+    return rows
 
 
 def _used(entries: Sequence[Entry]):
     """Without the samples that follow a number of none, and joints of a single body."""
     none = {e.section for e in entries if e.label.lower().startswith("number of") and e.value == "0"}
-    one = any(e.label.lower().startswith("number of bodies") and e.value == "1" for e in entries)
+    item = any(e.label.lower().startswith("number of bodies") and e.value == "1" for e in entries)
     return [e for e in entries
-            if not (e.block and (e.section in none or (one and e.section.startswith("joint"))))]
+            if not (e.block and (e.section in none or (item and e.section.startswith("joint"))))]
 
 
 def _blocks(entries: Sequence[Entry], kind: str):
@@ -354,27 +354,27 @@ def _numbers(entries: Sequence[Entry], label: str, count: int, path: Path):
     entry = next((e for e in entries if e.label.lower().startswith(label)), None)
     if entry is None:
         return None
-    words = entry.value.split()
-    numbers = all(_NUMBER.fullmatch(word) for word in words[:count])
-    if len(words) < count or not numbers or (len(words) > count and _NUMBER.fullmatch(words[count])):
+    text = entry.value.split()
+    numbers = all(_NUMBER.fullmatch(word) for word in text[:count])
+    if len(text) < count or not numbers or (len(text) > count and _NUMBER.fullmatch(text[count])):
         raise InputError(
             f"{path}:{entry.line}: {entry.label}: expected {COUNTS[count]}, got \"{entry.value[:60]}\"")
-    return [_written(word) for word in words[:count]]
+    return [_written(word) for word in text[:count]]
 
 
 def _written(word: str) -> str:
     """As TOML writes it: digits on both sides of the point, no plus and no needless zero in front."""
     mantissa, mark, power = re.fullmatch(r"\+?([^eE]*)([eE]?)(.*)", word).groups()
     sign, digits = ("-", mantissa[1:]) if mantissa.startswith("-") else ("", mantissa)
-    whole, point, rest = digits.partition(".")
-    return f"{sign}{whole.lstrip('0') or '0'}{f'.{rest or 0}' if point else ''}{mark}{power}"
+    full, point, rest = digits.partition(".")
+    return f"{sign}{full.lstrip('0') or '0'}{f'.{rest or 0}' if point else ''}{mark}{power}"
 
 
 def _acting(vector: Sequence[str] | None):
     return vector if vector and any(float(v) for v in vector) else None
 
 
-def _relative(craft: Craft, entries: Sequence[Entry], place: Sequence[np.ndarray], path: Path) -> None:
+def _relative(craft: Craft, entries: Sequence[Entry], location: Sequence[np.ndarray], path: Path) -> None:
     """Rates relative to the orbit frame as those relative to inertial space; where these are not known the
     craft has no motion and every answer says why. place: of the body of the case, from body 0."""
     frames = (_value(entries, "", "ang vel wrt") or "").strip().upper()
@@ -385,7 +385,7 @@ def _relative(craft: Craft, entries: Sequence[Entry], place: Sequence[np.ndarray
             raise Unknown(f"its attitude is not relative to the orbit frame ({frames})")
         attitude = (from_quaternion(_numbers(entries, "quaternion", 4, path) or ("0", "0", "0", "1"))
                     if frames[1] == "Q" else _static(entries, "angles", path))
-        add_orbit(craft, path, place[0] @ attitude)
+        add_orbit(craft, path, location[0] @ attitude)
     except Unknown as error:
         craft.caveats.append(
             f"no motion: the imported file gives an angular velocity of [{', '.join(craft.rate)}] deg/s "

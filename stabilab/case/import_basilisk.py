@@ -162,7 +162,7 @@ def _first(data: dict, names: Sequence[str]):
 
 def _plain(value):
     """Nested lists made flat: a column of Basilisk is [[x], [y], [z]]."""
-    return [one for item in value for one in _plain(item)] if isinstance(value, (list, tuple)) else [value]
+    return [each for item in value for each in _plain(item)] if isinstance(value, (list, tuple)) else [value]
 
 
 def _tensor(value: Sequence[int], path: Path | str):

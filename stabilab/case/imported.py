@@ -120,5 +120,5 @@ def _list(values: Sequence[str] | map[str]) -> str:
     return f"[{', '.join(values)}]"
 
 
-def _text(words: str) -> str:
-    return json.dumps(printable(words), ensure_ascii=False)
+def _text(text: str) -> str:
+    return json.dumps(printable(text), ensure_ascii=False)

@@ -38,19 +38,19 @@ def stated_limit(case: Case, rate: str | None = None, component: str | None = No
                  until: str | None = None) -> StatedLimit:
     """The limit that one of the options states, or [limits] of the case where none is given. Raises
     InputError that names the option."""
-    given = {name: text for name, text in zip(OPTIONS, (rate, component, energy, tilt)) if text is not None}
-    if len(given) > 1:
+    source = {name: text for name, text in zip(OPTIONS, (rate, component, energy, tilt)) if text is not None}
+    if len(source) > 1:
         raise InputError(
-            f"expected one limit, got {' and '.join(f'--{name}' for name in given)}: ask for each by itself")
+            f"expected one limit, got {' and '.join(f'--{name}' for name in source)}: ask for each by itself")
     scaled = case.variables == "scaled"
     end = None if until is None else _number(until, NONE if scaled else TIME, "until")
-    if not given:
-        found = _of_case(case)
+    if not source:
+        result = _of_case(case)
     else:
-        (name, text), = given.items()
-        found = {"rate": _rate, "component": _component, "energy": _energy,
+        (name, text), = source.items()
+        result = {"rate": _rate, "component": _component, "energy": _energy,
                  "tilt": _tilt}[name](case, text, NONE if scaled else RATE)
-    return StatedLimit(*found, until=end)  # type: ignore[misc]  # all but the last
+    return StatedLimit(*result, until=end)  # type: ignore[misc]  # all but the last
 
 
 def stated_tilt(text: str) -> float:
@@ -75,25 +75,25 @@ def _of_case(case: Case):
                          "[limits] rate")
     if case.limits.rate is not None:
         return {"rate": case.limits.rate}, "rate", ("|omega|",), (float(case.limits.rate),)
-    pairs = [(along(case, FILE_AXES[n]), most) for n, most in enumerate(case.limits.rates)]
+    pairs = [(along(case, FILE_AXES[n]), rate) for n, rate in enumerate(case.limits.rates)]
     names = tuple(f"|omega {name}|" for name in FILE_AXES)
     return {"component": pairs}, "component", names, tuple(map(float, case.limits.rates))
 
 
 def _rate(case: Case, text: str, dimension: Sequence[int]):
-    most = _number(text, dimension, "rate")
-    return {"rate": most}, "rate", ("|x|" if dimension is NONE else "|omega|",), (float(most),)
+    largest = _number(text, dimension, "rate")
+    return {"rate": largest}, "rate", ("|x|" if dimension is NONE else "|omega|",), (float(largest),)
 
 
 def _component(case: Case, text: str, dimension: Sequence[int]):
-    axis, most = _pair(text, dimension, "component")
+    axis, largest = _pair(text, dimension, "component")
     name = f"|{'x' if dimension is NONE else 'omega'} {axis}|"
-    return {"component": (along(case, axis), most)}, "component", (name,), (float(most),)
+    return {"component": (along(case, axis), largest)}, "component", (name,), (float(largest),)
 
 
 def _energy(case, text, _):
-    most = _number(text, ENERGY, "energy")
-    return {"energy": most}, "energy", ("the kinetic energy",), (float(most),)
+    largest = _number(text, ENERGY, "energy")
+    return {"energy": largest}, "energy", ("the kinetic energy",), (float(largest),)
 
 
 def _tilt(case, text, _):
@@ -115,12 +115,12 @@ def _pair(text: str, dimension: Sequence[int], option: str):
 
 def _meant(text: str) -> str:
     """"; ..." with the pair that a text means by other words."""
-    found = re.fullmatch(r"\W*(?:omega|rate|w|ω|axis)?[\W_]*(?:([xyz123])(?![\d.]))?\|?\s*[<>=:]*\s*"
+    result = re.fullmatch(r"\W*(?:omega|rate|w|ω|axis)?[\W_]*(?:([xyz123])(?![\d.]))?\|?\s*[<>=:]*\s*"
                          r"(\d.*|\.\d.*)", text.strip(), re.I)
-    if not found:
+    if not result:
         return ""
-    names = (found[1].lower(),) if found[1] else tuple(FILE_AXES)
-    return "; write " + " or ".join(f'"{name} = {found[2]}"' for name in names)
+    names = (result[1].lower(),) if result[1] else tuple(FILE_AXES)
+    return "; write " + " or ".join(f'"{name} = {result[2]}"' for name in names)
 
 
 def along(case: Case, axis: str) -> int | Exact3:

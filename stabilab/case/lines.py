@@ -159,11 +159,11 @@ class _Scan:
         return self.text[self.at]
 
     def take(self, pattern: re.Pattern[str]) -> str:
-        found = pattern.match(self.text, self.at)
-        if not found:
+        result = pattern.match(self.text, self.at)
+        if not result:
             raise _NotToml
-        self.at = found.end()
-        return found.group()
+        self.at = result.end()
+        return result.group()
 
     def expect(self, mark: str):
         self.skip(_BLANK)

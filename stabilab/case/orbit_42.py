@@ -91,8 +91,8 @@ def add_orbit(craft: Craft, path: Any, to_body: np.ndarray) -> None:
     components of the orbit frame to those of the body. Raises Unknown."""
     altitude = altitude_beside(path)
     turning = to_body @ np.array([Fraction(0), -rate_of_orbit(altitude), Fraction(0)])
-    given = [Fraction(v) for v in craft.rate or ("0", "0", "0")]
-    craft.rate = [f"{float(a + b):.12g}" for a, b in zip(given, turning)]
+    supplied = [Fraction(v) for v in craft.rate or ("0", "0", "0")]
+    craft.rate = [f"{float(a + b):.12g}" for a, b in zip(supplied, turning)]
     craft.altitude = altitude
     craft.said.append("the angular velocity relative to the orbit frame becomes that relative to inertial "
                       "space on "

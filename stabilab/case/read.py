@@ -134,7 +134,7 @@ class Case:
         """By what it holds, whether it has methods or not."""
         if not isinstance(other, Case):
             return NotImplemented
-        return all(getattr(self, one.name) == getattr(other, one.name) for one in fields(Case) if one.compare)
+        return all(getattr(self, x.name) == getattr(other, x.name) for x in fields(Case) if x.compare)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -155,8 +155,8 @@ class Case:
             return "no motion"
         state = exact if axes is None else axes.back(exact)
         # below it stands what turning there and back left
-        least = TURNED_BACK * max(map(abs, state)) if axes is not None else 0
-        numbers = ", ".join(f"{float(v) if abs(v) > least else 0.0:.6g}" for v in state)
+        smallest = TURNED_BACK * max(map(abs, state)) if axes is not None else 0
+        numbers = ", ".join(f"{float(v) if abs(v) > smallest else 0.0:.6g}" for v in state)
         rate = "" if self.variables == "scaled" else " rad/s"
         where = "" if axes is None else " in the frame of the file"
         span = (f", span {self.span[0]:.6g} to {self.span[1]:.6g} {self.scene.time_unit}"
@@ -287,7 +287,7 @@ class Burning:
     def segments(self, until: Fraction | None = None) -> list[Segment]:
         """From time 0 to the last closing, `until` at the latest: which thrusters fire, between exact times.
         """
-        return segments([one.burn for one in self.craft.thrusters], until)
+        return segments([thruster.burn for thruster in self.craft.thrusters], until)
 
 
 def fires_on_schedule(path: str | os.PathLike[str]) -> bool:
@@ -301,8 +301,8 @@ def load_burning(given: Any) -> Burning:
     (start, stop, period, duty, on_time, propellant, mass_flow), for `burn`. Where none does, the stuck ones
     fire from 0 on. Raises CaseError as `load` does."""
     path, text, data, faults = _stated(given, "load_burning")
-    if not _scheduled(data, faults) and isinstance(stated := data.get("thrusters"), list):
-        data = data | {"thrusters": [_from_start(one) for one in stated]}
+    if not _scheduled(data, faults) and isinstance(declared := data.get("thrusters"), list):
+        data = data | {"thrusters": [_from_start(item) for item in declared]}
     return Burning(_built(path, text, data, faults, burning=True))
 
 
@@ -313,18 +313,18 @@ def _from_start(thruster: Any) -> Any:
     return {key: value for key, value in thruster.items() if key != "stuck"} | {"start": 0}
 
 
-def _stated(given: Any, name: str, others: str = "its text, or a dict") -> tuple[Any, str, dict, Faults]:
+def _stated(supplied: Any, name: str, others: str = "its text, or a dict") -> tuple[Any, str, dict, Faults]:
     """(path, text, data, faults) of a case, the path of a file, a text of several lines or a dict."""
-    if isinstance(given, Mapping):
-        return "dict", *_tables("dict", plain(given))
-    if isinstance(given, Case):
-        path, text = given.path, text_of_case(given)
-    elif isinstance(given, str) and "\n" in given:
-        path, text = "text", given
-    elif isinstance(given, (str, os.PathLike)):
-        return _read(given)
+    if isinstance(supplied, Mapping):
+        return "dict", *_tables("dict", plain(supplied))
+    if isinstance(supplied, Case):
+        path, text = supplied.path, text_of_case(supplied)
+    elif isinstance(supplied, str) and "\n" in supplied:
+        path, text = "text", supplied
+    elif isinstance(supplied, (str, os.PathLike)):
+        return _read(supplied)
     else:
-        raise InputError(f"{name}: expected a case: the path of a case file, {others}; got {came(given)}")
+        raise InputError(f"{name}: expected a case: the path of a case file, {others}; got {came(supplied)}")
     return path, text, *parsed(path, text)
 
 
@@ -352,12 +352,12 @@ def _judge_burns(top: Table, burning: bool):
     """Note every thruster with a schedule where the question takes a constant torque; where it does not,
     combinations of values, and that there is no schedule: of a file without another fault, which may be what
     hides it."""
-    found = _scheduled(top.data, top.faults)
+    result = _scheduled(top.data, top.faults)
     if not burning:
-        for table, keys in found:
+        for table, keys in result:
             table.fault(BURN_ONLY.format(", ".join(keys)), keys[0])
         return
-    if not found and not top.faults.problems:
+    if not result and not top.faults.problems:
         top.fault('no thruster fires on a schedule: give one of [[thrusters]] start = 0 in place of stuck, '
                   'and stop = "12 s", or a span in [motion] to look for the time to close it in',
                   *(["thrusters"] if "thrusters" in top else []))
@@ -367,10 +367,10 @@ def _judge_burns(top: Table, burning: bool):
 
 def _scheduled(data: dict, faults: Faults) -> list[tuple[Table, list[str]]]:
     """(table, keys of its schedule) of every thruster that has one."""
-    stated = data.get("thrusters")
-    return [(Table(("thrusters", n), one, faults), keys)
-            for n, one in enumerate(stated if isinstance(stated, list) else ())
-            if isinstance(one, dict) and (keys := [key for key in BURN_KEYS if key in one])]
+    declared = data.get("thrusters")
+    return [(Table(("thrusters", n), item, faults), keys)
+            for n, item in enumerate(declared if isinstance(declared, list) else ())
+            if isinstance(item, dict) and (keys := [key for key in BURN_KEYS if key in item])]
 
 
 def load_all(path: str | Path) -> list[Case]:
@@ -388,12 +388,12 @@ def read_all(path: str, text: str) -> list[Case]:
     """The cases of `load_all` in a text; `path` is named in its faults."""
     data, faults = parsed(path, text)
     base = _built(path, text, data, faults)
-    found = combinations(Table((), data, faults))
-    if not found:
+    result = combinations(Table((), data, faults))
+    if not result:
         return [base]
     moved = {place(data, key): ("sweep", key) for key in data["sweep"]}
     return [replace(_built(path, text, values, Faults(faults.lines, moved), suffix),
-                    swept=_swept(data["sweep"], suffix)) for suffix, values in found]
+                    swept=_swept(data["sweep"], suffix)) for suffix, values in result]
 
 
 def _swept(sweep: Mapping[str, Any], suffix: str) -> tuple:
@@ -423,7 +423,7 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
     top = Table((), data, faults)
     top.known(TABLES, "table or key")
     swept(top)  # notes the faults of [sweep]
-    title, source, stated = top.text("title"), top.text("source"), top.texts("caveats")
+    title, source, declared = top.text("title"), top.text("source"), top.texts("caveats")
     craft = _craft(top)
     motion = _motion(top)
     physical, mu, frame = _physical(top, craft, motion)
@@ -445,27 +445,27 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
                 variant, tuple(faults.uncertain.values()), mu, motion.exact, frame if physical else None,
                 craft.thrusters, craft.wheels, craft.limits,
                 tuple(dict.fromkeys(map(dotted, sorted(faults.inexact, key=str)))), craft.assumed, units,
-                caveats=(*(Caveat(Kind.STATED, STATED(statement=one)) for one in stated),
+                caveats=(*(Caveat(Kind.STATED, STATED(statement=item)) for item in declared),
                          *(physical.body.caveats if physical else ()),
                          *(far_off(physical.body, craft.thrusters) if physical else ()),
-                         *(one for effect in scene.effects for one in effect.caveats),
+                         *(caveat for effect in scene.effects for caveat in effect.caveats),
                          *_silent(craft.thrusters),
                          *_middles(tuple(faults.uncertain.values()), craft.thrusters)))
 
 
 def _silent(thrusters: tuple[Thruster, ...]) -> tuple[Caveat, ...]:
     """That there are thrusters and none of them acts: whoever describes them asks what they do."""
-    if not thrusters or any(one.stuck or one.burn for one in thrusters):
+    if not thrusters or any(thruster.stuck or thruster.burn for thruster in thrusters):
         return ()
-    return (Caveat(Kind.THRUSTERS, SILENT(thrusters=", ".join(one.name for one in thrusters))),)
+    return (Caveat(Kind.THRUSTERS, SILENT(thrusters=", ".join(thruster.name for thruster in thrusters))),)
 
 
 def _middles(uncertain: tuple[Uncertain, ...], thrusters: tuple[Thruster, ...]) -> list[Caveat]:
     """That an answer is of the middles of the uncertain numbers; of forces by itself, as more questions look
     at these than at others."""
-    firing = [one for one in thrusters if one.stuck or one.burn]
-    sized = tuple(one.name for one in firing if one.force_tolerance)
-    tilts = tuple(one.name for one in firing if one.misalignment)
+    firing = [thruster for thruster in thrusters if thruster.stuck or thruster.burn]
+    sized = tuple(item.name for item in firing if item.force_tolerance)
+    tilts = tuple(item.name for item in firing if item.misalignment)
     return [*([MIDDLES] if len(uncertain) > len(sized) else []),
             *(Caveat(kind, sentence(thrusters=names)) for kind, sentence, names in (
                 (Kind.TOLERANCE, SIZES, sized), (Kind.MISALIGNMENT, TILTS, tilts)) if names)]
@@ -523,13 +523,13 @@ def _physical(top: Table, craft: _Craft,
                 top.fault("[scaled] stands for [body] and [effects]: keep one or the other", key)
         return None, None, None
     body, frame = body_of(top)
-    made = _effects(top, body)
-    if body is None or None in made:
+    built = _effects(top, body)
+    if body is None or None in built:
         return None, None, frame
     try:
-        whole = added(made, craft.thrusters, craft.wheels)
-        frame = fitted(frame, whole, motion)
-        whole = turned_effects(top, whole, frame)
+        full = added(built, craft.thrusters, craft.wheels)
+        frame = fitted(frame, full, motion)
+        full = turned_effects(top, full, frame)
     except InputError as error:  # numbers that are good one by one, but not added up or turned
         top.fault(f"added up along principal axes, {error}",
                   next(key for key in ("thrusters", "wheels", "effects") if key in top))
@@ -537,12 +537,12 @@ def _physical(top: Table, craft: _Craft,
     torque = (top.data.get("effects", {}).get("constant_torque") if isinstance(top.data.get("effects"), dict)
               else None)
     if not isinstance(torque, dict):  # absent, or no table, which is noted already
-        return _scene(body, whole, frame), None, frame
+        return _scene(body, full, frame), None, frame
     mu = Table(("effects", "constant_torque"), torque, Faults(top.faults.lines)).vector("mu")
     if mu and any(thruster.stuck for thruster in craft.thrusters):
         top.fault("mu cannot be added to the torque of a thruster: give torque in N m", "effects",
                   "constant_torque", "mu")
-    return _scene(body, whole, frame), mu, frame
+    return _scene(body, full, frame), mu, frame
 
 
 def _scene(body: Body, effects: Sequence[Effect], frame: PrincipalAxes | None) -> Scene:
@@ -558,13 +558,13 @@ def _effects(top: Table, body: Body | None) -> list:
     effects = top.table("effects")
     if effects is None:
         return []
-    made = []
+    built = []
     for name in effects.data:
         if name not in REGISTRY:
             cure = cure_of_key(effects.path, name, effects.data, REGISTRY)
             hint = f"; {cure}" if cure else did_you_mean(name, REGISTRY)
-            known = f" Known effects: {', '.join(REGISTRY)}" if "did you mean" in hint else ""
-            effects.fault(f"unknown effect{hint}{known}", name)
+            resolved = f" Known effects: {', '.join(REGISTRY)}" if "did you mean" in hint else ""
+            effects.fault(f"unknown effect{hint}{resolved}", name)
             continue
         table = effects.table(name)
         if table is None:
@@ -572,10 +572,10 @@ def _effects(top: Table, body: Body | None) -> list:
         cls = effect_class(name)
         table.known(cls.keys)
         try:
-            made.append(cls.from_case(table, _Context(body or STAND_IN, body is None)))
+            built.append(cls.from_case(table, _Context(body or STAND_IN, body is None)))
         except InputError as error:  # numbers that are good one by one, but not together
             effects.fault(str(error), name)
-    return made
+    return built
 
 
 def _scaled(top: Table) -> ScaledGyrostat | None:
@@ -639,32 +639,32 @@ def _unit(table: Table, vertical: Exact3) -> Exact3:
 
 def _judge_blocks(motion: _Motion, scene):
     """Starting values beyond the angular velocity: possible for this scene, and complete."""
-    table, given = motion.table, motion.blocks
+    table, supplied = motion.table, motion.blocks
     for key, block in BLOCKS.items():
-        if block in given and getattr(scene, "variables", "") == "scaled":
+        if block in supplied and getattr(scene, "variables", "") == "scaled":
             table.fault("a scaled system has no attitude and no place: give a body and its effects", key)
             return
     for key in ("velocity", "position"):
-        if key in given and scene is not None and scene.body.mass is None:
+        if key in supplied and scene is not None and scene.body.mass is None:
             table.fault("motion through space needs the mass of the body: give body.mass in kg", key)
-    if "damper" in given and scene is not None and "damper" not in scene.blocks:
+    if "damper" in supplied and scene is not None and "damper" not in scene.blocks:
         table.fault("no damper turns in this body: give [effects.viscous_damper], or take the key away",
                     "damper")
-    if "wheel" in given and scene is not None and "wheel" not in scene.blocks:
+    if "wheel" in supplied and scene is not None and "wheel" not in scene.blocks:
         table.fault("no motor turns a wheel in this body: give [effects.wheel_motor]; the momentum of a "
                     "wheel that runs by itself is that of [effects.gyrostat]", "wheel")
-    if "wheel" in given and (words := next((said for one in getattr(scene, "effects", ())
-                                            if (said := one.refuses({"wheel": given["wheel"]}))), "")):
-        table.fault(words.removeprefix("wheel: "), "wheel")
-    if motion.state is not None and scene is not None and "gamma" in scene.blocks and "gamma" not in given:
-        angles = given.get("attitude")
+    if "wheel" in supplied and (text := next((said for item in getattr(scene, "effects", ())
+                                            if (said := item.refuses({"wheel": supplied["wheel"]}))), "")):
+        table.fault(text.removeprefix("wheel: "), "wheel")
+    if motion.state is not None and scene is not None and "gamma" in scene.blocks and "gamma" not in supplied:
+        angles = supplied.get("attitude")
         told = (f"; the attitude given has [{', '.join(f'{v:.10g}' for v in vertical_of(*angles))}]" if angles
                 else "")
-        need = [effect_words(one.name) for one in scene.effects if set(one.needs) - set(INSIDE)]
+        need = [effect_words(effect.name) for effect in scene.effects if set(effect.needs) - set(INSIDE)]
         table.fault(f"vertical is missing: because of {' and '.join(need)} give the direction of inertial "
                     f"axis 3 (of the weight, down; of the field; to the centre) in the body at the start, as "
                     f"[0, 0, 1]{told}")
-    judge_attitude(table, given, scene)
+    judge_attitude(table, supplied, scene)
 
 
 def _variables(top: Table, motion: _Motion, physical: Scene | None, scaled: ScaledGyrostat | None,
@@ -711,14 +711,14 @@ def _too_large(effect: Effect, body: Body) -> bool:
 
 def _span(motion: _Motion, variables: str, scaling: Scaling | None) -> tuple[float, ...] | None:
     """The span in the case's time: s, or tau = t/scaling.time."""
-    given, wanted = motion.span_key, "tau" if variables == "scaled" else "span"
-    if motion.span is None or given == wanted:
+    supplied, wanted = motion.span_key, "tau" if variables == "scaled" else "span"
+    if motion.span is None or supplied == wanted:
         return floats(motion.span) if motion.span else None
     if scaling is None:
         return None  # the fault is noted already
-    factor = scaling.time if given == "tau" else 1 / scaling.time
+    factor = scaling.time if supplied == "tau" else 1 / scaling.time
     try:
         return floats(t * factor for t in motion.span)
     except OverflowError:
-        motion.table.fault("exceeds the largest double (about 1.8e308) in the other time unit", given)
+        motion.table.fault("exceeds the largest double (about 1.8e308) in the other time unit", supplied)
         return None

@@ -62,13 +62,13 @@ def repair(text: str, line: int) -> Repair | None:
     for at in dict.fromkeys((first, number, *before)):
         if at < 1:
             continue
-        whole = _whole(lines, at) if at == first else lines[at - 1]
-        found = _line(whole) if len(whole) <= LONGEST else None
-        if found:
-            key, write, why = found
+        full = _whole(lines, at) if at == first else lines[at - 1]
+        result = _line(full) if len(full) <= LONGEST else None
+        if result:
+            key, write, why = result
             titled = write.startswith("[") and not key
             table = write.strip("[]") if titled else "" if write.startswith("#") else _table(lines[:at - 1])
-            return Repair(at, ".".join(part for part in (table, key) if part), whole.strip(), write, why)
+            return Repair(at, ".".join(part for part in (table, key) if part), full.strip(), write, why)
     return None
 
 
@@ -83,7 +83,7 @@ def _whole(lines: list[str], at: int) -> str:
 
 def _table(lines: list[str]) -> str:
     """The table that is open after these lines."""
-    headers = [found for line in lines if (found := re.match(r"\s*\[\[?\s*([\w.-]+)\s*\]", line))]
+    headers = [result for line in lines if (result := re.match(r"\s*\[\[?\s*([\w.-]+)\s*\]", line))]
     return headers[-1][1] if headers else ""
 
 
@@ -102,23 +102,23 @@ def _line(line: str) -> tuple[str, str, str] | None:
     reasons: list[str] = []
     plain = _keyboard(line, reasons)
     if re.match(r"\s*(//|;|%|!|--|/\*|\* |rem )", plain, re.I):
-        words = re.sub(r"^\s*(//+|;+|%+|!+|--+|/\*+|\*+|rem)\s*", "", plain, flags=re.I)
-        return "", f"# {words.removesuffix('*/').strip()}".strip(), "a comment begins with #"
+        text = re.sub(r"^\s*(//+|;+|%+|!+|--+|/\*+|\*+|rem)\s*", "", plain, flags=re.I)
+        return "", f"# {text.removesuffix('*/').strip()}".strip(), "a comment begins with #"
     try:
-        found = _header(plain, reasons) or _statement(plain, reasons) or _row(plain, reasons)
+        result = _header(plain, reasons) or _statement(plain, reasons) or _row(plain, reasons)
     except RecursionError:
         return None
     except _Hopeless as hopeless:
         key = _STATEMENT.fullmatch(plain)
         return (named(key["key"]) if key else "", "", str(hopeless))
-    if not found or found[1] == line.strip() or not reasons or not _is_toml(found):
+    if not result or result[1] == line.strip() or not reasons or not _is_toml(result):
         return None
-    return *found, "; ".join(dict.fromkeys(reasons))
+    return *result, "; ".join(dict.fromkeys(reasons))
 
 
-def _is_toml(found: tuple[str, str]) -> bool:
+def _is_toml(result: tuple[str, str]) -> bool:
     """Whether the reader takes what is offered: a row of a list by itself, or lines of their own."""
-    key, write = found
+    key, write = result
     lines = write.replace("; on a line of its own ", "\n")
     try:
         tomllib.loads(lines if key or write.startswith("[") and not write.endswith(",") and "," not in write
@@ -130,19 +130,19 @@ def _is_toml(found: tuple[str, str]) -> bool:
 
 def _keyboard(line: str, reasons: list[str]) -> str:
     """The line with the letters of a keyboard in place of those of print."""
-    found = "".join(PRINT.get(c, c) for c in _DASH.sub("-", line))
-    if found != line:
+    result = "".join(PRINT.get(c, c) for c in _DASH.sub("-", line))
+    if result != line:
         strange = next(c for c in line if c in PRINT or c in "\u2013\u2014")
         reasons.append(f"U+{ord(strange):04X} is a character of print; here stands that of the keyboard")
-    return found
+    return result
 
 
 def _header(line: str, reasons: list[str]) -> tuple[str, str] | None:
     """The title of a table."""
-    found = _HEADER.fullmatch(re.sub(r"\s+#.*", "", line))
-    if not found or not (line.lstrip()[0] in "[{<(" or line.rstrip()[-1] in ":]}>)"):
+    result = _HEADER.fullmatch(re.sub(r"\s+#.*", "", line))
+    if not result or not (line.lstrip()[0] in "[{<(" or line.rstrip()[-1] in ":]}>)"):
         return None
-    name = found[1].strip().replace(" ", "_")
+    name = result[1].strip().replace(" ", "_")
     name = SECTIONS.get(name.lower(), name if name.startswith("effects.") or name.lower() not in LISTS
                         else name.lower())
     many = name in LISTS
@@ -153,11 +153,11 @@ def _header(line: str, reasons: list[str]) -> tuple[str, str] | None:
 
 def _statement(line: str, reasons: list[str]) -> tuple[str, str] | None:
     """A key and its value."""
-    found = _STATEMENT.fullmatch(line)
-    if found is None or not found["key"].strip(" \"'"):
+    result = _STATEMENT.fullmatch(line)
+    if result is None or not result["key"].strip(" \"'"):
         return _without_mark(line, reasons)
-    key, value = _key(found["key"], reasons), found["value"]
-    if found["mark"] != "=":
+    key, value = _key(result["key"], reasons), result["value"]
+    if result["mark"] != "=":
         reasons.append("a key and its value are joined by =")
     value, comment = _comment(value, reasons)
     if not value:
@@ -174,16 +174,16 @@ def _statement(line: str, reasons: list[str]) -> tuple[str, str] | None:
 
 
 def _without_mark(line: str, reasons: list[str]) -> tuple[str, str] | None:
-    found = re.fullmatch(r"\s*([A-Za-z_]\w*)\s+([\[\"'\d.+-].*)", line)
-    if not found:
+    result = re.fullmatch(r"\s*([A-Za-z_]\w*)\s+([\[\"'\d.+-].*)", line)
+    if not result:
         alone = re.fullmatch(r"\s*([A-Za-z_]\w*)\s*", line)
         if alone and alone[1] != "stuck":
             raise _Hopeless(f"the value of {alone[1]} is missing, or the brackets of a title")
         reasons.append("a key has a value")
         return ("stuck", "stuck = true") if alone else None
     reasons.append("a key and its value are joined by =")
-    value, comment = _comment(found[2], reasons)
-    return found[1], f"{named(found[1])} = {_value(value, reasons)}{comment}"
+    value, comment = _comment(result[2], reasons)
+    return result[1], f"{named(result[1])} = {_value(value, reasons)}{comment}"
 
 
 def _row(line: str, reasons: list[str]) -> tuple[str, str] | None:
@@ -202,15 +202,15 @@ def _key(key: str, reasons: list[str]) -> str:
     if rest and first.lower() in DECLARED:
         bare = rest
         reasons.append(f"no word {first} stands before a key")
-    known = named(bare)
-    if known != bare:
-        reasons.append(f"the key is called {known}")
+    resolved = named(bare)
+    if resolved != bare:
+        reasons.append(f"the key is called {resolved}")
     elif not _KEY.fullmatch(bare):
-        known = re.sub(r"\W+", "_", bare.encode("ascii", "ignore").decode()).strip("_")
-        if not known:
+        resolved = re.sub(r"\W+", "_", bare.encode("ascii", "ignore").decode()).strip("_")
+        if not resolved:
             raise _Hopeless(f"a key is made of the letters A to Z, digits and underscores, got {bare[:40]}")
         reasons.append("a key has neither blanks nor other signs")
-    return known
+    return resolved
 
 
 def _unquoted_signs(text: str) -> Iterator[tuple[int, str, int]]:
@@ -236,10 +236,10 @@ def _comment(value: str, reasons: list[str]) -> tuple[str, str]:
             return value[:at].rstrip(), f"  {value[at:]}"
         elif not depth and (c in ";!" or value.startswith(("//", "/*"), at)
                             or c == "%" and re.match(r"%\s*[A-Za-z]", value[at:])):
-            words = value[at:].strip(";!/*% ")
-            reasons.append("a comment begins with #" if words else f"nothing stands behind a value, no {c} "
+            text = value[at:].strip(";!/*% ")
+            reasons.append("a comment begins with #" if text else f"nothing stands behind a value, no {c} "
                                                                    "either")
-            return value[:at].rstrip(" ,"), f"  # {words}" if words else ""
+            return value[:at].rstrip(" ,"), f"  # {text}" if text else ""
     return value, ""
 
 
@@ -257,7 +257,7 @@ def _value(value: str, reasons: list[str]) -> str:
         reasons.append("a table stands in braces, or below its title in square brackets")
         value = f"{{{called[2]}}}"
     numbers = re.split(r"\s*[,;]\s*", value)
-    if len(numbers) > 1 and all(_QUANTITY.fullmatch(one) for one in numbers) and not _COMMA.fullmatch(value):
+    if len(numbers) > 1 and all(_QUANTITY.fullmatch(x) for x in numbers) and not _COMMA.fullmatch(value):
         reasons.append("a list stands in square brackets")
         value = f"[{', '.join(numbers)}]"
     value, behind = _behind(value)
@@ -285,10 +285,10 @@ def _each(value: str, behind: str, reasons: list[str]) -> str:
     if set(behind) <= set("])}"):
         return _list(value + behind, reasons)
     items = _split(value[1:-1], reasons)
-    if not re.fullmatch(r"[A-Za-z°][^\"'\[\]]*", behind) or not all(_BARE.fullmatch(one) for one in items):
+    if not re.fullmatch(r"[A-Za-z°][^\"'\[\]]*", behind) or not all(_BARE.fullmatch(item) for item in items):
         raise _Hopeless(f"{behind[:40]} stands behind the list: take it away, or begin a comment with #")
     reasons.append("each number has its unit, in quotes")
-    united = [f'"{one} {behind}"' for one in items]
+    united = [f'"{item} {behind}"' for item in items]
     return f"[{', '.join(united)}]"
 
 
@@ -337,13 +337,13 @@ def _split(inner: str, reasons: list[str]) -> list[str]:
     """The items of a list: parted by commas, semicolons or blanks, with commas for decimals or without."""
     if not re.search(r"[\[({\"']", inner):
         for mark in (r"\s*;\s*", r",\s+", r"\s+"):
-            items = [one for one in re.split(mark, inner.strip(" ,;")) if one]
-            if len(items) > 1 and all(_COMMA.fullmatch(one) for one in items):
+            items = [item for item in re.split(mark, inner.strip(" ,;")) if item]
+            if len(items) > 1 and all(_COMMA.fullmatch(item) for item in items):
                 reasons.append("decimals stand behind a point")
-                return [one.replace(",", ".") for one in items]
-        digits = [one.strip() for one in inner.split(",")]
-        if (len(digits) in (4, 6) and all(re.fullmatch(r"[-+]?\d+", one) for one in digits)
-                and any(re.fullmatch(r"0\d+", one) for one in digits[1::2])):
+                return [item.replace(",", ".") for item in items]
+        digits = [item.strip() for item in inner.split(",")]
+        if (len(digits) in (4, 6) and all(re.fullmatch(r"[-+]?\d+", digit) for digit in digits)
+                and any(re.fullmatch(r"0\d+", digit) for digit in digits[1::2])):
             reasons.append("decimals stand behind a point")
             return [f"{a}.{b}" for a, b in zip(digits[::2], digits[1::2])]
         if ";" in inner and re.search(r"[\d.][,\s]\s*[-+\d.]", inner):
@@ -351,11 +351,11 @@ def _split(inner: str, reasons: list[str]) -> list[str]:
             return [f"[{row}]" for row in re.split(r"\s*;\s*", inner.strip(" ;")) if row]
         if ";" in inner:
             reasons.append("commas part the numbers of a list")
-            return [one for one in re.split(r"\s*;\s*", inner.strip(" ;")) if one]
-        words = inner.split()
-        if len(words) > 1 and "," not in inner and all(_BARE.fullmatch(one) for one in words):
+            return [item for item in re.split(r"\s*;\s*", inner.strip(" ;")) if item]
+        text = inner.split()
+        if len(text) > 1 and "," not in inner and all(_BARE.fullmatch(word) for word in text):
             reasons.append("commas part the numbers of a list")
-            return words
+            return text
     return _items(inner)
 
 
@@ -367,7 +367,7 @@ def _items(inner: str) -> list[str]:
         if c == "," and depth == 0:
             items.append(inner[start:at])
             start = at + 1
-    return [one.strip() for one in (*items, inner[start:]) if one.strip()]
+    return [item.strip() for item in (*items, inner[start:]) if item.strip()]
 
 
 def _scalar(value: str, reasons: list[str]) -> str:
@@ -389,10 +389,10 @@ def _scalar(value: str, reasons: list[str]) -> str:
     if lower in NOTHING:
         raise _Hopeless(f"there is no value {value}: leave the key out")
     if _COMMA.fullmatch(value):
-        whole, _, digits = value.partition(",")
-        reasons.append("decimals stand behind a point" + (f"; of thousands write {whole}{digits}"
-                                                          if len(digits) == 3 and whole.strip("+-0") else ""))
-        return f"{whole}.{digits}"
+        full, _, digits = value.partition(",")
+        reasons.append("decimals stand behind a point" + (f"; of thousands write {full}{digits}"
+                                                          if len(digits) == 3 and full.strip("+-0") else ""))
+        return f"{full}.{digits}"
     if _BARE.fullmatch(value):
         return _number(value, reasons)
     if _RATIO.fullmatch(value):
@@ -425,15 +425,15 @@ def _number(value: str, reasons: list[str]) -> str:
     """Digits as TOML has them."""
     sign = value[0] if value[0] in "+-" else ""
     mantissa, mark, power = re.fullmatch(r"([^eEdD]*)([eEdD]?)(.*)", value[len(sign):]).groups()
-    whole, point, digits = mantissa.partition(".")
-    if point and not (whole and digits):
+    full, point, digits = mantissa.partition(".")
+    if point and not (full and digits):
         reasons.append("digits stand on both sides of the point")
-    if len(whole) > 1 and whole.startswith("0"):
+    if len(full) > 1 and full.startswith("0"):
         reasons.append("no zeros stand in front")
     if mark in ("d", "D"):
         reasons.append("a power of ten is written with e")
-    whole = whole.lstrip("0") or "0"
-    return f"{sign}{whole}{f'.{digits or 0}' if point else ''}{'e' if mark else ''}{power}"
+    full = full.lstrip("0") or "0"
+    return f"{sign}{full}{f'.{digits or 0}' if point else ''}{'e' if mark else ''}{power}"
 
 
 def _taken(value: str) -> bool:

@@ -37,16 +37,16 @@ def attitude_of(vertical) -> Float3:
     return math.atan2(y, math.hypot(x, z)), math.atan2(-x, z), 0.0
 
 
-def judge_attitude(table: Table, given: Mapping[str, Float3], scene: AnyScene | None):
+def judge_attitude(table: Table, supplied: Mapping[str, Float3], scene: AnyScene | None):
     """Note a vertical and an attitude of [motion] that contradict each other. given: the blocks that the file
     gives; the zero angles that an attitude starts at where the file gives none count too."""
-    needed = ordered((*getattr(scene, "blocks", ()), *given))
-    if "gamma" not in given or "attitude" not in needed:
+    needed = ordered((*getattr(scene, "blocks", ()), *supplied))
+    if "gamma" not in supplied or "attitude" not in needed:
         return
-    angles, vertical = given.get("attitude", (0.0, 0.0, 0.0)), given["gamma"]
+    angles, vertical = supplied.get("attitude", (0.0, 0.0, 0.0)), supplied["gamma"]
     if math.dist(vertical_of(*angles), vertical) <= SLACK:
         return
-    if "attitude" not in given:
+    if "attitude" not in supplied:
         table.fault(f"attitude is missing: zero angles have the vertical [0, 0, 1], not "
                     f"{_written(vertical)}; with theta = 0 that is "
                     f"attitude = {_written(attitude_of(vertical))}", "vertical")
@@ -90,8 +90,8 @@ def judge_orbit(top: Table, effects: Iterable[Effect], orbiting: bool):
             top.fault(f"a circular orbit takes one body in SI units: take away [{key}]", key)
     for effect in effects:
         if effect.name != "gyrostat":
-            given = effect.name in top.data.get("effects", {})
-            top.fault(WHEELS, *(("effects", effect.name) if given else ("thrusters",)))
+            supplied = effect.name in top.data.get("effects", {})
+            top.fault(WHEELS, *(("effects", effect.name) if supplied else ("thrusters",)))
 
 
 def rate_squared(table: Table) -> Fraction | None:
@@ -99,14 +99,14 @@ def rate_squared(table: Table) -> Fraction | None:
     table.known(ORBIT_KEYS)
     key = table.one_of(*ORBIT_KEYS)
     if key is None:
-        if not any(one in table for one in ORBIT_KEYS):
+        if not any(item in table for item in ORBIT_KEYS):
             table.fault(NONE.replace("a table [circular_orbit] with", "one of"))
         return None
     value = table.number(key)
     if value is None:
         return None
-    least = EARTH if key == "radius" else Fraction(0)
-    if value <= least:
+    smallest = EARTH if key == "radius" else Fraction(0)
+    if value <= smallest:
         cures = {"rate": 'the angular velocity of the orbit is positive, such as rate = "0.06 deg/s"',
                  "period": 'a revolution takes a positive time, such as period = "98 min"',
                  "altitude": 'the height above the equatorial radius of the Earth is positive, such as '
@@ -183,7 +183,7 @@ class Segment(NamedTuple):
 def segments(burns: Sequence[Burn | None], until: Fraction | None = None) -> list[Segment]:
     """From time 0 to the last closing: which of the thrusters fire, between exact switching times. A thruster
     without a burn is None."""
-    windows = [(*window, n) for n, one in enumerate(burns) if one for window in one.windows(until)]
+    windows = [(*window, n) for n, burn in enumerate(burns) if burn for window in burn.windows(until)]
     switches = sorted({Fraction(0), *(t for opens, closes, _ in windows for t in (opens, closes))})
     firing: dict[Fraction, set[int]] = {t: set() for t in switches}
     opening = sorted(windows)
@@ -191,15 +191,15 @@ def segments(burns: Sequence[Burn | None], until: Fraction | None = None) -> lis
     for t in switches:
         while opening and opening[0][0] <= t:
             active.append(opening.pop(0))
-        active = [one for one in active if one[1] > t]
+        active = [item for item in active if item[1] > t]
         firing[t] = {n for _, _, n in active}
     return [Segment(a, b, tuple(sorted(firing[a]))) for a, b in zip(switches, switches[1:])]
 
 
 def burn_of(table: Table) -> Burn | None:
     """The burn of a table [[thrusters]]; None where it has none, or a fault."""
-    given = [key for key in BURN_KEYS if key in table]
-    if not given:
+    supplied = [key for key in BURN_KEYS if key in table]
+    if not supplied:
         return None
     before = len(table.faults.problems)
     start = table.positive("start", zero=True)
@@ -215,7 +215,7 @@ def burn_of(table: Table) -> Burn | None:
                     'as "0.5 g/s"', "propellant")
     if "stuck" in table and table.data["stuck"] is True:
         table.fault("a stuck thruster fires for ever: take away stuck, or the schedule "
-                    f"({', '.join(given)})", "stuck")
+                    f"({', '.join(supplied)})", "stuck")
     if len(table.faults.problems) > before:
         return None
     burn = Burn(start, stop, period, on, mass, flow)

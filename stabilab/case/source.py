@@ -75,11 +75,11 @@ def _neighbour(path: str | Path) -> str:
         return f"; `stabilab example {path} > {path}.toml` writes one"
     folder, name = os.path.split(path)
     try:
-        near = get_close_matches(name, [n for n in os.listdir(folder or ".") if n.endswith(".toml")], n=1)
+        nearby = get_close_matches(name, [n for n in os.listdir(folder or ".") if n.endswith(".toml")], n=1)
     except OSError:
-        near = []
-    if near:
-        return f"; did you mean {os.path.join(folder, near[0])}?"
+        nearby = []
+    if nearby:
+        return f"; did you mean {os.path.join(folder, nearby[0])}?"
     brought = os.path.realpath(os.path.join(FOLDER, name))
     return f"; stabilab brings one: {brought}" if name.endswith(".toml") and os.path.isfile(brought) else ""
 
@@ -115,12 +115,12 @@ def parsed(path: str, text: str) -> tuple[dict, Faults]:
 def _syntax_problems(message: str, text: str, lines: KeyLines) -> list[Problem]:
     """What the TOML reader said, with its line; a key written twice is named with both lines."""
     if message.startswith("Exceeds the limit"):
-        found = re.search(r"\d(_?\d){4000}", text)
-        line = text.count("\n", 0, found.start()) + 1 if found else None
+        result = re.search(r"\d(_?\d){4000}", text)
+        line = text.count("\n", 0, result.start()) + 1 if result else None
         return [Problem("", "an integer of more than 4000 digits is no number for a case", line)]
-    place = re.search(r" \(at (?:line (\d+), column \d+|end of document)\)$", message)
-    line = int(place[1]) if place and place[1] else text.count("\n") + 1 if place else None
-    message = message[:place.start() if place else None][:200]
+    location = re.search(r" \(at (?:line (\d+), column \d+|end of document)\)$", message)
+    line = int(location[1]) if location and location[1] else text.count("\n") + 1 if location else None
+    message = message[:location.start() if location else None][:200]
     if message.startswith(("Cannot", "Duplicate")) and lines.again:
         return [Problem(dotted(key), f"written a second time; the first is in line {lines.line[key]}"
                                      f"{_double(key)}", again)
@@ -141,14 +141,14 @@ def _not_toml(message: str, text: str, line: int | None) -> Problem:
     if format not in ("", "YAML"):
         return Problem("", f"not TOML ({message}): this seems to be {format}; a case is a text in TOML "
                            f"(`stabilab example phone` prints one): {BY_HAND}. {READ}", line)
-    found = repair(text, line) if line else None
+    result = repair(text, line) if line else None
     of = f", this seems to be {format}" if format else ""
-    if found is None:
+    if result is None:
         shown = text.split("\n")[line - 1].strip()[:80] if line and line <= text.count("\n") + 1 else ""
         return Problem("", f"not TOML{of}: {message}" + (f'; got: {shown}' if shown else ""), line)
-    write_ = f"; write: {found.write}" if found.write else ""
-    return Problem(found.key, f"not TOML{of} ({message}); got: {found.came}{write_} ({found.rule})",
-                   found.line)
+    write_ = f"; write: {result.write}" if result.write else ""
+    return Problem(result.key, f"not TOML{of} ({message}); got: {result.came}{write_} ({result.rule})",
+                   result.line)
 
 
 # --- [sweep] of a case file: keys that take several values, every combination of them one case
@@ -195,8 +195,8 @@ def place(data: Mapping[str, Any], key: str) -> tuple:
     """The path of a key of [sweep]; a thruster or wheel is named, and stands at its index."""
     path = tuple(key.split("."))
     if len(path) == 3 and isinstance(data.get(path[0]), list):
-        at = [i for i, one in enumerate(data[path[0]]) if isinstance(one, dict)
-              and one.get("name") == path[1]]
+        at = [i for i, item in enumerate(data[path[0]]) if isinstance(item, dict)
+              and item.get("name") == path[1]]
         return (path[0], at[0], path[2]) if at else path
     return path
 

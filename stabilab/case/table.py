@@ -93,7 +93,7 @@ UNCERTAIN = {("body", "inertia"), ("effects", "gyrostat", "momentum"),
              ("scaled", "a"), ("scaled", "b"), ("scaled", "mu")}  # the keys whose numbers may be uncertain
 
 
-HOMES = {word: home for home, words in {
+HOMES = {word: home for home, value in {
     "[motion]": ("angular_velocity", "omega", "span", "vertical", "attitude", "start", "initial", "state",
                  "x",
                  "tau", "velocity", "damper"),
@@ -109,7 +109,7 @@ HOMES = {word: home for home, words in {
     "[effects.gravity]": ("weight",),
     "[effects] of its own, such as [effects.resistance]": ("coefficient",),
     "[effects.liquid_cavity]": ("density", "viscosity"),
-}.items() for word in words}  # where the words stand that a reader most often writes in another place
+}.items() for word in value}  # where the words stand that a reader most often writes in another place
 
 
 class Uncertain(NamedTuple):
@@ -146,7 +146,7 @@ class Faults:
 
     def ordered(self) -> list[Problem]:
         """All that is to be said, in the order of the file."""
-        return sorted((one for one in self.problems if not self.missing.get(one, set()) & self.unknown),
+        return sorted((item for item in self.problems if not self.missing.get(item, set()) & self.unknown),
                       key=lambda problem: problem.line or 0)
 
 
@@ -230,8 +230,8 @@ class Table:
         """A list of texts, or one; those without a fault."""
         value = self.data.get(key, [])
         listed = value if isinstance(value, list) else [value]
-        tables = [Table(self.path, {key: one}, self.faults) for one in listed]
-        return [words for table in tables if (words := table.text(key))]
+        tables = [Table(self.path, {key: item}, self.faults) for item in listed]
+        return [text for table in tables if (text := table.text(key))]
 
     def number(self, key: str) -> Fraction | None:
         """One exact number."""
@@ -254,16 +254,16 @@ class Table:
         value = self.data.get(key)
         if value is None:
             return None
-        words = {2: "two", 3: "three"}[count]
+        text = {2: "two", 3: "three"}[count]
         if not isinstance(value, list):
             self.fault(
-                f"expected {words} numbers in square brackets, got "
+                f"expected {text} numbers in square brackets, got "
                 f"{described(value)}"
                 f"{_in_brackets(value, count) or _then(cure_of_numbers(self.path, key, value, count))}", key)
             return None
         if len(value) != count or all(isinstance(item, list) for item in value):
             cure = cure_of_numbers(self.path, key, value, count)
-            self.fault(f"expected {words} numbers, got {_counted(value)}{_then(cure)}", key)
+            self.fault(f"expected {text} numbers, got {_counted(value)}{_then(cure)}", key)
             return None
         cure = (cure_of_numbers(self.path, key, value, count)
                 if any(isinstance(item, list) for item in value) else "")
@@ -396,8 +396,8 @@ def _in_brackets(value, count: int) -> str:
     units = [part[2] for part in parts]
     if any(units[:-1]) and not all(units):
         return ""
-    whole = [f'"{part[1]} {unit or units[-1]}"' if units[-1] else part[1] for part, unit in zip(parts, units)]
-    return f"; write [{', '.join(map(printable, ['0'] * (count - len(whole)) + whole))}]"
+    full = [f'"{part[1]} {unit or units[-1]}"' if units[-1] else part[1] for part, unit in zip(parts, units)]
+    return f"; write [{', '.join(map(printable, ['0'] * (count - len(full)) + full))}]"
 
 
 def did_you_mean(word: str, allowed: Iterable[str]) -> str:
@@ -406,8 +406,8 @@ def did_you_mean(word: str, allowed: Iterable[str]) -> str:
     from difflib import get_close_matches
     home = (f"; it is written in {HOMES[word.lower()]}" if word.lower() in HOMES
             and word.lower() not in allowed else "")
-    near = not home and get_close_matches(word.lower()[:60], list(allowed), n=1, cutoff=0.6)
-    return f"; did you mean {near[0]}?" if near else f"{home}; here may stand {', '.join(allowed)}"
+    nearby = not home and get_close_matches(word.lower()[:60], list(allowed), n=1, cutoff=0.6)
+    return f"; did you mean {nearby[0]}?" if nearby else f"{home}; here may stand {', '.join(allowed)}"
 
 
 # --- The facts that a case's test asserts: equilibria, verdicts, fate and extremes, each known before the
@@ -430,11 +430,11 @@ def expected(table: Table | None) -> dict:
     return {key: READERS[key](table, key) for key in table.data if key in KEYS}
 
 
-def _word(words: Sequence[str]):
+def _word(text: Sequence[str]):
     def read(table: Table, key: str):
         value = table.data[key]
-        if value not in words or isinstance(value, Written):
-            table.fault(f"expected one of {', '.join(words)}; got {described(value)}", key)
+        if value not in text or isinstance(value, Written):
+            table.fault(f"expected one of {', '.join(text)}; got {described(value)}", key)
         return value
     return read
 

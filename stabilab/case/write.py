@@ -36,8 +36,8 @@ def exact_text(value: Fraction) -> Written | str:
     if not digits or len(digits) > DECIMALS:
         ratio = f"{value.numerator}/{value.denominator}"
         return ratio if len(ratio) <= RATIO else Written(f"{_rounded(value):e}")
-    whole, fraction = (digits[:-places], digits[-places:]) if places else (digits, "0")
-    return Written(f"{'-' if value < 0 else ''}{whole}.{fraction}")
+    full, fraction = (digits[:-places], digits[-places:]) if places else (digits, "0")
+    return Written(f"{'-' if value < 0 else ''}{full}.{fraction}")
 
 
 def _rounded(value: Fraction) -> Decimal:
@@ -68,7 +68,7 @@ def _table(lines: list[str], path: tuple[str, ...], table: dict[str, Any], brack
 
 def _is_table(value: Any) -> bool:
     return (isinstance(value, dict) or isinstance(value, list) and bool(value)
-            and all(isinstance(one, dict) for one in value))
+            and all(isinstance(item, dict) for item in value))
 
 
 def _key(key: str) -> str:
@@ -101,11 +101,11 @@ def plain(value: Any, name: str = "load") -> Any:
     """The tables, lists and numbers of a dict as a file holds them: tuples and arrays as lists, rationals as
     they stand. Raises InputError for what no file holds."""
     if isinstance(value, Mapping):
-        return {str(key): plain(one, f"{name}: {key}") for key, one in value.items()}
+        return {str(key): plain(item, f"{name}: {key}") for key, item in value.items()}
     if hasattr(value, "tolist"):  # an array, or a number of one
         value = value.tolist()
     if isinstance(value, (list, tuple)):
-        return [plain(one, name) for one in value]
+        return [plain(item, name) for item in value]
     if isinstance(value, Fraction):
         return exact_text(value)
     if isinstance(value, Decimal):

@@ -53,7 +53,7 @@ def whole() -> typer.Typer:
     return program
 
 
-def asked_for(words) -> typer.Typer:
+def asked_for(text) -> typer.Typer:
     """The program as far as a line asks for it: of the file whose command begins the line, of all files where
     none does, the commands that the line names as they are, of the others the name and the help.
 
@@ -62,11 +62,11 @@ def asked_for(words) -> typer.Typer:
     """
     if any(name.startswith("_") and name.endswith("_COMPLETE") for name in os.environ):
         return whole()
-    files = [file for file, names in GROUPS.values() if words[:1] and words[0] in names] or FILES
+    files = [file for file, names in GROUPS.values() if text[:1] and text[0] in names] or FILES
     needed = _without_commands()
     for command in chain.from_iterable(map(_of_file, files)):
         name = command.name or command.callback.__name__
-        if name in words:
+        if name in text:
             needed.registered_commands.append(command)
         else:
             needed.command(name, help=command.callback.__doc__)(lambda: None)
@@ -98,8 +98,8 @@ def _run() -> int:
         return INTERRUPTED
     except ImportError as error:
         from ..packages import explained
-        words = explained(error)
-        return _reported(words) if words else _unexpected(error)
+        text = explained(error)
+        return _reported(text) if text else _unexpected(error)
     except OSError as error:
         if error.errno in LOST and not error.filename:  # written past the guard of stdout
             return _reported(OutputLost(error.errno))

@@ -13,19 +13,19 @@ from .. import commands
 from ..show import command_groups
 
 
-def option(metavar: str, words: str | None = None, *names: str, **more: Any) -> Any:
+def option(metavar: str, text: str | None = None, *names: str, **more: Any) -> Any:
     """An option that takes a value: what that is called in the help, and what is said of it."""
-    return typer.Option(*names, metavar=metavar, help=words, **more)
+    return typer.Option(*names, metavar=metavar, help=text, **more)
 
 
-def flag(name: str, words: str, *names: str, **more: Any) -> Any:
+def flag(name: str, text: str, *names: str, **more: Any) -> Any:
     """An option that is given or not, and has no negative."""
-    return typer.Option(name, *names, help=words, **more)
+    return typer.Option(name, *names, help=text, **more)
 
 
-def argument(metavar: str, words: str, **more: Any) -> Any:
+def argument(metavar: str, text: str, **more: Any) -> Any:
     """An argument, by its place in the line."""
-    return typer.Argument(metavar=metavar, help=words, show_default=False, **more)
+    return typer.Argument(metavar=metavar, help=text, show_default=False, **more)
 
 
 CaseFile = Annotated[Path, argument("CASE", "A case file (TOML).", autocompletion=command_groups.cases)]
@@ -68,10 +68,10 @@ Folder = Annotated[Path, option("DIR", "Folder for the files.")]
 Order = Annotated[int | None, option("N", "Order of the lindstedt expansion.", min=1)]
 
 
-def opens(place: str, **fixed: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+def opens(location: str, **fixed: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """The work of a command that declares its options: a function of `commands` ("sweep.sweep"), which
     gets them all by name, and what is fixed. Its file is read when the command is given."""
-    file, name = place.split(".")
+    file, name = location.split(".")
 
     def answered_by(declared: Callable[..., None]) -> Callable[..., None]:
         @wraps(declared)
@@ -81,6 +81,6 @@ def opens(place: str, **fixed: str) -> Callable[[Callable[..., None]], Callable[
             if options.pop("si", False):
                 options["units"] = "si"
             getattr(import_module(f"{commands.__name__}.{file}"), name)(**options, **fixed)
-        run.opens = place, fixed  # type: ignore[attr-defined]  # for the test that compares the names
+        run.opens = location, fixed  # type: ignore[attr-defined]  # for the test that compares the names
         return run
     return answered_by

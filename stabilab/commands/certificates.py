@@ -26,9 +26,9 @@ def checked(out, paths):
 def certified(case, out) -> bool:
     """Write the certificate of one case; whether all of it could be certified."""
     with blamed_on(case):
-        made = proof_of(case.scene, case.exact_state)
-    say(f"written: {certification.write(made, endings.labelled(out, case))}\n{certification.summary(made)}")
-    return not made["uncertified"]
+        built = proof_of(case.scene, case.exact_state)
+    say(f"written: {certification.write(built, endings.labelled(out, case))}\n{certification.summary(built)}")
+    return not built["uncertified"]
 
 
 def verify(certificate, case, json, strict):
@@ -36,27 +36,27 @@ def verify(certificate, case, json, strict):
     cases = load_cases([case]) if case else []
     try:
         claims = read(certificate)
-        found = check(claims)
+        result = check(claims)
     except (Malformed, UnicodeDecodeError) as error:
         raise InputError(
             f"{certificate}: {error}; expected a certificate of stabilab classify --certify or stabilab "
             f"bifurcation --certify") from None
-    told = about(claims)
-    spare(one for one in (*told.values(), str(certificate), str(case)) if isinstance(one, str))
-    other = _of_another(cases, told, certificate)
-    physical = told.get("variables") == "physical"
-    either(json, lambda: certification.as_dict(found, told),
-           lambda: certification.text(found, line(told), case if other else "", physical))
-    if found.status == "refuted":
+    printed = about(claims)
+    spare(item for item in (*printed.values(), str(certificate), str(case)) if isinstance(item, str))
+    other = _of_another(cases, printed, certificate)
+    physical = printed.get("variables") == "physical"
+    either(json, lambda: certification.as_dict(result, printed),
+           lambda: certification.text(result, line(printed), case if other else "", physical))
+    if result.status == "refuted":
         raise ToleranceNotMet(f"{certificate}: a claim is wrong")
     if other:
         raise ToleranceNotMet(other)
-    leave_undecided(strict, found.status != "proved")
+    leave_undecided(strict, result.status != "proved")
 
 
-def _of_another(cases, told, path):
+def _of_another(cases, printed, path):
     """What differs where a certificate is of none of the cases; empty where it is of one or none is named."""
-    apart = [(case, differences(told, subject(case.scene, case.exact_state))) for case in cases]
+    apart = [(case, differences(printed, subject(case.scene, case.exact_state))) for case in cases]
     return "" if not all(differing for _, differing in apart) else "\n".join(
-        f"{printable(str(path))}: of another case than {case.place}: {words}"
-        for case, differing in apart for words in differing)
+        f"{printable(str(path))}: of another case than {case.place}: {text}"
+        for case, differing in apart for text in differing)

@@ -36,19 +36,19 @@ def _swept_extremes(rows, units):
 
 CLASSIFY = View(
     text=classification.text, swept=_swept, axes=True, boxes=("equilibria", "fate"), packed=every,
-    data=lambda case, found, motion, turn: (classification.as_dict(case, found, motion)
+    data=lambda case, result, motion, turn: (classification.as_dict(case, result, motion)
                                             | {"attitude": turn and row_of(case, turn)}),
-    law=lambda case, found, motion, turn: headline.worst(found.validity, motion and motion.validity),
-    open=lambda found, motion, turn: classification.undecided(found, motion))
+    law=lambda case, result, motion, turn: headline.worst(result.validity, motion and motion.validity),
+    open=lambda result, motion, turn: classification.undecided(result, motion))
 _ONE = View(text=questions.fate, data=questions.fate_dict, swept=_swept, between="\n", axes=True,
-            packed=every, law=lambda case, motion, told: motion.validity,
-            open=lambda motion, told: motion.fate.word == "undecided")
+            packed=every, law=lambda case, motion, printed: motion.validity,
+            open=lambda motion, printed: motion.fate.word == "undecided")
 QUESTIONS = {"fate": replace(_ONE, boxes=("fate",)),
              "extremes": replace(_ONE, text=questions.extremes, data=questions.extremes_dict,
                                  csv=questions.EXTREMES_CSV, swept=_swept_extremes),
              "period": replace(_ONE, text=questions.period, data=questions.period_dict)}
 ATTITUDE = View(text=attitude_text, data=attitude_object, packed=attitude_objects,
-                open=lambda found: found.fate.word == "undecided")
+                open=lambda result: result.fate.word == "undecided")
 
 
 def classify(cases, json, strict, certify, out, follow, tilt, units, why):
@@ -66,7 +66,7 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
              if motion is not None and in_closed_form(case.scene) else None
              for case, motion in zip(loaded, motions)]
     view = replace(CLASSIFY, text=partial(classification.text, proofs=why), swept=None if why else _swept)
-    rows = collected(view, loaded, systems, list(zip([found for _, found in rests], motions, turns)), boxes)
+    rows = collected(view, loaded, systems, list(zip([result for _, result in rests], motions, turns)), boxes)
     show(view, rows, json)
     certified = all([certificates.certified(case, out) for case in loaded]) if certify else True
     judge(view, rows, strict, certified)
@@ -79,8 +79,8 @@ def answer(question, cases, json, digits, strict, units, why, csv=False, follow=
     systems = units_asked(loaded, units, tilt=tilt)
     motions, digits_of = [], []
     for case in one_by_one(loaded):
-        found = motion_of(case, _needed(question, why or bool(case.variant and not json)), follow, certify)
-        motions.append(tilted(case, found, tilt) if question == "fate" else found)
+        result = motion_of(case, _needed(question, why or bool(case.variant and not json)), follow, certify)
+        motions.append(tilted(case, result, tilt) if question == "fate" else result)
         digits_of.append(_told(question, case, motions[-1], digits))
     view = _view(question, digits, why)
     boxes, motions = over_boxes(view, loaded, motions)
@@ -89,33 +89,33 @@ def answer(question, cases, json, digits, strict, units, why, csv=False, follow=
     judge(view, rows, strict)
 
 
-def _needed(question: str, whole: bool):
+def _needed(question: str, full: bool):
     """What of a motion the question prints. whole: with a table of all margins, or what `--why` adds."""
-    if question == "period" and not whole:
+    if question == "period" and not full:
         return Needs.PERIOD | Needs.FLIPS
     return Needs.QUICK if question == "extremes" else Needs.ALL
 
 
 def _view(question, digits, why):
     """How the question is printed, with the digits that were asked for, or with proofs."""
-    view, asked = QUESTIONS[question], digits is not None
-    return replace(view, swept=None if why or asked else view.swept,
-                   text=lambda case, motion, told, units: view.text(case, motion, told, units, asked,
-                                                                    asked or not told.enough, why),
-                   short=lambda motion, told: ([f"{question}: {short(told)}"] if asked and not told.enough
+    view, request = QUESTIONS[question], digits is not None
+    return replace(view, swept=None if why or request else view.swept,
+                   text=lambda case, motion, printed, units: view.text(case, motion, printed, units, request,
+                                                                    request or not printed.enough, why),
+                   short=lambda motion, text: ([f"{question}: {short(text)}"] if request and not text.enough
                                                else []))
 
 
 def _told(question, case, motion, digits):
     """The answer with its digits; unasked, the bound of a formula on its own error is the check."""
-    found = by_bound(question, motion) if digits is None else None
-    if found is None:
+    result = by_bound(question, motion) if digits is None else None
+    if result is None:
         from ..answers.digits import ask
         with blamed_on(case):
-            found = ask(question, case.scene, case.start, DEFAULT if digits is None else digits, case.span,
+            result = ask(question, case.scene, case.start, DEFAULT if digits is None else digits, case.span,
                         motion, case.exact_state,
                         **({"aim": True} if digits is None else {}))
-    return found
+    return result
 
 
 def attitude(cases, json, digits, strict, units):

@@ -45,28 +45,28 @@ def one_by_one(cases: Sequence[Case]) -> Iterable[Case]:
 
 def answers_of(cases: Sequence[Case], ask: Callable[[Case], Any]) -> list[tuple[Case, Any]]:
     """(case, ask(case)) of each, faults blamed on the file of the case."""
-    found = []
+    rows = []
     for case in one_by_one(cases):
         with blamed_on(case):
-            found.append((case, ask(case)))
-    return found
+            rows.append((case, ask(case)))
+    return rows
 
 
-def units_asked(cases: Sequence[Case], asked: str | None, **options: str | None) -> list[Units]:
+def units_asked(cases: Sequence[Case], request: str | None, **options: str | None) -> list[Units]:
     """The units in which each case is told. options: angles and rates as typed, of which a message says that
     they came without a unit, where answers are in degrees: 1 may mean a degree."""
-    systems = [units_of(case, asked) for case in cases]
+    systems = [units_of(case, request) for case in cases]
     if not options or systems[0].name in (SI.name, SCALED.name):
         return systems
     for option, text in options.items():
-        found = split((text or "").rpartition("=")[2].strip())
-        if found is None or found[1]:
+        result = split((text or "").rpartition("=")[2].strip())
+        if result is None or result[1]:
             continue
         unit, degrees = ("rad", "deg") if option in ("tilt", "within") else ("rad/s", "deg/s")
         with suppress(InputError):  # of a number that none can be: told where it is used
-            taken = number(float(quantity(found[0], NONE)[0]) * DEG.rates[1], DIGITS)
-            say(f'--{option}: {found[0]} alone is in {unit}: {taken} {degrees}; for degrees write '
-                f'"{found[0]} {degrees}"')
+            taken = number(float(quantity(result[0], NONE)[0]) * DEG.rates[1], DIGITS)
+            say(f'--{option}: {result[0]} alone is in {unit}: {taken} {degrees}; for degrees write '
+                f'"{result[0]} {degrees}"')
     return systems
 
 
@@ -104,13 +104,13 @@ def _span(case: Case) -> tuple[float, ...]:
 
 def _each(at: Sequence[str], case: Case) -> list[Fraction]:
     """The times between the commas of every --at, exact as they are written."""
-    return [_time(word, case, "at") for one in at for word in one.split(",")]
+    return [_time(word, case, "at") for item in at for word in item.split(",")]
 
 
 def say_repeated(case: Case, at: Sequence[str] | None):
     """A message where --at names a time more than once: it is shown once."""
-    given = _each(at or (), case)
-    twice = sorted({time for time in given if given.count(time) > 1})
+    supplied = _each(at or (), case)
+    twice = sorted({time for time in supplied if supplied.count(time) > 1})
     if twice:
         say(f"--at: named more than once and shown once: {', '.join(f'{float(time):.6g}' for time in twice)}")
 
@@ -129,18 +129,18 @@ def motion_of(case, needs=Needs.ALL, follow=None, proof=False):
     it is enclosed."""
     long = time_asked(follow, case)
     with blamed_on(case), Progress() as progress:
-        words = lambda t, steps, left: progress(
+        text = lambda t, steps, left: progress(
             f"{printable(case.name)}: followed to {t:.4g} {case.scene.time_unit}, {steps} steps")
-        found = motion(case.scene, case.start, case.span, needs, case.exact_state, long,
-                       words if progress.wanted else None, proof)
-        return headline.judged(case, found)
+        result = motion(case.scene, case.start, case.span, needs, case.exact_state, long,
+                       text if progress.wanted else None, proof)
+        return headline.judged(case, result)
 
 
 def tilted(case, motion, angle: str | None):
     """The motion with what a tilt of its torque does, where asked for or given: a second of work."""
-    stated = (case.limits is not None
+    declared = (case.limits is not None
               or any(thruster.stuck and thruster.misalignment for thruster in case.thrusters))
-    if angle is None and not stated:
+    if angle is None and not declared:
         return motion
     from ..answers.when import with_tilt
     with blamed_on(case):

@@ -19,13 +19,13 @@ def doctor():
 
 def text() -> str:
     """Whether something is missing, versions of packages, the renderer's state or cure, the processor."""
-    found = probe()
-    rows = [_answer(found), f"stabilab      {_version('stabilab')}",
+    result = probe()
+    rows = [_answer(result), f"stabilab      {_version('stabilab')}",
             f"python        {platform.python_version()} ({platform.platform()})"]
     rows += [f"{name:<14}{_version(name)}{f' (extra {EXTRAS[name]})' if name in EXTRAS else ''}"
              for name in _needed()]
-    rendering = (f"works ({found.description})" if found.available
-                 else f"does not work: {found.description}; cure: {found.cure}")
+    rendering = (f"works ({result.description})" if result.available
+                 else f"does not work: {result.description}; cure: {result.cure}")
     processor = f"{machine()['processor']}, {os.cpu_count()} logical"
     return "\n".join(rows + [f"{'rendering':<14}{rendering}", f"{'processor':<14}{processor}"])
 
@@ -33,10 +33,10 @@ def text() -> str:
 def _needed() -> list[str]:
     """The packages that the program asks for, those of its extras last."""
     try:
-        asked = metadata.requires("stabilab") or []
+        request = metadata.requires("stabilab") or []
     except metadata.PackageNotFoundError:
-        asked = []
-    names = [re.match(r"[A-Za-z0-9_.-]+", line)[0] for line in asked if _meant_for_this_machine(line)]
+        request = []
+    names = [re.match(r"[A-Za-z0-9_.-]+", line)[0] for line in request if _meant_for_this_machine(line)]
     return list(dict.fromkeys(names + list(EXTRAS)))
 
 
@@ -58,11 +58,11 @@ def _version(name: str) -> str:
         return "not installed"
 
 
-def _answer(found) -> str:
+def _answer(result) -> str:
     """In a line: what is missing, and whether surfaces can be drawn; all other pictures need no renderer."""
     missing = {name: EXTRAS.get(name) for name in _needed() if _version(name) == "not installed"}
     broken = [name for name, extra in missing.items() if not extra]
     extras = list(dict.fromkeys(filter(None, missing.values())))
     parts = [f"NOT INSTALLED: {', '.join(broken)}"] if broken else ["all that stabilab needs is installed"]
     parts += [f"not the extra{'s' * (len(extras) > 1)} {', '.join(extras)}"] if extras else []
-    return f"{', but '.join(parts)}; pictures of surfaces {'can' if found.available else 'CANNOT'} be drawn"
+    return f"{', but '.join(parts)}; pictures of surfaces {'can' if result.available else 'CANNOT'} be drawn"

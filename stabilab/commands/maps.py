@@ -25,10 +25,10 @@ def bifurcation(case, vary, curve, out, certify, csv, json):
     if certify:
         endings.file(certify, (".json",))
         certifiable(spans)
-    found = ask(case, spans, curve)
-    made = diagram_certificate(found) if certify else None
-    files = [bifurcation_picture.write(found, out)] if out else []
-    write_answer(diagram_shown, found, json, csv)
+    result = ask(case, spans, curve)
+    made = diagram_certificate(result) if certify else None
+    files = [bifurcation_picture.write(result, out)] if out else []
+    write_answer(diagram_shown, result, json, csv)
     say_written(files)
     if made:
         say("\n".join([f"written: {certification.write(made, certify)}",
@@ -40,9 +40,9 @@ def basin(case, vary, depth, out, workers, scheduler, follow, csv, json, strict)
     """Show which initial states of a plane spin up, and how rough the boundary is."""
     targets = map_files.checked(out or [])
     with basins(case, split_keys(vary or [], "KEY=FROM:TO or KEY=FROM:TO:N"), depth,
-                map_files.data_of(targets), workers, scheduler, follow) as found:
-        files = [map_files.write_basins(found, path) for path in targets]
-    of_map(basins_shown, found, found.plan.case, files, json, csv, strict)
+                map_files.data_of(targets), workers, scheduler, follow) as result:
+        files = [map_files.write_basins(result, path) for path in targets]
+    of_map(basins_shown, result, result.plan.case, files, json, csv, strict)
 
 
 def atlas(case, torque, wheel, level, refine, certify, follow, no_time, out, workers, scheduler, units, csv,
@@ -50,6 +50,6 @@ def atlas(case, torque, wheel, level, refine, certify, follow, no_time, out, wor
     """Map all directions of a torque. limits: what is to be reached, by the names of the options."""
     plan = asked(case, torque, wheel, level, refine, certify, follow, not no_time, **limits)
     system, targets = units_of(plan.case, units), map_files.checked(out or [], map_files.PAGES)
-    with drawn(plan, targets[0] if targets else None, workers, scheduler) as found:
-        files = [map_files.write_atlas(found, target, system) for target in targets]
-    of_map(atlas_shown, found, plan.case, files, json, csv, strict, system)
+    with drawn(plan, targets[0] if targets else None, workers, scheduler) as result:
+        files = [map_files.write_atlas(result, target, system) for target in targets]
+    of_map(atlas_shown, result, plan.case, files, json, csv, strict, system)

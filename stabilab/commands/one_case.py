@@ -33,13 +33,13 @@ from .common import load_cases, motion_of, time_asked
 from .runner import View, run
 from .writing import write
 
-COMPARE = View(text=cost.text, data=cost.as_dict, law=lambda case, found: found.validity, files=(".csv",),
-               drawn=lambda case, found, units, path: cost.write(case, found, path))
-PRECISION = View(text=lambda case, found, units: shown.text(found),
-                 data=lambda case, found: shown.as_dict(found), csv=shown.CSV,
-                 law=lambda case, found: found.validity, files=shown.FILES,
-                 drawn=lambda case, found, units, path: shown.write(found, path),
-                 short=lambda found: [] if found.questions else [found.reference.reason])
+COMPARE = View(text=cost.text, data=cost.as_dict, law=lambda case, result: result.validity, files=(".csv",),
+               drawn=lambda case, result, units, path: cost.write(case, result, path))
+PRECISION = View(text=lambda case, result, units: shown.text(result),
+                 data=lambda case, result: shown.as_dict(result), csv=shown.CSV,
+                 law=lambda case, result: result.validity, files=shown.FILES,
+                 drawn=lambda case, result, units, path: shown.write(result, path),
+                 short=lambda result: [] if result.questions else [result.reference.reason])
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -55,24 +55,24 @@ def example(name):
     if name is not None:
         write(text_of(name).rstrip("\n"))
         return
-    rows = [f"  {known:<14}{command_of(known):<10}{data_of(text_of(known))['title']}" for known in EXAMPLES]
+    rows = [f"  {info:<14}{command_of(info):<10}{data_of(text_of(info))['title']}" for info in EXAMPLES]
     tell("\n".join(["stabilab example NAME > NAME.toml writes one of these, for stabilab COMMAND NAME.toml.",
                     "", f"  {'NAME':<14}COMMAND", *rows]))
 
 
 def import_(file, out, stuck, body=None):
     """Write the case, name what has no counterpart, and refuse what has faults yet."""
-    given = source_text(file)
-    importer = importer_of(given)
+    supplied = source_text(file)
+    importer = importer_of(supplied)
     if body is not None and not importer.bodies:
-        names = " or ".join(one.name for one in IMPORTERS if one.bodies)
+        names = " or ".join(item.name for item in IMPORTERS if item.bodies)
         raise InputError(f"--body counts the bodies of {names}, and {printable(str(file))} is none")
-    found = importer.read(given, file, body)
-    if isinstance(found, str):
-        _written(found, file, out, stuck)
+    result = importer.read(supplied, file, body)
+    if isinstance(result, str):
+        _written(result, file, out, stuck)
         return
-    text = case_text(found, file, stuck or ())
-    _written(text, file, out, (), (*found.caveats, *found.said), found.omitted)
+    text = case_text(result, file, stuck or ())
+    _written(text, file, out, (), (*result.caveats, *result.said), result.omitted)
 
 
 def _written(text, file, out, stuck, said=(), omitted=()):
@@ -84,10 +84,10 @@ def _written(text, file, out, stuck, said=(), omitted=()):
         say(f"written: {write_text(out, text)}")
     else:
         write(text)
-    for words in said:
-        say(f"{printable(str(file))}: {printable(words)}")
-    for words in omitted:
-        say(f"{printable(str(file))}: no counterpart: {printable(words)}")
+    for phrase in said:
+        say(f"{printable(str(file))}: {printable(phrase)}")
+    for phrase in omitted:
+        say(f"{printable(str(file))}: no counterpart: {printable(phrase)}")
     faults = faults_of(text, out or file)
     if faults:
         raise InputError("\n".join(("the case has faults yet:", *faults)))
@@ -96,13 +96,13 @@ def _written(text, file, out, stuck, said=(), omitted=()):
 def compare(case, order, out, json, strict, units):
     """Set the models of a case beside its exact motion."""
     loaded = load_cases([case], motion=True)
-    for one in loaded:
-        if one.span is None:
-            raise InputError(f"{one.place}: motion: no span; compare needs span = [0, T] in [motion]")
-        if models_of(one.scene) == ("exact",):
+    for item in loaded:
+        if item.span is None:
+            raise InputError(f"{item.place}: motion: no span; compare needs span = [0, T] in [motion]")
+        if models_of(item.scene) == ("exact",):
             raise InputError(
-                f"{one.place}: no analytic model applies to this scene; there is nothing to compare")
-    run(COMPARE, loaded, lambda one: set_side_by_side(one, order=order), units=units, out=out, json=json,
+                f"{item.place}: no analytic model applies to this scene; there is nothing to compare")
+    run(COMPARE, loaded, lambda entry: set_side_by_side(entry, order=order), units=units, out=out, json=json,
         strict=strict)
 
 
@@ -111,9 +111,9 @@ def precision(case, json, csv, out, until, quick, all_settings, strict):
     if out:
         shown.checked(out)
     loaded = load_cases([case], motion=True)
-    ends = {one.place: _end(one, until) for one in loaded}
-    view = replace(PRECISION, text=lambda one, found, units: shown.text(found, all_settings))
-    run(view, loaded, lambda one: measure(one, "quick" if quick else "full", ends[one.place]),
+    ends = {item.place: _end(item, until) for item in loaded}
+    view = replace(PRECISION, text=lambda item, result, units: shown.text(result, all_settings))
+    run(view, loaded, lambda item: measure(item, "quick" if quick else "full", ends[item.place]),
         systems=[SI] * len(loaded), out=out, json=json, csv=csv, strict=strict)
 
 

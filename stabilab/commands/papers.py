@@ -34,11 +34,11 @@ def audit(paper, equation, json, out):
 def validate(source, json, out):
     """Hold the numbers of another tool, or of all, against ours."""
     with counted() as tell:
-        found = validated(source, tell)
+        result = validated(source, tell)
     if out is not None:
-        say(f"written: {comparison.page(found, out)}")
-    either(json, lambda: comparison.as_dict(found), lambda: comparison.text(found))
-    if apart := comparison.unexplained(found):
+        say(f"written: {comparison.page(result, out)}")
+    either(json, lambda: comparison.as_dict(result), lambda: comparison.text(result))
+    if apart := comparison.unexplained(result):
         raise ToleranceNotMet("\n".join(apart))
 
 
@@ -53,8 +53,8 @@ def tables(out):
     """Write the tables of the constant-torque paper."""
     with manifest.written(out, sys.argv[1:], table.case_files(table.STEMS), table.TOLERANCES) as folder:
         with counted() as tell:
-            made = table.write_tables(folder, tell)
-    write("\n".join(str(out / path.relative_to(folder)) for path in made))
+            built = table.write_tables(folder, tell)
+    write("\n".join(str(out / path.relative_to(folder)) for path in built))
 
 
 def figures(numbers, paper, out):
@@ -62,8 +62,8 @@ def figures(numbers, paper, out):
     rows = catalogue.chosen(numbers, paper)
     with manifest.written(out, sys.argv[1:], table.case_files(),
                           {row.file: row.tolerance for row in rows}) as folder:
-        made = catalogue.write(numbers, folder, paper_name=paper)
-    write("\n".join(str(out / path.relative_to(folder)) for path in made))
+        built = catalogue.write(numbers, folder, paper_name=paper)
+    write("\n".join(str(out / path.relative_to(folder)) for path in built))
 
 
 def report(cases, out, papers, precision, certify, workers, strict):
@@ -71,10 +71,10 @@ def report(cases, out, papers, precision, certify, workers, strict):
     beyond: list[str] = []
     undecided: list[str] = []
     loaded = load_cases(cases or [])
-    made = write_report(loaded, out, arguments=sys.argv[1:], papers=papers, precision=precision,
+    built = write_report(loaded, out, arguments=sys.argv[1:], papers=papers, precision=precision,
                         certify=certify,
                         workers=workers, beyond=beyond, undecided=undecided)
-    write("\n".join([*beyond, str(made)]))
+    write("\n".join([*beyond, str(built)]))
     leave_undecided(strict, bool(beyond or undecided) or unphysical(loaded))
 
 

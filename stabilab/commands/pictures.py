@@ -29,9 +29,9 @@ from .writing import hold_laws, write
 SURFACE = View(text=lambda case, summary, units: "", data=lambda case, summary: summary, between="\n",
                law=lambda case, summary: headline.of_case(case), steady=True)
 CHAOS = View(text=chaos_shown.text, data=chaos_shown.as_dict, csv=chaos_shown.CSV, swept=chaos_shown.swept,
-             between="\n", law=lambda case, found: headline.of_case(case),
-             open=lambda found: int(found.labels) == Order.UNDECIDED,
-             drawn=lambda case, found, units, path: chaos_shown.write(case, found, path))
+             between="\n", law=lambda case, result: headline.of_case(case),
+             open=lambda result: int(result.labels) == Order.UNDECIDED,
+             drawn=lambda case, result, units, path: chaos_shown.write(case, result, path))
 
 AN_EXAMPLE = Path(__file__).parents[1] / "cases" / "thruster-stuck-major-axis.toml"
 
@@ -46,12 +46,12 @@ def surface(case, out, json, strict):
         if not hasattr(error, "summaries"):
             raise
         summaries, unavailable = error.summaries, error
-    view = replace(SURFACE, text=lambda one, summary, units: surface_text(summary, out))
+    view = replace(SURFACE, text=lambda entry, summary, units: surface_text(summary, out))
     rows = collected(view, loaded, systems, [(summary,) for summary in summaries])
     show(view, rows, json)
-    for one, summary in zip(loaded, summaries if json else ()):
+    for item, summary in zip(loaded, summaries if json else ()):
         if not summary["sheets"]:
-            say(f"{one.name}: no surface to write: {summary['reason']}")
+            say(f"{item.name}: no surface to write: {summary['reason']}")
     if unavailable:
         raise unavailable
     judge(view, rows, strict)
@@ -67,14 +67,14 @@ def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
     loaded, drawn = load_cases([case], motion=kind != "equilibria"), []
     units_asked(loaded, units)  # says what is wrong with them
     target = out or Path(to_file.default_name(printable(case.stem), kind))
-    for one in loaded:
-        with blamed_on(one):
-            end = time_asked(until, one, "until")
-            drawn.append(to_file.write_all(one, endings.labelled(target, one), kind, to_file.inches(size),
+    for item in loaded:
+        with blamed_on(item):
+            end = time_asked(until, item, "until")
+            drawn.append(to_file.write_all(item, endings.labelled(target, item), kind, to_file.inches(size),
                                            dpi, units, end, neighbours))
-    laws = [headline.of_case(one) for one in loaded]
-    for one, held, paths in zip(loaded, laws, drawn):
-        for line in limiting.beside(of_case(one), units_of(one, units)):
+    laws = [headline.of_case(entry) for entry in loaded]
+    for item, held, paths in zip(loaded, laws, drawn):
+        for line in limiting.beside(of_case(item), units_of(item, units)):
             tell(line)
         if held is not None:
             tell(lettered(held.words))
@@ -94,15 +94,15 @@ def explore(case, port, browser, static, pyodide):
     """Serve a case as a page, or write the page as a folder."""
     if pyodide is not None and static is None:
         raise typer.BadParameter("--pyodide belongs to --static")
-    one = load(case or AN_EXAMPLE)
+    item = load(case or AN_EXAMPLE)
     load_cases([case or AN_EXAMPLE])  # says what is wrong with its [sweep]
     if static is not None:
         from ..show.explore.serve import write as write_folder
-        write(str(write_folder(one, static, pyodide)))
+        write(str(write_folder(item, static, pyodide)))
         return
     from ..show.explore.serve import serve
 
     def announce(address: str) -> None:
         say("Ctrl-C ends it.")
         write(address)
-    serve(one, port, browser, announce)
+    serve(item, port, browser, announce)

@@ -46,8 +46,8 @@ class View:
     axes: bool = False
     boxes: tuple[str, ...] = ()
     packed: Callable[[list[dict[str, Any]]], Any] | None = None
-    open: Callable[..., bool] = lambda *found: False
-    short: Callable[..., Iterable[str]] = lambda *found: ()
+    open: Callable[..., bool] = lambda *result: False
+    short: Callable[..., Iterable[str]] = lambda *result: ()
     drawn: Callable[..., Any] | None = None
     files: tuple[str, ...] = endings.PICTURES
 
@@ -77,25 +77,25 @@ def run(view: View, cases: Sequence[Case], ask: Callable[[Case], Any], *, units:
     systems = units_asked(cases, units, **typed) if systems is None else systems
     if out:
         endings.file(out, view.files)
-    found = [one if isinstance(one, tuple) else (one,) for _, one in answers_of(cases, ask)]
-    rows = collected(view, cases, systems, found)
+    result = [item if isinstance(item, tuple) else (item,) for _, item in answers_of(cases, ask)]
+    rows = collected(view, cases, systems, result)
     show(view, rows, json, csv, out)
     judge(view, rows, strict)
 
 
-def collected(view: View, cases: Sequence[Case], systems: Sequence[Units], found: Sequence[tuple[Any, ...]],
+def collected(view: View, cases: Sequence[Case], systems: Sequence[Units], result: Sequence[tuple[Any, ...]],
              boxes: Sequence[Any] | None = None) -> list[Answered]:
     """What was found with all that limits it: the one place where the caveats of an answer are collected."""
     rows = []
-    for case, units, one, box in zip(cases, systems, found, boxes or [None] * len(cases)):
-        law = view.law(case, *one) if view.law else None
+    for case, units, item, box in zip(cases, systems, result, boxes or [None] * len(cases)):
+        law = view.law(case, *item) if view.law else None
         # a motion, which stands last, says more than the equilibria
-        own = next((part.caveats for part in reversed(one) if getattr(part, "caveats", None) is not None),
+        own = next((part.caveats for part in reversed(item) if getattr(part, "caveats", None) is not None),
                    None)
         caveats = of_case(case, law, view.steady) if own is None else tuple(own)
         if not any(caveat.kind is Kind.LAW for caveat in caveats):
             caveats = tuple(dict.fromkeys((*caveats, *caveats_of(case.scene, validity=law))))
-        rows.append(Answered(case, one, units, law, caveats, box))
+        rows.append(Answered(case, item, units, law, caveats, box))
     return rows
 
 
@@ -133,8 +133,8 @@ def _packed(view: View, rows: list[Answered]) -> Any:
 
 
 def _object(view: View, row: Answered) -> dict[str, Any]:
-    made = view.data(row.case, *row.found)
-    return (made | ({} if view.parts else limiting.key(row.case, row.caveats))
+    built = view.data(row.case, *row.found)
+    return (built | ({} if view.parts else limiting.key(row.case, row.caveats))
             | (frame.key(row.case) if view.axes else {})
             | (headline.key(row.law) if view.law else {})
             | (classification.uncertain_dict(row.box) if view.boxes else {}))
@@ -158,23 +158,23 @@ def _part(view: View, rows: list[Answered], tabled: bool) -> str:
     """The text of an answer, or of the combinations of a file."""
     first = rows[0]
     below = [classification.in_si(row.box, row.units) for row in rows]
-    whole = tabled and bool(first.case.variant)
-    if whole:
+    full = tabled and bool(first.case.variant)
+    if full:
         table = view.swept([(row.case, *row.found) for row in rows], first.units)
-        words = scene.text([row.case for row in rows], *table)
+        label = scene.text([row.case for row in rows], *table)
     else:
-        words = classification.first(first.box, view.text(first.case, *first.found, first.units), first.units)
-    return (headline.first(headline.worst(*(row.law for row in rows)), words, first.units,
-                           list(dict.fromkeys(_shown(view, rows, whole, below))))
+        label = classification.first(first.box, view.text(first.case, *first.found, first.units), first.units)
+    return (headline.first(headline.worst(*(row.law for row in rows)), label, first.units,
+                           list(dict.fromkeys(_shown(view, rows, full, below))))
             + "".join(dict.fromkeys(below)))
 
 
-def _shown(view: View, rows: list[Answered], whole: bool, below: list[str]) -> Iterator[Caveat]:
+def _shown(view: View, rows: list[Answered], full: bool, below: list[str]) -> Iterator[Caveat]:
     """Of a table those of the file; without those on uncertain numbers where words on their box follow."""
-    for row, words in zip(rows, below):
-        for one in row.case.caveats if whole else row.caveats:
-            if not words or one.kind not in (Kind.UNCERTAIN, Kind.SAMPLES):
-                yield one
+    for row, phrase in zip(rows, below):
+        for caveat in row.case.caveats if full else row.caveats:
+            if not phrase or caveat.kind not in (Kind.UNCERTAIN, Kind.SAMPLES):
+                yield caveat
 
 
 # --- Uncertain numbers

@@ -38,7 +38,7 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, mat
             raise InputError(
                 f"--{'attitude' if attitude else 'matrix'}: the attitude is that of the exact motion, in one "
                 f"form: give it without --model, --angles and --{'matrix' if attitude else 'attitude'}")
-        loaded = [with_quaternion(one) for one in loaded]
+        loaded = [with_quaternion(entry) for entry in loaded]
     systems = units_asked(loaded, units)
     say_repeated(loaded[0], at)
     if out:
@@ -48,29 +48,29 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, mat
             turning = "quaternion" if attitude or matrix else None
             runs = [(loaded[0], simulate_burn(burning, times_asked(loaded[0], at), turning), None)]
     else:
-        runs = [(one, *_followed(one, times_asked(one, at), model, method, rtol, order, digits))
-                for one in one_by_one(loaded)]
+        runs = [(entry, *_followed(entry, times_asked(entry, at), model, method, rtol, order, digits))
+                for entry in one_by_one(loaded)]
     if matrix:
-        runs = [(one, in_matrices(run), reached) for one, run, reached in runs]
-    for n, (one, run, reached) in enumerate(runs if angles else ()):
-        with blamed_on(one):
-            runs[n] = one, with_euler_angles(one, run, model, order), reached
+        runs = [(entry, in_matrices(run), reached) for entry, run, reached in runs]
+    for n, (item, run, reached) in enumerate(runs if angles else ()):
+        with blamed_on(item):
+            runs[n] = item, with_euler_angles(item, run, model, order), reached
     if out:
-        write_each(out, [(one, partial(simulation.write, one, run)) for one, run, _ in runs])
+        write_each(out, [(entry, partial(simulation.write, entry, run)) for entry, run, _ in runs])
     view = _view(digits)
-    rows = collected(view, loaded, systems, [(answered(run, one, run.validity), reached)
-                                             for one, run, reached in runs])
+    rows = collected(view, loaded, systems, [(answered(run, entry, run.validity), reached)
+                                             for entry, run, reached in runs])
     if json or not out:
         show(view, rows, json)
     else:
-        for line in headline.lines_of([(one, run.validity) for one, run, _ in runs]):
+        for line in headline.lines_of([(entry, run.validity) for entry, run, _ in runs]):
             say(line)
-        for one, _, reached in runs:
+        for item, _, reached in runs:
             if reached and not reached.enough:
-                say(f"{one.place}: checked to {reached.digits:.1f} digits: {reached.because}")
-        for one, run, _ in runs:
+                say(f"{item.place}: checked to {reached.digits:.1f} digits: {reached.because}")
+        for item, run, _ in runs:
             for name, error in simulation.lost_columns(run):
-                say(f"{one.place}: {name}: {simulation.zero_within(error)} where it is smaller than that")
+                say(f"{item.place}: {name}: {simulation.zero_within(error)} where it is smaller than that")
     judge(view, rows, strict)
 
 
@@ -104,18 +104,18 @@ def _followed(case, times, model, method, rtol, order, digits):
 
 
 def _as_dict(case, run, reached) -> dict:
-    told = reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because,
+    printed = reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because,
                         "reason": reached.reason.as_dict()}
-    return simulation.as_dict(case, run) | {"digits": told, "theory": _theory(case, run)}
+    return simulation.as_dict(case, run) | {"digits": printed, "theory": _theory(case, run)}
 
 
 def _as_text(case, run, reached, digits, units, width) -> str:
     checked = "checked to " if digits is None else ""
     last = f"\n# {checked}{reached.digits:.1f} digits: {reached.because}" if reached else ""
-    told = "".join(f"\n# {line}" for line in simulation.theory_lines(_theory(case, run), units))
+    printed = "".join(f"\n# {line}" for line in simulation.theory_lines(_theory(case, run), units))
     # as many as the check vouches for, those asked for at least: exit code 5 says where they are not reached
-    known = None if digits is None else max(digits, int(min(reached.digits, 99.0)))
-    return simulation.text(case, run, units, known, width) + last + told
+    resolved = None if digits is None else max(digits, int(min(reached.digits, 99.0)))
+    return simulation.text(case, run, units, resolved, width) + last + printed
 
 
 def _theory(case: Case, run: Simulation) -> list:
@@ -126,16 +126,16 @@ def _theory(case: Case, run: Simulation) -> list:
 
 def reference(case, at, digits, out, json):
     """Write the states of a case, of every combination where it has a [sweep]."""
-    loaded, made = load_cases([case], motion=True), []
+    loaded, built = load_cases([case], motion=True), []
     say_repeated(loaded[0], at)
     if out:
         endings.file(out, shown.SUFFIXES)
-    for one in loaded:
-        with blamed_on(one):
-            made.append((one, *shown.as_dict(one, exact_times_asked(one, at), digits, sys.argv[1:])))
+    for item in loaded:
+        with blamed_on(item):
+            built.append((item, *shown.as_dict(item, exact_times_asked(item, at), digits, sys.argv[1:])))
     if out:
-        write_each(out, [(one, partial(shown.write, found)) for one, found, _ in made])
+        write_each(out, [(entry, partial(shown.write, result)) for entry, result, _ in built])
     else:
-        write(as_json([found for _, found, _ in made] if len(made) > 1 else made[0][1]) if json
-              else "".join(shown.csv(found) for _, found, _ in made).rstrip("\n"))
-    all_reached(short for one in made for short in shown.missing(*one))
+        write(as_json([result for _, result, _ in built] if len(built) > 1 else built[0][1]) if json
+              else "".join(shown.csv(result) for _, result, _ in built).rstrip("\n"))
+    all_reached(short for entry in built for short in shown.missing(*entry))

@@ -33,23 +33,23 @@ from .common import load_cases
 from .runner import View, every, run
 
 
-def _drawn(case, found, units, path):
+def _drawn(case, result, units, path):
     from ..show.plot.over_time import write_stuck
-    return write_stuck(case, found, units, path)
+    return write_stuck(case, result, units, path)
 
 
 STUCK = View(text=shown.text, data=shown.as_dict, csv=shown.CSV, swept=shown.swept, parts=True, drawn=_drawn,
-             open=lambda found: any(row.fate == "undecided" for row in found.rows))
+             open=lambda result: any(row.fate == "undecided" for row in result.rows))
 BURN = View(text=shown.burn_text, data=shown.burn_dict, open=shown.burn_undecided)
 WHEN = View(text=questions.text, data=questions.as_dict, csv=questions.CSV, swept=questions.swept,
             between="\n", axes=True, packed=every,
-            law=lambda case, limit, found: headline.until(case, found.validity, float(found.high)),
-            open=lambda limit, found: questions.unknown(found) or questions.varies(found))
-FLAT_SPIN = View(text=flat_spin_text, data=flat_spin_dict, open=lambda found: found.outcome == "undecided")
+            law=lambda case, limit, result: headline.until(case, result.validity, float(result.high)),
+            open=lambda limit, result: questions.unknown(result) or questions.varies(result))
+FLAT_SPIN = View(text=flat_spin_text, data=flat_spin_dict, open=lambda result: result.outcome == "undecided")
 ORBIT = View(text=circular_orbit_text, data=circular_orbit_dict,
-             open=lambda found: any(one.verdict == "undecided"
-                                    for one in (*found.equilibria.points, *found.equilibria.families)),
-             drawn=lambda case, found, units, path: bifurcation_picture.write_orbit(case, found, path, units))
+             open=lambda result: any(item.verdict == "undecided"
+                                    for item in (*result.equilibria.points, *result.equilibria.families)),
+             drawn=lambda case, out, units, path: bifurcation_picture.write_orbit(case, out, path, units))
 
 
 def stuck(case, all_thrusters, units, why, out, json, csv, strict):
@@ -58,18 +58,18 @@ def stuck(case, all_thrusters, units, why, out, json, csv, strict):
     loaded = list(map(each_firing, loaded)) if all_thrusters else loaded
     view = replace(STUCK, swept=None) if all_thrusters or why else STUCK
 
-    def asked(one):
+    def asked(item):
         with told() as tell:
-            return ask(one, all_thrusters, tell)
+            return ask(item, all_thrusters, tell)
     run(view, loaded, asked, units=units, out=out, json=json, csv=csv, strict=strict)
 
 
 def burn(case, stop, below, units, json, strict):
     """Answer one case."""
     burning = load_burning(case)
-    asked = {name: in_si(text.strip(), dimension, f"--{name}")
+    query = {name: in_si(text.strip(), dimension, f"--{name}")
              for name, text, dimension in (("stop", stop, TIME), ("below", below, RATE)) if text is not None}
-    run(BURN, [burning.craft], lambda craft: left_by(burning, **asked), units=units, json=json, strict=strict,
+    run(BURN, [burning.craft], lambda craft: left_by(burning, **query), units=units, json=json, strict=strict,
         below=below)
 
 
@@ -77,17 +77,17 @@ def when(cases, units, json, csv, strict, **limits):
     """Answer every case. limits: what is to be reached and by when, by the names of the options."""
     paths = list(map(str, cases))
     burns = {path: load_burning(path) for path in paths if fires_on_schedule(path)}
-    loaded = [*(one.craft for one in burns.values()),
+    loaded = [*(item.craft for item in burns.values()),
               *load_cases([path for path in paths if path not in burns], motion=True)]
     loaded.sort(key=lambda case: paths.index(case.path))
 
-    stated = {case.place: stated_limit(case, **limits) for case in loaded}
+    declared = {case.place: stated_limit(case, **limits) for case in loaded}
 
     def asked(case):
-        limit = stated[case.place]
-        found = (time_of_burn(burns[case.path], limit.ask, limit.until) if case.path in burns
+        limit = declared[case.place]
+        result = (time_of_burn(burns[case.path], limit.ask, limit.until) if case.path in burns
                  else limited_time(case, limit.ask, limit.until))
-        return limit, found
+        return limit, result
     run(WHEN, loaded, asked, units=units, json=json, csv=csv, strict=strict,
         **{name: limits[name] for name in ("rate", "component", "tilt")})
 
@@ -95,7 +95,7 @@ def when(cases, units, json, csv, strict, **limits):
 def flat_spin(case, within, units, json, strict):
     """Answer a case, every combination where it has a [sweep]."""
     angle = in_si(within.strip(), ANGLE, "--within")
-    run(FLAT_SPIN, load_cases([case], motion=True), lambda one: ask_flat_spin(one, angle), units=units,
+    run(FLAT_SPIN, load_cases([case], motion=True), lambda item: ask_flat_spin(item, angle), units=units,
         json=json, strict=strict, within=within)
 
 
@@ -105,6 +105,6 @@ def orbit(case, up_to, out, units, json, strict):
         raise InputError("--out: equilibria are drawn over the momentum of the wheels: say up to which, such "
                          'as --up-to "2 N m s"')
     orbiting = load_orbiting(case)
-    most = None if up_to is None else in_si(up_to.strip(), MOMENTUM, "--up-to")
-    run(ORBIT, [orbiting.craft], lambda craft: circular_orbit(orbiting, most), units=units, out=out,
+    largest = None if up_to is None else in_si(up_to.strip(), MOMENTUM, "--up-to")
+    run(ORBIT, [orbiting.craft], lambda craft: circular_orbit(orbiting, largest), units=units, out=out,
         json=json, strict=strict)

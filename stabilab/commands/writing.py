@@ -26,28 +26,28 @@ def write(text: str):
     sys.stdout.flush()
 
 
-def either(json: bool, data, words):
+def either(json: bool, data, text):
     """JSON to stdout, or text for people; both are functions, and one of them is called."""
     if json:
         write(as_json(data()))
     else:
-        tell(words())
+        tell(text())
 
 
-def of_map(shown, found, case, files, json: bool, csv: bool, strict: bool, *more):
+def of_map(shown, result, case, files, json: bool, csv: bool, strict: bool, *more):
     """Print a map of a case by json, csv or text of `shown`, and name its files; exit with 3 where strict and
     something is undecided. more: for all but csv."""
-    write_answer(shown, found, json, csv, *more)
+    write_answer(shown, result, json, csv, *more)
     say_written(files)
-    leave_undecided(strict, strict and (shown.undecided(found) or unphysical([case])))
+    leave_undecided(strict, strict and (shown.undecided(result) or unphysical([case])))
 
 
-def write_answer(shown, found, json: bool, csv: bool, *more):
+def write_answer(shown, result, json: bool, csv: bool, *more):
     """What was found by json, csv or text of `shown`; `more`: for all but csv."""
     if json or csv:
-        write(shown.json(found, *more) if json else shown.csv(found))
+        write(shown.json(result, *more) if json else shown.csv(result))
     else:
-        tell(shown.text(found, *more))
+        tell(shown.text(result, *more))
 
 
 def write_each(out, writers):
@@ -79,7 +79,7 @@ def hold_laws(strict: bool, validities, cases=()):
 
 def unphysical(cases: Sequence[Case]) -> bool:
     """Whether no rigid body has the tensor of one of the cases."""
-    return any(one.kind is Kind.UNPHYSICAL for case in cases for one in case.caveats)
+    return any(caveat.kind is Kind.UNPHYSICAL for case in cases for caveat in case.caveats)
 
 
 def all_reached(short):

@@ -150,12 +150,12 @@ class Precision:
 
 def pareto(points) -> list[Point]:
     """Points that no other beats in both error and seconds, cheapest first."""
-    best, found = math.inf, []
+    best, result = math.inf, []
     for p in sorted(points, key=lambda p: (p.seconds, p.error)):
         if p.error < best and p.error < 1:
-            found.append(p)
+            result.append(p)
             best = p.error
-    return found
+    return result
 
 
 def digit_price(points) -> float | None:
@@ -180,37 +180,37 @@ def precision(case, effort: str = "full", until: float | None = None, progress=N
     Raises InputError for a case without a motion and a span, for an end that is not above zero, and for rates
     that are no polynomials.
     """
-    tell = progress or (lambda words: None)
+    tell = progress or (lambda text: None)
     if until is not None and not 0 < until < math.inf:
         raise InputError(f"until: expected a time above zero, got {until!r}")
     case = case if until is None else replace(case, span=(0.0, float(until)))
-    task, most = problem(case, TIMES), EFFORTS[effort]
+    task, largest = problem(case, TIMES), EFFORTS[effort]
     tell("reference")
     period = known_period(task)
     began = time.process_time()
     exact = reference(case.scene, task.start, task.times, task.equations.blocks, period is not None,
-                      most.work)
+                      largest.work)
     took = time.process_time() - began
     points: list[Point] = []
     left_out: list[Any] = []
-    spans = [exact.t, exact.t[-1:]][:2 if most.ends else 1]
-    for method in methods(task, most.every) if len(exact.t) else ():
-        if method.name not in most.without:
+    spans = [exact.t, exact.t[-1:]][:2 if largest.ends else 1]
+    for method in methods(task, largest.every) if len(exact.t) else ():
+        if method.name not in largest.without:
             tell(method.name)
-            _measured(task, method, exact, most, spans, points, left_out)
-    for method in answer_methods(task, period, most.every) if exact.period else ():
+            _measured(task, method, exact, largest, spans, points, left_out)
+    for method in answer_methods(task, period, largest.every) if exact.period else ():
         tell(f"{method.name}, period and extremes")
-        _measured(task, method, exact, most, [None], points, left_out)
+        _measured(task, method, exact, largest, [None], points, left_out)
     fates = tuple(FateAnswer(name, word, *timing) for name, call in fate_methods(task) for word,
-                  *timing in [_timed(call, most)])
+                  *timing in [_timed(call, largest)])
     return Precision(case, task, exact.t, exact, tuple(points), fates, _sensitivity(task, exact),
                      tuple(left_out), effort, took)
 
 
 def _timed(call: Callable[..., Any], effort: Effort):
     """(answer of the first run, fastest, slowest, repeats) of the runs after it."""
-    answer, seconds, (most, enough) = call(), [], effort.repeats
-    while len(seconds) < most and (not seconds or sum(seconds) < enough):
+    answer, seconds, (largest, enough) = call(), [], effort.repeats
+    while len(seconds) < largest and (not seconds or sum(seconds) < enough):
         start = time.process_time()
         call()
         seconds.append(time.process_time() - start)
@@ -232,7 +232,7 @@ def _measured(task: Problem, method: Method, exact: Reference, effort: Effort, s
         compiled = time.process_time() - start
         for question, times in zip(("span", "end"), spans):
             answer, fast, slow, repeats = _timed(partial(run, times), effort)
-            known = "" if times is None or set(answer.parts) == set(task.slices) else ", ".join(answer.parts)
+            info = "" if times is None or set(answer.parts) == set(task.slices) else ", ".join(answer.parts)
             errors = (_answer_errors(answer, exact) if times is None
                       else {question: _state_error(task, answer, exact, len(times))})
             if errors.get("span") == math.inf or errors.get("end") == math.inf:
@@ -240,7 +240,7 @@ def _measured(task: Problem, method: Method, exact: Reference, effort: Effort, s
                 break
             points += [Point(name, method.name, method.setting, value, error, answer.steps,
                              answer.evaluations, fast / method.lanes, slow / method.lanes, repeats, compiled,
-                             method.lanes, known) for name, error in errors.items()]
+                             method.lanes, info) for name, error in errors.items()]
         used = answer.evaluations or 0
         growth, last = max(1.0, used / last) if last and used else 1.0, used
 
@@ -266,8 +266,8 @@ def _answer_errors(answer: Answer, exact: Reference) -> dict[str, float]:
     period = abs((answer.parts["period"][0] - high) - low) / high
     high, low = exact.extremes[..., 0], exact.extremes[..., 1]
     extremes = np.abs((answer.parts["extremes"] - high) - low).max() / (np.abs(high).max() or 1.0)
-    return {name: max(float(error), least) if np.isfinite(error) else math.inf
-            for name, error, least in (("period", period, own), ("extremes", extremes, exact.extremes_error))}
+    return {name: max(float(error), lower) if np.isfinite(error) else math.inf
+            for name, error, lower in (("period", period, own), ("extremes", extremes, exact.extremes_error))}
 
 
 def _sensitivity(task: Problem, exact: Reference) -> float | None:
@@ -281,8 +281,8 @@ def _sensitivity(task: Problem, exact: Reference) -> float | None:
     moved = np.abs(nudged - task.start).max() / (np.abs(task.start).max() or 1.0)
     if not moved:
         return None
-    found, _ = one_run(Recursion(task.equations), nudged, exact.t, 30, [WORK], exact.period is not None)
-    n = len(found)
-    states, rest = pairs(found)
+    result, _ = one_run(Recursion(task.equations), nudged, exact.t, 30, [WORK], exact.period is not None)
+    n = len(result)
+    states, rest = pairs(result)
     shift = relative_errors(states, exact.states[:n], exact.rest[:n] - rest, task.slices)
     return float(shift.max() / moved)

@@ -113,13 +113,13 @@ FINE = {"taylor": 1, "reduced": 1}  # a rung of these costs little: every so-man
 
 def methods(task: Problem, every: int = 1) -> list[Method]:
     """Every method that applies to a motion. every: rungs of each ladder to take, the last always."""
-    found = []
+    rows = []
     if heyoka_available():
-        found += [Method("taylor", "rtol", TAYLOR_LADDER, _taylor),
+        rows += [Method("taylor", "rtol", TAYLOR_LADDER, _taylor),
                   Method("taylor-batch", "rtol", TAYLOR_LADDER[1::2], _batch, LANES)]
-    found += [Method(name, "rtol", SCIPY_LADDER, _scipy(name)) for name in SCIPY_METHODS]
-    found += _reduced(task) + _models(task)
-    return [thinned(m, min(every, FINE.get(m.name, every))) for m in found]
+    rows += [Method(name, "rtol", SCIPY_LADDER, _scipy(name)) for name in SCIPY_METHODS]
+    rows += _reduced(task) + _models(task)
+    return [thinned(m, min(every, FINE.get(m.name, every))) for m in rows]
 
 
 def thinned(method: Method, every: int) -> Method:
@@ -207,27 +207,27 @@ def _reduced(task: Problem) -> list[Method]:
 
 def _models(task: Problem) -> list[Method]:
     """The analytic models of the case that have an answer for this motion."""
-    found = []
+    rows = []
     for name in models_of(task.scene)[1:]:
         ladder, setting = ((1, 2, 3, 4, 6, 8), "order") if name == "lindstedt" else ((1,), "formula")
         try:
             follow(task.case, task.times[:1], name, order=ladder[0] if name == "lindstedt" else None)
         except InputError:
             continue
-        found.append(Method(name, setting, ladder, _model(name)))
-    return found
+        rows.append(Method(name, setting, ladder, _model(name)))
+    return rows
 
 
 def _model(name):
     def prepare(task, setting):
         def run(times: np.ndarray):
             answer = follow(task.case, times, name, order=setting if name == "lindstedt" else None)
-            known = {part: _filled(answer.state[part], len(times)) for part in task.slices
+            resolved = {part: _filled(answer.state[part], len(times)) for part in task.slices
                      if part in answer.state}
             if "attitude" in task.slices and "angles" in answer.state:
-                known["attitude"] = _filled(quaternion(*np.asarray(answer.state["angles"], float).T).T,
+                resolved["attitude"] = _filled(quaternion(*np.asarray(answer.state["angles"], float).T).T,
                                             len(times))
-            return Answer(known)
+            return Answer(resolved)
         return run
     return prepare
 
@@ -246,10 +246,10 @@ EVENT_METHODS = ("RK45", "DOP853", "LSODA")
 def answer_methods(task: Problem, period: float, every: int = 1) -> list[Method]:
     """Ways to the period and the extremes of a motion that repeats; run(None) gives parts "period" (1,) and
     "extremes" (3, 2)."""
-    found = [Method("taylor", "rtol", TAYLOR_LADDER, _taylor_events(period))] if heyoka_available() else []
-    found += [Method(name, "rtol", SCIPY_LADDER[:10], _scipy_events(name, period)) for name in EVENT_METHODS]
-    found = [thinned(m, every) for m in found]
-    return found + [Method("reduced", "formula", (1,), _roots), Method("balls", "formula", (1,), _balls)]
+    result = [Method("taylor", "rtol", TAYLOR_LADDER, _taylor_events(period))] if heyoka_available() else []
+    result += [Method(name, "rtol", SCIPY_LADDER[:10], _scipy_events(name, period)) for name in EVENT_METHODS]
+    result = [thinned(m, every) for m in result]
+    return result + [Method("reduced", "formula", (1,), _roots), Method("balls", "formula", (1,), _balls)]
 
 
 def _taylor_events(period: float) -> Callable:
@@ -263,11 +263,11 @@ def _taylor_events(period: float) -> Callable:
             pass  # compiles
 
         def run(times: np.ndarray):
-            with taylor_events(forms, tolerance) as (integrator, found):
+            with taylor_events(forms, tolerance) as (integrator, result):
                 integrator.time = 0.0
                 integrator.state[:] = task.start
                 steps = integrator.propagate_until(OVERRUN * period)[3]
-                return _answer(task, period, list(found), steps, steps * integrator.order)
+                return _answer(task, period, list(result), steps, steps * integrator.order)
         return run
     return prepare
 
@@ -289,22 +289,22 @@ def _scipy_events(name: str, period: float) -> Callable:
                                 atol=rtol * ATOL_SHARE * np.abs(task.start).max(), events=events, **options)
             except ValueError:  # its event search: "f(a) and f(b) must have different signs"
                 return Answer({"period": np.array([np.nan]), "extremes": np.full((3, 2), np.nan)})
-            found = [(t, i, y) for i in range(4) for t, y in zip(run.t_events[i], run.y_events[i])]
-            return _answer(task, period, found, len(run.t) - 1, run.nfev)
+            rows = [(t, i, y) for i in range(4) for t, y in zip(run.t_events[i], run.y_events[i])]
+            return _answer(task, period, rows, len(run.t) - 1, run.nfev)
         return run
     return prepare
 
 
-def _answer(task: Problem, period: float, found: Sequence[tuple[float, int, np.ndarray]], steps: int,
+def _answer(task: Problem, period: float, result: Sequence[tuple[float, int, np.ndarray]], steps: int,
             evaluations: int) -> Answer:
     """Period and extremes of the events (time, index, state); nan where the motion was not seen to come home.
     """
     velocity = task.system(task.start)
-    homes = [t for t, i, y in found if i == 3 and t > EARLY * period
+    homes = [t for t, i, y in result if i == 3 and t > EARLY * period
              and task.system(np.asarray(y)) @ velocity > 0]
     home = min(homes, key=lambda t: abs(t - period), default=np.nan)
     extremes = np.repeat(task.start[:3, None], 2, axis=1)
-    for t, i, y in found:
+    for t, i, y in result:
         if i < 3 and not t > home:
             extremes[i] = min(extremes[i, 0], y[i]), max(extremes[i, 1], y[i])
     return Answer({"period": np.array([home]), "extremes": extremes}, int(steps), int(evaluations))
@@ -329,8 +329,8 @@ def known_period(task: Problem):
     it)."""
     if _landscape(task) is None:
         return None
-    found = float(periods(task.scene, task.start))
-    return found if 0 < found < np.inf else None
+    result = float(periods(task.scene, task.start))
+    return result if 0 < result < np.inf else None
 
 
 def _landscape(task: Problem):
@@ -343,9 +343,9 @@ def _landscape(task: Problem):
 def fate_methods(task: Problem) -> list:
     """(name, call) of the ways to the fate: by energy in doubles, and by energy in balls; call() -> its word.
     """
-    if (found := _landscape(task)) is None:
+    if (result := _landscape(task)) is None:
         return []
-    reduction = found.reduction
+    reduction = result.reduction
 
     def in_balls():
         margin = (float(free_margin(task.scene, task.start)) if is_free(task.scene)

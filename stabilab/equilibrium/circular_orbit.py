@@ -101,7 +101,7 @@ class OrbitEquilibria(Reasoned):
 
     def count(self, verdict: str) -> int:
         """How many isolated ones have this verdict."""
-        return sum(one.verdict == verdict for one in self.points)
+        return sum(point.verdict == verdict for point in self.points)
 
 
 def yaw_pitch_roll(velocity: Float3, normal: Float3, vertical: Float3) -> Float3:
@@ -157,15 +157,15 @@ def orbit_equilibria(satellite: Satellite) -> OrbitEquilibria:
         return OrbitEquilibria("curves", (), _of(satellite, turned(satellite, k)),
                                reason=SPREAD.then(COMPLETE))
     places = isolated(satellite)
-    points = [one for line in places.lines for one in _solved(satellite, line)]
+    points = [item for line in places.lines for item in _solved(satellite, line)]
     families = () if places.curve is None else _of(satellite, along_curve(satellite, *places.curve))
     if families:
         on = [replace(solved.one, consists=ON_CURVE) for solved in points if not solved.signs.determinant]
-        families, points = _sorted([*on, *families]), [one for one in points if one.signs.determinant]
+        families, points = _sorted([*on, *families]), [point for point in points if point.signs.determinant]
     else:
         points = [_with_least(solved, points) for solved in points]
-    pairs = tuple(other for one in _sorted([solved.one for solved in points])
-                  for other in (one, _half_turned(one)))
+    pairs = tuple(other for item in _sorted([solved.one for solved in points])
+                  for other in (item, _half_turned(item)))
     return OrbitEquilibria("curves" if families else "points", pairs, families,
                            reason=CURVED.then(COMPLETE) if families else COMPLETE)
 
@@ -174,8 +174,8 @@ def _of(satellite: Satellite, families: Iterable[Family]) -> tuple[OrbitEquilibr
     return _sorted([solved.one for family in families for solved in _solved(satellite, family.line, family)])
 
 
-def _sorted(found: Iterable[OrbitEquilibrium]) -> tuple[OrbitEquilibrium, ...]:
-    return tuple(sorted(found, key=lambda one: (ORDER.index(one.verdict), one.potential)))
+def _sorted(result: Iterable[OrbitEquilibrium]) -> tuple[OrbitEquilibrium, ...]:
+    return tuple(sorted(result, key=lambda item: (ORDER.index(item.verdict), item.potential)))
 
 
 def _with_least(solved: _Solved, points: Iterable[_Solved]) -> _Solved:
@@ -187,10 +187,10 @@ def _with_least(solved: _Solved, points: Iterable[_Solved]) -> _Solved:
     return solved._replace(one=replace(solved.one, verdict="stable", reason=LEAST))
 
 
-def _half_turned(one: OrbitEquilibrium) -> OrbitEquilibrium:
+def _half_turned(item: OrbitEquilibrium) -> OrbitEquilibrium:
     """The other one of a pair: turned about the orbit normal by half a turn."""
     back = lambda v: tuple(0.0 - c for c in v)
-    return replace(one, velocity=back(one.velocity), vertical=back(one.vertical))
+    return replace(item, velocity=back(item.velocity), vertical=back(item.vertical))
 
 
 def _solved(satellite: Satellite, line: Line, family: Family | None = None) -> list[_Solved]:
@@ -277,12 +277,12 @@ class MomentumSpan:
     families: bool = False
 
 
-def spans(satellite: Satellite, most: Fraction) -> tuple[MomentumSpan, ...]:
+def spans(satellite: Satellite, largest: Fraction) -> tuple[MomentumSpan, ...]:
     """The open intervals of s in (0, most), for a momentum s times the satellite's, which is not zero; the
     number is that of the whole interval and differs from the next one's, in all or in minima."""
-    found = cuts((factor for f in _critical(satellite) for factor, _ in f.factor()[1]), Fraction(0), most)
+    result = cuts((factor for f in _critical(satellite) for factor, _ in f.factor()[1]), Fraction(0), largest)
     joined: list[MomentumSpan] = []
-    for gap in gaps(found, Fraction(0), most):
+    for gap in gaps(result, Fraction(0), largest):
         if gap is None:
             continue
         span = _counted(satellite, gap.low, gap.high, gap.sample)
@@ -295,10 +295,10 @@ def spans(satellite: Satellite, most: Fraction) -> tuple[MomentumSpan, ...]:
 
 
 def _counted(satellite: Satellite, low: float, high: float, s: Fraction) -> MomentumSpan:
-    found = orbit_equilibria(replace(satellite, momentum=tuple(s * h for h in satellite.momentum)))
-    every = found.points or found.families
-    stable = [one for one in every if one.minimum or (one.family and one.verdict == "stable")]
-    return MomentumSpan(low, high, len(every), len(stable), not found.points)
+    result = orbit_equilibria(replace(satellite, momentum=tuple(s * h for h in satellite.momentum)))
+    every = result.points or result.families
+    stable = [item for item in every if item.minimum or (item.family and item.verdict == "stable")]
+    return MomentumSpan(low, high, len(every), len(stable), not result.points)
 
 
 def _critical(satellite: Satellite) -> Iterator[fmpq_poly]:
@@ -389,8 +389,8 @@ def branches(satellite: Satellite, spans: Iterable[MomentumSpan]) -> list[Branch
         going: list[Branch] = []
         for s in _momenta(span):
             momentum = tuple(s * h for h in satellite.momentum)
-            found = orbit_equilibria(replace(satellite, momentum=momentum).rounded(BRANCH_BITS)).points[::2]
-            going = _joined(going, float(s), found, done)
+            result = orbit_equilibria(replace(satellite, momentum=momentum).rounded(BRANCH_BITS)).points[::2]
+            going = _joined(going, float(s), result, done)
         done += going
     return done
 
@@ -402,26 +402,26 @@ def _momenta(span: MomentumSpan) -> list[Fraction]:
     return [low + width * n / FINE for n in steps]
 
 
-def _joined(going: Sequence[Branch], s: float, found: Sequence[OrbitEquilibrium],
+def _joined(going: Sequence[Branch], s: float, result: Sequence[OrbitEquilibrium],
             done: list[Branch]) -> list[Branch]:
     """The branches that go on to the equilibria at the next momentum; those that end are added to `done`."""
-    if len(going) != len(found):
+    if len(going) != len(result):
         done += going
-        return [Branch(one.verdict).add(s, one) for one in found]
-    paired = nearest_first((_apart(branch.points[-1], one), i, j) for i, branch in enumerate(going)
-                           for j, one in enumerate(found))
+        return [Branch(entry.verdict).add(s, entry) for entry in result]
+    paired = nearest_first((_apart(branch.points[-1], entry), i, j) for i, branch in enumerate(going)
+                           for j, entry in enumerate(result))
     before = {j: i for i, j in paired.items()}
     out = []
-    for j, one in enumerate(found):
+    for j, item in enumerate(result):
         branch = going[before[j]]
-        if branch.verdict != one.verdict:
+        if branch.verdict != item.verdict:
             done.append(branch)
-            branch = Branch(one.verdict).add(branch.momenta[-1], branch.points[-1])
-        out.append(branch.add(s, one))
+            branch = Branch(item.verdict).add(branch.momenta[-1], branch.points[-1])
+        out.append(branch.add(s, item))
     return out
 
 
-def _apart(one: OrbitEquilibrium, other: OrbitEquilibrium) -> float:
+def _apart(x: OrbitEquilibrium, other: OrbitEquilibrium) -> float:
     """How far two pairs are apart: by the normal, and by the vertical up or down."""
     down = tuple(-v for v in other.vertical)
-    return dist(one.normal, other.normal) + min(dist(one.vertical, other.vertical), dist(one.vertical, down))
+    return dist(x.normal, other.normal) + min(dist(x.vertical, other.vertical), dist(x.vertical, down))

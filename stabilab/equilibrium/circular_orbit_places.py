@@ -125,8 +125,8 @@ class Found:
 def isolated(satellite: Satellite) -> Found:
     """Every line, for a satellite without a continuous symmetry (see `families`)."""
     axes = eigenvectors(satellite)
-    found, curve = _oblique(satellite)
-    return Found((*(line for k in range(3) for line in across(satellite, axes, k)), *found), curve)
+    result, curve = _oblique(satellite)
+    return Found((*(line for k in range(3) for line in across(satellite, axes, k)), *result), curve)
 
 
 def eigenvectors(satellite: Satellite) -> tuple[Exact3, ...]:
@@ -146,10 +146,10 @@ def across(satellite: Satellite, axes: Sequence[Exact3], k: int) -> Iterator[Lin
     i, j = CYCLE[k]
     if dot(satellite.momentum, axes[k]):
         return
-    one, ((A, p, a), (B, q, b)) = fmpq_poly([1]), (about(satellite, axes[n]) for n in (i, j))
+    item, ((A, p, a), (B, q, b)) = fmpq_poly([1]), (about(satellite, axes[n]) for n in (i, j))
     for polynomial, x, y in plane(A, B, p, q, a, b, satellite.rate_squared):
         omega = tuple(rational(u) * x + rational(v) * y for u, v in zip(axes[i], axes[j]))
-        yield Line(polynomial, tuple(rational(v) * one for v in axes[k]), omega, one)
+        yield Line(polynomial, tuple(rational(v) * item for v in axes[k]), omega, item)
 
 
 def about(satellite: Satellite, axis: Exact3) -> tuple[Fraction, Fraction, Fraction]:
@@ -240,9 +240,9 @@ def _eliminated(satellite: Satellite, matrix: Matrix, F: fmpq_mpoly, G: fmpq_mpo
     resultant = coefficients(F.resultant(G, "v"), 0)
     if (len(rows[0]) - 1 != F.total_degree() or len(resultant) - 1 != F.total_degree() * G.total_degree()):
         return None  # a point is at infinity
-    whole = fmpq_poly([c.leading_coefficient() if c != 0 else 0 for c in resultant])
+    full = fmpq_poly([c.leading_coefficient() if c != 0 else 0 for c in resultant])
     lines = []
-    for factor, _ in whole.factor()[1]:
+    for factor, _ in full.factor()[1]:
         if not real_roots_of(factor):
             continue
         number = Algebraic(factor, 0)
@@ -314,8 +314,8 @@ def turned(satellite: Satellite, k: int) -> Iterator[Family]:
     t, one, n2 = fmpq_poly([0, 1]), fmpq_poly([1]), rational(satellite.rate_squared)
     if k == 3:
         wheel = tuple(map(rational, satellite.momentum))
-        least = min(range(3), key=lambda n: abs(wheel[n]))
-        vertical = cross(wheel, tuple(rational(n == least) for n in range(3)))
+        smallest = min(range(3), key=lambda n: abs(wheel[n]))
+        vertical = cross(wheel, tuple(rational(n == smallest) for n in range(3)))
         for polynomial, _ in (dot(wheel, wheel) * t**2 - n2).factor()[1]:
             yield Family(Line(polynomial, tuple(v * one for v in vertical),
                               tuple(v * t % polynomial for v in wheel), one), satellite.momentum,
@@ -351,9 +351,9 @@ def along_curve(satellite: Satellite, common: fmpq_mpoly, matrix: Matrix) -> Ite
         if factor.degrees()[1] < 1:
             continue
         cuts = [univariate(c) for c in (factor.discriminant("v"), coefficients(factor, 1)[-1])]
-        found = sorted(fraction(root.mid().fmpq()) for c in cuts if c.degree() > 0
+        result = sorted(fraction(root.mid().fmpq()) for c in cuts if c.degree() > 0
                        for root, _ in real_roots_of(c))
-        ends = [found[0] - 1, *found, found[-1] + 1] if found else [Fraction(-1), Fraction(1)]
+        ends = [result[0] - 1, *result, result[-1] + 1] if result else [Fraction(-1), Fraction(1)]
         for low, high in zip(ends, ends[1:]):
             u = rational(((low + high) / 2).limit_denominator(1000))
             for piece, _ in fmpq_poly([univariate(c)(u) for c in coefficients(factor, 1)]).factor()[1]:
@@ -472,8 +472,8 @@ def signs_at(satellite: Satellite, line: Line, index: int, family: bool = False)
             if digits.bits < 4 * START_BITS:
                 raise Unclear  # more digits cost less than exact zeros
             vanishing.extend(_vanish(satellite, line, family))
-        known = vanishing or [False] * len(values)
-        return Signs(*(0 if zero else sign(arb(v)) for v, zero in zip(values, known)))
+        resolved = vanishing or [False] * len(values)
+        return Signs(*(0 if zero else sign(arb(v)) for v, zero in zip(values, resolved)))
     return settled(asked, 2 * START_BITS)
 
 

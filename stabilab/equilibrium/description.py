@@ -78,16 +78,16 @@ def over_parameter(constant: Fraction, number: Fraction, behind: str = " t",
     parameter as it stands behind its number; unit: of the number."""
     if not number:
         return Coefficient(constant, RATE)
-    one = behind == " t" and abs(number) == 1
-    term: tuple[str | Coefficient, ...] = ("t",) if one else (Coefficient(abs(number), unit), behind)
+    item = behind == " t" and abs(number) == 1
+    term: tuple[str | Coefficient, ...] = ("t",) if item else (Coefficient(abs(number), unit), behind)
     if not constant:
         return Formula(("-", *term) if number < 0 else term)
     return Formula((Coefficient(constant, RATE), " - " if number < 0 else " + ", *term))
 
 
-def clauses(found: Iterable[Reason]) -> Reason:
+def clauses(result: Iterable[Reason]) -> Reason:
     """Equations one after the other."""
-    return reduce(lambda before, one: before.then(one, ", "), found)
+    return reduce(lambda before, item: before.then(item, ", "), result)
 
 
 def line_text(names: Sequence[str], start: Sequence[Fraction],

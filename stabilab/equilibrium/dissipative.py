@@ -180,7 +180,7 @@ def resisted_equilibria(parts: Content) -> Equilibria:
     if not any(parts.M):
         return (_rest_alone(parts, RUBBED, GLOBAL.then(RUBBED, ": ")) if parts.damped
                 else _rest_alone(parts, RESISTANCE_ALONE, REST))
-    chosen = next((found for e in _axes(parts.D) if (found := elimination(parts, form, e)) is not None), None)
+    chosen = next((out for e in _axes(parts.D) if (out := elimination(parts, form, e)) is not None), None)
     if chosen is None:
         return Equilibria("undecided", reason=NOT_DETERMINED)
     numerators, q, P, e = chosen
@@ -209,8 +209,8 @@ def free_axis(parts: Content) -> Exact3 | None:
     """The only direction about which a linear damper takes nothing, C v = 0; None where there is none or a
     plane of them, and where irrational axes leave it open whether a rotation about it goes on."""
     size = lambda vector: max(map(abs, vector))
-    v, most = max((cross(parts.C[i], parts.C[j]) for i, j in CYCLE), key=size), max(map(size, parts.C))
-    if parts.c or size(v) <= SLACK * most**2 or any(abs(dot(v, row)) > SLACK * size(v) * most
+    v, largest = max((cross(parts.C[i], parts.C[j]) for i, j in CYCLE), key=size), max(map(size, parts.C))
+    if parts.c or size(v) <= SLACK * largest**2 or any(abs(dot(v, row)) > SLACK * size(v) * largest
                                                     for row in parts.C):
         return None
     momentum = [d * x for d, x in zip(parts.D, v)]
@@ -234,8 +234,8 @@ def goes_on(parts: Content, axis: Exact3) -> tuple[Fraction, ...] | None:
 
 def minors(rows: Sequence[Sequence[Poly | Fraction]]):
     """Sums of the principal minors of a 3 x 3 matrix of any numbers, of the orders 1, 2 and 3."""
-    found = list(principal_minors(rows))
-    return [sum(v for n, v in found if n == order) for order in (1, 2, 3)]
+    result = list(principal_minors(rows))
+    return [sum(v for n, v in result if n == order) for order in (1, 2, 3)]
 
 
 def _jacobian(parts: Content, form: QuadraticForm, x: Sequence[Number], q: Number):
@@ -246,8 +246,8 @@ def _jacobian(parts: Content, form: QuadraticForm, x: Sequence[Number], q: Numbe
 
 def _spectrum_of(J: Sequence[list[Fraction]]):
     """The eigenvalues of a matrix of fractions: roots of (z - s)^3 + m (z - s) + n, 3 s its trace."""
-    one, two, three = minors(J)
-    s = one / 3
+    item, two, three = minors(J)
+    s = item / 3
     return eigenvalues(two - 3 * s * s, s * two - three - 2 * s**3, s)
 
 
@@ -290,10 +290,10 @@ def _without_common(P: Poly, q: Poly) -> Poly:
 
 def _point(parts: Content, form: QuadraticForm, numerators: Sequence[Poly], q: Poly, P: Poly,
            t: Fraction) -> EquilibriumPoint:
-    one, two, three = minors(_jacobian(parts, form, numerators, q))  # times q, q^2, q^3
+    item, two, three = minors(_jacobian(parts, form, numerators, q))  # times q, q^2, q^3
     side = sign_at(q, P, t)
     p0 = side * sign_at(-three, P, t)
-    hurwitz = side * sign_at(three - one * two, P, t)
+    hurwitz = side * sign_at(three - item * two, P, t)
     bottom = q(t)
     omega = tuple(top(t) / bottom for top in numerators)
     linear, verdict, reason = _verdict(p0, hurwitz, side, P, t)
@@ -325,9 +325,9 @@ def _verdict(p0: int, hurwitz: int, side: int, P: Poly, t: Fraction) -> tuple[st
 def _crossing(P: Poly, t) -> tuple[int, int]:
     """Multiplicity of the root t of P and the sign of the first derivative that does not vanish there."""
     derivative, order = P.derivative(), 1
-    while not (found := sign_at(derivative, P, t)):
+    while not (result := sign_at(derivative, P, t)):
         derivative, order = derivative.derivative(), order + 1
-    return order, found
+    return order, result
 
 
 def draws_all(parts: Content, omega: Sequence[Fraction]) -> bool:
@@ -355,8 +355,8 @@ def decay(parts: Content) -> Fraction:
         return parts.c
     det = minors([[v - (i == j) * parts.D[i] * T for j, v in enumerate(row)]
                   for i, row in enumerate(parts.drag)])[2]
-    least = real_roots(det, BITS)[0]
-    return least if least > SLACK * max(max(row) for row in parts.drag) / min(parts.D) else Fraction(0)
+    smallest = real_roots(det, BITS)[0]
+    return smallest if smallest > SLACK * max(max(row) for row in parts.drag) / min(parts.D) else Fraction(0)
 
 
 MINIMUM = Verdict("asymptotically stable", Sentence(
@@ -436,9 +436,9 @@ def rest_positions(parts: Content) -> Equilibria:
     """Rest positions of a body in a field with a resisting medium: (omega, gamma) with omega = 0."""
     with working(MANY_BITS):
         field = Field.of(parts)
-        found = [(rotation, _rest(parts, field, rotation)) for rotation in rotations_at(field, Fraction(0))]
-    points = tuple(point for rotation, point in found if not rotation.circle)
-    curves = tuple(_continuum(rotation, point) for rotation, point in found if rotation.circle)
+        rows = [(rotation, _rest(parts, field, rotation)) for rotation in rotations_at(field, Fraction(0))]
+    points = tuple(point for rotation, point in rows if not rotation.circle)
+    curves = tuple(_continuum(rotation, point) for rotation, point in rows if rotation.circle)
     return Equilibria("curves" if curves else "points", points, curves, reason=REST_IN_FIELD)
 
 

@@ -130,16 +130,16 @@ def rotations_at(field: Field, Omega: Fraction) -> list[Rotation]:
     S, b = field.stiffness(O), field.pull(O)
     parted = groups_at(S, b)
     acting = [axes for axes, idle in parted if not idle]
-    found = []
+    rows = []
     if acting:
         mu = fmpq_poly([0, 1])
         n = {axes[0]: S[axes[0]] - mu for axes in acting}
         P = secular(acting, n, b, fmpq_poly([1]))
-        found += _directions(P, S, b, acting)
+        rows += _directions(P, S, b, acting)
     for axes, idle in parted:
         if idle:
-            found += _free_part(axes, acting, S, b, fmpq(1), arb)
-    return found
+            rows += _free_part(axes, acting, S, b, fmpq(1), arb)
+    return rows
 
 
 def _directions(P, S, b, acting) -> list[Rotation]:
@@ -147,26 +147,26 @@ def _directions(P, S, b, acting) -> list[Rotation]:
     S_i - mu has none left."""
     for bits in (MANY_BITS, 4 * MANY_BITS, 16 * MANY_BITS):
         with working(bits):
-            found = []
+            rows = []
             for root in sorted((r.real for r, _ in P.numer().complex_roots() if r.imag == 0),
                                key=lambda r: r.mid()):
                 gamma = [arb(0)] * 3
                 for axes in acting:
                     for i in axes:
                         gamma[i] = -b[i] / (S[i] - root)
-                found.append(Rotation(root, tuple(gamma)))
-        if all(g.is_finite() and g.rad() < 1e-40 for rotation in found for g in rotation.gamma):
-            return found
+                rows.append(Rotation(root, tuple(gamma)))
+        if all(g.is_finite() and g.rad() < 1e-40 for rotation in rows for g in rotation.gamma):
+            return rows
     raise ArithmeticError("a permanent rotation was not told from another in a thousand digits")
 
 
-def secular(acting, n, b, one):
+def secular(acting, n, b, item):
     """prod n_g^2 - sum B_g prod_(h != g) n_h^2."""
-    total = one
+    total = item
     for axes in acting:
         total = total * n[axes[0]] * n[axes[0]]
     for axes in acting:
-        term = sum((b[i] * b[i] for i in axes[1:]), b[axes[0]] * b[axes[0]]) * one
+        term = sum((b[i] * b[i] for i in axes[1:]), b[axes[0]] * b[axes[0]]) * item
         for other in acting:
             if other is not axes:
                 term = term * n[other[0]] * n[other[0]]
@@ -174,9 +174,9 @@ def secular(acting, n, b, one):
     return total
 
 
-def _free_part(axes, acting, S, b, one, arb):
+def _free_part(axes, acting, S, b, item, arb):
     """Rotations with mu = S_g of a group without b."""
-    gamma, rest = [arb(0)] * 3, one
+    gamma, rest = [arb(0)] * 3, item
     for other in acting:
         for i in other:
             value = -b[i] / (S[i] - S[axes[0]])
@@ -243,9 +243,9 @@ SHELL = Verdict("undecided", Sentence(
 def judged(field: Field, Omega: Fraction | arb, rotation) -> EquilibriumPoint:
     """Spectrum and verdict of a `Rotation` at Omega, exact or a ball; at = (omega, gamma)."""
     O = rational(Omega) if isinstance(Omega, Fraction) else Omega
-    gamma, one = rotation.gamma, fmpq(1)
-    a, b = coefficients(field, O, rotation.mu, gamma, one)
-    determinant, trace = second_variation(field, O, rotation.mu, gamma, one)
+    gamma, item = rotation.gamma, fmpq(1)
+    a, b = coefficients(field, O, rotation.mu, gamma, item)
+    determinant, trace = second_variation(field, O, rotation.mu, gamma, item)
     at = tuple(float(v.mid()) for v in (*(O * g for g in gamma), *gamma))
     if len(rotation.circle) == 2 and _symmetric(field, 3 - sum(rotation.circle)):
         return EquilibriumPoint(at, spectrum(a, 0 * b), "unstable" if a < 0 else "degenerate", CIRCLE.word,
@@ -327,8 +327,8 @@ def spectrum(a, b) -> tuple[complex, ...]:
         return (0j, 0j, z, -z, z.conjugate(), -z.conjugate())
     root = arb(max(float(gap.mid()), 0.0)).sqrt() if not gap > 0 else gap.sqrt()
     far = -(a + root) / 2 if a >= 0 else (root - a) / 2
-    near = b / far if far != 0 else arb(0)
-    return (0j, 0j, *_pair(far), *_pair(near))
+    nearby = b / far if far != 0 else arb(0)
+    return (0j, 0j, *_pair(far), *_pair(nearby))
 
 
 def _pair(square):
@@ -346,21 +346,21 @@ def cuts_of(field: Field) -> list[Fraction]:
     """Omega at which the number of rotations or the sign of a coefficient of the spectrum may change."""
     ring = fmpq_mpoly_ctx.get(("mu", "r", "O"), Ordering.lex)
     mu, r, O = ring.gens()
-    one = ring.constant(1)
-    S, b = [one * v for v in field.stiffness(O)], [one * v for v in field.pull(O)]
+    item = ring.constant(1)
+    S, b = [item * v for v in field.stiffness(O)], [item * v for v in field.pull(O)]
     parted = groups_at(S, b)
     acting = [axes for axes, idle in parted if not idle]
     critical = _of_sleeping(field, O)
     if acting:
         n = {i: S[i] - mu for axes in acting for i in axes}
-        q, gamma = _homogeneous(acting, n, b, one)
+        q, gamma = _homogeneous(acting, n, b, item)
         a, c = coefficients(field, O, mu, gamma, q)
-        critical += changes(secular(acting, n, b, one), (c, a * a - 4 * c), (a,), "mu")
+        critical += changes(secular(acting, n, b, item), (c, a * a - 4 * c), (a,), "mu")
     for axes, idle in parted:
         if idle:
             n = {i: S[i] - S[axes[0]] for other in acting for i in other}
-            q, gamma = _homogeneous(acting, n, b, one)
-            square = q * q - sum((g * g for g in gamma), one * 0)
+            q, gamma = _homogeneous(acting, n, b, item)
+            square = q * q - sum((g * g for g in gamma), item * 0)
             gamma[axes[0]] = r
             a, c = coefficients(field, O, S[axes[0]], gamma, q)
             critical += [square, q, *changes(r * r - square, (c, a * a - 4 * c), (a,), "r")]
@@ -375,15 +375,15 @@ def changes(P, deciding, otherwise, name: str):
     one and its sign decides nothing, those of `otherwise` join the others.
     """
     branches = [f for f, _ in P.factor()[1] if _degree(f, name) > 0]
-    found = [f.resultant(g, name) for f, g in combinations(branches, 2)]
+    rows = [f.resultant(g, name) for f, g in combinations(branches, 2)]
     for branch in branches:
         if _degree(branch, name) > 1:
-            found.append(branch.discriminant(name))
+            rows.append(branch.discriminant(name))
         signs = [divmod(f, branch)[1] for f in deciding]
         if any(f == 0 for f in signs):
             signs += [divmod(f, branch)[1] for f in otherwise]
-        found += [branch.resultant(f, name) if _degree(f, name) > 0 else f for f in signs if f != 0]
-    return found
+        rows += [branch.resultant(f, name) if _degree(f, name) > 0 else f for f in signs if f != 0]
+    return rows
 
 
 def _degree(f, name: str) -> int:
@@ -398,13 +398,13 @@ def _of_sleeping(field: Field, O):
             for k in range(3) if _symmetric(field, k) for side in (1, -1)]
 
 
-def _homogeneous(acting, n, b, one):
+def _homogeneous(acting, n, b, item):
     """(q, q gamma) with q = prod n_g."""
-    q, gamma = one, [one * 0] * 3
+    q, gamma = item, [item * 0] * 3
     for axes in acting:
         q = q * n[axes[0]]
     for axes in acting:
-        rest = -one
+        rest = -item
         for other in acting:
             if other is not axes:
                 rest = rest * n[other[0]]

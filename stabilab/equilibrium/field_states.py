@@ -138,8 +138,8 @@ def _cuts_round(field, Omega: arb, rotation: Rotation) -> list[float]:
     for axis in rotation.circle[2:]:
         gamma[axis] = arb_poly([])
     a, b = coefficients(field, Omega, rotation.mu, gamma, q)
-    found = sorted(t for f in (a, b, a * a - 4 * b) for t in _zeros(f))
-    apart = [t for n, t in enumerate(found) if not n or t - found[n - 1] > SAME]
+    result = sorted(t for f in (a, b, a * a - 4 * b) for t in _zeros(f))
+    apart = [t for n, t in enumerate(result) if not n or t - result[n - 1] > SAME]
     return [-pi, *apart, pi] if apart else [-inf, inf]
 
 
@@ -149,8 +149,8 @@ def _zeros(f: arb_poly) -> list[float]:
     import numpy as np
     while f.degree() >= 0 and f[f.degree()].contains(0):  # a degree that only rounding has
         f = arb_poly(f.coeffs()[:-1])
-    found = np.roots([float(v.mid()) for v in reversed(f.coeffs())])  # pairs next to the line may be double
-    return [2 * atan(z.real) for z in found.tolist() if abs(z.imag) <= ROOT_TOLERANCE * (1 + abs(z.real))]
+    result = np.roots([float(v.mid()) for v in reversed(f.coeffs())])  # pairs next to the line may be double
+    return [2 * atan(z.real) for z in result.tolist() if abs(z.imag) <= ROOT_TOLERANCE * (1 + abs(z.real))]
 
 
 def _turned(rotation: Rotation, t: float) -> Rotation:
@@ -216,15 +216,15 @@ def _branches(field, cuts):
     size = max(map(abs, cuts), default=Fraction(1)) or Fraction(1)
     open_, done = [], []
     for lo, hi in zip(ends, ends[1:]):
-        found = rotations_at(field, values_inside(lo, hi, size))
+        result = rotations_at(field, values_inside(lo, hi, size))
         joined = {}
         if lo is not None:
             step = step_at(cuts, lo)
             before, after = rotations_at(field, lo - step), rotations_at(field, lo + step)
-            if len(after) != len(found):
+            if len(after) != len(result):
                 raise ArithmeticError("the branches of permanent rotations were not told apart")
             joined = _matching(before, after)
-        fresh = [None] * len(found)
+        fresh = [None] * len(result)
         for branch in open_:
             index = joined.get(branch[-1][2])
             if index is None:

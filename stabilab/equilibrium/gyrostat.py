@@ -171,12 +171,12 @@ def isolated_states(p: Pencil) -> tuple[Reason, list[Isolated], list[RationalCur
     P = Poly((q0, q1, q2))
     if not P:
         return WHOLE_LINE, [], [_whole_line(p, start, v)]
-    found = Isolated.all_of(p.state(straight_line(start, v)), P)
+    result = Isolated.all_of(p.state(straight_line(start, v)), P)
     if P.degree < 2:
-        return ON_LINE_LINEAR if P.degree else ON_LINE_NOTHING, found, []
-    if not found:
-        return ON_LINE_NONE(discriminant=Coefficient(q1 * q1 - 4 * q2 * q0)), found, []
-    return (ON_LINE_FOLD, ON_LINE_TWO)[len(found) - 1], found, []
+        return ON_LINE_LINEAR if P.degree else ON_LINE_NOTHING, result, []
+    if not result:
+        return ON_LINE_NONE(discriminant=Coefficient(q1 * q1 - 4 * q2 * q0)), result, []
+    return (ON_LINE_FOLD, ON_LINE_TWO)[len(result) - 1], result, []
 
 
 def meeting_line(p: Pencil) -> tuple[Exact3, Exact3]:

@@ -124,9 +124,9 @@ def _reason(parts: Content) -> Reason:
 def validity(parts: Content) -> Fraction:
     """|omega| below which |kappa D^-1 L| < 1 for sure: |L a| <= ((2 d + 1) |omega| + |Lambda|/Dmin) |a|, d =
     Dmax/Dmin."""
-    least, most = min(parts.D), max(parts.D)
+    smallest, largest = min(parts.D), max(parts.D)
     moment = sqrt_fraction(sum((v * v for v in parts.Lambda), Fraction(0)))
-    return (least / parts.kappa - moment / least) / (2 * most / least + 1)
+    return (smallest / parts.kappa - moment / smallest) / (2 * largest / smallest + 1)
 
 
 def jacobian(parts: Content, omega, w=1):
@@ -206,11 +206,11 @@ def _cut(parts, curve, t) -> EquilibriumPoint:
     c2, c1 = coefficients(jacobian(parts, omega))
     if t in curve.crossings or at_rest:
         return point(parts, omega, REST if at_rest and not any(parts.Lambda) else None)
-    near = [Fraction(0) if abs(v) < Fraction(1, 2**120) * scale else v
+    nearby = [Fraction(0) if abs(v) < Fraction(1, 2**120) * scale else v
             for v, scale in zip((c2, c1), _sizes(parts, omega))]
-    word = _word(*near)
+    word = _word(*nearby)
     verdict = _verdict(parts, word)
-    return EquilibriumPoint(tuple(float(v) for v in omega), roots(*near), word, verdict.word,
+    return EquilibriumPoint(tuple(float(v) for v in omega), roots(*nearby), word, verdict.word,
                             reason=verdict.reason)
 
 
@@ -288,11 +288,11 @@ def balanced_equilibria(parts: Content) -> Equilibria:
     if reach is None:
         rest = () if any(parts.M) else (_point(parts, torques, (0.0, 0.0, 0.0)),)
         return Equilibria("undecided", rest, reason=where.then(REST_IS_ONE if rest else None))
-    found = zeros([_dictionary(f) for f in torques], reach)
-    points = tuple(_point(parts, torques, x) for x in sorted(map(tuple, found.points.tolist())))
-    if not found.complete:
+    result = zeros([_dictionary(f) for f in torques], reach)
+    points = tuple(_point(parts, torques, x) for x in sorted(map(tuple, result.points.tolist())))
+    if not result.complete:
         return Equilibria("undecided", points,
-                          reason=NOT_SETTLED(boxes=Quantity(found.boxes, digits=15), where=where))
+                          reason=NOT_SETTLED(boxes=Quantity(result.boxes, digits=15), where=where))
     kind = "points" if points else "none" if where == EVERYWHERE else "undecided"
     return Equilibria(kind, points, reason=EVERY_BOX(where=where))
 
@@ -348,9 +348,9 @@ def trap(parts: Content) -> tuple[float, float] | None:
 
 def _region(parts: Content) -> tuple[list[float] | None, Reason]:
     """(reach of omega, where that is), or (None, why not)."""
-    found = trap(parts)
-    if found is not None:
-        x1, x2 = found
+    result = trap(parts)
+    if result is not None:
+        x1, x2 = result
         if x1 == 0:
             x1 = min(1.0, x2 / 2)  # rest alone lies below x2; the search proves it again
         where = EVERYWHERE if x2 == inf else BELOW_ENERGY(energy=Energy(x2 * x2 / 2).lower)
@@ -390,15 +390,15 @@ def _slopes(torques):
 
 def _enclosed(torques, x):
     """A ball around the zero next to x in which Krawczyk's test holds."""
-    at = lambda rows, place: arb_mat([[evaluated(f, place) for f in row] for row in rows])
+    at = lambda rows, location: arb_mat([[evaluated(f, location) for f in row] for row in rows])
     column, slopes, x = [[f] for f in torques], _slopes(torques), [arb(v) for v in x]
     inverse = at(slopes, x).inv().mid()
     for _ in range(12):  # the inverse at a double gains some thirteen digits a step
         x = [(v - step).mid() for v, step in zip(x, (inverse * at(column, x)).entries())]
     size = max(float(abs(v).upper()) for v in x) or 1.0
     radius = arb(0, size * RADIUS)
-    box, one = [v + radius for v in x], arb_mat([[1, 0, 0], [0, 1, 0], [0, 0, 1]])
-    steps = (one - inverse * at(slopes, box)) * arb_mat(3, 1, [radius] * 3) - inverse * at(column, x)
+    box, item = [v + radius for v in x], arb_mat([[1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    steps = (item - inverse * at(slopes, box)) * arb_mat(3, 1, [radius] * 3) - inverse * at(column, x)
     if not all(abs(step) < size * RADIUS for step in steps.entries()):
         raise ArithmeticError("an equilibrium was not enclosed")
     return box
@@ -413,10 +413,10 @@ def damped_equilibria(parts: Content) -> Equilibria:
     """
     if any(parts.M) or parts.c or parts.damped or parts.kappa or any(parts.Lambda):
         return Equilibria("undecided", reason=DAMPER_FREE_ALONE)
-    found = liquid_equilibria(replace(parts, inside=Fraction(0), kappa=Fraction(1)))  # verdicts of any liquid
-    return Equilibria(found.kind, tuple(_with_damper(parts, point) for point in found.points),
-                      tuple(_curve_with_damper(parts, curve) for curve in found.curves),
-                      reason=_of_damper(found.reason))
+    out = liquid_equilibria(replace(parts, inside=Fraction(0), kappa=Fraction(1)))  # verdicts of any liquid
+    return Equilibria(out.kind, tuple(_with_damper(parts, point) for point in out.points),
+                      tuple(_curve_with_damper(parts, curve) for curve in out.curves),
+                      reason=_of_damper(out.reason))
 
 
 def _of_damper(reason: Reason) -> Reason:
@@ -427,7 +427,7 @@ def _of_damper(reason: Reason) -> Reason:
 
 def _curve_with_damper(parts: Content, curve: EquilibriumCurve) -> EquilibriumCurve:
     return replace(curve, samples=tuple(_with_damper(parts, point) for point in curve.samples),
-                   segments=tuple(replace(one, reason=_of_damper(one.reason)) for one in curve.segments))
+                   segments=tuple(replace(item, reason=_of_damper(item.reason)) for item in curve.segments))
 
 
 def _with_damper(parts: Content, point: EquilibriumPoint) -> EquilibriumPoint:
@@ -441,10 +441,10 @@ def damper_jacobian(parts: Content, omega: Sequence[float]) -> Any:
     import numpy as np
     w, D, k = omega, [float(d) for d in parts.D], float(parts.inside)
     c = float(parts.friction)
-    found = np.zeros((6, 6))
+    result = np.zeros((6, 6))
     for i, (j, l) in enumerate(CYCLE):
-        found[i, j], found[i, l] = (D[j] - D[l]) * w[l] / (D[i] - k), (D[j] - D[l]) * w[j] / (D[i] - k)
-        found[i, 3 + i] = c / (D[i] - k)
-        found[3 + i, 3 + i], found[3 + i, 3 + l], found[3 + i, 3 + j] = -c / k, -w[j], w[l]
-    found[3:] -= found[:3]
-    return found
+        result[i, j], result[i, l] = (D[j] - D[l]) * w[l] / (D[i] - k), (D[j] - D[l]) * w[j] / (D[i] - k)
+        result[i, 3 + i] = c / (D[i] - k)
+        result[3 + i, 3 + i], result[3 + i, 3 + l], result[3 + i, 3 + j] = -c / k, -w[j], w[l]
+    result[3:] -= result[:3]
+    return result

@@ -131,8 +131,8 @@ def _omega(plane: Plane, tau: Fraction, side: int):
         return arb(-c / b)
     root = arb(b * b - 4 * a * c).sqrt()
     # the root without cancellation is near/a, the other c/near
-    near = -(b + root) / 2 if b >= 0 else (root - b) / 2
-    first, second = near / a, c / near if near != 0 else near / a
+    nearby = -(b + root) / 2 if b >= 0 else (root - b) / 2
+    first, second = nearby / a, c / nearby if nearby != 0 else nearby / a
     low, high = (first, second) if first < second else (second, first)
     return low if side < 0 else high
 
@@ -191,9 +191,9 @@ def _changes(parts: Content, plane: Plane) -> list[Fraction]:
     second, third, fourth = (sum((first[i][n] * rows[n][i] for i in range(6) for n in range(6)), 0 * tau)
                              for first, rows in ((J, J), (J2, J), (J2, J2)))
     e2, e3, e4 = -second / 2, third / 3, second * second / 8 - fourth / 4
-    found = changes(of(plane.square) * O * O + of(plane.linear) * O + of(plane.constant),
+    result = changes(of(plane.square) * O * O + of(plane.linear) * O + of(plane.constant),
                     (e4, e2 * e2 - 4 * e4, e3), (e2,), "O")
-    return [root for f in found for root in roots_in(f, 1)]
+    return [root for f in result for root in roots_in(f, 1)]
 
 
 def _steady_curve(parts, plane: Plane, lo, hi, side, cuts) -> EquilibriumCurve:
@@ -205,10 +205,10 @@ def _steady_curve(parts, plane: Plane, lo, hi, side, cuts) -> EquilibriumCurve:
     segments, samples = [], []
     with working(MANY_BITS):
         for low, high in pairwise([lo, *inner, hi]):
-            found = [_point(parts, plane, tau, side) for tau in _steady_samples(low, high)]
+            rows = [_point(parts, plane, tau, side) for tau in _steady_samples(low, high)]
             middle = _point(parts, plane, values_inside(low, high, Fraction(1)), side)
             segments.append(CurveSegment.like(middle, (_angle(low, -1), _angle(high, 1))))
-            samples += found
+            samples += rows
         changed = tuple(_at_tau(plane, tau, side) for tau in inner)
     ends = _angle(lo, -1), _angle(hi, 1)
 

@@ -79,7 +79,7 @@ class Crossing:
     def of(cls, searches: Sequence[Search], until: Fraction, done: bool, steps: int = 0) -> Crossing:
         """The first of several."""
         low, high = (min((t for t in ends if t is not None), default=None)
-                     for ends in ([one.low for one in searches], [one.high for one in searches]))
+                     for ends in ([search.low for search in searches], [search.high for search in searches]))
         return cls(low, high, until, done, steps)
 
 
@@ -121,9 +121,9 @@ class _Excess:
 
     def __init__(self, threshold: Threshold, piece: Piece, exactly: bool) -> None:
         self.bits, self.falls, self.one, self.looked = piece.bits, threshold.falls, 1 << piece.bits, 0
-        made = [_combined(vector, piece) for _, vector in threshold.terms]
-        self.rows, self.sizes = [row for row, _ in made], [sum(map(abs, row)) for row, _ in made]
-        radii = [radius for _, radius in made]
+        built = [_combined(vector, piece) for _, vector in threshold.terms]
+        self.rows, self.sizes = [row for row, _ in built], [sum(map(abs, row)) for row, _ in built]
+        radii = [radius for _, radius in built]
         self.weights = [round(c * self.one) for c, _ in threshold.terms]
         self.limit = round(threshold.limit * self.one)
         slack = 2 * max(map(len, self.rows))  # of Horner's rule, twice
@@ -162,18 +162,18 @@ class _Excess:
     def value(self, s: int) -> tuple[int, int]:
         """(g, g') at s, an integer in units of 2^-bits; g' is not too small, and rounding of g is part of
         err."""
-        found = []
+        rows = []
         self.looked += 1
         for row in self.rows:
             v = slope = 0
             for c in reversed(row):
                 slope = (slope * s >> self.bits) + v
                 v = (v * s >> self.bits) + c
-            found.append((v, slope))
+            rows.append((v, slope))
         if self.falls:
-            return self.limit - found[0][0], self.rough - found[0][1]
-        value = self._sum([v * v for v, _ in found]) - (self.limit << self.bits)
-        return value, 2 * self._sum([v * slope for v, slope in found]) + self.rough
+            return self.limit - rows[0][0], self.rough - rows[0][1]
+        value = self._sum([v * v for v, _ in rows]) - (self.limit << self.bits)
+        return value, 2 * self._sum([v * slope for v, slope in rows]) + self.rough
 
     def reaches(self, sign: int, s: int = 0, allowed: int = PLACES) -> int | None:
         """The last place that the steps reach from s before g + sign err may be 0, or that so many of them

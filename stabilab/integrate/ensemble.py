@@ -106,11 +106,11 @@ def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float |
 def _by_units(equations: Equations, starts: np.ndarray):
     """(units, numbers of the motions that have them), see `own_units`; those with ordinary rates first."""
     odd = ~are_ordinary(equations, starts)
-    found = {Units(): np.flatnonzero(~odd).tolist()}
+    entries = {Units(): np.flatnonzero(~odd).tolist()}
     for number in np.flatnonzero(odd).tolist():
         units = replace(units_of(equations, starts[number]), laws=False)  # none is checked here
-        found.setdefault(units, []).append(number)
-    return [(units, np.array(numbers)) for units, numbers in found.items() if numbers]
+        entries.setdefault(units, []).append(number)
+    return [(units, np.array(numbers)) for units, numbers in entries.items() if numbers]
 
 
 def _workers(workers: int):
@@ -151,16 +151,16 @@ class _Rows:
         self.alone = {}  # number of a motion that its lane did not finish -> (why it stopped or "", steps)
         self.grids = []  # (which of the times, the way there lane by lane)
         for chosen, sense in ((times < 0, -1), (times > 0, 1)):
-            way = np.flatnonzero(chosen)[np.argsort(times[chosen] * sense)]
-            if way.size:
-                self.grids.append((way,
-                                   np.repeat(np.concatenate([[0.0], own[way]])[:, None], LANES, axis=1)))
+            route = np.flatnonzero(chosen)[np.argsort(times[chosen] * sense)]
+            if route.size:
+                self.grids.append((route,
+                                   np.repeat(np.concatenate([[0.0], own[route]])[:, None], LANES, axis=1)))
 
     def __call__(self, groups: np.ndarray) -> int:
         with borrowed_taylor(self.forms, self.rtol, LANES) as ta:
-            return sum(self._row(ta, group, way, grid) for group in groups for way, grid in self.grids)
+            return sum(self._row(ta, group, route, grid) for group in groups for route, grid in self.grids)
 
-    def _row(self, ta, lanes, way, grid) -> int:
+    def _row(self, ta, lanes, route, grid) -> int:
         """A row of motions one way. One that overflows, or takes more than REPORT steps, is followed alone,
         and the others start again; a lane that is left over repeats one of them."""
         for number in self.far.intersection(map(int, lanes)).difference(self.alone):
@@ -171,7 +171,7 @@ class _Rows:
                           if ta.propagate_res[lane][0].name != "time_limit"
                           or not np.isfinite(points[-1, :, lane]).all()}
             if not unfinished:
-                self.out[lanes[:, None], way] = points[1:].transpose(2, 0, 1) * self.scale
+                self.out[lanes[:, None], route] = points[1:].transpose(2, 0, 1) * self.scale
                 return sum(dict(zip(lanes.tolist(), steps)).values())
             for number in unfinished:
                 self._follow_alone(number)

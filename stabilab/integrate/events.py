@@ -87,23 +87,23 @@ def zeros_passed(forms: Form, state: np.ndarray, rates: np.ndarray | Sequence[fl
         return _by_scipy(forms, state, float(t_end), steps, tolerance, first, whole)
 
 
-def _by_taylor(forms, state, t_end, steps, tolerance, first, whole, longest) -> Passed:
+def _by_taylor(forms, state, t_end, steps, tolerance, first, entire, longest) -> Passed:
     parts, done, noted, why, size = [], 0, 0, None, len(forms.state)
     guard = Guard(t_end, steps, SETTLED, PATIENCE)
-    with taylor_events(forms, tolerance) as (integrator, found):
+    with taylor_events(forms, tolerance) as (integrator, result):
         integrator.time = 0.0
         integrator.state[:] = state
         while True:
             outcome, _, _, taken, *_ = integrator.propagate_until(
                 t_end, max_steps=min(TOGETHER, steps - done), max_delta_t=longest)
             done += taken
-            met = [zero for zero in found if zero[0] != 0 and np.isfinite(zero[2]).all()]
-            found.clear()
+            met = [zero for zero in result if zero[0] != 0 and np.isfinite(zero[2]).all()]
+            result.clear()
             parts += [_columns(met, size)] if met else []
             noted += len(met)
             if outcome.name != "step_limit" or done >= steps or (first and parts):
                 break
-            why = guard.look_in_time(done, float(integrator.time)) if whole else None
+            why = guard.look_in_time(done, float(integrator.time)) if entire else None
             why = why or full(noted, size + 2)
             if why:
                 break
@@ -128,7 +128,7 @@ def _longest(rates: np.ndarray | Sequence[float], state: np.ndarray) -> float:
 
 
 def _by_scipy(forms: Form, state: np.ndarray, t_end: float, steps: int, tolerance: float, first: bool,
-              whole: bool) -> Passed:
+              entire: bool) -> Passed:
     n, rtol = len(forms.state), max(tolerance, FALLBACK_RTOL)
     atol = floor(state, rtol)
     moving, behind = (Form(forms.state, part, forms.symbols, forms.numbers)
@@ -147,7 +147,7 @@ def _by_scipy(forms: Form, state: np.ndarray, t_end: float, steps: int, toleranc
             return _passed(zeros, begin, before, done, STOPPED(why=NUMBERS_OVERFLOWED))
         done += 1
         zeros += sorted(_zeros_of_step(behind, solver, before, run), key=lambda zero: abs(zero[0]))
-        why = (guard.look_in_time(done, float(solver.t)) if whole else None) or full(len(zeros), n + 30)
+        why = (guard.look_in_time(done, float(solver.t)) if entire else None) or full(len(zeros), n + 30)
         if why:
             return _passed(zeros, float(solver.t), solver.y, done, STOPPED(why=why))
     reason = None if solver.status == "finished" else STOPPED(why=STEPS_NOT_ENOUGH(steps=steps))
@@ -219,8 +219,8 @@ def roots_of_rates(scene: AnyScene, state: np.ndarray | Sequence[float] | Mappin
     if getattr(scene, "ending", ()):  # equations may stand for a scene
         from .trajectory import roots_through_the_end
         search = lambda *motion: roots_of_rates(*motion, tolerance)
-        if (whole := roots_through_the_end(scene, equations, state, float(t_end), search)) is not None:
-            return whole
+        if (entire := roots_through_the_end(scene, equations, state, float(t_end), search)) is not None:
+            return entire
     with np.errstate(all="ignore"):
         rates = to_numpy(equations)(state)
     if not np.isfinite(rates).all():

@@ -141,14 +141,14 @@ class IntegerFlow:
     def _widen(self, rows: Sequence[list[int]], products: Sequence[list[int]], sizes: Sequence[int],
                h: float):
         """Let the error grow over a step: the defect is taken as if all of it stood at the start."""
-        N, pairs, one = self.order, self._pairs(), 2.0**-self.bits
+        N, pairs, item = self.order, self._pairs(), 2.0**-self.bits
         tails = [_tail(rows[a], rows[b], N, self.bits) for a, b in pairs]
         rounding = N * (N + 1) / 2 + N + 1  # of the divisions by n + 1, and of the step's length
         defects = []
         for i, (j, k) in enumerate(CYCLE):
-            kappa, rho, sigma = (abs(row[i]) * one for row in (self.kappa, self.rho, self.sigma))
+            kappa, rho, sigma = (abs(row[i]) * item for row in (self.kappa, self.rho, self.sigma))
             # products cut, sums cut, coefficients rounded
-            inexact = kappa * N + N + 1 + (sum(map(abs, products[i])) + N + sizes[j] + sizes[k]) * one
+            inexact = kappa * N + N + 1 + (sum(map(abs, products[i])) + N + sizes[j] + sizes[k]) * item
             beyond = kappa * tails[i] + rho * abs(rows[k][N]) + sigma * abs(rows[j][N])
             defects.append((rounding + h * (inexact + beyond)) * MORE)
         before = self.error

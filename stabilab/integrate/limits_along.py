@@ -35,10 +35,10 @@ def law_along(scene: AnyScene, omega: Sequence[float], gamma: Sequence[float],
         return None
     form, pieces = gyrostat_scene(parts).quadratic(), []
     for end in (min(span[0], 0.0), max(span[1], 0.0)):
-        found = _pieces(form, (*map(float, omega), *gamma), end)
-        if found is None:
+        result = _pieces(form, (*map(float, omega), *gamma), end)
+        if result is None:
             return None
-        pieces += found
+        pieces += result
     return of_values(scene, lambda limit: _largest(limit.value, pieces), "along the run")
 
 
@@ -48,11 +48,11 @@ def _pieces(form: QuadraticForm, x: Sequence[float], end: float) -> list | None:
     t, pieces = 0.0, []
     while t != end:
         series = _series(form, x)
-        if len(pieces) == STEPS or not all(math.isfinite(v) for one in series for v in one):
+        if len(pieces) == STEPS or not all(math.isfinite(v) for term in series for v in term):
             return None
         step = _length(series)
         h = end - t if step >= abs(end - t) else math.copysign(step, end)
-        x, t = [summed(one, h) for one in series], end if h == end - t else t + h
+        x, t = [summed(term, h) for term in series], end if h == end - t else t + h
         pieces.append((h, series))
     return pieces
 
@@ -62,16 +62,16 @@ def _series(form: QuadraticForm, x: Sequence[float]) -> list[list[float]]:
     space, n' = n x omega."""
     rates, n = coefficients(form, tuple(x[:3]), ORDER), [[v] for v in x[3:]]
     for power in range(ORDER):
-        back = [one[power::-1] for one in rates]
+        back = [rate[power::-1] for rate in rates]
         new = [sum(map(mul, n[j], back[k])) - sum(map(mul, n[k], back[j])) for j, k in CYCLE]
-        for one, value in zip(n, new):
-            one.append(value / (power + 1))
+        for item, value in zip(n, new):
+            item.append(value / (power + 1))
     return rates + n
 
 
 def _length(series: list[list[float]]) -> float:
     """A length over which the last two terms stay below SHARE of the rates' size and of the direction's."""
-    return min(length(part, SHARE * (max(abs(one[0]) for one in part) or max(abs(one[1]) for one in part)))
+    return min(length(part, SHARE * (max(abs(item[0]) for item in part) or max(abs(x[1]) for x in part)))
                for part in (series[:3], series[3:]))
 
 
@@ -85,7 +85,7 @@ class _State:
         return name in self.parts
 
     def __getitem__(self, name: str) -> list[float]:
-        return [summed(one, self.t) for one in self.parts[name]]
+        return [summed(item, self.t) for item in self.parts[name]]
 
 
 def _largest(value_at, pieces) -> float | None:

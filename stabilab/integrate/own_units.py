@@ -57,7 +57,7 @@ def units_of(equations: Equations, state: np.ndarray) -> Units:
     """The units of the motion from a state (n,), 1 where its rates are ordinary."""
     laws = any(not LIGHT <= value <= HEAVY
                for name, value in equations.parameters.items() if name in ("D1", "D2", "D3"))
-    now, quick, size = (float(one[0]) for one in _sizes(equations, state[None]))
+    now, quick, size = (float(siz[0]) for siz in _sizes(equations, state[None]))
     if not 0 < size < math.inf or are_ordinary(equations, state[None])[0]:
         return Units(laws=laws)
     pace = pace_of(equations, state)
@@ -72,9 +72,9 @@ def are_ordinary(equations: Equations, states: np.ndarray) -> np.ndarray:
         return np.ones(len(states), bool)
     now, quick, size = _sizes(equations, states)
     with np.errstate(all="ignore"):
-        share = quick / np.where(now > 0, now, size)
-    alike = (quick == 0) | ((share >= 1 / UNLIKE) & (share <= UNLIKE))
-    return (size >= _slow(equations)) & (size <= 2.0**FAST) & alike
+        fraction = quick / np.where(now > 0, now, size)
+    similar = (quick == 0) | ((fraction >= 1 / UNLIKE) & (fraction <= UNLIKE))
+    return (size >= _slow(equations)) & (size <= 2.0**FAST) & similar
 
 
 def _sizes(equations: Equations, states: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -135,15 +135,15 @@ def in_units(equations: Equations, units: Units) -> Equations:
     pace = rate if units.pace == units.rate else named("pace", units.pace)
     factors = [rate if turns else Integer(1) for turns in _turning(equations)]
     put = {x: factor * x for x, factor in zip(equations.state, factors)}
-    rhs: tuple[Symbolic, ...] = tuple(one.xreplace(put) / (factor * pace)
-                                      for one, factor in zip(equations.rhs, factors))
-    made = replace(equations, parameters=parameters, symbols=symbols, rhs=rhs, balances=())
+    rhs: tuple[Symbolic, ...] = tuple(item.xreplace(put) / (factor * pace)
+                                      for item, factor in zip(equations.rhs, factors))
+    built = replace(equations, parameters=parameters, symbols=symbols, rhs=rhs, balances=())
     laws = []
     for law in equations.balances:
         quantity, change = law.quantity.xreplace(put), law.rate.xreplace(put) / pace
-        size = named(f"unit_of_{len(laws)}", _size(made, quantity))
+        size = named(f"unit_of_{len(laws)}", _size(built, quantity))
         laws.append(replace(law, quantity=quantity / size, rate=change / size))
-    return replace(made, parameters=parameters, symbols=symbols, balances=tuple(laws))
+    return replace(built, parameters=parameters, symbols=symbols, balances=tuple(laws))
 
 
 def _size(equations: Equations, quantity: Symbolic) -> Fraction:

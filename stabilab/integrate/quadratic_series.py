@@ -38,18 +38,18 @@ def followed(form: QuadraticForm, start: tuple[float, ...], until: float, steps:
     times, states = [t], [x]
     for _ in range(steps):
         series = coefficients(form, x)
-        if not all(map(math.isfinite, (c for one in series for c in one))):
+        if not all(map(math.isfinite, (c for term in series for c in term))):
             if t:
                 break
             raise InputError(f"this motion is too fast to be drawn: with a rate of {max(map(abs, x)):.3g} "
                              "and these torques and momenta the powers of its series exceed what a double "
                              "holds (1.8e308); expected numbers of a body that can be built, in SI units")
-        size = max(abs(one[0]) for one in series) or max(map(abs, form.coefficients[3]))
+        size = max(abs(term[0]) for term in series) or max(map(abs, form.coefficients[3]))
         h = min(length(series, TERM_TOLERANCE * size), until - t)
         for n in range(1, INSIDE + 1):
-            share = h * n / INSIDE
-            times.append(t + share)
-            states.append(tuple(summed(one, share) for one in series))
+            fraction = h * n / INSIDE
+            times.append(t + fraction)
+            states.append(tuple(summed(term, fraction) for term in series))
         t, x = times[-1], states[-1]
         if t >= until or not max(map(abs, x)) < LARGEST:
             break
@@ -63,25 +63,25 @@ def largest(form: QuadraticForm, start: tuple[float, ...], until: float) -> floa
     best, size = math.hypot(*x), max(map(abs, x)) or max(map(abs, form.coefficients[3]))
     for _ in range(4 * STEPS):
         series = coefficients(form, x)
-        if not all(map(math.isfinite, (c for one in series for c in one))):
+        if not all(map(math.isfinite, (c for term in series for c in term))):
             return None
         h = min(length(series, TERM_TOLERANCE * (max(map(abs, x)) or size)), until - t)
         at = partial(_size, series)
         places = [h * n / INSIDE for n in range(INSIDE + 1)]
-        sizes = [at(place) for place in places]
+        sizes = [at(location) for location in places]
         top = max(range(INSIDE + 1), key=sizes.__getitem__)
         if sizes[top] > best * (1 - NEAR):
             ends = places[max(top - 1, 0)], places[min(top + 1, INSIDE)]
             best = max(best, *(-value for _,
                                value in golden_section(partial(_size, series, sign=-1.0), *ends, HALVED)))
-        t, x = t + h, tuple(summed(one, h) for one in series)
+        t, x = t + h, tuple(summed(term, h) for term in series)
         if t >= until:
             return best if all(abs(a - b) <= BACK * best for a, b in zip(x, start)) else None
     return None
 
 
-def _size(series: list[list[float]], share: float, sign: float = 1.0) -> float:
-    return sign * math.hypot(*(summed(one, share) for one in series))
+def _size(series: list[list[float]], fraction: float, sign: float = 1.0) -> float:
+    return sign * math.hypot(*(summed(term, fraction) for term in series))
 
 
 def parting(form: QuadraticForm, path: Path) -> int:
@@ -93,7 +93,7 @@ def parting(form: QuadraticForm, path: Path) -> int:
     x = tuple(v * (1 + n * TERM_TOLERANCE) for v, n in zip(states[0], APART))
     for end in range(INSIDE, len(times), INSIDE):
         h = times[end] - times[end - INSIDE]
-        x = tuple(summed(one, h) for one in coefficients(form, x))
+        x = tuple(summed(coefficient, h) for coefficient in coefficients(form, x))
         if not all(abs(a - b) <= width for a, b in zip(x, states[end])):
             return end - INSIDE + 1
     return len(times)
@@ -107,18 +107,18 @@ def coefficients(form: QuadraticForm, x: tuple[float, ...], order: int = ORDER) 
         products = [kappa[i] * sum(map(mul, a[j], reversed(a[k]))) + rho[i] * a[k][n] + sigma[i] * a[j][n]
                     + (m[i] if n == 0 else 0.0)
                     for i, (j, k) in enumerate(CYCLE)]
-        for one, value in zip(a, products):
-            one.append(value / (n + 1))
+        for item, value in zip(a, products):
+            item.append(value / (n + 1))
     return a
 
 
-def length(series: list[list[float]], least: float) -> float:
+def length(series: list[list[float]], smallest: float) -> float:
     """A length over which the last two terms stay below `least`; inf where there are none."""
     lengths, order = [], len(series[0]) - 1
     for n in (order - 1, order):
-        last = max(abs(one[n]) for one in series)
+        last = max(abs(term[n]) for term in series)
         if 0 < last < math.inf:
-            lengths.append((least / last) ** (1 / n))
+            lengths.append((smallest / last) ** (1 / n))
     return min(lengths, default=math.inf)
 
 

@@ -154,9 +154,9 @@ def _length_of_change(rows: Sequence[list[arb]], order: int, digits: int):
     from flint import arb
     top, longest = max(abs(row[order]) for row in rows), arb(0)
     for n in (1, 2, 3):
-        most = max(abs(row[n]) for row in rows)
-        if most > 0 and top > 0:
-            longest = max(longest, (most * arb(10) ** -digits / top).root(order - n))
+        largest = max(abs(row[n]) for row in rows)
+        if largest > 0 and top > 0:
+            longest = max(longest, (largest * arb(10) ** -digits / top).root(order - n))
     return (2 * longest).mid() if longest > 0 else arb(10) ** 9
 
 
@@ -205,11 +205,11 @@ def _roots(row: Sequence[arb], length: arb, tried: Sequence[int] | None = None):
     tried: a list whose one number counts the steps of that."""
     ends = [length * k / PIECES for k in range(PIECES + 1)]
     values = [value(row, s) for s in ends]
-    found = []
+    rows = []
     for a, b, fa, fb in zip(ends, ends[1:], values, values[1:]):
         if (fa < 0) != (fb < 0) or fb == 0:
-            found.append(_root(row, a.mid(), b.mid(), fa, tried or [0]))
-    return found
+            rows.append(_root(row, a.mid(), b.mid(), fa, tried or [0]))
+    return rows
 
 
 def _root(row, a, b, fa, tried):
@@ -281,29 +281,29 @@ def one_run(recursion: Recursion, start: Sequence[float | Fraction] | np.ndarray
     times: of one sign, moving away from 0. orbit: the motion is known to repeat: its return is found, and
     later times are folded by the period, so that they cost nothing.
     """
-    found, passed, loop, taken, begun = [], [], Loop() if orbit else None, 0, budget[0]
+    result, passed, loop, taken, begun = [], [], Loop() if orbit else None, 0, budget[0]
     with working(int((digits + GUARD) * 3.33)) as numbers:
         wanted = [numbers.ball(t) for t in times]
         try:
             for step in steps(recursion, start, digits, budget, numbers,
                               -1 if len(times) and times[-1] < 0 else 1, orbit):
-                while len(found) < len(wanted) and abs(wanted[len(found)] - step.start) <= abs(step.length):
-                    found.append(step.at((wanted[len(found)] - step.start).mid()))
+                while len(result) < len(wanted) and abs(wanted[len(result)] - step.start) <= abs(step.length):
+                    result.append(step.at((wanted[len(result)] - step.start).mid()))
                 if loop:
                     passed.append(step)
                     budget[0] -= SEARCH * (recursion.size + 1) * len(step.rows[0])
                     loop.take(step)
                     if loop.closed:
-                        found += [_folded(passed, t, loop.period) for t in wanted[len(found):]]
-                if len(found) == len(wanted) and (loop is None or loop.closed):
+                        result += [_folded(passed, t, loop.period) for t in wanted[len(result):]]
+                if len(result) == len(wanted) and (loop is None or loop.closed):
                     break
                 taken += 1
-                left = wanted[len(found)] - step.start - step.length if len(found) < len(wanted) else 0
+                left = wanted[len(result)] - step.start - step.length if len(result) < len(wanted) else 0
                 if loop is None and hopeless(left, step.length, taken, begun, budget[0]):
                     break
         except Exhausted:
             pass
-        return found, (loop.period, loop.extremes) if loop and loop.closed else None
+        return result, (loop.period, loop.extremes) if loop and loop.closed else None
 
 
 def hopeless(left: arb | int, length: arb, taken: int, begun: int, budget: int) -> bool:
@@ -356,8 +356,8 @@ def reference(scene: AnyScene, start: Sequence[float | Fraction] | np.ndarray,
         else:
             now = one_run(recursion, start, times, digits, budget, orbit)
         if before is not None:
-            found = _compared(times, before, now, parts, work - budget[0], scene.time_unit)
-            best = found if best is None or len(found.t) >= len(best.t) else best
+            result = _compared(times, before, now, parts, work - budget[0], scene.time_unit)
+            best = result if best is None or len(result.t) >= len(best.t) else best
         if budget[0] < 0 or (best and best.status == "agrees"
                              and (best.period is None or best.period[2] <= AGREEMENT)):
             break
@@ -406,6 +406,6 @@ def _orbits(low: tuple[arb, list[list[arb]]] | None, high: tuple[arb, list[list[
     with working(DOUBLE_BITS):
         period = float(t1), float(t1 - float(t1)), float(abs(t1 - t0) / t1)
         extremes = np.array([[[float(v), float(v - float(v))] for v in pair] for pair in pairs1])
-        gap = max(float(abs(a - b)) for one, two in zip(pairs0, pairs1) for a, b in zip(one, two))
+        gap = max(float(abs(a - b)) for item, two in zip(pairs0, pairs1) for a, b in zip(item, two))
     size = np.abs(extremes[..., 0]).max()
     return period, extremes, gap / size if size else gap

@@ -147,8 +147,8 @@ def _from_sympy(expression: Expr, swap: dict[Expr, Any]):
     from sympy import Dummy, Pow
     if expression.is_number:
         return heyoka().expression(float(expression))
-    high = {one: Dummy() for one in expression.atoms(Pow) if one.exp.is_Integer and one.exp > 2}
-    products = {name: reduce(mul, [_from_sympy(one.base, swap)] * int(one.exp)) for one, name in high.items()}
+    high = {atom: Dummy() for atom in expression.atoms(Pow) if atom.exp.is_Integer and atom.exp > 2}
+    products = {name: reduce(mul, [_from_sympy(key.base, swap)] * int(key.exp)) for key, name in high.items()}
     return heyoka().from_sympy(expression.xreplace(high), swap | products)
 
 

@@ -61,29 +61,29 @@ def through_the_end(scene: AnyScene, state: np.ndarray, times: np.ndarray, follo
         return _at(before, early, times)
     there = {name: before.block(name)[-1] for name in equations.blocks}
     passed: list[float] | None = None if steps is None else []
-    without, kept = stopped(scene, there)
-    after = follow(without, kept, [0.0, *(late - left)], passed)
+    without, retained = stopped(scene, there)
+    after = follow(without, retained, [0.0, *(late - left)], passed)
     if steps is not None:
         steps += [left + t for t in passed or ()]
     limits = limits_of(scene)
     states, drifts = np.tile(before.states[-1], (len(after.t) - 1, 1)), (before, after)
-    for name in kept:
+    for name in retained:
         states[:, parts[name]] = after.block(name)[1:]
     names = before.invariant_drift | after.invariant_drift
-    whole = replace(
+    entire = replace(
         after, t=np.concatenate([before.t, late[:len(states)]]),
         states=np.concatenate([before.states, states]),
         invariant_drift={name: max(run.invariant_drift.get(name, 0.0) for run in drifts) for name in names},
         counters={name: before.counters.get(name, 0) + n for name, n in after.counters.items()},
         blocks=before.blocks, validity=limits and limits.larger(before.validity, after.validity))
-    return _at(whole, rising, times)
+    return _at(entire, rising, times)
 
 
 def _at(run: Any, rising: Any, times: Any) -> Any:
     """The run at these of its times alone, in the order of the times that were asked for."""
     keep = np.isin(run.t, rising)
-    way = 1 if times.size < 2 or times[1] > times[0] else -1
-    return replace(run, t=run.t[keep][::way], states=np.ascontiguousarray(run.states[keep][::way]))
+    route = 1 if times.size < 2 or times[1] > times[0] else -1
+    return replace(run, t=run.t[keep][::route], states=np.ascontiguousarray(run.states[keep][::route]))
 
 
 def roots_through_the_end(scene: Any, equations: Any, row: Any, t_end: float,
@@ -98,9 +98,9 @@ def roots_through_the_end(scene: Any, equations: Any, row: Any, t_end: float,
     first = search(scene, row, left)
     if first.reason:
         return first
-    without, kept = stopped(scene, {name: first.end[part] for name, part in parts.items()})
-    later = search(without, kept, t_end - left)
-    places = np.concatenate([np.arange(row.size)[parts[name]] for name in kept])
+    without, retained = stopped(scene, {name: first.end[part] for name, part in parts.items()})
+    later = search(without, retained, t_end - left)
+    places = np.concatenate([np.arange(row.size)[parts[name]] for name in retained])
 
     def whole(states: Any) -> Any:
         out = np.tile(first.end, (len(states), 1))
@@ -144,8 +144,8 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
     times, rtol = checked_times(times), checked_rtol(rtol)
     if getattr(scene, "ending", ()):  # equations may stand for a scene
         follow = lambda scene, start, to, ends: integrated(scene, start, to, method, rtol, ends, laws)
-        if (whole := through_the_end(scene, state, times, follow, steps)) is not None:
-            return whole
+        if (entire := through_the_end(scene, state, times, follow, steps)) is not None:
+            return entire
     equations, state = equations_and_start(scene, state)
     reason, landing = ALL_REACHED, False
     if method == "taylor" and not heyoka_available():
@@ -164,8 +164,8 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
     start, passed = state / scale, None if steps is None else list[float]()
     before, still, after = parted(units.times(times))
     drift: dict[str, float] = {}
-    failure, found = None, [(np.zeros(still), start[None][:still])]
-    for grid, place in ((before, 0), (after, 2)):
+    failure, result = None, [(np.zeros(still), start[None][:still])]
+    for grid, location in ((before, 0), (after, 2)):
         if grid.size:
             points, stop = run.run(start, grid, passed, note)
             failure = stop if failure is None else failure.then(stop)
@@ -173,12 +173,12 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
                 note(row[:state.size])
             for name, departure in departures(system, start, points).items() if laws else ():
                 drift[name] = max(drift.get(name, 0.0), departure)
-            sense = place - 1  # those before 0 were met from there on
-            found.insert(place, (grid[:len(points)][::sense], points[::sense, :state.size]))
+            sense = location - 1  # those before 0 were met from there on
+            result.insert(location, (grid[:len(points)][::sense], points[::sense, :state.size]))
     if steps is not None:
         steps += [t / units.pace for t in passed or ()]
-    way = 1 if times.size < 2 or times[1] > times[0] else -1
-    reached, states = (np.concatenate(parts)[::way] for parts in zip(*found))
+    route = 1 if times.size < 2 or times[1] > times[0] else -1
+    reached, states = (np.concatenate(parts)[::route] for parts in zip(*result))
     return Trajectory(reached / units.pace, states * scale, method, rtol, drift,
                       run.counters, "stopped" if failure else "reached", slices(equations.blocks),
                       watch and watch.result(), reason=failure or reason)
@@ -284,10 +284,10 @@ class _Taylor:
         rows, begun, size = [], self.counters["steps"], len(ta.state)
         while True:
             done = sum(map(len, rows))
-            last, way = ta.time, np.empty(grid.size - done + 1)
-            way[0], way[1:] = last, grid[done:]
+            last, route = ta.time, np.empty(grid.size - done + 1)
+            route[0], route[1:] = last, grid[done:]
             with np.errstate(all="ignore"):
-                outcome, _, _, steps, *_, out = ta.propagate_grid(way, max_steps=REPORT, **note)
+                outcome, _, _, steps, *_, out = ta.propagate_grid(route, max_steps=REPORT, **note)
             self.counters["steps"] += steps
             rows.append(out.reshape(-1, size)[1:])
             # the clock has two doubles: where the first is the next time and the second not zero, a grid from
@@ -295,8 +295,8 @@ class _Taylor:
             if outcome.name == "step_limit":
                 rows.append(_of_the_last_step(ta, grid[done + len(rows[-1]):]))
             if outcome.name != "step_limit" or sum(map(len, rows)) == grid.size:
-                found = rows[0] if len(rows) == 1 else np.concatenate(rows)
-                return found, OUTCOMES.get(outcome.name) or MESSAGE(message=outcome.name)
+                result = rows[0] if len(rows) == 1 else np.concatenate(rows)
+                return result, OUTCOMES.get(outcome.name) or MESSAGE(message=outcome.name)
             if note and (why := full(self.counters["steps"] - begun, NOTED)):
                 return np.concatenate(rows), why
             left = steps_left(ta.time - last, grid[-1] - ta.time)

@@ -113,11 +113,11 @@ class Asked:
     def command(self) -> str:
         """A command that asks the same."""
         import shlex
-        words = ["stabilab", "atlas", os.path.basename(self.path),
+        phrases = ["stabilab", "atlas", os.path.basename(self.path),
                  *(f"--{name}={value}" for name, value in self.options)]
-        words += [f"--level={self.level}", f"--refine={self.refine}",
+        phrases += [f"--level={self.level}", f"--refine={self.refine}",
                   *(["--certify"] if self.certify else []), *([] if self.timed else ["--no-time"])]
-        return shlex.join([*words, *(f"--{name}={text}" for name, text in self.limit)])
+        return shlex.join([*phrases, *(f"--{name}={text}" for name, text in self.limit)])
 
 
 def asked(case: Case | str | os.PathLike[str], torque: Any = None, wheel: str | None = None,
@@ -125,30 +125,30 @@ def asked(case: Case | str | os.PathLike[str], torque: Any = None, wheel: str | 
           certify: bool = False, follow: str | None = None, timed: bool = True, **limit: str | None) -> Asked:
     """An atlas whose every part is checked. Raises InputError with what is wrong and what to do."""
     path, text = place_and_text("atlas", case)
-    one = read_text(path, text)
-    _judge(one)
-    size, (wheels, momenta, unit) = _size(one, torque), _wheels(one, wheel)
+    item = read_text(path, text)
+    _judge(item)
+    size, (wheels, momenta, unit) = _size(item, torque), _wheels(item, wheel)
     _judge_cells(level, refine, len(wheels))
     options = tuple((name, str(value))
                     for name, value in (("torque", torque), ("wheel", wheel)) if value is not None)
-    stated = tuple((name, value) for name, value in limit.items() if value is not None)
-    if stated and not timed:
-        raise InputError(f"--no-time and --{stated[0][0]} contradict each other: give one of them")
-    if stated:
-        stated_limit(one, **dict(stated))
-    found = Asked(path, text, size, wheels, momenta, unit, level, refine, certify, stated, options, follow,
+    declared = tuple((name, value) for name, value in limit.items() if value is not None)
+    if declared and not timed:
+        raise InputError(f"--no-time and --{declared[0][0]} contradict each other: give one of them")
+    if declared:
+        stated_limit(item, **dict(declared))
+    result = Asked(path, text, size, wheels, momenta, unit, level, refine, certify, declared, options, follow,
                   timed)
-    if found.plan(()).longest is None:  # raises where `follow` is no time
-        return found
-    return replace(found, options=(*options, ("follow", str(follow))))
+    if result.plan(()).longest is None:  # raises where `follow` is no time
+        return result
+    return replace(result, options=(*options, ("follow", str(follow))))
 
 
 def _own_torque(case: Case) -> bool:
     """Whether the case has a torque that is not that of one thruster alone."""
-    whole = case.scene.vector("constant_torque")  # type: ignore[union-attr]
+    full = case.scene.vector("constant_torque")  # type: ignore[union-attr]
     stuck = [along_axes(case, thruster.torque) for thruster in case.thrusters if thruster.stuck]
-    rest = [v - sum(torque[n] for torque in stuck) for n, v in enumerate(whole)]
-    return any(whole) and (len(stuck) != 1 or dot(rest, rest) > NOTHING**2 * dot(whole, whole))
+    rest = [v - sum(torque[n] for torque in stuck) for n, v in enumerate(full)]
+    return any(full) and (len(stuck) != 1 or dot(rest, rest) > NOTHING**2 * dot(full, full))
 
 
 def _judge(case: Case) -> None:
@@ -274,34 +274,34 @@ def kinds_of(records: np.ndarray) -> np.ndarray:
 
 
 @contextmanager
-def drawn(asked: Asked, out: Path | None = None, workers: int | None = None,
+def drawn(request: Asked, out: Path | None = None, workers: int | None = None,
           scheduler: str | None = None) -> Iterator[Atlas]:
     """The finished atlas as a context; what it left beside `out` for a run that is killed is removed when its
     block ends well. workers, scheduler: as of `maps.run.run`."""
-    named, sweeps = asked.named, []
+    named, sweeps = request.named, []
     with ExitStack() as rounds:
         def told(points: tuple[Point, ...]) -> np.ndarray:
-            place = None if out is None else out.with_name(f"{out.name}.{len(sweeps)}") if sweeps else out
-            sweeps.append(rounds.enter_context(run(asked.plan(points), place, workers, scheduler,
-                                                   asked.command)))
+            location = None if out is None else out.with_name(f"{out.name}.{len(sweeps)}") if sweeps else out
+            sweeps.append(rounds.enter_context(run(request.plan(points), location, workers, scheduler,
+                                                   request.command)))
             return sweeps[-1].records
 
-        records = told(named + asked.first)
+        records = told(named + request.first)
         named_records, records = records[:len(named)], records[len(named):]
-        leaves = Leaves(*(np.array(column, np.int64) for column in zip(*asked.first)))
-        while len(rows := leaves.to_cut(kinds_of(records), asked.level + asked.refine)):
-            parts = leaves.children(rows)
-            found = told(tuple(Point(*one) for one in zip(*(column.tolist() for column in parts))))
-            leaves, records = _replaced(leaves, records, rows, parts, found)
-        yield Atlas(asked, leaves, records, named, named_records, sum(len(one.records) for one in sweeps),
-                    sum(one.resumed for one in sweeps))
+        ends = Leaves(*(np.array(column, np.int64) for column in zip(*request.first)))
+        while len(rows := ends.to_cut(kinds_of(records), request.level + request.refine)):
+            parts = ends.children(rows)
+            result = told(tuple(Point(*item) for item in zip(*(column.tolist() for column in parts))))
+            ends, records = _replaced(ends, records, rows, parts, result)
+        yield Atlas(request, ends, records, named, named_records, sum(len(sweep.records) for sweep in sweeps),
+                    sum(sweep.resumed for sweep in sweeps))
 
 
-def _replaced(leaves: Leaves, records: np.ndarray, rows: np.ndarray, parts: Leaves,
-              found: np.ndarray) -> tuple[Leaves, np.ndarray]:
+def _replaced(ends: Leaves, records: np.ndarray, rows: np.ndarray, parts: Leaves,
+              result: np.ndarray) -> tuple[Leaves, np.ndarray]:
     """The cells with these rows given up for their parts, in order."""
-    kept = np.setdiff1d(np.arange(len(records)), rows)
-    stay = leaves.taken(kept)
+    retained = np.setdiff1d(np.arange(len(records)), rows)
+    stay = ends.taken(retained)
     joined = Leaves(*map(np.concatenate, zip(stay, parts)))
     order = joined.order()
-    return joined.taken(order), np.concatenate([records[kept], found])[order]
+    return joined.taken(order), np.concatenate([records[retained], result])[order]

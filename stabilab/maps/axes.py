@@ -42,20 +42,20 @@ def keys_of(data: dict[str, Any]) -> dict[str, Key]:
 def key_of(data: dict[str, Any], text: str) -> Key:
     """The number that is meant: its whole name, or the end of one where no other number ends so. Raises
     InputError with what is near otherwise."""
-    known, asked = keys_of(data), _tight(text)
-    if text.strip() in known:
-        return known[text.strip()]
-    same = [name for name in known if _tight(name) == asked]
-    ending = same or [name for name in known if _tight(name).endswith(f".{asked}")]
+    resolved, request = keys_of(data), _tight(text)
+    if text.strip() in resolved:
+        return resolved[text.strip()]
+    same = [name for name in resolved if _tight(name) == request]
+    ending = same or [name for name in resolved if _tight(name).endswith(f".{request}")]
     if len(ending) == 1:
-        return known[ending[0]]
+        return resolved[ending[0]]
     if ending:
         raise InputError(f"vary {printable(text)[:80]}: may be {_names_in_words(ending)}: write one of them")
-    parts = [name for name in known if f".{asked}[" in f".{_tight(name)}"]
+    parts = [name for name in resolved if f".{request}[" in f".{_tight(name)}"]
     if parts:
         raise InputError(
             f"vary {printable(text)[:80]}: has several numbers: vary one of them, {_names_in_words(parts)}")
-    raise InputError(f"vary {printable(text)[:80]}: this case has no such number{_near(asked, known)}")
+    raise InputError(f"vary {printable(text)[:80]}: this case has no such number{_near(request, resolved)}")
 
 
 def _tight(text: str) -> str:
@@ -97,16 +97,16 @@ def _numbers(value: Any, name: str, path: tuple[Any, ...]) -> Iterator[tuple[str
         yield name, path
 
 
-def _near(asked: str, known: dict[str, Key]) -> str:
-    wholes, tails = ({part(name).lower(): name for name in known}
+def _near(request: str, resolved: dict[str, Key]) -> str:
+    wholes, tails = ({part(name).lower(): name for name in resolved}
                      for part in (str, lambda name: name.rpartition(".")[2]))
-    words = asked[:80].lower()
-    found = [(SequenceMatcher(None, text, near).ratio(), names[near])
-             for text, names in ((words, wholes), (words.rpartition(".")[2], tails), (words, tails))
-             for near in get_close_matches(text, names, n=1)]
-    if found:
-        return f"; did you mean {printable(max(found, key=lambda one: one[0])[1])}?"
-    return f"; it has {_names_in_words(list(known))}" if known else "; it has none that may vary"
+    phrase = request[:80].lower()
+    rows = [(SequenceMatcher(None, text, match).ratio(), names[match])
+             for text, names in ((phrase, wholes), (phrase.rpartition(".")[2], tails), (phrase, tails))
+             for match in get_close_matches(text, names, n=1)]
+    if rows:
+        return f"; did you mean {printable(max(rows, key=lambda item: item[0])[1])}?"
+    return f"; it has {_names_in_words(list(resolved))}" if resolved else "; it has none that may vary"
 
 
 def _names_in_words(names: list[str]) -> str:
@@ -164,23 +164,23 @@ def si_unit(path: tuple[Any, ...]) -> str:
     return "" if of == NONE else NAMES.get(of, "").partition("(")[2].rstrip(")")
 
 
-def axis_of(key: Key, asked: str) -> Axis:
+def axis_of(key: Key, request: str) -> Axis:
     """The values asked for: a text, or numbers in SI units. Raises InputError that names the key."""
     try:
-        values, unit = _of_text(asked) if isinstance(asked, str) else (_of_numbers(asked), "")
+        values, unit = _of_text(request) if isinstance(request, str) else (_of_numbers(request), "")
         if unit:
-            in_dimension(unit, dimension_of(key.paths[0]), asked)
+            in_dimension(unit, dimension_of(key.paths[0]), request)
         _judge(values)
     except InputError as error:
         raise InputError(f"vary {printable(key.name)}: {error}") from None
     return Axis(key, tuple(values), unit)
 
 
-def _of_numbers(asked: str) -> list[float]:
+def _of_numbers(request: str) -> list[float]:
     try:
-        return [_double(exact(value)) for value in asked]
+        return [_double(exact(value)) for value in request]
     except TypeError:
-        raise InputError(f"{EXPECTED}, got {asked!r:.60}") from None
+        raise InputError(f"{EXPECTED}, got {request!r:.60}") from None
 
 
 def _of_text(text: str) -> tuple[list[float], str]:
@@ -189,23 +189,23 @@ def _of_text(text: str) -> tuple[list[float], str]:
     parts = text.split(":")
     if len(parts) not in (3, 4):
         raise InputError(f'{EXPECTED}, got "{printable(text)[:60]}"')
-    found, log = _COUNT.fullmatch(parts[2]), _LOG.fullmatch(parts[3]) if len(parts) == 4 else None
-    if found is None or (len(parts) == 4 and (log is None or found[2])):
+    result, log = _COUNT.fullmatch(parts[2]), _LOG.fullmatch(parts[3]) if len(parts) == 4 else None
+    if result is None or (len(parts) == 4 and (log is None or result[2])):
         raise InputError(f'{EXPECTED}, got "{printable(text)[:60]}"')
-    (start, stop), unit = _with_one_unit([parts[0], parts[1]], (log[1] if log else found[2]).strip(), text)
-    return _spread(start, stop, int(found[1]), log is not None), unit
+    (start, stop), unit = _with_one_unit([parts[0], parts[1]], (log[1] if log else result[2]).strip(), text)
+    return _spread(start, stop, int(result[1]), log is not None), unit
 
 
 def _listed(text: str) -> tuple[list[float], str]:
-    words = [word for word in text.split(",") if word.strip()]
-    values, unit = _with_one_unit(words, "", text)
+    phrases = [word for word in text.split(",") if word.strip()]
+    values, unit = _with_one_unit(phrases, "", text)
     return [_double(value) for value in values], unit
 
 
-def _with_one_unit(words: list[str], unit: str, text: str,
+def _with_one_unit(phrase: list[str], unit: str, text: str,
                    expected: str = EXPECTED) -> tuple[list[Fraction], str]:
     """The numbers, and the one unit that any of them has."""
-    parts = [split(word.strip()) for word in words]
+    parts = [split(word.strip()) for word in phrase]
     if None in parts:
         raise InputError(f'{expected}, got "{printable(text)[:60]}"')
     # none is None
@@ -243,10 +243,10 @@ def _double(value: Fraction) -> float:
 def _judge(values: list[float]) -> None:
     if not values:
         raise InputError("expected at least one point, got none")
-    seen: set[float] = set()
+    visited: set[float] = set()
     # add gives None
     again = next((value for value in values
-                  if value in seen or seen.add(value)), None)  # type: ignore[func-returns-value]
+                  if value in visited or visited.add(value)), None)  # type: ignore[func-returns-value]
     if again is not None:
         raise InputError(f"the value {again!r} comes twice: give each once (a range of fewer points, where "
                          "doubles cannot tell them apart)")
@@ -284,7 +284,7 @@ def spans_of(data: dict[str, Any], vary: Sequence[tuple[str, Any]]) -> tuple[Spa
     if len(vary) > 2:
         raise InputError(f"expected one or two numbers that vary, got {len(vary)}: a diagram has no more; "
                          "stabilab sweep takes up to four")
-    spans = tuple(span_of(key_of(data, name), asked) for name, asked in vary)
+    spans = tuple(span_of(key_of(data, name), request) for name, request in vary)
     each_once(span.key for span in spans)
     return spans
 
@@ -299,12 +299,12 @@ def each_once(keys: Iterable[Key]) -> None:
         taken |= dict.fromkeys(key.paths, key.name)
 
 
-def span_of(key: Key, asked: str) -> Span:
+def span_of(key: Key, request: str) -> Span:
     """The range of one number: a text, or two numbers in SI units. Raises InputError that names the key."""
     try:
-        low, high, unit = _range_of(asked)
+        low, high, unit = _range_of(request)
         if unit:
-            in_dimension(unit, dimension_of(key.paths[0]), asked)
+            in_dimension(unit, dimension_of(key.paths[0]), request)
         if low >= high:
             raise InputError(f"{EXPECTED_RANGE}, the lower end first, got {float(low)!r} and {float(high)!r}")
     except InputError as error:
@@ -312,12 +312,12 @@ def span_of(key: Key, asked: str) -> Span:
     return Span(key, low, high, unit)
 
 
-def _range_of(asked: Any) -> tuple[Fraction, Fraction, str]:
-    if not isinstance(asked, str):
-        if not isinstance(asked, (tuple, list)) or len(asked) != 2:
-            raise InputError(f"{EXPECTED_RANGE} or two numbers, got {asked!r:.60}")
-        return exact(asked[0]), exact(asked[1]), ""
-    text, parts = asked, asked.split(":")
+def _range_of(request: Any) -> tuple[Fraction, Fraction, str]:
+    if not isinstance(request, str):
+        if not isinstance(request, (tuple, list)) or len(request) != 2:
+            raise InputError(f"{EXPECTED_RANGE} or two numbers, got {request!r:.60}")
+        return exact(request[0]), exact(request[1]), ""
+    text, parts = request, request.split(":")
     if len(parts) in (3, 4):
         raise InputError(f'{EXPECTED_RANGE}, got "{printable(text)[:60]}": a diagram is exact and has no '
                          'number of steps (stabilab sweep has)')

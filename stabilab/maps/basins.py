@@ -138,8 +138,8 @@ class Mesh:
 
     def mixed(self, depth: int, cells: np.ndarray) -> np.ndarray:
         """(n,): whether the labels of a cell's corners differ."""
-        found = self.labels_of(self.corners(depth, cells))
-        return (found != found[:, :1]).any(axis=1)
+        result = self.labels_of(self.corners(depth, cells))
+        return (result != result[:, :1]).any(axis=1)
 
     @property
     def boundary(self) -> np.ndarray:
@@ -155,12 +155,12 @@ def refined(cells: tuple[int, int], depth: int, ask: Ask) -> Mesh:
     mesh.leaves = [np.arange(cells[0] * cells[1]), *[nothing] * depth]
     mesh.split = [nothing] * (depth + 1)
     _ask(mesh, mesh.corners(0, mesh.leaves[0]), ask)
-    while any(map(len, found := _to_split(mesh))):
+    while any(map(len, result := _to_split(mesh))):
         wanted = np.unique(np.concatenate([mesh.corners(n + 1, _children(mesh, n, chosen)).ravel()
-                                           for n, chosen in enumerate(found)]))
+                                           for n, chosen in enumerate(result)]))
         if len(mesh.keys) + len(wanted) > MAX_PLACES:
             return _ended(mesh)
-        for n, chosen in enumerate(found):
+        for n, chosen in enumerate(result):
             _split(mesh, n, chosen)
         _ask(mesh, wanted, ask)
     return mesh
@@ -170,7 +170,7 @@ def _ended(mesh: Mesh) -> Mesh:
     """The mesh on the grid of the finest cells that there are, where more places would be needed than are
     asked for."""
     depth = max(n for n, cells in enumerate(mesh.leaves) if len(cells))
-    row, column = (place >> mesh.depth - depth for place in mesh.places(mesh.keys))
+    row, column = (location >> mesh.depth - depth for location in mesh.places(mesh.keys))
     return Mesh(mesh.cells, depth, row * ((mesh.cells[1] << depth) + 1) + column, mesh.labels,
                 mesh.leaves[:depth + 1], mesh.split[:depth + 1], True)
 
@@ -198,7 +198,7 @@ def _split(mesh: Mesh, depth: int, chosen: np.ndarray) -> None:
 def _to_split(mesh: Mesh) -> list[np.ndarray]:
     """Per depth but the last the leaves that are to be split: mixed ones, and those on which a smaller
     neighbour's mixed side lies."""
-    found = [cells[mesh.mixed(n, cells)] for n, cells in enumerate(mesh.leaves[:-1])]
+    rows = [cells[mesh.mixed(n, cells)] for n, cells in enumerate(mesh.leaves[:-1])]
     missing = np.empty(0, np.int64)  # cells of depth n + 1 across a mixed side that are not there
     for n in range(mesh.depth - 1, -1, -1):
         beyond = np.union1d(missing, _across(mesh, n + 1))
@@ -206,9 +206,9 @@ def _to_split(mesh: Mesh) -> list[np.ndarray]:
         row, column = mesh.at(n + 1, np.setdiff1d(beyond, there, assume_unique=True))
         above = np.unique(mesh.number(n, row // 2, column // 2))
         here = np.isin(above, mesh.leaves[n])
-        found[n] = np.union1d(found[n], above[here])
+        rows[n] = np.union1d(rows[n], above[here])
         missing = above[~here]  # not even these are there: their own ancestors go first
-    return found
+    return rows
 
 
 def _across(mesh: Mesh, depth: int) -> np.ndarray:
@@ -220,9 +220,9 @@ def _across(mesh: Mesh, depth: int) -> np.ndarray:
     labels = mesh.labels_of(mesh.corners(depth, cells))
     rows, columns = (n << depth for n in mesh.cells)
     out = []
-    for (one, other), (down, right) in SIDES.items():
+    for (item, other), (down, right) in SIDES.items():
         beside_row, beside_column = row + down, column + right
-        crossed = ((labels[:, one] != labels[:, other]) & (0 <= beside_row) & (beside_row < rows)
+        crossed = ((labels[:, item] != labels[:, other]) & (0 <= beside_row) & (beside_row < rows)
                    & (0 <= beside_column) & (beside_column < columns))
         out.append(mesh.number(depth, beside_row[crossed], beside_column[crossed]))
     return np.unique(np.concatenate(out))
@@ -269,9 +269,9 @@ class Basins:
     def boundary(self) -> np.ndarray:
         """Numbers of the finest cells on the boundary: two of their corners are decided, and differently."""
         cells = self.mesh.boundary
-        found = self.mesh.labels_of(self.mesh.corners(self.mesh.depth, cells))
-        low = np.where(found == UNDECIDED, 99, found).min(axis=1)
-        high = np.where(found == UNDECIDED, -99, found).max(axis=1)
+        result = self.mesh.labels_of(self.mesh.corners(self.mesh.depth, cells))
+        low = np.where(result == UNDECIDED, 99, result).min(axis=1)
+        high = np.where(result == UNDECIDED, -99, result).max(axis=1)
         return cells[low < high]
 
     @cached_property
@@ -288,14 +288,14 @@ class Basins:
     def shares(self) -> dict[int, float]:
         """label -> its share of the plane; a cell on the boundary counts for the labels of its corners alike.
         """
-        found: dict[int, float] = {}
+        result: dict[int, float] = {}
         total = self.mesh.cells[0] * self.mesh.cells[1]
         for depth, cells in leaves(self.mesh):
             values, counts = np.unique(self.mesh.labels_of(self.mesh.corners(depth, cells)),
                                        return_counts=True)
             for value, count in zip(values.tolist(), counts.tolist()):
-                found[value] = found.get(value, 0.0) + count / 4 / 4**depth / total
-        return dict(sorted(found.items(), key=lambda pair: -pair[1]))
+                result[value] = result.get(value, 0.0) + count / 4 / 4**depth / total
+        return dict(sorted(result.items(), key=lambda pair: -pair[1]))
 
     @property
     def blur(self) -> float:
@@ -316,7 +316,7 @@ class Basins:
         if not self.exact or not len(self.boundary):
             return np.empty((0, 2, 2))
         corners = self.mesh.corners(self.mesh.depth, self.boundary)
-        ends, which = np.unique(np.stack([corners[:, [one, other]] for one, other in SIDES],
+        ends, which = np.unique(np.stack([corners[:, [item, other]] for item, other in SIDES],
                                          axis=1).reshape(-1, 2), axis=0, return_inverse=True)
         per_cell = self._crossed(ends)[which.ravel()].reshape(len(corners), len(SIDES), 2)
         order = np.argsort(np.isnan(per_cell[..., 0]), axis=1, kind="stable")
@@ -326,18 +326,18 @@ class Basins:
     def _crossed(self, ends: np.ndarray) -> np.ndarray:
         """(n, 2): where the boundary crosses sides of finest cells, given by the keys of their ends (n, 2);
         nan where it does not."""
-        place, values = np.full((len(ends), 2), np.nan), [np.array(axis.values) for axis in self.plan.axes]
+        index, values = np.full((len(ends), 2), np.nan), [np.array(axis.values) for axis in self.plan.axes]
         spun = self._spun(ends[:, 0])
         for along in (0, 1):
             chosen = np.flatnonzero(((ends[:, 1] - ends[:, 0] == 1) == bool(along))
                                     & (spun != self._spun(ends[:, 1])))
             rows = np.stack(self.mesh.places(ends[chosen, 0]), axis=1)
-            share = changes(self.plan, (0, 0), along, rows, spun[chosen],
+            part = changes(self.plan, (0, 0), along, rows, spun[chosen],
                             max(FEWEST_HALVINGS, HALVINGS - self.mesh.depth))
             for n in (0, 1):
                 here = values[n][rows[:, n]]
-                place[chosen, n] = here + (values[n][rows[:, n] + 1] - here) * share if n == along else here
-        return place
+                index[chosen, n] = here + (values[n][rows[:, n] + 1] - here) * part if n == along else here
+        return index
 
     def _spun(self, keys: np.ndarray) -> np.ndarray:
         return self.mesh.labels_of(keys) % UNDECIDED != BOUNDED
@@ -364,18 +364,18 @@ def basins(case: Case | str | os.PathLike[str], vary: Any, depth: int = DEPTH, o
     """
     coarse = _planned(case, vary, depth, follow)
     fine = _fine(coarse, depth)
-    asked: list[np.ndarray] = []
+    request: list[np.ndarray] = []
     sweeps: list[Swept] = []
     with ExitStack() as rounds:
         def ask(keys: np.ndarray) -> np.ndarray:
-            beside = None if out is None else out.with_name(f"{out.name}.{len(asked)}") if asked else out
-            asked.append(keys)
+            beside = None if out is None else out.with_name(f"{out.name}.{len(request)}") if request else out
+            request.append(keys)
             sweeps.append(rounds.enter_context(run(replace(fine, listed=packed(keys)), beside, workers,
                                                    scheduler, _command(coarse, depth))))
             return label_of(sweeps[-1].records)
         mesh = refined((coarse.shape[0] - 1, coarse.shape[1] - 1), depth, ask)
-        rows = np.concatenate([one.records for one in sweeps])[np.argsort(np.concatenate(asked))]
-        yield Basins(_fine(coarse, mesh.depth), mesh, rows, depth, sum(one.resumed for one in sweeps))
+        rows = np.concatenate([sweep.records for sweep in sweeps])[np.argsort(np.concatenate(request))]
+        yield Basins(_fine(coarse, mesh.depth), mesh, rows, depth, sum(sweep.resumed for sweep in sweeps))
 
 
 def _planned(case, vary, depth, follow) -> Plan:
@@ -399,9 +399,9 @@ def _planned(case, vary, depth, follow) -> Plan:
 
 
 def _command(coarse: Plan, depth: int) -> str:
-    words = [*(f"--vary={name}={text}" for name, text in coarse.vary), f"--depth={depth}",
+    phrases = [*(f"--vary={name}={text}" for name, text in coarse.vary), f"--depth={depth}",
              *([f"--follow={coarse.follow}"] if coarse.follow else [])]
-    return shlex.join(["stabilab", "basin", os.path.basename(coarse.path), *words])
+    return shlex.join(["stabilab", "basin", os.path.basename(coarse.path), *phrases])
 
 
 def _range(name: str, text: str) -> str:

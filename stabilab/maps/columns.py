@@ -72,14 +72,14 @@ def _ends(which: int) -> Callable[[Any], Any]:
     return lambda motion: motion.extremes and [pair[which] for pair in motion.extremes]
 
 
-def _limit_level(found: TimeTo) -> list[int]:
+def _limit_level(result: TimeTo) -> list[int]:
     """How well each time to a limit is known."""
-    return [LIMIT_LEVELS.index(word) if word in LIMIT_LEVELS else 0 for word in np.ravel(found.level)]
+    return [LIMIT_LEVELS.index(word) if word in LIMIT_LEVELS else 0 for word in np.ravel(result.level)]
 
 
 def _counted(name: str) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
     """A count of equilibria, which are those of all states of a scene."""
-    return (lambda found: found[name],) * 2
+    return (lambda result: result[name],) * 2
 
 
 # what may be asked
@@ -126,12 +126,12 @@ ANSWERS: dict[str, Answer] = {
                note="+inf where it never repeats, " + NOT_KNOWN + ", 0 at rest"),)),
     "when": Answer("limit", (0.1, 0.1), (
         Column("when_low", "f8", TIME, "the limit is not reached before",
-               lambda found: found.low, lambda found: found.low, note="+inf: never"),
+               lambda result: result.low, lambda result: result.low, note="+inf: never"),
         Column("when_high", "f8", TIME, "the limit is reached by",
-               lambda found: found.high, lambda found: found.high,
+               lambda result: result.high, lambda result: result.high,
                note="+inf: never; NaN where that is not known"),
         Column("when_level", "i1", "", "how well the time is known", _limit_level,
-               lambda found: _limit_level(found)[0], LIMIT_LEVELS, note="-1: no case", no_case=-1))),
+               lambda result: _limit_level(result)[0], LIMIT_LEVELS, note="-1: no case", no_case=-1))),
     "equilibria": Answer("equilibria", (0, 0), (
         Column("equilibria", "i4", "", "number of equilibria", *_counted("equilibria"),
                note=COUNTS(curves=ENDLESS, open=OPEN, none=NONE).text(),
@@ -145,37 +145,37 @@ ANSWERS: dict[str, Answer] = {
                *_counted("open"), note=f"{NONE}: no case", no_case=NONE))),
     "chaos": Answer("chaos", (2e-2, 5e-2), (
         Column("chaos", "i1", "", "what is seen of the motion up to the time it is followed",
-               lambda found: found.labels, lambda found: found.labels,
+               lambda result: result.labels, lambda result: result.labels,
                tuple(order.word for order in Order), note="-1: no case", no_case=-1),
         Column("megno", "f8", "", "MEGNO: 2 on tori, grows where chaotic",
-               lambda found: found.megno, lambda found: found.megno,
+               lambda result: result.megno, lambda result: result.megno,
                note="mean exponential growth of nearby orbits; NaN where the motion spins up or leaves the "
                     "doubles"),
         Column("lyapunov", "f8", PACE, "rate at which neighbours part",
-               lambda found: found.lyapunov, lambda found: found.lyapunov,
+               lambda result: result.lyapunov, lambda result: result.lyapunov,
                note="0 where regular, NaN where it is not known"))),
 }
 # of every sweep, read off the numbers of a point's own case by `parts`
 CAVEATS = Column("caveats", "i1", "", "what limits the answer", lambda codes: codes, lambda codes: codes,
                  # those of a point, which its numbers make
-                 tuple("; ".join(str(one) for one in parts if one) for parts in product(
+                 tuple("; ".join(str(part) for part in parts if part) for parts in product(
                      (None, UNSTABLE_POINT), (None, NO_SUCH_BODY),
-                     [one and HOLDS(condition=one) for one in CONDITIONS])))
+                     [condition and HOLDS(condition=condition) for condition in CONDITIONS])))
 DEFAULT = ("fate", "level", "margin")
-VALID = Column("valid", "i1", "", "whether the numbers make a case", lambda known: known, lambda known: known,
+VALID = Column("valid", "i1", "", "whether the numbers make a case", lambda info: info, lambda info: info,
                ("no", "yes"))
 
 
-def asked_answers(asked) -> tuple[str, ...]:
+def asked_answers(query) -> tuple[str, ...]:
     """The answers asked for, "fate,margin" or names in a row, in the order of ANSWERS. Raises InputError for
     others."""
-    names = [word.strip() for word in asked.split(",")] if isinstance(asked, str) else list(asked or DEFAULT)
+    names = [word.strip() for word in query.split(",")] if isinstance(query, str) else list(query or DEFAULT)
     for name in names:
         if name not in ANSWERS:
             from difflib import get_close_matches
-            near = get_close_matches(str(name).lower()[:40], ANSWERS, n=1)
+            close = get_close_matches(str(name).lower()[:40], ANSWERS, n=1)
             raise InputError(f"answer {printable(str(name))[:40]!r}: "
-                             f"{f'did you mean {near[0]}? ' if near else ''}expected {', '.join(ANSWERS)}")
+                             f"{f'did you mean {close[0]}? ' if close else ''}expected {', '.join(ANSWERS)}")
     return tuple(name for name in ANSWERS if name in names)
 
 

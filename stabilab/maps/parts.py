@@ -64,7 +64,7 @@ def states_of(plan: Plan, case: Case, low: int, high: int) -> np.ndarray:
 
 
 def states_at(plan: Plan, case: Case, places: Sequence[np.ndarray], moved: int = -1,
-              share: np.ndarray | float = 0.0) -> np.ndarray:
+              part: np.ndarray | float = 0.0) -> np.ndarray:
     """(n, 3): the same of the points at `places`, (n,) along each inner dimension, each moved by a share of
     the way to the next along the dimension `moved`."""
     first = plan.inner[0]
@@ -75,7 +75,7 @@ def states_at(plan: Plan, case: Case, places: Sequence[np.ndarray], moved: int =
         if n < len(plan.axes):
             values = np.array(plan.axes[n].si)
             ahead = values[np.minimum(at + 1, len(values) - 1)] - values[at]
-            states[:, plan.axes[n].key.paths[0][2]] = values[at] + ahead * share if n == moved else values[at]
+            states[:, plan.axes[n].key.paths[0][2]] = values[at] + ahead * part if n == moved else values[at]
         else:
             begin = int(at.min())
             rows = plan.sampled.values(begin, int(at.max()) + 1)[at - begin]
@@ -134,15 +134,15 @@ def _fill(module: ModuleType, plan: Plan, case: Case, states: np.ndarray, column
     """Put what a module finds into its columns: of all states at once, or of one after another where their
     scene has no arrays."""
     if effective(case.scene).plain or module.of_one is None:
-        found = module.of_many(plan, case, states)
+        result = module.of_many(plan, case, states)
         for column in columns:
-            out[column.name] = column.many(found)
+            out[column.name] = column.many(result)
         return
     for n, state in enumerate(states.tolist()):
         here = replace(case, state=tuple(state)) if tuple(state) != case.state else case
-        found = module.of_one(plan, here)
+        result = module.of_one(plan, here)
         for column in columns:
-            out[column.name][n] = column.one(found)
+            out[column.name][n] = column.one(result)
 
 
 def _caveats(case: Case, states: np.ndarray, out: np.ndarray) -> np.ndarray:
@@ -155,7 +155,7 @@ def _caveats(case: Case, states: np.ndarray, out: np.ndarray) -> np.ndarray:
             departs[rests] = _filling("fate").depart(case, states[rests])
     if "when_low" in out.dtype.names:
         steady |= np.isposinf(out["when_low"])
-    unphysical = any(one.kind is Kind.UNPHYSICAL for one in case.caveats)
+    unphysical = any(caveat.kind is Kind.UNPHYSICAL for caveat in case.caveats)
     return np.where(steady, condition(case.scene), 0) + count * unphysical + 2 * count * departs
 
 
@@ -225,16 +225,16 @@ def _claim(plan: Plan, folder: Path, command: str) -> None:
 def _of_another(folder: Path, claim: Path, command: str) -> InputError:
     """What stands there, how it goes on, and how it is replaced."""
     try:
-        told = json.loads(claim.read_text(encoding="utf-8"))["command"]
+        printed = json.loads(claim.read_text(encoding="utf-8"))["command"]
     except (ValueError, TypeError, KeyError):  # an older version did not say
-        told = None
+        printed = None
     file = file_of(folder)
     folders = sorted(path for path in folder.parent.glob(f"{escape(file)}*{PARTS}") if file_of(path) == file)
     number = sum(1 for path in folders for _ in path.glob("part-*"))
-    if told == command:
+    if printed == command:
         what = "this command, before the case file or the program changed"
     else:
-        what = ("another command, which goes on from them: " + f"{printable(told)} --out {file}" if told
+        what = ("another command, which goes on from them: " + f"{printable(printed)} --out {file}" if printed
                 else "another command or version")
     return InputError(f"{folder}: holds finished parts ({number}) of {what}; to replace them: rm -r "
                       f"{shlex.join(map(str, folders))}; or give another --out")
@@ -249,11 +249,11 @@ def write(plan: Plan, folder: Path, number: int, rows: bytes) -> None:
 def read(plan: Plan, folder: Path, number: int) -> np.ndarray | None:
     """The records of a chunk; None where its part is not there, or is not whole (a power cut)."""
     try:
-        found = _path(folder, number).read_bytes()
+        result = _path(folder, number).read_bytes()
     except FileNotFoundError:
         return None
-    rows = found[DIGEST:]
-    return (np.frombuffer(rows, record(plan.answers)) if _digest(plan, number, rows) == found[:DIGEST]
+    rows = result[DIGEST:]
+    return (np.frombuffer(rows, record(plan.answers)) if _digest(plan, number, rows) == result[:DIGEST]
             else None)
 
 

@@ -65,7 +65,7 @@ class Samples:
         bits = np.random.PCG64(self.seed)
         bits.advance(start * width)
         unit = np.random.Generator(bits).random((stop - start, width))
-        middle, half = (np.array([float(getattr(one, name)) for one in self.numbers])
+        middle, half = (np.array([float(getattr(number, name)) for number in self.numbers])
                         for name in ("middle", "half"))
         return middle + half * (2.0 * unit - 1.0)
 
@@ -74,7 +74,7 @@ class Samples:
         return si_unit(self.keys[number].paths[0]) or "1"
 
 
-def samples_of(case: Case, known: dict[str, Key], taken: set[tuple[Any, ...]], count: int | None,
+def samples_of(case: Case, resolved: dict[str, Key], taken: set[tuple[Any, ...]], count: int | None,
                seed: int) -> Samples | None:
     """The samples asked for over the numbers that the case gives with an uncertainty, those left out that
     vary by themselves."""
@@ -85,12 +85,12 @@ def samples_of(case: Case, known: dict[str, Key], taken: set[tuple[Any, ...]], c
                          f"got {count!r:.40}")
     if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
         raise InputError(f"seed: expected a whole number that is not negative, got {seed!r:.40}")
-    by_path = {path: key for key in known.values() for path in key.paths}
-    numbers = tuple(one for one in case.uncertain if one.path not in taken)
+    by_path = {path: key for key in resolved.values() for path in key.paths}
+    numbers = tuple(item for item in case.uncertain if item.path not in taken)
     if not numbers:
         raise InputError(
             f'samples: {case.place} gives no number with an uncertainty: write one as "2000 +- 20"')
-    return Samples(tuple(by_path[one.path] for one in numbers), numbers, count, seed)
+    return Samples(tuple(by_path[number.path] for number in numbers), numbers, count, seed)
 
 
 AXES = 4
@@ -136,8 +136,8 @@ class Plan:
     @cached_property
     def data(self) -> dict[str, Any]:
         """The case's TOML data, without what belongs to the file's own combinations."""
-        found, _ = parsed(self.path, self.text)
-        return {key: value for key, value in found.items() if key not in ("sweep", "expect")}
+        result, _ = parsed(self.path, self.text)
+        return {key: value for key, value in result.items() if key not in ("sweep", "expect")}
 
     @cached_property
     def case(self) -> Case:
@@ -147,7 +147,7 @@ class Plan:
     @cached_property
     def axes(self) -> tuple[Axis, ...]:
         """The numbers that vary, in the user's order."""
-        return tuple(axis_of(key_of(self.data, name), asked) for name, asked in self.vary)
+        return tuple(axis_of(key_of(self.data, name), request) for name, request in self.vary)
 
     @cached_property
     def sampled(self) -> Samples | None:
@@ -206,19 +206,19 @@ class Plan:
         unasked."""
         if self.follow is None:
             return None
-        found = float(in_si(self.follow, NONE if self.case.variables == "scaled" else TIME, "follow"))
-        if not found > 0:
+        result = float(in_si(self.follow, NONE if self.case.variables == "scaled" else TIME, "follow"))
+        if not result > 0:
             raise InputError(f"follow: expected a time above zero, got {printable(self.follow)[:40]}")
-        return found
+        return result
 
     @cached_property
     def chunks(self) -> tuple[Chunk, ...]:
         """All points, in order."""
-        most = max(1, min(LARGEST, int(CHUNK_SECONDS / self.cost)))
-        if self.states >= most:
-            return tuple(Chunk(n, n + 1, low, min(low + most, self.states)) for n in range(self.scenes)
-                         for low in range(0, self.states, most))
-        together = max(1, most // self.states)
+        largest = max(1, min(LARGEST, int(CHUNK_SECONDS / self.cost)))
+        if self.states >= largest:
+            return tuple(Chunk(n, n + 1, low, min(low + largest, self.states)) for n in range(self.scenes)
+                         for low in range(0, self.states, largest))
+        together = max(1, largest // self.states)
         return tuple(Chunk(n, min(n + together, self.scenes), 0, self.states)
                      for n in range(0, self.scenes, together))
 
@@ -239,49 +239,49 @@ class Plan:
                            "path": os.path.basename(self.path) if brief else self.path, "text": self.text,
                            "vary": self.vary, "samples": self.samples, "seed": self.seed,
                            "answers": self.answers, "limit": self.limit}
-                          | pointed | {name: told for name,
-                                       told in (("listed", self.listed), ("follow", self.follow)) if told})
+                          | pointed | {name: text for name,
+                                       text in (("listed", self.listed), ("follow", self.follow)) if text})
 
     @cached_property
     def digest(self) -> str:
         """A name for what is asked: parts of another question are not taken for those of this one."""
-        told = json.loads(self.as_json(brief=True)) | {"chunks": self.chunks}
-        return hashlib.sha256(json.dumps(told).encode()).hexdigest()
+        printed = json.loads(self.as_json(brief=True)) | {"chunks": self.chunks}
+        return hashlib.sha256(json.dumps(printed).encode()).hexdigest()
 
     @property
     def command(self) -> str:
         """A command that asks the same, without what does not change the answer."""
         import shlex
-        words = ["stabilab", "sweep", os.path.basename(self.path)]
-        words += [f"--vary={name}={_as_text(asked)}" for name, asked in self.vary]
-        words += [f"--samples={self.samples}", f"--seed={self.seed}"] if self.samples else []
-        words += [f"--answer={','.join(self.answers)}", *(f"--{name}={text}" for name, text in self.limit)]
-        words += [f"--follow={self.follow}"] if self.follow else []
-        return shlex.join(words)
+        phrases = ["stabilab", "sweep", os.path.basename(self.path)]
+        phrases += [f"--vary={name}={_as_text(request)}" for name, request in self.vary]
+        phrases += [f"--samples={self.samples}", f"--seed={self.seed}"] if self.samples else []
+        phrases += [f"--answer={','.join(self.answers)}", *(f"--{name}={text}" for name, text in self.limit)]
+        phrases += [f"--follow={self.follow}"] if self.follow else []
+        return shlex.join(phrases)
 
 
-def _as_text(asked: str) -> str:
-    return asked if isinstance(asked, str) else ",".join(map(repr, asked))
+def _as_text(request: str) -> str:
+    return request if isinstance(request, str) else ",".join(map(repr, request))
 
 
 def from_json(text: str) -> Plan:
     """The plan that another process wrote down."""
-    told = json.loads(text)
-    rows = lambda name: tuple((key, value) for key, value in told[name])
-    pointed = pointed_from(told["pointed"]) if "pointed" in told else None
-    return Plan(told["path"], told["text"], rows("vary"), told["samples"], told["seed"],
-                tuple(told["answers"]), rows("limit"), told.get("listed", ""), told.get("follow"), pointed)
+    shown = json.loads(text)
+    rows = lambda name: tuple((key, value) for key, value in shown[name])
+    pointed = pointed_from(shown["pointed"]) if "pointed" in shown else None
+    return Plan(shown["path"], shown["text"], rows("vary"), shown["samples"], shown["seed"],
+                tuple(shown["answers"]), rows("limit"), shown.get("listed", ""), shown.get("follow"), pointed)
 
 
-def split_keys(words: Sequence[str],
+def split_keys(text: Sequence[str],
                expected: str = "KEY=START:STOP:COUNT or KEY=A,B,C") -> list[tuple[str, str]]:
     """(key, values) of every KEY=VALUES of a command line. expected: the form that the command takes, for
     whom it misses."""
-    for word in words:
+    for word in text:
         if "=" not in word:
             raise InputError(f'--vary: expected {expected}, got "{printable(word)[:60]}"')
     # values have none, a wheel's name may
-    return [(key.strip(), values.strip()) for key, _, values in (word.rpartition("=") for word in words)]
+    return [(key.strip(), values.strip()) for key, _, values in (word.rpartition("=") for word in text)]
 
 
 def place_and_text(question: str, case: Any) -> tuple[str, str]:
@@ -301,20 +301,20 @@ def planned(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Seque
             answer: Any = None, follow: str | None = None, **limit: str | None) -> Plan:
     """A sweep whose every part is checked. Raises InputError with what is wrong."""
     path, text = place_and_text("sweep", case)
-    rows = [(name, asked if isinstance(asked, str) else _plain(name, asked)) for name,
-            asked in (vary.items() if isinstance(vary, Mapping) else vary)]
+    rows = [(name, request if isinstance(request, str) else _plain(name, request)) for name,
+            request in (vary.items() if isinstance(vary, Mapping) else vary)]
     plan = Plan(path, text, tuple(rows), samples, seed, asked_answers(answer),
                 tuple((k, v) for k, v in limit.items() if v is not None), follow=follow)
     _judge(plan)
     return plan
 
 
-def _plain(name: str, asked: str) -> list[float]:
+def _plain(name: str, request: str) -> list[float]:
     try:
-        return [float(value) for value in asked]
+        return [float(value) for value in request]
     except (TypeError, ValueError):
         raise InputError(f'vary {printable(name)}: expected a text such as "0:30:31 deg/s" or numbers in a '
-                         f'row, got {asked!r:.60}') from None
+                         f'row, got {request!r:.60}') from None
 
 
 def _judge(plan: Plan) -> None:

@@ -70,14 +70,14 @@ def places(level: int, numbers: np.ndarray) -> np.ndarray:
     return corners(level, numbers).sum(axis=1) / (3.0 * 2**level)
 
 
-def cell_at(level: int, place: np.ndarray) -> np.ndarray:
+def cell_at(level: int, location: np.ndarray) -> np.ndarray:
     """(n,): the numbers of the cells of a level that hold places (n, 3) on the octahedron."""
-    place = np.asarray(place, float)
-    number = ((place < 0) * [1, 2, 4]).sum(axis=1).astype(np.int64)
-    share = np.abs(place) / np.abs(place).sum(axis=1, keepdims=True)
+    location = np.asarray(location, float)
+    number = ((location < 0) * [1, 2, 4]).sum(axis=1).astype(np.int64)
+    part = np.abs(location) / np.abs(location).sum(axis=1, keepdims=True)
     for _ in range(level):
-        digit = np.where((share > 0.5).any(axis=1), share.argmax(axis=1), 3)
-        share = np.where((digit == 3)[:, None], 1 - 2 * share, 2 * share - (np.arange(3) == digit[:, None]))
+        digit = np.where((part > 0.5).any(axis=1), part.argmax(axis=1), 3)
+        part = np.where((digit == 3)[:, None], 1 - 2 * part, 2 * part - (np.arange(3) == digit[:, None]))
         number = 4 * number + digit
     return number
 
@@ -85,23 +85,23 @@ def cell_at(level: int, place: np.ndarray) -> np.ndarray:
 def neighbours(level: int, numbers: np.ndarray) -> np.ndarray:
     """(n, 3): the cells of the same level across each edge, over the seams of the faces too."""
     at = corners(level, numbers)
-    whole = at.sum(axis=1, keepdims=True)  # three times the middle
-    ends = whole - at  # of the edge opposite to each corner: the sum of its two
+    full = at.sum(axis=1, keepdims=True)  # three times the middle
+    ends = full - at  # of the edge opposite to each corner: the sum of its two
     # (n, edge, coordinate): the edge lies in a principal plane, and the cell beyond is the mirror image
     seam = (ends == 0) & (at != 0)
-    place = np.where(seam.any(axis=2, keepdims=True), np.where(seam, -1, 1) * whole, 2 * ends - at)
-    return cell_at(level, place.reshape(-1, 3) / (3.0 * 2**level)).reshape(-1, 3)
+    location = np.where(seam.any(axis=2, keepdims=True), np.where(seam, -1, 1) * full, 2 * ends - at)
+    return cell_at(level, location.reshape(-1, 3) / (3.0 * 2**level)).reshape(-1, 3)
 
 
-def directions(place: np.ndarray) -> np.ndarray:
+def directions(location: np.ndarray) -> np.ndarray:
     """(n, 3): unit vectors of places on the octahedron."""
-    place = np.asarray(place, float)
-    size = np.abs(place)
+    location = np.asarray(location, float)
+    size = np.abs(location)
     rows = np.arange(len(size))
     k = size.argmin(axis=1)  # the corner opposite to the nearest edge
     i, j = (k + 1) % 3, (k + 2) % 3
-    least, a, b = size[rows, k], size[rows, i], size[rows, j]
-    r = 1 - 3 * least
+    smallest, a, b = size[rows, k], size[rows, i], size[rows, j]
+    r = 1 - 3 * smallest
     # of [-1, 1] from one end of the edge to the other
     along = np.divide(a - b, r, out=np.zeros_like(r), where=r > 0) * PART
     across, ahead = np.sin(along), np.cos(along) - COS_G
@@ -114,12 +114,12 @@ def directions(place: np.ndarray) -> np.ndarray:
     # (1,-1,0)/sqrt 2
     middle, side = up / np.sqrt(3.0), out * azimuth_cos / np.sqrt(6.0)
     edge = out * azimuth_sin / np.sqrt(2.0)
-    found = np.empty_like(size)
-    found[rows, i], found[rows, j] = middle + side + edge, middle + side - edge
-    found[rows, k] = middle - 2 * side
+    result = np.empty_like(size)
+    result[rows, i], result[rows, j] = middle + side + edge, middle + side - edge
+    result[rows, k] = middle - 2 * side
     # principal planes and axes without a trace across them
-    found = np.where(size == 0, 0.0, np.maximum(found, 0.0))
-    return np.where(place < 0, -found, found)
+    result = np.where(size == 0, 0.0, np.maximum(result, 0.0))
+    return np.where(location < 0, -result, result)
 
 
 def places_of(direction: np.ndarray) -> np.ndarray:
@@ -137,10 +137,10 @@ def places_of(direction: np.ndarray) -> np.ndarray:
     q = np.arctan2(TAN_G, np.cos(azimuth))
     r = np.minimum(np.sin(z / 2) / np.sin(q / 2), 1.0)
     t = (azimuth + np.arccos(np.clip(np.sin(azimuth) * COS_G, -1, 1)) - np.pi / 2) / PART
-    found = np.empty_like(unit)
-    found[rows, k] = (1 - r) / 3
-    found[rows, i], found[rows, j] = (1 - r) / 3 + r * (1 + t) / 2, (1 - r) / 3 + r * (1 - t) / 2
-    return np.where(direction < 0, -found, found)
+    result = np.empty_like(unit)
+    result[rows, k] = (1 - r) / 3
+    result[rows, i], result[rows, j] = (1 - r) / 3 + r * (1 + t) / 2, (1 - r) / 3 + r * (1 - t) / 2
+    return np.where(direction < 0, -result, result)
 
 
 def middles(level: int, numbers: np.ndarray) -> np.ndarray:
@@ -191,18 +191,18 @@ class Pointed:
     @cached_property
     def _middles(self) -> dict[int, list[float]]:
         """Of every point that is a cell."""
-        found: dict[int, list[float]] = {}
+        result: dict[int, list[float]] = {}
         for level in {point.level for point in self.points if point.level >= 0}:
             at = [n for n, point in enumerate(self.points) if point.level == level]
-            found |= dict(zip(at, middles(level, np.array([self.points[n].number for n in at])).tolist()))
-        return found
+            result |= dict(zip(at, middles(level, np.array([self.points[n].number for n in at])).tolist()))
+        return result
 
 
-def pointed_from(told: dict[str, Any]) -> Pointed:
+def pointed_from(printed: dict[str, Any]) -> Pointed:
     """The points that `told` wrote down."""
-    wheels = tuple(tuple(map(Fraction, wheel)) for wheel in told["wheels"])
-    return Pointed(Fraction(told["torque"]), wheels, tuple(Point(*one) for one in told["points"]),
-                   told["certify"])
+    wheels = tuple(tuple(map(Fraction, wheel)) for wheel in printed["wheels"])
+    return Pointed(Fraction(printed["torque"]), wheels, tuple(Point(*item) for item in printed["points"]),
+                   printed["certify"])
 
 
 def named_direction(case: Case, kind: int, number: int) -> Exact3:
@@ -259,11 +259,11 @@ class Leaves(NamedTuple):
             starts = begin[own]
             for level in np.unique(self.level[own]):
                 rows = own[self.level[own] == level]
-                near = neighbours(int(level), self.number[rows]) << 2 * (DEEPEST - level)
+                nearby = neighbours(int(level), self.number[rows]) << 2 * (DEEPEST - level)
                 # the cell that holds the first part of the neighbour
-                holder = own[np.searchsorted(starts, near, side="right") - 1]
-                kept = self.level[holder] <= level  # a neighbour that is cut finds this one from its own side
-                pairs.append(np.stack([np.repeat(rows, 3)[kept.ravel()], holder[kept]], axis=1))
+                holder = own[np.searchsorted(starts, nearby, side="right") - 1]
+                rest = self.level[holder] <= level  # a neighbour that is cut finds this one from its own side
+                pairs.append(np.stack([np.repeat(rows, 3)[rest.ravel()], holder[rest]], axis=1))
         return np.concatenate(pairs)
 
     def to_cut(self, kinds: np.ndarray, deepest: int) -> np.ndarray:

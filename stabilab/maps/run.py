@@ -57,19 +57,19 @@ def by_cluster(plan: Plan, folder: Path, left: list[int], address: str) -> Itera
     try:
         threads = _checked(client, address)
         text, waiting = plan.as_json(), iter(left)
-        asked = {}
+        request = {}
 
         def ask() -> Any:
             number = next(waiting, None)
             if number is None:
                 return None
             future = client.submit(computed, text, number, pure=False)
-            asked[future.key] = number
+            request[future.key] = number
             return future
         first = [ask() for _ in range(max(2, AHEAD * threads))]
         running = as_completed([future for future in first if future is not None], loop=client.loop)
         for future in running:
-            number = asked.pop(future.key)
+            number = request.pop(future.key)
             parts.write(plan, folder, number, _records(future, address))
             if (more := ask()) is not None:
                 running.add(more)
@@ -112,8 +112,8 @@ def _checked(client: Any, address: str) -> int:
     except TimeoutError:
         raise InputError(f"scheduler {printable(address)[:80]}: has no workers: start some with `dask worker "
                          f"{printable(address)[:60]}`") from None
-    found = client.run(version, "stabilab", on_error="return")
-    for worker, answer in found.items():
+    result = client.run(version, "stabilab", on_error="return")
+    for worker, answer in result.items():
         if answer != __version__:
             raise InputError(
                 (f"worker {worker}: has stabilab {answer}" if isinstance(answer, str)
@@ -161,16 +161,16 @@ def by_workers(plan: Plan, folder: Path, left: list[int], number: int) -> Iterat
     """The chunks `left`, computed by `number` processes, each as soon as its part is there. Raises what a
     worker found wrong, and WorkerLost where one ended."""
     waiting: queue.SimpleQueue[int] = queue.SimpleQueue()
-    told: queue.SimpleQueue[tuple[str, Any]] = queue.SimpleQueue()
+    printed: queue.SimpleQueue[tuple[str, Any]] = queue.SimpleQueue()
     for chunk in left:
         waiting.put(chunk)
     with whole_file(folder / WORK) as work:
         work.write_text(plan.as_json(), encoding="utf-8")
     with helpers(__name__, folder, number, stdout=subprocess.PIPE, text=True, encoding="utf-8") as workers:
         for worker in workers:
-            threading.Thread(target=_feed, args=(worker, waiting, told), daemon=True).start()
+            threading.Thread(target=_feed, args=(worker, waiting, printed), daemon=True).start()
         for _ in left:
-            word, what = told.get()
+            word, what = printed.get()
             if word == FAILED:
                 if isinstance(what, StabilabError):
                     raise what
@@ -186,7 +186,7 @@ def _raise_lost(plan: Plan, folder: Path, chunk: int, code: int) -> NoReturn:
                      "a file, and the same command goes on from them")
 
 
-def _feed(worker, waiting, told) -> None:
+def _feed(worker, waiting, printed) -> None:
     """Hand chunks to one process as long as there are any."""
     while True:
         try:
@@ -201,9 +201,9 @@ def _feed(worker, waiting, told) -> None:
             answer = ""
         word, _, rest = answer.rstrip("\n").partition(" ")
         if word == DONE:
-            told.put((DONE, int(rest)))
+            printed.put((DONE, int(rest)))
             continue
-        told.put((FAILED, InputError(rest.replace("\x1f", "\n")) if word == FAILED
+        printed.put((FAILED, InputError(rest.replace("\x1f", "\n")) if word == FAILED
                   else (chunk, worker.wait())))
         return
 
@@ -213,11 +213,11 @@ def main(folder: Path) -> NoReturn:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the one that started it hears of it, and ends it
     answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)  # what a library prints is no answer
-    asked: queue.SimpleQueue[bytes] = queue.SimpleQueue()
-    end_with_parent(asked.put)
+    request: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+    end_with_parent(request.put)
     plan = from_json((folder / WORK).read_text(encoding="utf-8"))
     while True:
-        number = int(asked.get())
+        number = int(request.get())
         try:
             parts.write(plan, folder, number, answered(plan, number).tobytes())
             answers.write(f"{DONE} {number}\n")

@@ -92,17 +92,17 @@ class Affine:
         return self * (1 / other if isinstance(other, Affine) else 1 / Fraction(other))
 
     def __rtruediv__(self, other: Number) -> Number:
-        least = np.abs(self.c) - self.reach
-        least = np.where(least > 0, least, np.nan)
+        smallest = np.abs(self.c) - self.reach
+        smallest = np.where(smallest > 0, smallest, np.nan)
         c = 1 / self.c
-        return self._image(c, -c * c, 2 / (least * least * least)) * other
+        return self._image(c, -c * c, 2 / (smallest * smallest * smallest)) * other
 
     def sqrt(self) -> Affine:
         """The square root; undefined where the box reaches zero."""
-        least = self.c - self.reach
-        least = np.where(least > 0, least, np.nan)
+        smallest = self.c - self.reach
+        smallest = np.where(smallest > 0, smallest, np.nan)
         c = np.sqrt(np.where(self.c > 0, self.c, np.nan))
-        return self._image(c, 0.5 / c, 0.25 / (least * np.sqrt(least)))
+        return self._image(c, 0.5 / c, 0.25 / (smallest * np.sqrt(smallest)))
 
     def sin_cos(self) -> tuple[Affine, Affine]:
         """(sine, cosine)."""

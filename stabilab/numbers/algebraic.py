@@ -34,53 +34,53 @@ FIRST = 1 << 61  # the primes are below
 def field_gcd(number: fmpq_poly, f: FieldPoly, g: FieldPoly) -> FieldPoly:
     """The monic one. number: an irreducible polynomial of the algebraic number; f, g: not zero, reduced by
     it."""
-    whole = [int(c) for c in number.numer().coeffs()]
-    size, product, found, tried = 0, 1, [[0]], 1
+    full = [int(c) for c in number.numer().coeffs()]
+    size, product, rows, tried = 0, 1, [[0]], 1
     for prime in (at for at in range(FIRST - 1, 1, -2) if fmpz(at).is_prime()):
-        image = _image(whole, prime, f, g)
+        image = _image(full, prime, f, g)
         if image is None or (size and len(image) > size):
             continue
         if len(image) == 1:
             return [number * 0 + 1]
         if len(image) != size:
             size, product, tried = len(image), 1, 1
-            found = [[0] * (len(whole) - 1) for _ in image]
+            rows = [[0] * (len(full) - 1) for _ in image]
         inverse = pow(product, -1, prime)
-        for row, c in zip(found, image):
+        for row, c in zip(rows, image):
             for n in range(len(row)):
                 row[n] += product * ((int(c[n]) - row[n]) * inverse % prime)
         product *= prime
         if product.bit_length() >= 61 * tried:
             tried *= 2
-            made = _rational(found, product)
-            if made is not None and not any(divided(number, h, made)[1] for h in (f, g)):
-                return made
+            built = _rational(rows, product)
+            if built is not None and not any(divided(number, h, built)[1] for h in (f, g)):
+                return built
     raise AssertionError  # there are always more primes
 
 
-def _image(whole: list[int], prime: int, f: list[fmpq_poly], g: list[fmpq_poly]) -> list[nmod_poly] | None:
+def _image(full: list[int], prime: int, f: list[fmpq_poly], g: list[fmpq_poly]) -> list[nmod_poly] | None:
     """The monic divisor modulo a prime, by Euclid; None where the prime does not serve."""
-    modulus = nmod_poly(whole, prime)
-    if modulus.degree() < len(whole) - 1 or modulus.gcd(modulus.derivative()).degree() > 0:
+    modulus = nmod_poly(full, prime)
+    if modulus.degree() < len(full) - 1 or modulus.gcd(modulus.derivative()).degree() > 0:
         return None
     if any(int(c.denom()) % prime == 0 for h in (f, g) for c in h):
         return None
-    one, two = ([nmod_poly([int(n) for n in c.numer().coeffs()],
+    item, two = ([nmod_poly([int(n) for n in c.numer().coeffs()],
                            prime) * pow(int(c.denom()), -1, prime) % modulus for c in h] for h in (f, g))
-    if all(_inverse(h[-1], modulus) is None for h in (one, two)):
+    if all(_inverse(h[-1], modulus) is None for h in (item, two)):
         return None
     while two:
         lead = _inverse(two[-1], modulus)
         if lead is None:
             return None
         two = [c * lead % modulus for c in two]
-        one, two = two, divided(modulus, one, two)[1]
-    return one
+        item, two = two, divided(modulus, item, two)[1]
+    return item
 
 
 def _inverse(element: nmod_poly, modulus: nmod_poly) -> nmod_poly | None:
-    common, found, _ = element.xgcd(modulus)
-    return found * pow(int(common[0]), -1, int(modulus.modulus())) if common.degree() == 0 else None
+    common, result, _ = element.xgcd(modulus)
+    return result * pow(int(common[0]), -1, int(modulus.modulus())) if common.degree() == 0 else None
 
 
 def _rational(rows: list[list[int]], product: int) -> list[fmpq_poly] | None:
@@ -155,8 +155,8 @@ class Algebraic:
 
     def inverse(self, element: fmpq_poly) -> fmpq_poly:
         """1/element."""
-        _, found, _ = element.xgcd(self.polynomial)
-        return self.reduced(found)
+        _, result, _ = element.xgcd(self.polynomial)
+        return self.reduced(result)
 
     def monic(self, f: FieldPoly) -> FieldPoly:
         """The polynomial over its leading coefficient."""
@@ -189,10 +189,10 @@ class Algebraic:
     def real_roots(self, powers: Powers, bits: int) -> list[tuple[arb, int]]:
         """(ball, how often it counts) of the distinct real roots of a polynomial, given its `powers`, rising.
         Unclear where the bits do not isolate them."""
-        at, found = self.ball(bits), []
+        at, result = self.ball(bits), []
         for factor, times in powers:
-            found += [(root, times) for root in real_balls(arb_poly([arb_poly(c)(at) for c in factor]))]
-        return sorted(found, key=lambda one: one[0].mid())
+            result += [(root, times) for root in real_balls(arb_poly([arb_poly(c)(at) for c in factor]))]
+        return sorted(result, key=lambda item: item[0].mid())
 
 
 def real_balls(f: arb_poly) -> list[arb]:
@@ -224,18 +224,18 @@ def cuts(polynomials: Iterable[fmpq_poly], low: Fraction, high: Fraction) -> lis
 
 
 def _ordered(polynomials: Sequence[fmpq_poly], low: Fraction, high: Fraction) -> list[Cut]:
-    found: list[tuple[arb, Algebraic]] = []
+    result: list[tuple[arb, Algebraic]] = []
     for f in polynomials:
         for index, (ball, _) in enumerate(real_roots_of(f)):
             number = Algebraic(f, index)
             if _inside(number, ball, low, high):
-                found.append((ball, number))
-    found.sort(key=lambda one: one[0].mid())
-    for (first, _), (second, _) in zip(found, found[1:]):
+                result.append((ball, number))
+    result.sort(key=lambda item: item[0].mid())
+    for (first, _), (second, _) in zip(result, result[1:]):
         if not first < second:
             raise Unclear
     return [Cut(number, fraction(ball.lower().fmpq()), fraction(ball.upper().fmpq()))
-            for ball, number in found]
+            for ball, number in result]
 
 
 def _inside(number: Algebraic, ball: arb, low: Fraction, high: Fraction) -> bool:
@@ -258,9 +258,9 @@ class Gap(NamedTuple):
     sample: Fraction
 
 
-def gaps(found: Sequence[Cut], low: Fraction, high: Fraction) -> list[Gap | None]:
+def gaps(result: Sequence[Cut], low: Fraction, high: Fraction) -> list[Gap | None]:
     """Those before, between and after the cuts of a range; None where a cut stands at its end."""
-    inner = [(cut.low, cut.high, float(cut.number)) for cut in found]
+    inner = [(cut.low, cut.high, float(cut.number)) for cut in result]
     ends = [(low, low, float(low)), *inner, (high, high, float(high))]
     sides = pairwise(ends)
     return [Gap(first, last, between(a, b)) if a < b else None for (_, a, first), (b, _, last) in sides]

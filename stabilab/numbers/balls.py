@@ -134,11 +134,11 @@ def real_roots_of(poly: fmpq_poly) -> list[tuple[arb, int]]:
     if poly.degree() < 1:
         return []
     if poly.degree() > 1 and not _roots_stand_apart(poly):
-        found = [(ball, many) for factor, many in poly.factor()[1] for ball in _by_sturm(factor)]
+        rows = [(ball, many) for factor, many in poly.factor()[1] for ball in _by_sturm(factor)]
     else:
         roots: list[Any] = poly.complex_roots()  # flint's own types leave the multiplicities out
-        found = [(arb(root.real), many) for root, many in roots if root.imag.is_zero()]
-    return sorted(found, key=lambda one: one[0].mid())  # multiplicity by multiplicity so far
+        rows = [(arb(root.real), many) for root, many in roots if root.imag.is_zero()]
+    return sorted(rows, key=lambda item: item[0].mid())  # multiplicity by multiplicity so far
 
 
 def _roots_stand_apart(poly: fmpq_poly) -> bool:
@@ -168,18 +168,18 @@ def _by_sturm(factor: fmpq_poly) -> list[arb]:
     largest = max(map(abs, factor.coeffs()))
     high = 1 + largest / abs(factor.leading_coefficient())  # Cauchy's bound, and that of 1/t
     low = 1 / (1 + largest / abs(factor[0]))
-    found, todo = [], [(a, changes(a), b, changes(b)) for a, b in ((-high, -low), (low, high))]
+    result, todo = [], [(a, changes(a), b, changes(b)) for a, b in ((-high, -low), (low, high))]
     while todo:
         a, before, b, after = todo.pop()
         many = before - after
         if many == 1:
             a, b = _narrowed(factor, a, b, ctx.prec)
-            found.append(arb((a + b) / 2, (b - a) / 2))
+            result.append(arb((a + b) / 2, (b - a) / 2))
         elif many:
             middle = many == 2 and _between_two(factor, a, b) or _middle(a, b)
             between = changes(middle)
             todo += [(a, before, middle, between), (middle, between, b, after)]
-    return found
+    return result
 
 
 def _between_two(factor: fmpq_poly, a: fmpq, b: fmpq) -> fmpq | None:

@@ -74,22 +74,22 @@ def narrowed(judge: Judge, bracket: Bracket, near: Fraction = LAST_PLACE, scale:
     """
     (same, other, margins), last = bracket, 0.0
     for n in range(steps):
-        least = near * max(abs(same), abs(other), scale * LAST_PLACE)
-        if abs(other - same) <= least:
+        smallest = near * max(abs(same), abs(other), scale * LAST_PLACE)
+        if abs(other - same) <= smallest:
             break
-        share = _share(margins, least / abs(other - same)) if n % 4 < 3 else HALF
+        fraction = _share(margins, smallest / abs(other - same)) if n % 4 < 3 else HALF
         # doubles: numbers do not grow while an interval is halved
-        tried = [Fraction(float(same + part * (other - same))) for part in (share, HALF)]
-        place = next((one for one in tried if min(same, other) < one < max(same, other)), None)
-        if place is None:
+        tried = [Fraction(float(same + part * (other - same))) for part in (fraction, HALF)]
+        location = next((item for item in tried if min(same, other) < item < max(same, other)), None)
+        if location is None:
             break
-        margin = judge(place)
+        margin = judge(location)
         if math.isnan(margin):
-            return Bracket(place, place, (margin, margin))
+            return Bracket(location, location, (margin, margin))
         if margin > 0:
-            same, margins = place, (margin, margins[1] / (2 if last > 0 else 1))
+            same, margins = location, (margin, margins[1] / (2 if last > 0 else 1))
         else:
-            other, margins = place, (margins[0] / (2 if last < 0 else 1), margin)
+            other, margins = location, (margins[0] / (2 if last < 0 else 1), margin)
         last = margin
     return Bracket(same, other, margins)
 
@@ -112,9 +112,9 @@ def halved_each(same_at: Callable[[np.ndarray], np.ndarray], same: np.ndarray, o
     end is 0.
     """
     for _ in range(steps):
-        place = 0.5 * (same + other)
+        location = 0.5 * (same + other)
         if by_ratio:
-            place = np.where(same > 0, np.sqrt(same * other), place)
-        kept = same_at(place)
-        same, other = np.where(kept, place, same), np.where(kept, other, place)
+            location = np.where(same > 0, np.sqrt(same * other), location)
+        retained = same_at(location)
+        same, other = np.where(retained, location, same), np.where(retained, other, location)
     return same, other

@@ -133,12 +133,12 @@ class _Table:
         if len(present) == 1:
             return self.exponential[present[0]] / factorial(sum(counts) - 1)
         farthest = max(combinations(present, 2), key=lambda pair: abs(self.gap[pair]))
-        near = np.abs(self.gap[farthest] * self.t) <= cluster_width(sum(counts) - 1)
+        nearby = np.abs(self.gap[farthest] * self.t) <= cluster_width(sum(counts) - 1)
         value = np.empty(self.t.size, complex)
-        if near.any():
-            value[near] = self._series(counts, present, near)
-        if not near.all():
-            value[~near] = self._recursion(counts, *farthest, ~near)
+        if nearby.any():
+            value[nearby] = self._series(counts, present, nearby)
+        if not nearby.all():
+            value[~nearby] = self._recursion(counts, *farthest, ~nearby)
         return value
 
     def _recursion(self, counts: Counts, i: int, j: int, there: np.ndarray) -> np.ndarray:

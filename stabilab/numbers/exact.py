@@ -73,8 +73,8 @@ class Rounded:
     """A data class of exact numbers that prints them in so many digits as people read."""
 
     def __repr__(self) -> str:
-        # type: ignore[arg-type]
-        values = ((one.name, getattr(self, one.name)) for one in fields(self) if one.repr)
+        shown = [field.name for field in fields(self) if field.repr]  # type: ignore[arg-type]
+        values = ((name, getattr(self, name)) for name in shown)
         return f"{type(self).__name__}({', '.join(f'{name}={_read(value)}' for name, value in values)})"
 
 

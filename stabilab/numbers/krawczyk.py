@@ -54,8 +54,8 @@ class _Polynomials:
 
     def at(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Values (n, 3), first derivatives (n, 3, 3), second ones (n, 3, 3, 3)."""
-        found = _monomials(x) @ self.all
-        return found[:, :3], found[:, 3:12].reshape(-1, 3, 3), found[:, 12:].reshape(-1, 3, 3, 3)
+        result = _monomials(x) @ self.all
+        return result[:, :3], result[:, 3:12].reshape(-1, 3, 3), result[:, 12:].reshape(-1, 3, 3, 3)
 
 
 POWERS = [(i, j, k) for i in range(4) for j in range(4 - i) for k in range(4 - i - j)]
@@ -93,16 +93,16 @@ def zeros(polynomials: Sequence[Polynomial], reach: Sequence[float]) -> Zeros:
     system = _Polynomials(polynomials)
     # no zero of a symmetric system on an edge
     middles, halves = np.zeros((1, 3)), np.asarray(reach, float)[None] * 1.0123456789
-    found: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
+    result: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
     used = 0
     while len(middles):
         used += len(middles)
         if used > BUDGET:
-            return Zeros(_distinct(found), False, used)
+            return Zeros(_distinct(result), False, used)
         keep, settled = _sieve(system, middles, halves)
-        found += [(m, WIDER * h, _polished(system, m)) for m, h in zip(middles[settled], halves[settled])]
+        result += [(m, WIDER * h, _polished(system, m)) for m, h in zip(middles[settled], halves[settled])]
         middles, halves = _halved(middles[keep & ~settled], halves[keep & ~settled])
-    return Zeros(_distinct(found), True, used)
+    return Zeros(_distinct(result), True, used)
 
 
 def _sieve(system: _Polynomials, m: np.ndarray, h: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -153,10 +153,10 @@ def _polished(system: _Polynomials, x: np.ndarray) -> np.ndarray:
     return x
 
 
-def _distinct(found: list[tuple[np.ndarray, np.ndarray, np.ndarray]]) -> np.ndarray:
+def _distinct(result: list[tuple[np.ndarray, np.ndarray, np.ndarray]]) -> np.ndarray:
     """Each zero once: one that lies in another's box, where there is exactly one, is that other."""
     out: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
-    for m, w, x in found:
+    for m, w, x in result:
         if not any((np.abs(x - other) <= wide).all() for other, wide, _ in out):
             out.append((m, w, x))
     return np.array([x for _, _, x in out]).reshape(-1, 3)

@@ -36,21 +36,21 @@ def instead(text: str, plain: bool) -> str:
     text = text.strip()
     readings = (_comma(text), _space(text), _dash(text), _power(text), _percent(text, plain), _range(text),
                 _around(text), _turned(text), _pi(text), _parts(text))
-    return next((words for words in readings if words), "")
+    return next((reading for reading in readings if reading), "")
 
 
 def _comma(text: str) -> str:
     """A decimal comma."""
-    found = re.fullmatch(r"([-+]?\d+),(\d+)(?!\d*,)(.*)", text)
-    if not found or "," in found[3]:
+    result = re.fullmatch(r"([-+]?\d+),(\d+)(?!\d*,)(.*)", text)
+    if not result or "," in result[3]:
         return ""
-    whole, digits, rest = found.groups()
+    full, digits, rest = result.groups()
     if "." in rest[:1]:
-        return f'write "{whole}{digits}{rest}" without the comma'
-    thousands = len(digits) == 3 and whole.strip("+-0")
-    other = (f', or "{whole}{digits}{rest}" where the comma parts thousands' if thousands
+        return f'write "{full}{digits}{rest}" without the comma'
+    thousands = len(digits) == 3 and full.strip("+-0")
+    other = (f', or "{full}{digits}{rest}" where the comma parts thousands' if thousands
              else "")
-    return f'write "{whole}.{digits}{rest}" with a point{other}'
+    return f'write "{full}.{digits}{rest}" with a point{other}'
 
 
 def _space(text: str) -> str:
@@ -60,59 +60,59 @@ def _space(text: str) -> str:
     if strange:
         keyed = "".join(" " if c.isspace() else "" if c in "\u200b\u2060\ufeff" else c for c in text)
         return f'write "{keyed}" with the blanks of a keyboard: U+{ord(strange):04X} stands in it'
-    found = re.fullmatch(r"([-+]?\d{1,3}(?:[ '’]\d{3})+)(?!\d)(.*)", text)
-    digits = re.sub("[^-+0-9]", "", found[1]) if found else ""
-    return f'write "{digits}{found[2]}" without gaps between the digits' if found else ""
+    result = re.fullmatch(r"([-+]?\d{1,3}(?:[ '’]\d{3})+)(?!\d)(.*)", text)
+    digits = re.sub("[^-+0-9]", "", result[1]) if result else ""
+    return f'write "{digits}{result[2]}" without gaps between the digits' if result else ""
 
 
 def _dash(text: str) -> str:
     """A dash of print in place of a minus."""
     if re.match(rf"[{DASHES}]\s*[\d.]", text):
         return f'write "-{text[1:].lstrip()}" with the minus of a keyboard: U+{ord(text[0]):04X} stands there'
-    found = re.fullmatch(r"([-+])\s+(.*)", text)
-    return (f'write "{found[1]}{found[2]}" with the sign beside the number'
-            if found and found[2][:1].isdigit() else "")
+    result = re.fullmatch(r"([-+])\s+(.*)", text)
+    return (f'write "{result[1]}{result[2]}" with the sign beside the number'
+            if result and result[2][:1].isdigit() else "")
 
 
 def _power(text: str) -> str:
     """A power of ten."""
     plain = text.translate(SUPERS)
-    found = re.fullmatch(rf"({_ONE})\s*[x×·*]\s*10\s*(?:\^|\*\*)?\s*\(?([-+]?\d+)\)?(.*)", plain)
-    if found:
-        return f'write "{found[1]}e{found[2]}{found[3]}"'
-    found = re.fullmatch(r"([-+]?)10\s*(?:\^|\*\*)\s*\(?([-+]?\d+)\)?(.*)", plain)
-    if found:
-        return f'write "{found[1]}1e{found[2]}{found[3]}"'
-    found = re.fullmatch(r"([-+]?(?:\d+\.?\d*|\.\d+))[dD]([-+]?\d+)(.*)", plain)
-    return f'write "{found[1]}e{found[2]}{found[3]}"' if found else ""
+    result = re.fullmatch(rf"({_ONE})\s*[x×·*]\s*10\s*(?:\^|\*\*)?\s*\(?([-+]?\d+)\)?(.*)", plain)
+    if result:
+        return f'write "{result[1]}e{result[2]}{result[3]}"'
+    result = re.fullmatch(r"([-+]?)10\s*(?:\^|\*\*)\s*\(?([-+]?\d+)\)?(.*)", plain)
+    if result:
+        return f'write "{result[1]}1e{result[2]}{result[3]}"'
+    result = re.fullmatch(r"([-+]?(?:\d+\.?\d*|\.\d+))[dD]([-+]?\d+)(.*)", plain)
+    return f'write "{result[1]}e{result[2]}{result[3]}"' if result else ""
 
 
 def _percent(text: str, plain: bool) -> str:
-    found = re.fullmatch(r"([-+]?\d+\.?\d*)\s*(?:%|percent|per cent|pct)", text)
-    if not found:
+    result = re.fullmatch(r"([-+]?\d+\.?\d*)\s*(?:%|percent|per cent|pct)", text)
+    if not result:
         return ""
     if not plain:
-        return f'per cent stand behind +-, as in "12 +- {found[1]} %", where a number takes an uncertainty'
-    sign, digits = ("-", found[1][1:]) if found[1][0] == "-" else ("", found[1].lstrip("+"))
-    whole, _, rest = digits.partition(".")
-    shifted = f"{whole.zfill(3)[:-2]}.{whole.zfill(3)[-2:]}{rest}".rstrip("0").rstrip(".")
+        return f'per cent stand behind +-, as in "12 +- {result[1]} %", where a number takes an uncertainty'
+    sign, digits = ("-", result[1][1:]) if result[1][0] == "-" else ("", result[1].lstrip("+"))
+    full, _, rest = digits.partition(".")
+    shifted = f"{full.zfill(3)[:-2]}.{full.zfill(3)[-2:]}{rest}".rstrip("0").rstrip(".")
     return f"write the share, {sign}{shifted}"
 
 
 def _range(text: str) -> str:
     """Two numbers for one."""
-    found = re.fullmatch(rf"({_ONE})\s*([^-–\d]*?)\s*(?:\.\.\.?|–|—| to | bis "
+    result = re.fullmatch(rf"({_ONE})\s*([^-–\d]*?)\s*(?:\.\.\.?|–|—| to | bis "
                          rf"|-|~)\s*({_ONE.removeprefix('[-+]?')})(.*)",
                          text)
-    if not found or not re.search(r"[-–—~]|\.\.| to | bis ", text[1:]):
+    if not result or not re.search(r"[-–—~]|\.\.| to | bis ", text[1:]):
         return ""
     if re.search(r"[A-Za-z]\s*-\s*\d", text):
         return ""  # a power of a unit
-    low, high = float(found[1]), float(found[3])
+    low, high = float(result[1]), float(result[3])
     if not low < high:
         return ""
     middle, half = 0.5 * (low + high), 0.5 * (high - low)
-    unit = (found[4] or found[2]).strip()
+    unit = (result[4] or result[2]).strip()
     return (f'of a range write the middle and the half-width, "{middle:.12g} +- '
             f'{half:.12g}{unit and " " + unit}", where '
             "the number takes an uncertainty, else one number")
@@ -120,23 +120,23 @@ def _range(text: str) -> str:
 
 def _around(text: str) -> str:
     """A word or a sign of comparison in front, and words behind in parentheses."""
-    found = re.fullmatch(r"(?:[~≈<>≤≥=±$]+|about|approx\.?|ca\.?|circa|max\.?|min\.?|up to|at "
+    result = re.fullmatch(r"(?:[~≈<>≤≥=±$]+|about|approx\.?|ca\.?|circa|max\.?|min\.?|up to|at "
                          rf"most)\s*({_ONE}\b.*)", text, re.I)
-    if found:
-        return f'write the number alone, "{found[1]}"'
-    found = re.fullmatch(rf"({_ONE}[^()\[\]]*?)\s*[\[(]([^()\d]+)[\])]", text)
-    if not found:
+    if result:
+        return f'write the number alone, "{result[1]}"'
+    result = re.fullmatch(rf"({_ONE}[^()\[\]]*?)\s*[\[(]([^()\d]+)[\])]", text)
+    if not result:
         return ""
-    behind = found[1].strip()
-    return (f'write "{behind} {found[2].strip()}" without brackets' if re.fullmatch(_ONE, behind)
+    behind = result[1].strip()
+    return (f'write "{behind} {result[2].strip()}" without brackets' if re.fullmatch(_ONE, behind)
             else f'write "{behind}" alone')
 
 
 def _turned(text: str) -> str:
     """A unit in front of its number."""
-    found = re.fullmatch(rf"([A-Za-z°][A-Za-z°/^*. ]*?)\s*[=:]?\s*({_ONE})", text)
-    return (f'write "{found[2]} {found[1].strip()}", the unit behind the number'
-            if found and len(found[1]) < 10 else "")
+    result = re.fullmatch(rf"([A-Za-z°][A-Za-z°/^*. ]*?)\s*[=:]?\s*({_ONE})", text)
+    return (f'write "{result[2]} {result[1].strip()}", the unit behind the number'
+            if result and len(result[1]) < 10 else "")
 
 
 def _pi(text: str) -> str:
@@ -187,5 +187,5 @@ MEANT = {
 
 def meant(expected: str, came: str) -> str:
     """"; ..." with what a unit of another dimension was to be, most often; "" where nothing is known."""
-    words = MEANT.get((expected.partition(" (")[0], came.partition(" (")[0]), "")
-    return f"; {words}" if words else ""
+    text = MEANT.get((expected.partition(" (")[0], came.partition(" (")[0]), "")
+    return f"; {text}" if text else ""

@@ -32,9 +32,9 @@ class Poly:
     @classmethod
     def of(cls, flint: fmpq_poly) -> Poly:
         """That of the library."""
-        made = cls.__new__(cls)
-        made.flint = flint
-        return made
+        built = cls.__new__(cls)
+        built.flint = flint
+        return built
 
     def __reduce__(self) -> tuple[type, tuple[tuple[Fraction, ...]]]:
         return Poly, (self.c,)  # the library's own goes to no other process
@@ -107,10 +107,10 @@ def real_roots(p: Poly, bits: int = 160) -> list[Fraction]:
         balls = [ball for ball, _ in real_roots_of(simple)]
         if not all(first < second for first, second in zip(balls, balls[1:])):
             raise Unclear
-        known = [next((root for root in exact if ball.overlaps(arb(root))), None) for ball in balls]
-        if [root for root in known if root is not None] != exact:
+        resolved = [next((root for root in exact if ball.overlaps(arb(root))), None) for ball in balls]
+        if [root for root in resolved if root is not None] != exact:
             raise Unclear  # a rational as a ball meets those of two roots
-        return [fraction(ball.mid().fmpq() if root is None else root) for ball, root in zip(balls, known)]
+        return [fraction(ball.mid().fmpq() if root is None else root) for ball, root in zip(balls, resolved)]
     return settled(found, bits + 8)
 
 
@@ -198,13 +198,13 @@ def compass_search(size_of: Callable[[float], float], tried: list[tuple[float, f
     for _ in range(halvings):
         best = min(tried)[1]
         places = [inside(best + shift) for shift in (-step, step)]
-        tried = [*tried, *((size_of(place), place) for place in places)]
+        tried = [*tried, *((size_of(location), location) for location in places)]
         step /= 2
     return tried
 
 
 def held_newton(look: Callable[[float], tuple[float, float, bool | None]], low: float, high: float,
-                share: float, enough: float, start: float | None = None) -> float:
+                part: float, enough: float, start: float | None = None) -> float:
     """The root between two floats, to a double or its neighbour: Newton's method held in a bracket.
 
     look(x) -> (value, slope, whether x lies beyond the root; None where it is the root). share: of the
@@ -217,7 +217,7 @@ def held_newton(look: Callable[[float], tuple[float, float, bool | None]], low: 
             break
         low, high = (low, x) if beyond else (x, high)
         new = x - value / slope if slope else low
-        if not low < new < high or abs(new - x) > share * (high - low):
+        if not low < new < high or abs(new - x) > part * (high - low):
             new = between(low, high)
         if not low < new < high or abs(new - x) <= enough * abs(x):
             return new

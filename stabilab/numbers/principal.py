@@ -82,12 +82,13 @@ def crossed(first: Exact3, second: Exact3) -> Exact3:
 
 def summed(vectors: Sequence[Exact3]) -> Exact3:
     """Their sum, without a component that only their roundings leave where terms of it cancel."""
-    found = []
+    rows = []
     for column in zip(*vectors):
         total, terms = sum(column, Fraction(0)), [v for v in column if v]
         slack = sum(map(rounding, vectors), Fraction(0)) if total and len(terms) > 1 else 0
-        found.append(Fraction(0) if abs(total) <= slack <= MAX_ZEROED * max(map(abs, terms), default=0) else total)
-    return tuple(found)
+        lost = abs(total) <= slack <= MAX_ZEROED * max(map(abs, terms), default=0)
+        rows.append(Fraction(0) if lost else total)
+    return tuple(rows)
 
 
 @dataclass(frozen=True, repr=False)
@@ -117,12 +118,12 @@ class PrincipalAxes(Rounded):
         what the roundings of tensor and vector leave of zero."""
         if self.as_given:
             return tuple(vector)
-        found = tuple(sum(a * v for a, v in zip(axis, vector)) for axis in self.axes)
-        if not all(isinstance(v, (int, Fraction)) for v in vector) or not any(found):
-            return found
-        own, largest = 2 * rounding(vector), max(map(abs, found))
-        return tuple(v * 0 if v and abs(v) <= own + self._leak(i, found) <= MAX_ZEROED * largest else v
-                     for i, v in enumerate(found))
+        result = tuple(sum(a * v for a, v in zip(axis, vector)) for axis in self.axes)
+        if not all(isinstance(v, (int, Fraction)) for v in vector) or not any(result):
+            return result
+        own, largest = 2 * rounding(vector), max(map(abs, result))
+        return tuple(v * 0 if v and abs(v) <= own + self._leak(i, result) <= MAX_ZEROED * largest else v
+                     for i, v in enumerate(result))
 
     def _leak(self, i: int, vector: Triple) -> Fraction:
         """The most that axis i, being off, shows of the other components of a vector: by an angle of at most
@@ -136,22 +137,22 @@ class PrincipalAxes(Rounded):
         the vectors (input frame) lies that has a component across the others, then the second; else itself.
         What lies along it, or across it, then has as many zeros as it can."""
         free = [i for i in range(3) if self.moments.count(self.moments[i]) > 1]
-        found = self
+        result = self
         for vector in vectors:
-            parts = found.turned(vector)
+            parts = result.turned(vector)
             along = [i for i in free if parts[i]]
             if len(along) > 1:
-                found = found._led(free, parts)
+                result = result._led(free, parts)
             if along:
                 free.remove(along[0] if len(along) == 1 else free[0])
             if len(free) < 2:
                 break
-        return found
+        return result
 
     def _led(self, free: Sequence[int], parts: Triple) -> PrincipalAxes:
         """With the first of the free axes along a vector of these components."""
         axes, bits = list(self.axes), IRRATIONAL_BITS + 32
-        mixed = lambda *shares: tuple(sum(share * axes[i][n] for share, i in zip(shares, free))
+        mixed = lambda *shares: tuple(sum(fraction * axes[i][n] for fraction, i in zip(shares, free))
                                       for n in range(3))
         new = ([mixed(parts[free[0]], parts[free[1]]), mixed(-parts[free[1]], parts[free[0]])]
                if len(free) == 2 else _with_plane(mixed(*parts)))
@@ -173,10 +174,10 @@ def without_trace(vector: Exact3, other: Exact3) -> Exact3:
     level, size = dot(vector, other), dot(other, other)
     if not level:
         return vector
-    least = NOTHING * NOTHING * size * dot(vector, vector)
+    smallest = NOTHING * NOTHING * size * dot(vector, vector)
     terms = sum(abs(v * o) for v, o in zip(vector, other))
     open_ = sum(abs(v) for v in vector) * rounding(other) + sum(abs(v) for v in other) * rounding(vector)
-    if level * level > least and not abs(level) <= open_ <= MAX_ZEROED * terms:
+    if level * level > smallest and not abs(level) <= open_ <= MAX_ZEROED * terms:
         return vector
     return tuple(v - level / size * o for v, o in zip(vector, other))
 
@@ -197,19 +198,19 @@ def principal_axes(tensor: Sequence[Sequence[Number]], off: Fraction = Fraction(
     # of the tensor's norm, and so of every moment
     slack = 3 * max(off, rounding(entries(rows)))
     if not any(rows[i][j] for i in range(3) for j in range(3) if i != j):
-        given = tuple(rows[i][i] for i in range(3))
-        order = sorted(range(3), key=lambda i: -given[i])
-        alike = _made_equal([(given[i], True) for i in order], slack)
-        return PrincipalAxes(tuple(alike[order.index(i)][0] for i in range(3)), IDENTITY, True, Fraction(0),
+        supplied = tuple(rows[i][i] for i in range(3))
+        order = sorted(range(3), key=lambda i: -supplied[i])
+        similar = _made_equal([(supplied[i], True) for i in order], slack)
+        return PrincipalAxes(tuple(similar[order.index(i)][0] for i in range(3)), IDENTITY, True, Fraction(0),
                              slack)
     polynomial, bits = _characteristic(rows), IRRATIONAL_BITS + 32
     while True:
         moments = _made_equal(_moments(rows, polynomial, bits), slack)
         if len({value for value, _ in moments}) == 1:  # a sphere, to its last digit: any axes do
             return PrincipalAxes(tuple(value for value, _ in moments), TURNED, True, Fraction(0), slack)
-        found = _axes(rows, moments, bits)
-        if found and found.error < Fraction(1, 1 << IRRATIONAL_BITS):
-            return replace(found, rounding=slack)
+        result = _axes(rows, moments, bits)
+        if result and result.error < Fraction(1, 1 << IRRATIONAL_BITS):
+            return replace(result, rounding=slack)
         bits *= 2
 
 
@@ -233,10 +234,10 @@ def entries(rows: Rows) -> list[Number]:
     return [v for row in rows for v in row]
 
 
-def evened(rows: Rows, share: Fraction) -> Rows:
+def evened(rows: Rows, fraction: Fraction) -> Rows:
     """A 3 x 3 matrix with the mean of two entries across its diagonal that differ by no more than a share of
     its largest entry, which is what rounding leaves."""
-    slack = share * max(abs(v) for row in rows for v in row)
+    slack = fraction * max(abs(v) for row in rows for v in row)
     return [[(v + rows[j][i]) / 2 if abs(v - rows[j][i]) <= slack else v for j, v in enumerate(row)]
             for i, row in enumerate(rows)]
 
@@ -270,8 +271,8 @@ def fault_of(rows: Rows) -> Reason | None:
     polynomial = _characteristic(rows)
     constant, linear, square, _ = polynomial.c
     if not (constant < 0 < linear and square < 0):  # the signs of three positive roots, as all are real
-        least = float(real_roots(polynomial)[0])
-        return NOT_POSITIVE(least=Inertia(least))
+        smallest = float(real_roots(polynomial)[0])
+        return NOT_POSITIVE(least=Inertia(smallest))
     return None
 
 
@@ -321,8 +322,8 @@ def _three(m: Rows, moments: Sequence[Moment], bits: int) -> list[Triple] | None
     if not exact[1]:
         second = _across(first, second, bits) if exact[0] else _rounded(second, bits)
         first = first if exact[0] else _rounded(first, bits)
-    found = dict(zip(order, (first, second, cross(first, second))))
-    return [found[i] for i in range(3)]
+    result = dict(zip(order, (first, second, cross(first, second))))
+    return [result[i] for i in range(3)]
 
 
 def _across(first: Triple, direction: Triple, bits: int) -> Triple:
@@ -364,8 +365,8 @@ def _short(value: Fraction, bits: int) -> Fraction:
 
 def _with_plane(direction: Triple) -> tuple[Triple, Triple, Triple]:
     """A direction and two across it and across each other: any do where the moments there are equal."""
-    least = min(range(3), key=lambda i: (abs(direction[i]), i))
-    second = cross(direction, IDENTITY[least])
+    smallest = min(range(3), key=lambda i: (abs(direction[i]), i))
+    second = cross(direction, IDENTITY[smallest])
     return direction, second, cross(direction, second)
 
 

@@ -122,8 +122,8 @@ _GLUED = re.compile(r"(kg|g|t|slug|lb)(m|cm|mm|in|ft)")
 
 def split(text: str) -> tuple[str, str] | None:
     """("22", "N") of "22 N"; None where the text does not begin with a number."""
-    found = re.fullmatch(_NUMBER, typed(text)) if len(text) <= 400 else None
-    return (found[1], found[2].strip()) if found else None
+    result = re.fullmatch(_NUMBER, typed(text)) if len(text) <= 400 else None
+    return (result[1], result[2].strip()) if result else None
 
 
 def quantity(text: str, wanted: Dimension) -> tuple[Fraction, bool]:
@@ -182,12 +182,12 @@ def half_digit(value: Any, wanted: Dimension) -> Fraction:
     return half_unit(number) * (in_dimension(unit, wanted).size if unit else 1)
 
 
-def in_dimension(words: str, wanted: Dimension, text: str = "") -> Unit:
+def in_dimension(phrase: str, wanted: Dimension, text: str = "") -> Unit:
     """The unit, which must have the dimension that is wanted. Raises InputError with both dimensions
     otherwise."""
-    unit = unit_of(words)
+    unit = unit_of(phrase)
     if unit.dimension != wanted:
-        came = text or words
+        came = text or phrase
         if wanted == NONE:
             raise InputError(f'expected {named(wanted)}, got {named(unit.dimension)}: "{came[:60]}"')
         also = " or energy (J)" if wanted == ENERGY else ""
@@ -197,29 +197,29 @@ def in_dimension(words: str, wanted: Dimension, text: str = "") -> Unit:
     return unit
 
 
-def unit_of(words: str) -> Unit:
+def unit_of(text: str) -> Unit:
     """The unit that a product of units makes. Raises InputError for a word that is none, with those that are
     accepted."""
-    words = re.sub(r"\bper\b", "/", typed(words))
-    words = re.sub("[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+", lambda power: f"^{power[0].translate(SUPERS)}", words)
+    text = re.sub(r"\bper\b", "/", typed(text))
+    text = re.sub("[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+", lambda power: f"^{power[0].translate(SUPERS)}", text)
     size, is_exact, at, divided = Fraction(1), True, 0, False
     dimension: Dimension = NONE
-    while at < len(words):
-        found = _FACTOR.match(words, at)
-        if not found or (at == 0 and found[1]):
-            raise UnknownUnit(f'unknown unit "{words[:60]}"; accepted are {ACCEPTED}')
-        if found[1] == "/" and divided:
+    while at < len(text):
+        result = _FACTOR.match(text, at)
+        if not result or (at == 0 and result[1]):
+            raise UnknownUnit(f'unknown unit "{text[:60]}"; accepted are {ACCEPTED}')
+        if result[1] == "/" and divided:
             raise InputError(
-                f'"{words[:60]}" divides twice: write what is divided by in powers, such as m s^-2')
-        divided = divided or found[1] == "/"
-        power = int(found[3] or 1) * (-1 if divided else 1)
-        glued = _GLUED.fullmatch(found[2]) if abs(power) == 2 else None
-        for word, times in ((glued[1], power // 2), (glued[2], power)) if glued else ((found[2], power),):
-            one = _single(word, words)
-            size *= one.size ** times
-            dimension = tuple(d + times * e for d, e in zip(dimension, one.dimension))
-            is_exact = is_exact and one.exact
-        at = found.end()
+                f'"{text[:60]}" divides twice: write what is divided by in powers, such as m s^-2')
+        divided = divided or result[1] == "/"
+        power = int(result[3] or 1) * (-1 if divided else 1)
+        glued = _GLUED.fullmatch(result[2]) if abs(power) == 2 else None
+        for word, times in ((glued[1], power // 2), (glued[2], power)) if glued else ((result[2], power),):
+            item = _single(word, text)
+            size *= item.size ** times
+            dimension = tuple(d + times * e for d, e in zip(dimension, item.dimension))
+            is_exact = is_exact and item.exact
+        at = result.end()
     return Unit(size, dimension, is_exact)
 
 
@@ -235,12 +235,12 @@ def unit_of_key(path: tuple[Any, ...]) -> str:
 
 def named(dimension: Dimension) -> str:
     """The name of a dimension, with its SI unit."""
-    found = NAMES.get(dimension)
+    result = NAMES.get(dimension)
     powers = zip(("m", "kg", "s", "A", "rad"), dimension)
-    return found or " ".join(f"{name}^{power}" if power != 1 else name for name, power in powers if power)
+    return result or " ".join(f"{name}^{power}" if power != 1 else name for name, power in powers if power)
 
 
-def _single(word: str, words: str) -> Unit:
+def _single(word: str, text: str) -> Unit:
     if word == "1":
         return Unit(Fraction(1), NONE)
     if word == "dps":
@@ -251,17 +251,17 @@ def _single(word: str, words: str) -> Unit:
         return Unit(2 * pi() / TURNS[word], BASE["rad"], False)
     if word in OTHERS:
         size, of = OTHERS[word]
-        base = _single(of, words)
+        base = _single(of, text)
         return Unit(Fraction(size) * base.size, base.dimension)
     if word in BASE:
         return Unit(Fraction(1, 1000) if word == "g" else Fraction(1), BASE[word])
     if word[:1] in PREFIXES and word[1:] in BASE:
-        base = _single(word[1:], words)
+        base = _single(word[1:], text)
         return Unit(Fraction(10) ** PREFIXES[word[0]] * base.size, base.dimension)
     lower = word.lower()
-    known = SYMBOLS_BY_NAME.get(lower) or SYMBOLS_BY_NAME.get(lower.removesuffix("s")) or CAPITALS.get(word)
-    if known:
-        return _single(known, words)
+    settled = SYMBOLS_BY_NAME.get(lower) or SYMBOLS_BY_NAME.get(lower.removesuffix("s")) or CAPITALS.get(word)
+    if settled:
+        return _single(settled, text)
     if lower == "hz":
         raise InputError(f'"{word}" may mean rad/s or turns a second: write rad/s, rev/s or 1/s')
     cure = f"; write {INSTEAD[word]}" if word in INSTEAD else _near(word)
@@ -270,10 +270,10 @@ def _single(word: str, words: str) -> Unit:
 
 def _near(word: str) -> str:
     from difflib import get_close_matches
-    known = [*BASE, *TURNS, *OTHERS, *SYMBOLS_BY_NAME, "mN", "cm", "mm", "km", "kN"]
-    near = (get_close_matches(word, known, n=1, cutoff=0.6)
-            or get_close_matches(word.lower(), known, n=1, cutoff=0.6))
-    return f", did you mean {near[0]}?" if near else ""
+    resolved = [*BASE, *TURNS, *OTHERS, *SYMBOLS_BY_NAME, "mN", "cm", "mm", "km", "kN"]
+    nearby = (get_close_matches(word, resolved, n=1, cutoff=0.6)
+            or get_close_matches(word.lower(), resolved, n=1, cutoff=0.6))
+    return f", did you mean {nearby[0]}?" if nearby else ""
 
 
 @lru_cache(maxsize=1)

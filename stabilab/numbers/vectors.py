@@ -33,8 +33,8 @@ def cross_matrix(v: Sequence[Number]) -> tuple[Triple, Triple, Triple]:
 
 def nearest_first(pairs: Iterable[tuple[float, int, int]]) -> dict[int, int]:
     """i -> j of pairs (distance, i, j), the nearest of all first, each i and each j once."""
-    found: dict[int, int] = {}
+    result: dict[int, int] = {}
     for _, i, j in sorted(pairs):
-        if i not in found and j not in found.values():
-            found[i] = j
-    return found
+        if i not in result and j not in result.values():
+            result[i] = j
+    return result

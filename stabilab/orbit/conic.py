@@ -131,19 +131,19 @@ class Conic:
         equilibria where it meets which of the orbits; barrier None where it is to be decided from the slope.
         wanted: True for barriers only."""
         import numpy as np
-        found, thin = [], self._nearly_straight(Q)
+        result, thin = [], self._nearly_straight(Q)
         for piece in self.pieces:
             if wanted is None or piece.barrier == wanted:
                 low, high = self.reach(piece)
                 rows = np.nonzero((Q > low) & (Q < high) & ~thin)[0]
-                found.append((rows, *self.at(piece.sign * self._solve(piece, Q[rows])), piece.barrier))
+                result.append((rows, *self.at(piece.sign * self._solve(piece, Q[rows])), piece.barrier))
         lines = [(line, np.arange(len(Q))) for line in self.lines]
         if thin.any():
             lines.append((self.limit, np.nonzero(thin)[0]))
         for line, rows in lines:
             for x, z, exists in self._meet_line(line, Q[rows]):
-                found.append((rows[exists], x[exists], z[exists], None))
-        return found
+                result.append((rows[exists], x[exists], z[exists], None))
+        return result
 
     def _nearly_straight(self, Q: np.ndarray):
         """(n,) True where the conic differs so little from a line that the line is the better guess."""
@@ -201,11 +201,11 @@ class Conic:
         ends = np.ones(Q.shape), 1 + np.log(hi / lo)
         t = bracketed_newton(fun, *ends, 1 + np.log(start / lo), (Q, lo), rising=piece.rising, enough=SHORT)
         h = sign * lo * np.exp(t - 1)
-        near = np.hypot((K / h - c) / G, h - s) < CENTRE_WIDTH * np.abs(h)
+        nearby = np.hypot((K / h - c) / G, h - s) < CENTRE_WIDTH * np.abs(h)
         # there Q bends within the orbit's size, and a step that is short against h is none against that
-        if near.any():
-            some = tuple(v[near] for v in (*ends, t, Q, lo))
-            t[near] = bracketed_newton(fun, *some[:3], some[3:], rising=piece.rising)
+        if nearby.any():
+            some = tuple(v[nearby] for v in (*ends, t, Q, lo))
+            t[nearby] = bracketed_newton(fun, *some[:3], some[3:], rising=piece.rising)
         return lo * np.exp(t - 1)
 
     def _meet_line(self, line: Line, Q: np.ndarray):

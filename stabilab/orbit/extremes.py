@@ -64,13 +64,13 @@ def turning_point(orbit, side, tie=False):
     if orbit.energy.is_zero() and (orbit.force_here > 0) - (orbit.force_here < 0) == -side * orbit.flip:
         return zero  # at rest in this coordinate, pushed away from this side
     inner = zero
-    for spot in _spots_towards(orbit, side):
-        over = orbit.height(spot.y) - orbit.energy
+    for toward in _spots_towards(orbit, side):
+        over = orbit.height(toward.y) - orbit.energy
         if tie and 0 in over:
-            return spot.y
+            return toward.y
         if sign(over) >= 0:
-            return solve(orbit, inner, spot.y)
-        inner = spot.y
+            return solve(orbit, inner, toward.y)
+        inner = toward.y
     outer = orbit.wall(inner, side)
     return None if outer is None else solve(orbit, inner, outer)
 
@@ -159,9 +159,9 @@ def _asymptotic(orbit):
         end, last = ahead
         low, high = sorted((orbit.energy * 0, end), key=lambda y: y.mid())
         slow, fast = orbit.energy.min(last), _fastest(orbit, low, high).max(last)
-        for spot in orbit.all_spots:
-            if low < spot.y and spot.y < high:
-                slow = slow.min(orbit.energy - orbit.height(spot.y))
+        for point in orbit.all_spots:
+            if low < point.y and point.y < high:
+                slow = slow.min(orbit.energy - orbit.height(point.y))
         rates = sorted((towards * (2 * slow).sqrt(), towards * (2 * fast).sqrt()), key=lambda w: w.mid())
         return [low, high, *_tops_between(orbit, low, high)], tuple(rates)
     turn = turning_point(orbit, towards, True)
@@ -181,10 +181,10 @@ def _asymptote(orbit: BallCircle, side: int):
     """(offset, W^2/2 there) of the equilibrium or plane's end that the motion would tend to on that side, or
     None."""
     zero = orbit.energy * 0
-    for spot in _spots_towards(orbit, side):
-        over = orbit.height(spot.y) - orbit.energy
+    for toward in _spots_towards(orbit, side):
+        over = orbit.height(toward.y) - orbit.energy
         if 0 in over:
-            return spot.y, zero
+            return toward.y, zero
         if over > 0:
             return None
     return orbit.end_of_plane(side)
@@ -193,9 +193,9 @@ def _asymptote(orbit: BallCircle, side: int):
 def _fastest(orbit: BallOrbit, low: arb, high: arb):
     """Largest W^2/2 between two offsets, the state's own included."""
     fastest = orbit.energy
-    for spot in orbit.all_spots:
-        if not (spot.y < low or spot.y > high):
-            fastest = fastest.max(orbit.energy - orbit.height(spot.y))
+    for point in orbit.all_spots:
+        if not (point.y < low or point.y > high):
+            fastest = fastest.max(orbit.energy - orbit.height(point.y))
     return fastest
 
 
@@ -206,8 +206,8 @@ def _tops_between(orbit, low, high):
 def _round_the_circle(orbit):
     """Torque-free rotation: the whole circle, one sign of W."""
     slow = fast = orbit.energy
-    for spot in orbit.spots:
-        value = orbit.energy - orbit.height(spot.y)
+    for point in orbit.spots:
+        value = orbit.energy - orbit.height(point.y)
         slow, fast = slow.min(value), fast.max(value)
     turn = sign(orbit.w)
     return [orbit.energy * 0, *orbit.tops()], (turn * (2 * slow).sqrt(), turn * (2 * fast).sqrt())
@@ -218,16 +218,16 @@ def _unbounded(orbit):
     zero = orbit.energy * 0
     if orbit.spins_purely:
         return [zero], (orbit.w, None)
-    least, left = orbit.w, None
+    smallest, left = orbit.w, None
     if sign(orbit.w) < 0:
         left = turning_point(orbit, -1)
         # wells more than a turn behind are higher by the torque's tilt
-        least = -(2 * _fastest(orbit, zero - 7 if left is None else left, zero)).sqrt()
+        smallest = -(2 * _fastest(orbit, zero - 7 if left is None else left, zero)).sqrt()
     else:
-        for spot in orbit.spots:
-            if spot.y > 0:
-                least = least.min((2 * (orbit.energy - orbit.height(spot.y))).sqrt())
-    return orbit.swept(left), (least, None)
+        for point in orbit.spots:
+            if point.y > 0:
+                smallest = smallest.min((2 * (orbit.energy - orbit.height(point.y))).sqrt())
+    return orbit.swept(left), (smallest, None)
 
 
 def _ranges(orbit, offsets, rates, certain):
@@ -293,10 +293,10 @@ def period_ball(orbit: Orbit, digits: int = DIGITS):
     to `digits`."""
     def question(orbit: BallOrbit):
         ends = turning_points(orbit)
-        found = _rotation(orbit, digits) if ends is None else _libration(orbit, *ends, digits)
-        if not 10 ** digits * found.rad() < found:
+        result = _rotation(orbit, digits) if ends is None else _libration(orbit, *ends, digits)
+        if not 10 ** digits * result.rad() < result:
             raise Unclear
-        return found
+        return result
     return orbit.settled(question, _bits(digits))
 
 
@@ -317,9 +317,9 @@ def _libration(orbit: BallOrbit, left: arb, right: arb, digits: int):
     inside = [s.y for s in orbit.all_spots if s.y > left and s.y < right]
     knots = [arb(0), *(((middle - y) / half).acos() for y in inside), arb.pi()]
 
-    def integrand(near: arb, a: arb, b: arb):
+    def integrand(nearby: arb, a: arb, b: arb):
         """At phi = a + near (near > 0) or b + near (near < 0), accurate next to both ends of [0, pi]."""
-        phi = ((a if near > 0 else b) + near).mid()
+        phi = ((a if nearby > 0 else b) + nearby).mid()
         y = middle - half * phi.cos()
         return half * phi.sin() / _rate(orbit, y)
     return 2 * _sum_over(integrand, knots, digits)
@@ -330,7 +330,7 @@ def _rotation(orbit: BallOrbit, digits: int):
     from flint import arb
     spots = [s.y for s in orbit.spots]
     knots = [*spots, spots[0] + 2 * arb.pi()] if spots else [arb(0), 2 * arb.pi()]
-    return _sum_over(lambda near, a, b: 1 / _rate(orbit, (a if near > 0 else b) + near), knots, digits)
+    return _sum_over(lambda nearby, a, b: 1 / _rate(orbit, (a if nearby > 0 else b) + nearby), knots, digits)
 
 
 def _rate(orbit: BallOrbit, y: arb):
@@ -349,13 +349,13 @@ def _tanh_sinh(integrand: Callable[[arb, arb, arb], arb], a: arb, b: arb, digits
     vanish."""
     from flint import arb
     length, rows, before, changes = (b - a).mid(), arb(0), None, []
-    least, agree = arb(10) ** -(digits + SPARE), arb(10) ** -digits
+    smallest, agree = arb(10) ** -(digits + SPARE), arb(10) ** -digits
     for level in range(FINEST + 1):
         for row in _rows(level, digits):
-            for near, weight in row:
-                term = weight * integrand((near * length).mid(), a, b)
+            for nearby, weight in row:
+                term = weight * integrand((nearby * length).mid(), a, b)
                 rows += term
-                if term < least * rows:
+                if term < smallest * rows:
                     break
             else:
                 raise Unclear
@@ -370,8 +370,8 @@ def _tanh_sinh(integrand: Callable[[arb, arb, arb], arb], a: arb, b: arb, digits
     raise Unclear
 
 
-def _power_of_ten(value: arb, least: int) -> float:
-    return max(least, float(value.log_base(10))) if value > 0 else least
+def _power_of_ten(value: arb, smallest: int) -> float:
+    return max(smallest, float(value.log_base(10))) if value > 0 else smallest
 
 
 def power_of_error(first: float, middle: float, last: float) -> float:

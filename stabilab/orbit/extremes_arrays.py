@@ -75,18 +75,18 @@ def needs_digits(land: Landscape, states: np.ndarray):
     return lost | (along > SHIFT_LIMIT * np.abs(states[:, r.axis])) if along else lost
 
 
-def on_top(land: Landscape, place: Sequence[np.ndarray]):
+def on_top(land: Landscape, location: Sequence[np.ndarray]):
     """(n,) True where the state is at the place of a barrier to rounding: before it or behind, doubles do not
     tell."""
     pot = land.potential
-    return (np.abs(pot.force(place)) <= ON_TOP * pot.terms(place)) & (pot.slope(place) > 0)
+    return (np.abs(pot.force(location)) <= ON_TOP * pot.terms(location)) & (pot.slope(location) > 0)
 
 
-def near_separatrix(land: Landscape, place: Sequence[np.ndarray], w: np.ndarray, margins: np.ndarray,
-                    share: float | np.ndarray):
+def near_separatrix(land: Landscape, location: Sequence[np.ndarray], w: np.ndarray, margins: np.ndarray,
+                    fraction: float | np.ndarray):
     """(n,) True where the margin is below `share` of the energy's terms: turning points and periods magnify
     its rounding there."""
-    return np.abs(margins) <= share * land.reduction.energy_unit * land.energy_terms(place, w)
+    return np.abs(margins) <= fraction * land.reduction.energy_unit * land.energy_terms(location, w)
 
 
 def open_extremes(land: Landscape, states, labels, margins):
@@ -96,18 +96,18 @@ def open_extremes(land: Landscape, states, labels, margins):
     if not moving.size:
         return out
     states, labels, margins = states[moving], labels[moving], margins[moving]
-    place, w, _ = land.start(states)
-    share = np.where(labels == Fate.SPIN_UP, SPIN_UP_SHARE, EXTREMES_SHARE)
-    doubtful = (needs_digits(land, states) | land.beside_centre(place)
-                | near_separatrix(land, place, w, margins, share))
-    doubtful |= on_top(land, place)
+    location, w, _ = land.start(states)
+    fraction = np.where(labels == Fate.SPIN_UP, SPIN_UP_SHARE, EXTREMES_SHARE)
+    doubtful = (needs_digits(land, states) | land.beside_centre(location)
+                | near_separatrix(land, location, w, margins, fraction))
+    doubtful |= on_top(land, location)
     values = np.full((len(states), 3, 2), np.nan)
     ranges: tuple[tuple[Fate, Callable[..., np.ndarray]], ...] = (
         (Fate.BOUNDED, _rotating), (Fate.SPIN_UP, SPINNING[land.e]))
     for label, extremes in ranges:
         rows = (labels == label) & ~doubtful
         if rows.any():
-            values[rows] = extremes(land, tuple(v[rows] for v in place), w[rows])
+            values[rows] = extremes(land, tuple(v[rows] for v in location), w[rows])
     out[moving] = values
     return out
 
@@ -115,17 +115,17 @@ def open_extremes(land: Landscape, states, labels, margins):
 def rotation_periods(land: Landscape, states: np.ndarray, margins: np.ndarray):
     """Periods (n,) of motions without torque over all barriers of a circle; NaN where these are left to
     balls."""
-    place, w, _ = land.start(states)
+    location, w, _ = land.start(states)
     values = np.full(len(states), np.nan)
-    doubtful = needs_digits(land, states) | near_separatrix(land, place, w, margins, PERIOD_SHARE)
+    doubtful = needs_digits(land, states) | near_separatrix(land, location, w, margins, PERIOD_SHARE)
     live, before, nodes = np.nonzero(~doubtful)[0], np.full(np.count_nonzero(~doubtful), np.nan), 16
-    force = land.potential.force(place)
+    force = land.potential.force(location)
     # the integrand is periodic: the plain sum converges geometrically
     while live.size and nodes <= MOST_NODES:
-        now, one = np.zeros(len(live)), tuple(v[live] for v in place)
+        now, item = np.zeros(len(live)), tuple(v[live] for v in location)
         for angle in np.arange(nodes) * (TURN / nodes):
             with np.errstate(all="ignore"):
-                rise = land.potential.rise(np.full(len(live), angle), one, force[live])
+                rise = land.potential.rise(np.full(len(live), angle), item, force[live])
                 now += 1 / np.sqrt(np.maximum(w[live] ** 2 - 2 * rise, 0))
         now *= TURN / nodes
         done = np.abs(now - before) <= AGREE * now
@@ -141,34 +141,34 @@ def _components(land: ConicLandscape, low: Sequence[np.ndarray], high: Sequence[
     return np.stack([np.minimum(a, b), np.maximum(a, b)], axis=2)
 
 
-def _rotating(land: CircleLandscape, place: Sequence[np.ndarray], w: np.ndarray):
+def _rotating(land: CircleLandscape, location: Sequence[np.ndarray], w: np.ndarray):
     """Torque-free motions over all barriers of the circle: the whole circle, one sign of W."""
-    spots = spots_along(land, place, w)
+    spots = spots_along(land, location, w)
     energy = np.where(spots.there, spots.energy, np.nan)
     with np.errstate(all="ignore"):
         energies = np.concatenate([energy, 0.5 * w[:, None] ** 2], axis=1)
         slow, fast = np.sqrt(2 * np.nanmin(energies, axis=1)), np.sqrt(2 * np.nanmax(energies, axis=1))
-    radius = np.hypot(*place)
+    radius = np.hypot(*location)
     sign = np.sign(w)
     return _components(land, (-radius, -radius), (radius, radius), sign * slow, sign * fast)
 
 
-def _spinning_round(land: CircleLandscape, place: Sequence[np.ndarray], w: np.ndarray):
+def _spinning_round(land: CircleLandscape, location: Sequence[np.ndarray], w: np.ndarray):
     """Over the future of a spin-up, W -> +inf, on a circle: all of it, from the slowest rate on."""
-    radius = np.hypot(*place)
-    return _components(land, (-radius, -radius), (radius, radius), _slowest_ahead(land, place, w),
+    radius = np.hypot(*location)
+    return _components(land, (-radius, -radius), (radius, radius), _slowest_ahead(land, location, w),
                        np.full(len(w), np.inf))
 
 
-def _slowest_ahead(land: CircleLandscape, place: Sequence[np.ndarray], w: np.ndarray):
+def _slowest_ahead(land: CircleLandscape, location: Sequence[np.ndarray], w: np.ndarray):
     """The least W over the future: over the barriers ahead, or on the way to the turning point behind if W <
     0."""
-    spots = spots_along(land, place, w)
+    spots = spots_along(land, location, w)
     slowest = _over_barriers_ahead(spots, w)
     back = w < 0
     if back.any():
         # the wells between the turning point on the left and the state
-        fastest = _fastest_behind(land, tuple(v[back] for v in place), w[back])
+        fastest = _fastest_behind(land, tuple(v[back] for v in location), w[back])
         slowest[back] = -np.sqrt(2 * fastest)
     return slowest
 
@@ -179,13 +179,13 @@ def _over_barriers_ahead(spots: Spots, w: np.ndarray):
         return np.minimum(w, np.sqrt(2 * np.maximum(ahead.min(axis=1, initial=np.inf), 0)))
 
 
-def _fastest_behind(land: CircleLandscape, place: Sequence[np.ndarray], w: np.ndarray):
+def _fastest_behind(land: CircleLandscape, location: Sequence[np.ndarray], w: np.ndarray):
     """Largest W^2/2 between the turning point behind and the state, for W < 0 on a tilted circle.
 
     Wells further back than one turn are higher by 2 pi mu, so the first turn behind decides.
     """
     best, blocked = 0.5 * w * w, np.zeros(len(w), bool)
-    spots = spots_along(land, place, w)
+    spots = spots_along(land, location, w)
     for column in range(spots.offset.shape[1] - 1, -1, -1):
         here = spots.there[:, column] & (spots.offset[:, column] < 0)
         blocked |= here & spots.barrier[:, column] & (spots.energy[:, column] < 0)
@@ -194,19 +194,19 @@ def _fastest_behind(land: CircleLandscape, place: Sequence[np.ndarray], w: np.nd
     return best
 
 
-def _spinning_on_plane(land: HyperbolaLandscape, place: Sequence[np.ndarray], w: np.ndarray):
+def _spinning_on_plane(land: HyperbolaLandscape, location: Sequence[np.ndarray], w: np.ndarray):
     """On the decaying plane xi = 0: eta shrinks to 0. Balls tell the excursion back to a turning point
     behind."""
-    eta, zero = place[1], np.zeros(len(w))
-    slowest = _over_barriers_ahead(spots_along(land, place, w), w)
+    eta, zero = location[1], np.zeros(len(w))
+    slowest = _over_barriers_ahead(spots_along(land, location, w), w)
     slowest[(w < 0) & (eta != 0)] = np.nan
     return _components(land, (zero, np.minimum(eta, 0)), (zero, np.maximum(eta, 0)), slowest,
                        np.full(len(w), np.inf))
 
 
-def _spinning_purely(land: ParabolaLandscape, place: Sequence[np.ndarray], w: np.ndarray):
+def _spinning_purely(land: ParabolaLandscape, location: Sequence[np.ndarray], w: np.ndarray):
     """Along a parabola whose force does not change: both other rates stay."""
-    sense, start = land.sense, land.components(place, w)
+    sense, start = land.sense, land.components(location, w)
     spun = np.arange(3) == land.reduction.axis
     low, high = (-np.inf, start) if sense < 0 else (start, np.inf)
     return np.stack([np.where(spun, low, start), np.where(spun, high, start)], axis=2)
@@ -316,8 +316,8 @@ def rules():
     phi = np.concatenate([np.arange(5) * (np.pi / 8)]
                          + [(np.arange(n // 2) + 0.5) * (np.pi / n) for n in HALVED])
     levels = [double_exponential_nodes(level) for level in range(LAST_LEVEL + 1)]
-    near, weights = (np.concatenate(parts) for parts in zip(*levels))
-    return np.sin(0.5 * phi) ** 2, near, weights, np.cumsum([0] + [len(way) for way, _ in levels])
+    nearby, weights = (np.concatenate(parts) for parts in zip(*levels))
+    return np.sin(0.5 * phi) ** 2, nearby, weights, np.cumsum([0] + [len(route) for route, _ in levels])
 
 
 def double_exponential_nodes(level: int):
@@ -328,8 +328,8 @@ def double_exponential_nodes(level: int):
     t = k * 2.0**-level
     u = 0.5 * np.pi * np.sinh(t)
     # x = 1/(1 + exp(-2 u)), dx = pi/2 cosh t / (2 cosh(u)^2) dt
-    near = 1 / (1 + np.exp(2 * np.abs(u)))
-    return np.where(t > 0, -near, near), 0.25 * np.pi * np.cosh(t) / np.cosh(u) ** 2
+    nearby = 1 / (1 + np.exp(2 * np.abs(u)))
+    return np.where(t > 0, -nearby, nearby), 0.25 * np.pi * np.cosh(t) / np.cosh(u) ** 2
 
 
 # --- All rows in one pass
@@ -355,9 +355,9 @@ def extremes_and_periods(scene: AnyScene, states: np.ndarray, *, box: bool = Tru
             boxes[index] = extremes
         if period:
             periods[index] = time
-    near = np.nonzero(~far)[0]
-    for start in range(0, len(near), CHUNK):
-        rows = near[start:start + CHUNK]
+    nearby = np.nonzero(~far)[0]
+    for start in range(0, len(nearby), CHUNK):
+        rows = nearby[start:start + CHUNK]
         some, times = _of_chunk(scene, flat[rows], box, period, by_numba)
         boxes[rows if box else []], periods[rows if period else []] = some, times
     return boxes.reshape(array.shape

@@ -68,18 +68,18 @@ def exact_tie(orbit: BallOrbit) -> bool:
     if not close:
         return False
     tied = _ties_on_parabola if orbit.r.e == 0 else _on_conic
-    return all(tied(orbit, spot) for spot in close)
+    return all(tied(orbit, point) for point in close)
 
 
-def _ties_on_parabola(orbit, spot) -> bool:
+def _ties_on_parabola(orbit, point) -> bool:
     """F and V - E share the root: both are polynomials in the offset."""
     f = orbit.taylor
     height = polynomial(0, *(-Fraction(c) / (n + 1) for n, c in enumerate(f)))
     speed = Fraction(orbit.state[orbit.r.axis]) + orbit.r.s
-    return shares_root(polynomial(*f), height - polynomial(speed * speed / 2), spot.y)
+    return shares_root(polynomial(*f), height - polynomial(speed * speed / 2), point.y)
 
 
-def _on_conic(orbit, spot) -> bool:
+def _on_conic(orbit, point) -> bool:
     """Without torque V is a polynomial in U = omega_j + s_j and V = omega_k + s_k, and U a rational function
     of V (or the equilibria lie on two lines); under a torque never."""
     r = orbit.r
@@ -88,26 +88,26 @@ def _on_conic(orbit, spot) -> bool:
     ap, aq, sp = abs(r.p), abs(r.q), 1 if r.p > 0 else -1
     (sj, sk), (rho, sigma), m = r.centre, r.across, r.torque
     u0, v0, speed = orbit.u + sj, orbit.v + sk, Fraction(orbit.state[r.axis]) + r.s
-    at_u, at_v = orbit.components(spot.y)
+    at_u, at_v = orbit.components(point.y)
     U, V = at_u + orbit.shift_j, at_v + orbit.shift_k
 
-    def excess(u: fmpq_poly, v: fmpq_poly, one: fmpq_poly):
+    def excess(u: fmpq_poly, v: fmpq_poly, entry: fmpq_poly):
         """Height minus energy, with u, v polynomials over the polynomial `one`, times its square; in units of
         w^2/(ap aq)."""
         q = rational
-        rise = (q(-sp * aq * r.kappa / 2) * (u * u - q(u0 * u0) * one * one)
-                - q(sp * aq * rho) * (u * one - q(u0) * one * one))
-        return (rise - q(Fraction(r.e) * sp * ap * sigma) * (v * one - q(v0) * one * one)
-                - q(ap * aq * speed * speed / 2) * one * one)
+        rise = (q(-sp * aq * r.kappa / 2) * (u * u - q(u0 * u0) * entry * entry)
+                - q(sp * aq * rho) * (u * entry - q(u0) * entry * entry))
+        return (rise - q(Fraction(r.e) * sp * ap * sigma) * (v * entry - q(v0) * entry * entry)
+                - q(ap * aq * speed * speed / 2) * entry * entry)
 
-    x, one = polynomial(0, 1), polynomial(1)
+    x, item = polynomial(0, 1), polynomial(1)
     if r.kappa and r.kappa * m == rho * sigma:
         line_v, line_u = -sigma / r.kappa, -rho / r.kappa
         on_line = polynomial(line_v**2 / aq - orbit.Q, 0, Fraction(-r.e) / ap)
-        if V.contains(rational(line_v)) and shares_root(on_line, excess(x, polynomial(line_v), one), U):
+        if V.contains(rational(line_v)) and shares_root(on_line, excess(x, polynomial(line_v), item), U):
             return True
         return U.contains(rational(line_u)) and shares_root(
-            polynomial(-orbit.Q - r.e * line_u**2 / ap, 0, 1 / aq), excess(polynomial(line_u), x, one), V)
+            polynomial(-orbit.Q - r.e * line_u**2 / ap, 0, 1 / aq), excess(polynomial(line_u), x, item), V)
     if r.kappa or sigma:
         top, bottom = polynomial(m, rho), polynomial(sigma, r.kappa)
         equation = (polynomial(-orbit.Q, 0, 1 / aq) * bottom * bottom
@@ -115,7 +115,7 @@ def _on_conic(orbit, spot) -> bool:
         return shares_root(equation, excess(-top, x * bottom, bottom), V)
     line_v = -m / rho
     return shares_root(polynomial(line_v**2 / aq - orbit.Q, 0, Fraction(-r.e) / ap),
-                       excess(x, polynomial(line_v), one), U)
+                       excess(x, polynomial(line_v), item), U)
 
 
 # --- The sign of the margin of one state is decided in balls, with as many digits as that takes
@@ -191,7 +191,7 @@ def on_separatrix(orbit) -> bool:
         return _saddle(*slopes)
     if r.geometry.centred and (r.sense or (u + r.centre[0], v + r.centre[1]) == (0, 0)):
         return False
-    if not r.geometry.centred and not any(orbit.settled(lambda found: found.taylor[1:], FIRST_BITS)):
+    if not r.geometry.centred and not any(orbit.settled(lambda result: result.taylor[1:], FIRST_BITS)):
         return False
     return decide(orbit, FIRST_BITS).sign == 0
 
@@ -310,23 +310,23 @@ class _Momenta:
         """sum weights_d top/(s - d)^2 - value, times prod (s - d)^2 over the moments d with a gyrostatic
         moment."""
         square = {d: Poly((d * d, -2 * d, 1)) for d in self.w}
-        whole = Poly((-value,))
+        full = Poly((-value,))
         for d in square:
-            whole = whole * square[d]
+            full = full * square[d]
         for d, weight in weights.items():
             part = top * weight
             for other in square:
                 part = part if other == d else part * square[other]
-            whole = whole + part
-        return whole
+            full = full + part
+        return full
 
     def saddles(self, numbers: Digits):
         """[(energy as a ball, whether it is the motion's)], the second a function without arguments."""
         level = self._numerator({d: d * w for d, w in self.w.items()}, Poly((1,)), 2 * self.energy)
         same = lambda s: lambda: shares_root(polynomial(*self.sphere.c), polynomial(*level.c), s)
-        found = [(self._height(s, numbers.ball), same(s)) for s in self._speeds(numbers)]
+        rows = [(self._height(s, numbers.ball), same(s)) for s in self._speeds(numbers)]
         middle = self._about_middle()
-        return found if middle is None else [*found, (numbers.ball(middle), lambda: middle == self.energy)]
+        return rows if middle is None else [*rows, (numbers.ball(middle), lambda: middle == self.energy)]
 
     def _about_middle(self) -> Fraction | None:
         """Energy of the rotations s = D_i about a middle axis without a gyrostatic moment; None where the
@@ -346,12 +346,12 @@ class _Momenta:
         gaps = [b - a for (a, _), (b, _) in zip(roots, roots[1:])]
         if not all(gap > 0 for gap in gaps):
             raise Unclear
-        found, beyond = [], 1 if not roots else sign(numbers.ball(self.sphere.c[-1]))
+        result, beyond = [], 1 if not roots else sign(numbers.ball(self.sphere.c[-1]))
         for s, many in reversed(roots):
             if many % 2:
-                found += [s] if self._is_saddle(s, beyond, numbers.ball) else []
+                result += [s] if self._is_saddle(s, beyond, numbers.ball) else []
                 beyond = -beyond
-        return found
+        return result
 
     def _is_saddle(self, s: arb, beyond: int, ball: Callable[[float | Fraction], arb]) -> bool:
         if s.is_zero():
@@ -463,25 +463,25 @@ class OneFate(NamedTuple):
         return self.reason.text()
 
 
-def fate_of(scene: AnyScene, orbit: Orbit, near: Orbit | None = None) -> OneFate:
+def fate_of(scene: AnyScene, orbit: Orbit, nearby: Orbit | None = None) -> OneFate:
     """The fate of one state of a scene with this orbit.
 
     near: the orbit in a unit in which to compare energies; the margin is in it then.
     """
     reduction, state = orbit.reduction, orbit.state
     if is_free(scene):  # in the scene's unit, whatever its size
-        found = free_fate(scene, state)
+        result = free_fate(scene, state)
     else:
-        found = {-1: _on_circle, 1: _on_hyperbola, 0: _on_parabola}[reduction.e](near or orbit)
+        result = {-1: _on_circle, 1: _on_hyperbola, 0: _on_parabola}[reduction.e](nearby or orbit)
         # its sign is known, and it is too small for a double
-        lost = found.margin == 0 and found.label != Fate.SEPARATRIX
-        found = found._replace(margin=math.nan if lost else found.margin * reduction.energy_unit)
-    return at_rest(scene, found) if rests(scene.quadratic(), state) else found
+        lost = result.margin == 0 and result.label != Fate.SEPARATRIX
+        result = result._replace(margin=math.nan if lost else result.margin * reduction.energy_unit)
+    return at_rest(scene, result) if rests(scene.quadratic(), state) else result
 
 
-def at_rest(scene: AnyScene, found: OneFate) -> OneFate:
+def at_rest(scene: AnyScene, result: OneFate) -> OneFate:
     """The fate of an equilibrium, given what its energy alone says."""
-    return OneFate(Fate.EQUILIBRIUM, Basis.AT_REST, margin_at_rest(scene, found.margin))
+    return OneFate(Fate.EQUILIBRIUM, Basis.AT_REST, margin_at_rest(scene, result.margin))
 
 
 def free_fate(scene: AnyScene, state: Sequence[float | Fraction]) -> OneFate:
@@ -501,15 +501,15 @@ def _tie() -> OneFate:
 def _on_circle(orbit: Orbit) -> OneFate:
     r = orbit.reduction
     if _shifted(orbit) == (0, 0):  # the circle is a point: pure spin, and nothing stands in its way
-        found = None
+        result = None
     else:
-        found = decide(orbit, FIRST_BITS)
-        if found.sign == 0:
+        result = decide(orbit, FIRST_BITS)
+        if result.sign == 0:
             return _tie()
-    margin = -INF if found is None else found.margin
+    margin = -INF if result is None else result.margin
     if r.sense == 0:
         return OneFate(Fate.BOUNDED, Basis.TORQUE_FREE, margin)
-    if found is not None and found.sign > 0:
+    if result is not None and result.sign > 0:
         return OneFate(Fate.BOUNDED, Basis.BELOW_BARRIER, margin)
     return _spin_up(r, Basis.NO_BARRIER if margin == -INF else Basis.ABOVE_BARRIER, margin)
 
@@ -545,7 +545,7 @@ def _on_hyperbola(orbit: Orbit) -> OneFate:
 
 
 def _on_parabola(orbit) -> OneFate:
-    if not any(orbit.settled(lambda found: found.taylor[1:], FIRST_BITS)):
+    if not any(orbit.settled(lambda result: result.taylor[1:], FIRST_BITS)):
         return _spin_up(orbit.reduction, Basis.PURE_SPIN, -INF)  # the force is the same all along the orbit
     return _valley(orbit)
 

@@ -86,38 +86,38 @@ class FateResult(Shown, Compared):
     @property
     def because(self):
         """The reason in words: a string for one state, an object array otherwise."""
-        words = np.array([_told(*one)
-                          for one in zip(*map(np.ravel, (self.reasons, self.labels, self.margins, self.axis,
+        text = np.array([_told(*item)
+                          for item in zip(*map(np.ravel, (self.reasons, self.labels, self.margins, self.axis,
                                                          self.sense)))], dtype=object)
         if self.followed is not None:
-            words = np.array([one + _cause(self.followed.row(n)) for n, one in enumerate(words)],
+            text = np.array([word + _cause(self.followed.row(n)) for n, word in enumerate(text)],
                              dtype=object)
-        return words[0] if self.reasons.ndim == 0 else words.reshape(self.reasons.shape)
+        return text[0] if self.reasons.ndim == 0 else text.reshape(self.reasons.shape)
 
     @cached_property
     def velocity_margins(self) -> np.ndarray:
         """(...,) smallest change of the state that reaches the separatrix, in the state's unit; inf without
         one, 0 on it; NaN, not known, where the label is undecided, for free gyrostats whose moment has no
         zero component, and for torques off the axes."""
-        known = np.where(self.labels == Fate.SEPARATRIX, 0.0, separatrix_distance(self.scene, self.states))
-        return np.where(self.labels == Fate.UNDECIDED, np.nan, known)[()]
+        resolved = np.where(self.labels == Fate.SEPARATRIX, 0.0, separatrix_distance(self.scene, self.states))
+        return np.where(self.labels == Fate.UNDECIDED, np.nan, resolved)[()]
 
     @property
     def levels(self):
         """How well each label is known: "exact" (by a law or a closed solution), "certified" (an inequality
         met by a run of machine precision), "proved" (where `fate` was asked for it: the way to the inequality
         enclosed) or "undecided": a string for one state, an object array otherwise."""
-        words = ("undecided", "certified", "exact", "proved")
-        return np.array(words, dtype=object)[self.level_numbers(words)]
+        phrases = ("undecided", "certified", "exact", "proved")
+        return np.array(phrases, dtype=object)[self.level_numbers(phrases)]
 
     def level_numbers(self, words: Sequence[str]) -> np.ndarray:
         """The same as the places of these words in a row of them."""
         undecided, certified, exact, proved = map(words.index, ("undecided", "certified", "exact", "proved"))
-        found = np.where(self.labels == Fate.UNDECIDED, np.int8(undecided),
+        result = np.where(self.labels == Fate.UNDECIDED, np.int8(undecided),
                          np.where(self.reasons == Basis.CERTIFIED, np.int8(certified), np.int8(exact)))
         if self.followed is not None:
-            found[self.followed.proved.reshape(found.shape)] = proved
-        return found
+            result[self.followed.proved.reshape(result.shape)] = proved
+        return result
 
     @cached_property
     def validity(self):
@@ -135,11 +135,11 @@ def _cause(row) -> str:
 
 
 def _told(reason: int, label: int, margin: float, axis: int, sense: int) -> str:
-    known = (margin == margin or reason in (Basis.OFF_AXIS, Basis.TURN_ROUNDS, Basis.CERTIFIED,
+    resolved = (margin == margin or reason in (Basis.OFF_AXIS, Basis.TURN_ROUNDS, Basis.CERTIFIED,
                                             Basis.CLOSED_FORM) or label == Fate.EQUILIBRIUM)
     about = None if reason == Basis.CERTIFIED else spins_about(label, int(axis), int(sense))
     return str(REASONS[Basis(reason)].then(about)
-               .then(None if known else LOST(what="the margin in energy")))
+               .then(None if resolved else LOST(what="the margin in energy")))
 
 
 def empty_columns(n: int) -> dict[str, np.ndarray]:
@@ -213,12 +213,12 @@ def saddles_of(scene: Scene) -> Saddles:
     largest = float(max(map(abs, lam)))
     unit = 2.0 ** min(int(np.frexp(largest)[1]), 1023) if largest else 1.0
     floats = lambda values: np.array([float(v) for v in values])
-    found = Saddles(floats(D), floats(lam) / unit, unit, float(middle), floats(middle - d for d in D), (),
+    result = Saddles(floats(D), floats(lam) / unit, unit, float(middle), floats(middle - d for d in D), (),
                     np.inf)
     with np.errstate(all="ignore"):
         if free_middle(D, lam):
-            found = found._replace(least=float(_momentum(found, np.zeros(1))[0]))
-        return found._replace(branches=tuple(filter(None, (_branch(found, side) for side in (-1, 1)))))
+            result = result._replace(least=float(_momentum(result, np.zeros(1))[0]))
+        return result._replace(branches=tuple(filter(None, (_branch(result, side) for side in (-1, 1)))))
 
 
 def _parts(saddles: Saddles, t: np.ndarray):
@@ -284,12 +284,12 @@ def free_margins(scene: AnyScene, states: np.ndarray):
                          & (margin * best < 0))
             nearer = there & (np.abs(margin) < np.abs(best))
             best, rounding = np.where(nearer, margin, best), np.where(nearer, error, rounding)
-        known = (np.isinf(best) | (np.abs(best) > OWN * rounding)
+        resolved = (np.isinf(best) | (np.abs(best) > OWN * rounding)
                  & (rounding <= FREE_MARGIN_SHARE * (energy + np.abs(best + energy))))
         margins = best * saddles.unit * saddles.unit
         # in J, a margin that is no double
         lost = np.isfinite(best) & (best != 0) & ~(np.isfinite(margins) & (margins != 0))
-        return margins, doubtful | ~known | lost
+        return margins, doubtful | ~resolved | lost
 
 
 def _candidates(saddles: Saddles, omega: np.ndarray, size: np.ndarray, blur: np.ndarray):
@@ -313,13 +313,13 @@ def _solved(saddles: Saddles, branch: Branch, size: np.ndarray):
     """r (n,) on a branch where |H| is `size`: Newton's method in 1/|H|, which is nearly linear in r next to
     the pole."""
     pole = float(np.hypot.reduce(saddles.lam[saddles.gaps == 0])) if np.isinf(branch.high) else 0.0
-    least = (saddles.middle - branch.end if branch.side < 0 else saddles.middle) * pole / size
+    smallest = (saddles.middle - branch.end if branch.side < 0 else saddles.middle) * pole / size
 
     def fun(r: np.ndarray, size: np.ndarray):
         t = branch.side * r
         here = _momentum(saddles, t)
         return 1 / here - 1 / size, branch.side * (saddles.middle + t) * _fall(saddles, t) / here**3
-    low = np.minimum(0.99 * least, branch.end)
+    low = np.minimum(0.99 * smallest, branch.end)
     start = (np.minimum(saddles.middle * pole / size, 0.5 * branch.end) if pole
              else np.full(size.shape, 0.5 * branch.end))
     return bracketed_newton(fun, low, np.full(size.shape, branch.end), np.maximum(start, low), (size,))
@@ -329,12 +329,12 @@ def _margin(saddles: Saddles, omega: np.ndarray, t: np.ndarray, residue: np.ndar
     """(margin, rounding), (n,) each, over the square of the unit; residue: error of |H|^2/2, and so of s."""
     gap, star = _parts(saddles, t)
     s = saddles.middle + t
-    share, way = saddles.D[:, None] * np.abs(gap) / (2 * s), omega - star
+    fraction, route = saddles.D[:, None] * np.abs(gap) / (2 * s), omega - star
     loss = np.where(gap == 0, 0.0, (np.abs(t) + np.abs(saddles.gaps[:, None])) / np.abs(gap))
-    rounding = (EPS * (share * np.abs(way) * ((2 + loss) * np.abs(way) + 2 * np.abs(omega)
+    rounding = (EPS * (fraction * np.abs(route) * ((2 + loss) * np.abs(route) + 2 * np.abs(omega)
                                               + (2 + 2 * loss) * np.abs(star))).sum(axis=0))
     bend = np.where(residue == 0, 0.0, residue**2 / (s**3 * np.abs(_fall(saddles, t))))
-    return -(np.sign(gap) * share * way * way).sum(axis=0), rounding + bend + LEAST
+    return -(np.sign(gap) * fraction * route * route).sum(axis=0), rounding + bend + LEAST
 
 
 # --- Fates of many states
@@ -346,11 +346,11 @@ def fates(scene: AnyScene, states: np.ndarray, fast: bool | None = None) -> Fate
     """
     reduction, out = reduce(scene), empty_columns(len(states))
     far = rows_beyond_doubles(scene, states) if reduction is not None else np.zeros(len(states), bool)
-    near = np.nonzero(~far)[0] if far.any() else slice(None)
-    columns = _rows_of(out, near)
-    precise = int(far.sum()) + _label(scene, states[near], columns)
+    nearby = np.nonzero(~far)[0] if far.any() else slice(None)
+    columns = _rows_of(out, nearby)
+    precise = int(far.sum()) + _label(scene, states[nearby], columns)
     for name, column in columns.items():
-        out[name][near] = column
+        out[name][nearby] = column
     for index in np.nonzero(far)[0]:
         state = states[index].tolist()
         write_row(out, index, *far_fate(scene, Orbit(reduction, state), far_exponent(scene, state) or 0))
@@ -398,8 +398,8 @@ def _label_chunk(scene: AnyScene, land: Landscape | None, states: np.ndarray, ou
         out["reasons"][:] = Basis.TORQUE_FREE
         out["margins"][:], doubtful = free_margins(scene, states)
         return doubtful
-    place, w, size = land.start(states)
-    margins, doubtful = _margins(land, place, w, size)
+    location, w, size = land.start(states)
+    margins, doubtful = _margins(land, location, w, size)
     np.multiply(margins, land.reduction.energy_unit, out=out["margins"])
     out["reasons"][:] = Basis.WALLS if land.potential.walled else Basis.TORQUE_FREE
     if land.sense and not land.potential.walled:
@@ -409,19 +409,19 @@ def _label_chunk(scene: AnyScene, land: Landscape | None, states: np.ndarray, ou
         out["reasons"][:] = spins + np.isneginf(margins)
         out["axis"][:] = spins * np.int8(land.reduction.axis + 1)
         out["sense"][:] = spins * np.int8(land.sense)
-    for index in np.nonzero(flat_mask(land, states, place))[0]:
+    for index in np.nonzero(flat_mask(land, states, location))[0]:
         write_row(out, index, Fate.SPIN_UP, Basis.PURE_SPIN, -np.inf, land.reduction.axis + 1, land.sense)
         doubtful[index] = False
     return doubtful
 
 
-def _margins(land, place, w, size):
+def _margins(land, location, w, size):
     """(margins (n,) in canonical units, which of them are doubtful (n,)); on an invariant plane NaN."""
     if not land.potential.walled:
-        return circle_margins(land, place, w, size)
-    margins, doubtful = nearest_margins(land, place, w, size)
+        return circle_margins(land, location, w, size)
+    margins, doubtful = nearest_margins(land, location, w, size)
     if land.conic is not None:
-        on_plane = (place[0] == 0) | (place[1] == 0)
+        on_plane = (location[0] == 0) | (location[1] == 0)
         margins[on_plane], doubtful[on_plane] = np.nan, True
     return margins, doubtful
 
@@ -434,9 +434,9 @@ def _settled(land: Landscape, states: np.ndarray, margins: np.ndarray, rows: np.
     left = np.isnan(margins[rows])  # on a plane
     for part in chunks(len(rows)):
         some = rows[part]
-        found, sure = valley_margins(land, states[some])
+        result, sure = valley_margins(land, states[some])
         sure &= ~left[part]
-        margins[some[sure]] = found[sure] * unit
+        margins[some[sure]] = result[sure] * unit
         left[part] = ~sure
     return rows[left]
 
@@ -444,11 +444,11 @@ def _settled(land: Landscape, states: np.ndarray, margins: np.ndarray, rows: np.
 def at_rest(scene: AnyScene, states: np.ndarray, out: Mapping[str, np.ndarray]):
     """Mark the states at which every rate of change vanishes exactly. Their margins are those of
     `margin_at_rest`."""
-    found = equilibrium_mask(scene, states)
-    if found.any():
-        out["labels"][found], out["reasons"][found] = Fate.EQUILIBRIUM, Basis.AT_REST
-        out["axis"][found] = out["sense"][found] = 0
-        out["margins"][found] = [margin_at_rest(scene, margin) for margin in out["margins"][found]]
+    result = equilibrium_mask(scene, states)
+    if result.any():
+        out["labels"][result], out["reasons"][result] = Fate.EQUILIBRIUM, Basis.AT_REST
+        out["axis"][result] = out["sense"][result] = 0
+        out["margins"][result] = [margin_at_rest(scene, margin) for margin in out["margins"][result]]
 
 
 def fate_on_orbit(scene: AnyScene, land: Landscape, states: np.ndarray) -> FateResult:
@@ -457,9 +457,9 @@ def fate_on_orbit(scene: AnyScene, land: Landscape, states: np.ndarray) -> FateR
     The two margins differ only without a torque: there `fates` compares motions of equal momentum, while the
     reduction keeps another invariant. The margin is 0 on an invariant plane, where no barrier stands.
     """
-    found = fates(scene, states)
+    result = fates(scene, states)
     if land.sense or not len(states):
-        return found
+        return result
     margins, doubtful = _margins(land, *land.start(states))
     for index in _settled(land, states, margins, np.nonzero(doubtful)[0]):
         if np.isnan(margins[index]):
@@ -467,10 +467,10 @@ def fate_on_orbit(scene: AnyScene, land: Landscape, states: np.ndarray) -> FateR
         else:
             height = decide(Orbit(land.reduction, states[index])).margin
             margins[index] = abs(height) if land.potential.walled and np.isinf(height) else height
-    return replace(found, margins=margins * land.reduction.energy_unit)
+    return replace(result, margins=margins * land.reduction.energy_unit)
 
 
-def circle_margins(land: ConicLandscape, place: Sequence[np.ndarray], w: np.ndarray,
+def circle_margins(land: ConicLandscape, location: Sequence[np.ndarray], w: np.ndarray,
                    size: Sequence[np.ndarray]):
     """Return the margins (n,) in canonical units, and which of them are doubtful (n,).
 
@@ -478,23 +478,23 @@ def circle_margins(land: ConicLandscape, place: Sequence[np.ndarray], w: np.ndar
     """
     pot, energy, n = land.potential, 0.5 * w * w, len(w)
     best, doubtful, blurred = np.full(n, -np.inf), np.zeros(n, bool), np.full(n, -np.inf)
-    radius, rounding = np.hypot(*place), size[0] + size[1]
+    radius, rounding = np.hypot(*location), size[0] + size[1]
     with np.errstate(all="ignore"):
-        pull = np.abs(pot.G * place[0] + pot.c) + abs(pot.d)
-        for rows, offset, spot, barrier in land.branches(place, barriers_only=True):
+        pull = np.abs(pot.G * location[0] + pot.c) + abs(pot.d)
+        for rows, offset, point, barrier in land.branches(location, barriers_only=True):
             if not barrier.all():
-                rows, offset, spot = rows[barrier], offset[barrier], tuple(v[barrier] for v in spot)
-            x, z, kinetic, wide = place[0][rows], place[1][rows], energy[rows], rounding[rows]
-            height, unsure = pot.height_over((x, z), spot, offset)
+                rows, offset, point = rows[barrier], offset[barrier], tuple(v[barrier] for v in point)
+            x, z, kinetic, wide = location[0][rows], location[1][rows], energy[rows], rounding[rows]
+            height, unsure = pot.height_over((x, z), point, offset)
             margin = height - kinetic
             # rounding of the angle adds less: where a barrier stands mu is below the other terms of the force
             scale = (pot.mu * offset + kinetic
-                     + (pull[rows] + np.abs(pot.G * spot[0] + pot.c))
-                     * (wide + np.abs(spot[0]) + np.abs(spot[1])))
+                     + (pull[rows] + np.abs(pot.G * point[0] + pot.c))
+                     * (wide + np.abs(point[0]) + np.abs(point[1])))
             # next to a fold the force hardly changes with the angle, so that its rounding moves the barrier
             # far along the circle
             angle_error = (32 * EPS * (1 + wide / radius[rows])
-                           * (1 + pot.terms(spot) / np.abs(pot.slope(spot))))
+                           * (1 + pot.terms(point) / np.abs(pot.slope(point))))
             # at a barrier rounding decides whether it stands ahead or behind, and then the next one counts
             doubtful[rows] |= ((np.abs(margin) <= ROUNDINGS * EPS * scale)
                                | (np.minimum(offset, TURN - offset) <= angle_error))
@@ -508,33 +508,33 @@ def circle_margins(land: ConicLandscape, place: Sequence[np.ndarray], w: np.ndar
     return best, doubtful & (radius > 0)
 
 
-def nearest_margins(land: Landscape, place: Sequence[np.ndarray], w: np.ndarray, size: Sequence[np.ndarray]):
+def nearest_margins(land: Landscape, index: Sequence[np.ndarray], w: np.ndarray, size: Sequence[np.ndarray]):
     """As `circle_margins`, between walls: the margins to the barrier that is nearest in height, +inf where
     the orbit has none. Motions on either side of it are bounded."""
     margins = np.full(len(w), np.inf)
     if not land.may_have_barriers():
         return margins, np.zeros(len(w), bool)
-    offsets, spots, barrier = land.critical(place, barriers_only=True)
-    doubtful, barred = land.beside_fold(place) | land.beside_centre(place), np.nonzero(barrier.any(axis=1))[0]
+    offsets, spots, barrier = land.critical(index, barriers_only=True)
+    doubtful, barred = land.beside_fold(index) | land.beside_centre(index), np.nonzero(barrier.any(axis=1))[0]
     if barred.size:
         margins[barred], unsure = _to_nearest(
-            land, [v[barred] for v in place], w[barred], [v[barred] for v in size],
+            land, [v[barred] for v in index], w[barred], [v[barred] for v in size],
             (offsets[barred], spots[:, barred], barrier[barred]))
         doubtful[barred] |= unsure
     return margins, doubtful
 
 
-def _to_nearest(land: Landscape, place: Sequence[np.ndarray], w: np.ndarray, size: Sequence[np.ndarray],
+def _to_nearest(land: Landscape, index: Sequence[np.ndarray], w: np.ndarray, size: Sequence[np.ndarray],
                 critical: Sequence[np.ndarray]):
     """(margins, which are doubtful), (n,) each, of places whose orbits have barriers, `critical` says where.
     """
     pot, energy, margins = land.potential, 0.5 * w * w, np.full(len(w), np.inf)
     doubtful = np.zeros(len(w), bool)
     with np.errstate(all="ignore"):
-        force, slope, roughness = np.abs(pot.force(place)), np.abs(pot.slope(place)), land.roughness(size)
+        force, slope, roughness = np.abs(pot.force(index)), np.abs(pot.slope(index)), land.roughness(size)
         for offset, first, second, barrier in zip(critical[0].T, *(v.T for v in critical[1]), critical[2].T):
-            spot = first, second
-            rise, unsure = pot.rise_and_rounding(-offset, spot, place, size)
+            point = first, second
+            rise, unsure = pot.rise_and_rounding(-offset, point, index, size)
             margin = np.where(barrier, -rise - energy, np.inf)
             vague = ~(unsure <= MARGIN_SHARE * (np.abs(rise) + energy))
             nearer = np.abs(margin) < np.abs(margins)
@@ -542,23 +542,23 @@ def _to_nearest(land: Landscape, place: Sequence[np.ndarray], w: np.ndarray, siz
             scale = energy + np.abs(rise) + force * np.abs(offset) + slope * offset**2 + roughness
             doubtful |= nearer & (vague | (np.abs(margin) <= ROUNDINGS * EPS * scale))
             # rounding has led to another equilibrium than was sought, or tilts the way to it
-            doubtful |= barrier & (~(pot.slope(spot) > 0)
-                                   | _tilted(pot, spot, offset, -rise - energy, energy))
+            doubtful |= barrier & (~(pot.slope(point) > 0)
+                                   | _tilted(pot, point, offset, -rise - energy, energy))
     return margins, doubtful
 
 
-def _tilted(pot: Hyperbola | Parabola, spot: Sequence[np.ndarray], offset: np.ndarray, margin: np.ndarray,
+def _tilted(pot: Hyperbola | Parabola, point: Sequence[np.ndarray], offset: np.ndarray, margin: np.ndarray,
             energy: np.ndarray):
     """(n,) True where the force that rounding leaves at an equilibrium costs a margin its twelve digits over
     the way to it."""
-    return (2 * EPS * pot.terms(tuple(spot)) * np.abs(offset) > MARGIN_SHARE
+    return (2 * EPS * pot.terms(tuple(point)) * np.abs(offset) > MARGIN_SHARE
             * (np.abs(margin + energy) + energy))
 
 
-def flat_mask(land: Landscape, states: np.ndarray, place: Sequence[np.ndarray]):
+def flat_mask(land: Landscape, states: np.ndarray, location: Sequence[np.ndarray]):
     """(n,) True where the force does not change along the parabola at all (exactly): nothing holds the spin
     back."""
-    small = land.nearly_flat(states, place)
+    small = land.nearly_flat(states, location)
     for index in np.nonzero(small)[0]:
         small[index] = _is_flat(land.reduction, states[index])
     return small

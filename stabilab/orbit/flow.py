@@ -51,7 +51,7 @@ def reduced_motion(scene, state, nodes: int | None = None, backwards: bool = Fal
     if nodes is None and isinstance(motion, ByPanels) and not motion.sense:
         _refuse_another_period(motion, orbit)
     # its swing is below the doubles, its period is not
-    if isinstance(motion, Resting) and orbit.settled(lambda one: one.force_here) != 0:
+    if isinstance(motion, Resting) and orbit.settled(lambda item: item.force_here) != 0:
         motion.period = precise_period(orbit, Fate.BOUNDED)
     motion = motion if k is None else InOwnUnit(motion, k)
     scale = (1 / (reduction.constants["flip"] * reduction.constants["n"]) if reduction.geometry.centred
@@ -95,9 +95,9 @@ def axis_way(motion: Motion, times: np.ndarray):
     """(states (n, 3), integral of the rate about the torque's axis since time 0 (n,), that axis) at times of
     any sign."""
     times = np.asarray(times, float)
-    states, way = motion.follow(times)
+    states, route = motion.follow(times)
     scale, shift = motion.spin
-    return states, scale * way - shift * times, motion.axis
+    return states, scale * route - shift * times, motion.axis
 
 
 def _libration(ground: Relief, nodes):
@@ -125,12 +125,12 @@ def _turn(hill: Spot | None, well: Spot, sense: int):
     """(spot, offset) of the turning point beyond a well on one side, measured from whichever equilibrium is
     nearer in height."""
     reach = None if hill is None else abs(hill.at - well.at)
-    near = hill if hill is not None and -hill.kinetic < well.kinetic else well
-    offset = turning_offset(near, sense if near is well else -sense, reach)
+    nearby = hill if hill is not None and -hill.kinetic < well.kinetic else well
+    offset = turning_offset(nearby, sense if nearby is well else -sense, reach)
     if offset is None:
         raise InputError(
             "the motion does not turn back: it spins up on an invariant plane; take method taylor")
-    return near, offset
+    return nearby, offset
 
 
 def _rotation(ground: Relief, nodes: int | None):

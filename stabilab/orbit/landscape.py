@@ -166,15 +166,15 @@ class Landscape:
         first, second = self.potential.nudge(spot, np.where(np.abs(step) < ONE_STEP, step, 0.0))
         rows = np.nonzero(np.abs(step) >= ONE_STEP)
         for _ in range(MOST_STEPS if rows[0].size else 0):
-            one = first[rows], second[rows]
-            step = self._newton_step(one)
-            first[rows], second[rows] = self.potential.move(one, step)
+            item = first[rows], second[rows]
+            step = self._newton_step(item)
+            first[rows], second[rows] = self.potential.move(item, step)
             rows = tuple(r[np.abs(step) >= ONE_STEP] for r in rows)
         return first, second
 
-    def _newton_step(self, spot: Sequence[np.ndarray]):
+    def _newton_step(self, point: Sequence[np.ndarray]):
         with np.errstate(all="ignore"):
-            step = -self.potential.force(spot) / self.potential.slope(spot)
+            step = -self.potential.force(point) / self.potential.slope(point)
             return np.where(np.abs(step) < 0.5, step, 0.0)  # false for nan too
 
 
@@ -190,21 +190,21 @@ class Spots:
     there: np.ndarray
 
 
-def spots_along(land: Landscape, place: Sequence[np.ndarray], w: np.ndarray) -> Spots:
+def spots_along(land: Landscape, location: Sequence[np.ndarray], w: np.ndarray) -> Spots:
     """All equilibria near the state along its orbit, on a circle those of one turn behind and one ahead."""
-    offset, spot, barrier = land.critical(place)
+    offset, point, barrier = land.critical(location)
     energy = np.full(offset.shape, np.nan)
     kinetic = 0.5 * w * w
     with np.errstate(all="ignore"):
-        offset = land.unrolled(place, offset, spot)
+        offset = land.unrolled(location, offset, point)
         for column in range(offset.shape[1]):
-            energy[:, column] = kinetic + land.potential.rise(-offset[:, column], spot[:, :, column])
-        offset, spot, energy, barrier = land.repeated(offset, spot, energy, barrier)
+            energy[:, column] = kinetic + land.potential.rise(-offset[:, column], point[:, :, column])
+        offset, point, energy, barrier = land.repeated(offset, point, energy, barrier)
     order = np.argsort(np.where(np.isnan(offset), np.inf, offset), axis=1, kind="stable")
     take = lambda a: np.take_along_axis(a, order, axis=1)
     offset = take(offset)
     there = ~np.isnan(offset)
-    return Spots(np.where(there, offset, np.inf), np.stack([take(spot[0]), take(spot[1])]), take(energy),
+    return Spots(np.where(there, offset, np.inf), np.stack([take(point[0]), take(point[1])]), take(energy),
                  take(barrier) & there, there)
 
 
@@ -232,20 +232,20 @@ class ConicLandscape(Landscape):
         """The constants in 32 digits."""
         return twofold_constants(self.reduction)
 
-    def _exactly(self, close: np.ndarray, states: np.ndarray, place: Sequence[float | np.ndarray],
+    def _exactly(self, close: np.ndarray, states: np.ndarray, location: Sequence[float | np.ndarray],
                  of: Callable[[Number, Number], tuple[Number, Number]]):
         """The place with the rows of `close` formed anew by `of` from (X, Z) to 30 digits; from exact ones
         where these may leave nothing."""
         if not close.any():
-            return place
-        first, second = (np.array(v) for v in place)
+            return location
+        first, second = (np.array(v) for v in location)
         some = states[close]
         x, z = twofold_places(self.twofold, self.reduction.j, self.reduction.k, some)
         with np.errstate(all="ignore"):
-            found = [v.value() if isinstance(v, Twofold) else v for v in of(x, z)]
-            sure = (np.minimum(*np.abs(found)) > SURE
+            rows = [v.value() if isinstance(v, Twofold) else v for v in of(x, z)]
+            sure = (np.minimum(*np.abs(rows)) > SURE
                     * (np.abs(some).sum(axis=1) + self.reduction.parabolic_shift_size) / self.least_scale)
-        first[close], second[close] = found
+        first[close], second[close] = rows
         indices = np.argwhere(close)
         for index in map(tuple, indices[~sure]):  # () where one state is asked for
             ex, ez, _ = self.reduction.canonical_exact(states[index])
@@ -273,16 +273,16 @@ class ConicLandscape(Landscape):
         which are barriers), arrays as long as the rows."""
         Q = self.invariant(place)
         for rows, x, z, barrier in self.conic.critical_places(Q, True if barriers_only else None):
-            there, offset, spot = self.located(tuple(v[rows] for v in place), Q[rows], x, z)
-            yield (rows[there], offset, spot,
-                   self.potential.slope(spot) > 0 if barrier is None else np.full(len(offset), barrier))
+            there, offset, point = self.located(tuple(v[rows] for v in place), Q[rows], x, z)
+            yield (rows[there], offset, point,
+                   self.potential.slope(point) > 0 if barrier is None else np.full(len(offset), barrier))
 
     def critical(self, place: Sequence[np.ndarray], barriers_only: bool = False):
-        found = list(self.branches(place, barriers_only))
-        n, m = len(place[0]), len(found)
+        result = list(self.branches(place, barriers_only))
+        n, m = len(place[0]), len(result)
         offsets, places, barrier = np.full((n, m), np.nan), np.zeros((2, n, m)), np.zeros((n, m), bool)
-        for column, (rows, offset, spot, high) in enumerate(found):
-            offsets[rows, column], places[:, rows, column], barrier[rows, column] = offset, spot, high
+        for column, (rows, offset, point, high) in enumerate(result):
+            offsets[rows, column], places[:, rows, column], barrier[rows, column] = offset, point, high
         return offsets, places, barrier
 
     def located(self, place: Sequence[np.ndarray], Q: np.ndarray, x: np.ndarray, z: np.ndarray):
@@ -316,9 +316,9 @@ ROUNDINGS = 64
 CENTRE = 1e-10
 
 
-def angle_between(place: Sequence[np.ndarray], spot: Sequence[np.ndarray] | np.ndarray):
+def angle_between(index: Sequence[np.ndarray], point: Sequence[np.ndarray] | np.ndarray):
     """theta from one place on a circle to another, the short way round: in [-pi, pi]."""
-    return np.arctan2(spot[0] * place[1] - spot[1] * place[0], spot[0] * place[0] + spot[1] * place[1])
+    return np.arctan2(point[0] * index[1] - point[1] * index[0], point[0] * index[0] + point[1] * index[1])
 
 
 def _discriminant(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray):
@@ -337,10 +337,10 @@ def _real_roots(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray):
         reach = np.sqrt(-p / 3)
         third = np.arccos(np.clip(-q / (2 * reach**3), -1, 1)) / 3
         roots = np.array([2 * reach * np.cos(third - k * TURN / 3) for k in range(3)])
-        one = -np.copysign(np.cbrt(0.5 * np.abs(q) + np.sqrt(np.maximum(0.25 * q * q + p**3 / 27, 0))), q)
-        other = np.where(one == 0, 0.0, -p / (3 * one))
+        item = -np.copysign(np.cbrt(0.5 * np.abs(q) + np.sqrt(np.maximum(0.25 * q * q + p**3 / 27, 0))), q)
+        other = np.where(item == 0, 0.0, -p / (3 * item))
         # where p > 0 the sum would cancel
-        alone = np.where(p > 0, -q / (one * one + p / 3 + other * other), one + other)
+        alone = np.where(p > 0, -q / (item * item + p / 3 + other * other), item + other)
         lone = np.array([np.where((p == 0) & (q == 0), 0.0, alone), *np.full((2, *alone.shape), np.nan)])
         return (middle + np.where(three, roots, lone)).T
 
@@ -366,9 +366,9 @@ class CircleLandscape(ConicLandscape):
     def located(self, place: Sequence[np.ndarray], Q: np.ndarray, x: np.ndarray, z: np.ndarray):
         with np.errstate(all="ignore"):
             scale = np.sqrt(Q / (x * x + z * z))
-            spot = self.polished((x * scale, z * scale))
-            offset = angle_between(place, spot)
-        return slice(None), np.where(offset > 0, offset, offset + TURN), spot
+            point = self.polished((x * scale, z * scale))
+            offset = angle_between(place, point)
+        return slice(None), np.where(offset > 0, offset, offset + TURN), point
 
     def way(self, spot: Sequence[np.ndarray], place: Sequence[np.ndarray], near: np.ndarray):
         angle = angle_between(spot, place)
@@ -415,9 +415,9 @@ class HyperbolaLandscape(ConicLandscape):
             eta = np.where(big, -Q / xi, eta)
             # both 0 on a plane
             there = np.nonzero((np.sign(xi) == np.sign(place[0])) & (np.sign(eta) == np.sign(place[1])))[0]
-            spot, start = self.polished((xi[there], eta[there])), [v[there] for v in place]
-            offset = np.where(big[there], np.log(spot[0] / start[0]), -np.log(spot[1] / start[1]))
-        return there, offset, spot
+            point, start = self.polished((xi[there], eta[there])), [v[there] for v in place]
+            offset = np.where(big[there], np.log(point[0] / start[0]), -np.log(point[1] / start[1]))
+        return there, offset, point
 
     def way(self, spot: Sequence[np.ndarray], place: Sequence[np.ndarray], near: np.ndarray):
         big = np.abs(place[0]) >= np.abs(place[1])
@@ -443,18 +443,18 @@ class HyperbolaLandscape(ConicLandscape):
     def beside_centre(self, place: Sequence[np.ndarray]):
         """(n,) True where an equilibrium may stand so near the centre of a place's hyperbola that the conic,
         which is known by its distance from its asymptotes, loses or invents it."""
-        near = self._near_centre()
-        if near is None:
+        nearby = self._near_centre()
+        if nearby is None:
             return np.zeros(np.shape(place[0]), bool)
-        return np.sqrt(np.abs(place[0])) * np.sqrt(np.abs(place[1])) <= near
+        return np.sqrt(np.abs(place[0])) * np.sqrt(np.abs(place[1])) <= nearby
 
     def _near_centre(self):
         """How near the centre the conic is not to be trusted; None where no equilibrium stands there."""
         if not self.conic.pieces:
             return None
         c, d, G = (abs(getattr(self.conic, name)) for name in ("c", "d", "G"))
-        near = CENTRE * (c + d) / G  # the force of the wheel there is at most (c + d) times as much
-        return near if self.conic.mu <= (c + d) * near else None
+        nearby = CENTRE * (c + d) / G  # the force of the wheel there is at most (c + d) times as much
+        return nearby if self.conic.mu <= (c + d) * nearby else None
 
 
 class ParabolaLandscape(Landscape):
@@ -462,8 +462,8 @@ class ParabolaLandscape(Landscape):
 
     def start(self, states: np.ndarray):
         r = self.reduction
-        place = states[..., r.j], states[..., r.k]
-        return place, states[..., r.axis] + float(r.s), tuple(np.abs(v) for v in place)
+        location = states[..., r.j], states[..., r.k]
+        return location, states[..., r.axis] + float(r.s), tuple(np.abs(v) for v in location)
 
     def pair(self, place: np.ndarray | Sequence[float | np.ndarray]):
         return place
@@ -490,10 +490,10 @@ class ParabolaLandscape(Landscape):
                 with np.errstate(all="ignore"):
                     step = value / slope
                 roots = roots - np.where(np.isfinite(step) & (np.abs(step) <= 0.1 * np.abs(roots)), step, 0)
-        spot = np.array(self.potential.move(tuple(v[:, None] for v in place),
+        point = np.array(self.potential.move(tuple(v[:, None] for v in place),
                                             np.where(np.isnan(roots), 0.0, roots)))
-        barrier = (self.potential.slope(tuple(spot)) > 0) & ~np.isnan(roots)
-        return roots, spot, barrier
+        barrier = (self.potential.slope(tuple(point)) > 0) & ~np.isnan(roots)
+        return roots, point, barrier
 
     def beside_fold(self, place: Sequence[np.ndarray]):
         pot, (first, second, third) = self.potential, self.potential.derivatives(place)
@@ -501,9 +501,9 @@ class ParabolaLandscape(Landscape):
         cubic = third / 6, second / 2, first, pot.force(place)
         blurred = cubic[0], *(np.abs(v) + ROUNDINGS * EPS * size for v,
                               size in zip(cubic[1:], (bent / 2, steep, pot.terms(place))))
-        terms, most = _discriminant(*cubic), sum(map(np.abs, _discriminant(*blurred)))
+        terms, largest = _discriminant(*cubic), sum(map(np.abs, _discriminant(*blurred)))
         size = sum(map(np.abs, terms))
-        return (np.abs(sum(terms)) <= DOUBLE_ROOT * size + (most - size)) & (most > 0)
+        return (np.abs(sum(terms)) <= DOUBLE_ROOT * size + (largest - size)) & (largest > 0)
 
     def roughness(self, size: Sequence[np.ndarray]):
         pot, s = self.potential, size[0] + size[1]

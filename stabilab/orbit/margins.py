@@ -56,7 +56,7 @@ def _on_hyperbolas(land, states, critical):
     """(margins, kinetic energies, errors, where the barriers are certain), (n,) each; wells, of which an
     orbit has twice as many, play no part."""
     rough, there, places = _barriers(*critical)
-    place, w, size = land.start(states)
+    location, w, size = land.start(states)
     x, z = twofold_places(land.twofold, land.reduction.j, land.reduction.k, states)
     height, error, sure = np.full(there.shape, np.inf), np.zeros(there.shape), np.array(there)
     offset, kinetic, rows = np.full(there.shape, np.inf), 0.5 * w * w, np.nonzero(there)[0]
@@ -66,21 +66,21 @@ def _on_hyperbolas(land, states, critical):
         u, v, slope, last = _settled(land, u, v, X, Z)
         pull, tilt, astray = _left_over(land, u.high, v.high, X.high, Z.high, tuple(s[rows] for s in size),
                                         last)
-        way = _way(u, v, X, Z)
-        rise, rounding = _rise(land, -way, u.value(), v.value(), slope, pull, tilt)
+        route = _way(u, v, X, Z)
+        rise, rounding = _rise(land, -route, u.value(), v.value(), slope, pull, tilt)
         height[there] = -kinetic[rows] - rise
         error[there] = (rounding + ROUNDED * EPS * kinetic[rows]
-                        + np.abs(land.potential.force(place))[rows] * astray)
-        offset[there] = way
-        near = np.abs(way - rough[there]) <= DRIFT
-        sure[there] = (np.abs(last) <= ENOUGH) & near & (slope > 0) & np.isfinite(height[there])
+                        + np.abs(land.potential.force(location))[rows] * astray)
+        offset[there] = route
+        nearby = np.abs(route - rough[there]) <= DRIFT
+        sure[there] = (np.abs(last) <= ENOUGH) & nearby & (slope > 0) & np.isfinite(height[there])
         apart = (np.diff(offset, axis=1) > 0) | ~there[:, 1:]
     certain = ((sure | ~there).all(axis=1) & apart.all(axis=1)
-               & ~_beside_fold(land, place, size) & ~land.beside_centre(place))
+               & ~_beside_fold(land, location, size) & ~land.beside_centre(location))
     if not there.shape[1]:
         return np.full(len(states), np.inf), kinetic, np.zeros(len(states)), certain
-    one, nearest = np.arange(len(states)), np.argmin(np.abs(height), axis=1)
-    return height[one, nearest], kinetic, error[one, nearest], certain
+    item, nearest = np.arange(len(states)), np.argmin(np.abs(height), axis=1)
+    return height[item, nearest], kinetic, error[item, nearest], certain
 
 
 def _barriers(offsets: np.ndarray, places: np.ndarray, barrier: np.ndarray):
@@ -93,10 +93,10 @@ def _barriers(offsets: np.ndarray, places: np.ndarray, barrier: np.ndarray):
     return offsets, there, (0.5 * (xi + eta), 0.5 * (xi - eta))
 
 
-def _beside_fold(land: Landscape, place: Sequence[np.ndarray], size: Sequence[np.ndarray]):
+def _beside_fold(land: Landscape, index: Sequence[np.ndarray], size: Sequence[np.ndarray]):
     """(n,) True where the rounding of a place, of that size of terms, may make or unmake a pair of equilibria
     of its orbit."""
-    Q, rounding, beside = land.invariant(place), (size[0] + size[1]) ** 2, np.zeros(np.shape(place[0]), bool)
+    Q, rounding, beside = land.invariant(index), (size[0] + size[1]) ** 2, np.zeros(np.shape(index[0]), bool)
     for edge in land.conic.fold_invariants + land.conic.tangents:
         beside |= ~(np.abs(Q - edge) > ROUNDINGS * EPS * (rounding + abs(edge)))
     return beside
@@ -108,8 +108,8 @@ def _settled(land, u, v, X, Z):
     Q, last, live = Z * Z - X * X, np.full(len(u.high), np.nan), np.arange(len(u.high))
     for _ in range(NEWTON_STEPS):
         some, other, step = _stepped(k, *(Twofold(a.high[live], a.low[live]) for a in (u, v, Q)))
-        for whole, part in ((u, some), (v, other)):
-            whole.high[live], whole.low[live] = part.high, part.low
+        for full, part in ((u, some), (v, other)):
+            full.high[live], full.low[live] = part.high, part.low
         last[live] = step
         live = live[np.abs(step) > SETTLED]  # false for no number too
         if not live.size:
@@ -191,24 +191,24 @@ def _on_parabolas(land: Landscape, states: np.ndarray, critical: Sequence[np.nda
     of second order. A force that is a cubic with walls on both sides has one barrier at most.
     """
     r, pot, none = constants(land.reduction), land.potential, np.zeros(len(states))
-    place, w, _ = land.start(states)
+    index, w, _ = land.start(states)
     with np.errstate(all="ignore"):
         offsets, _, barrier = critical
         there = barrier.any(axis=1)
         y = offsets[np.arange(len(states)), np.argmax(barrier, axis=1)]
-        u, v, speed = Twofold(place[0], none), Twofold(place[1], none), r.s + states[:, land.reduction.axis]
+        u, v, speed = Twofold(index[0], none), Twofold(index[1], none), r.s + states[:, land.reduction.axis]
         force = r.kappa * u * v + r.rho * v + r.sigma * u + r.m
         first, second, third = derivatives_on_parabola(r, u, v)
         height = -(((third * THIRD * 0.125 * y + second * THIRD * 0.5) * y + first * 0.5) * y + force) * y
         margins = (height - speed * speed * 0.5).value()
-        sizes = pot.terms(place), *pot.derivative_terms(place)
+        sizes = pot.terms(index), *pot.derivative_terms(index)
         size, blur, left_over, slope = (_sum(f, np.abs(y) if f is sizes else y, over) for f, over in (
             (sizes, (1, 2, 6, 24)), (sizes, (1, 1, 2, 6)),
-            ((pot.force(place), *pot.derivatives(place)), (1, 1, 2, 6)),
-            (pot.derivatives(place), (1, 1, 2))))
+            ((pot.force(index), *pot.derivatives(index)), (1, 1, 2, 6)),
+            (pot.derivatives(index), (1, 1, 2))))
         error = (QUARTIC * TWOFOLD * (np.abs(y) * size + w * w)
                  + (np.abs(left_over) + FORCE * EPS * blur) ** 2 / slope)
-    sure = ~land.beside_fold(place) & ((slope > 0) | ~there)
+    sure = ~land.beside_fold(index) & ((slope > 0) | ~there)
     return np.where(there, margins, np.inf), 0.5 * w * w, np.where(there, error, 0.0), sure
 
 

@@ -73,14 +73,14 @@ class BallOrbit:
     @cached_property
     def spots(self) -> list[Spot]:
         """All equilibria on the orbit, ascending; on a circle those with offsets in (0, 2 pi]."""
-        found = self._found()
-        if any(0 in y and not y.is_zero() for y, _ in found):
+        result = self._found()
+        if any(0 in y and not y.is_zero() for y, _ in result):
             raise Unclear  # on which side of the state it stands is not known, and no side may pass it over
-        found.sort(key=lambda one: one[0].mid())  # as doubles two that nearly meet may be one number
-        for (a, _), (b, _) in zip(found, found[1:]):
+        result.sort(key=lambda item: item[0].mid())  # as doubles two that nearly meet may be one number
+        for (a, _), (b, _) in zip(result, result[1:]):
             if not a < b:
                 raise Unclear
-        return [Spot(y, self._kind(y, m, [o for o, _ in found])) for y, m in found]
+        return [Spot(y, self._kind(y, m, [o for o, _ in result])) for y, m in result]
 
     def _found(self) -> list:
         """[(offset, multiplicity)] of the equilibria, in any order."""
@@ -226,13 +226,13 @@ class BallConic(BallOrbit):
     def _on_two_lines(self, u: Fraction, v: Fraction):
         """The equilibria with omega_j + s_j = u or omega_k + s_k = v; one with both counts once, as often as
         on both lines."""
-        found = [*self._on_line_v(v), *self._on_line_u(u)]
+        rows = [*self._on_line_v(v), *self._on_line_u(u)]
         if v * v / abs(self.r.q) - self.r.e * u * u / abs(self.r.p) == self.Q:
             both = tuple(map(self.numbers.ball, (u, v)))
-            meets = [one[0].overlaps(both[0]) and one[1].overlaps(both[1]) for one in found]
-            yield *both, sum(many for (*_, many), meet in zip(found, meets) if meet)
-            found = [one for one, meet in zip(found, meets) if not meet]
-        yield from found
+            meets = [item[0].overlaps(both[0]) and item[1].overlaps(both[1]) for item in rows]
+            yield *both, sum(many for (*_, many), meet in zip(rows, meets) if meet)
+            rows = [item for item, meet in zip(rows, meets) if not meet]
+        yield from rows
 
     def _on_line_v(self, v: Fraction):
         """The equilibria with omega_k + s_k = v."""
@@ -256,12 +256,12 @@ class BallConic(BallOrbit):
         raise NotImplementedError
 
     def invariants(self):
-        found, angle = {"Q": float(self.Q)}, self._direction()
+        result, angle = {"Q": float(self.Q)}, self._direction()
         if angle is not None:
             energy = (self.energy - self.mu * angle - self.x * (self.G * self.x / 2 + self.c)
                       - self.r.e * self.d * self.z)
-            found["energy"] = float(energy.mid()) * self.r.energy_unit
-        return found
+            result["energy"] = float(energy.mid()) * self.r.energy_unit
+        return result
 
     def _direction(self):
         """The turn angle from the direction X = 0; None where there is none, on an invariant plane."""
@@ -458,10 +458,10 @@ class BallParabola(BallOrbit):
         return f1 + y * (2 * f2 + y * 3 * f3)
 
     def _found(self):
-        found = [(y, m) for y, m in self.numbers.real_roots(self.taylor)]
+        rows = [(y, m) for y, m in self.numbers.real_roots(self.taylor)]
         if self.force_here == 0:
-            found = [(y * 0 if 0 in y else y, m) for y, m in found]
-        return found
+            rows = [(y * 0 if 0 in y else y, m) for y, m in rows]
+        return rows
 
     def tops(self) -> list:
         """Offsets where a component is stationary."""
@@ -501,7 +501,7 @@ class Orbit:
         """Q (the squared radius of the circle, or Z^2 - X^2 on a hyperbola) in canonical units, and the
         energy W^2/2 + V in the scene's, with the turn angle counted from the direction X = 0; nothing on a
         parabola."""
-        return self.settled(lambda found: found.invariants(), FIRST_BITS)
+        return self.settled(lambda result: result.invariants(), FIRST_BITS)
 
     def _in(self, numbers: Digits) -> BallOrbit:
         if numbers not in self._built:

@@ -68,29 +68,29 @@ def far_rows(scene: AnyScene, states: np.ndarray):
 def own(orbit: Orbit, k: int) -> Orbit:
     """The orbit in the unit 2^k."""
     u, reduction = Fraction(2) ** k, orbit.reduction
-    near = replace(reduction, s=reduction.s / u, p0=reduction.p0 / u, q0=reduction.q0 / u,
+    nearby = replace(reduction, s=reduction.s / u, p0=reduction.p0 / u, q0=reduction.q0 / u,
                    rho=reduction.rho / u,
                    sigma=reduction.sigma / u, m=reduction.m / (u * u))
-    return Orbit(near, tuple(Fraction(v) / u for v in orbit.state))
+    return Orbit(nearby, tuple(Fraction(v) / u for v in orbit.state))
 
 
 def powered(value: float, k: int) -> float:
     """value * 2^k; NaN where that is no double, or 0 where value is not."""
     try:
-        found = math.ldexp(value, k)
+        result = math.ldexp(value, k)
     except OverflowError:
         return math.nan
-    return found if found or not value else math.nan
+    return result if result or not value else math.nan
 
 
-def far_fate(scene: AnyScene, orbit: Orbit, k: int, near: Orbit | None = None):
+def far_fate(scene: AnyScene, orbit: Orbit, k: int, nearby: Orbit | None = None):
     """The fate of one state of a scene, as an `OneFate`; near: its orbit in the unit 2^k, where that is at
     hand."""
-    found = fate_of(scene, orbit, near or own(orbit, k))
-    return found if is_free(scene) else found._replace(margin=powered(found.margin, 2 * k))
+    result = fate_of(scene, orbit, nearby or own(orbit, k))
+    return result if is_free(scene) else result._replace(margin=powered(result.margin, 2 * k))
 
 
-def in_scene_unit(found: Motion, k: int, state, margin: float) -> Motion:
+def in_scene_unit(result: Motion, k: int, state, margin: float) -> Motion:
     """A motion found in the unit 2^k, but for its extremes, in the scene's own; state: the doubles of its
     start; margin: of its fate, in the scene's unit."""
     lost = ["the margin in energy"] if math.isnan(margin) else []
@@ -100,17 +100,17 @@ def in_scene_unit(found: Motion, k: int, state, margin: float) -> Motion:
             return None if value is None else number
         lost.append(name)
     fields = {"margin_energy": finite(margin),
-              "margin": margin, "returns": powered(found.returns, -k),
-              "margin_velocity": told("the margin in angular velocity", found.margin_velocity, 1),
-              "period": told("the period", found.period, -1)}
-    invariants = {name: powered(value, 2 * k) for name, value in found.invariants.items()}
-    pairs = found.extremes and _finite(found.extremes)
-    if found.extremes and pairs is None:
+              "margin": margin, "returns": powered(result.returns, -k),
+              "margin_velocity": told("the margin in angular velocity", result.margin_velocity, 1),
+              "period": told("the period", result.period, -1)}
+    invariants = {name: powered(value, 2 * k) for name, value in result.invariants.items()}
+    pairs = result.extremes and _finite(result.extremes)
+    if result.extremes and pairs is None:
         lost.append("an extreme")
-    reason = found.reason.then(LOST(what=", ".join(lost)) if lost else None)
-    return replace(found, at=state, reason=reason, extremes=pairs,
+    reason = result.reason.then(LOST(what=", ".join(lost)) if lost else None)
+    return replace(result, at=state, reason=reason, extremes=pairs,
                    invariants={n: v for n, v in invariants.items() if not math.isnan(v)},
-                   over=found.over if pairs or not found.extremes else NONE_IN_DOUBLES,
+                   over=result.over if pairs or not result.extremes else NONE_IN_DOUBLES,
                    **fields)
 
 
@@ -123,9 +123,9 @@ def far_numbers(scene: AnyScene, state: Sequence[float]):
     """((3, 2) extremes, period) of one state of a scene with a reduction, as rows of `extremes` and `period`
     have them; NaN where they are no doubles."""
     orbit, k = Orbit(reduce(scene), state), far_exponent(scene, state) or 0
-    near = own(orbit, k)
-    label = fate_of(scene, orbit, near).label
-    return extremes_of(near, label, k), powered(precise_period(near, label), -k)
+    nearby = own(orbit, k)
+    label = fate_of(scene, orbit, nearby).label
+    return extremes_of(nearby, label, k), powered(precise_period(nearby, label), -k)
 
 
 # --- The motion
@@ -137,9 +137,9 @@ def motion(scene: AnyScene, state: np.ndarray | Sequence[float | str], span: Seq
     far = far_exponent(scene, orbit.state)
     if far is None:
         return _reduced(orbit, state, fate_of(scene, orbit), needs)
-    near = own(orbit, far)
-    decided = far_fate(scene, orbit, far, near)
-    return in_scene_unit(_reduced(near, tuple(map(float, near.state)), decided, needs, far), far, state,
+    nearby = own(orbit, far)
+    decided = far_fate(scene, orbit, far, nearby)
+    return in_scene_unit(_reduced(nearby, tuple(map(float, nearby.state)), decided, needs, far), far, state,
                          decided.margin)
 
 
@@ -165,9 +165,9 @@ def apart_fields(orbit: Orbit, state: Sequence[float], decided: OneFate) -> dict
     """
     if decided.label == Fate.SEPARATRIX or decided.margin == 0:
         return {"margin_velocity": 0.0, "velocity_bounds": (0.0, 0.0), "velocity_witness": state}
-    found = distance_of(orbit.reduction, orbit.state, orbit)
-    if not math.isfinite(found.upper):
-        return {"velocity_reason": found.reason}
-    return {"margin_velocity": found.value, "velocity_bounds": (found.lower, found.upper),
-            "velocity_witness": found.witness,
-            "velocity_reason": found.reason}
+    result = distance_of(orbit.reduction, orbit.state, orbit)
+    if not math.isfinite(result.upper):
+        return {"velocity_reason": result.reason}
+    return {"margin_velocity": result.value, "velocity_bounds": (result.lower, result.upper),
+            "velocity_witness": result.witness,
+            "velocity_reason": result.reason}

@@ -110,14 +110,14 @@ def equilibria(f0: float, f1: float, f2: float, f3: float, spots: np.ndarray):
     if p == 0 or not abs(cubed + square) > FOLD_WIDTH * (abs(cubed) + square):
         return 0, False
     size = 2 * sqrt(abs(p) / 3)
-    share = 3 * abs(q) / (abs(p) * size)
-    if p < 0 and share < 1:
-        angle = acos(share if q < 0 else -share) / 3
+    fraction = 3 * abs(q) / (abs(p) * size)
+    if p < 0 and fraction < 1:
+        angle = acos(fraction if q < 0 else -fraction) / 3
         spots[0], spots[1], spots[2] = size * cos(angle + 2 * pi
                                                   / 3), size * cos(angle - 2 * pi / 3), size * cos(angle)
         count = 3
     else:
-        t = size * (cosh(acosh(share) / 3) if p < 0 else sinh(asinh(share) / 3))
+        t = size * (cosh(acosh(fraction) / 3) if p < 0 else sinh(asinh(fraction) / 3))
         spots[0] = -t if q > 0 else t
         count = 1
     for n in range(count):
@@ -157,22 +157,22 @@ def end(side: float, k0: float, f0: float, f1: float, f2: float, f3: float, coun
         overs: np.ndarray, hazes: np.ndarray):
     """(turning point on a side, how certain: E - V over a barrier on the way against its error, the least of
     them)."""
-    inner, least = 0.0, INFINITY
+    inner, smallest = 0.0, INFINITY
     for n in range(count):
-        spot = n if side > 0 else count - 1 - n
-        y = spots[spot]
+        point = n if side > 0 else count - 1 - n
+        y = spots[point]
         if y * side <= 0:
             continue
-        least = min(least, abs(overs[spot]) / hazes[spot])
-        if overs[spot] < 0:
-            return crossing(inner, y, k0, f0, f1, f2, f3), least
+        smallest = min(smallest, abs(overs[point]) / hazes[point])
+        if overs[point] < 0:
+            return crossing(inner, y, k0, f0, f1, f2, f3), smallest
         inner = y
-    way = 1.0 if inner == 0 else abs(inner)
+    route = 1.0 if inner == 0 else abs(inner)
     for _ in range(DOUBLINGS):
-        if quartic(inner + side * way, k0, f0, f1, f2, f3) < 0:
+        if quartic(inner + side * route, k0, f0, f1, f2, f3) < 0:
             break
-        way *= 2
-    return crossing(inner, inner + side * way, k0, f0, f1, f2, f3), least
+        route *= 2
+    return crossing(inner, inner + side * route, k0, f0, f1, f2, f3), smallest
 
 
 def terms_of(y: float, k0: float, t0: float, t1: float, t2: float, t3: float):
@@ -188,14 +188,14 @@ def blur_of_force(y: float, t0: float, t1: float, t2: float, t3: float):
 
 def place_at(at: float, speed: tuple[float, float], curve: tuple[float, float], y: float):
     """at + y (speed + curve y/2), rounded once; speed and curve twofold."""
-    found = add(scaled(add(scaled(curve, 0.5 * y), speed), y), (at, 0.0 * at))
-    return found[0] + found[1]
+    result = add(scaled(add(scaled(curve, 0.5 * y), speed), y), (at, 0.0 * at))
+    return result[0] + result[1]
 
 
 def swept(at: float, speed: tuple[float, float], curve: tuple[float, float], left: float, right: float):
     """(least, most) of `place_at` between two ways."""
-    one, other = place_at(at, speed, curve, left), place_at(at, speed, curve, right)
-    low, high = min(at, min(one, other)), max(at, max(one, other))
+    item, other = place_at(at, speed, curve, left), place_at(at, speed, curve, right)
+    low, high = min(at, min(item, other)), max(at, max(item, other))
     if curve[0] != 0:
         y = -speed[0] / curve[0]
         if left < y < right:
@@ -242,7 +242,7 @@ def rows(states: np.ndarray, open_rows: np.ndarray, axes: Sequence[int], fine: n
     j, k, i = axes
     p, p0, q, q0, kappa, rho, sigma, m, shift = fine[:, 0]
     for row in open_rows:
-        asked = int(left_open[row])
+        request = int(left_open[row])
         u, v = states[row, j], states[row, k]
         turn, low = exact_sum(states[row, i], shift)
         turn, low = exact_sum(turn, low + fine[8, 1])
@@ -286,7 +286,7 @@ def rows(states: np.ndarray, open_rows: np.ndarray, axes: Sequence[int], fine: n
             continue
         blurs = (TWOFOLD * terms_of(left, k0, t0, t1, t2, t3) / pulls[0] + blur_left,
                  TWOFOLD * terms_of(right, k0, t0, t1, t2, t3) / pulls[1] + blur_right)
-        if asked & BOX:
+        if request & BOX:
             top = sqrt(2 * fastest)
             low_u, high_u = swept(u, a, pb, left, right)
             low_v, high_v = swept(v, b, qa, left, right)
@@ -302,12 +302,12 @@ def rows(states: np.ndarray, open_rows: np.ndarray, axes: Sequence[int], fine: n
                 boxes[row, j, 0], boxes[row, j, 1] = low_u, high_u
                 boxes[row, k, 0], boxes[row, k, 1] = low_v, high_v
                 boxes[row, i, 0], boxes[row, i, 1] = low_w, high_w
-                asked -= BOX
-        if asked & PERIOD:
+                request -= BOX
+        if request & PERIOD:
             forces = (2 * ULP * pulls[0] + abs(bend(left, f1, f2, f3)) * blurs[0],
                       2 * ULP * pulls[1] + abs(bend(right, f1, f2, f3)) * blurs[1])
             period, off = period_of(left, right, f3, blurs, pulls, forces)
             if off <= PERIOD_DIGITS:
                 periods[row] = period
-                asked -= PERIOD
-        left_open[row] = asked
+                request -= PERIOD
+        left_open[row] = request

@@ -52,9 +52,9 @@ class PhasePlane:
     def height(self, y: float | np.ndarray, origin: float = 0.0):
         """V(y) - V(origin), free of cancellation near an equilibrium at `origin`."""
         y = np.asarray(y, float)
-        place = tuple(np.asarray(v) for v in self.potential.move(self.place, np.float64(origin)))
-        force = 0.0 if origin in self.saddles or origin in self.centres else self.potential.force(place)
-        return self.potential.rise(y - origin, place, force)
+        location = tuple(np.asarray(v) for v in self.potential.move(self.place, np.float64(origin)))
+        force = 0.0 if origin in self.saddles or origin in self.centres else self.potential.force(location)
+        return self.potential.rise(y - origin, location, force)
 
     def rate(self, W: np.ndarray | float):
         """omega_i (or x_i) of canonical W."""
@@ -133,8 +133,8 @@ def phase_plane(scene: AnyScene, state: np.ndarray | Sequence[float]) -> PhasePl
         land = landscape_in_doubles(scene)
     if land is None:
         return None
-    place, w, _ = land.start(np.asarray(state, float))
-    return PhasePlane(land, tuple(float(v) for v in place), float(w))
+    location, w, _ = land.start(np.asarray(state, float))
+    return PhasePlane(land, tuple(float(v) for v in location), float(w))
 
 
 # of what the potential rises in a unit of y: a motion with less is shown in the well that it rests in
@@ -185,8 +185,8 @@ def motion_curve(plane: PhasePlane, low: float, high: float, points: int = 4001)
         left = plane.W0**2 / 2 - plane.height(grid)
         outside = np.nonzero(left[1:] < 0)[0]
         if len(outside):
-            near, far = grid[outside[0]:outside[0] + 2].tolist()
-            limit = halved(free, *sorted((near, far))) if free(near) > 0 else near
+            nearby, far = grid[outside[0]:outside[0] + 2].tolist()
+            limit = halved(free, *sorted((nearby, far))) if free(nearby) > 0 else nearby
         ends.append(float(limit))
     phase = np.linspace(-np.pi / 2, np.pi / 2, 801)
     y = (ends[0] + ends[1]) / 2 + (ends[1] - ends[0]) / 2 * np.sin(phase)

@@ -87,14 +87,14 @@ def slope_at(G: Number, c: Number, d: Number, e: float, x: Number, z: Number):
     return G * (z * z + e * x * x) + e * c * x + d * z
 
 
-def rise_at(G: Number, c: Number, d: Number, mu: Number, e: float, place: np.ndarray | Sequence[Number],
+def rise_at(G: Number, c: Number, d: Number, mu: Number, e: float, location: np.ndarray | Sequence[Number],
             swing: Sequence[Number], lag: Number, force: Number):
     """V(theta + y) - V(theta) from (X, Z), free of cancellation; numbers of any kind.
 
     swing: (sin y, cos y - 1), or of sinh and cosh; lag: y less the first of them; force: that at the place,
     exactly.
     """
-    (x, z), (s, b) = place, swing
+    (x, z), (s, b) = location, swing
     dx = z * s + x * b
     return -mu * lag - force * s - b * (G * x * x + c * x + e * d * z) - G / 2 * dx * dx
 
@@ -228,10 +228,10 @@ class Hyperbola:
              force: float = 0.0):
         return sum(self._terms(y, place)) - force * y
 
-    def _terms(self, y: float | np.ndarray, place: np.ndarray | Sequence[float | np.ndarray]):
+    def _terms(self, y: float | np.ndarray, location: np.ndarray | Sequence[float | np.ndarray]):
         """What `rise` is the sum of; exp(2 y) - 1 - 2 y is the square of exp(y) - 1 and twice exp(y) - 1 - y.
         """
-        (xi, eta), up, down = place, exp_minus_two_terms(y), exp_minus_two_terms(-y)
+        (xi, eta), up, down = location, exp_minus_two_terms(y), exp_minus_two_terms(-y)
         grown, decayed = up + y, down - y
         eighth = -0.125 * self.G
         return (eighth * xi * xi * (grown * grown + 2 * up),
@@ -306,10 +306,10 @@ class Parabola:
         """As of `Hyperbola`; the way from the place is a root of a cubic."""
         first, second, third = (abs(v) for v in self.derivatives(spot))
         at, bend, curl = (abs(v) for v in self.derivatives(place))
-        way = abs(y)
-        cubic = self.terms(place) + way * (at + way * (bend / 2 + way * curl / 6))
-        terms = (4 * way * way * (first / 2 + way * (second / 6 + way * third / 24))
-                 + abs(self.force(place)) * (2 * way + 4 * cubic / first))
+        route = abs(y)
+        cubic = self.terms(place) + route * (at + route * (bend / 2 + route * curl / 6))
+        terms = (4 * route * route * (first / 2 + route * (second / 6 + route * third / 24))
+                 + abs(self.force(place)) * (2 * route + 4 * cubic / first))
         return self.rise(y, spot), EPS * terms + abs(self.force(spot) * y)
 
 

@@ -212,24 +212,24 @@ def _relief(orbit) -> Relief:
     here = _spot(orbit, zero, 0, orbit.energy, bits,
                  force=orbit.numbers.ball(orbit.force_here) * orbit.n * orbit.flip)
     if orbit.closed:
-        behind = [replace(spot, at=_offset(one.y), kinetic=_rounded(value - turn, bits))
-                  for spot, value, one in zip(spots, kinetic, orbit.all_spots)]
+        behind = [replace(point, at=_offset(item.y), kinetic=_rounded(value - turn, bits))
+                  for point, value, item in zip(spots, kinetic, orbit.all_spots)]
         if orbit.mu != 0:
             rows = [(s, v) for s, v in zip(spots, kinetic) if s.kind > 0] or [(here, orbit.energy)]
-            drops = tuple(_drop(spot, value, turn, bits) for spot, value in rows)
+            drops = tuple(_drop(point, value, turn, bits) for point, value in rows)
         spots = behind + spots
     return Relief(tuple(spots), _rounded(orbit.w, bits), orbit.closed, float(turn.mid()), here, drops)
 
 
-def _drop(spot: Spot, kinetic: arb, turn: arb, bits: int):
+def _drop(point: Spot, kinetic: arb, turn: arb, bits: int):
     """(spot, m, kinetic energy m turns behind it): over an equilibrium the first m with a negative one, else
     the last with none."""
-    share = kinetic / turn
-    whole = share.floor().unique_fmpz()
-    if whole is None:
+    fraction = kinetic / turn
+    full = fraction.floor().unique_fmpz()
+    if full is None:
         raise Unclear
-    m = int(whole) + (1 if spot.force == 0 else 0)
-    return spot, m, _rounded(kinetic - m * turn, bits)
+    m = int(full) + (1 if point.force == 0 else 0)
+    return point, m, _rounded(kinetic - m * turn, bits)
 
 
 def _offset(y: arb):
@@ -267,9 +267,9 @@ def _spot(orbit, y, kind, kinetic, bits, force=None) -> Spot:
     value = 0.0 if force is None else _rounded(force, bits)
     spin = orbit.spin, float(r.s)
     base = tuple(float(part.mid()) for part in orbit.components(y))
-    spot, told = SPOTS[r.e]
-    shape, curve = told(orbit, y)
-    return spot(_offset(y), _rounded(kinetic, bits), kind, value, base, shape, curve, (r.axis, r.j, r.k),
+    point, printed = SPOTS[r.e]
+    shape, curve = printed(orbit, y)
+    return point(_offset(y), _rounded(kinetic, bits), kind, value, base, shape, curve, (r.axis, r.j, r.k),
                 spin)
 
 
@@ -373,8 +373,8 @@ class InOwnUnit(Motion):
             raise InputError(f"the period of this motion is {BEYOND}: choose another unit of time")
 
     def follow(self, times: np.ndarray):
-        states, way = self.motion.follow(np.array([self._time(t) for t in times.tolist()]))
-        return np.ldexp(states, self.k), way
+        states, route = self.motion.follow(np.array([self._time(t) for t in times.tolist()]))
+        return np.ldexp(states, self.k), route
 
     def _time(self, t: float):
         """The time in the own unit. Raises InputError where it is no double."""

@@ -141,9 +141,9 @@ class Reduction:
         rounding.
         """
         ap, aq = abs(self.p), abs(self.q)
-        found = self.constants_in(Fraction, sqrt_fraction(ap), sqrt_fraction(aq), sqrt_fraction(ap * aq))
+        result = self.constants_in(Fraction, sqrt_fraction(ap), sqrt_fraction(aq), sqrt_fraction(ap * aq))
         sj, sk = self.centre
-        return {**found._asdict(), "sj": sj, "sk": sk, "flip": Fraction(found.flip)}
+        return {**result._asdict(), "sj": sj, "sk": sk, "flip": Fraction(result.flip)}
 
     def constants_in(self, number: Callable[[Fraction], Number], rp: Number, rq: Number,
                      n: Number) -> Constants:
@@ -271,18 +271,18 @@ def reduce(scene: AnyScene) -> Reduction | None:
     axes = [i for i in range(3) if form.m[i]]
     if len(axes) > 1:
         return None
-    found = [r for i in (axes or range(3)) if (r := reduction_about(form, i, weights[i]))]
-    if not found:
+    rows = [r for i in (axes or range(3)) if (r := reduction_about(form, i, weights[i]))]
+    if not rows:
         return None
-    return min(found, key=lambda r: (r.geometry.rank, math.hypot(float(r.s), r.parabolic_shift_size)))
+    return min(rows, key=lambda r: (r.geometry.rank, math.hypot(float(r.s), r.parabolic_shift_size)))
 
 
 def shifted(value: np.ndarray, shift: float, low: float) -> Any:
     """value + (shift + low) to a rounding of the sum, however much of it cancels (Knuth's two-sum); numbers
     or arrays."""
-    whole = value + shift
-    part = whole - value
-    return whole + ((value - (whole - part)) + (shift - part) + low)
+    full = value + shift
+    part = full - value
+    return full + ((value - (full - part)) + (shift - part) + low)
 
 
 @dataclass(frozen=True)
@@ -313,10 +313,10 @@ def energy_integral(scene: AnyScene, state: Sequence[float | Fraction],
     if r is None or not r.sense or not r.geometry.centred:
         return None
     try:
-        found = _canonical(r, [Fraction(v) for v in state])
-        if found is None:
+        result = _canonical(r, [Fraction(v) for v in state])
+        if result is None:
             return None
-        name, value = found
+        name, value = result
         if margin is None:
             return EnergyIntegral(name, value)
         times = 1 if name == "G3" else 4

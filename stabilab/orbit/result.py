@@ -69,7 +69,7 @@ OUTCOMES = {
                               "equilibrium", "the state is an equilibrium and has no period"),
     Fate.UNDECIDED: Outcome("undecided", "UNDECIDED", "is undecided", "are undecided", "undecided",
                             "the period is not known: the fate is undecided")}
-HEADS = {one.word: one.head for one in OUTCOMES.values()}
+HEADS = {outcome.word: outcome.head for outcome in OUTCOMES.values()}
 
 
 class Order(IntEnum):

@@ -157,9 +157,9 @@ class Circle:
     def repeated(spots: np.ndarray, count: int, mu: float):
         """The last of so many spots a turn earlier or later too, where the tilt has changed the potential by
         2 pi mu; how many there are then."""
-        spot, twin = spots[count - 1], spots[count]
-        turn = TURN if spot[OFFSET] <= 0 else -TURN
-        twin[:] = spot
+        point, twin = spots[count - 1], spots[count]
+        turn = TURN if point[OFFSET] <= 0 else -TURN
+        twin[:] = point
         twin[OFFSET] += turn
         twin[OVER] += turn * mu
         twin[ERROR] += ROUNDED * ULP * TURN * mu
@@ -305,8 +305,8 @@ class Hyperbola:
 
     @staticmethod
     def stationary(row: int, x: float, z: float, xi: float, eta: float, left: float):
-        near, far = (-z / x, eta / xi) if row == 0 else (-x / z, -eta / xi)
-        at = np.arctanh(near) if abs(near) < 0.5 else (0.5 * np.log(far) if far > 0 else INFINITY)
+        nearby, far = (-z / x, eta / xi) if row == 0 else (-x / z, -eta / xi)
+        at = np.arctanh(nearby) if abs(nearby) < 0.5 else (0.5 * np.log(far) if far > 0 else INFINITY)
         return at if at > left else INFINITY
 
     @staticmethod
@@ -349,8 +349,8 @@ def guessed(piece: np.ndarray, conic: Sequence[float], Q: float, xi: float, eta:
     root = np.sqrt(abs(Q))
     reach = root + abs(c / G) + abs(shift) + np.sqrt(abs(K / G)) + 1e-300
     far = min(outer, 4 * reach)
-    near = max(inner, abs(K) / (4 * reach * abs(G)))
-    low, high = min(near, far), max(near, far)
+    nearby = max(inner, abs(K) / (4 * reach * abs(G)))
+    low, high = min(nearby, far), max(nearby, far)
     if outer == INFINITY:
         h = min(max(root + abs(shift), low), high)
     elif inner == 0:
@@ -402,7 +402,7 @@ def settled(fine: np.ndarray, u0: float, v0: float, Q: tuple[float, float]):
     """(place u, v of the equilibrium next to a guess on the orbit Q, slope of the force there, last step, the
     way from the guess); u, v and Q twofold."""
     G, c, d, mu = (fine[0], fine[1]), (fine[2], fine[3]), (fine[4], fine[5]), (fine[6], fine[7])
-    u, v, step, whole = (u0, 0.0 * u0), (v0, 0.0 * v0), 1.0 + 0.0 * u0, 0.0 * u0
+    u, v, step, full = (u0, 0.0 * u0), (v0, 0.0 * v0), 1.0 + 0.0 * u0, 0.0 * u0
     for _ in range(STEPS):
         off = value(less(add(times(v, v), scaled(times(u, u), -E)), Q)) / (2 * (u[0] * u[0] + v[0] * v[0]))
         u, v = add(u, exact_product(E * off, u[0])), add(v, exact_product(-off, v[0]))
@@ -410,14 +410,14 @@ def settled(fine: np.ndarray, u0: float, v0: float, Q: tuple[float, float]):
         force = add(add(times(v, across), mu), times(d, u))
         step = -value(force) / slope_of(G, d, u, v, across)
         if not abs(step) < 0.1:
-            return u, v, 0.0 * u0, np.nan * u0, whole
-        whole += step
+            return u, v, 0.0 * u0, np.nan * u0, full
+        full += step
         half = 0.5 * E * step * step
         u, v = add(add(u, scaled(v, step)),
                    scaled(u, half)), add(add(v, scaled(u, E * step)), scaled(v, half))
         if abs(step) <= SETTLED:
             break
-    return u, v, slope_of(G, d, u, v, add(times(G, u), c)), step, whole
+    return u, v, slope_of(G, d, u, v, add(times(G, u), c)), step, full
 
 
 def slope_of(G: tuple[float, float], d: tuple[float, float], u: tuple[float, float], v: tuple[float, float],
@@ -431,9 +431,9 @@ def rise_and_force(mu: float, y: float, slope: float, a: float, b: float):
     slope and modes a, b."""
     s, h, behind = swing(y)
     h2 = h * h
-    one, two, three, four = -2 * slope * h2, -mu * behind, -E * 2 * a * s * h2, -E * 4 * b * h2 * h2
+    item, two, three, four = -2 * slope * h2, -mu * behind, -E * 2 * a * s * h2, -E * 4 * b * h2 * h2
     force = slope * s + E * h2 * (6 * a - 2 * mu + 4 * b * s) + 8 * a * h2 * h2
-    return one + two + three + four, force, abs(one) + abs(two) + abs(three) + abs(four), s, h
+    return item + two + three + four, force, abs(item) + abs(two) + abs(three) + abs(four), s, h
 
 
 def end_of_modes(mu: float, slope: float, a: float, b: float, s: float, h: float, end: np.ndarray):
@@ -453,7 +453,7 @@ def rounding_of(y: float, terms: float, s: float, h: float, pull: float, tilt: f
 
 
 def placed(u: tuple[float, float], v: tuple[float, float], X: tuple[float, float], Z: tuple[float, float],
-           wide: float, last: float, conic: Sequence[float], way: float, slope: float, spot: np.ndarray):
+           wide: float, last: float, conic: Sequence[float], route: float, slope: float, point: np.ndarray):
     """Fill a spot's place, slope, modes and what 32 digits leave open of it."""
     c, d, G, mu = conic[0], conic[1], conic[2], conic[3]
     uh, vh = value(u), value(v)
@@ -461,10 +461,10 @@ def placed(u: tuple[float, float], v: tuple[float, float], X: tuple[float, float
     off = TWOFOLD * (far + wide * wide / far)
     steep = abs(G) * far + abs(c) + abs(d)
     start, end = sizes_of_ways(X[0], Z[0], uh, vh)
-    spot[OFFSET], spot[AT_X], spot[AT_Z], spot[BEND] = way, uh, vh, slope
-    spot[MODE_A], spot[MODE_B] = G * uh * vh, 0.5 * G * bent(uh, vh)
-    spot[PULL] = steep * off + TWOFOLD * mu + (2 * abs(G) * far + steep) * far * last * last
-    spot[TILT], spot[ASTRAY] = (abs(G) * far + steep) * off, TWOFOLD * wide / start + off / end
+    point[OFFSET], point[AT_X], point[AT_Z], point[BEND] = route, uh, vh, slope
+    point[MODE_A], point[MODE_B] = G * uh * vh, 0.5 * G * bent(uh, vh)
+    point[PULL] = steep * off + TWOFOLD * mu + (2 * abs(G) * far + steep) * far * last * last
+    point[TILT], point[ASTRAY] = (abs(G) * far + steep) * off, TWOFOLD * wide / start + off / end
 
 
 def spots_of_row(fine: np.ndarray, conic: Sequence[float], pieces: np.ndarray, lines: np.ndarray,
@@ -493,13 +493,13 @@ def spots_of_row(fine: np.ndarray, conic: Sequence[float], pieces: np.ndarray, l
         as_expected = by_lines or (slope > 0) == (pieces[p, 4] > 0)
         if not (abs(last) <= ENOUGH and abs(drift) <= DRIFT and as_expected):
             return 0, False
-        spot = spots[count]
-        way = way_between(u, v, X, Z, q)
-        placed(u, v, X, Z, wide, last, conic, way, slope, spot)
-        rise, _, terms, s, h = rise_and_force(mu, -way, slope, spot[MODE_A], spot[MODE_B])
-        spot[OVER], spot[BARRIER] = kinetic + rise, 1.0 if slope > 0 else 0.0
-        spot[ERROR] = (rounding_of(way, terms, s, h, spot[PULL], spot[TILT]) + ROUNDED * ULP * kinetic
-                       + abs(force) * spot[ASTRAY])
+        point = spots[count]
+        route = way_between(u, v, X, Z, q)
+        placed(u, v, X, Z, wide, last, conic, route, slope, point)
+        rise, _, terms, s, h = rise_and_force(mu, -route, slope, point[MODE_A], point[MODE_B])
+        point[OVER], point[BARRIER] = kinetic + rise, 1.0 if slope > 0 else 0.0
+        point[ERROR] = (rounding_of(route, terms, s, h, point[PULL], point[TILT]) + ROUNDED * ULP * kinetic
+                       + abs(force) * point[ASTRAY])
         count = repeated(spots, count + 1, mu)
     for i in range(1, count):
         for k in range(i, 0, -1):
@@ -527,16 +527,16 @@ def sharpened(fine: np.ndarray, conic: Sequence[float], X: tuple[float, float], 
     kinetic = times((fine[16], fine[17]), times(turn, turn))
     Q = add(times(Z, Z), scaled(times(X, X), -E))
     for i in range(count):
-        spot = spots[i]
-        u, v, slope, last, _ = settled(fine, spot[AT_X], spot[AT_Z], Q)
-        way = whole_way(u, v, X, Z, value(Q), spot[OFFSET])
+        point = spots[i]
+        u, v, slope, last, _ = settled(fine, point[AT_X], point[AT_Z], Q)
+        route = whole_way(u, v, X, Z, value(Q), point[OFFSET])
         half = times(G, scaled(add(u, X), 0.5))
-        over = add(add(kinetic, times(mu, way)),
+        over = add(add(kinetic, times(mu, route)),
                    add(times(less(u, X), add(half, c)), scaled(times(d, less(v, Z)), E)))
         far = abs(u[0]) + abs(v[0]) + wide
-        terms = kinetic[0] + mu[0] * (1 + abs(way[0])) + (abs(G[0]) * far + abs(c[0]) + abs(d[0])) * far
+        terms = kinetic[0] + mu[0] * (1 + abs(route[0])) + (abs(G[0]) * far + abs(c[0]) + abs(d[0])) * far
         if abs(last) <= ENOUGH:
-            spot[OVER], spot[ERROR] = value(over), FINE * terms + spot[PULL] * spot[PULL] / abs(slope)
+            point[OVER], point[ERROR] = value(over), FINE * terms + point[PULL] * point[PULL] / abs(slope)
 
 
 def sharpened_ends(fine: np.ndarray, X: tuple[float, float], Z: tuple[float, float],
@@ -571,11 +571,11 @@ def sharpened_ends(fine: np.ndarray, X: tuple[float, float], Z: tuple[float, flo
                 break
 
 
-def way_of_cosine(psi: float, near: float, far: float):
+def way_of_cosine(psi: float, nearby: float, far: float):
     """First guess of a turning point between a barrier and a well, as a share of the way: there V is nearly a
     cosine, and in its angle psi (0 to 1) the way is a cubic with the slopes near, far that the curvatures at
     both ends give."""
-    return psi * (near * (1 - psi) * (1 - psi) + psi * (3 - 2 * psi) - far * psi * (1 - psi))
+    return psi * (nearby * (1 - psi) * (1 - psi) + psi * (3 - 2 * psi) - far * psi * (1 - psi))
 
 
 def turned(mu: float, count: int, spots: np.ndarray, side: int, end: np.ndarray):
@@ -591,10 +591,10 @@ def turned(mu: float, count: int, spots: np.ndarray, side: int, end: np.ndarray)
     if b < 0 and not has_well:
         return False
     at_barrier = b >= 0 and (not has_well or -spots[b, OVER] < max(spots[well, OVER], 0.0))
-    spot = spots[b] if at_barrier else spots[well]
-    level, slope = (min(spot[OVER], 0.0) if at_barrier else max(spot[OVER], 0.0)), spot[BEND]
+    point = spots[b] if at_barrier else spots[well]
+    level, slope = (min(point[OVER], 0.0) if at_barrier else max(point[OVER], 0.0)), point[BEND]
     towards = -side if at_barrier else side
-    mode_a, mode_b = spot[MODE_A], spot[MODE_B]
+    mode_a, mode_b = point[MODE_A], point[MODE_B]
     gap = abs(spots[b, OFFSET] - spots[well, OFFSET]) if b >= 0 and has_well else INFINITY
     reach = min(gap, ROUND) if min(gap, ROUND) < INFINITY else 1.0
     for _ in range(64 if reach == 1.0 and gap == ROUND else 0):
@@ -605,16 +605,16 @@ def turned(mu: float, count: int, spots: np.ndarray, side: int, end: np.ndarray)
     t = min(np.sqrt(2 * abs(level) / max(abs(slope), 1e-300)), 0.5 * reach)
     if b >= 0 and has_well:
         other = spots[well] if at_barrier else spots[b]
-        whole = spots[well, OVER] - spots[b, OVER]
-        psi = 2 / PI * np.arcsin(np.sqrt(min(abs(level) / whole, 1.0)))
-        guess = (reach * way_of_cosine(psi, PI * np.sqrt(0.5 * whole / abs(slope)) / reach,
-                                       PI * np.sqrt(0.5 * whole / abs(other[BEND])) / reach))
+        full = spots[well, OVER] - spots[b, OVER]
+        psi = 2 / PI * np.arcsin(np.sqrt(min(abs(level) / full, 1.0)))
+        guess = (reach * way_of_cosine(psi, PI * np.sqrt(0.5 * full / abs(slope)) / reach,
+                                       PI * np.sqrt(0.5 * full / abs(other[BEND])) / reach))
         t = guess if 0 < guess < reach else 0.5 * reach
-    low, high, found, before = 0.0, reach, level == 0, INFINITY
-    if found:
+    low, high, result, before = 0.0, reach, level == 0, INFINITY
+    if result:
         t = 0.0 * t
     for _ in range(100):
-        if found:
+        if result:
             break
         rise, force, _, _, _ = rise_and_force(mu, towards * t, slope, mode_a, mode_b)
         if (rise - level > 0) != at_barrier:
@@ -624,18 +624,18 @@ def turned(mu: float, count: int, spots: np.ndarray, side: int, end: np.ndarray)
         step = (rise - level) / (-towards * force)
         small = abs(step) <= ROOT * t
         if small or (low <= t - step <= high and abs(step) < 0.5 * before):
-            before, t, found = abs(step), t - step, small or rise == level
+            before, t, result = abs(step), t - step, small or rise == level
         else:
             before, t = high - low, 0.5 * (low + high)
-            found = high - low <= 2 * ULP * high
+            result = high - low <= 2 * ULP * high
     y = t * towards
     _, force, terms, s, h = rise_and_force(mu, y, slope, mode_a, mode_b)
-    haze = rounding_of(y, terms, s, h, spot[PULL], spot[TILT])
-    end[END], end[FORCE], end[HAZE] = spot[OFFSET] + y, force, haze
-    end[BLUR] = haze / abs(force) + ULP * abs(spot[OFFSET])
-    end[LEVEL] = spot[OVER]
+    blur = rounding_of(y, terms, s, h, point[PULL], point[TILT])
+    end[END], end[FORCE], end[HAZE] = point[OFFSET] + y, force, blur
+    end[BLUR] = blur / abs(force) + ULP * abs(point[OFFSET])
+    end[LEVEL] = point[OVER]
     end_of_modes(mu, slope, mode_a, mode_b, s, h, end)
-    return found and abs(end[END]) < INFINITY
+    return result and abs(end[END]) < INFINITY
 
 
 def spanned(mu: float, w: float, count: int, spots: np.ndarray, ends: np.ndarray):
@@ -647,19 +647,19 @@ def spanned(mu: float, w: float, count: int, spots: np.ndarray, ends: np.ndarray
     left, right = ends[0, END], ends[1, END]
     fastest, closest, clear, barred = 0.5 * w * w, INFINITY, True, False
     for i in range(count):
-        spot = spots[i]
-        if spot[BARRIER] > 0:
-            closest = min(closest, abs(spot[OVER]))
-            clear = clear and abs(spot[OVER]) > CLEAR * spot[ERROR]
-            barred = barred or (spot[OVER] <= 0 and spot[OFFSET] > 0)
-        elif left <= spot[OFFSET] <= right:
-            fastest = max(fastest, spot[OVER])
+        point = spots[i]
+        if point[BARRIER] > 0:
+            closest = min(closest, abs(point[OVER]))
+            clear = clear and abs(point[OVER]) > CLEAR * point[ERROR]
+            barred = barred or (point[OVER] <= 0 and point[OFFSET] > 0)
+        elif left <= point[OFFSET] <= right:
+            fastest = max(fastest, point[OVER])
     off, astray = 0.0, 0.0
     for i in range(count):
-        near = False
+        nearby = False
         for k in range(max(i - 1, 0), min(i + 2, count)):
-            near = near or left <= spots[k, OFFSET] <= right
-        if near and abs(spots[i, OVER]) <= fastest:
+            nearby = nearby or left <= spots[k, OFFSET] <= right
+        if nearby and abs(spots[i, OVER]) <= fastest:
             off, astray = max(off, spots[i, ERROR]), max(astray, spots[i, ASTRAY])
     for k in range(2):
         ends[k, BLUR] += off / abs(ends[k, FORCE]) + astray
@@ -669,7 +669,7 @@ def spanned(mu: float, w: float, count: int, spots: np.ndarray, ends: np.ndarray
 
 
 def boxed(form: Sequence[float], axes: Sequence[int], state: np.ndarray, x: float, z: float, xi: float,
-          eta: float, ends: np.ndarray, fastest: float, haze: float, box: np.ndarray):
+          eta: float, ends: np.ndarray, fastest: float, margin: float, box: np.ndarray):
     """Fill the box (3, 2) of a row; whether it has its digits. form: factors of X and Z, flip/n and the shift
     of the third."""
     j, k, i = axes
@@ -700,10 +700,10 @@ def boxed(form: Sequence[float], axes: Sequence[int], state: np.ndarray, x: floa
     top = np.sqrt(2 * fastest)
     a, b = form[2] * top - form[3], -form[2] * top - form[3]
     box[i, 0], box[i, 1] = min(a, b, state[i]), max(a, b, state[i])
-    whole = 0.0
+    full = 0.0
     for axis in range(3):
-        whole += abs(box[axis, 0]) + abs(box[axis, 1])
-    return good and haze <= DIGITS * 2 * fastest and whole < INFINITY
+        full += abs(box[axis, 0]) + abs(box[axis, 1])
+    return good and margin <= DIGITS * 2 * fastest and full < INFINITY
 
 
 def sinc_cos(u: float):
@@ -739,9 +739,9 @@ def sinhc_and_rest(t: float):
     return f, t * (1 / 3) * g
 
 
-def sides_of_exponentials(p1: float, q1: float, p2: float, q2: float, rho: float, grown: float, share: float):
+def sides_of_exponentials(p1: float, q1: float, p2: float, q2: float, rho: float, grown: float, part: float):
     """(even, odd) of a sum of exp(y), exp(-y), exp(2 y), exp(-2 y) about the middle, grown: exp(rho)."""
-    u = rho * share
+    u = rho * part
     v = rho - u
     if rho < NARROW:
         fu, gu = sinhc_and_rest(u * u)
@@ -754,7 +754,7 @@ def sides_of_exponentials(p1: float, q1: float, p2: float, q2: float, rho: float
         eu = 1 + down
         cu, su = 0.5 * (eu + 1 / eu), 0.5 * (down + down / eu)
         cv, sv = 0.5 * (grown / eu + eu / grown), 0.5 * (grown / eu - eu / grown)
-        fu, fv = su / u if share > 0 else 1.0, sv / v
+        fu, fv = su / u if part > 0 else 1.0, sv / v
         odd1, odd2 = cu * fv - fu * cv, (1 + 2 * su * su) * fv * cv - fu * cu * (1 + 2 * sv * sv)
     return fu * fv * (0.5 * (p1 + q1)
                       + 2 * (p2 + q2) * cu * cv), (0.5 * (p1 - q1) * odd1 + (p2 - q2) * odd2) / rho
@@ -815,22 +815,22 @@ def timed(conic: Sequence[float], x: float, z: float, xi: float, eta: float, w: 
     whole_s, whole_c = whole(rho)
     middle_modes(conic, x, z, xi, eta, 0.5 * (left + right), data)
     blur = ends[0, BLUR] + ends[1, BLUR]
-    share, dip, lowest = 0.5, INFINITY, INFINITY
+    fraction, dip, lowest = 0.5, INFINITY, INFINITY
     for i in range(count):
         if spots[i, BARRIER] > 0 and left < spots[i, OFFSET] < right and spots[i, OVER] < lowest:
             lowest = spots[i, OVER]
-            share = (spots[i, OFFSET] - left) / (2 * rho)
-            dip = lowest / (4 * rho * rho * share * (1 - share))
+            fraction = (spots[i, OFFSET] - left) / (2 * rho)
+            dip = lowest / (4 * rho * rho * fraction * (1 - fraction))
     even, odd = modes_pair(data, rho, whole_s, whole_c, 0.0)
     first, last, inner = even + odd, even - odd, modes_pair(data, rho, whole_s, whole_c, 0.5)[0]
     # on a long hyperbola H over a barrier may be far less than at both ends and in the middle
-    sharp = ULP * modes_terms(data, 4, rho, whole_s, whole_c, share) <= PERIOD_DIGITS * dip
+    sharp = ULP * modes_terms(data, 4, rho, whole_s, whole_c, fraction) <= PERIOD_DIGITS * dip
     for sizes in range(0, 8, 4):
         sharp = (sharp and ULP * modes_terms(data, sizes, rho, whole_s, whole_c, 0.0) <= PERIOD_DIGITS * first
                  and ULP * modes_terms(data, sizes, rho, whole_s, whole_c, 0.5) <= PERIOD_DIGITS * inner
                  and ULP * modes_terms(data, sizes, rho, whole_s, whole_c, 1.0) <= PERIOD_DIGITS * last)
-    most, lowest = max(first, inner, last), min(first, inner, last)
-    if not (sharp and blur * (most - lowest) <= PERIOD_DIGITS * rho * lowest):
+    largest, lowest = max(first, inner, last), min(first, inner, last)
+    if not (sharp and blur * (largest - lowest) <= PERIOD_DIGITS * rho * lowest):
         return np.nan, False
     period = summed(data, rho, whole_s, whole_c, nodes)
     return period, period < INFINITY
@@ -849,13 +849,13 @@ def stops_of(count: int, spots: np.ndarray, ends: np.ndarray, stops: np.ndarray)
     of them."""
     many, sure = 1, True
     for i in range(count):
-        spot = spots[i]
-        if ends[0, END] < spot[OFFSET] < ends[1, END]:
+        point = spots[i]
+        if ends[0, END] < point[OFFSET] < ends[1, END]:
             stop = stops[many]
-            stop[STOP], stop[STOP_OVER], stop[STOP_FORCE] = spot[OFFSET], spot[OVER], 0.0
-            stop[STOP_BEND], stop[STOP_A], stop[STOP_B] = spot[BEND], spot[MODE_A], spot[MODE_B]
-            sure = (sure and spot[ERROR] <= PIECE_DIGITS * spot[OVER]
-                    and spot[TILT] <= PIECE_DIGITS * abs(spot[BEND]))
+            stop[STOP], stop[STOP_OVER], stop[STOP_FORCE] = point[OFFSET], point[OVER], 0.0
+            stop[STOP_BEND], stop[STOP_A], stop[STOP_B] = point[BEND], point[MODE_A], point[MODE_B]
+            sure = (sure and point[ERROR] <= PIECE_DIGITS * point[OVER]
+                    and point[TILT] <= PIECE_DIGITS * abs(point[BEND]))
             many += 1
     for k in range(2):
         stop, end = stops[k * many], ends[k]
@@ -865,7 +865,7 @@ def stops_of(count: int, spots: np.ndarray, ends: np.ndarray, stops: np.ndarray)
     return many + 1 if sure else 0
 
 
-def in_pieces(mu: float, count: int, spots: np.ndarray, ends: np.ndarray, near: np.ndarray,
+def in_pieces(mu: float, count: int, spots: np.ndarray, ends: np.ndarray, nearby: np.ndarray,
               weights: np.ndarray, levels: np.ndarray, stops: np.ndarray):
     """(period, whether it has its digits): dtheta/W by the double-exponential rule from stop to stop, E - V
     told from the nearer one."""
@@ -877,27 +877,27 @@ def in_pieces(mu: float, count: int, spots: np.ndarray, ends: np.ndarray, near: 
         here, there = kinetic_near(mu, stops[i], 0.5 * length), kinetic_near(mu, stops[i + 1], -0.5 * length)
         if not (length > 0 and abs(here - there) <= PIECE_DIGITS * here):
             return np.nan, False
-        total, before, change, earlier, found = 0.0, np.nan, np.nan, np.nan, False
+        total, before, change, earlier, result = 0.0, np.nan, np.nan, np.nan, False
         for level in range(len(levels) - 1):
             for n in range(levels[level], levels[level + 1]):
-                share, far = abs(near[n]), near[n] < 0  # from the stop at the far end
+                part, far = abs(nearby[n]), nearby[n] < 0  # from the stop at the far end
                 scale = 1.0
                 # the way from a turning point is L u^2, which takes its root away
                 if i == 0 or i == many - 2:
                     at_turn = far == (i > 0)
-                    share, scale = (share * share,
-                                    2 * share) if at_turn else (share * (2 - share), 2 * (1 - share))
-                y = length * share
+                    part, scale = (part * part,
+                                    2 * part) if at_turn else (part * (2 - part), 2 * (1 - part))
+                y = length * part
                 total += (weights[n] * scale
                           / np.sqrt(2 * (kinetic_near(mu, stops[i + 1], -y) if far
                                          else kinetic_near(mu, stops[i], y))))
             now = length * total * 2.0**-level
             new = abs(now - before)
             if converged(now, new, change, earlier):
-                period, found = period + 2 * now, True
+                period, result = period + 2 * now, True
                 break
             before, change, earlier = now, new, change
-        if not found:
+        if not result:
             return np.nan, False
     return period, period < INFINITY
 
@@ -913,16 +913,16 @@ def rows(states: np.ndarray, open_rows: np.ndarray, fine: np.ndarray, form: Sequ
     flip/n, shift s of the third component and what its double leaves, the invariant up to which the lines
     serve; conic: c, d, G, mu, K, shift, and how near a hyperbola's centre no row is settled.
     """
-    nodes, near, weights, levels = rules
+    nodes, nearby, weights, levels = rules
     j, k, i = axes
-    most = max(len(pieces), len(lines))
-    spots, box = np.empty((2 * most + 1, ASTRAY + 1)), np.empty((3, 2))
+    largest = max(len(pieces), len(lines))
+    spots, box = np.empty((2 * largest + 1, ASTRAY + 1)), np.empty((3, 2))
     ends, turns = np.empty((2, END_B + 1)), np.empty((2, END_B + 1))
-    stops = np.empty((2 * most + 3, STOP_B + 1))
+    stops = np.empty((2 * largest + 3, STOP_B + 1))
     data = np.empty(8)
     extra = abs(fine[8] * fine[12]) + abs(fine[10] * fine[14])
     for row in open_rows:
-        asked, state = int(left_open[row]), states[row]
+        request, state = int(left_open[row]), states[row]
         X = times(add((fine[8], fine[9]), (state[j], 0.0 * state[j])), (fine[12], fine[13]))
         Z = times(add((fine[10], fine[11]), (state[k], 0.0 * state[k])), (fine[14], fine[15]))
         turn, rest = exact_sum(state[i], form[3])
@@ -943,26 +943,26 @@ def rows(states: np.ndarray, open_rows: np.ndarray, fine: np.ndarray, form: Sequ
         for sharp in range(2):
             if sharp:
                 sharpened(fine, conic, X, Z, exact_sum(turn, rest + form[4]), wide, count, spots)
-            known, fastest, haze, closest = spanned(conic[3], w, count, spots, ends)
-            if not known:
+            resolved, fastest, blur, closest = spanned(conic[3], w, count, spots, ends)
+            if not resolved:
                 continue
             if sharp:
                 sharpened_ends(fine, X, Z, exact_sum(turn, rest + form[4]), wide, ends, turns)
-            if asked & BOX and boxed(form, axes, state, x, z, xi, eta, turns if sharp else ends, fastest,
-                                     haze, box):
+            if request & BOX and boxed(form, axes, state, x, z, xi, eta, turns if sharp else ends, fastest,
+                                     blur, box):
                 boxes[row] = box
-                asked -= BOX
-            if asked & PERIOD:
+                request -= BOX
+            if request & PERIOD:
                 period, good = timed(conic, x, z, xi, eta, w, count, spots, turns if sharp else ends, closest,
                                      nodes, data)
                 if sharp and not good:
-                    period, good = in_pieces(conic[3], count, spots, ends, near, weights, levels, stops)
+                    period, good = in_pieces(conic[3], count, spots, ends, nearby, weights, levels, stops)
                 if good:
                     periods[row] = period
-                    asked -= PERIOD
-            if not asked:
+                    request -= PERIOD
+            if not request:
                 break
-        left_open[row] = asked
+        left_open[row] = request
 
 
 def functions_of(geometry: type):

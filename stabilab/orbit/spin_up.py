@@ -88,8 +88,8 @@ class Turning:
 
     def x_of(self, y: float, w: float):
         """From the rate, which keeps its digits next to the turning point."""
-        share = self._share(math.sqrt(max(self.sense * (y - self.a), 0.0)))
-        return self.sense * abs(w) / math.sqrt(share)
+        fraction = self._share(math.sqrt(max(self.sense * (y - self.a), 0.0)))
+        return self.sense * abs(w) / math.sqrt(fraction)
 
 
 class Turn:
@@ -110,10 +110,10 @@ class Turn:
     def where(self):
         """(number of the passage that the state is in, offset of the state there)."""
         count = len(self.hills)
-        found = [(m * count + h, -at) for m, row in ((0, [hill.at for hill in self.hills]), (-1, self.behind))
+        rows = [(m * count + h, -at) for m, row in ((0, [hill.at for hill in self.hills]), (-1, self.behind))
                  for h, at in enumerate(row)]
-        outside = [max(-y - self.sides[n % count][0], y - self.sides[n % count][1]) for n, y in found]
-        return found[outside.index(min(outside))]
+        outside = [max(-y - self.sides[n % count][0], y - self.sides[n % count][1]) for n, y in rows]
+        return rows[outside.index(min(outside))]
 
     def passing(self, number, lo=None) -> Passing:
         """Passage `number`, from offset lo on or from its beginning."""
@@ -124,17 +124,17 @@ class Turn:
                        self.hills[h].at + turn * TURN)
 
 
-def turning_offset(spot: Spot, sense: int, reach: float | None = None) -> float | None:
+def turning_offset(point: Spot, sense: int, reach: float | None = None) -> float | None:
     """Offset from the spot, on the side `sense`, at which W = 0; reach: no further than that (None: search
     outwards).
 
     The spot is a well with kinetic energy, or a hill without enough. None where the motion does not turn.
     """
-    rising = spot.kinetic < 0
+    rising = point.kinetic < 0
 
     def beyond(t: float):
         with np.errstate(all="ignore"):
-            value = float(spot.energy(sense * t))
+            value = float(point.energy(sense * t))
         value = -math.inf if math.isnan(value) or value == math.inf else value
         return value, (value > 0) == rising
 
@@ -142,13 +142,13 @@ def turning_offset(spot: Spot, sense: int, reach: float | None = None) -> float 
         reach = 1.0
         while not beyond(reach)[1]:
             reach *= 2
-            if reach > 1e160 or (type(spot).__name__ == "OnHyperbola" and reach > 2000):
+            if reach > 1e160 or (type(point).__name__ == "OnHyperbola" and reach > 2000):
                 return None
 
     def look(t):
         value, past = beyond(t)
-        return value, float(sense * spot.share(sense * t, 0.0)) if math.isfinite(value) else 0.0, past
-    start = min(math.sqrt(2 * abs(spot.kinetic) / (abs(spot.bend) or 1.0)), 0.5 * reach)
+        return value, float(sense * point.share(sense * t, 0.0)) if math.isfinite(value) else 0.0, past
+    start = min(math.sqrt(2 * abs(point.kinetic) / (abs(point.bend) or 1.0)), 0.5 * reach)
     return sense * held_newton(look, 0.0, reach, 1.0, EPS, start)
 
 
@@ -173,11 +173,11 @@ def _edges(cuts: Sequence[float]):
 
 def clenshaw(c, x):
     """Sum of c[k] T_k(x): floats, or rows of arrays."""
-    one = two = 0.0
+    item = two = 0.0
     double = 2 * x
     for coefficient in c[:0:-1]:
-        one, two = double * one - two + coefficient, one
-    return x * one - two + c[0]
+        item, two = double * item - two + coefficient, item
+    return x * item - two + c[0]
 
 
 def inverted(integral: np.ndarray, rate: np.ndarray, half: np.ndarray, wanted: np.ndarray):
@@ -203,9 +203,9 @@ class Panels:
 
     def __init__(self, chain: Sequence[Passing | Turning], points: int = NODES):
         self.chain, self.points, self.evaluations = chain, points, 0
-        found = [self._cut(passage, points >= NODES) for passage in chain]
-        self.owner = [n for n, part in enumerate(found) for _ in part[0]]
-        columns = found[0] if len(found) == 1 else [np.concatenate(column) for column in zip(*found)]
+        rows = [self._cut(passage, points >= NODES) for passage in chain]
+        self.owner = [n for n, part in enumerate(rows) for _ in part[0]]
+        columns = rows[0] if len(rows) == 1 else [np.concatenate(column) for column in zip(*rows)]
         self.low, self.half, self.values, self.rates = columns
         if not len(self.low):
             raise InputError(TOO_FINE)
@@ -340,18 +340,18 @@ class SpinUp(Motion):
         self.sense = -1.0 if relief.w < 0 else 1.0
         self.evaluations = self.early.evaluations + self.late.evaluations
 
-    def _rest_passage(self, spot: OnCircle, drop: int, kinetic: float):
+    def _rest_passage(self, point: OnCircle, drop: int, kinetic: float):
         """(passage from the turning point, its number)."""
         if drop > MOST_TURNS:
             raise InputError(f"this motion came from rest {drop:.3g} turns ago: more than doubles can count")
-        h = self.round.hills.index(spot)
-        below = replace(spot, kinetic=kinetic)
-        if spot.force:
+        h = self.round.hills.index(point)
+        below = replace(point, kinetic=kinetic)
+        if point.force:
             a = turning_offset(below, -1, TURN) if kinetic > 0 else 0.0
         else:
             a = turning_offset(below, 1, self.round.sides[h][1])
         return Turning(below, a, 1, self.round.sides[h][1],
-                       spot.at - drop * TURN), h - drop * len(self.round.hills)
+                       point.at - drop * TURN), h - drop * len(self.round.hills)
 
     def _whole_turn(self, chain: Sequence[Passing], points: int):
         """Panels of the first whole turn: they serve all that follow, which are smoother."""
@@ -395,14 +395,14 @@ class SpinUp(Motion):
         signs, passed = np.where(passed >= 0, self.sense, -self.sense), np.abs(passed)
         if not self.from_rest and (times < 0).any():
             raise InputError(BEFORE)
-        soon, out, way = passed < self.run_up, np.empty((len(times), 3)), np.empty(len(times))
+        soon, out, route = passed < self.run_up, np.empty((len(times), 3)), np.empty(len(times))
         if soon.any():
-            out[soon], way[soon] = self.early.follow(passed[soon], signs[soon])
+            out[soon], route[soon] = self.early.follow(passed[soon], signs[soon])
         rows = np.nonzero(~soon)[0]
         for first in range(0, len(rows), CHUNK):
             part = rows[first:first + CHUNK]
-            out[part], way[part] = self._follow_late(passed[part] - self.run_up, signs[part])
-        return out, way
+            out[part], route[part] = self._follow_late(passed[part] - self.run_up, signs[part])
+        return out, route
 
     def _follow_late(self, left, signs):
         """(states (n, 3) at times after the run-up, offsets of their places (n,))."""
@@ -415,14 +415,14 @@ class SpinUp(Motion):
         half = late.half[n]
         xi = inverted((mine @ integral).T, (mine @ forward).T, half, within)
         x, owner = late.low[n] + half * (1 + xi), np.array(late.owner)[n]
-        out, way = np.empty((len(left), 3)), np.empty(len(left))
+        out, route = np.empty((len(left), 3)), np.empty(len(left))
         for number, passage in enumerate(late.chain):
             here = owner == number
             if here.any():
                 w = np.sqrt(2 * (passage.energy(x[here]) + turns[here] * self.work))
                 out[here] = np.array(passage.spot.state(x[here], w * signs[here])).T
-                way[here] = passage.at_zero + x[here] + TURN * turns[here]
-        return out, way
+                route[here] = passage.at_zero + x[here] + TURN * turns[here]
+        return out, route
 
     def _whole_turns(self, left: np.ndarray):
         """(turns done at each time, dt/dx at the nodes of the turn after, times at its panels' ends, time

@@ -113,12 +113,12 @@ def timed(scene: Scene) -> Seconds:
     """The least times of REPEATS rounds."""
     equations = derive(scene)
     system, state = to_numpy(equations), np.linspace(0.1, 0.4, len(equations.state))
-    many, one = np.tile(state, (MANY, 1)), state.tolist()
+    many, item = np.tile(state, (MANY, 1)), state.tolist()
     step = None
     if heyoka_available():
         with borrowed_taylor(form(equations, equations.rhs)) as integrator:
             step = _least(lambda: _stepped(integrator, state), STEPS)
-    return Seconds(_least(lambda: [system.rate(one) for _ in range(STEPS)], STEPS),
+    return Seconds(_least(lambda: [system.rate(item) for _ in range(STEPS)], STEPS),
                    _least(lambda: system(many), MANY), step)
 
 
@@ -130,12 +130,12 @@ def _stepped(integrator, state):
 
 def _least(call, items) -> float:
     call()
-    found = []
+    rows = []
     for _ in range(REPEATS):
         start = time.thread_time()  # of this thread alone: what else the machine does is not counted
         call()
-        found.append(time.thread_time() - start)
-    return min(found) / items
+        rows.append(time.thread_time() - start)
+    return min(rows) / items
 
 
 def imported(*names: str) -> tuple[str, ...]:
@@ -159,8 +159,8 @@ STATE, TIMES = (0.3, 0.2, -0.4), (-2.0, 1.0, 5.0, 10.0)
 def without(name: str) -> Scene:
     """The scene to which an effect of zero strength is added: a wheel along axis 1 and a torque about axis 3,
     less `name`."""
-    kept = {"gyrostat": ("0.4", 0, 0), "constant_torque": (0, 0, "0.2")}
-    return Scene(BODY, *(effect_class(other)(vector) for other, vector in kept.items() if other != name))
+    retained = {"gyrostat": ("0.4", 0, 0), "constant_torque": (0, 0, "0.2")}
+    return Scene(BODY, *(effect_class(other)(vector) for other, vector in retained.items() if other != name))
 
 
 def answers(scene: Scene) -> dict[str, object]:
@@ -192,7 +192,7 @@ def page(folder, tell=None, **around) -> Path:
     tell: called with a line of words before each part of the work (some twenty seconds in all); around: of
     the pages beside it (`html.render`).
     """
-    folder, tell = Path(folder), tell or (lambda words: None)
+    folder, tell = Path(folder), tell or (lambda text: None)
     tell("what each effect costs, one added to the other")
     steps = [(counted(added, scene), timed(scene)) for added, scene in ladder()]
     tell("what each effect costs by itself")

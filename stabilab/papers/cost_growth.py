@@ -66,12 +66,12 @@ class Growth:
     count_name: str = ""
 
 
-def _timed(call, most=30):
+def _timed(call, largest=30):
     """(answer, fastest, repeats) after one run that warms up; what takes long is run once more only."""
     start = time.perf_counter()
     answer = call()
     first, seconds = time.perf_counter() - start, []
-    while len(seconds) < (1 if first > SLOW else most) and (len(seconds) < 2 or sum(seconds) < ENOUGH):
+    while len(seconds) < (1 if first > SLOW else largest) and (len(seconds) < 2 or sum(seconds) < ENOUGH):
         start = time.perf_counter()
         call()
         seconds.append(time.perf_counter() - start)
@@ -81,11 +81,11 @@ def _timed(call, most=30):
 # -- with the number of states
 
 
-def with_states(case, full: bool = False, tell=lambda words: None) -> list[Growth]:
+def with_states(case, full: bool = False, tell=lambda text: None) -> list[Growth]:
     """Fate, extremes and period of random states (seeded) about the case's own: 1e2 to 1e7 for the fate (1e6
     unless full), to 1e5 for the others (1e4 unless full); fates by NumPy, and by numba where it is
     installed."""
-    found = []
+    rows = []
     for question, (first, last) in STATES.items():
         for decade in range(first, (last if full else min(last - 1, REPORT_DECADE)) + 1):
             tell(f"{question} of 1e{decade} states")
@@ -94,8 +94,8 @@ def with_states(case, full: bool = False, tell=lambda words: None) -> list[Growt
             for engine, options in engines(question):
                 answer, seconds, repeats = _timed(partial(QUESTIONS[question], case.scene, states, **options))
                 precise = (int(answer.precise), "states in balls") if question == "fate" else (None, "")
-                found.append(Growth("states", question, engine, len(states), seconds, repeats, *precise))
-    return found
+                rows.append(Growth("states", question, engine, len(states), seconds, repeats, *precise))
+    return rows
 
 
 def engines(question) -> list[tuple[str, dict]]:
@@ -108,20 +108,20 @@ def engines(question) -> list[tuple[str, dict]]:
 # -- with the digits
 
 
-def with_digits(case, effort: str = "brief", tell=lambda words: None) -> list[Growth]:
+def with_digits(case, effort: str = "brief", tell=lambda text: None) -> list[Growth]:
     """The states over the span by every method, at the digits that it reached; from 16 digits on by Taylor
     series in many digits; and extremes, period and margin by formulas in doubles and by balls. For motions
     that repeat."""
     tell("cost of digits: doubles")
-    found = precision(case, effort)
+    result = precision(case, effort)
     rows = [Growth("digits", "states over the span", p.method, p.digits, p.seconds, p.repeats, p.evaluations,
                    "evaluations")
-            for p in found.of("span") if p.method in ("taylor", "DOP853", "reduced") and 0 < p.digits < 16]
+            for p in result.of("span") if p.method in ("taylor", "DOP853", "reduced") and 0 < p.digits < 16]
     rows += [Growth("digits", q, "formulas", p.digits, p.seconds, p.repeats) for q in ("extremes", "period")
-             for p in found.of(q, "reduced")]
+             for p in result.of(q, "reduced")]
     for digits in MANY:
         tell(f"cost of {digits} digits")
-        rows += _many(found.task, found.reference, digits)
+        rows += _many(result.task, result.reference, digits)
     return rows
 
 
@@ -174,11 +174,11 @@ def near(case, decade: int) -> tuple[np.ndarray, float]:
     return state, float(fates(case.scene, state).margins) / height
 
 
-def with_closeness(case, tell=lambda words: None) -> list[Growth]:
+def with_closeness(case, tell=lambda text: None) -> list[Growth]:
     """Fate, extremes and period of single states 1e-1 to 1e-15 (relative, in energy) below the separatrix:
     the time, the bits that the fate takes in balls, and the nodes of the plain midpoint rule that the period
     takes for NODE_DIGITS digits."""
-    found = []
+    rows = []
     for decade in DISTANCES:
         tell(f"1e-{decade} from the separatrix")
         state, distance = near(case, decade)
@@ -186,8 +186,8 @@ def with_closeness(case, tell=lambda words: None) -> list[Growth]:
             _, seconds, repeats = _timed(partial(function, case.scene, state))
             count = {"fate": (bits_needed(case.scene, state), "bits"),
                      "period": (nodes_needed(case.scene, state), "nodes")}.get(question, (None, ""))
-            found.append(Growth("separatrix", question, "as called", distance, seconds, repeats, *count))
-    return found
+            rows.append(Growth("separatrix", question, "as called", distance, seconds, repeats, *count))
+    return rows
 
 
 def bits_needed(scene: Scene, state: Float3 | np.ndarray) -> int | None:
@@ -210,16 +210,16 @@ def nodes_needed(scene, state) -> int | None:
     orbit, nodes = Orbit(land.reduction, state), 4
     exact = precise_period(orbit, Fate.BOUNDED)
 
-    def ends(one):
-        found = turning_points(one)
-        return 0.5 * float(found[1] - found[0]), *(one.doubles_at(y) for y in found)
+    def ends(item):
+        result = turning_points(item)
+        return 0.5 * float(result[1] - result[0]), *(item.doubles_at(y) for y in result)
     half, *places = orbit.settled(ends)
-    forces = [land.potential.force(place) for place in places]
+    forces = [land.potential.force(location) for location in places]
     while nodes <= MOST_NODES:
         phi = (np.arange(nodes // 2) + 0.5) * (np.pi / nodes)
-        way, total = 2 * half * np.sin(0.5 * phi) ** 2, 0.0
-        for place, force, y in zip(places, forces, (way, -way)):  # E - V is measured from the nearer end
-            twice = -2 * land.potential.rise(y, place, force)
+        route, total = 2 * half * np.sin(0.5 * phi) ** 2, 0.0
+        for index, force, y in zip(places, forces, (route, -route)):  # E - V is measured from the nearer end
+            twice = -2 * land.potential.rise(y, index, force)
             with np.errstate(invalid="ignore"):
                 total += 2 * float((half * np.sin(phi) / np.sqrt(twice)).sum()) * np.pi / nodes
         if abs(total - exact) <= 10.0**-NODE_DIGITS * exact:
@@ -256,7 +256,7 @@ def page(case, folder, tell=None, full: bool = False, **around) -> Path:
     """Measure how cost grows about a case (torque on an axis, bounded, no wheel momentum along the torque)
     and write growth.html, growth.csv and three pictures (in growth/) into the folder; returns the page's
     path. full: every decade of states; around: of the pages beside it (`html.render`)."""
-    folder, tell = Path(folder), tell or (lambda words: None)
+    folder, tell = Path(folder), tell or (lambda text: None)
     rows = [*with_states(case, full, tell), *with_digits(case, "full" if full else "brief", tell),
             *with_closeness(case, tell)]
     with style.whole_file(folder / "growth.csv") as waiting:
@@ -297,8 +297,8 @@ def picture(plt, rows, about):
     if panels == 2:
         _counts(axes[0][1], groups)
     if about == "separatrix":
-        for one in axes[0]:
-            one.invert_xaxis()
+        for item in axes[0]:
+            item.invert_xaxis()
     style.legend(figure, [(", ".join(dict.fromkeys((q, m) if m != "as called" else (q,))), LOOKS[q, m])
                           for q, m in groups], columns=3)
     return figure
@@ -308,9 +308,9 @@ def _counts(ax, groups):
     ax.set(xscale="log", yscale="log", xlabel=AXES["separatrix"], ylabel="bits, nodes",
            title=f"Bits for the fate, nodes for {NODE_DIGITS} digits of the period")
     for (question, method), points in groups.items():
-        known = [r for r in points if r.count is not None]
-        if known:
-            ax.plot([r.x for r in known], [r.count for r in known], markersize=5, linewidth=1.3,
+        resolved = [r for r in points if r.count is not None]
+        if resolved:
+            ax.plot([r.x for r in resolved], [r.count for r in resolved], markersize=5, linewidth=1.3,
                     **LOOKS[question, method])
 
 

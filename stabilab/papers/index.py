@@ -48,15 +48,15 @@ def items(findings: Sequence[tuple[Any, Sequence[Any]]]) -> list[Item]:
 
 
 def _of_paper(paper: Paper, group: Sequence[Any]) -> list[Item]:
-    found = []
+    rows = []
     for finding in group:
         name = finding.row.equation
         if not name.startswith("table-"):
             item = name if name.startswith("text") else f"({name})"
-            found.append(Item(paper.name, item, finding.row.says, finding.verdict,
+            rows.append(Item(paper.name, item, finding.row.says, finding.verdict,
                               f"stabilab audit {paper.name} --equation {name}"))
     if paper.figures:
-        found.append(Item(paper.name, "data", "of its figures and tables", "in case files as it prints them; "
+        rows.append(Item(paper.name, "data", "of its figures and tables", "in case files as it prints them; "
                           "what it leaves out is completed there, and said",
                           f"stabilab show cases/{DATA[paper.figures]}.toml"))
     figures = [row for row in of_paper(paper.figures) if not row.added] if paper.figures else []
@@ -65,8 +65,8 @@ def _of_paper(paper: Paper, group: Sequence[Any]) -> list[Item]:
         wrong = sum(f.verdict == "wrong" for f in claims)
         verdict = MODEL if figure.number == 1 else "drawn from the exact equations" + (
             f"; {wrong} of {len(claims)} audited claims about it wrong" if claims else "")
-        found.append(Item(paper.name, f"figure {figure.number}", figure.title, verdict, figure.command))
-    return found + [_table(paper, finding) for finding in group if finding.row.equation.startswith("table-")]
+        rows.append(Item(paper.name, f"figure {figure.number}", figure.title, verdict, figure.command))
+    return rows + [_table(paper, finding) for finding in group if finding.row.equation.startswith("table-")]
 
 
 def _table(paper: Paper, finding: SimpleNamespace) -> Item:
@@ -147,21 +147,21 @@ def link(paper: Paper, row: Item) -> str:
 def claims(paper: Paper, group: Sequence[Any]) -> list[dict[str, Any]]:
     """Of every claim of the text that can be checked: what it says, whether it is so, what is so, and the
     anchor of its row on the page of the audit."""
-    found = []
-    for one in group:
-        if not one.row.equation.startswith("text") or one.verdict not in ("holds", "only-if", "wrong"):
+    rows = []
+    for item in group:
+        if not item.row.equation.startswith("text") or item.verdict not in ("holds", "only-if", "wrong"):
             continue
-        only = f"only if {one.condition}" if one.verdict == "only-if" else ""
-        found.append({"says": written(one.row.says), "right": one.verdict == "holds",
-                      "is": written("; ".join(filter(None, [only, one.correction]))),
-                      "link": f"audit.html#{anchor(paper.name, one.row.equation)}"})
-    return found
+        only = f"only if {item.condition}" if item.verdict == "only-if" else ""
+        rows.append({"says": written(item.row.says), "right": item.verdict == "holds",
+                      "is": written("; ".join(filter(None, [only, item.correction]))),
+                      "link": f"audit.html#{anchor(paper.name, item.row.equation)}"})
+    return rows
 
 
 def of_figure(paper: Paper, group: Sequence[Any], number: int) -> list[dict[str, str]]:
     """The rows of the audit that concern a figure: equation and link."""
-    return [{"equation": one.row.equation, "link": f"audit.html#{anchor(paper.name, one.row.equation)}"}
-            for one in group if number in one.row.options.get("figures", ())]
+    return [{"equation": item.row.equation, "link": f"audit.html#{anchor(paper.name, item.row.equation)}"}
+            for item in group if number in item.row.options.get("figures", ())]
 
 
 def data() -> list[tuple[str, str]]:
@@ -195,7 +195,7 @@ def _listed(values: Any) -> str:
 
 def hard_cases(folder: Path, **around: Any) -> Path:
     """The page of hard cases: what plain code answers, what stabilab answers, and how well one can know."""
-    words: list[str] = []
+    phrase: list[str] = []
     tables: list[dict[str, Any]] = []
     for line in HARD.read_text(encoding="utf-8").splitlines():
         if line.startswith("## "):
@@ -203,8 +203,8 @@ def hard_cases(folder: Path, **around: Any) -> Path:
         elif line.startswith("| "):
             tables[-1]["rows"].append([cell.strip() for cell in line.strip("| ").split(" | ")])
         elif not tables and not line.startswith("# "):
-            words.append(line)
-    parts = "\n".join(words).replace("*", "").split("\n\n")
+            phrase.append(line)
+    parts = "\n".join(phrase).replace("*", "").split("\n\n")
     about = [" ".join(part.split()) for part in parts if part.strip()]
     return html.write(folder / "hard-cases.html", "hard_cases.html", title="Hard cases", about=about,
                       tables=tables, **around)

@@ -108,18 +108,18 @@ CHAPTERS = (
 def section(name: str, folder: Path) -> dict:
     """The chapter on a paper: plain data, its figures drawn into `folder`/figures."""
     chapter = next(chapter for chapter in CHAPTERS if chapter.paper == name)
-    made = {"id": chapter.paper, "title": chapter.title, "paper": catalogue.PAPERS[chapter.paper],
+    built = {"id": chapter.paper, "title": chapter.title, "paper": catalogue.PAPERS[chapter.paper],
             "about": written(chapter.about), "problem": "",
             "compared": [], "sensible": None, "parameters": "", "end": chapter.end,
             "figures": [drawn(row, folder) for row in catalogue.of_paper(chapter.paper)]}
     try:
-        made["parameters"] = _parameters(sweep(chapter.compared[0][0])[chapter.compared[0][1]])
-        made["compared"] = [row for name, variant in chapter.compared
+        built["parameters"] = _parameters(sweep(chapter.compared[0][0])[chapter.compared[0][1]])
+        built["compared"] = [row for name, variant in chapter.compared
                             for row in _errors(sweep(name)[variant], chapter.end)]
-        made["sensible"] = _sensible(chapter, folder)
+        built["sensible"] = _sensible(chapter, folder)
     except StabilabError as error:  # no such case yet, or a motion that cannot be run: the chapter says so
-        made["problem"] = str(error)
-    return made
+        built["problem"] = str(error)
+    return built
 
 
 def drawn(row, folder: Path) -> dict:
@@ -142,15 +142,15 @@ def _parameters(case: Case):
                        for name, row in starts.items()))
 
 
-def _errors(case, end, found=None):
+def _errors(case, end, result=None):
     """A row per model and part of the state: first times of 1 % and 10 %, and the largest error."""
-    found = found or compare(case, np.linspace(0.0, end, TIMES))
+    result = result or compare(case, np.linspace(0.0, end, TIMES))
     rows = [{"case": case.name, "model": panels.MODEL_LABELS[d.model], "part": written(d.part),
              "one": _time(d.first[0.01]), "ten": _time(d.first[0.1]),
-             "largest": so_many(d.largest / d.scale if d.scale else d.largest, 2)} for d in found.departures]
+             "largest": so_many(d.largest / d.scale if d.scale else d.largest, 2)} for d in result.departures]
     return rows + [{"case": case.name, "model": panels.MODEL_LABELS[name], "part": "", "one": "no answer",
                     "ten": written(why), "largest": ""}
-                   for name, why in found.refused.items()]
+                   for name, why in result.refused.items()]
 
 
 def _time(value):
@@ -160,13 +160,13 @@ def _time(value):
 def _sensible(chapter, folder):
     """The variant: its errors and its picture."""
     case = sweep(chapter.sensible)[""]
-    found = compare(case, np.linspace(0.0, chapter.sensible_end, TIMES))
+    result = compare(case, np.linspace(0.0, chapter.sensible_end, TIMES))
     runs, _ = side_by_side(case, np.linspace(0.0, chapter.window, 1001))
     with style.drawing() as plt:
         path = style.save(cost_text.picture(plt, case, runs, chapter.parts, units=SI),
                           folder / FOLDER / f"{chapter.paper}-sensible.png")
     return picture(path, FOLDER, case=case.name, title=written(case.title), why=written(chapter.note),
-                   end=chapter.sensible_end, rows=_errors(case, None, found), parameters=_parameters(case),
+                   end=chapter.sensible_end, rows=_errors(case, None, result), parameters=_parameters(case),
                    path=f"cases/{case.name}.toml")
 
 
@@ -186,14 +186,14 @@ def tables(folder: Path) -> list[dict]:
     """Tables 1-4 in all formats, and what the page says of them."""
     rows = []
     (folder / "tables").mkdir()
-    for one in table.tables():
+    for item in table.tables():
         names = []
         for kind, make in table.FORMATS.items():
-            path = folder / "tables" / f"{one.stem}.{kind}"
-            path.write_text(make(one), encoding="utf-8")
+            path = folder / "tables" / f"{item.stem}.{kind}"
+            path.write_text(make(item), encoding="utf-8")
             names.append(f"tables/{path.name}")
-        rows.append({"number": one.number, "title": one.title, "wide": one.wide, "rows": one.rows,
-                     "files": names, "html": table.html_fragment(one)})
+        rows.append({"number": item.number, "title": item.title, "wide": item.wide, "rows": item.rows,
+                     "files": names, "html": table.html_fragment(item)})
     return rows
 
 
@@ -212,53 +212,53 @@ def everything_of(cases, folder: Path, tell, wanted: own.Wanted, workers=None,
     work = [Task("tables", "papers.report:tables", (folder,), 0.5), *own.tasks(cases, folder, wanted)]
     work += [Task(f"figure {row.number}", "papers.report:figure", (row.number, folder), 1.2)
              for row in catalogue.FIGURES]
-    work += [Task(f"chapter {one.paper}", "papers.report:section", (one.paper, folder), one.weight)
-             for one in CHAPTERS]
+    work += [Task(f"chapter {item.paper}", "papers.report:section", (item.paper, folder), item.weight)
+             for item in CHAPTERS]
     work += [Task(f"audit of {name}", "papers.audit:findings_of", (name,), AUDIT_TAKES.get(name, 6.0))
              for name in audited_papers()]
     work += [Task("numbers of other tools", "papers.validation:validated", (), 5.0)]
     work += ([Task("what answers cost", "papers.report:costs", (cases, folder), 90.0)]
              if wanted.precision else [])
-    found = dict(zip([task.label for task in work], done(work, folder, tell, workers)))
-    cost = found.get("what answers cost", [])
+    result = dict(zip([task.label for task in work], done(work, folder, tell, workers)))
+    cost = result.get("what answers cost", [])
     nav = _nav(cost)
-    _papers(folder, found, nav)
-    groups = _cases(cases, folder, found, nav, around)
-    audit, tools = _audit(folder, found, nav), _validation(folder, found, nav)
-    index.page([found[f"audit of {name}"] for name in audited_papers()], folder, nav=nav, here="where.html")
+    _papers(folder, result, nav)
+    groups = _cases(cases, folder, result, nav, around)
+    audit, tools = _audit(folder, result, nav), _validation(folder, result, nav)
+    index.page([result[f"audit of {name}"] for name in audited_papers()], folder, nav=nav, here="where.html")
     index.hard_cases(folder, nav=nav, here="hard-cases.html")
     if cost:
         html.write(folder / "cost.html", "cost.html", title="What answers cost", pages=cost, nav=nav,
                    here="cost.html")
-    _start(cases, folder, found, nav, groups, audit, tools, cost, around)
-    return [(made["beyond"], made["open"]) for name, made in found.items() if name.startswith("case ")]
+    _start(cases, folder, result, nav, groups, audit, tools, cost, around)
+    return [(value["beyond"], value["open"]) for name, value in result.items() if name.startswith("case ")]
 
 
 def _nav(cost):
     rows = [("index.html", "Start"), ("constant-torque.html", "Constant torque"),
-            *((f"{one.paper}.html", one.short) for one in CHAPTERS), ("cases.html", "Cases"),
+            *((f"{chapter.paper}.html", chapter.short) for chapter in CHAPTERS), ("cases.html", "Cases"),
             ("audit.html", "Printed formulas"), ("where.html", "Where is it?"),
             ("hard-cases.html", "Hard cases"), ("validation.html", "Other tools")]
     rows += [("cost.html", "Cost")] if cost else []
     return [{"file": file, "title": title} for file, title in rows]
 
 
-def _papers(folder, found, nav):
+def _papers(folder, result, nav):
     """The pages of the papers."""
     from markupsafe import Markup
     # escaped cell by cell in table.py
-    rows = [one | {"html": Markup(one["html"])} for one in found["tables"]]
-    main = found[f"audit of {MAIN}"]
-    drawn = [found[f"figure {row.number}"] | {"rows": index.of_figure(*main, row.number)}
+    rows = [entry | {"html": Markup(entry["html"])} for entry in result["tables"]]
+    main = result[f"audit of {MAIN}"]
+    drawn = [result[f"figure {row.number}"] | {"rows": index.of_figure(*main, row.number)}
              for row in catalogue.FIGURES]
     html.write(folder / "constant-torque.html", "constant_torque.html", title="Constant torque",
                paper=table.PAPER, tables=rows, nav=nav, here="constant-torque.html", data=index.data(),
                claims=index.claims(*main), figures=drawn)
-    audits = {audit[0].figures: audit for audit in (found[f"audit of {name}"] for name in audited_papers())}
-    for one in CHAPTERS:
-        html.write(folder / f"{one.paper}.html", "chapter.html", chapter=found[f"chapter {one.paper}"],
-                   claims=index.claims(*audits[one.paper]), nav=nav, here=f"{one.paper}.html",
-                   title=one.title)
+    audits = {audit[0].figures: audit for audit in (result[f"audit of {name}"] for name in audited_papers())}
+    for item in CHAPTERS:
+        html.write(folder / f"{item.paper}.html", "chapter.html", chapter=result[f"chapter {item.paper}"],
+                   claims=index.claims(*audits[item.paper]), nav=nav, here=f"{item.paper}.html",
+                   title=item.title)
 
 
 GROUPS = (("Constant torque along a principal axis",
@@ -285,7 +285,7 @@ def _acts(scene: Scene):
 
 
 def _has(case, effect):
-    return case.variables == "physical" and any(one.name == effect for one in case.scene.effects)
+    return case.variables == "physical" and any(item.name == effect for item in case.scene.effects)
 
 
 def group(case) -> str:
@@ -293,32 +293,32 @@ def group(case) -> str:
     return next(title for title, belongs in GROUPS if belongs(case))
 
 
-def _cases(cases, folder, found, nav, around):
+def _cases(cases, folder, result, nav, around):
     """A page a case, and the page that lists them by outcome, those of one kind of scene side by side;
     (title, number) of the groups."""
     order = [title for title, _ in GROUPS]
     rows: dict[str, list] = {look: [] for look in LOOKS}
-    for stem, _ in sorted(own.entries(cases), key=lambda one: order.index(group(one[1][0]))):
-        made = found[f"case {stem}"]
-        own.write(made, folder / own.FOLDER / f"{stem}.html", "", nav=nav, up="../", below="cases.html",
-                  **own.of_one(made, around))
-        row = own.listed(stem, made)
-        rows["" if "sweep" in made else row["look"]].append(row | {"file": f"{own.FOLDER}/{row['file']}"})
+    for stem, _ in sorted(own.entries(cases), key=lambda entry: order.index(group(entry[1][0]))):
+        built = result[f"case {stem}"]
+        own.write(built, folder / own.FOLDER / f"{stem}.html", "", nav=nav, up="../", below="cases.html",
+                  **own.of_one(built, around))
+        row = own.listed(stem, built)
+        rows["" if "sweep" in built else row["look"]].append(row | {"file": f"{own.FOLDER}/{row['file']}"})
     groups = [{"title": title, "rows": rows[look]} for look, title in LOOKS.items() if rows[look]]
     html.write(folder / "cases.html", "list.html", title="Cases by outcome", groups=groups, nav=nav,
                here="cases.html", **around)
-    return [(one["title"], len(one["rows"])) for one in groups]
+    return [(item["title"], len(item["rows"])) for item in groups]
 
 
-def _audit(folder, found, nav):
+def _audit(folder, result, nav):
     """The page of the audit; in words how many rows have which verdict."""
-    findings = [found[f"audit of {name}"] for name in audited_papers()]
+    findings = [result[f"audit of {name}"] for name in audited_papers()]
     audit_page.page(findings, folder / "audit.html", nav=nav, here="audit.html")
     return audit_page.counts([finding for _, rows in findings for finding in rows])
 
 
-def _validation(folder, found, nav):
-    findings = found["numbers of other tools"]
+def _validation(folder, result, nav):
+    findings = result["numbers of other tools"]
     validation.page(findings, folder / "validation.html", nav=nav, here="validation.html")
     return "; ".join(f"{source.title}: {validation.counts(rows)}"
                      for source, rows in validation.told(findings))
@@ -361,19 +361,19 @@ COSTS = (("What accuracy costs",
 def costs(cases, folder: Path) -> list[dict]:
     """The pages that hold measured times, one after the other by one process: never two measurements at once.
     """
-    made = [(title, words, page(cases, folder, nav=_nav(True), below="cost.html"))
-            for title, words, page in COSTS]
-    return [{"title": title, "words": words, "file": path.name} for title, words, path in made if path]
+    built = [(title, text, page(cases, folder, nav=_nav(True), below="cost.html"))
+            for title, text, page in COSTS]
+    return [{"title": title, "words": text, "file": path.name} for title, text, path in built if path]
 
 
-def _hero(cases, found) -> dict | None:
+def _hero(cases, result) -> dict | None:
     """The answer to a stuck thruster that the start page begins with: of a spacecraft with wheels, if one is
     among the cases."""
     craft = [(stem, members[0]) for stem, members in own.entries(cases)
              if len(members) == 1 and members[0].thrusters]
-    for stem, _ in sorted(craft, key=lambda one: not one[1].wheels):
-        made = found[f"case {stem}"]["case"]
-        picture = next((one for one in made["pictures"] if one["kind"] == "time"), None)
+    for stem, _ in sorted(craft, key=lambda item: not item[1].wheels):
+        made = result[f"case {stem}"]["case"]
+        picture = next((item for item in made["pictures"] if item["kind"] == "time"), None)
         if picture:
             short = "; ".join(f"{name}: {value} {note}".strip() for name, value, note in made["tiles"][:3])
             return {"file": f"{own.FOLDER}/{stem}.html", "title": made["title"], "headline": made["headline"],
@@ -381,21 +381,21 @@ def _hero(cases, found) -> dict | None:
     return None
 
 
-def _edge(cases, found) -> tuple[str, str] | None:
+def _edge(cases, result) -> tuple[str, str] | None:
     """(what is said, page) of the first bounded motion under a torque whose distance from the separatrix is
     known."""
     for stem, members in own.entries(cases):
-        made = found[f"case {stem}"]
-        if "sweep" not in made and made["case"]["look"] == "conditional" and members[0].scene.plain:
-            *_, (_, value, note) = made["case"]["tiles"] or [("", "", "")]
+        built = result[f"case {stem}"]
+        if "sweep" not in built and built["case"]["look"] == "conditional" and members[0].scene.plain:
+            *_, (_, value, note) = built["case"]["tiles"] or [("", "", "")]
             if note.startswith("the smallest change"):
-                return f"{written(made['case']['title'])}: {value}, {note}", f"{own.FOLDER}/{stem}.html"
+                return f"{written(built['case']['title'])}: {value}, {note}", f"{own.FOLDER}/{stem}.html"
     return None
 
 
-def _questions(cases, found, hero, audit, cost) -> list[dict]:
+def _questions(cases, result, hero, audit, cost) -> list[dict]:
     """(question, its answer, where more of it stands) of what the report answers."""
-    edge = _edge(cases, found)
+    edge = _edge(cases, result)
     rows = [("My thruster is stuck: what happens, how soon, how large?", hero["short"], hero["file"])
             ] if hero else []
     rows += [("How far is it from the edge, the separatrix?", *edge)] if edge else []
@@ -406,15 +406,15 @@ def _questions(cases, found, hero, audit, cost) -> list[dict]:
              "hard-cases.html"),
              ("What do the five papers say, and what is so?", f"of their equations and claims {audit}",
               "where.html")]
-    return [{"question": question, "words": words, "file": file} for question, words, file in rows]
+    return [{"question": question, "words": text, "file": file} for question, text, file in rows]
 
 
-def _start(cases, folder, found, nav, groups, audit, tools, cost, around):
+def _start(cases, folder, out, nav, groups, audit, tools, cost, around):
     """The first page: a stuck thruster as it is answered, the questions, the finest picture, and what is
     inside."""
-    hero = _hero(cases, found)
+    hero = _hero(cases, out)
     drawn = [row.number for row in catalogue.FIGURES if not row.added]
-    words = {"constant-torque.html": f"{table.PAPER}: tables 1 to {len(found['tables'])}, figures {drawn[0]} "
+    text = {"constant-torque.html": f"{table.PAPER}: tables 1 to {len(out['tables'])}, figures {drawn[0]} "
                                      f"to {drawn[-1]}, recomputed and corrected",
              "cases.html": "; ".join(f"{title[0].lower()}{title[1:]} ({some(number, 'case')})"
                                      for title, number in groups),
@@ -424,11 +424,11 @@ def _start(cases, folder, found, nav, groups, audit, tools, cost, around):
              "where.html": "every equation, figure, table and claim of the five papers, with its place",
              "hard-cases.html": "where formulas that are right on paper lose their digits",
              "cost.html": "What accuracy, many states and each effect cost, measured"}
-    words |= {f"{one.paper}.html": f"{one.title}: {catalogue.PAPERS[one.paper]}" for one in CHAPTERS}
-    cards = [page | {"words": words[page["file"]]} for page in nav if page["file"] != "index.html"]
-    picture = found.get(f"figure {FINEST}") or found[f"figure {catalogue.FIGURES[0].number}"]
+    text |= {f"{item.paper}.html": f"{item.title}: {catalogue.PAPERS[item.paper]}" for item in CHAPTERS}
+    cards = [page | {"words": text[page["file"]]} for page in nav if page["file"] != "index.html"]
+    picture = out.get(f"figure {FINEST}") or out[f"figure {catalogue.FIGURES[0].number}"]
     html.write(folder / "index.html", "start.html", title=TITLE, picture=picture, cards=cards, nav=nav,
-               hero=hero, questions=_questions(cases, found, hero, audit, cost), here="index.html", **around)
+               hero=hero, questions=_questions(cases, out, hero, audit, cost), here="index.html", **around)
 
 
 PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista", "python-flint")
@@ -500,7 +500,7 @@ def _natural(name):
 def command(cases, papers, precision, certify) -> str:
     """What was typed, but for the folder."""
     options = [name for name,
-               given in (("--papers", papers), ("--precision", precision), ("--certify", certify)) if given]
+               source in (("--papers", papers), ("--precision", precision), ("--certify", certify)) if source]
     return " ".join(["stabilab report", *dict.fromkeys(case.path for case in cases), *options])
 
 
@@ -511,14 +511,14 @@ def _precision(cases, folder, tell):
 
 
 @contextmanager
-def _progress(given):
-    if given or not sys.stderr.isatty():
-        yield given or (lambda words: None)
+def _progress(supplied):
+    if supplied or not sys.stderr.isatty():
+        yield supplied or (lambda text: None)
         return
     from rich.console import Console
     console = Console(stderr=True)
     with undoing(lambda: os.write(2, SHOW_CURSOR)), console.status("report") as status:
-        yield lambda words: status.update(f"report: {words}")
+        yield lambda text: status.update(f"report: {text}")
 
 
 def versions():

@@ -194,13 +194,13 @@ def printed_extremes(family: str, x: Sequence[float], a: float,
     or end on the way."""
     from scipy.optimize import minimize_scalar
     curve, axis = FAMILIES[family]
-    found = curve(x, a, b)
-    ends = [_end(found, side) for side in (-1, 1)]
+    result = curve(x, a, b)
+    ends = [_end(result, side) for side in (-1, 1)]
     if None in ends:
         return None
     low, high = ends
-    at = [found.place(s) for s in (low, high, *(s for s in found.stationary if low < s < high))]
-    greatest = max(-minimize_scalar(lambda s: -found.square(s), bounds=(p, p + (high - low) / 50),
+    at = [result.place(s) for s in (low, high, *(s for s in result.stationary if low < s < high))]
+    greatest = max(-minimize_scalar(lambda s: -result.square(s), bounds=(p, p + (high - low) / 50),
                                     method="bounded", options={"xatol": 1e-12}).fun
                    for p in (low + n * (high - low) / 50 for n in range(50)))
     pairs = [(min(values), max(values)) for values in zip(*at)]
@@ -208,16 +208,16 @@ def printed_extremes(family: str, x: Sequence[float], a: float,
     return pairs
 
 
-def _end(found: Printed, side: int) -> float | None:
+def _end(result: Printed, side: int) -> float | None:
     """Where the square first vanishes on one side of the start; None where it does not, or is not defined."""
     from scipy.optimize import brentq
-    s = found.start
+    s = result.start
     try:
-        while found.square(s + side * STEP) >= 0:
+        while result.square(s + side * STEP) >= 0:
             s += side * STEP
-            if abs(s - found.start) > FAR:
+            if abs(s - result.start) > FAR:
                 return None
-        return brentq(found.square, *sorted((s, s + side * STEP)), xtol=1e-14)
+        return brentq(result.square, *sorted((s, s + side * STEP)), xtol=1e-14)
     except (ValueError, OverflowError):
         return None
 
@@ -345,10 +345,10 @@ def _with_printed(family: str, row: tuple) -> list[tuple]:
     if family not in FAMILIES:
         return [row]
     name, lam, a, b, *start = row[:7]
-    found = printed_extremes(family, start, a, b)
-    values = [None] * 6 if found is None else [v for pair in found for v in pair]
+    result = printed_extremes(family, start, a, b)
+    values = [None] * 6 if result is None else [v for pair in result for v in pair]
     as_printed = ("as printed", lam, a, b, *start, None, None, *values)
-    if found is None:
+    if result is None:
         return [row, as_printed]
     apart = [printed - true for printed, true in zip(values, row[9:])]
     return [row, as_printed, ("difference", *[None] * 8, *apart)]
@@ -356,21 +356,21 @@ def _with_printed(family: str, row: tuple) -> list[tuple]:
 
 def _extremes_row(path, lam):
     case = load(path)
-    found = motion(case.scene, case.start, case.span, exact=case.exact_state)
-    period, extremes = (ask(name, case.scene, case.start, DECIMALS, case.span, found,
+    result = motion(case.scene, case.start, case.span, exact=case.exact_state)
+    period, extremes = (ask(name, case.scene, case.start, DECIMALS, case.span, result,
                             case.exact_state).decimals for name in ("period", "extremes"))
-    return (case.name, lam, case.scene.a, case.scene.b, *case.state, found.fate.word, float(period),
+    return (case.name, lam, case.scene.a, case.scene.b, *case.state, result.fate.word, float(period),
             *(float(v) for pair in extremes for v in pair))
 
 
 def tables(tell: Callable[[int, int, str], None] | None = None) -> tuple[Table, ...]:
     """Tables 1-4, computed now. tell(done, count, words): before each."""
-    made = []
+    built = []
     for done, number in enumerate(numbers := (1, *EXTREMES)):
         if tell:
             tell(done, len(numbers), f"table {number}")
-        made.append(torque_signs() if number == 1 else extremes_table(number))
-    return tuple(made)
+        built.append(torque_signs() if number == 1 else extremes_table(number))
+    return tuple(built)
 
 
 # -- formats
@@ -390,9 +390,9 @@ def text(table: Table, width: int = 160) -> str:
     return "\n".join([*lines, "", *_wrapped(table.caption, width), ""])
 
 
-def _wrapped(words, width):
+def _wrapped(phrase, width):
     import textwrap
-    return textwrap.wrap(words, min(width, 100))
+    return textwrap.wrap(phrase, min(width, 100))
 
 
 def comma_separated(table: Table) -> str:
@@ -424,15 +424,15 @@ _LATEX = {"\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "$": r"\$", "#": r"
 _INDEXED = re.compile(r"\b([xλμ])(\d)")
 
 
-def latex_escape(words: str) -> str:
+def latex_escape(phrase: str) -> str:
     """Words that LaTeX sets as they stand, x1 and λ1 with their indices."""
-    parts = _INDEXED.split(words)  # text, letter, index, text, ...
-    made = []
+    parts = _INDEXED.split(phrase)  # text, letter, index, text, ...
+    built = []
     for text, letter, index in zip(parts[::3], [*parts[1::3], ""], [*parts[2::3], ""]):
-        made.append("".join(_LATEX.get(sign, sign) for sign in text))
+        built.append("".join(_LATEX.get(sign, sign) for sign in text))
         if letter:
-            made.append(f"${_LATEX.get(letter, letter).strip('$')}_{index}$")
-    return "".join(made)
+            built.append(f"${_LATEX.get(letter, letter).strip('$')}_{index}$")
+    return "".join(built)
 
 
 def latex(table: Table) -> str:
@@ -500,9 +500,9 @@ def write_tables(out, tell: Callable[[int, int, str], None] | None = None) -> li
     the paths."""
     written = []
     for table in tables(tell):
-        for name, made in FORMATS.items():
+        for name, built in FORMATS.items():
             path = Path(out) / f"{table.stem}.{name}"
             with style.whole_file(path) as waiting:
-                waiting.write_text(made(table), encoding="utf-8")
+                waiting.write_text(built(table), encoding="utf-8")
             written.append(path)
     return written

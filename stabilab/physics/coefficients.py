@@ -55,7 +55,7 @@ ZERO = Fraction(0)
 
 def loses(scene: AnyScene) -> bool:
     """Whether something in a scene takes energy."""
-    return any(one.takes for one in scene.effects)
+    return any(effect.takes for effect in scene.effects)
 
 
 @dataclass(frozen=True)
@@ -120,9 +120,9 @@ class Content:
             return "wheel motor"
         if self.eddy:
             return "eddy currents"
-        words = [word for word, there in (("directed", self.directed), ("dissipative", self.dissipative))
+        phrases = [word for word, there in (("directed", self.directed), ("dissipative", self.dissipative))
                  if there]
-        return " and ".join(words) or "gyrostat"
+        return " and ".join(phrases) or "gyrostat"
 
     @property
     def without_motor(self) -> Content:
@@ -151,9 +151,9 @@ def content(scene: AnyScene) -> Content | None:
     return Content(scene.body.exact, **numbers)
 
 
-def _sum(one: Any, other: Any) -> Any:
+def _sum(item: Any, other: Any) -> Any:
     """Of numbers, or of rows of them."""
-    return tuple(map(_sum, one, other)) if isinstance(one, tuple) else one + other
+    return tuple(map(_sum, item, other)) if isinstance(item, tuple) else item + other
 
 
 @dataclass(frozen=True)

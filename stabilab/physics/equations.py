@@ -324,7 +324,7 @@ def _acceleration(scene: Scene, motion: MotionView, symbols: Symbols) -> Triple:
 def _inside(block: str, effect: str) -> Callable[..., Triple]:
     """The rates of a part that turns inside the body, by its block; effect: that brings it, in words."""
     def rate(scene: Scene, motion: MotionView, symbols: Symbols) -> Triple:
-        part = next((one.part(motion, symbols) for one in scene.effects if block in one.needs), None)
+        part = next((item.part(motion, symbols) for item in scene.effects if block in item.needs), None)
         if part is None:
             raise InputError(f"state: {block} is a block of a scene with a {effect}, which this one has not")
         return part.rate(motion.change)
@@ -407,10 +407,10 @@ def _outer(scene: Scene, equations: Equations) -> tuple[Triple, ...] | None:
 
 
 def _physical_laws(scene: Scene, equations: Equations) -> Iterator[Balance]:
-    known = _outer(scene, equations)
-    if known is None:
+    resolved = _outer(scene, equations)
+    if resolved is None:
         return
-    (lam, M), omega, alpha = known, equations.state, turn_angles()
+    (lam, M), omega, alpha = resolved, equations.state, turn_angles()
     D = [equations.numeric(d) for d in equations.inertia]
     T, half_H2 = (equations.numeric(law.quantity) for law in equations.balances[:2])
     if any(M):

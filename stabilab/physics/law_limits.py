@@ -71,11 +71,11 @@ class Validity:
     @property
     def reason(self) -> Reason:
         """Status, effect, number, value, limit, and what follows."""
-        found = self._judged(follows=True)
-        for one in self.also:
-            if not one.held or one.value is None:
-                found = found.then(one._measured(True), "; also ")
-        return found
+        result = self._judged(follows=True)
+        for item in self.also:
+            if not item.held or item.value is None:
+                result = result.then(item._measured(True), "; also ")
+        return result
 
     @property
     def brief(self) -> Reason:
@@ -110,10 +110,10 @@ class Validity:
         """Number, value and limit; follows: also what it means that the limit is exceeded."""
         if self.value is None:
             return NOT_GIVEN(number=old(self.number), needs=self.needs, limit=Quantity(self.limit))
-        most = _largest(self.value)
-        found = MEASURED(number=old(self.number), value="unbounded" if math.isinf(most) else
-                         Quantity(float(f"{most:.3g}")), over=self.over, limit=Quantity(self.limit))
-        return found.then(old(self.follows), ": ") if follows and self.excess > 1 else found
+        largest = _largest(self.value)
+        result = MEASURED(number=old(self.number), value="unbounded" if math.isinf(largest) else
+                         Quantity(float(f"{largest:.3g}")), over=self.over, limit=Quantity(self.limit))
+        return result.then(old(self.follows), ": ") if follows and self.excess > 1 else result
 
 
 def _largest(value: float | np.ndarray | None) -> float:
@@ -147,18 +147,18 @@ def of_motion(scene: AnyScene, motion: Any) -> Validity | None:
     return validity(scene, (*corner, *motion.at[3:]), OVER_AT_MOST(over=motion.over))
 
 
-def at_equilibria(scene: AnyScene, found: Any) -> Validity | None:
+def at_equilibria(scene: AnyScene, result: Any) -> Validity | None:
     """Of equilibria: at the isolated ones; where there are curves alone, which run to any rate, at rest."""
-    if found.points:
-        return worst(*(validity(scene, point.at, "at an equilibrium") for point in found.points))
+    if result.points:
+        return worst(*(validity(scene, point.at, "at an equilibrium") for point in result.points))
     return validity(scene, (0.0,) * 3,
-                    "at rest (it grows with the rate along a curve)" if found.curves else "at rest")
+                    "at rest (it grows with the rate along a curve)" if result.curves else "at rest")
 
 
-def worst(*found: Validity | None) -> Validity | None:
+def worst(*result: Validity | None) -> Validity | None:
     """Of several the one that is furthest beyond its limit; None of none."""
-    known = [v for v in found if v is not None]
-    return max(known, key=lambda v: v.excess, default=None)
+    resolved = [v for v in result if v is not None]
+    return max(resolved, key=lambda v: v.excess, default=None)
 
 
 class Watch:
@@ -179,8 +179,8 @@ class Watch:
         import numpy as np
         rows = np.array(self.rows)
         self.rows = []
-        seen = {name: rows[:, part] for name, part in slices(self.blocks).items()}
-        self.found = larger(self.found, along(self.scene, seen, "along the run"))
+        visited = {name: rows[:, part] for name, part in slices(self.blocks).items()}
+        self.found = larger(self.found, along(self.scene, visited, "along the run"))
 
     def result(self) -> Validity | None:
         """The largest values of all that was noted."""
@@ -189,13 +189,13 @@ class Watch:
         return self.found
 
 
-def larger(one: Validity | None, two: Validity | None) -> Validity | None:
+def larger(item: Validity | None, two: Validity | None) -> Validity | None:
     """Number by number the larger of two validities of one scene."""
-    if one is None or two is None:
-        return one or two
+    if item is None or two is None:
+        return item or two
     pairs = {(v.effect, v.number): v for v in (replace(two, also=()), *two.also)}
     best = [max(v, pairs[v.effect, v.number], key=lambda v: -1.0 if v.value is None else v.value)
-            for v in (replace(one, also=()), *one.also)]
+            for v in (replace(item, also=()), *item.also)]
     return _together(best)
 
 
@@ -225,46 +225,46 @@ def of_values(scene: AnyScene, value_of: Callable[[Limit], float | np.ndarray | 
               over: Reason | str) -> Validity | None:
     """The validity of a scene whose limits have the values that `value_of` tells of each, found over what
     `over` says in words."""
-    found, place = [], as_reason(over)
+    result, index = [], as_reason(over)
     for effect in scene.approximate:
         for limit in effect.limits(scene):
             value = value_of(limit)
             holds = None if value is None else value <= limit.limit
-            found.append(Validity(effect.name, limit.number, value, limit.limit, holds, place, limit.follows,
+            result.append(Validity(effect.name, limit.number, value, limit.limit, holds, index, limit.follows,
                                   limit.source, limit.needs))
-    return _together(found)
+    return _together(result)
 
 
 def _value(limit: Limit, blocks: Blocks, axis: int | None) -> float | np.ndarray | None:
     """A float, or an array without its axis of times."""
     shape = next(iter(blocks.values()))[0]
     if isinstance(shape, float):
-        found = limit.value(blocks)
-        return None if found is None else math.inf if math.isnan(found) else float(found)
+        result = limit.value(blocks)
+        return None if result is None else math.inf if math.isnan(result) else float(result)
     import numpy as np
     with np.errstate(all="ignore"):  # what overflows is beyond any limit
-        found = limit.value(blocks)
-        if found is None:
+        result = limit.value(blocks)
+        if result is None:
             return None
-        values = np.broadcast_to(np.where(np.isnan(found), np.inf, found), shape.shape)
+        values = np.broadcast_to(np.where(np.isnan(result), np.inf, result), shape.shape)
         values = values.max(axis=axis) if axis is not None else values
     return float(values) if values.ndim == 0 else np.array(values)
 
 
-def _together(found: Sequence[Validity]) -> Validity | None:
+def _together(result: Sequence[Validity]) -> Validity | None:
     """The most exceeded number first, or, where none is, the first declared; the others beside it."""
-    if not found:
+    if not result:
         return None
-    first = max(found, key=lambda v: (max(v.excess, 1.0), v.value is not None))
-    holds = reduce(_both, (v.holds for v in found))
-    return replace(first, holds=holds, also=tuple(v for v in found if v is not first))
+    first = max(result, key=lambda v: (max(v.excess, 1.0), v.value is not None))
+    holds = reduce(_both, (v.holds for v in result))
+    return replace(first, holds=holds, also=tuple(v for v in result if v is not first))
 
 
-def _both(one: bool | np.ndarray | None, two: bool | np.ndarray | None) -> bool | np.ndarray | None:
+def _both(item: bool | np.ndarray | None, two: bool | np.ndarray | None) -> bool | np.ndarray | None:
     """Whether both hold; of one that is not known the other decides only where it does not hold."""
-    if one is None or two is None:
-        known = two if one is None else one
-        return (known if known is not None and not (known if isinstance(known, bool) else known.all())
+    if item is None or two is None:
+        info = two if item is None else item
+        return (info if info is not None and not (info if isinstance(info, bool) else info.all())
                 else None)
-    return one & two
+    return item & two
 

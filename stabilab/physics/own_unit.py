@@ -72,8 +72,8 @@ def scene_exponent(scene: AnyScene) -> int | None:
 def far_exponent(scene: AnyScene, state: Sequence[Number]) -> int | None:
     """k of the own unit 2^k in which the state (floats or Fractions) and all that acts are doubles; None
     where they are of ordinary size."""
-    known = [k for k in (own_exponent(state), scene_exponent(scene)) if k is not None]
-    return far(max(known, default=None))
+    resolved = [k for k in (own_exponent(state), scene_exponent(scene)) if k is not None]
+    return far(max(resolved, default=None))
 
 
 def far(k: int | None) -> int | None:

@@ -107,9 +107,9 @@ class Body(metaclass=Asked):
                 hasattr(row, "__len__") and not isinstance(row, str) for row in rows):
             moments = vector_in_si(self.inertia, INERTIA, "inertia")
             return sum((half_digit(value, INERTIA) for value in self.inertia), Fraction(0)), moments
-        given = [vector_in_si(row, INERTIA, f"inertia: row {n}") for n, row in enumerate(rows, 1)]
+        supplied = [vector_in_si(row, INERTIA, f"inertia: row {n}") for n, row in enumerate(rows, 1)]
         try:
-            axes = principal_axes(evened(given, ROUNDING), rounding(entries(given)))
+            axes = principal_axes(evened(supplied, ROUNDING), rounding(entries(supplied)))
         except InputError as error:
             raise InputError(f"inertia: {error}") from None
         object.__setattr__(self, "axes", axes)
@@ -118,8 +118,8 @@ class Body(metaclass=Asked):
     def turned(self, vector: Sequence[Given]) -> Float3:
         """Components along the principal axes of a vector in the frame that the tensor was given in: an
         angular velocity (rad/s, or text with its unit), say."""
-        given = vector_in_si(vector, RATE, "vector")
-        return floats(given if self.axes is None else self.axes.turned(given))
+        supplied = vector_in_si(vector, RATE, "vector")
+        return floats(supplied if self.axes is None else self.axes.turned(supplied))
 
     @property
     def excess(self) -> Fraction:
@@ -275,8 +275,8 @@ def euler_form(inertia: Exact3, momentum: Exact3, torque: Exact3) -> QuadraticFo
 def scaled_form(a: Fraction, b: Fraction, mu: Exact3) -> QuadraticForm:
     """x1' = x2 x3 + mu1, x2' = -x3 (x1 + a) + mu2, x3' = x2 (x1 + b) + mu3 (Amer et al. 2024, eqs (3), (5)).
     """
-    zero, one = Fraction(0), Fraction(1)
-    return QuadraticForm(kappa=(one, -one, one), rho=(zero, zero, b), sigma=(zero, -a, zero), m=tuple(mu),
+    zero, item = Fraction(0), Fraction(1)
+    return QuadraticForm(kappa=(item, -item, item), rho=(zero, zero, b), sigma=(zero, -a, zero), m=tuple(mu),
                          symbol="x")
 
 
@@ -336,8 +336,8 @@ class Scene(metaclass=Asked):
                 raise InputError(f"effect {name!r} is named twice; a scene holds each effect once")
         if body.axes is not None:  # from here on all is along the principal axes
             turned = along_principal_axes(flat, body.axes)
-            for effect, found in zip(flat, turned):
-                if found is None:
+            for effect, result in zip(flat, turned):
+                if result is None:
                     raise InputError(
                         f"scene: {effect_words(effect.name)} is known along principal axes alone: give the "
                         "body by its principal moments, and the rest along its axes")
@@ -383,8 +383,8 @@ class Scene(metaclass=Asked):
     def vector(self, name: str) -> Exact3:
         """Exact vector of the gyrostat, the constant torque or the weight (N m, along its arm); zero where
         the scene does not name it."""
-        found = self.effect(name)
-        return ZERO3 if found is None else found.exact
+        result = self.effect(name)
+        return ZERO3 if result is None else result.exact
 
     def quadratic(self) -> QuadraticForm:
         """The rates with exact coefficients. Raises InputError for effects outside gyrostat and constant
@@ -395,7 +395,7 @@ class Scene(metaclass=Asked):
     def _form(self) -> QuadraticForm:
         """Kept, for every question asks for it several times."""
         if self.beyond:
-            others = ", ".join(one.with_article for one in self.beyond)
+            others = ", ".join(item.with_article for item in self.beyond)
             raise InputError(f"this analysis covers a gyrostat and a constant torque; the scene also has "
                              f"{others}: `stabilab simulate` and `stabilab when` take it")
         return euler_form(self.body.exact, self.vector("gyrostat"), self.vector("constant_torque"))
@@ -512,8 +512,8 @@ def torque_axis(scene: AnyScene) -> int:
 def time_left(scene: AnyScene) -> float | None:
     """For how long all effects of a scene act, s, from the start of a motion on; None where they do for
     ever."""
-    found = [effect.stops_after() for effect in getattr(scene, "ending", ())]  # equations may stand for it
-    return min((max(left, 0.0) for left in found if left is not None), default=None)
+    rows = [effect.stops_after() for effect in getattr(scene, "ending", ())]  # equations may stand for it
+    return min((max(left, 0.0) for left in rows if left is not None), default=None)
 
 
 def hold_on(scene: AnyScene, end: float, question: str) -> None:
@@ -527,10 +527,10 @@ def hold_on(scene: AnyScene, end: float, question: str) -> None:
 def stopped(scene: AnyScene, state: Mapping[str, Any]) -> tuple[Scene, dict[str, tuple[float, ...]]]:
     """(the scene without the effect that stops acting first, its blocks), from the state where it stops on.
     """
-    ends = [(left, one) for one in scene.ending if (left := one.stops_after()) is not None]
+    ends = [(left, item) for item in scene.ending if (left := item.stops_after()) is not None]
     effect = min(ends, key=lambda end: end[0])[1]
-    kept = {name: tuple(map(float, row)) for name, row in state.items() if name not in effect.needs}
-    return effect.stopped(scene, state), kept
+    retained = {name: tuple(map(float, row)) for name, row in state.items() if name not in effect.needs}
+    return effect.stopped(scene, state), retained
 
 
 def later(scene: AnyScene, t: float) -> AnyScene:
@@ -544,8 +544,8 @@ def later(scene: AnyScene, t: float) -> AnyScene:
 def judge_start(scene: AnyScene, state: Mapping[str, Any]) -> None:
     """Raise InputError where an effect cannot begin with these blocks."""
     for effect in getattr(scene, "effects", ()):
-        if words := effect.refuses(state):
-            raise InputError(f"state: {words}")
+        if text := effect.refuses(state):
+            raise InputError(f"state: {text}")
 
 
 def judge_starts(scene: AnyScene, blocks: Sequence[str], rows: np.ndarray | Sequence[np.ndarray]) -> None:

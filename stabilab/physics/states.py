@@ -46,16 +46,16 @@ def angles(q: ArrayLike) -> np.ndarray:
                      np.arctan2(-r[0][1], r[1][1])], axis=-1)
 
 
-def vertical(found: ArrayLike) -> np.ndarray:
+def vertical(result: ArrayLike) -> np.ndarray:
     """Inertial axis 3 in the body (..., 3) at 3-1-2 angles (..., 3), rad: the third row of Rz Rx Ry."""
-    psi, phi, _ = np.moveaxis(np.asarray(found, float), -1, 0)
+    psi, phi, _ = np.moveaxis(np.asarray(result, float), -1, 0)
     return np.stack([-np.cos(psi) * np.sin(phi), np.sin(psi), np.cos(psi) * np.cos(phi)], axis=-1)
 
 
-def beyond(found: ArrayLike) -> np.ndarray:
+def beyond(result: ArrayLike) -> np.ndarray:
     """The other 3-1-2 angles (..., 3) of the same attitudes, with cos psi < 0 where `found` has cos psi > 0.
     """
-    psi, phi, theta = np.moveaxis(np.asarray(found, float), -1, 0)
+    psi, phi, theta = np.moveaxis(np.asarray(result, float), -1, 0)
     return np.stack([np.pi - psi, phi + np.pi, theta + np.pi], axis=-1)
 
 
@@ -123,9 +123,9 @@ def equations_and_start(
         equations, array = equations_of(scene), numbers_in_a_row(state, "state")
         wanted = len(equations.state)
         if array.size != wanted:
-            words = ("three numbers" if wanted == 3
+            text = ("three numbers" if wanted == 3
                      else f"{wanted} numbers ({', '.join(map(str, equations.state))})")
-            raise InputError(f"state: expected {words}, got {array.size} of them")
+            raise InputError(f"state: expected {text}, got {array.size} of them")
         judge_starts(scene, equations.blocks, [array])
         return equations, array
     unknown = [name for name in state if name not in BLOCKS]
@@ -146,8 +146,8 @@ def equations_and_start(
 
 def checked_times(times: Any) -> np.ndarray:
     array = numbers_in_a_row(times, "times")
-    one, following = array[:-1], array[1:]
-    if not ((one < following).all() or (one > following).all()):
+    item, following = array[:-1], array[1:]
+    if not ((item < following).all() or (item > following).all()):
         raise InputError("times: expected strictly increasing or strictly decreasing times")
     return array
 
@@ -235,15 +235,15 @@ def row_of(scene: AnyScene, state: Sequence[float], blocks: Mapping[str, Sequenc
     return [float(value) for name in scene.blocks for value in parts[name]]
 
 
-def _attitude(given: Sequence[float]) -> tuple[float, ...]:
+def _attitude(supplied: Sequence[float]) -> tuple[float, ...]:
     """The unit quaternion, scalar first, of three angles, or of four numbers: a quaternion with its scalar
     last."""
-    if not as_quaternion(given):
-        return tuple(quaternion(*three_numbers(given, "state: attitude").tolist()))
-    x, y, z, w = float_array(given, "state: attitude", "four numbers").tolist()
+    if not as_quaternion(supplied):
+        return tuple(quaternion(*three_numbers(supplied, "state: attitude").tolist()))
+    x, y, z, w = float_array(supplied, "state: attitude", "four numbers").tolist()
     length = math.hypot(x, y, z, w)
     if not 0 < length < math.inf:
-        raise InputError(f"state: attitude: expected a quaternion that is not zero, got {given!r:.80}")
+        raise InputError(f"state: attitude: expected a quaternion that is not zero, got {supplied!r:.80}")
     return w / length, x / length, y / length, z / length
 
 

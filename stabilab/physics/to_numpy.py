@@ -68,23 +68,23 @@ def _known(equations: Equations) -> Known:
 
 @lru_cache(
     maxsize=128)  # a comparison asks for the same scene dozens of times, and this is most of a short run
-def _form(state: tuple[Symbolic, ...], known: Known, expressions: tuple[Symbolic, ...],
+def _form(state: tuple[Symbolic, ...], resolved: Known, expressions: tuple[Symbolic, ...],
           drop_constants: bool) -> Form:
-    numbers_of = dict(known)
+    numbers_of = dict(resolved)
     symbols: list[Symbolic] = []
     numbers: list[float] = []
     result = []
     for expression in expressions:
-        terms = _terms(expression, state, known)
+        terms = _terms(expression, state, resolved)
         if terms is None:
             result.append(_unstructured(expression, numbers_of, symbols, numbers))
             continue
-        whole = _whole(expression, state, tuple(numbers_of)) if any(c.is_Integer for _, c in terms) else {}
+        full = _whole(expression, state, tuple(numbers_of)) if any(c.is_Integer for _, c in terms) else {}
         total = expression * 0
         for powers, coefficient in terms:
             if coefficient == 0 or (drop_constants and not any(powers)):
                 continue
-            own = (coefficient if whole.get(powers) == coefficient
+            own = (coefficient if full.get(powers) == coefficient
                    else _numbered(_rounded(coefficient), symbols, numbers))
             total += own * _monomial(state, powers)
         result.append(total)
@@ -92,12 +92,12 @@ def _form(state: tuple[Symbolic, ...], known: Known, expressions: tuple[Symbolic
 
 
 def _terms(expression: Symbolic, state: tuple[Symbolic, ...],
-           known: Known) -> list[tuple[tuple[int, ...], Symbolic]] | None:
+           resolved: Known) -> list[tuple[tuple[int, ...], Symbolic]] | None:
     """(powers, number) of each monomial of the state at these values of the parameters; None of what is no
     polynomial in the state."""
     from sympy import Poly, PolynomialError
     try:
-        return Poly(expression.xreplace(dict(known)), *state).terms()
+        return Poly(expression.xreplace(dict(resolved)), *state).terms()
     except PolynomialError:
         return None
 
@@ -108,7 +108,7 @@ def _whole(expression: Symbolic, state: tuple[Symbolic, ...],
     """The coefficients of a polynomial that are whole numbers for any parameters, as they are for these,
     which have nothing to do with one another."""
     from sympy import Rational
-    others = tuple((one, Rational(1009 + 617 * n**3, 1013 + n)) for n, one in enumerate(parameters))
+    others = tuple((item, Rational(1009 + 617 * n**3, 1013 + n)) for n, item in enumerate(parameters))
     return {powers: c for powers, c in _terms(expression, state, others) or () if c.is_Integer}
 
 
@@ -117,12 +117,12 @@ def _monomial(state: Sequence[Symbolic], powers: Sequence[int]) -> Symbolic:
     return prod(x**n for x, n in zip(state, powers))
 
 
-def _unstructured(expression: Symbolic, known: dict[Symbolic, Symbolic], symbols: list[Symbolic],
+def _unstructured(expression: Symbolic, resolved: dict[Symbolic, Symbolic], symbols: list[Symbolic],
                   numbers: list[float]) -> Symbolic:
     """An expression that is no polynomial in the state: every parameter and every ratio in it becomes a
     number."""
     from sympy import Float, Rational
-    swap = {p: _numbered(_rounded(v), symbols, numbers) for p, v in known.items() if expression.has(p)}
+    swap = {p: _numbered(_rounded(v), symbols, numbers) for p, v in resolved.items() if expression.has(p)}
     swapped = expression.subs(swap)
     return swapped.subs({r: Float(r, 17) for r in swapped.atoms(Rational) if not r.is_Integer})
 

@@ -105,8 +105,8 @@ class Axes:
         axes."""
         if self == PLAIN:
             return text
-        return NUMBERED.sub(lambda found: " and ".join((name or self.short)(int(n))
-                                                       for n in re.findall("[123]", found[0])), text)
+        return NUMBERED.sub(lambda match: " and ".join((name or self.short)(int(n))
+                                                       for n in re.findall("[123]", match[0])), text)
 
     def key(self, number: int | None) -> dict[str, Any]:
         """The keys of an axis in JSON: its number, name, and direction in the frame of the file; null where
@@ -141,10 +141,10 @@ def with_moments(axes: Axes, moments: Sequence[Fraction]) -> Axes:
 
 def _ranks(moments: Sequence[Fraction]) -> tuple[str, ...]:
     """Which axis each one is, by moments that are known exactly."""
-    alike = len(set(moments))
-    if alike == 1:
+    similar = len(set(moments))
+    if similar == 1:
         return ("",) * 3
-    if alike == 2:
+    if similar == 2:
         return tuple("symmetry" if moments.count(m) == 1 else "transverse" for m in moments)
     order = sorted(moments, reverse=True)
     return tuple(RANKS[order.index(m)] for m in moments)

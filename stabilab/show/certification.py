@@ -28,10 +28,10 @@ def summary(certificate: dict) -> str:
     """A line on what is certified, and one for each thing that is not."""
     parts = []
     if certificate["equilibria"]:
-        found = certificate["equilibria"]
-        planes = f", {some(len(found['planes']), 'plane')}" if found.get("planes") else ""
-        count = (f"{len(found['points'])} isolated, {some(len(found['curves']), 'curve')}{planes}"
-                 if found["kind"] in ("points", "curves") else found["kind"])
+        result = certificate["equilibria"]
+        planes = f", {some(len(result['planes']), 'plane')}" if result.get("planes") else ""
+        count = (f"{len(result['points'])} isolated, {some(len(result['curves']), 'curve')}{planes}"
+                 if result["kind"] in ("points", "curves") else result["kind"])
         parts.append(f"equilibria ({count})")
     if certificate["motion"]:
         motion = certificate["motion"]
@@ -41,21 +41,21 @@ def summary(certificate: dict) -> str:
     return "\n".join(lines + [f"not certified: {why}" for why in certificate["uncertified"]])
 
 
-def text(found: Verification, first: str, other: str = "", physical: bool = False) -> str:
+def text(result: Verification, first: str, other: str = "", physical: bool = False) -> str:
     """The verdict on the whole, what it is about, then one line a claim. other: the case that it should be of
     and is not. physical: the checker's x1 is a rate in rad/s, which all other commands call ω1."""
-    counts = {word: sum(f.status == word for f in found.findings)
+    counts = {word: sum(f.status == word for f in result.findings)
               for word in ("proved", "not checked", "refuted")}
     count = ", ".join(f"{n} {word}" for word, n in counts.items() if n) or "no claims"
-    claims = [RATES.get(f.claim, f.claim) if physical else f.claim for f in found.findings]
+    claims = [RATES.get(f.claim, f.claim) if physical else f.claim for f in result.findings]
     lines = [f"{f.status:<12} {claim}{f': {f.reason}' if f.reason else ''}"
-             for claim, f in zip(claims, found.findings)]
-    silent = f"; nothing is claimed of: {', '.join(found.silent)}" if found.silent else ""
+             for claim, f in zip(claims, result.findings)]
+    silent = f"; nothing is claimed of: {', '.join(result.silent)}" if result.silent else ""
     another = f"OF ANOTHER CASE than {printable(str(other))}; its own claims: " if other else ""
-    return "\n".join([f"{another}{found.status.upper()}: {count}{silent}", first, *lines])
+    return "\n".join([f"{another}{result.status.upper()}: {count}{silent}", first, *lines])
 
 
-def as_dict(found: Verification, about: dict) -> dict:
+def as_dict(result: Verification, about: dict) -> dict:
     """The object of `stabilab verify --json`."""
-    return {"schema": SCHEMA, "status": found.status, "about": about, "silent": list(found.silent),
-            "findings": [values_of(f, "claim status reason") for f in found.findings]}
+    return {"schema": SCHEMA, "status": result.status, "about": about, "silent": list(result.silent),
+            "findings": [values_of(f, "claim status reason") for f in result.findings]}

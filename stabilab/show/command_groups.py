@@ -60,13 +60,13 @@ class Grouped(TyperGroup):
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
         commands = {name: self.get_command(ctx, name) for name in self.list_commands(ctx)}
-        seen = {name: command
+        visited = {name: command
                 for name, command in commands.items() if command is not None and not command.hidden}
-        limit = formatter.width - 6 - max(map(len, seen))
-        wide = max(map(len, seen))
+        limit = formatter.width - 6 - max(map(len, visited))
+        wide = max(map(len, visited))
         for title, (_, names) in GROUPS.items():
-            rows = [(f"{name:<{wide}}", seen[name].get_short_help_str(limit)) for name in names
-                    if name in seen]
+            rows = [(f"{name:<{wide}}", visited[name].get_short_help_str(limit)) for name in names
+                    if name in visited]
             if rows:
                 with formatter.section(title):
                     formatter.write_dl(rows)
@@ -86,18 +86,18 @@ def _paths(begun: str, endings) -> list[str]:
     """Folders, and files with these endings, whose paths begin so; hidden ones where a dot was typed."""
     folder, name = os.path.split(begun)
     try:
-        with os.scandir(folder or ".") as found:
-            rows = sorted((entry.name, entry.is_dir()) for entry in found)
+        with os.scandir(folder or ".") as result:
+            rows = sorted((entry.name, entry.is_dir()) for entry in result)
     except OSError:
         return []
-    return [os.path.join(folder, one) + ("/" if is_folder else "") for one, is_folder in rows
-            if one.startswith(name) and (name.startswith(".") or not one.startswith("."))
-            and (is_folder or one.endswith(endings))]
+    return [os.path.join(folder, item) + ("/" if is_folder else "") for item, is_folder in rows
+            if item.startswith(name) and (name.startswith(".") or not item.startswith("."))
+            and (is_folder or item.endswith(endings))]
 
 
-def _among(*words: str):
+def _among(*text: str):
     def offered(incomplete: str) -> list[str]:
-        return [word for word in words if word.startswith(incomplete)]
+        return [word for word in text if word.startswith(incomplete)]
     return offered
 
 

@@ -24,8 +24,8 @@ def as_json(value) -> str:
     """JSON with every digit of a double; null: does not exist, and infinity but of `Endless`."""
     import json
     text = json.dumps(plain(value), allow_nan=False, ensure_ascii=False, indent=1)
-    for told in ENDLESS.values():
-        text = text.replace(json.dumps(MARK + told), told)
+    for printed in ENDLESS.values():
+        text = text.replace(json.dumps(MARK + printed), printed)
     return text
 
 

@@ -20,11 +20,11 @@ OF_FILES = (*PICTURES, ".jpg", ".jpeg", ".gif", ".csv", ".json", ".nc", ".txt", 
             ".vtp", ".vtk", ".vtu", ".glb", ".gltf", ".stl", ".obj", ".ply", ".zip")
 
 
-def file(path: str | PathLike[str], known: Sequence[str]) -> Path:
+def file(path: str | PathLike[str], resolved: Sequence[str]) -> Path:
     """The path of a file that is to be written, if its ending is one of `known`; InputError otherwise."""
     path = Path(path)
-    if ending(path) not in known:
-        raise InputError(f"{path}: expected a name that ends in {listed(known, 'or')}, "
+    if ending(path) not in resolved:
+        raise InputError(f"{path}: expected a name that ends in {listed(resolved, 'or')}, "
                          f"got {path.suffix or 'no ending'}")
     if path.is_dir():
         raise InputError(f"{path}: expected a file, this is a folder")

@@ -45,27 +45,27 @@ def rows(case: Case, run: Simulation) -> dict:
 
 def lines(case: Case) -> list[str]:
     """The principal axes in words."""
-    found = rows_of_axes(case)
-    if not found:
+    result = rows_of_axes(case)
+    if not result:
         return []
-    known = "exact" if case.frame.exact else f"known to {in_digits(float(case.frame.error) or 1e-300, 1, 1)}"
-    return [f"frame: principal axes 1, 2, 3 ({known}), along which every vector here is; in the frame of the "
+    info = "exact" if case.frame.exact else f"known to {in_digits(float(case.frame.error) or 1e-300, 1, 1)}"
+    return [f"frame: principal axes 1, 2, 3 ({info}), along which every vector here is; in the frame of the "
             f"file, x y z, they are",
-            *(f"  {name:<16}{words}" for name, words in found)]
+            *(f"  {name:<16}{text}" for name, text in result)]
 
 
 def rows_of_axes(case: Case) -> list[tuple[str, str]]:
     """(its name, where it is in the frame of the file) of each principal axis; nothing where the two frames
     are one."""
     frame = _turned(case)
-    names, found = axes_of(case), []
+    names, result = axes_of(case), []
     for number, (moment, axis) in enumerate(zip(frame.moments, frame.axes) if frame else (), 1):
         nearest, angle = _nearest(axis)
-        found.append((f"{number}, {names.name(number)}",
+        result.append((f"{number}, {names.name(number)}",
                       f"({', '.join(f'{float(v):.6g}' for v in axis)}), {math.degrees(angle):.6g} deg from "
                       f"{'+' if axis[nearest] > 0 else '-'}{'xyz'[nearest]}, moment {float(moment):.6g} "
                       f"kg m²"))
-    return found
+    return result
 
 
 def _nearest(axis: Sequence[Fraction]) -> tuple[int, float]:
@@ -86,8 +86,8 @@ def components(case, names=None) -> str:
 
 def note(case: Case) -> list[str]:
     """A line on which axes 1, 2, 3 are, where these are not those of the file."""
-    words = components(case)
-    return [f"  {words}"] if words else []
+    text = components(case)
+    return [f"  {text}"] if text else []
 
 
 def _turned(case):

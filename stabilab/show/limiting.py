@@ -24,14 +24,14 @@ AHEAD = {Kind.THRUSTERS: "no thruster fires"}  # what a first line says before t
 
 def reached(caveats: Iterable[Caveat], units: Units) -> str:
     """The limit that is reached, empty where none is."""
-    return "; ".join(words(one, units) for one in caveats if one.kind is Kind.LIMIT)
+    return "; ".join(words(caveat, units) for caveat in caveats if caveat.kind is Kind.LIMIT)
 
 
 def condition(caveats: Iterable[Caveat], units: Units, alone: bool = False) -> str:
     """" only while ...", empty where a verdict rests on no condition. alone: without what a tilt does."""
-    found = [one.reason for one in caveats if one.kind is Kind.TILT and one.reason.sentence is HOLDS]
+    rows = [item.reason for item in caveats if item.kind is Kind.TILT and item.reason.sentence is HOLDS]
     return "; ".join(" " + units.said(reason.quantities["condition"]
-                                      if alone else _unheld(reason), SHORT, whole=True) for reason in found)
+                                      if alone else _unheld(reason), SHORT, whole=True) for reason in rows)
 
 
 def _unheld(reason: Reason):
@@ -44,25 +44,25 @@ def _unheld(reason: Reason):
 
 def tilted(caveats: Iterable[Caveat], units: Units) -> str:
     """What the torques of a cone do, where no verdict rests on the torque's direction."""
-    return "; ".join(words(one, units) for one in caveats
-                     if one.kind is Kind.TILT and one.reason.sentence is not HOLDS)
+    return "; ".join(words(caveat, units) for caveat in caveats
+                     if caveat.kind is Kind.TILT and caveat.reason.sentence is not HOLDS)
 
 
 def shared(answers: Sequence[Iterable[Caveat]], units: Units) -> str:
     """" only while ...", or of how many it is said, for several answers in one line, without tilts."""
-    found = Counter(condition(caveats, units, alone=True) for caveats in answers)
-    return "".join(f"{one}" if count == len(answers) else f" ({count} of them{one})"
-                   for one, count in found.items() if one)
+    result = Counter(condition(caveats, units, alone=True) for caveats in answers)
+    return "".join(f"{item}" if count == len(answers) else f" ({count} of them{item})"
+                   for item, count in result.items() if item)
 
 
 def ahead(caveats: Iterable[Caveat], text: str, named: bool = True) -> str:
     """A text with what its first line must not lack, before the answer and behind the name of the case.
     named: whether that stands there."""
-    words = "; ".join(dict.fromkeys(AHEAD[one.kind] for one in caveats if one.kind in AHEAD))
-    if not words or words in text.partition("\n")[0]:
+    phrase = "; ".join(dict.fromkeys(AHEAD[caveat.kind] for caveat in caveats if caveat.kind in AHEAD))
+    if not phrase or phrase in text.partition("\n")[0]:
         return text
     name, colon, answer = text.partition(": ")
-    return f"{name}: {words}; {answer}" if named and colon and "\n" not in name else f"{words}; {text}"
+    return f"{name}: {phrase}; {answer}" if named and colon and "\n" not in name else f"{phrase}; {text}"
 
 
 def noted(caveats: Iterable[Caveat], text: str, units: Units, law: bool = False) -> str:
@@ -70,41 +70,41 @@ def noted(caveats: Iterable[Caveat], text: str, units: Units, law: bool = False)
     an approximate law, too, which else has a line of its own."""
     caveats = list(caveats)
     first, *rest = ahead(caveats, text).split("\n")
-    laws = [one for one in caveats if law and one.kind is Kind.LAW]
+    laws = [caveat for caveat in caveats if law and caveat.kind is Kind.LAW]
     return "\n".join([first, *lines([*unsaid(caveats, text, units), *laws], units), *rest])
 
 
 def beside(caveats: Iterable[Caveat], units: Units, text: str = "") -> list[str]:
     """A sentence for every caveat that a text does not state."""
-    return [f"{words(one, units)}." for one in unsaid(caveats, text, units)]
+    return [f"{words(item, units)}." for item in unsaid(caveats, text, units)]
 
 
 def unsaid(caveats: Iterable[Caveat], text: str, units: Units) -> list[Caveat]:
     """The caveats that a text does not state; that on an approximate law has a line of its own."""
-    return [one for one in dict.fromkeys(caveats) if one.kind is not Kind.LAW
+    return [caveat for caveat in dict.fromkeys(caveats) if caveat.kind is not Kind.LAW
             and not any(form.removeprefix("holds ").removeprefix("unstable: ").lower() in text.lower()
-                        for form in _forms(one, units))]
+                        for form in _forms(caveat, units))]
 
 
-def _forms(one: Caveat, units: Units) -> list[str]:
+def _forms(item: Caveat, units: Units) -> list[str]:
     """How a first line may have it: with long or short names of axes, with what a tilt does or without."""
-    return [form for whole in (True, False) for reason in (one.reason, one.reason.alone)
-            for form in [units.said(reason, SHORT, whole)]]
+    return [form for full in (True, False) for reason in (item.reason, item.reason.alone)
+            for form in [units.said(reason, SHORT, full)]]
 
 
 def lines(caveats: Iterable[Caveat], units: Units) -> list[str]:
     """A line each."""
-    return [f"  caveat: {words(one, units)}" for one in caveats]
+    return [f"  caveat: {words(caveat, units)}" for caveat in caveats]
 
 
-def words(one: Caveat, units: Units) -> str:
+def words(item: Caveat, units: Units) -> str:
     """The words in the units and letters of a text."""
-    return units.said(one.reason, SHORT)
+    return units.said(item.reason, SHORT)
 
 
 def unstable(caveats: Iterable[Caveat], units: Units) -> str:
     """How an equilibrium is unstable, or that its stability is open; empty where it is neither."""
-    return "; ".join(words(one, units) for one in caveats if one.kind is Kind.UNSTABLE)
+    return "; ".join(words(caveat, units) for caveat in caveats if caveat.kind is Kind.UNSTABLE)
 
 
 def key(case: Case, caveats: Iterable[Caveat]) -> dict[str, list[dict]]:

@@ -109,14 +109,14 @@ def environment() -> dict:
     import platform
     from importlib.metadata import PackageNotFoundError, version
 
-    found = {}
+    entries = {}
     for name in PACKAGES:
         try:
-            found[name] = version(name)
+            entries[name] = version(name)
         except PackageNotFoundError:
-            found[name] = None
+            entries[name] = None
     return {"program": {"name": "stabilab", "version": __version__, "sha256": _sources()},
-            "versions": {"python": platform.python_version(), **found},
+            "versions": {"python": platform.python_version(), **entries},
             "machine": {"system": platform.system(), "architecture": platform.machine(),
                         "cpu_features": cpu_features()}}
 
@@ -129,18 +129,18 @@ def cpu_features() -> list[str]:
 
 def _sources() -> str:
     """One hash of the program's own files: the version alone does not tell two states of it apart."""
-    root, whole = Path(__file__).parents[1], hashlib.sha256()
+    root, full = Path(__file__).parents[1], hashlib.sha256()
     for path in sorted(p for p in root.rglob("*") if p.suffix in (".py", ".html")):
-        whole.update(path.relative_to(root).as_posix().encode() + b"\0" + sha256(path).encode() + b"\n")
-    return whole.hexdigest()
+        full.update(path.relative_to(root).as_posix().encode() + b"\0" + sha256(path).encode() + b"\n")
+    return full.hexdigest()
 
 
 def _run(out, arguments, inputs) -> dict:
     # tells from where paths are meant, and is the same on every machine
     here = os.path.relpath(Path.cwd(), out.resolve())
-    words = None if arguments is None else list(map(str, arguments))
-    return {"schema": SCHEMA, "command": None if words is None else shlex.join(["stabilab", *words]),
-            "arguments": words,
+    text = None if arguments is None else list(map(str, arguments))
+    return {"schema": SCHEMA, "command": None if text is None else shlex.join(["stabilab", *text]),
+            "arguments": text,
             "started_in": Path(here).as_posix(),
             "inputs": inputs, **environment(), "seeds": SEEDS}
 
@@ -176,20 +176,20 @@ def rerun(path, out=None) -> list[str]:
         if run["arguments"] is None:
             raise InputError(f"{path}: made by a call from Python, not by a command: it cannot be repeated")
         if run["arguments"][:1] not in COMMANDS:
-            known = ", ".join(name for name, in COMMANDS)
+            resolved = ", ".join(name for name, in COMMANDS)
             raise InputError(
-                f"{path}: expected a command that fills a folder ({known}), got {run['command']!r}")
+                f"{path}: expected a command that fills a folder ({resolved}), got {run['command']!r}")
     starts = [_start(run, folder) for run in runs]
     lines: list[str] = []
     with _target(out) as target:
         for run, start in zip(runs, starts):
             _repeat(run["arguments"], start, target)
             lines += [run["command"], *_changed_surroundings(run)]
-        made = {row["path"]: row["sha256"] for run in read(target) for row in run["outputs"]}
-    words = {row["path"]: _compared(row, made) for run in runs for row in run["outputs"]}
-    lines += [f"  {file}: {word}" for file, word in sorted(words.items(), key=lambda one: one[1] in SAME)]
-    lines += [f"  {file}: new" for file in made if file not in words]
-    differ, count = sum(word not in SAME for word in words.values()), len(words)
+        built = {row["path"]: row["sha256"] for run in read(target) for row in run["outputs"]}
+    text = {row["path"]: _compared(row, built) for run in runs for row in run["outputs"]}
+    lines += [f"  {file}: {word}" for file, word in sorted(text.items(), key=lambda item: item[1] in SAME)]
+    lines += [f"  {file}: new" for file in built if file not in text]
+    differ, count = sum(word not in SAME for word in text.values()), len(text)
     if differ:
         raise ToleranceNotMet(
             "\n".join([f"{differ} of {count} files {'differs' if differ == 1 else 'differ'}", *lines]))
@@ -200,12 +200,12 @@ TIMED = "not compared: it shows measured times"
 SAME = ("identical", TIMED)
 
 
-def _compared(row, made) -> str:
-    if row["path"] not in made:
+def _compared(row, built) -> str:
+    if row["path"] not in built:
         return "did not come again"
     if row.get("timed"):
         return TIMED
-    return "identical" if made[row["path"]] == row["sha256"] else "differs"
+    return "identical" if built[row["path"]] == row["sha256"] else "differs"
 
 
 def _start(run, folder) -> Path:
@@ -264,18 +264,18 @@ def _repeat(arguments, start, target):
                              stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                              text=True)
     with undoing(child.kill):
-        words = child.communicate()[1].strip()
+        text = child.communicate()[1].strip()
     if child.returncode not in ENDED:
-        failed = StabilabError(f"stabilab {' '.join(arguments)} ended with {child.returncode}:\n{words}")
+        failed = StabilabError(f"stabilab {' '.join(arguments)} ended with {child.returncode}:\n{text}")
         failed.exit_code = child.returncode if child.returncode > 0 else failed.exit_code
         raise failed
 
 
 def _redirected(arguments) -> list[str]:
     """The arguments without --out."""
-    kept, skip = [], False
+    retained, skip = [], False
     for word in arguments:
         if not skip and word != "--out" and not word.startswith("--out="):
-            kept.append(word)
+            retained.append(word)
         skip = word == "--out" and not skip
-    return kept
+    return retained

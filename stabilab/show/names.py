@@ -42,9 +42,9 @@ def spare_case(case: Case) -> None:
         return
     path = Path(case.path)
     spare((case.name.removesuffix(case.variant), case.title, case.source, case.path, str(path), path.name,
-           path.stem, *(one.name for one in case.thrusters), *(one.name for one in case.wheels),
+           path.stem, *(thruster.name for thruster in case.thrusters), *(wheel.name for wheel in case.wheels),
            *(key for key, _ in case.swept if "." in key),  # others are names of ours
-           *(one.words for one in case.caveats if one.reason.code == "stated-by-the-file")))
+           *(caveat.words for caveat in case.caveats if caveat.reason.code == "stated-by-the-file")))
 
 
 @lru_cache(maxsize=4096)
@@ -55,28 +55,28 @@ def _suspect(name: str) -> bool:
 def around(change: Callable[P, str]) -> Callable[P, str]:
     """A function that changes a text, its first argument of this type, but for the names that are spared."""
     @wraps(change)
-    def changed(*given: P.args, **named: P.kwargs) -> str:
+    def changed(*source: P.args, **named: P.kwargs) -> str:
         if not _spared:
-            return change(*given, **named)
-        at = next(n for n, one in enumerate(given) if isinstance(one, str))
-        text, taken = given[at], []  # type: ignore[var-annotated]
+            return change(*source, **named)
+        at = next(n for n, item in enumerate(source) if isinstance(item, str))
+        text, taken = source[at], []  # type: ignore[var-annotated]
 
-        def hidden(found: re.Match[str]) -> str:
-            taken.append(found[0])
+        def hidden(out: re.Match[str]) -> str:
+            taken.append(out[0])
             return chr(FIRST + len(taken) - 1)
         bare = _pattern().sub(hidden, str(text), count=MANY)
         if not taken:
-            return change(*given, **named)
-        found = change(*given[:at], _like(text, bare), *given[at + 1:], **named)  # type: ignore[arg-type]
+            return change(*source, **named)
+        result = change(*source[:at], _like(text, bare), *source[at + 1:], **named)  # type: ignore[arg-type]
         # escaped on the way, where it is of another type than what was given
-        shown = taken if type(found) is type(text) else list(map(escape, taken))
-        return _like(found, str(found).translate(dict(enumerate(shown, FIRST))))
+        shown = taken if type(result) is type(text) else list(map(escape, taken))
+        return _like(result, str(result).translate(dict(enumerate(shown, FIRST))))
     return changed
 
 
-def _like(text: Any, words: str) -> Any:
+def _like(text: Any, phrase: str) -> Any:
     """Words of the same type: what is escaped stays so."""
-    return words if type(text) is str else type(text)(words)
+    return phrase if type(text) is str else type(text)(phrase)
 
 
 def _pattern() -> re.Pattern[str]:

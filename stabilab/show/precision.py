@@ -56,13 +56,13 @@ PANEL = (3.4, 2.6)  # inches that a panel needs at least
 NOTED = 1.5  # digits: stretches of the front at least so long have their price written on them
 
 
-def picture(plt, found, size=None, most=None):
+def picture(plt, result, size=None, largest=None):
     """Time against error, both logarithmic: a panel per question, a line per method, the front as a grey
     band. size: (width, height) in inches; a figure of that size has as many of the questions, in their order,
     as have room. most: of panels; where it is given the legend has the methods without their prices."""
-    questions = found.questions[:most]
+    questions = result.questions[:largest]
     if not questions:
-        raise InputError(f"{found.case.name}: nothing to draw: {found.reference.reason}")
+        raise InputError(f"{result.case.name}: nothing to draw: {result.reference.reason}")
     columns = min(2, len(questions))
     if size is not None:
         columns = max(1, min(columns, int(size[0] / PANEL[0])))
@@ -71,17 +71,17 @@ def picture(plt, found, size=None, most=None):
     usual = (5.6 * columns, 4.0 * rows + (1.3 if columns == 2 else 2.1))
     figure, axes = plt.subplots(rows, columns, figsize=size or usual, layout="constrained", squeeze=False)
     for ax, question in zip(axes.flat, questions):
-        panel(ax, found, question)
+        panel(ax, result, question)
     for ax in axes.flat[len(questions):]:
         ax.set_visible(False)
-    looks = meanings(found, questions, most is None and (size is None or size[0] >= usual[0]))
+    looks = meanings(result, questions, largest is None and (size is None or size[0] >= usual[0]))
     style.legend(figure, looks, (3 if columns == 2 else 1) if size is None else None)
-    figure.suptitle(f"{found.case.name}: what accuracy costs", fontsize=11 * style.share(), parse_math=False)
+    figure.suptitle(f"{result.case.name}: what accuracy costs", fontsize=11 * style.share(), parse_math=False)
     if size is not None and style.share() < 1:
         return figure  # without the note, which a small figure has no room for
     formulas = ("Dotted: the error of a formula, at whatever time. "
-                if any(p.method in FORMULAS for p in found.points) else "")
-    power = math.ceil(math.log10(found.reference.error.max() or LEAST))
+                if any(p.method in FORMULAS for p in result.points) else "")
+    power = math.ceil(math.log10(result.reference.error.max() or LEAST))
     ten = f"10{'⁻' * (power < 0)}{str(abs(power)).translate(RAISED)}"
     note = (
         f"Thin lines reach up to the slowest of several runs. {formulas}Error of the reference at most "
@@ -96,27 +96,27 @@ FRONT = {"color": "#CDD5DA", "linewidth": 7, "marker": "o", "markersize": 11, "m
          "solid_joinstyle": "round"}
 
 
-def meanings(found, questions=None, prices=True) -> list[tuple[str, dict]]:
+def meanings(result, questions=None, prices=True) -> list[tuple[str, dict]]:
     """Rows (name, look) of the legend: methods, with the price of a digit or alone, and the front."""
-    asked = [p.method for p in found.points if questions is None or p.question in questions]
-    asked += ["reference"] * ("span" in (questions or found.questions))
+    request = [p.method for p in result.points if questions is None or p.question in questions]
+    request += ["reference"] * ("span" in (questions or result.questions))
     rows = []
-    for method in (one for one in LOOKS if one in asked):
-        factors = (digit_price(found.of(q, method)) for q in found.questions) if prices else ()
+    for method in (look for look in LOOKS if look in request):
+        factors = (digit_price(result.of(q, method)) for q in result.questions) if prices else ()
         factor = next((f for f in factors if f is not None), None)
         rows.append((NAMES.get(method, method) + ("" if factor is None else f": ×{factor:.2f} a digit"),
                      LOOKS[method]))
     return [*rows, ("front: no single run beats it" if prices else "front", FRONT)]
 
 
-def panel(ax, found, question):
+def panel(ax, result, question):
     """One question of a measurement on given axes: a line a method, the front as a grey band."""
     ax.set(xscale="log", yscale="log", xlabel="largest relative error", ylabel="processor time (s)",
-           title=title(found, question))
-    front = found.front(question)
+           title=title(result, question))
+    front = result.front(question)
     ax.plot([_clipped(p.error) for p in front], [p.seconds for p in front], zorder=1, **FRONT)
-    for method in methods(found, question):
-        points = [p for p in found.of(question, method) if not math.isinf(p.error)]
+    for method in methods(result, question):
+        points = [p for p in result.of(question, method) if not math.isinf(p.error)]
         x, y = [_clipped(p.error) for p in points], [p.seconds for p in points]
         ax.vlines(x, y, [p.slowest for p in points], color=LOOKS[method]["color"], linewidth=0.6, alpha=0.3,
                   zorder=2)
@@ -128,20 +128,20 @@ def panel(ax, found, question):
                         textcoords="offset points", ha="center", fontsize=6.5 * style.share(),
                         color=LOOKS[method]["color"])
     if question == "span":
-        ax.plot([LEAST], [found.reference_seconds], markersize=7, clip_on=False, **LOOKS["reference"])
-        ax.annotate(f"{found.reference.digits[0]} digits", (LEAST, found.reference_seconds), (-7, 0),
+        ax.plot([LEAST], [result.reference_seconds], markersize=7, clip_on=False, **LOOKS["reference"])
+        ax.annotate(f"{result.reference.digits[0]} digits", (LEAST, result.reference_seconds), (-7, 0),
                     textcoords="offset points", ha="right", va="center", fontsize=7 * style.share())
-    if question in ("span", "end") and found.sensitivity is not None:
-        ax.axvline(_clipped(found.sensitivity * EPS), color=style.GREY, linestyle="--", linewidth=0.9)
-        ax.annotate("last place of the start", (_clipped(found.sensitivity * EPS), 0.98),
+    if question in ("span", "end") and result.sensitivity is not None:
+        ax.axvline(_clipped(result.sensitivity * EPS), color=style.GREY, linestyle="--", linewidth=0.9)
+        ax.annotate("last place of the start", (_clipped(result.sensitivity * EPS), 0.98),
                     xycoords=("data", "axes fraction"),
                     rotation=90, va="top", ha="right", fontsize=7 * style.share(), color=style.GREY)
     ax.invert_xaxis()  # better to the right
-    for one, two in zip(front, front[1:]):
-        if two.digits - one.digits >= NOTED:
-            factor = (two.seconds / one.seconds) ** (1 / (two.digits - one.digits))
-            ax.annotate(f"×{factor:.2f} a digit", (math.sqrt(_clipped(one.error) * _clipped(two.error)),
-                        math.sqrt(one.seconds * two.seconds)), xytext=(0, 9), textcoords="offset points",
+    for item, two in zip(front, front[1:]):
+        if two.digits - item.digits >= NOTED:
+            factor = (two.seconds / item.seconds) ** (1 / (two.digits - item.digits))
+            ax.annotate(f"×{factor:.2f} a digit", (math.sqrt(_clipped(item.error) * _clipped(two.error)),
+                        math.sqrt(item.seconds * two.seconds)), xytext=(0, 9), textcoords="offset points",
                         ha="center", fontsize=7.5 * style.share())
 
 
@@ -154,41 +154,41 @@ COLUMNS = ("case", "question", "method", "setting", "value", "error", "digits", 
            "seconds", "slowest", "repeats", "compile_seconds", "lanes", "parts", "on_front")
 
 
-def text(found, all_settings: bool = False) -> str:
+def text(result, all_settings: bool = False) -> str:
     """The cheapest method for each number of digits; with all settings their table, too, * marking the front,
     and the words. rates: how often the rates were evaluated; the slowest run is in CSV and JSON."""
-    told = words(found)
-    answer = next((line for line in told if "six digits cost" in line), told[0])
-    lines = [f"{found.case.name}: {answer}", *([written(found.case.title)] if found.case.title else []),
-             *(["", *_by_digits(found)] if by_digits(found) else [])]
+    printed = words(result)
+    answer = next((line for line in printed if "six digits cost" in line), printed[0])
+    lines = [f"{result.case.name}: {answer}", *([written(result.case.title)] if result.case.title else []),
+             *(["", *_by_digits(result)] if by_digits(result) else [])]
     if not all_settings:
         return "\n".join([*lines, "", "--all prints every setting of every method."])
-    for question in found.questions:
-        front = set(map(id, found.front(question)))
-        lines += ["", title(found, question),
+    for question in result.questions:
+        front = set(map(id, result.front(question)))
+        lines += ["", title(result, question),
                   f"  {'method':<13}{'setting':<13}{'error':>8}{'digits':>8}{'steps':>8}{'rates':>8}"
                   f"{'time':>10}{'compile':>9}"]
-        lines += [_line(p, id(p) in front) for p in found.of(question)]
+        lines += [_line(p, id(p) in front) for p in result.of(question)]
     left_out: dict = {}  # reason -> the methods that it holds for, each from its coarsest setting on
-    for name, value, why in found.left_out:
+    for name, value, why in result.left_out:
         left_out.setdefault(why, {}).setdefault(name, []).append(value)
     for why, settings in left_out.items():
         coarsest = [f"{name}, {values[0]:g}{' and finer' if len(values) > 1 else ''}"
                     for name, values in settings.items()]
         lines.append(f"  left out: {'; '.join(coarsest)}: {why}")
-    return "\n".join([*lines, "", *told, "", caption()])
+    return "\n".join([*lines, "", *printed, "", caption()])
 
 
-def _by_digits(found):
+def _by_digits(result):
     """The table by digits wanted: the cheapest method, its time, that of fewest digits as one, the second."""
     lines = [f"{'digits':>6}  {'cheapest':<40}{'time':>10}{'times 3 digits':>16}  second best"]
-    for row in by_digits(found):
+    for row in by_digits(result):
         second = row["second"]
         other = "" if second is None else f"{NAMES.get(second['method'], second['method'])}: " + duration(
             second["seconds"])
         lines.append(f"{row['digits']:>6}  {NAMES.get(row['method'], row['method']):<40}"
                      f"{duration(row['seconds']):>10}{row['relative']:>16.3g}  {other}".rstrip())
-    return [*lines, *filter(None, [flat(found)])]
+    return [*lines, *filter(None, [flat(result)])]
 
 
 def _line(p, best) -> str:
@@ -199,57 +199,57 @@ def _line(p, best) -> str:
             f"{p.method:<13}{setting(p)[2:]:<13}{error:>8}{p.digits:>8.1f}{counts}{times}".rstrip())
 
 
-def as_dict(found) -> dict:
+def as_dict(result) -> dict:
     """The object of `stabilab precision --json`. Errors are null where no answer came."""
-    r = found.reference
-    return {"schema": "stabilab.precision/1", "case": found.case.name, "time": found.case.scene.time_unit,
-            "quick": found.quick,
+    r = result.reference
+    return {"schema": "stabilab.precision/1", "case": result.case.name, "time": result.case.scene.time_unit,
+            "quick": result.quick,
             "times": r.t, "machine": machine(), "versions": versions(),
             "reference": {"digits": r.digits, "error": float(r.error.max()) if len(r.t) else None,
                           "status": r.status,
                           "reason": r.because, "why": r.reason.as_dict(),
                           "multiplications": r.work, "period": r.period and r.period[0],
                           "period_error": r.period and r.period[2], "extremes_error": r.extremes_error},
-            "sensitivity": found.sensitivity, "points": [_row(found, p) for p in found.points],
-            "digit_price": {q: {m: digit_price(found.of(q, m)) for m in methods(found, q)}
-                            for q in found.questions},
-            "by_digits": by_digits(found),
-            "fates": [vars(f) for f in found.fates],
-            "left_out": [{"method": m, "value": v, "reason": why} for m, v, why in found.left_out],
-            "words": words(found)}
+            "sensitivity": result.sensitivity, "points": [_row(result, p) for p in result.points],
+            "digit_price": {q: {m: digit_price(result.of(q, m)) for m in methods(result, q)}
+                            for q in result.questions},
+            "by_digits": by_digits(result),
+            "fates": [vars(f) for f in result.fates],
+            "left_out": [{"method": m, "value": v, "reason": why} for m, v, why in result.left_out],
+            "words": words(result)}
 
 
-def _row(found: Precision, p: Point) -> dict:
-    values = (found.case.name, p.question, p.method, p.setting, p.value, p.error, min(p.digits, 99.0),
+def _row(out: Precision, p: Point) -> dict:
+    values = (out.case.name, p.question, p.method, p.setting, p.value, p.error, min(p.digits, 99.0),
               p.steps, p.evaluations, p.seconds,
-              p.slowest, p.repeats, p.compile, p.lanes, p.parts, any(p is q for q in found.front(p.question)))
+              p.slowest, p.repeats, p.compile, p.lanes, p.parts, any(p is q for q in out.front(p.question)))
     return dict(zip(COLUMNS, values))
 
 
-def lines(case, found):
+def lines(case, result):
     """A line per point for CSV; empty where a count does not exist, inf where no answer came."""
-    return [limiting.Line(tuple(_row(found, p).values())) for p in found.points]
+    return [limiting.Line(tuple(_row(result, p).values())) for p in result.points]
 
 
 CSV = (COLUMNS, lines)
 
 
-def csv(found) -> str:
+def csv(result) -> str:
     """The points as a file."""
-    case = found.case
-    return limiting.table(COLUMNS, [(case, of_case(case, found.validity), lines(case, found))])
+    case = result.case
+    return limiting.table(COLUMNS, [(case, of_case(case, result.validity), lines(case, result))])
 
 
 FILES = (*endings.PICTURES, ".csv")
 
 
-def write(found, path, size=None, most=None) -> Path:
+def write(result, path, size=None, most=None) -> Path:
     """The picture (.png, .svg, .pdf) or the points (.csv). size, most: as of `picture`."""
     path = checked(path)
     if endings.ending(path) == ".csv":
-        return write_text(path, csv(found) + "\n")
+        return write_text(path, csv(result) + "\n")
     with style.drawing() as plt:
-        return style.save(picture(plt, found, size, most), path)
+        return style.save(picture(plt, result, size, most), path)
 
 
 def checked(path) -> Path:
@@ -273,7 +273,7 @@ def page(cases, folder, tell=None, passed=(), **around) -> Path:
     same axis of the torque) is measured with every method and drawn; the others, with the methods that are
     likely to be best, are told in words. passed: lines on cases that are left out; around: of the pages
     beside it (`html.render`)."""
-    folder, tell, sections, passed, seen = Path(folder), tell or (lambda words: None), [], list(passed), set()
+    folder, tell, sections, passed, seen = Path(folder), tell or (lambda label: None), [], list(passed), set()
     for case in cases:
         if case.state is None or case.span is None:
             passed.append(f"{case.name}: no motion with a span")
@@ -303,21 +303,21 @@ def kind(case) -> tuple:
 def _section(case, folder, effort):
     """(what the template says of a case, None), or (None, why nothing could be measured)."""
     try:
-        found = accuracy.precision(case, effort)
+        result = accuracy.precision(case, effort)
     except InputError as error:
         return None, str(error)
-    if not found.questions:
-        return None, found.reference.because
+    if not result.questions:
+        return None, result.reference.because
     picture = None
     if effort == "brief":
         if case.name == FIRST:
-            write(found, folder / STATES, ONE, most=1)
-        picture = f"precision/{write(found, folder / 'precision' / f'{case.name}.png').name}"
-    write(found, folder / "precision" / f"{case.name}.csv")
-    rows = {row["digits"]: row for row in by_digits(found)}
-    return {"name": case.name, "title": case.title or case.name, "words": words(found), "picture": picture,
-            "csv": f"precision/{case.name}.csv", "flat": flat(found), "times": len(found.reference.t),
-            "command": f"stabilab precision {case.path}", "error": f"{found.reference.error.max():.0e}",
+            write(result, folder / STATES, ONE, most=1)
+        picture = f"precision/{write(result, folder / 'precision' / f'{case.name}.png').name}"
+    write(result, folder / "precision" / f"{case.name}.csv")
+    rows = {row["digits"]: row for row in by_digits(result)}
+    return {"name": case.name, "title": case.title or case.name, "words": words(result), "picture": picture,
+            "csv": f"precision/{case.name}.csv", "flat": flat(result), "times": len(result.reference.t),
+            "command": f"stabilab precision {case.path}", "error": f"{result.reference.error.max():.0e}",
             "prices": [_price(rows.get(digits)) for digits in DOUBLES],
             "rows": [{"digits": row["digits"], "relative": so_many(row["relative"], 3),
                       "method": NAMES.get(row["method"], row["method"]), "time": duration(row["seconds"]),

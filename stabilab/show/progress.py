@@ -19,8 +19,8 @@ def told():
         yield None
         return
 
-    def tell(words: str):
-        sys.stderr.write(f"{CLEAR}{words} ...")
+    def tell(text: str):
+        sys.stderr.write(f"{CLEAR}{text} ...")
         sys.stderr.flush()
     try:
         yield tell
@@ -45,9 +45,9 @@ def counted() -> Iterator[Callable[[int, int, str], None]]:
     """Context giving tell(done, count, words), silent where no terminal is."""
     begin = time.monotonic()
     with Progress() as progress:
-        def tell(done: int, count: int, words: str) -> None:
+        def tell(done: int, count: int, text: str) -> None:
             if progress.wanted:  # if the others take as long as those that are done
                 rest = (time.monotonic() - begin) / done * (count - done) if done else 0.0
                 left = f", about {rest:.0f} s left" if done else ""
-                progress(f"{done + 1} of {count}{left}: {words}")
+                progress(f"{done + 1} of {count}{left}: {text}")
         yield tell

@@ -34,8 +34,8 @@ def as_dict(case: Case, times: Sequence[Fraction], digits: int,
             arguments: Sequence[str] = ()) -> tuple[dict, Tabulated]:
     """(the reference as JSON has it, the run). times: rationals from 0 on; arguments: of the command line."""
     run = tabulated(case.scene, case.start, case.exact_state, times, digits)
-    known = motion(case.scene, case.start, case.span, exact=case.exact_state)
-    told = {question: ask(question, case.scene, case.start, digits, case.span, known, case.exact_state)
+    resolved = motion(case.scene, case.start, case.span, exact=case.exact_state)
+    printed = {question: ask(question, case.scene, case.start, digits, case.span, resolved, case.exact_state)
             for question in ("period", "extremes")}
     return {"schema": REFERENCE_SCHEMA, "case": case.name, "title": case.title, "variables": case.variables,
             "time": case.scene.time_unit, "digits": digits,
@@ -47,21 +47,21 @@ def as_dict(case: Case, times: Sequence[Fraction], digits: int,
                                     for t, row in zip(run.t, run.states)
                                     for texts in [[written(v, digits) for v in row]]]},
             "events": {"because": run.events_because, "reason": run.events_reason.as_dict(),
-                       "list": [{"kind": one.kind, "component": run.components[one.component],
-                                 "t": t, "t_within": within([one.t], [t]),
-                                 "value": value, "value_within": within([one.value], [value])}
-                                for one in run.events
-                                for t, value in [(written(one.t, digits), written(one.value, digits))]]},
-            "period": _told(told["period"]),
-            "extremes": _told(told["extremes"]) | {"over": known.extremes_over}
-            } | key(limited(known, case.scene, case).caveats), run
+                       "list": [{"kind": event.kind, "component": run.components[event.component],
+                                 "t": t, "t_within": within([event.t], [t]),
+                                 "value": value, "value_within": within([event.value], [value])}
+                                for event in run.events
+                                for t, value in [(written(event.t, digits), written(event.value, digits))]]},
+            "period": _told(printed["period"]),
+            "extremes": _told(printed["extremes"]) | {"over": resolved.extremes_over}
+            } | key(limited(resolved, case.scene, case).caveats), run
 
 
 def _provenance(case: Case, arguments: Sequence[str]):
-    made = manifest.environment()
-    return {"program": made["program"]["name"], "version": made["program"]["version"],
-            "sources_sha256": made["program"]["sha256"],
-            **{name: made["versions"][name] for name in VERSIONS}, "case_file": case.path,
+    built = manifest.environment()
+    return {"program": built["program"]["name"], "version": built["program"]["version"],
+            "sources_sha256": built["program"]["sha256"],
+            **{name: built["versions"][name] for name in VERSIONS}, "case_file": case.path,
             "case_sha256": manifest.sha256(case.path),
             "command": shlex.join(["stabilab", *arguments])}
 
@@ -92,22 +92,22 @@ def within(balls, texts) -> float:
                    for ball, text in zip(balls, texts))
 
 
-def _told(told) -> dict:
-    values = told.values if told.decimals is None else told.decimals
+def _told(printed) -> dict:
+    values = printed.values if printed.decimals is None else printed.decimals
     value = (None if values is None else [[str(v) for v in pair] for pair in values]
-             if told.question == "extremes" else str(values))
-    return {"value": value, "digits": None if told.digits is None else min(told.digits, 99.0),
-            "because": told.because, "reason": told.reason.as_dict()}
+             if printed.question == "extremes" else str(values))
+    return {"value": value, "digits": None if printed.digits is None else min(printed.digits, 99.0),
+            "because": printed.because, "reason": printed.reason.as_dict()}
 
 
-def missing(case: Case, made: dict, run: Tabulated) -> list[tuple]:
+def missing(case: Case, built: dict, run: Tabulated) -> list[tuple]:
     """(case, what falls short of the digits asked for) of a reference."""
     short = [] if run.reached else [f"states: {run.because}"]
     for question in ("period", "extremes"):
-        told = made[question]
-        if told["digits"] is not None and told["digits"] < made["digits"]:
-            short.append(f"{question}: {told['digits']:.1f} of {made['digits']} digits: {told['because']}")
-    return [(case, words) for words in short]
+        text = built[question]
+        if text["digits"] is not None and text["digits"] < built["digits"]:
+            short.append(f"{question}: {text['digits']:.1f} of {built['digits']} digits: {text['because']}")
+    return [(case, phrase) for phrase in short]
 
 
 def csv(made: dict) -> str:
@@ -120,18 +120,18 @@ def csv(made: dict) -> str:
     for row in course["rows"]:
         rows += [("state", row["t"], name, value, row["within"], course["level"])
                  for name, value in zip(course["components"], row["values"])]
-    for one in made["events"]["list"]:
-        rows.append((one["kind"], one["t"], one["component"], one["value"],
-                     max(one["t_within"], one["value_within"]), course["level"]))
+    for item in made["events"]["list"]:
+        rows.append((item["kind"], item["t"], item["component"], item["value"],
+                     max(item["t_within"], item["value_within"]), course["level"]))
     period, extremes = made["period"], made["extremes"]
     rows.append(("period", None, made["time"], period["value"], None, period["because"]))
     for name, pair in zip(course["components"], extremes["value"] or ()):
         rows += [(f"{word} over {extremes['over']}", None, name, value, None, extremes["because"])
                  for word, value in zip(("least", "greatest"), pair)]
-    rows += [("caveat", None, one["kind"], one["words"], None, None) for one in made["caveats"]]
+    rows += [("caveat", None, entry["kind"], entry["words"], None, None) for entry in made["caveats"]]
     return csv_lines(rows)
 
 
-def write(made: dict, path) -> Path:
+def write(built: dict, path) -> Path:
     """The reference as a file."""
-    return write_text(path, csv(made) if endings.ending(path) == ".csv" else as_json(made) + "\n")
+    return write_text(path, csv(built) if endings.ending(path) == ".csv" else as_json(built) + "\n")

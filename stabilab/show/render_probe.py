@@ -57,10 +57,10 @@ def probe() -> Renderer:
                                timeout=SECONDS, stdin=subprocess.DEVNULL)
     except (OSError, subprocess.TimeoutExpired) as error:
         return Renderer(False, f"the test picture did not come: {error.__class__.__name__}")
-    found = [line.removeprefix("RENDERER ") for line in child.stdout.splitlines()
+    rows = [line.removeprefix("RENDERER ") for line in child.stdout.splitlines()
              if line.startswith("RENDERER ")]
-    if child.returncode == 0 and found:
-        return Renderer(True, found[0])
+    if child.returncode == 0 and rows:
+        return Renderer(True, rows[0])
     if child.returncode < 0 or child.returncode == 139:
         return Renderer(False, f"VTK crashed for want of GL libraries (signal {abs(child.returncode)})")
     last = child.stderr.strip().splitlines()

@@ -49,21 +49,21 @@ def variables(result: Equilibria | Motion, frame: str = "file") -> Variables:
     the attributes. frame: as of `Shown.to_xarray`."""
     if frame not in FRAMES:
         raise InputError(f'frame: expected "file" or "principal", got {frame!r:.40}')
-    found = KINDS[type(result).__name__][1](result)
-    caveats = "; ".join(one.words for one in getattr(result, "caveats", ()))
-    attributes = {**found.attributes, **({"caveats": caveats} if caveats else {})}
+    out = KINDS[type(result).__name__][1](result)
+    caveats = "; ".join(item.words for item in getattr(result, "caveats", ()))
+    attributes = {**out.attributes, **({"caveats": caveats} if caveats else {})}
     axes = oblique(getattr(getattr(result, "case", result), "frame", None))
     if axes is None:
-        return replace(found, attributes=attributes)
+        return replace(out, attributes=attributes)
     turning = frame == "file" and type(result).__name__ in IN_FILE
-    return replace(in_file(found, axes) if turning else found,
+    return replace(in_file(out, axes) if turning else out,
                    attributes=attributes | frame_attributes(axes, turning))
 
 
 def short(result: Equilibria | Motion) -> str:
     """The line of a result: its kind, what it answers in a few words, and all that limits the answer."""
     name = type(result).__name__
-    limits = (one.words for one in getattr(result, "caveats", ()))
+    limits = (item.words for item in getattr(result, "caveats", ()))
     return f"{name}({'; '.join([KINDS[name][0](result), *limits])})"
 
 
@@ -82,14 +82,14 @@ def frame_attributes(axes: PrincipalAxes, turned: bool) -> dict[str, Any]:
             "principal_axes_of": "rows: principal axes 1, 2, 3 in the frame x, y, z of the file"}
 
 
-def in_file(found: Variables, axes: PrincipalAxes) -> Variables:
+def in_file(result: Variables, axes: PrincipalAxes) -> Variables:
     """The vectors of the body in the frame of the file; axes: the principal axes there."""
     matrix = matrix_of(axes)
     values = {name: (tuple("inertial_axis" if name in INERTIAL and dim == "axis" else dim for dim in dims),
-                     turned_to_file(name, np.asarray(one), matrix), words)
-              for name, (dims, one, words) in found.values.items()}
-    coordinates = {name: one for name, one in found.coordinates.items() if name != "axis"}
-    return replace(found, values=values, coordinates=coordinates | FILE_AXES)
+                     turned_to_file(name, np.asarray(item), matrix), text)
+              for name, (dims, item, text) in result.values.items()}
+    coordinates = {name: coordinate for name, coordinate in result.coordinates.items() if name != "axis"}
+    return replace(result, values=values, coordinates=coordinates | FILE_AXES)
 
 
 def matrix_of(axes: PrincipalAxes) -> np.ndarray:
@@ -121,23 +121,23 @@ def _quaternion(m: np.ndarray) -> np.ndarray:
     k = np.zeros((4, 4))
     k[:3, :3], k[:3, 3], k[3, :3] = m + m.T - np.trace(m) * np.eye(3), sides, sides
     k[3, 3] = np.trace(m)
-    found = np.linalg.eigh(k)[1][:, -1]
-    return found if found[3] >= 0 else -found
+    result = np.linalg.eigh(k)[1][:, -1]
+    return result if result[3] >= 0 else -result
 
 
 # --- Cells and words that the kinds below have in common
-def _texts(dims: tuple[str, ...], values: Iterable[Any], **words: str):
-    return dims, np.array(list(values), dtype=object), words
+def _texts(dims: tuple[str, ...], values: Iterable[Any], **text: str):
+    return dims, np.array(list(values), dtype=object), text
 
 
-def _numbers(dims: tuple[str, ...], values: Iterable[Any], **words: str):
+def _numbers(dims: tuple[str, ...], values: Iterable[Any], **text: str):
     """Numbers, NaN for None."""
-    return dims, np.array([np.nan if v is None else v for v in values], float), words
+    return dims, np.array([np.nan if v is None else v for v in values], float), text
 
 
-def _along_axes(values: Sequence[float], **words: str):
+def _along_axes(values: Sequence[float], **text: str):
     """A vector along the principal axes, NaN where there is none."""
-    return ("axis",), np.array(values or (math.nan,) * 3, float), words
+    return ("axis",), np.array(values or (math.nan,) * 3, float), text
 
 
 def _known(notes: Mapping[str, Any]) -> dict[str, Any]:
@@ -148,16 +148,16 @@ def _dims(array) -> tuple[str, ...]:
     return ("state",) if array.ndim == 1 else tuple(f"state_{n + 1}" for n in range(array.ndim))
 
 
-def _named(words: str, value: float | None, side: int = 0):
-    return "" if value is None else f"{words} {number(value, 6, side)}"
+def _named(text: str, value: float | None, side: int = 0):
+    return "" if value is None else f"{text} {number(value, 6, side)}"
 
 
-def _shares(words):
-    return ", ".join(f"{number} {word}" for word, number in Counter(words).items())
+def _shares(text):
+    return ", ".join(f"{number} {word}" for word, number in Counter(text).items())
 
 
-def _about(found: Motion) -> str:
-    return f" about axis {found.axis}, {direction(found.sense)}" if found.axis else ""
+def _about(result: Motion) -> str:
+    return f" about axis {result.axis}, {direction(result.sense)}" if result.axis else ""
 
 
 # --- Each kind of result: its line, its numbers
@@ -165,11 +165,11 @@ def of_parts(parts: Mapping[str, Any], time: str = "time",
              errors: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """Parts of the state over time, with units and words; time: the name of their first dimension; errors: of
     their components, where known, of a matrix row by row as files take it."""
-    known = errors or {}
+    resolved = errors or {}
     return {name: ((time, *_across(name, np.asarray(values))), np.asarray(values),
                    {"units": PARTS[name].unit or "1", "long_name": PARTS[name].description}
-                   | ({"error": np.ravel(known[name]) if np.ndim(known[name]) > 1 else known[name]}
-                      if name in known else {}))
+                   | ({"error": np.ravel(resolved[name]) if np.ndim(resolved[name]) > 1 else resolved[name]}
+                      if name in resolved else {}))
             for name, values in parts.items()}
 
 
@@ -203,105 +203,105 @@ def _trajectory_words(run):
 def _trajectory(run):
     """Of scaled scenes, too: a trajectory does not know its unit of time."""
     parts = of_parts({name: run.block(name) for name in run.blocks})
-    plain = {name: (dims, values, {"long_name": words["long_name"]})
-             for name, (dims, values, words) in parts.items()}
+    plain = {name: (dims, values, {"long_name": text["long_name"]})
+             for name, (dims, values, text) in parts.items()}
     return Variables(("time",), plain, {"time": (run.t, {}), **AXIS},
                      values_of(run, "method status") | {"reason": run.because})
 
 
-def _fates_words(found):
-    words = [Fate(int(label)).word for label in found.labels.reshape(-1)]
-    return (f"{words[0]}: {found.because}" if found.labels.ndim == 0
-            else f"{some(len(words), 'state')}: {_shares(words)}")
+def _fates_words(result):
+    phrases = [Fate(int(label)).word for label in result.labels.reshape(-1)]
+    return (f"{phrases[0]}: {result.because}" if result.labels.ndim == 0
+            else f"{some(len(phrases), 'state')}: {_shares(phrases)}")
 
 
-def _fates(found):
-    dims, labels = _dims(found.labels), np.asarray(found.labels)
-    rate, energy = ("1", "1") if found.scene.variables == "scaled" else ("rad/s", "J")
-    words = np.array([Fate(int(label)).word for label in labels.reshape(-1)],
+def _fates(result):
+    dims, labels = _dims(result.labels), np.asarray(result.labels)
+    rate, energy = ("1", "1") if result.scene.variables == "scaled" else ("rad/s", "J")
+    text = np.array([Fate(int(label)).word for label in labels.reshape(-1)],
                      dtype=object).reshape(labels.shape)
-    values = {"start": ((*dims, "axis"), found.states, {"units": rate, "long_name": "rates at t = 0"}),
-              "fate": (dims, words, {}),
-              "margin": (dims, found.margins,
+    values = {"start": ((*dims, "axis"), result.states, {"units": rate, "long_name": "rates at t = 0"}),
+              "fate": (dims, text, {}),
+              "margin": (dims, result.margins,
                          {"units": energy, "long_name": "height of the barrier ahead less the energy"}),
-              "spin_axis": (dims, found.axis, {"long_name": "axis of a spin-up, else 0"}),
-              "sense": (dims, found.sense, {}),
-              "level": (dims, np.asarray(found.levels, dtype=object),
+              "spin_axis": (dims, result.axis, {"long_name": "axis of a spin-up, else 0"}),
+              "sense": (dims, result.sense, {}),
+              "level": (dims, np.asarray(result.levels, dtype=object),
                         {"long_name": "how well the fate is known"}),
-              "because": (dims, np.asarray(found.because, dtype=object), {})}
+              "because": (dims, np.asarray(result.because, dtype=object), {})}
     return Variables(dims, values, AXIS)
 
 
-def _motions_words(found):
-    if not found.one:
-        return _fates_words(found)
-    motion = found.judged
-    known = "" if motion.level == "undecided" else f"{motion.fate.word}{_about(motion)}, {motion.level}: "
-    return known + motion.because
+def _motions_words(result):
+    if not result.one:
+        return _fates_words(result)
+    motion = result.judged
+    resolved = "" if motion.level == "undecided" else f"{motion.fate.word}{_about(motion)}, {motion.level}: "
+    return resolved + motion.because
 
 
-def _values_words(found):
-    told = f" {found.unit}".rstrip()
-    if not found.answer.one:
-        return f"{found.name}{told and ','}{told}: {found.values}"
-    if found.missing:
-        return f"{found.name}: {found.missing}"
-    over = f" over {found.over}" if found.over else ""
-    numbers = f"{found.values:.9g}" if found.decimals is None and found.values.ndim == 0 else str(found)
-    return f"{found.name}{over}: {numbers}{told}"
+def _values_words(result):
+    printed = f" {result.unit}".rstrip()
+    if not result.answer.one:
+        return f"{result.name}{printed and ','}{printed}: {result.values}"
+    if result.missing:
+        return f"{result.name}: {result.missing}"
+    over = f" over {result.over}" if result.over else ""
+    numbers = f"{result.values:.9g}" if result.decimals is None and result.values.ndim == 0 else str(result)
+    return f"{result.name}{over}: {numbers}{printed}"
 
 
-def _values(found):
-    dims, unit = _dims(found.states[..., 0]), {"units": found.unit or "1"}
-    start = {"start": ((*dims, "axis" if found.states.shape[-1] == 3 else "component"), found.states, {})}
-    axes = AXIS if found.states.shape[-1] == 3 or found.name == "extremes" else {}
-    if found.name == "period":
-        return Variables(dims, start | {"period": (dims, found.values, unit)}, axes, _of_answer(found))
-    ends = {name: ((*dims, "axis"), found.values[..., n], unit | {"long_name": f"over {found.over}"})
+def _values(result):
+    dims, unit = _dims(result.states[..., 0]), {"units": result.unit or "1"}
+    start = {"start": ((*dims, "axis" if result.states.shape[-1] == 3 else "component"), result.states, {})}
+    axes = AXIS if result.states.shape[-1] == 3 or result.name == "extremes" else {}
+    if result.name == "period":
+        return Variables(dims, start | {"period": (dims, result.values, unit)}, axes, _of_answer(result))
+    ends = {name: ((*dims, "axis"), result.values[..., n], unit | {"long_name": f"over {result.over}"})
             for n, name in enumerate(("least", "greatest"))}
-    return Variables(dims, start | ends, AXIS, _of_answer(found))
+    return Variables(dims, start | ends, AXIS, _of_answer(result))
 
 
-def _of_answer(found) -> dict[str, Any]:
+def _of_answer(result) -> dict[str, Any]:
     """What belongs to a whole answer."""
-    one = found.level if isinstance(found.level, str) else None
-    return _known({"level": one, "reason": found.reason if one else None})
+    item = result.level if isinstance(result.level, str) else None
+    return _known({"level": item, "reason": result.reason if item else None})
 
 
-def _time_to_words(found):
-    low, high = found.low, found.high
+def _time_to_words(result):
+    low, high = result.low, result.high
     if getattr(low, "ndim", 0):
-        levels = _shares(map(str, found.level.reshape(-1)))
-        return f"{found.quantity}: {some(low.size, 'state')}, {levels}"
+        levels = _shares(map(str, result.level.reshape(-1)))
+        return f"{result.quantity}: {some(low.size, 'state')}, {levels}"
     when = ("never" if low == math.inf else f"not before {number(low, 6, -1)}" if math.isnan(high)
             else f"{number(low, 9, -1)} to {number(high, 9, 1)}")
-    return f"{found.quantity}: {when}, {found.level}"
+    return f"{result.quantity}: {when}, {result.level}"
 
 
-def _time_to(found):
-    low = np.asarray(found.low)
-    dims, states = _dims(low), np.asarray(found.states)
-    unit = {"units": "1" if found.scene.variables == "scaled" else "s"}
+def _time_to(result):
+    low = np.asarray(result.low)
+    dims, states = _dims(low), np.asarray(result.states)
+    unit = {"units": "1" if result.scene.variables == "scaled" else "s"}
     values = {"start": ((*dims, "axis" if states.shape[-1] == 3 else "component"), states, {}),
               "low": (dims, low, unit),
-              "high": (dims, np.asarray(found.high), unit),
-              "level": (dims, np.asarray(found.level, dtype=object), {}),
-              "words": (dims, np.asarray(found.words, dtype=object), {})}
-    return Variables(dims, values, AXIS if states.shape[-1] == 3 else {}, {"quantity": found.quantity})
+              "high": (dims, np.asarray(result.high), unit),
+              "level": (dims, np.asarray(result.level, dtype=object), {}),
+              "words": (dims, np.asarray(result.words, dtype=object), {})}
+    return Variables(dims, values, AXIS if states.shape[-1] == 3 else {}, {"quantity": result.quantity})
 
 
-def _equilibria_words(found: Equilibria):
-    pieces = [segment.verdict for curve in found.curves for segment in curve.segments]
-    told = [f"{some(len(found.points), 'point')} ({_shares(p.verdict for p in found.points)})"
-            if found.points else "",
-            f"{some(len(found.curves), 'curve')}, their pieces: {_shares(pieces)}" if found.curves
+def _equilibria_words(result: Equilibria):
+    pieces = [segment.verdict for curve in result.curves for segment in curve.segments]
+    printed = [f"{some(len(result.points), 'point')} ({_shares(p.verdict for p in result.points)})"
+            if result.points else "",
+            f"{some(len(result.curves), 'curve')}, their pieces: {_shares(pieces)}" if result.curves
             else ""]
-    return "; ".join([found.kind, *filter(None, told)])
+    return "; ".join([result.kind, *filter(None, printed)])
 
 
-def _equilibria(found: Equilibria):
-    rows = ([("", p) for p in found.points]
-            + [(curve.name, p) for curve in found.curves for p in curve.samples])
+def _equilibria(result: Equilibria):
+    rows = ([("", p) for p in result.points]
+            + [(curve.name, p) for curve in result.curves for p in curve.samples])
     at = np.array([p.at for _, p in rows], float).reshape(len(rows), len(rows[0][1].at) if rows else 3)
     across = "axis" if at.shape[1] == 3 else "component"
     of = {name: _texts(("point",), (getattr(p, name) for _, p in rows))
@@ -311,7 +311,7 @@ def _equilibria(found: Equilibria):
               "verdict": of["verdict"], "linear": of["linear"],
               "curve": _texts(("point",), (name for name, _ in rows)), "because": of["because"]}
     return Variables(("point",), values, AXIS if across == "axis" else {},
-                     {"kind": found.kind, "reason": found.because})
+                     {"kind": result.kind, "reason": result.because})
 
 
 def _motion_words(m: Motion):
@@ -335,70 +335,70 @@ def _motion(m: Motion):
     return Variables(("axis",), values, AXIS, _known(notes))
 
 
-def _ending_words(found):
-    turn = f" about {'+' if found.sense > 0 else '-'}axis {found.axis}" if found.sense else ""
-    return "; ".join(filter(None, (found.kind + turn, _named("rate", found.rate),
-                                   *(f"{name} at {time.at:.6g}" for name, time in found.times), found.level)))
+def _ending_words(out):
+    turn = f" about {'+' if out.sense > 0 else '-'}axis {out.axis}" if out.sense else ""
+    return "; ".join(filter(None, (out.kind + turn, _named("rate", out.rate),
+                                   *(f"{name} at {time.at:.6g}" for name, time in out.times), out.level)))
 
 
-def _ending(found):
-    values = {"rates": _along_axes(found.rates, units="rad/s", long_name="rates in the end")}
-    notes = {name: time.at for name, time in found.times}
+def _ending(result):
+    values = {"rates": _along_axes(result.rates, units="rad/s", long_name="rates in the end")}
+    notes = {name: time.at for name, time in result.times}
     return Variables(("axis",), values, AXIS, _known(notes | values_of(
-        found, "kind level because sense rate within nutation growth decay at_the_latest estimate")
-        | {"spin_axis": found.axis}))
+        result, "kind level because sense rate within nutation growth decay at_the_latest estimate")
+        | {"spin_axis": result.axis}))
 
 
-def _flat_spin_words(found):
-    times = ((name, getattr(found, name)) for name in ("leaves", "crosses", "settles", "tenth"))
-    told = [f"{name} at {time.at:.6g}" for name, time in times if time]
-    return "; ".join([found.outcome, *told, found.level])
+def _flat_spin_words(result):
+    times = ((name, getattr(result, name)) for name in ("leaves", "crosses", "settles", "tenth"))
+    printed = [f"{name} at {time.at:.6g}" for name, time in times if time]
+    return "; ".join([result.outcome, *printed, result.level])
 
 
-def _flat_spin(found):
-    values = {"down": _numbers(("span",), (one.down for one in found.spans)),
-              "up": _numbers(("span",), (one.up for one in found.spans)),
-              "name": _texts(("span",), (one.name for one in found.spans))}
+def _flat_spin(result):
+    values = {"down": _numbers(("span",), (span.down for span in result.spans)),
+              "up": _numbers(("span",), (span.up for span in result.spans)),
+              "name": _texts(("span",), (span.name for span in result.spans))}
     notes = {name: time.at for name in ("leaves", "crosses", "settles", "tenth")
-             if (time := getattr(found, name)) is not None}
+             if (time := getattr(result, name)) is not None}
     return Variables(("span",), values, {}, _known(notes | values_of(
-        found, "outcome level because axis minor momentum final_rate energy final_energy within nutation "
+        result, "outcome level because axis minor momentum final_rate energy final_energy within nutation "
                "growth decay steps")))
 
 
-def _separatrix_words(found):
-    return ("; ".join(f"{s.name}, {s.points.shape[0]} x {s.points.shape[1]} points" for s in found.branches)
-            or f"no branches: {found.because}")
+def _separatrix_words(result):
+    return ("; ".join(f"{s.name}, {s.points.shape[0]} x {s.points.shape[1]} points" for s in result.branches)
+            or f"no branches: {result.because}")
 
 
-def _separatrix(found):
+def _separatrix(result):
     rows = np.concatenate([np.full(s.points.shape[:2], n).reshape(-1)
-                           for n, s in enumerate(found.branches, 1)]
+                           for n, s in enumerate(result.branches, 1)]
                           or [np.zeros(0, int)])
-    points = np.concatenate([s.points.reshape(-1, 3) for s in found.branches] or [np.zeros((0, 3))])
-    residual = np.concatenate([s.residual.reshape(-1) for s in found.branches] or [np.zeros(0)])
+    points = np.concatenate([s.points.reshape(-1, 3) for s in result.branches] or [np.zeros((0, 3))])
+    residual = np.concatenate([s.residual.reshape(-1) for s in result.branches] or [np.zeros(0)])
     values = {"at": (("point", "axis"), points,
                      {"long_name": "a point of the separatrix, branch by branch and row by row"}),
               "sheet": (("point",), rows, {}),
               "residual": (("point",), residual,
                            {"long_name": "distance from the surface in energy, relative"})}
-    shapes = "; ".join(f"{s.name}: {s.points.shape[0]} x {s.points.shape[1]}" for s in found.branches)
-    return Variables(("point",), values, AXIS, {"reason": found.because, "grids": shapes})
+    shapes = "; ".join(f"{s.name}: {s.points.shape[0]} x {s.points.shape[1]}" for s in result.branches)
+    return Variables(("point",), values, AXIS, {"reason": result.because, "grids": shapes})
 
 
-def _comparison_words(found):
+def _comparison_words(result):
     worst = {}
-    for d in found.departures:
-        share = d.largest / d.scale if d.scale else math.inf if d.largest else 0.0
-        worst[d.model] = max(worst.get(d.model, 0.0), share)
-    models = ([f"{model} {share:.2g}" for model, share in worst.items()]
-              + [f"{model} refused" for model in found.refused])
-    return (f"{some(len(found.t), 'time')}; largest error of a part's size: "
+    for d in result.departures:
+        fraction = d.largest / d.scale if d.scale else math.inf if d.largest else 0.0
+        worst[d.model] = max(worst.get(d.model, 0.0), fraction)
+    models = ([f"{model} {value:.2g}" for model, value in worst.items()]
+              + [f"{model} refused" for model in result.refused])
+    return (f"{some(len(result.t), 'time')}; largest error of a part's size: "
             f"{', '.join(models) or 'no model'}")
 
 
-def _comparison(found):
-    dims, rows = ("departure",), found.departures
+def _comparison(result):
+    dims, rows = ("departure",), result.departures
     firsts = {f"first_{100 * level:g}_percent":
               _numbers(dims, (d.first[level] for d in rows),
                        long_name=f"time of the first error of {100 * level:g} % of the scale; NaN: none")
@@ -408,24 +408,24 @@ def _comparison(found):
                                   long_name="largest error while the model runs"),
               "scale": _numbers(dims, (d.scale for d in rows),
                                 long_name="largest exact component over the span"), **firsts}
-    return Variables(dims, values, {}, {f"refused_{model}": why for model, why in found.refused.items()})
+    return Variables(dims, values, {}, {f"refused_{model}": why for model, why in result.refused.items()})
 
 
-def _stuck_words(found):
-    spare([found.case, *(name for row in found.rows for name in row.thrusters)])
-    head = found.rows[0]
+def _stuck_words(result):
+    spare([result.case, *(name for row in result.rows for name in row.thrusters)])
+    head = result.rows[0]
     low, high = head.time_to_limit or (None, None)
     when = ("" if low is None else f", limit in {low:.6g} s" if f"{low:.6g}" == f"{high:.6g}"
             else f", limit in {number(low, 6, -1)} to {number(high, 6, 1)} s")
     first = (f"{' and '.join(head.thrusters) or 'torque'}: "
              f"{head.fate}{f' about axis {head.axis}' if head.axis else ''}{when}")
-    return (first if len(found.rows) == 1
-            else f"{some(len(found.rows), 'row')} ({_shares(row.fate for row in found.rows)}), the first "
+    return (first if len(result.rows) == 1
+            else f"{some(len(result.rows), 'row')} ({_shares(row.fate for row in result.rows)}), the first "
                  f"{first}")
 
 
-def _stuck(found):
-    dims, rows = ("row",), found.rows
+def _stuck(result):
+    dims, rows = ("row",), result.rows
     ends = [row.time_to_limit or (None, None) for row in rows]
     margins = {f"margin_{name}": _numbers(dims, (row.margins[name].size if name in row.margins else None
                                                  for row in rows), units=unit)
@@ -441,115 +441,115 @@ def _stuck(found):
                          {"units": "N m", "long_name": "in the frame of the file"}),
               "because": _texts(dims, (row.because for row in rows))}
     return Variables(dims, values, {"axis": ([1, 2, 3], {"long_name": "axis of the file"})},
-                     {"case": found.case})
+                     {"case": result.case})
 
 
-def _spin_up_words(found):
-    return (f"{found.fate.word}{_about(found)}, {found.level}; t = {found.t:.6g}, "
-            f"{some(found.steps, 'step')}")
+def _spin_up_words(result):
+    return (f"{result.fate.word}{_about(result)}, {result.level}; t = {result.t:.6g}, "
+            f"{some(result.steps, 'step')}")
 
 
-def _spin_up(found):
-    values = {"state": _along_axes(found.state, long_name="rates at time t"),
-              "direction": _along_axes(found.direction,
+def _spin_up(result):
+    values = {"state": _along_axes(result.state, long_name="rates at time t"),
+              "direction": _along_axes(result.direction,
                                        long_name="along which the rate grows; NaN: undecided")}
-    notes = {"fate": found.fate.word, "spin_axis": found.axis}
+    notes = {"fate": result.fate.word, "spin_axis": result.axis}
     return Variables(("axis",), values, AXIS,
-                     notes | values_of(found, "level sense t steps cause condition"))
+                     notes | values_of(result, "level sense t steps cause condition"))
 
 
-def _attitude_words(found):
-    parts = [found.mode or found.fate.word, _named("rotation period", found.rotation_period),
-             _named("nutation period", found.nutation_period),
-             _named("precession period", found.precession_period)]
+def _attitude_words(result):
+    parts = [result.mode or result.fate.word, _named("rotation period", result.rotation_period),
+             _named("nutation period", result.nutation_period),
+             _named("precession period", result.precession_period)]
     return "; ".join(filter(None, parts))
 
 
-def _attitude(found):
-    values = {"start": _along_axes(found.at[:3], units="rad/s"),
+def _attitude(result):
+    values = {"start": _along_axes(result.at[:3], units="rad/s"),
               "momentum_direction": _along_axes(
-                  found.momentum_direction, long_name="unit vector along the angular momentum at the start"),
+                  result.momentum_direction, long_name="unit vector along the angular momentum at the start"),
               "turn_axis": _along_axes(
-                  found.turn_axis, long_name="about which one rotation period turns the body")}
-    notes = {"fate": found.fate.word} | values_of(
-        found, "mode momentum rotation_period precession_period nutation_period lean cone turn_angle error "
+                  result.turn_axis, long_name="about which one rotation period turns the body")}
+    notes = {"fate": result.fate.word} | values_of(
+        result, "mode momentum rotation_period precession_period nutation_period lean cone turn_angle error "
                "because")
-    notes |= {f"{name} written out": text for name, text in (found.decimals or {}).items()}
+    notes |= {f"{name} written out": text for name, text in (result.decimals or {}).items()}
     return Variables(("axis",), values, AXIS, _known(notes))
 
 
-def _crossings_words(found):
-    zeros = ", ".join(some(len(row), "zero") for row in found.t)
-    return f"{zeros} up to t = {number(found.until, 6, -1)}, {found.status}; by changes of sign along a run"
+def _crossings_words(result):
+    zeros = ", ".join(some(len(row), "zero") for row in result.t)
+    return f"{zeros} up to t = {number(result.until, 6, -1)}, {result.status}; by changes of sign along a run"
 
 
-def _crossings(found):
-    events = np.concatenate([np.full(len(row), n) for n, row in enumerate(found.t, 1)])
+def _crossings(result):
+    events = np.concatenate([np.full(len(row), n) for n, row in enumerate(result.t, 1)])
     values = {"event": (("zero",), events, {"long_name": "number of the event, in their order"}),
-              "t": (("zero",), np.concatenate(found.t), {}),
-              "error": (("zero",), np.concatenate(found.error), {"long_name": "of the time"}),
-              "state": (("zero", "component"), np.concatenate(found.states), {})}
-    return Variables(("zero",), values, {}, values_of(found, "until status") | {"reason": found.because})
+              "t": (("zero",), np.concatenate(result.t), {}),
+              "error": (("zero",), np.concatenate(result.error), {"long_name": "of the time"}),
+              "state": (("zero", "component"), np.concatenate(result.states), {})}
+    return Variables(("zero",), values, {}, values_of(result, "until status") | {"reason": result.because})
 
 
-def _chaos_words(found):
-    words = found.orders
-    one = f", MEGNO {float(found.megno):.4g}" if np.ndim(found.megno) == 0 else ""
-    if not len(found.times):
-        return _shares(words)
-    return f"{some(len(words), 'state')}: {_shares(words)}{one}; followed to {number(found.times[-1], 6, -1)}"
+def _chaos_words(out):
+    text = out.orders
+    item = f", MEGNO {float(out.megno):.4g}" if np.ndim(out.megno) == 0 else ""
+    if not len(out.times):
+        return _shares(text)
+    return f"{some(len(text), 'state')}: {_shares(text)}{item}; followed to {number(out.times[-1], 6, -1)}"
 
 
-def _chaos(found):
-    labels = np.asarray(found.labels)
-    words = {"megno": "MEGNO at the last time", "lyapunov": "rate at which neighbours part",
+def _chaos(result):
+    labels = np.asarray(result.labels)
+    text = {"megno": "MEGNO at the last time", "lyapunov": "rate at which neighbours part",
              "lyapunov_error": "how far it moved last"}
-    values = {"order": (_dims(labels), np.array(found.orders, dtype=object).reshape(labels.shape), {})} | {
-        name: (_dims(labels), np.asarray(getattr(found, name), float), {"long_name": told})
-        for name, told in words.items()}
+    values = {"order": (_dims(labels), np.array(result.orders, dtype=object).reshape(labels.shape), {})} | {
+        name: (_dims(labels), np.asarray(getattr(result, name), float), {"long_name": word})
+        for name, word in text.items()}
     return Variables(_dims(labels), values)
 
 
-def _ensemble_words(found):
-    ended = f"; {len(found.stopped)} stopped" if found.stopped else ""
-    return (f"{some(len(found.states), 'motion')} at {some(len(found.t), 'time')}; "
-            f"{found.method}{ended}")
+def _ensemble_words(result):
+    ended = f"; {len(result.stopped)} stopped" if result.stopped else ""
+    return (f"{some(len(result.states), 'motion')} at {some(len(result.t), 'time')}; "
+            f"{result.method}{ended}")
 
 
-def _ensemble(found):
-    values = {"last": (("motion", "component"), found.states[:, -1], {"long_name": "state at the last time"}),
-              "reached": (("motion",), found.reached[:, -1],
+def _ensemble(out):
+    values = {"last": (("motion", "component"), out.states[:, -1], {"long_name": "state at the last time"}),
+              "reached": (("motion",), out.reached[:, -1],
                           {"long_name": "whether the motion went on so far"})}
-    return Variables(("motion",), values, {}, values_of(found, "method rtol"))
+    return Variables(("motion",), values, {}, values_of(out, "method rtol"))
 
 
-def _diagram_words(found):
-    counts = ", ".join(str(piece.count) for piece in found.pieces)
-    return f"{found.what}: {counts}; {len(found.events)} events, {len(found.connections)} connections"
+def _diagram_words(result):
+    counts = ", ".join(str(piece.count) for piece in result.pieces)
+    return f"{result.what}: {counts}; {len(result.events)} events, {len(result.connections)} connections"
 
 
-def _diagram(found):
-    number = lambda name: (("piece",), np.array([getattr(piece, name) for piece in found.pieces]), {})
-    stable = [sum(state.verdict == "stable" for state in piece.states) for piece in found.pieces]
+def _diagram(result):
+    number = lambda name: (("piece",), np.array([getattr(piece, name) for piece in result.pieces]), {})
+    stable = [sum(state.verdict == "stable" for state in piece.states) for piece in result.pieces]
     values = {"low": number("low"), "high": number("high"), "equilibria": number("count"),
               "stable": (("piece",), np.array(stable), {})}
     return Variables(("piece",), values, {},
-                     {"what": found.what,
-                      "events": [event.value for event in (*found.events, *found.connections)]})
+                     {"what": result.what,
+                      "events": [event.value for event in (*result.events, *result.connections)]})
 
 
-def _plane_words(found):
-    counts = ((found.strips, "strip"), (found.walls, "wall"), (found.cusps, "cusp"))
-    return f"{found.what}: {', '.join(some(len(rows), word) for rows, word in counts)}"
+def _plane_words(result):
+    counts = ((result.strips, "strip"), (result.walls, "wall"), (result.cusps, "cusp"))
+    return f"{result.what}: {', '.join(some(len(rows), word) for rows, word in counts)}"
 
 
-def _plane(found):
-    number = lambda name: (("strip",), np.array([getattr(strip, name) for strip in found.strips]), {})
-    counts = (", ".join(str(piece.count) for piece in strip.line.pieces) for strip in found.strips)
+def _plane(result):
+    number = lambda name: (("strip",), np.array([getattr(strip, name) for strip in result.strips]), {})
+    counts = (", ".join(str(piece.count) for piece in strip.line.pieces) for strip in result.strips)
     values = {"low": number("low"), "high": number("high"), "equilibria": _texts(("strip",), counts)}
     return Variables(("strip",), values, {},
-                     {"what": found.what, "walls": [wall.value for wall in found.walls],
-                      "cusps": len(found.cusps)})
+                     {"what": result.what, "walls": [wall.value for wall in result.walls],
+                      "cusps": len(result.cusps)})
 
 
 # class of a result -> (its line, its numbers)
@@ -571,62 +571,62 @@ def dataset(result: Equilibria | Motion, frame: str = "file") -> xarray.Dataset:
     """The numbers of a result with their dimensions, units and words."""
     demand("xarray")
     import xarray
-    found = variables(result, frame)
-    return xarray.Dataset(dict(found.values),
-                          {name: ((name,), *one) for name, one in found.coordinates.items()},
-                          dict(found.attributes))
+    out = variables(result, frame)
+    return xarray.Dataset(dict(out.values),
+                          {name: ((name,), *coordinate) for name, coordinate in out.coordinates.items()},
+                          dict(out.attributes))
 
 
 def table(result: Equilibria | Motion, frame: str = "file") -> pandas.DataFrame:
     """The numbers of a result as a table; a column a component, what belongs to the whole in `attrs`."""
     demand("pandas")
     import pandas
-    found = variables(result, frame)
-    made = pandas.DataFrame({name: values for name, values in columns(found)}, index=_index(found))
-    made.attrs = dict(found.attributes)
-    return made
+    out = variables(result, frame)
+    built = pandas.DataFrame({name: values for name, values in columns(out)}, index=_index(out))
+    built.attrs = dict(out.attributes)
+    return built
 
 
-def columns(found: Variables) -> list[tuple[str, np.ndarray]]:
+def columns(result: Variables) -> list[tuple[str, np.ndarray]]:
     """(name, values in one row of cells) of every component: "omega1", "omega2", ..."""
     rows = []
-    for name, (dims, values, _) in found.values.items():
-        array, own = np.asarray(values), dims[len(found.index):]
+    for name, (dims, values, _) in result.values.items():
+        array, own = np.asarray(values), dims[len(result.index):]
         if not own:
             rows.append((name, array.reshape(-1)))
             continue
         flat = array.reshape(-1, array.shape[-1] if name != "matrix" else 9)
-        known = PARTS[name].components if name in PARTS else ()
-        axes = own == ("axis",) and "axis" in found.coordinates
-        letters: Any = found.coordinates["axis"][0] if axes else ()
+        resolved = PARTS[name].components if name in PARTS else ()
+        axes = own == ("axis",) and "axis" in result.coordinates
+        letters: Any = result.coordinates["axis"][0] if axes else ()
         if len(letters) and isinstance(letters[0], str):
             names = [f"{name}_{letter}" for letter in letters]
         else:
-            names = (list(known) if len(known) == flat.shape[1]
+            names = (list(resolved) if len(resolved) == flat.shape[1]
                      else [f"{name}{n + 1}" for n in range(flat.shape[1])])
-        rows += [(one, flat[:, n]) for n, one in enumerate(names)]
+        rows += [(item, flat[:, n]) for n, item in enumerate(names)]
     return rows
 
 
-def _index(found: Variables) -> Any:
+def _index(result: Variables) -> Any:
     """Times or axes where they are known, else numbers; several dimensions as pandas counts them."""
     import pandas
-    shape = next(iter(found.values.values()))[1].shape[:len(found.index)]
-    if not found.index:
+    shape = next(iter(result.values.values()))[1].shape[:len(result.index)]
+    if not result.index:
         return pandas.RangeIndex(1)
-    if len(found.index) > 1:
-        return pandas.MultiIndex.from_product([range(size) for size in shape], names=list(found.index))
-    name, = found.index
-    return pandas.Index(found.coordinates[name][0] if name in found.coordinates else range(shape[0]),
+    if len(result.index) > 1:
+        return pandas.MultiIndex.from_product([range(size) for size in shape], names=list(result.index))
+    name, = result.index
+    return pandas.Index(result.coordinates[name][0] if name in result.coordinates else range(shape[0]),
                         name=name)
 
 
 def html(result: Equilibria | Motion) -> str:
     """The line of a result, and its first rows; what is in it is text and never a tag."""
-    found = variables(result)
-    rows = columns(found)
-    index = found.index[0] if len(found.index) == 1 else ""
-    labels = found.coordinates[index][0] if index in found.coordinates else range(len(rows[0][1]))
+    out = variables(result)
+    rows = columns(out)
+    index = out.index[0] if len(out.index) == 1 else ""
+    labels = out.coordinates[index][0] if index in out.coordinates else range(len(rows[0][1]))
     head = "".join(f"<th>{escape(name)}</th>" for name in (index, *(name for name, _ in rows)))
     number = len(rows[0][1])
     body = "".join(
@@ -642,6 +642,6 @@ def _cell(value: Any) -> str:
             else _text(str(value)))
 
 
-def _text(words: str) -> str:
+def _text(text: str) -> str:
     """Words as text; the minus of a number as print has it, the hyphens of words as they are."""
-    return escape(minus(words))
+    return escape(minus(text))

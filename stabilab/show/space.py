@@ -64,10 +64,10 @@ def seen(span: tuple[float, ...] | None, motion: Motion, alone: float) -> tuple[
 
 def limit_time(motion: Motion) -> float | None:
     """When the limit of the case is reached after the start; None where it is not known to be."""
-    found = None if motion.first is None else motion.first[1]
-    if found is None or not math.isfinite(found.high) or not found.high > 0:
+    result = None if motion.first is None else motion.first[1]
+    if result is None or not math.isfinite(result.high) or not result.high > 0:
         return None
-    return float(found.high)
+    return float(result.high)
 
 
 def spin_up_time(motion: Motion) -> float:
@@ -189,22 +189,22 @@ class Space:
     @property
     def legend(self) -> dict[str, str]:
         """Words and colour of all that is drawn, each once."""
-        kinds = [MOTION] * bool(self.path) + [words for words, _ in (*self.marks, *self.curves)]
-        return ({words: str(look(words)["color"]) for words in kinds}
+        kinds = [MOTION] * bool(self.path) + [text for text, _ in (*self.marks, *self.curves)]
+        return ({kind: str(look(kind)["color"]) for kind in kinds}
                 | {branch.name: colour for colour, branch in self.branches})
 
 
 MOTION, NEAREST, LIMIT = "this motion", "nearest point of the separatrix", "limit of |ω|"
 
 
-def look(words: str) -> dict[str, Any]:
+def look(text: str) -> dict[str, Any]:
     """How something is drawn, by its words in a legend; behind a comma stands a number."""
-    return style.SPACE[words.partition(",")[0]]
+    return style.SPACE[text.partition(",")[0]]
 
 
 def space(names: Iterable[str], rate: tuple[str, float], box: Box, branches: Iterable[PlainBranch],
           path: list[Point], marks: Iterable[tuple[str, Point]], curves: Iterable[tuple[str, list[Point]]],
-          words: str, more: str = "", limit: float | None = None) -> Space:
+          text: str, more: str = "", limit: float | None = None) -> Space:
     """What is drawn in a box. names, rate: of the components, and their unit (name, how many make one of the
     scene's). branches: those that come into it are drawn, in the colours of their numbers; more: behind their
     names; words: of the separatrix. limit: of |omega|, drawn where it comes into the box, and fills a part
@@ -218,7 +218,7 @@ def space(names: Iterable[str], rate: tuple[str, float], box: Box, branches: Ite
              for n, branch in enumerate(branches) if _comes_in(branch, box)]
     return Space(named, per, box, tuple(shown), (*curves, *limits),
                  tuple((kind, at) for kind, at in marks if box.holds(at)), path, _arrows(path, shares),
-                 _view(shares), words)
+                 _view(shares), text)
 
 
 def _comes_in(branch: PlainBranch, box: Box) -> bool:
@@ -230,15 +230,15 @@ def _comes_in(branch: PlainBranch, box: Box) -> bool:
 
 def _cut(size: float, box: Box) -> Iterable[list[Point]]:
     """Arcs in which planes across the axes cut the sphere of |omega| = size inside a box."""
-    for axis, share in product(range(3), LEVELS):
-        level = box.middle[axis] + share * box.half[axis]
+    for axis, fraction in product(range(3), LEVELS):
+        level = box.middle[axis] + fraction * box.half[axis]
         if abs(level) >= size:
             continue
-        (one, other), radius = [n for n in range(3) if n != axis], math.sqrt(size**2 - level**2)
+        (item, other), radius = [n for n in range(3) if n != axis], math.sqrt(size**2 - level**2)
         ends = {0.0, math.tau}  # and where the circle leaves the box
-        for n, first, opposite in ((one, math.acos, 0.0), (other, math.asin, math.pi)):
+        for n, first, opposite in ((item, math.acos, 0.0), (other, math.asin, math.pi)):
             turns = [first(edge / radius) for edge in (box.low[n], box.high[n]) if abs(edge) < radius]
-            ends |= {turn % math.tau for known in turns for turn in (known, opposite - known)}
+            ends |= {turn % math.tau for resolved in turns for turn in (resolved, opposite - resolved)}
         for low, high in pairwise(sorted(ends)):
             steps = 2 * max(1, math.ceil(ARC * (high - low)))
             arc: list[Point] = [(*at[:axis], level, *at[axis:]) for turn in spread(low, high, steps + 1)
@@ -255,8 +255,8 @@ def beside_limit(limit: float | None, path: list[Point]) -> list[tuple[str, Poin
 
 def limit_of(case: Any) -> float | None:
     """The limit of |omega| that a case states."""
-    stated = None if case is None or case.limits is None else case.limits.rate
-    return None if stated is None else float(stated)
+    declared = None if case is None or case.limits is None else case.limits.rate
+    return None if declared is None else float(declared)
 
 
 def near_part(times: Sequence[float], path: list[Point], motion: Motion | None) -> list[Point]:
@@ -275,12 +275,12 @@ def near_part(times: Sequence[float], path: list[Point], motion: Motion | None) 
 
 
 def box_of(path: list[Point], marks: Iterable[tuple[str, Point]], branches: Iterable[PlainBranch] = (),
-           most: float = WHOLE, reaching: bool = False, asked: Any = None, kept: bool = False) -> Box:
+           largest: float = WHOLE, reaching: bool = False, asked: Any = None, kept: bool = False) -> Box:
     """A box about a motion and the marks near it, and about the branches where that is no more than so many
     times as large. reaching: to the nearest point of the separatrix, however far it is. asked: that of the
     picture before (middle and half of the edges), which stays while the motion is inside and, unless it is
     kept, fills a part of it."""
-    start = [at for words, at in marks if words == "start"]
+    start = [at for text, at in marks if text == "start"]
     shown = [*path, *start] or [at for _, at in marks]
     around = [(min(v), max(v)) for s in branches for v in zip(*s.points)]
     surface: list[Point] = [v for n in range(0, len(around), 3) for v in zip(*around[n:n + 3])]
@@ -292,9 +292,9 @@ def box_of(path: list[Point], marks: Iterable[tuple[str, Point]], branches: Iter
                 kept or any(a > SMALL * b for a, b in zip(own.half, box.half))):
             return box
     own = _cube(shown)
-    near = [at for words, at in marks if reaching and words == NEAREST or own.holds(at, SHOWN_SIZE)]
-    box, whole = _about([*shown, *near]), _about([*shown, *near, *surface])
-    return whole if max(whole.half) <= most * max(box.half) else box
+    nearby = [at for text, at in marks if reaching and text == NEAREST or own.holds(at, SHOWN_SIZE)]
+    box, full = _about([*shown, *nearby]), _about([*shown, *nearby, *surface])
+    return full if max(full.half) <= largest * max(box.half) else box
 
 
 def _cube(points: list[Point]) -> Box:
@@ -313,34 +313,34 @@ def _about(points: list[Point]) -> Box:
         ROOM * (own / FILLED if EVEN * longest < own < FLAT * longest else longest) for own in halves))
 
 
-def _given(asked: Any) -> Box:
+def _given(request: Any) -> Box:
     """The box of a request."""
     try:
-        numbers = [float(v) for v in (*asked["middle"], *asked["half"])]
+        numbers = [float(v) for v in (*request["middle"], *request["half"])]
     except (KeyError, OverflowError, TypeError, ValueError):
         numbers = []
     if len(numbers) != 6 or not all(map(math.isfinite, numbers)) or not min(numbers[3:]) > 0:
         raise InputError(f"box: expected a middle and half of the edges, three numbers each, got "
-                         f"{asked!r:.80}")
+                         f"{request!r:.80}")
     return Box(tuple(numbers[:3]), tuple(numbers[3:]))
 
 
 def marks_of(start: Point | None, motion: Motion | None,
-             found: Equilibria | None) -> list[tuple[str, Point]]:
+             result: Equilibria | None) -> list[tuple[str, Point]]:
     """Start, nearest point of the separatrix, isolated equilibria."""
     marks: list[tuple[str, Point]] = [] if start is None else [("start", tuple(start[:3]))]
     if motion is not None and motion.velocity_witness is not None:
         marks.append((NEAREST, motion.velocity_witness))
     return marks + [(style.EQUILIBRIA[style.kind_of(point)], point.at[:3])
-                    for point in (found.points if found is not None else ())]
+                    for point in (result.points if result is not None else ())]
 
 
-def nearest(found: Equilibria | None, path: list[Point]) -> list[tuple[str, Point]]:
+def nearest(result: Equilibria | None, path: list[Point]) -> list[tuple[str, Point]]:
     """Of each curve of equilibria that comes near a motion the nearest place, as a mark for its box."""
     own = _cube(path)
     wide = Box(own.middle, tuple(SHOWN_SIZE * h for h in own.half))
-    return [(words, min(places, key=lambda at: math.dist(at, own.middle)))
-            for words, places in curves_of(found, wide, PLACES[0], PLACES[0])]
+    return [(text, min(places, key=lambda at: math.dist(at, own.middle)))
+            for text, places in curves_of(result, wide, PLACES[0], PLACES[0])]
 
 
 def _arrows(path: list[Point], shares: list[list[float]]) -> tuple[tuple[Point, Point], ...]:
@@ -350,14 +350,14 @@ def _arrows(path: list[Point], shares: list[list[float]]) -> tuple[tuple[Point, 
         return ()
     steps = [math.dist(a, b) for a, b in zip(shares, shares[1:])]
     length = [0.0, *accumulate(steps)]
-    found = []
-    for share in ARROWS if math.isfinite(length[-1]) else ():
-        n = next(n for n, far in enumerate(length[1:]) if far >= share * length[-1])
+    rows = []
+    for arrow in ARROWS if math.isfinite(length[-1]) else ():
+        n = next(n for n, far in enumerate(length[1:]) if far >= arrow * length[-1])
         if all(abs(v) <= 1 for v in shares[n]):
             ends = list(zip(path[n], path[n + 1]))
-            found.append((tuple((a + b) / 2 for a, b in ends), tuple(ARROW * (b - a) / steps[n]
+            rows.append((tuple((a + b) / 2 for a, b in ends), tuple(ARROW * (b - a) / steps[n]
                                                                      for a, b in ends)))
-    return tuple(found)
+    return tuple(rows)
 
 
 def _view(shares: list[list[float]]) -> tuple[float, float]:
@@ -373,8 +373,8 @@ def _view(shares: list[list[float]]) -> tuple[float, float]:
 def across(at: Point, view: tuple[float, float]) -> tuple[float, float]:
     """How far a place is to the right and up, seen from a side."""
     up, turn = map(math.radians, view)
-    near = at[0] * math.cos(turn) + at[1] * math.sin(turn)
-    return at[1] * math.cos(turn) - at[0] * math.sin(turn), at[2] * math.cos(up) - near * math.sin(up)
+    nearby = at[0] * math.cos(turn) + at[1] * math.sin(turn)
+    return at[1] * math.cos(turn) - at[0] * math.sin(turn), at[2] * math.cos(up) - nearby * math.sin(up)
 
 
 def _breadth(flat: list[tuple[float, float]]) -> float:
@@ -394,16 +394,16 @@ def branches_of(scene: AnyScene, box: Box | None = None, shape: tuple[int, int] 
     are none; the reach that was enough). plain: the shape of coarse ones in plain floats, None for graded
     ones of `shape` by NumPy."""
     try:
-        found, words = _surface(scene, reach, shape, plain)
-        far = max((abs(v) for branch in found for p in branch.points for v in p), default=0.0)
+        result, text = _surface(scene, reach, shape, plain)
+        far = max((abs(v) for branch in result for p in branch.points for v in p), default=0.0)
         if box is not None and far and not box.farthest <= far <= 8 * box.farthest:
             wanted = min(reach * 1.3 * box.farthest / far, FARTHEST)
             if wanted > 1.01:
                 reach = wanted
-                found, words = _surface(scene, reach, shape, plain)
+                result, text = _surface(scene, reach, shape, plain)
     except StabilabError as error:
-        found, words = (), str(error)
-    return found, words if found else f"no separatrix is drawn: {words}", reach
+        result, text = (), str(error)
+    return result, text if result else f"no separatrix is drawn: {text}", reach
 
 
 def _surface(scene, reach, shape, plain) -> tuple[Sequence[PlainBranch], str]:
@@ -411,23 +411,23 @@ def _surface(scene, reach, shape, plain) -> tuple[Sequence[PlainBranch], str]:
         branches, reason = plain_separatrix(scene, reach, *(plain or (40, 33)))
         return branches, reason.text()
     from ..orbit.separatrix.branches import separatrix
-    found = separatrix(scene, reach=reach, shape=shape)
+    result = separatrix(scene, reach=reach, shape=shape)
     return [PlainBranch(branch.name, *branch.points.shape[:2], branch.points.reshape(-1, 3).tolist())
-            for branch in found.branches], found.because
+            for branch in result.branches], result.because
 
 
-def curves_of(found: Equilibria | None, box: Box, coarse: int = PLACES[0],
+def curves_of(result: Equilibria | None, box: Box, coarse: int = PLACES[0],
               fine: int = PLACES[1]) -> list[tuple[str, list[Point]]]:
     """(words, places) of the pieces of the curves of equilibria that come into the box, looked for at
     `coarse` places of each piece and drawn through `fine`."""
     out: list[tuple[str, list[Point]]] = []
-    for curve in found.curves if found is not None else ():
+    for curve in result.curves if result is not None else ():
         for segment in curve.segments:
             for low, high in _inside(curve, spread(*segment.t, coarse), box):
                 places = [_place(curve, low + (high - low) * n / fine) for n in range(fine + 1)]
                 out.append((style.EQUILIBRIA[style.kind_of(segment)],
                             [at for at in places if at is not None]))
-    return [(words, places) for words, places in out if any(map(box.holds, places))]
+    return [(text, places) for text, places in out if any(map(box.holds, places))]
 
 
 def _place(curve: EquilibriumCurve, t: float) -> Point | None:
@@ -441,10 +441,10 @@ def _place(curve: EquilibriumCurve, t: float) -> Point | None:
 
 def _inside(curve: EquilibriumCurve, ts: list[float], box: Box) -> list[tuple[float, float]]:
     """The runs of parameters whose places are in or near the box, each one step longer."""
-    near = [at is not None and box.holds(at, 1.05) for at in (_place(curve, t) for t in ts)]
-    near = [near[n] or any(near[max(0, n - 1):n + 2]) for n in range(len(ts))]
+    nearby = [at is not None and box.holds(at, 1.05) for at in (_place(curve, t) for t in ts)]
+    nearby = [nearby[n] or any(nearby[max(0, n - 1):n + 2]) for n in range(len(ts))]
     runs, first = [], None
-    for n, inside in enumerate([*near, False]):
+    for n, inside in enumerate([*nearby, False]):
         if inside and first is None:
             first = n
         if not inside and first is not None:
@@ -462,12 +462,12 @@ def data(drawn: Space, row: Callable[[bytes], Any]) -> dict[str, Any]:
     curves = [*drawn.curves, *([(MOTION, drawn.path)] if drawn.path else [])]
     return {"names": drawn.names, "middle": box.scaled(drawn.rate).middle,
             "half": box.scaled(drawn.rate).half, "view": drawn.view,
-            "branches": [{"name": one.name, "colour": colour, "rows": one.rows, "columns": one.columns,
-                          "at": packed(one.points)} for colour, one in drawn.branches],
-            "curves": [{"kind": words, "colour": look(words)["color"], "at": packed(places)}
-                       for words, places in curves],
-            "points": [{"kind": words, "colour": look(words)["color"], "at": _round(box.share(at))}
-                       for words, at in drawn.marks],
+            "branches": [{"name": item.name, "colour": colour, "rows": item.rows, "columns": item.columns,
+                          "at": packed(item.points)} for colour, item in drawn.branches],
+            "curves": [{"kind": text, "colour": look(text)["color"], "at": packed(places)}
+                       for text, places in curves],
+            "points": [{"kind": text, "colour": look(text)["color"], "at": _round(box.share(at))}
+                       for text, at in drawn.marks],
             "arrows": [[_round(box.share(at)), _round([v / h for v, h in zip(step, box.half)])]
                        for at, step in drawn.arrows],
             "legend": list(drawn.legend.items())}
@@ -482,10 +482,10 @@ def _packed(points: Iterable[Point], box: Box) -> bytes:
 
 def packed(kind: str, values: Iterable[float]) -> bytes:
     """Numbers of a kind of `array`, the low byte first."""
-    made = array(kind, values)
+    built = array(kind, values)
     if sys.byteorder == "big":
-        made.byteswap()
-    return made.tobytes()
+        built.byteswap()
+    return built.tobytes()
 
 
 def _round(values: Iterable[float]) -> list[float]:

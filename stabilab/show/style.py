@@ -60,7 +60,7 @@ SPACE = {  # words of a legend -> how that is drawn in the space of rates
     "nearest point of the separatrix": {"marker": "o", "color": YELLOW, "markeredgecolor": BLACK,
                                         "markersize": 6, "linestyle": "none"},
     "limit of |ω|": {"color": VERMILION, "linestyle": "--", "linewidth": 0.9},
-    **{words: MEANING[kind] for kind, words in EQUILIBRIA.items()}}
+    **{equilibrium: MEANING[kind] for kind, equilibrium in EQUILIBRIA.items()}}
 BRANCHES = (SKY, ORANGE, GREEN, PURPLE, YELLOW, BLUE, VERMILION)  # surfaces, in order
 # surfaces beside a motion, which is orange, and their nearest point, a yellow ball
 OTHER_COLOURS = (SKY, GREEN, PURPLE, "#B59A6A")
@@ -187,18 +187,18 @@ def below(figure, handles, names, columns: int | None = None):
     """A legend below a figure, if there are any names, of as few rows of about the same length as fit."""
     for rows in range(1, len(names) + 1):
         across = min(-(-len(names) // rows), columns or len(names))
-        made = figure.legend(handles, names, loc="outside lower center", ncols=across)
-        if columns or rows == len(names) or made.get_window_extent().width <= 0.97 * figure.bbox.width:
+        built = figure.legend(handles, names, loc="outside lower center", ncols=across)
+        if columns or rows == len(names) or built.get_window_extent().width <= 0.97 * figure.bbox.width:
             return
-        made.remove()
+        built.remove()
 
 
 def letters(size: tuple[float, float] | None) -> dict[str, float]:
     """The sizes of letters in a figure of so many inches: smaller in a small one, of which words would leave
     nothing else."""
-    share = (1.0 if size is None
-             else max(SMALLEST, min(1.0, *(given / roomy for given, roomy in zip(size, ROOMY)))))
-    return {key: share * value for key, value in RC.items() if key.endswith("size")}
+    fraction = (1.0 if size is None
+             else max(SMALLEST, min(1.0, *(supplied / roomy for supplied, roomy in zip(size, ROOMY)))))
+    return {key: fraction * value for key, value in RC.items() if key.endswith("size")}
 
 
 def share() -> float:
@@ -214,18 +214,18 @@ def clauses(text: str, width: float) -> str:
 
     import matplotlib
     from matplotlib.font_manager import FontProperties
-    most = (width
+    largest = (width
             - 0.3) / (TITLE * FontProperties(size=matplotlib.rcParams["axes.titlesize"]).get_size_in_points())
     lines = [""]
     for clause in text.replace("; ", "; \n").split("\n"):
-        if lines[-1] and len(lines[-1]) + len(clause.rstrip()) > most:
+        if lines[-1] and len(lines[-1]) + len(clause.rstrip()) > largest:
             lines.append("")
         lines[-1] += clause
-        count = math.ceil(len(lines[-1].rstrip()) / most)
+        count = math.ceil(len(lines[-1].rstrip()) / largest)
         if count > 1:
-            whole = _measured_together(lines[-1])  # textwrap ends no line there
-            fits = (textwrap.wrap(whole, wide) for wide in range(len(lines[-1]) // count, len(lines[-1])))
-            *before, last = next((parts for parts in fits if len(parts) <= count), [whole])
+            full = _measured_together(lines[-1])  # textwrap ends no line there
+            fits = (textwrap.wrap(full, wide) for wide in range(len(lines[-1]) // count, len(lines[-1])))
+            *before, last = next((parts for parts in fits if len(parts) <= count), [full])
             lines[-1:] = [*before, f"{last} "]
     return "\n".join(line.rstrip() for line in lines).replace("\u00a0", " ")
 
@@ -233,12 +233,12 @@ def clauses(text: str, width: float) -> str:
 def _measured_together(text: str) -> str:
     """The text with no-break spaces within measured values: lambda3 = 0.1 N m s."""
     first, *others = text.split(" ")
-    made = first
+    built = first
     for before, after in pairwise((first, *others)):
         held = (before == "=" or after.startswith("=") or (before[-1:].isdecimal() and after[:1].isalpha())
                 or (before, after.rstrip(",;:.)^23")) in (("N", "m"), ("m", "s")))
-        made += ("\u00a0" if held else " ") + after
-    return made
+        built += ("\u00a0" if held else " ") + after
+    return built
 
 
 def literal(text: str) -> str:

@@ -66,9 +66,9 @@ def triangulate(branch: Branch) -> Mesh:
     """The mesh of a branch. Points of the grid that coincide (a row shrunk to the fold; columns 0 and -1 at
     the saddle) become one vertex, and triangles that lost a corner or their area are dropped."""
     points = np.asarray(branch.points, float) + 0.0  # -0.0 and 0.0 are one place
-    _, first, place = np.unique(points.reshape(-1, 3), axis=0, return_index=True, return_inverse=True)
+    _, first, location = np.unique(points.reshape(-1, 3), axis=0, return_index=True, return_inverse=True)
     vertices = points.reshape(-1, 3)[np.sort(first)]  # in the order of the grid, whatever their last digits
-    where = np.argsort(np.argsort(first))[place]
+    where = np.argsort(np.argsort(first))[location]
     triangles = _triangles(where.reshape(points.shape[:2]), branch.cut)
     corner = vertices[triangles]
     area = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1)
@@ -169,10 +169,10 @@ LINE, THIN, GRID, BALL = 0.014, 0.005, 0.002, 0.034  # radii, of half of the box
 
 def draw(case: Any, path: Path) -> Path:
     """The still picture (PNG) of a case; needs a renderer that the probe approved."""
-    one = subject(case)
-    scale = measures(one)
-    found = of(one)
-    stage = plotter(found)
+    item = subject(case)
+    scale = measures(item)
+    result = of(item)
+    stage = plotter(result)
     try:
         pixels = stage.screenshot(return_img=True)
     finally:
@@ -182,55 +182,55 @@ def draw(case: Any, path: Path) -> Path:
         ax = figure.add_subplot()
         ax.imshow(pixels)
         ax.set_axis_off()
-        _label(ax, found)
-        canvas.title(ax, one.heading, canvas.answer(one, scale), away(one, found, scale))
-        canvas.legend(ax, rows(found), True)
+        _label(ax, result)
+        canvas.title(ax, item.heading, canvas.answer(item, scale), away(item, result, scale))
+        canvas.legend(ax, rows(result), True)
         return style.save(figure, path)
 
 
-def of(one: Any) -> Space:
+def of(item: Any) -> Space:
     """What is drawn of a subject: the axes have the names of the case."""
-    scale = measures(one)
-    named = [scale.plain(n) + (f", {one.axes.name(n + 1)}" if one.physical and one.axes != PLAIN else "")
+    scale = measures(item)
+    named = [scale.plain(n) + (f", {item.axes.name(n + 1)}" if item.physical and item.axes != PLAIN else "")
              for n in range(3)]
-    return space_of(one, named, scale.rate, shape=FACETS, most=np.inf)
+    return space_of(item, named, scale.rate, shape=FACETS, most=np.inf)
 
 
-def plotter(found: Space) -> Any:
+def plotter(result: Space) -> Any:
     """A pyvista plotter with all that is drawn, in halves of the edges of the box; the caller closes it."""
     use()
     style.quiet_matplotlib()  # pyvista loads it
     import pyvista
     stage: Any = pyvista.Plotter(off_screen=True, window_size=[SIDE, SIDE])
     stage.set_background("white")
-    share = lambda points: (np.asarray(points, float) - found.box.middle) / found.box.half
+    share = lambda points: (np.asarray(points, float) - result.box.middle) / result.box.half
 
     def tube(points, radius, colour):
         for inside, run in groupby(points, lambda at: bool(np.abs(at).max() <= 1)):
             if inside and np.ptp(places := np.array(list(run)), axis=0).any():  # a body at rest has no path
                 stage.add_mesh(pyvista.lines_from_points(places).tube(radius=radius), color=colour)
-    for n, (colour, branch) in enumerate(found.branches):
+    for n, (colour, branch) in enumerate(result.branches):
         grid = np.moveaxis(share(branch.points).reshape(branch.rows, branch.columns, 3), 2, 0)
         surface = pyvista.StructuredGrid(*(part[..., None] for part in grid)).extract_surface(
             algorithm="dataset_surface")
         stage.add_mesh(surface.clip_box((-1, 1) * 3, invert=False), color=colour, ambient=0.35, diffuse=0.7,
                        specular=0.1, opacity=GLASS, name=f"branch {n}")
-    for words, places in found.curves:
-        tube(share(places), LINE if words in style.SPACE else THIN, look(words)["color"])
-    path, toward = share(found.path or np.empty((0, 3))), sight(found.view)
+    for phrase, places in result.curves:
+        tube(share(places), LINE if phrase in style.SPACE else THIN, look(phrase)["color"])
+    path, toward = share(result.path or np.empty((0, 3))), sight(result.view)
     tube(path, LINE, style.ORANGE)
     for axis in range(3):
         wall = np.where(np.arange(3) == axis, -np.sign(toward[axis]), path)
         tube(wall, THIN, PALEST)
-    for at, step in found.arrows:
-        stage.add_mesh(pyvista.Cone(center=share(at), direction=np.divide(step, found.box.half), height=0.11,
+    for at, step in result.arrows:
+        stage.add_mesh(pyvista.Cone(center=share(at), direction=np.divide(step, result.box.half), height=0.11,
                                     radius=0.04),
                        color=style.ORANGE)
-    for words, at in found.marks:
-        place = share(at)
-        stage.add_mesh(pyvista.Sphere(radius=BALL, center=place), color=look(words)["color"])
-        tube([place, np.array([*place[:2], -1.0])], THIN, style.GREY)
-    for axis, ticks in enumerate(_ticks(found)):  # a grid on the walls behind
+    for phrase, at in result.marks:
+        location = share(at)
+        stage.add_mesh(pyvista.Sphere(radius=BALL, center=location), color=look(phrase)["color"])
+        tube([location, np.array([*location[:2], -1.0])], THIN, style.GREY)
+    for axis, ticks in enumerate(_ticks(result)):  # a grid on the walls behind
         for other in (n for n in range(3) if n != axis):
             for mark in (*(tick for tick, _ in ticks), -1.0, 1.0):
                 ends = np.tile(-np.sign(toward), (2, 1))
@@ -241,30 +241,30 @@ def plotter(found: Space) -> Any:
     return stage
 
 
-def _ticks(found: Space) -> list[list[tuple[float, str]]]:
+def _ticks(result: Space) -> list[list[tuple[float, str]]]:
     """Of each axis (place in halves of the box, number) of round numbers."""
-    box = found.box.scaled(found.rate)
-    return [[((v - box.middle[n]) / box.half[n], words) for v, words in zip(ticks, numbers(ticks))]
+    box = result.box.scaled(result.rate)
+    return [[((v - box.middle[n]) / box.half[n], number) for v, number in zip(ticks, numbers(ticks))]
             for n, ticks in enumerate(map(box.ticks, range(3)))]
 
 
-def _label(ax: Any, found: Space) -> None:
+def _label(ax: Any, result: Space) -> None:
     """Numbers and names along the outer edges of the box."""
-    toward = sight(found.view)
+    toward = sight(result.view)
     per = SIDE / 2 / np.tan(np.radians(ANGLE / 2))
-    place = lambda p: SIDE / 2 + per * np.array([1, -1]) * across(p, found.view) / (AWAY - toward @ p)
-    for axis, (name, ticks) in enumerate(zip(found.names, _ticks(found))):
+    location = lambda p: SIDE / 2 + per * np.array([1, -1]) * across(p, result.view) / (AWAY - toward @ p)
+    for axis, (name, ticks) in enumerate(zip(result.names, _ticks(result))):
         edges = [np.insert(np.array(corner, float), axis, 0) for corner in product((-1, 1), repeat=2)]
-        outer = max(edges, key=lambda at: -place(at)[0] if axis == 2
-                    else place(at)[1] + 0.25 * abs(place(at)[0] - SIDE / 2))
+        outer = max(edges, key=lambda at: -location(at)[0] if axis == 2
+                    else location(at)[1] + 0.25 * abs(location(at)[0] - SIDE / 2))
         unit = np.eye(3)[axis]
-        along = place(outer + unit) - place(outer - unit)
+        along = location(outer + unit) - location(outer - unit)
         across_it = np.array([-along[1], along[0]]) / np.hypot(*along)
-        out = across_it * np.sign(across_it @ (place(outer) - SIDE / 2))
-        for share, words in ticks:
-            ax.text(*(place(outer + share * unit) + 22 * out), words, ha="center", va="center", fontsize=9)
+        out = across_it * np.sign(across_it @ (location(outer) - SIDE / 2))
+        for part, phrase in ticks:
+            ax.text(*(location(outer + part * unit) + 22 * out), phrase, ha="center", va="center", fontsize=9)
         turn = np.degrees(np.arctan2(-along[1], along[0]))
-        ax.text(*(place(outer) + (90 if axis == 2 else 62) * out), name, ha="center", va="center",
+        ax.text(*(location(outer) + (90 if axis == 2 else 62) * out), name, ha="center", va="center",
                 rotation=(turn + 90) % 180 - 90 if axis < 2 else 90)
 
 
@@ -283,8 +283,8 @@ def write_all(cases, out, arguments=None) -> list[dict]:
     attribute `summaries`), after the meshes are written, where this machine cannot draw.
     """
     out = endings.folder(out)
-    rows = [(case, *_found(case)) for case in each(cases, lambda one: printable(one.name))]
-    summaries = [summarise(case, found, meshes) | {"files": []} for case, found, meshes in rows]
+    rows = [(case, *_found(case)) for case in each(cases, lambda item: printable(item.name))]
+    summaries = [summarise(case, result, meshes) | {"files": []} for case, result, meshes in rows]
     if not any(meshes for *_, meshes in rows):
         return summaries
     renderer = probe()
@@ -309,8 +309,8 @@ def write_all(cases, out, arguments=None) -> list[dict]:
 def _found(case):
     """(separatrix, its meshes) of a case."""
     with blamed_on(case):
-        found = separatrix(case.scene)
-    return found, [triangulate(branch) for branch in found.branches]
+        result = separatrix(case.scene)
+    return result, [triangulate(branch) for branch in result.branches]
 
 
 def _write(case, meshes, folder, renderer, summary):
@@ -324,10 +324,10 @@ def _write(case, meshes, folder, renderer, summary):
         waiting.write_text(json.dumps(plain(summary), indent=1, allow_nan=False) + "\n", encoding="utf-8")
 
 
-def summarise(case, found, meshes) -> dict:
+def summarise(case, result, meshes) -> dict:
     """Counts and the largest residual, branch by branch and in all; plain JSON values."""
     rows = []
-    for branch, mesh in zip(found.branches, meshes):
+    for branch, mesh in zip(result.branches, meshes):
         invariant = np.asarray(branch.invariant, float)
         rows.append({"name": branch.name, "rows": int(branch.points.shape[0]),
                      "columns": int(branch.points.shape[1]),
@@ -341,7 +341,7 @@ def summarise(case, found, meshes) -> dict:
             "vertices": sum(r["vertices"] for r in rows),
             "triangles": sum(r["triangles"] for r in rows),
             "largest_residual": max((r["largest_residual"] for r in rows), default=0.0),
-            "reason": found.because, "why": found.reason.as_dict()}
+            "reason": result.because, "why": result.reason.as_dict()}
 
 
 def write_meshes(meshes: list[Mesh], out: Path, name: str) -> list[Path]:

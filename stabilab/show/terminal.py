@@ -45,7 +45,7 @@ def written(text: str) -> str:
 @around
 def lettered(text: str) -> str:
     """Words of the analysis at a terminal: letters as `written`, numbers with six digits."""
-    return _in_letters(LONG.sub(lambda found: f"{float(found[0]):.6g}", text))
+    return _in_letters(LONG.sub(lambda match: f"{float(match[0]):.6g}", text))
 
 
 @around
@@ -65,7 +65,7 @@ def but_for_commands(text: str, change: Callable[[str], str]) -> str:
 @around
 def minus(text: str) -> str:
     """The text with the minus of a book, 1e-08 as 1e−8; the hyphens of words as they are."""
-    return MINUS.sub(lambda found: found[0].rstrip("0").lstrip("+").replace("-", "−"), text)
+    return MINUS.sub(lambda match: match[0].rstrip("0").lstrip("+").replace("-", "−"), text)
 
 
 def _in_letters(text: str):
@@ -74,15 +74,15 @@ def _in_letters(text: str):
     return NOTATION.sub(_letter, text)
 
 
-def _letter(found):
-    match found.lastgroup:
+def _letter(result):
+    match result.lastgroup:
         case "index":
-            return found["index"].translate(INDICES)
+            return result["index"].translate(INDICES)
         case "power":
-            return found["power"].translate(RAISED)
+            return result["power"].translate(RAISED)
         case "root":
             return "√"
-    return ALPHABET.get(found[found.lastgroup], "l")
+    return ALPHABET.get(result[result.lastgroup], "l")
 
 
 def some(count: int, noun: str) -> str:
@@ -90,9 +90,9 @@ def some(count: int, noun: str) -> str:
     return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
 
 
-def listed(words: Sequence[str], last: str = "and") -> str:
+def listed(text: Sequence[str], last: str = "and") -> str:
     """Words one after the other: "a", "a and b", "a, b and c"."""
-    return f" {last} ".join(filter(None, (", ".join(words[:-1]), words[-1])))
+    return f" {last} ".join(filter(None, (", ".join(text[:-1]), text[-1])))
 
 
 def plain(text: str) -> str:
@@ -114,11 +114,11 @@ USUAL = 80   # columns of a terminal that does not say how wide it is
 GAP = 2      # columns between those of a table
 NARROW = 40  # columns below which nothing is wrapped any narrower
 # how the line of an outcome begins
-HEADED = {fate: re.findall(r"^[A-Z ]*[A-Z]", one.head) for fate, one in OUTCOMES.items()}
+HEADED = {fate: re.findall(r"^[A-Z ]*[A-Z]", outcome.head) for fate, outcome in OUTCOMES.items()}
 COLOURS = {"bold green": (*HEADED[Fate.BOUNDED], *HEADED[Fate.EQUILIBRIUM], "NEVER", "AT REST", "PROVED"),
            "bold red": (*HEADED[Fate.SPIN_UP], "BEYOND THE LAW", "REFUTED"),
            "bold yellow": (*HEADED[Fate.UNDECIDED], *HEADED[Fate.SEPARATRIX], "NOT KNOWN")}
-COLOURED = {rf"\b(?:{'|'.join(map(re.escape, words))})\b": colour for colour, words in COLOURS.items()}
+COLOURED = {rf"\b(?:{'|'.join(map(re.escape, text))})\b": colour for colour, text in COLOURS.items()}
 BLANK = "\0"  # stands for a blank that no line is broken at
 STABLE = {r"\bunstable\b": "red", r"(?<!un)\b(?:asymptotically )?stable\b": "green",
           r"\bundecided\b": "yellow"}
@@ -153,14 +153,14 @@ def by_clauses(text: str) -> str:
 
 def clauses_of(line: str) -> list[str]:
     """What stands between the semicolons of a line outside its brackets and quotes."""
-    found, depth, quoted, begin = [], 0, False, 0
+    result, depth, quoted, begin = [], 0, False, 0
     for n, letter in enumerate(line):
         depth += (letter in "([{") - (letter in ")]}")
         quoted ^= letter == '"'
         if line.startswith("; ", n) and depth <= 0 and not quoted:
-            found.append(line[begin:n])
+            result.append(line[begin:n])
             begin = n + 2
-    return [*found, line[begin:]]
+    return [*result, line[begin:]]
 
 
 def say(text: str) -> None:
@@ -191,17 +191,17 @@ def _place_together(line: str):
     """The line with a file at its head as one word, whatever blanks its name holds."""
     if line.startswith("written: "):
         return line.replace(" ", BLANK)
-    place, colon, rest = line.partition(":")
-    _, point, ending = place.rpartition(".")
+    location, colon, rest = line.partition(":")
+    _, point, ending = location.rpartition(".")
     named = colon and point and ending.replace("_", "").isalnum()
-    return f"{place.replace(' ', BLANK)}:{rest}" if named else line
+    return f"{location.replace(' ', BLANK)}:{rest}" if named else line
 
 
 def _hang(line, columns):
     """Where what does not fit goes on: below the words after a column of names, else two columns in."""
-    words = line.lstrip(" ")
-    indent = len(line) - len(words)
-    _, gap, beside = words.partition("  ")
+    text = line.lstrip(" ")
+    indent = len(line) - len(text)
+    _, gap, beside = text.partition("  ")
     named = len(line) - len(beside.lstrip(" "))
     return named if indent and gap and beside.strip(" ") and named <= columns // 2 else indent + 2
 
@@ -230,9 +230,9 @@ def width(stream=None) -> int | None:
     stream = stream or sys.stdout
     if not stream.isatty():
         return None
-    asked = os.environ.get("COLUMNS", "")
-    if asked.isdecimal() and int(asked):
-        return int(asked)
+    request = os.environ.get("COLUMNS", "")
+    if request.isdecimal() and int(request):
+        return int(request)
     try:
         return os.get_terminal_size(stream.fileno()).columns or USUAL
     except OSError:  # it has no descriptor of its own
@@ -244,7 +244,7 @@ def _in_colours(text: str):
     from rich.text import Text
     shown = Text(text, end="")
     for table in (STABLE, COLOURED):
-        for words, style in table.items():
-            shown.highlight_regex(words, style)
+        for key, style in table.items():
+            shown.highlight_regex(key, style)
     Console(file=sys.stdout, highlight=False, soft_wrap=True, width=10_000).print(shown, end="")
     sys.stdout.flush()

@@ -89,21 +89,21 @@ class Units:
         """The unit of time that suits times up to `longest` seconds."""
         size = abs(longest)
         # the last also of NaN
-        return next((unit for least, unit in self.ladder if size >= least), self.ladder[-1][1])
+        return next((unit for smallest, unit in self.ladder if size >= smallest), self.ladder[-1][1])
 
     def told(self, value: float, unit: Unit, digits: int = DIGITS, side: int = 0) -> str:
         """The number in the unit, with the unit's name. side: +1 of an upper bound, which is never printed
         below itself; -1 of a lower one."""
-        name, one = unit
-        return f"{number(as_bound(value, one, digits, side), digits)} {name}".rstrip()
+        name, item = unit
+        return f"{number(as_bound(value, item, digits, side), digits)} {name}".rstrip()
 
     def said(self, reason: Reason, digits: int = DIGITS - 1, whole: bool = False) -> str:
         """A sentence in these units, with letters. digits: of angles, rates and times. whole: whether axes
         have their long names."""
         fill = partial(self.filled, digits=digits, whole=whole)
-        return "".join(joint + (one.text(fill, letters=True) if one.code
-                                else lettered(self.words(printable(one.text()), digits)))
-                       for joint, one in reason.clauses())
+        return "".join(joint + (item.text(fill, letters=True) if item.code
+                                else lettered(self.words(printable(item.text()), digits)))
+                       for joint, item in reason.clauses())
 
     def filled(self, value: Any, digits: int = SHORT, whole: bool = False) -> str:
         """What fills a hole of a sentence, as text. digits, whole: as of `said`."""
@@ -114,7 +114,7 @@ class Units:
         if isinstance(value, Symbolic):
             return value.text(self.of, True)
         if isinstance(value, tuple):
-            return listed(tuple(self.filled(one, digits, whole) for one in value))
+            return listed(tuple(self.filled(item, digits, whole) for item in value))
         if isinstance(value, Moment):
             return self.moment(value.value, value.digits or digits, value.side)
         if isinstance(value, Span):
@@ -129,9 +129,9 @@ class Units:
 
     def span(self, unit: str, start: float, end: float) -> str:
         """A span of time, given in s, or in tau of a scaled case."""
-        name, one = ("τ", 1.0) if unit == "tau" else self.times(max(abs(start), abs(end)))
-        digits = SHORT if max(abs(start), abs(end)) * one < 10**SHORT else DIGITS
-        return f"{number(start * one, digits)} to {number(end * one, digits)} {name}"
+        name, item = ("τ", 1.0) if unit == "tau" else self.times(max(abs(start), abs(end)))
+        digits = SHORT if max(abs(start), abs(end)) * item < 10**SHORT else DIGITS
+        return f"{number(start * item, digits)} to {number(end * item, digits)} {name}"
 
     @around
     def words(self, words: str, digits: int = DIGITS - 1) -> str:
@@ -142,25 +142,25 @@ class Units:
             return words
         return IN_RADIANS.sub(partial(self._turned, digits), words)
 
-    def _turned(self, digits: int, found: re.Match[str]) -> str:
+    def _turned(self, digits: int, result: re.Match[str]) -> str:
         """One number of radians, or "1 to 2" of them, by a time or its square, in these units."""
-        first, between, last, per = found.groups(default="")
-        name, one = self.rates if per == "/s" else (self.angles[0] + per, self.angles[1])
-        before = f"{number(float(first) * one, digits)}{between}" if first else ""
-        return before + self.told(float(last), (name, one), digits, 0 if first else _side(found, 3))
+        first, between, last, per = result.groups(default="")
+        name, item = self.rates if per == "/s" else (self.angles[0] + per, self.angles[1])
+        before = f"{number(float(first) * item, digits)}{between}" if first else ""
+        return before + self.told(float(last), (name, item), digits, 0 if first else _side(result, 3))
 
     def of(self, unit: str) -> Unit:
         """The unit in which numbers of this SI unit are printed; those of a scaled case have none."""
-        name, one = self.rates
+        name, item = self.rates
         turns = {"rad/s": self.rates, "rad": self.angles,
-                 "(rad/s)^2": (f"({name})²" if name else "", one * one),
+                 "(rad/s)^2": (f"({name})²" if name else "", item * item),
                  "rad/s^2": ("" if self.scaled else f"{self.angles[0]}/s²", self.angles[1])}
         return turns.get(unit, ("" if self.scaled and unit != "1" else lettered(unit), 1.0))
 
     def vector(self, values: Float3 | list[str], unit: Unit, digits: int = DIGITS) -> str:
         """Several numbers in one unit: "(1, 2, 3) deg/s"."""
-        name, one = unit
-        return f"{vector((float(v) * one for v in values), digits)} {name}".rstrip()
+        name, item = unit
+        return f"{vector((float(v) * item for v in values), digits)} {name}".rstrip()
 
 
 CLOCK = ((172800.0, ("day", 1 / 86400)), (7200.0, ("h", 1 / 3600)), (120.0, ("min", 1 / 60)),
@@ -174,12 +174,12 @@ SYSTEMS = {"deg": DEG, "deg/day": replace(DEG, name="deg/day", rates=("deg/day",
 SLOW = math.radians(0.01)  # rad/s: below it a rate in deg/s begins with zeros
 
 
-def units_of(case: Case, asked: str | None = None) -> Units:
+def units_of(case: Case, request: str | None = None) -> Units:
     """The units for a case: those asked for, else those of its [output], else those that suit. A scaled case
     has none."""
-    named = asked.lower() if isinstance(asked, str) else asked
+    named = request.lower() if isinstance(request, str) else request
     if named is not None and named not in SYSTEMS:
-        raise InputError(f"--units: expected {', '.join(SYSTEMS)}, got {asked!r:.40}")
+        raise InputError(f"--units: expected {', '.join(SYSTEMS)}, got {request!r:.40}")
     system = SCALED if case.variables == "scaled" else SYSTEMS[named or case.units or suited(case)]
     return replace(system, axes=axes_of(case))
 
@@ -207,59 +207,59 @@ def number(value: float, digits: int = SHORT) -> str:
     where it has none."""
     if math.isinf(value):
         return "unbounded" if value > 0 else "-unbounded"
-    told = f"{value + 0.0:.{digits}g}"
-    return f"{value:.0f}" if "e+" in told and abs(value) < WHOLE else told
+    printed = f"{value + 0.0:.{digits}g}"
+    return f"{value:.0f}" if "e+" in printed and abs(value) < WHOLE else printed
 
 
-def _side(found: re.Match[str], group: int) -> int:
+def _side(result: re.Match[str], group: int) -> int:
     """Of the number of a group in a sentence: +1 of an upper bound, -1 of a lower one, by what stands before
     it; 0 of another number."""
-    before = found.string[max(0, found.start(group) - 24):found.start(group)]
+    before = result.string[max(0, result.start(group) - 24):result.start(group)]
     return 1 if UPPER.search(before) else -1 if LOWER.search(before) else 0
 
 
-def as_bound(value: float, one: float, digits: int, side: int) -> float:
+def as_bound(value: float, item: float, digits: int, side: int) -> float:
     """The value in a unit of which `one` make one in SI, rounded outward: read back in SI it is no less than
     an upper bound (side +1) and no more than a lower one (-1); side 0: the product. With all digits before
     the point that `number` prints."""
-    found = value * one
-    if not side or not math.isfinite(found):
-        return found
-    whole = len(str(int(abs(found)))) if abs(found) < WHOLE else 0
-    near = float(f"{found:.{(digits := max(digits, whole))}g}")
-    if side * (near / one - value) >= 0:
-        return near
-    found = outward(found, digits, side)
-    while math.isfinite(found) and side * (found / one - value) < 0:
-        found = outward(math.nextafter(found, side * math.inf), digits, side)
-    return found
+    result = value * item
+    if not side or not math.isfinite(result):
+        return result
+    full = len(str(int(abs(result)))) if abs(result) < WHOLE else 0
+    nearby = float(f"{result:.{(digits := max(digits, full))}g}")
+    if side * (nearby / item - value) >= 0:
+        return nearby
+    result = outward(result, digits, side)
+    while math.isfinite(result) and side * (result / item - value) < 0:
+        result = outward(math.nextafter(result, side * math.inf), digits, side)
+    return result
 
 
 def but_for_rounding(pairs: Sequence[tuple[float, float]] | None, tolerance: float | None):
     """Least and greatest of each component, 0 for what is within the tolerance of the largest of them."""
     if pairs is None:
         return None
-    known = (tolerance or 0.0) * max((abs(v) for pair in pairs for v in pair if v is not None
+    resolved = (tolerance or 0.0) * max((abs(v) for pair in pairs for v in pair if v is not None
                                       and math.isfinite(v)), default=0.0)
-    return tuple(tuple(0.0 if v is not None and abs(v) <= known else v for v in pair) for pair in pairs)
+    return tuple(tuple(0.0 if v is not None and abs(v) <= resolved else v for v in pair) for pair in pairs)
 
 
-def bracket(low: float, high: float, one: float = 1.0) -> tuple[str, str]:
+def bracket(low: float, high: float, item: float = 1.0) -> tuple[str, str]:
     """Both ends with the decimals that tell them apart, six digits at most, rounded down and up, in a unit of
     which `one` make one in SI: read back in SI they are no nearer to each other than the ends."""
-    width, top = (high - low) * one, high * one
-    most = max(0, 5 - math.floor(math.log10(top)))
-    decimals = most if not width > 0 else min(most, max(0, 1 - math.floor(math.log10(width))))
+    width, top = (high - low) * item, high * item
+    largest = max(0, 5 - math.floor(math.log10(top)))
+    decimals = largest if not width > 0 else min(largest, max(0, 1 - math.floor(math.log10(width))))
     step = Decimal(1).scaleb(-decimals)
     with localcontext() as context:
         context.prec = 800  # of any double
-        least = Decimal(low * one).quantize(step, ROUND_FLOOR)
+        smallest = Decimal(low * item).quantize(step, ROUND_FLOOR)
         greatest = Decimal(top).quantize(step, ROUND_CEILING)
-        while float(least) / one > low:
-            least -= step
-        while float(greatest) / one < high:
+        while float(smallest) / item > low:
+            smallest -= step
+        while float(greatest) / item < high:
             greatest += step
-    return str(least), str(greatest)
+    return str(smallest), str(greatest)
 
 
 def vector(values: Iterable[float], digits: int = DIGITS) -> str:
@@ -267,6 +267,6 @@ def vector(values: Iterable[float], digits: int = DIGITS) -> str:
     return f"({', '.join(number(float(v), digits) for v in values)})"
 
 
-def with_unit(words: str, unit: str) -> str:
+def with_unit(text: str, unit: str) -> str:
     """A name with its unit behind it; "" and "1" are none."""
-    return words if unit in ("", "1") else f"{words} ({unit})"
+    return text if unit in ("", "1") else f"{text} ({unit})"

@@ -123,8 +123,8 @@ def averaged(scene: Scene, state: Sequence[float], times: np.ndarray, order: int
     for sense in (-1, 1):
         grid = np.unique(times[times * sense > 0] * sense)
         if grid.size:
-            found, ended = model.run(w0, start[2], grid, sense)
-            rows |= {sense * t: row for t, row in zip(grid, found)}
+            result, ended = model.run(w0, start[2], grid, sense)
+            rows |= {sense * t: row for t, row in zip(grid, result)}
             failure = ended if failure is None else failure.then(ended)
     rows[0.0] = (w0, start[2], 0.0, math.atan2(w0.imag, w0.real))
     reached = np.array([t for t in times if t in rows])
@@ -189,9 +189,9 @@ class Smallness:
 
     def refuse(self):
         """InputError for the first ratio that is not below 1."""
-        for words, ratio in self.ratios.items():
+        for key, ratio in self.ratios.items():
             if not ratio < 1:
-                raise InputError(f"averaging needs small disturbances: {words} is {ratio:.3g}, expected it "
+                raise InputError(f"averaging needs small disturbances: {key} is {ratio:.3g}, expected it "
                                  f"below 1 (much "
                                  "below 1 for a close answer); use the exact motion (`trajectory`) here")
 
@@ -200,9 +200,9 @@ class Smallness:
         ratios = self.ratios | (self.soft if order == 1 else {})
         largest = max(ratios, key=ratios.get)
         worst, small = ratios[largest], Quantity(self.eps, digits=3)
-        found = (ERRORS_UP_TO(order=order, small=small, time=Time(1 / self.slow, digits=3)) if self.slow
+        result = (ERRORS_UP_TO(order=order, small=small, time=Time(1 / self.slow, digits=3)) if self.slow
                  else ERRORS_ALWAYS(order=order, small=small))
-        return found.then(DOUBTFUL(ratio=old(largest), value=Quantity(float(worst), digits=2))
+        return result.then(DOUBTFUL(ratio=old(largest), value=Quantity(float(worst), digits=2))
                           if worst > 0.3 else None)
 
 
@@ -222,8 +222,8 @@ class _Model:
         harmonics = abs(h) * size / J + (math.hypot(*self.parameters[6:8]) / (J * size) if size else 0.0)
         self.width = max(SHARE * (abs(d) * size + abs(g)) / J, GUARD * harmonics)
         self.logarithmic = not any(self.parameters[6:8]) and bool(omega[0] or omega[1])
-        least = RTOL * 1e-2 * max(float(np.abs(omega).max()), self.width, 1e-300)
-        self.floor = (0.0, 0.0, least) if self.logarithmic else (least,) * 3
+        smallest = RTOL * 1e-2 * max(float(np.abs(omega).max()), self.width, 1e-300)
+        self.floor = (0.0, 0.0, smallest) if self.logarithmic else (smallest,) * 3
         self.means, self.kept, self.near = _functions(normal_form(scene), order,
                                                       frozenset(n for n in NAMES if not numbers[n]))
 
@@ -232,10 +232,10 @@ class _Model:
         if not self.width:
             return nu * 0.0, nu * 0.0, nu * 0.0 + 1.0
         x = np.clip(nu / self.width, -1e60, 1e60)
-        kept = np.exp(-x**4)
+        retained = np.exp(-x**4)
         safe = np.where(x == 0, 1.0, x)
-        share = np.where(x == 0, 0.0, -np.expm1(-x**4) / safe)
-        return share / self.width, (4 * x**2 * kept - share / safe) / self.width**2, kept
+        fraction = np.where(x == 0, 0.0, -np.expm1(-x**4) / safe)
+        return fraction / self.width, (4 * x**2 * retained - fraction / safe) / self.width**2, retained
 
     def near_identity(self, Z: np.ndarray, r: np.ndarray):
         """(U_Z, U_r) at averaged variables; complex and real."""
@@ -318,11 +318,11 @@ def _functions(form: NormalForm, order: int, absent: frozenset[str]):
     Z, Zc, r, m, m1, K = form.variables
     gone = {s: 0 for s, n in zip(form.symbols, NAMES) if n in absent}
     means = [sum(part[:order]) for part in (form.turn, form.spin)]
-    kept = [sum(parts) for parts in zip(*form.kept)]
+    retained = [sum(parts) for parts in zip(*form.kept)]
     inner = [r, m, m1, K, *form.symbols]
     return tuple(lambdified([*first, *inner], [expand(e.subs(gone)) for e in expressions], cse=True)
                  for first, expressions
-                 in (([Symbol("S", real=True)], means), ([Z, Zc], kept), ([Z, Zc], form.near)))
+                 in (([Symbol("S", real=True)], means), ([Z, Zc], retained), ([Z, Zc], form.near)))
 
 
 # log A below which A'/A and phi' are those at A = 1e-100: what is left out is of the order of A, and A^3 is
@@ -472,11 +472,11 @@ def follow(model, case, times, order=None) -> Simulation:
         run = printed(case.scene, case.state, times)
         how, reason = "Galal et al. (24)-(26)", run.reason
     else:
-        found = run = averaged(case.scene, case.state, times, order=int(model[-1]))
-        error = {"omega": np.array(found.floor), "amplitude": np.array(found.floor[0]),
-                 "spin": np.array(found.floor[2])}
-        how, reason = (AVERAGED(order=found.order, small=Quantity(found.eps)).text(),
-                       found.reason.then(found.horizon))
+        result = run = averaged(case.scene, case.state, times, order=int(model[-1]))
+        error = {"omega": np.array(result.floor), "amplitude": np.array(result.floor[0]),
+                 "spin": np.array(result.floor[2])}
+        how, reason = (AVERAGED(order=result.order, small=Quantity(result.eps)).text(),
+                       result.reason.then(result.horizon))
     state = {"omega": run.omega, "amplitude": run.amplitude, "spin": run.spin, "phase": run.phase}
     return Simulation(np.asarray(run.t), state, model, how, None, status=run.status, reason=reason,
                       error=error)

@@ -102,12 +102,12 @@ def normal_form(scene: Scene) -> NormalForm:
 @lru_cache(maxsize=32)
 def _normal_form(state: Sequence[Expr], rhs: Sequence[Expr], items: Sequence[tuple[str, Expr]]) -> NormalForm:
     from sympy import I, Symbol, expand, symbols
-    given = dict(items)
+    supplied = dict(items)
     p, q, r = state
     Z, Zc = symbols("Z Zc")
     m, m1, K = symbols("m m1 K", real=True)
     names = {n: Symbol(n, real=True, positive=n == "J0" or None) for n in NAMES}
-    fields = _orders(rhs, given, names)
+    fields = _orders(rhs, supplied, names)
     into = {p: (Z + Zc) / 2, q: I * (Z - Zc) / 2}
     fields = [tuple(expand(f.subs(into)) for f in (x - I * y, z)) for x, y, z in fields]
     nu = expand(fields[0][0] / (I * Z))  # (d r - Gamma)/J0
@@ -133,19 +133,19 @@ def _normal_form(state: Sequence[Expr], rhs: Sequence[Expr], items: Sequence[tup
                       (first.kept, second.kept), U)
 
 
-def _orders(rhs: Sequence[Expr], given: Mapping[str, Expr], names: Mapping[str, Expr]):
+def _orders(rhs: Sequence[Expr], supplied: Mapping[str, Expr], names: Mapping[str, Expr]):
     """The rates sorted by orders of e: [X0, X1, X2], each a triple in (p, q, r)."""
     from sympy import Integer
     J, d, h, g = (names[n] for n in ("J0", "d", "h", "Gamma"))
-    swap = {given["D1"]: [J, d, h], given["D2"]: [J, d, -h], given["D3"]: [J]}
-    if "lambda3" in given:  # Gamma = lambda3 - k: k must drop out
-        swap[given["lambda3"]] = [given.get("k", Integer(0)), g]
-    elif "k" in given:
-        swap[given["k"]] = [Integer(0), -g]
-    swap |= {given[n]: [0, names[n]] for n in ("kappa",) if n in given}
-    swap |= {given[n]: [0, 0, names[n]] for n in ("zeta", "M1", "M2", "M3") if n in given}
+    swap = {supplied["D1"]: [J, d, h], supplied["D2"]: [J, d, -h], supplied["D3"]: [J]}
+    if "lambda3" in supplied:  # Gamma = lambda3 - k: k must drop out
+        swap[supplied["lambda3"]] = [supplied.get("k", Integer(0)), g]
+    elif "k" in supplied:
+        swap[supplied["k"]] = [Integer(0), -g]
+    swap |= {supplied[n]: [0, names[n]] for n in ("kappa",) if n in supplied}
+    swap |= {supplied[n]: [0, 0, names[n]] for n in ("zeta", "M1", "M2", "M3") if n in supplied}
     rows = [_series(rate, swap) for rate in rhs]
-    if any(row[0] != 0 or any(c.has(*[given["k"]]) for c in row if "k" in given) for row in rows):
+    if any(row[0] != 0 or any(c.has(*[supplied["k"]]) for c in row if "k" in supplied) for row in rows):
         raise InputError(
             "averaging needs a gyrostatic moment and a charge that act through their difference alone")
     return [tuple(row[n] for row in rows) for n in range(1, ORDERS + 1)]
@@ -174,15 +174,15 @@ def _times(u: Sequence[Expr], v: Sequence[Expr]):
 def _power(series: Sequence[Number], n: int):
     from sympy import Integer
     a = [Integer(0) + c for c in series] + [Integer(0)] * (ORDERS + 1 - len(series))
-    one = [Integer(1)] + [Integer(0)] * ORDERS
+    item = [Integer(1)] + [Integer(0)] * ORDERS
     if n < 0:  # 1/a, a0 != 0
         inverse = [1 / a[0]]
         for k in range(1, ORDERS + 1):
             inverse.append(-sum(a[i] * inverse[k - i] for i in range(1, k + 1)) / a[0])
         a, n = inverse, -n
     for _ in range(n):
-        one = _times(one, a)
-    return one
+        item = _times(item, a)
+    return item
 
 
 def _conjugate(f: Expr, Z: Expr, Zc: Expr):
@@ -219,15 +219,15 @@ def _split(field: Sequence[Expr], Z: Expr, Zc: Expr, slope: Expr, m: Expr, K: Ex
 
 def _harmonics(f: Expr, Z: Expr, Zc: Expr, shift: int, m: Expr, K: Expr, S: Expr):
     from sympy import I, Integer, Poly
-    mean = kept = near = Integer(0)
+    mean = retained = nearby = Integer(0)
     for (a, b), c in Poly(f, Z, Zc).terms() if f != 0 else ():
         n = a - b - shift
         if n == 0:
             mean += c * S ** b
         else:
-            kept += K * c * Z**a * Zc**b
-            near += m * c / (I * n) * Z**a * Zc**b
-    return mean, kept, near
+            retained += K * c * Z**a * Zc**b
+            nearby += m * c / (I * n) * Z**a * Zc**b
+    return mean, retained, nearby
 
 
 SPIN_ALONE = Sentence(
@@ -364,9 +364,9 @@ def _words(polynomial):
 
 
 def _reason(numbers, points, families):
-    found = ALL_STEADY
+    result = ALL_STEADY
     if not points and not families:
-        found = found.then(NO_RESISTANCE if numbers["M3"] else THERE_IS_NONE)
+        result = result.then(NO_RESISTANCE if numbers["M3"] else THERE_IS_NONE)
     if numbers["M1"] or numbers["M2"]:
-        found = found.then(AVERAGE_OUT)
-    return found.then(DIFFERENCE_OUT if numbers["h"] else None)
+        result = result.then(AVERAGE_OUT)
+    return result.then(DIFFERENCE_OUT if numbers["h"] else None)

@@ -323,16 +323,16 @@ def printed(body: ChargedBody, t: np.ndarray, parts: Sequence[str] = PARTS) -> A
     """
     t = times(t)
     values = numbers(body, t)
-    omega, found = _rates(values), dict.fromkeys(PARTS[1:])
+    omega, result = _rates(values), dict.fromkeys(PARTS[1:])
     if set(parts) & set(PARTS[1:]):
-        found["angles"] = _angles(body, values)
+        result["angles"] = _angles(body, values)
     if "momentum" in parts:
-        found["momentum"] = momentum(body, omega, found["angles"])
+        result["momentum"] = momentum(body, omega, result["angles"])
     if set(parts) & {"velocity", "position"}:
-        found |= _translation(body, values)
-    tilt = np.zeros(omega.shape[:-1]) if found["angles"] is None else tilt_of(found["angles"])
+        result |= _translation(body, values)
+    tilt = np.zeros(omega.shape[:-1]) if result["angles"] is None else tilt_of(result["angles"])
     status, reason = verdict(tilt, t, horizon(body))
-    return AxisymmetricMotion(t, omega, **found, status=status, reason=reason)
+    return AxisymmetricMotion(t, omega, **result, status=status, reason=reason)
 
 
 def circle(body: ChargedBody, t) -> np.ndarray:

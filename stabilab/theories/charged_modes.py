@@ -170,10 +170,10 @@ def resonances(body: ChargedBody) -> tuple[Reason, ...]:
     m, r0 = modes(body), body.spin
     small = RESONANCE_WIDTH * max(map(abs, (m.a, m.b, Fraction(r0))))
     sides = sqrt(body.inertia[0] * body.inertia[1])
-    found = {NO_SPIN: abs(r0) <= small, NO_FREQUENCY: abs(m.root) <= small,
+    entries = {NO_SPIN: abs(r0) <= small, NO_FREQUENCY: abs(m.root) <= small,
              NO_AXIAL_MOMENTUM: abs(m.X) <= small * sides, FREQUENCIES_MEET: abs(m.Y) <= small * sides,
              UNSTABLE_BAND: m.unstable}
-    return tuple(reason for reason, here in found.items() if here)
+    return tuple(reason for reason, here in entries.items() if here)
 
 
 SMALL_ANGLE = 0.1  # rad: cos differs from 1 by 0.5 %, and so the linear rates from the true ones

@@ -178,11 +178,11 @@ def with_euler_angles(case, run, model: str = "exact", order: int | None = None)
                          "newtonian_field, a charge with angle = \"attitude\"), or vertical in [motion]")
     if not len(run.t):
         return replace(run, state=run.state | {"euler": np.empty((0, 3))})
-    found = angles_along(case, run.t, model, order)
-    at, start = np.searchsorted(found.t, run.t), int(np.argmin(np.abs(found.t)))
-    angles = np.stack([found.psi - found.psi[start], found.theta, found.phi], axis=-1)[at]
+    result = angles_along(case, run.t, model, order)
+    at, start = np.searchsorted(result.t, run.t), int(np.argmin(np.abs(result.t)))
+    angles = np.stack([result.psi - result.psi[start], result.theta, result.phi], axis=-1)[at]
     reason = chained(None if run.reason == ALL_REACHED else run.reason,
-                     WITH_ANGLES(angles=found.reason, error=Angle(found.error, digits=1)))
+                     WITH_ANGLES(angles=result.reason, error=Angle(result.error, digits=1)))
     return replace(run, state=run.state | {"euler": angles}, reason=reason)
 
 
@@ -196,5 +196,5 @@ def angles_along(case: Case, times: np.ndarray, model: str = "exact",
     fastest = float(np.linalg.norm(np.vstack([row, case.state]), axis=1).max())
     count = int(min(MAX_STEPS, 2 + np.ceil(reach * fastest * TO_A_TURN / (2 * np.pi))))
     sides = [sign * np.linspace(0.0, reach, count) for sign in (1, -1) if (sign * times > 0).any()]
-    whole = follow(case, np.unique(np.concatenate([[0.0], times, *sides])), model, order=order)
-    return euler_angles(whole.t, whole.state["omega"], whole.state["gamma"])
+    full = follow(case, np.unique(np.concatenate([[0.0], times, *sides])), model, order=order)
+    return euler_angles(full.t, full.state["omega"], full.state["gamma"])

@@ -36,8 +36,8 @@ def family(scene: AnyScene):
 
 def models_of(scene: AnyScene) -> tuple[str, ...]:
     """The models that apply to a scene, the exact one first."""
-    found = family(scene)
-    return ("exact",) if found is None else ("exact", *found.MODELS)
+    result = family(scene)
+    return ("exact",) if result is None else ("exact", *result.MODELS)
 
 
 def follow(case: Case, times: np.ndarray, model: str = "exact", method: str | None = None,
@@ -65,5 +65,5 @@ def follow(case: Case, times: np.ndarray, model: str = "exact", method: str | No
     limits = limits_of(case.scene)
     if limits is None or "omega" not in run.state or not len(run.t):
         return run
-    known = {"gamma": vertical(run.state["angles"])} if "angles" in run.state else {}
-    return replace(run, validity=limits.along(case.scene, known | run.state, "at the times given"))
+    resolved = {"gamma": vertical(run.state["angles"])} if "angles" in run.state else {}
+    return replace(run, validity=limits.along(case.scene, resolved | run.state, "at the times given"))

@@ -97,10 +97,10 @@ def theory(case: Given, order: int | None = None, model: str | None = None,
     module = family(case.scene)
     if module is None or case.state is None:
         return []
-    told = {"charged": _axisymmetric, "cavity": _averaged, "top": _top}
+    printed = {"charged": _axisymmetric, "cavity": _averaged, "top": _top}
     end = case.span[1] if end is None and case.span else end
     try:
-        rows = told[module.__name__.split(".")[-1]](case, order, end)
+        rows = printed[module.__name__.split(".")[-1]](case, order, end)
         return rows + (_misprints() if model == "printed" and module.MODELS[0] == "linear" else [])
     except InputError as error:
         return [_row("theory", NO_ANSWER(why=str(error)))]
@@ -123,7 +123,7 @@ def _axisymmetric(case, order, end):
     body = body_of(case)
     m, until, tilt = modes(body), horizon(body), largest_tilt(body)
     root = float(m.root)
-    rows = [_row("resonance", one) for one in resonances(body) or (NO_RESONANCE,)]
+    rows = [_row("resonance", resonance) for resonance in resonances(body) or (NO_RESONANCE,)]
     rows.append(_row("instability", GROW(time=Time(1 / abs(root))), growth_rate=abs(root)) if m.unstable else
                 _row("frequencies", TURN(rate=Rate(root), spin=Rate(float(body.spin))), omega=root,
                      spin=float(body.spin)))
@@ -156,19 +156,19 @@ def _means(body, outgrown: Reason | None):
 
 
 def _averaged(case, order, end):
-    found = attractors(case.scene)
+    result = attractors(case.scene)
     rows = []
-    for p in found.points:
-        place: dict[str, Filling] = {"amplitude": Rate(p.amplitude), "spin": Rate(p.spin), "why": p.reason}
+    for p in result.points:
+        location: dict[str, Filling] = {"amplitude": Rate(p.amplitude), "spin": Rate(p.spin), "why": p.reason}
         if any(v.imag for v in p.rates):  # a conjugate pair, as the averaged equations are real
             turning = PerSecond(abs(p.rates[0].imag))
-            reason = STEADY_TURNING(**place, rate=PerSecond(p.rates[0].real), turning=turning)
+            reason = STEADY_TURNING(**location, rate=PerSecond(p.rates[0].real), turning=turning)
         else:
-            reason = STEADY(**place, rates=PerSecond(tuple(v.real for v in p.rates)))
+            reason = STEADY(**location, rates=PerSecond(tuple(v.real for v in p.rates)))
         rows.append(_row(f"steady state, {p.kind}", reason, kind=p.kind, amplitude=p.amplitude, spin=p.spin,
                          rates=[_pair(v) for v in p.rates]))
-    rows += [_row("steady states, a family", FAMILY(states=one)) for one in found.families]
-    return rows + [_row("steady states", found.reason)]
+    rows += [_row("steady states, a family", FAMILY(states=item)) for item in result.families]
+    return rows + [_row("steady states", result.reason)]
 
 
 def _top(case, order, end):
@@ -200,13 +200,13 @@ def _exact_angles(case, end):
     """Nutation and precession of the exact motion from the start to `end`, s: turning points as roots of
     gamma''s rate, psi along the run."""
     span = Reach(min(end, 0.0), max(end, 0.0))
-    found = roots_of_rates(case.scene, state_of(case), end)
-    if found.reason:
-        return [_row("nutation", RUN_ENDED(why=found.reason, time=Time(found.t_reached)))]
-    gamma = np.vstack([found.start, found.end, found.states[found.component == GAMMA[2]]])[:, GAMMA]
+    result = roots_of_rates(case.scene, state_of(case), end)
+    if result.reason:
+        return [_row("nutation", RUN_ENDED(why=result.reason, time=Time(result.t_reached)))]
+    gamma = np.vstack([result.start, result.end, result.states[result.component == GAMMA[2]]])[:, GAMMA]
     theta = np.arctan2(np.hypot(gamma[:, 0], gamma[:, 1]), gamma[:, 2])
-    least, greatest = float(theta.min()), float(theta.max())
-    rows = [_row("nutation", NUTATES(span=span, least=Angle(least), greatest=Angle(greatest)), least=least,
+    lower, greatest = float(theta.min()), float(theta.max())
+    rows = [_row("nutation", NUTATES(span=span, least=Angle(lower), greatest=Angle(greatest)), least=lower,
                  greatest=greatest)]
     angles = angles_along(case, [end])
     if angles.status == "singular" or angles.error > COARSE:
@@ -275,11 +275,11 @@ def compare(case: Given, times: ArrayLike | None = None, order: int | None = Non
         raise InputError("compare: the case states no span: give it times")
     times = np.linspace(case.span[0], case.span[1], GRID) if times is None else checked_times(times)
     runs, refused = side_by_side(case, times, order)
-    exact, found = runs["exact"], []
+    exact, result = runs["exact"], []
     for name, run in list(runs.items())[1:]:
         for part in (p for p in SHARED if p in run.state and p in exact.state):
-            found.append(_departure(case, name, part, run, exact, order))
-    return answered(Comparison(times, runs, tuple(found), refused,
+            result.append(_departure(case, name, part, run, exact, order))
+    return answered(Comparison(times, runs, tuple(result), refused,
                                tuple(theory(case, order, end=float(times[-1])))), case, exact.validity)
 
 

@@ -87,17 +87,17 @@ def paper_numbers(scene: AnyScene, state: Mapping[str, Float3]) -> dict[str, flo
     x, y, z = (float(f) / length for f in top.force)
     c = math.sqrt(length) * abs(r0)
     A1, B1, C1 = float((1 - top.b) / top.a), float((top.a - 1) / top.b), float(top.b - top.a)
-    share, M3 = c * math.sqrt(gamma0) / r0, math.sqrt(max(0.0, 1 - gamma0**2)) / gamma0
+    part, M3 = c * math.sqrt(gamma0) / r0, math.sqrt(max(0.0, 1 - gamma0**2)) / gamma0
     # in units of C and 1/r0: C = 1, s/r0 = eps, and l_z/r0 = lz
     formula = formulas()
     values = {"A": a, "B": b, "a": a, "b": b, "A1": A1, "B1": B1, "om": -A1 * B1, "xs": x, "zs": z,
-              "k": float(top.field) * r0**2 * gamma0 / c**2, "ep": share, "s": share, "lz": lz}
+              "k": float(top.field) * r0**2 * gamma0 / c**2, "ep": part, "s": part, "lz": lz}
     X, Omega2 = formula("X_10", values), formula("Om_10", values)
     lambda_, lambda1 = formula("lam_10", values, Om=Omega2), formula("lam1_10", values, Om=Omega2)
-    return {"ep": share, "r0": r0, "c": c, "g0": gamma0, "xs": x, "ys": y, "k": values["k"], "a": a, "b": b,
+    return {"ep": part, "r0": r0, "c": c, "g0": gamma0, "xs": x, "ys": y, "k": values["k"], "a": a, "b": b,
             "A1": A1, "C1": C1, "Xs": X, "Om": Omega2, "lam": lambda_, "lam1": lambda1,
-            "lam2": formula("lam2_10", values, lam1=lambda1), "y1": float(top.tilt[0]) / share,
-            "y3": lz / share, "M3": M3, "th": math.atan(M3),
+            "lam2": formula("lam2_10", values, lam1=lambda1), "y1": float(top.tilt[0]) / part,
+            "y3": lz / part, "M3": M3, "th": math.atan(M3),
             "t0": (math.atan2(float(top.gamma[0]), float(top.gamma[1])) - math.pi / 2) / r0}
 
 
@@ -173,9 +173,9 @@ def follow(model: str, case: Case, times: np.ndarray, order: int | None = None) 
         run = printed(case.scene, state, times)
         how, reason = "Amer et al. 2023, first order", run.reason
     else:
-        found = run = lindstedt(case.scene, state, times, ORDER if order is None else order)
-        how, reason = (f"expansion of order {found.order}",
-                       OF_EXPANSION(status=found.status, why=found.reason))
+        result = run = lindstedt(case.scene, state, times, ORDER if order is None else order)
+        how, reason = (f"expansion of order {result.order}",
+                       OF_EXPANSION(status=result.status, why=result.reason))
     reached = "reached" if len(run.t) == len(times) else "stopped"
     return Simulation(run.t, {"omega": run.omega, "gamma": run.gamma}, model, how, None, status=reached,
                       reason=reason)

@@ -237,8 +237,8 @@ class _Solver:
             self.v[0, K] = self.y[1] / (self.a * self.alpha)
         self.w[0, K] = self.complex(1)
         self.g3[0, K] = self.complex(self.number(g3))
-        least = 0 if self.complex is complex or g1 or g2 else LEAST_TILT
-        self.set_G(0, {K - 1: self.complex(self.number(g1) + least, self.number(g2))})
+        smallest = 0 if self.complex is complex or g1 or g2 else LEAST_TILT
+        self.set_G(0, {K - 1: self.complex(self.number(g1) + smallest, self.number(g2))})
         return True
 
     def set_G(self, n: int, values: Mapping[int, complex]):
@@ -466,14 +466,14 @@ def lindstedt(scene: AnyScene, state: Mapping[str, Float3], times: np.ndarray | 
     residual = _residual(top, expansion) if exists else float("inf")
     beyond = further.order > expansion.order
     left_out = float(np.hypot(*(better - start))) if beyond else abs(r0) * top.size * residual
-    near, ahead = _resonances(top, int(order)), further.terms[len(expansion.terms):]
-    status, reason = _verdict(top, expansion, near, int(order), ahead, residual)
+    nearby, ahead = _resonances(top, int(order)), further.terms[len(expansion.terms):]
+    status, reason = _verdict(top, expansion, nearby, int(order), ahead, residual)
     if exists:
         wobble = departure - (better - start) if beyond else departure
         reason = chained(reason, _how_far(departure, wobble, left_out, abs(r0), status))
     return LindstedtMotion(times, omega, gamma, expansion.order, top.epsilon, top.size, nu * r0,
                            2 * np.pi / abs(nu * r0),
-                           float(top.Omega2), near, expansion.terms, ahead, residual, departure, left_out,
+                           float(top.Omega2), nearby, expansion.terms, ahead, residual, departure, left_out,
                            status, r0, expansion, reason=reason or NO_START)
 
 
@@ -514,14 +514,14 @@ def _residual(top: FastTop, expansion: Expansion) -> float:
 
 def _resonances(top: FastTop, order: int) -> tuple[Resonance, ...]:
     """Those within NEAR whose harmonic the orders reach; C* = A and C* = B concern every order."""
-    found = [Resonance(0, ONE_MOMENT(moment=name), abs(float(top.spin / moment - 1)))
+    rows = [Resonance(0, ONE_MOMENT(moment=name), abs(float(top.spin / moment - 1)))
              for name, moment in (("A", top.a), ("B", top.b))]
     if top.Omega2 > 0:
         Omega = float(top.Omega2) ** 0.5
         for m in range(1, order + 1):
             # (Omega^2 - m^2)/(Omega + m) keeps the digits of a small distance
-            found.append(Resonance(m, _condition(top, m), abs(float(top.Omega2 - m * m)) / (Omega + m)))
-    return tuple(sorted((r for r in found if r.distance <= SMALL_DIVISOR * (1 + NEAR_SLACK)),
+            rows.append(Resonance(m, _condition(top, m), abs(float(top.Omega2 - m * m)) / (Omega + m)))
+    return tuple(sorted((r for r in rows if r.distance <= SMALL_DIVISOR * (1 + NEAR_SLACK)),
                         key=lambda r: r.distance))
 
 
@@ -532,12 +532,12 @@ def _condition(top, m) -> Reason:
     return FIRST_OF_SPIN if abs(top.spin) < abs(top.spin - top.a - top.b) else FIRST_OF_MOMENTS
 
 
-def _verdict(top, expansion, near, order, ahead, residual) -> tuple[str, Reason | None]:
+def _verdict(top, expansion, nearby, order, ahead, residual) -> tuple[str, Reason | None]:
     r0, reasons, status = abs(float(top.r0)), [], "asymptotic"
-    if near:
+    if nearby:
         status = "near resonance"
         reasons += [NEAR_RESONANCE(resonance=r.condition, distance=Quantity(r.distance, digits=3))
-                    for r in near if r.distance]
+                    for r in nearby if r.distance]
     if terms := _diverging(expansion.terms, ahead, residual):
         status = "diverging"
         reasons.append(NOT_FAST(terms=terms, small=Quantity(expansion.size, digits=3)))
@@ -562,16 +562,16 @@ def _diverging(terms, ahead, residual) -> Reason | None:
     """Why the series up to these terms is no approximation, None where it is: what is left out must be
     smaller than the last terms kept, by the terms of the next two orders and by the residual of the equations
     of motion."""
-    if not terms or (kept := max(terms[-2:])) < SETTLED:
+    if not terms or (retained := max(terms[-2:])) < SETTLED:
         return None
     # a term is measured against the two before it: one of them may hold nothing
     if len(terms) > 1 and terms[-1] > 0 and terms[-1] >= max(terms[-3:-1]):
         return DO_NOT_FALL(terms=Quantity(tuple(terms[-3:]), digits=3))
-    if ahead and max(ahead) > 0 and max(ahead) >= kept:
+    if ahead and max(ahead) > 0 and max(ahead) >= retained:
         return NEXT_DO_NOT_FALL(terms=Quantity(tuple(terms[-2:]), digits=3),
                                 ahead=Quantity(tuple(ahead), digits=3))
-    if residual >= kept:
-        return MISSES_MORE(residual=Quantity(residual, digits=3), terms=Quantity(kept, digits=3))
+    if residual >= retained:
+        return MISSES_MORE(residual=Quantity(residual, digits=3), terms=Quantity(retained, digits=3))
     return None
 
 

@@ -46,16 +46,16 @@ def motion(scene: Scene, state: np.ndarray | Sequence[float], span: Sequence[flo
            exact: Sequence[Fraction] | None = None, needs: Needs = Needs.ALL) -> Motion:
     """See `answers.motion`; the extremes of a motion that does not repeat are over the span."""
     state = three_floats(state)
-    given = exact or state
-    orbit = twin_orbit(aligned(scene), given)
-    decided = aligned_fate(scene, given, orbit)
+    supplied = exact or state
+    orbit = twin_orbit(aligned(scene), supplied)
+    decided = aligned_fate(scene, supplied, orbit)
     fields = {**judged(state, decided), "margin_energy": finite(decided.margin)}
     if not needs:
         return Motion(**fields)
     time = turned_period(orbit, decided.label)
     fields |= {"period": repeats(time), "returns": time}
     if decided.label == Fate.EQUILIBRIUM or repeats(time) is not None:
-        box = turned_extremes(scene, given, decided.label, time, None)
+        box = turned_extremes(scene, supplied, decided.label, time, None)
         fields |= ({"extremes": pairs(box)} if np.isfinite(box).all()
                    else {"over": PERIOD_TOO_LONG})
     else:
@@ -75,33 +75,33 @@ def turned_apart(turn: Turn, orbit: Orbit, state: Sequence[float], decided: OneF
     distances."""
     if decided.label == Fate.UNDECIDED:
         return {"velocity_reason": NOT_KNOWN(why=decided.reason)}
-    found = apart_fields(orbit, state, decided)
-    witness = found.get("velocity_witness")
+    result = apart_fields(orbit, state, decided)
+    witness = result.get("velocity_witness")
     if witness in (None, state):
-        return found
+        return result
     back = tuple(zip(*turn.rotation))  # the inverse of a rotation
-    return (found
+    return (result
             | {"velocity_witness": tuple(float(sum(r * Fraction(v) for r, v in zip(row, witness)))
                                          for row in back)})
 
 
 def aligned_fate(scene: Scene, state: Sequence[float | Fraction], orbit: Orbit) -> OneFate:
     """The fate of one state (floats or Fractions, taken exactly) with this orbit of its twin."""
-    found = turned_fate(aligned(scene), state, orbit)
-    return rest_of(scene, found) if rests(scene.quadratic(), state) else found
+    result = turned_fate(aligned(scene), state, orbit)
+    return rest_of(scene, result) if rests(scene.quadratic(), state) else result
 
 
 def turned_fate(turn: Turn, state: Sequence[float | Fraction], orbit: Orbit) -> OneFate:
     """Of the twin's motion, whose numbers are exact or good to 240 bits."""
     if orbit.reduction is None:  # a gyrostatic component stands along the torque
         return unbounded(captured_fate(turn.twin, tuple(map(float, orbit.state))))._replace(axis=0, sense=0)
-    found = fate_of(turn.twin, orbit)
+    result = fate_of(turn.twin, orbit)
     speed = sum(float(v) ** 2 for v in state)
     scale = (max(map(float, turn.twin.body.exact)) * speed
              + max(abs(float(m)) for m in turn.twin.vector("constant_torque")))
-    if not turn.exact and abs(found.margin) <= TURN_SHARE * scale:
+    if not turn.exact and abs(result.margin) <= TURN_SHARE * scale:
         return OneFate(Fate.UNDECIDED, Basis.TURN_ROUNDS, math.nan)
-    return found._replace(axis=0)  # the spin-up is about the torque's direction, not about a body axis
+    return result._replace(axis=0)  # the spin-up is about the torque's direction, not about a body axis
 
 
 def fates(scene: Scene, states: np.ndarray, fast: bool | None = None) -> FateResult:
@@ -145,8 +145,8 @@ def extremes(scene: Scene, states: np.ndarray, span: Sequence[float] | None = No
     """(n, 3, 2) over all time where the motion repeats, else over the span."""
     labels = fates(scene, states).labels
     times = turned_periods(scene, states, labels)
-    return np.array([turned_extremes(scene, *one, span)
-                     for one in zip(states, labels, times)]).reshape(-1, 3, 2)
+    return np.array([turned_extremes(scene, *item, span)
+                     for item in zip(states, labels, times)]).reshape(-1, 3, 2)
 
 
 def turned_extremes(scene, state, label, time, span):

@@ -187,29 +187,29 @@ def motion(scene: Scene, state: Sequence[float] | Mapping[str, Float3], span: Se
     sigma, wheel = relative(parts, state), taken_up(parts, state)
     judge_start(scene, {"wheel": wheel})
     at = omega + (gamma or ()) + (sigma if parts.inside else ()) + (wheel if any(parts.u) else ())
-    seen = {}
+    visited = {}
     if span is not None and needs:
         from .evidence import seen_of_blocks
-        seen = seen_of_blocks(scene, {"omega": omega} | ({"gamma": gamma} if gamma else {})
+        visited = seen_of_blocks(scene, {"omega": omega} | ({"gamma": gamma} if gamma else {})
                          | ({"damper": sigma} if parts.inside else {})
                          | ({"wheel": wheel} if any(parts.u) else {}), span)
     fields: dict[str, Any]
     if any(parts.u):
-        fields = {**seen, **_motor(parts, omega, gamma, wheel)}
+        fields = {**visited, **_motor(parts, omega, gamma, wheel)}
     elif at_rest(parts, exact or omega, gamma) and not any(sigma):
         fields = {"fate": Fate.EQUILIBRIUM, "reason": REASONS[Basis.AT_REST],
                   "extremes": tuple((w, w) for w in omega)}
     else:
-        fate, reason, bounds = judged(parts, omega, gamma, sigma, _end(seen))
-        fields = {**seen, "fate": fate, "reason": reason, "invariants": bounds}
+        fate, reason, bounds = judged(parts, omega, gamma, sigma, _end(visited))
+        fields = {**visited, "fate": fate, "reason": reason, "invariants": bounds}
     reason = fields["reason"].then(parts.note)
     level = "undecided" if fields["fate"] == Fate.UNDECIDED else "exact"
     return Motion(at=at, **{**fields, "reason": reason, "level": level})
 
 
-def _end(seen: dict[str, Any]) -> tuple[float, ...]:
+def _end(visited: dict[str, Any]) -> tuple[float, ...]:
     """omega and gamma at the end of a run over the span; empty where there was none."""
-    shown = seen.get("evidence", {})
+    shown = visited.get("evidence", {})
     return (*shown["rate_end"], *shown["vertical_end"]) if "vertical_end" in shown else ()
 
 
@@ -242,21 +242,21 @@ def _energy(parts: Content, omega: Sequence[float]) -> tuple[float, float]:
 
 def _sqrt(square: Fraction) -> float:
     """The root of a number that may be below the least double."""
-    found = float(square)
-    return sqrt(found) if found > SMALL else float(sqrt_fraction(square))
+    result = float(square)
+    return sqrt(result) if result > SMALL else float(sqrt_fraction(square))
 
 
 def _motor(parts: Content, omega, gamma, wheel) -> dict[str, Any]:
     """The fields of a motion in which a motor turns a wheel. As h x omega does no work, resistance bounds the
     rates as it does under the torque M - u."""
-    others, least = parts.without_motor, float(min(parts.D))
+    others, smallest = parts.without_motor, float(min(parts.D))
     if not parts.inside and not gamma and not parts.kappa and (slowest := decay(others)):
         T0, x0 = _energy(parts, omega)
         largest, late = energy_bound(replace(others, M=tuple(m - u for m, u in zip(parts.M, parts.u))), x0)
         if parts.duration is not None:
             after, late = energy_bound(others, x0)
             largest = max(largest, after)
-        rates = {"rate_bound": largest / sqrt(least), "late_rate_bound": late / sqrt(least)}
+        rates = {"rate_bound": largest / sqrt(smallest), "late_rate_bound": late / sqrt(smallest)}
         reason = MOTOR_OUTGROWN(c=PerSecond(float(slowest)), always=Rate(rates["rate_bound"]).upper,
                                 late=Rate(rates["late_rate_bound"]).upper)
         return {"fate": Fate.BOUNDED, "reason": reason.then(WHERE_OPEN if late else TENDS_TO_REST),
@@ -270,13 +270,13 @@ def _motor(parts: Content, omega, gamma, wheel) -> dict[str, Any]:
     H = hypot(*(float(d) * w + h for d, w, h in zip(parts.D, omega, start)))
     if parts.duration is not None:
         left = float(parts.duration)
-        most = max(hypot(*start), hypot(*(h + float(u) * left for h, u in zip(start, parts.u))))
-        by_momentum = (H + most) / least
+        upper = max(hypot(*start), hypot(*(h + float(u) * left for h, u in zip(start, parts.u))))
+        by_momentum = (H + upper) / smallest
         pull = sqrt(sum(float(u) ** 2 / float(d) for d, u in zip(parts.D, parts.u)))
-        by_work = (_energy(parts, omega)[1] + pull * left) / sqrt(least)
+        by_work = (_energy(parts, omega)[1] + pull * left) / sqrt(smallest)
         bound = min(by_momentum, by_work)
-        known = {"time": Time(left), "always": Rate(bound).upper}
-        reason = MOTOR_STOPS_MOMENTUM(**known) if by_momentum <= by_work else MOTOR_STOPS_WORK(**known)
+        resolved = {"time": Time(left), "always": Rate(bound).upper}
+        reason = MOTOR_STOPS_MOMENTUM(**resolved) if by_momentum <= by_work else MOTOR_STOPS_WORK(**resolved)
         return {"fate": Fate.BOUNDED, "reason": reason, "invariants": {"momentum": H, "rate_bound": bound}}
     each = (motor - outer) / float(max(parts.D))
     reason = (MOTOR_BEATS_TORQUE(torque=Momentum(outer).upper, motor=Momentum(motor), gain=Rate(each).lower)
@@ -304,44 +304,44 @@ def _damped(parts: Content, omega: Sequence[float], sigma: Sequence[float]) -> t
 
 
 def _resisted(parts: Content, T0: float, x0: float) -> tuple[Fate, Reason, dict]:
-    least = sqrt(float(min(parts.D)))
+    lower = sqrt(float(min(parts.D)))
     slowest = decay(parts)
     if not slowest:
-        return _partly(parts, T0, x0, least)
+        return _partly(parts, T0, x0, lower)
     if not any(parts.M):
         law = LAW_DAMPED(c=PerSecond(float(slowest))) if parts.damped else LAWS[bool(parts.kappa)]
-        return Fate.BOUNDED, ENERGY_FALLS(law=law), {"energy": T0, "rate_bound": x0 / least,
+        return Fate.BOUNDED, ENERGY_FALLS(law=law), {"energy": T0, "rate_bound": x0 / lower,
                                                      "late_rate_bound": 0.0}
     largest, late = energy_bound(parts, x0)
     law = (LAW_DAMPED_TORQUE(c=PerSecond(float(slowest))) if parts.damped
            else LAWS_TORQUE[bool(parts.kappa)])
-    reason = RESISTANCE_OUTGROWS(law=law, always=Rate(largest / least).upper, late=Rate(late / least).upper)
-    bounds = {"energy": T0, "rate_bound": largest / least, "late_rate_bound": late / least}
+    reason = RESISTANCE_OUTGROWS(law=law, always=Rate(largest / lower).upper, late=Rate(late / lower).upper)
+    bounds = {"energy": T0, "rate_bound": largest / lower, "late_rate_bound": late / lower}
     if parts.kappa:
         return Fate.BOUNDED, reason.then(WHERE_OPEN), bounds
-    found = resisted_equilibria(parts)
-    drawn = [p for p in found.points if p.reason.says(GLOBAL.sentence)]
+    result = resisted_equilibria(parts)
+    drawn = [p for p in result.points if p.reason.says(GLOBAL.sentence)]
     if drawn:
         where = TENDS_TO_EQUILIBRIUM(rates=Rate(drawn[0].at))
     else:
-        attracting = sum(p.verdict == "asymptotically stable" for p in found.points)
-        where = SOME_ATTRACT(attracting=attracting, equilibria=len(found.points))
+        attracting = sum(p.verdict == "asymptotically stable" for p in result.points)
+        where = SOME_ATTRACT(attracting=attracting, equilibria=len(result.points))
     return Fate.BOUNDED, reason.then(where), bounds
 
 
-def _partly(parts: Content, T0, x0, least) -> tuple[Fate, Reason, dict]:
+def _partly(parts: Content, T0, x0, smallest) -> tuple[Fate, Reason, dict]:
     """A linear damper that leaves some axis free."""
     if any(parts.M):
         return Fate.UNDECIDED, WORK_OF_TORQUE, {"energy": T0}
-    bounds = {"energy": T0, "rate_bound": x0 / least}
+    bounds = {"energy": T0, "rate_bound": x0 / smallest}
     axis = None if parts.kappa else free_axis(parts)
     if axis is None:
         return Fate.BOUNDED, PARTLY_DAMPED, bounds
     rates = goes_on(parts, axis)
     if rates == ():
         return Fate.BOUNDED, DIES_OUT, bounds | {"late_rate_bound": 0.0}
-    place = "any rate" if rates is None else Rate(tuple(float(rates[0] * v) for v in axis))
-    return Fate.BOUNDED, ONE_AXIS_FREE(rates=place), bounds
+    location = "any rate" if rates is None else Rate(tuple(float(rates[0] * v) for v in axis))
+    return Fate.BOUNDED, ONE_AXIS_FREE(rates=location), bounds
 
 
 def _liquid(parts: Content, omega: Sequence[float], T0: float, x0: float) -> tuple[Fate, Reason, dict]:
@@ -377,18 +377,18 @@ def _permanent(parts: Content, H: Sequence[Fraction], twice: Fraction | int,
 def _wheel_and_liquid(parts: Content, T0, x0) -> tuple[Fate, Reason, dict]:
     """With Lambda the liquid's work has parts of either sign, which resistance outweighs below a certain
     energy."""
-    found = trap(parts)
-    if found is None or x0 >= found[1]:
+    result = trap(parts)
+    if result is None or x0 >= result[1]:
         return Fate.UNDECIDED, WHEEL_AND_LIQUID, {"energy": T0}
-    x1, x2 = found
-    least = sqrt(float(min(parts.D)))
-    above, always = Energy(x1 * x1 / 2).upper, Rate(max(x0, x1) / least).upper
+    x1, x2 = result
+    smallest = sqrt(float(min(parts.D)))
+    above, always = Energy(x1 * x1 / 2).upper, Rate(max(x0, x1) / smallest).upper
     reason = (OUTWEIGHED_ABOVE(least=above, always=always) if x2 == inf else
               OUTWEIGHED_BETWEEN(least=above, most=Energy(x2 * x2 / 2).lower, always=always))
-    reason = (reason.then(IN_THE_END(late=Rate(x1 / least).upper), " and ").then(WHERE_OPEN) if x1
+    reason = (reason.then(IN_THE_END(late=Rate(x1 / smallest).upper), " and ").then(WHERE_OPEN) if x1
               else reason.then(MOTION_TO_REST))
-    return Fate.BOUNDED, reason, {"energy": T0, "rate_bound": max(x0, x1) / least,
-                                  "late_rate_bound": x1 / least}
+    return Fate.BOUNDED, reason, {"energy": T0, "rate_bound": max(x0, x1) / smallest,
+                                  "late_rate_bound": x1 / smallest}
 
 
 def _directed(parts: Content, omega: Sequence[float], gamma: Sequence[float],
@@ -396,14 +396,14 @@ def _directed(parts: Content, omega: Sequence[float], gamma: Sequence[float],
     T0, x0 = _energy(parts, omega)
     s, N = tuple(map(float, parts.s)), float(parts.N)
     V0 = -dot(s, gamma) + N / 2 * sum(float(d) * g * g for d, g in zip(parts.D, gamma))
-    least, most = float(min(parts.D)), float(max(parts.D))
-    floor = -hypot(*s) + N / 2 * (least if N > 0 else most)
+    smallest, largest = float(min(parts.D)), float(max(parts.D))
+    floor = -hypot(*s) + N / 2 * (smallest if N > 0 else largest)
     if parts.kappa:
         return Fate.UNDECIDED, LIQUID_IN_FIELD, {"energy": T0 + V0}
     if not any(parts.M):
         above = T0 + V0 - floor
-        rate = (sqrt(max(0.0, 2 * above / least)) if SMALL < above < inf
-                else hypot(x0, sqrt(max(0.0, 2 * (V0 - floor)))) / sqrt(least))
+        rate = (sqrt(max(0.0, 2 * above / smallest)) if SMALL < above < inf
+                else hypot(x0, sqrt(max(0.0, 2 * (V0 - floor)))) / sqrt(smallest))
         energy = ENERGY_TOO_LARGE if isinf(above) else ENERGY_AT_MOST(most=Energy(above).upper)
         course = COURSES["medium" if parts.c else "damper" if parts.damped else "eddy" if parts.eddy else ""]
         where = REST_LASALLE if decay(parts) else None
@@ -413,9 +413,9 @@ def _directed(parts: Content, omega: Sequence[float], gamma: Sequence[float],
                 FIELD_BOUNDS(course=course, energy=energy, always=Rate(rate).upper).then(where),
                 {"energy": T0 + V0, "rate_bound": rate} | ({"late_rate_bound": 0.0} if decay(parts) else {}))
     if slowest := float(decay(parts)):
-        torque = hypot(*map(float, parts.M)) + hypot(*s) + abs(N) * (most - least) / 2
-        late = torque / sqrt(least) / slowest
-        rate = max(x0, late) / sqrt(least)
+        torque = hypot(*map(float, parts.M)) + hypot(*s) + abs(N) * (largest - smallest) / 2
+        late = torque / sqrt(smallest) / slowest
+        rate = max(x0, late) / sqrt(smallest)
         reason = TORQUE_AT_MOST(torque=Torque(torque).upper, always=Rate(rate).upper).then(WHERE_OPEN)
         return Fate.BOUNDED, reason, {"energy": T0 + V0, "rate_bound": rate}
     return Fate.UNDECIDED, TORQUE_IN_FIELD, {"energy": T0 + V0}

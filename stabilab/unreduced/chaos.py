@@ -55,8 +55,8 @@ def turn_of(scene: AnyScene, states: np.ndarray) -> float:
     with np.errstate(all="ignore"):
         rates = np.abs(to_numpy(scene)(states)[:, :3]).max(axis=1)
     pace = np.maximum(np.abs(states[:, :3]).max(axis=1), np.sqrt(np.where(np.isfinite(rates), rates, 0.0)))
-    found = float(np.median(pace))
-    return 2 * math.pi / found if found > 0 else 1.0
+    result = float(np.median(pace))
+    return 2 * math.pi / result if result > 0 else 1.0
 
 
 def growth(scene: AnyScene, states: np.ndarray, until: float, turn: float,
@@ -68,8 +68,8 @@ def growth(scene: AnyScene, states: np.ndarray, until: float, turn: float,
     unit = own_unit(scene, np.abs(states[:, :3]).max(axis=0).tolist(),
                     np.where(np.isfinite(rates), rates, 0.0).max(axis=0).tolist())
     if unit != 1:
-        found = growth(in_unit(scene, unit), states / unit, until * unit, turn * unit, tell)
-        return replace(found, times=found.times / unit)
+        result = growth(in_unit(scene, unit), states / unit, until * unit, turn * unit, tell)
+        return replace(result, times=result.times / unit)
     times = until / 2.0 ** np.arange(STAGES - 1, -1, -1)
     first = max(SAMPLES, math.ceil(SAMPLES * times[0] / turn))
     out, stiff = np.full((len(states), STAGES), np.nan), np.zeros(len(states), bool)
@@ -109,10 +109,10 @@ def _together(scene: Any, states: np.ndarray, times: np.ndarray,
 
 def _lengths(change: np.ndarray) -> np.ndarray:
     """(...): of vectors (..., N), their largest parts taken out first; 1 of none."""
-    most = np.abs(change).max(axis=-1)
+    largest = np.abs(change).max(axis=-1)
     with np.errstate(all="ignore"):
-        found = most * np.sqrt(((change / most[..., None]) ** 2).sum(axis=-1))
-    return np.where(most == 0, 1.0, found)
+        result = largest * np.sqrt(((change / largest[..., None]) ** 2).sum(axis=-1))
+    return np.where(largest == 0, 1.0, result)
 
 
 def _megno(logs: np.ndarray, step: float) -> np.ndarray:
@@ -123,8 +123,8 @@ def _megno(logs: np.ndarray, step: float) -> np.ndarray:
         area = np.concatenate([np.zeros((1, logs.shape[1])),
                                np.cumsum(0.5 * (logs[1:] + logs[:-1]), axis=0) * step])
         y = 2 * (logs - area / np.maximum(t, step))
-        found = (0.5 * (y[1:] + y[:-1])).sum(axis=0) * step / t[-1, 0]
-    return np.where(np.isfinite(found), found, np.nan)
+        result = (0.5 * (y[1:] + y[:-1])).sum(axis=0) * step / t[-1, 0]
+    return np.where(np.isfinite(result), result, np.nan)
 
 
 def _change(size: int) -> np.ndarray:
@@ -166,8 +166,8 @@ def _too_fast(scene: AnyScene, x: np.ndarray, grid: np.ndarray) -> np.ndarray:
     overflow."""
     size = x.shape[1] // 2
     alive = np.isfinite(x).all(axis=1)
-    pace = np.array([np.abs(to_numpy(scene).jacobian(row[:size])).max() if one else 0.0
-                     for row, one in zip(x, alive)])
+    pace = np.array([np.abs(to_numpy(scene).jacobian(row[:size])).max() if item else 0.0
+                     for row, item in zip(x, alive)])
     return alive & (pace * grid[1] > 10 * CRAWL)
 
 
@@ -177,22 +177,22 @@ def _by_scipy(scene: ScaledGyrostat, x: np.ndarray, grid: np.ndarray) -> tuple[n
     out, slow = np.full((len(grid), *x.shape), np.nan), np.zeros(len(x), bool)
     for n, start in enumerate(x):
         if np.isfinite(start).all():
-            found, slow[n] = _stepped(rate, start, grid)
-            out[:len(found), n] = found
+            result, slow[n] = _stepped(rate, start, grid)
+            out[:len(result), n] = result
     return out, slow
 
 
 def _stepped(rate: Callable[[np.ndarray], np.ndarray], start: np.ndarray,
              grid: np.ndarray) -> tuple[list[np.ndarray], bool]:
     """The states at the times of `grid` that SciPy reaches, and whether it took too many steps."""
-    solver, found, steps = stand_in(lambda y: rate(np.array(y)), start, grid[-1]), [start], 0
+    solver, result, steps = stand_in(lambda y: rate(np.array(y)), start, grid[-1]), [start], 0
     while solver.status == "running":
         if steps >= SLOW_CRAWL * grid.size:
-            return found, True
+            return result, True
         solver.step()
         steps += 1
         if solver.status == "failed" or not np.isfinite(solver.y).all():
             break
-        inside = grid[len(found):][grid[len(found):] <= solver.t]
-        found += list(solver.dense_output()(inside).T) if inside.size else []
-    return found, False
+        inside = grid[len(result):][grid[len(result):] <= solver.t]
+        result += list(solver.dense_output()(inside).T) if inside.size else []
+    return result, False

@@ -36,7 +36,7 @@ def first_crossing(scene: AnyScene, state: Sequence[Any], thresholds: Sequence[T
     reach; these None: as many as take some seconds).
     """
     end = t_max if t_max is not None else LAST_TIME / natural(scene)[1]
-    course, searches = Course(scene, state, end, direction=direction), [Search(one) for one in thresholds]
+    course, searches = Course(scene, state, end, direction=direction), [Search(item) for item in thresholds]
     steps = allowed() if steps is None else steps
     while course.status == enclosure_kernel.GOING and course.steps < steps:
         band = course.advance(end, steps - course.steps, band=True)
@@ -47,13 +47,13 @@ def first_crossing(scene: AnyScene, state: Sequence[Any], thresholds: Sequence[T
 
 def _found(searches: Sequence[Search], band: Band, unit: Fraction) -> bool:
     """Whether one of the limits is surely reached in this band."""
-    open_at = [_open(one.threshold, band, float(unit)) for one in searches]
+    open_at = [_open(item.threshold, band, float(unit)) for item in searches]
     for i in range(len(band.radii)):
         piece = None
-        for one, places in zip(searches, open_at):
-            if places[i] or one.low is not None:
+        for search, places in zip(searches, open_at):
+            if places[i] or search.low is not None:
                 piece = piece or band.piece(i, unit)
-                if one.take(piece):
+                if search.take(piece):
                     return True
     return False
 
@@ -62,18 +62,18 @@ def _open(threshold: Threshold, band: Band, unit: float) -> np.ndarray:
     """(n,) whether each step may reach it."""
     if threshold.falls:
         rows, radii, _ = band.along(threshold.terms[0][1])
-        rows, most = -rows, -float(threshold.limit)
+        rows, largest = -rows, -float(threshold.limit)
     else:
         rows, radii = Band(band.times, band.polynomials[:, :3] / unit, band.radii[:, :3] / unit).form(
             threshold.terms)
-        most = float(threshold.limit)
-    radii = radii + BLUR * np.abs(rows).sum(axis=1) + 2.0**-50 * abs(most)
-    found = np.zeros(len(rows), bool)
+        largest = float(threshold.limit)
+    radii = radii + BLUR * np.abs(rows).sum(axis=1) + 2.0**-50 * abs(largest)
+    result = np.zeros(len(rows), bool)
     # most steps are surely below at once, the others are divided
-    open_at = np.flatnonzero((rows @ bernstein_of(rows.shape[1] - 1, 1).T).max(axis=1) + radii >= most)
+    open_at = np.flatnonzero((rows @ bernstein_of(rows.shape[1] - 1, 1).T).max(axis=1) + radii >= largest)
     values = rows[open_at] @ bernstein_of(rows.shape[1] - 1, PIECES).T
-    found[open_at] = values.max(axis=1, initial=-math.inf) + radii[open_at] >= most
-    return found
+    result[open_at] = values.max(axis=1, initial=-math.inf) + radii[open_at] >= largest
+    return result
 
 
 @lru_cache(maxsize=4)

@@ -166,38 +166,38 @@ class Course:
         steps = max(0, allowed() - self.steps) if steps is None else steps
         size = min(steps, CHUNK) if band else 0
         followed = 3 + len(self._set[4])
-        kept = [np.empty(size), np.empty((size, followed, enclosure_kernel.ORDER + 1)),
+        retained = [np.empty(size), np.empty((size, followed, enclosure_kernel.ORDER + 1)),
                 np.empty((size, followed))]
         begun = self.t * self.unit
-        now, made = self._carried(begun, t, size or steps, kept)
-        self.t, self.steps = now / self.unit, self.steps + made
-        if not (band and made):
+        now, built = self._carried(begun, t, size or steps, retained)
+        self.t, self.steps = now / self.unit, self.steps + built
+        if not (band and built):
             return None
-        times, polynomials, radii = (rows[:made] for rows in kept)
+        times, polynomials, radii = (rows[:built] for rows in retained)
         for rows in (polynomials, radii):
             rows[:, :3] *= self.unit
         return Band(np.append(begun, times) / self.unit, polynomials, radii)
 
-    def _carried(self, t: float, t_end: float, steps: int, kept: Sequence[np.ndarray]):
+    def _carried(self, t: float, t_end: float, steps: int, retained: Sequence[np.ndarray]):
         """(time, steps made) of the set carried on; what is told of each step goes to arrays `kept`."""
-        made, plainly = 0, not installed() or self.plain > 0 and not loaded()
+        built, plainly = 0, not installed() or self.plain > 0 and not loaded()
         if plainly:
-            before, most = [v.copy() for v in self._set], min(steps, self.plain) if installed() else steps
+            before, largest = [v.copy() for v in self._set], min(steps, self.plain) if installed() else steps
             try:
-                t, made = self._run(_plainly, t, t_end, most, kept)
-                self.plain -= made
+                t, built = self._run(_plainly, t, t_end, largest, retained)
+                self.plain -= built
             except (ArithmeticError, ValueError):  # what is no number has no whole part for the interpreter
                 self._set, self.plain = before, 0
                 self.status = enclosure_kernel.GOING if installed() else enclosure_kernel.LOST
-        if installed() and (not plainly or self.status == enclosure_kernel.GOING and made < steps):
-            rest = [rows[made:] for rows in kept]
-            t, more = self._run(functions()["advance"], t, t_end, steps - made, rest)
-            made += more
-        return t, made
+        if installed() and (not plainly or self.status == enclosure_kernel.GOING and built < steps):
+            rest = [rows[built:] for rows in retained]
+            t, more = self._run(functions()["advance"], t, t_end, steps - built, rest)
+            built += more
+        return t, built
 
-    def _run(self, by, t, t_end, steps, kept):
-        self.status, t, made = by(*self._numbers, t, t_end, self._grain, steps, *self._set, *kept)
-        return t, made
+    def _run(self, by, t, t_end, steps, retained):
+        self.status, t, built = by(*self._numbers, t, t_end, self._grain, steps, *self._set, *retained)
+        return t, built
 
     @property
     def now(self) -> Enclosed:
@@ -272,40 +272,40 @@ AS_PROVED = {
         "inequality that the motion meets holds for ever")}
 
 
-def proved(scene, state, found: SpinUp, steps: int | None = None, fast: bool = False,
+def proved(scene, state, result: SpinUp, steps: int | None = None, fast: bool = False,
            plain: int = 0) -> SpinUp:
     """The answer of `spin_up` for the motion from a state (three exact numbers: floats at their word,
     Fractions, decimals in strings), with level "proved" where its way can be enclosed in so many validated
     steps and the inequality holds for the whole set there; else as it was found, its cause told what
     hindered. plain: as of `Course`. fast: ask the inequality by compiled loops, for which the first of an
     installation waits some seconds: where those that found it have loaded them."""
-    if found.level != "certified":
-        return found
-    before: Any = found.trap  # of a motion off the axes of symmetry
+    if result.level != "certified":
+        return result
+    before: Any = result.trap  # of a motion off the axes of symmetry
     scene = effective(checked_scene(scene))
     own, unit = natural(scene)
     rates = "" if scene.variables == "scaled" else "rad/s"
     test = tests_of(own).certifier(before.field, before.orders)
-    way = _Way(scene, state, found.t * LATER[-1], plain)
+    arc = _Way(scene, state, result.t * LATER[-1], plain)
     for later in LATER:
-        reached = way.to(found.t * later, steps)
+        reached = arc.to(result.t * later, steps)
         if reached is None:
-            return replace(found,
-                           reason=found.reason.then(NOT_ENCLOSED(
-                               steps=way.steps, time=Quantity(way.t, scene.time_unit).lower, why=way.why)))
-        middle, near = reached
-        constants = test.constants(middle / unit, near / unit * WIDENED, fast)
+            return replace(result,
+                           reason=result.reason.then(NOT_ENCLOSED(
+                               steps=arc.steps, time=Quantity(arc.t, scene.time_unit).lower, why=arc.why)))
+        middle, nearby = reached
+        constants = test.constants(middle / unit, nearby / unit * WIDENED, fast)
         if constants:
             # six constants
             trap = Trap(before.field, before.form, before.orders,  # type: ignore[call-arg]
-                        *constants, unit, way.t)
-            reason = replace(found.reason, sentence=AS_PROVED[found.reason.code]).then(ENCLOSED(
-                size=Quantity(near, rates, 2).upper, time=Quantity(way.t, scene.time_unit)))
-            return replace(found, level="proved", trap=trap, t=way.t, state=tuple(middle.tolist()),
+                        *constants, unit, arc.t)
+            reason = replace(result.reason, sentence=AS_PROVED[result.reason.code]).then(ENCLOSED(
+                size=Quantity(nearby, rates, 2).upper, time=Quantity(arc.t, scene.time_unit)))
+            return replace(result, level="proved", trap=trap, t=arc.t, state=tuple(middle.tolist()),
                            reason=reason)
-        if not found.t:
+        if not result.t:
             break
-    return replace(found, reason=found.reason.then(NOT_FOR_ALL))
+    return replace(result, reason=result.reason.then(NOT_FOR_ALL))
 
 
 class _Way:

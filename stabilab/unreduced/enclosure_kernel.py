@@ -176,7 +176,7 @@ def bound_of_flow(M: np.ndarray, G: np.ndarray):
         return
     while norm > 0.25:
         norm, halves = norm * 0.5, halves + 1
-    share = ldexp(1.0, -halves)
+    part = ldexp(1.0, -halves)
     term, new = np.zeros((3, 3)), np.zeros((3, 3))
     for i in range(3):
         for j in range(3):
@@ -185,7 +185,7 @@ def bound_of_flow(M: np.ndarray, G: np.ndarray):
     for n in range(1, 10):
         for i in range(3):
             for j in range(3):
-                new[i, j] = (term[i, 0] * M[0, j] + term[i, 1] * M[1, j] + term[i, 2] * M[2, j]) * (share / n)
+                new[i, j] = (term[i, 0] * M[0, j] + term[i, 1] * M[1, j] + term[i, 2] * M[2, j]) * (part / n)
         for i in range(3):
             for j in range(3):
                 term[i, j] = new[i, j]
@@ -351,8 +351,8 @@ def turned(M: np.ndarray, rest: np.ndarray, rad: np.ndarray, B: np.ndarray):
     for c in range(3):
         edges[c] = length_of(M[0, c], M[1, c], M[2, c]) * rad[c]
     first = 0 if edges[0] >= edges[1] and edges[0] >= edges[2] else (1 if edges[1] >= edges[2] else 2)
-    one, two = (first + 1) % 3, (first + 2) % 3
-    second = one if edges[one] >= edges[two] else two
+    item, two = (first + 1) % 3, (first + 2) % 3
+    second = item if edges[item] >= edges[two] else two
     q, r, s, Y = np.empty(3), np.empty(3), np.empty(3), np.empty((3, 3))
     length = length_of(M[0, first], M[1, first], M[2, first]) + TINY
     for i in range(3):

@@ -116,14 +116,14 @@ def growth(scene, state, t_max: float) -> Growth:
             return Growth(0, 0, t, run.reason, steps)
         t, here, steps = t + span, run.states[-1], steps + run.counters["steps"]
         squares = run.states**2
-        share = (squares / squares.sum(axis=1, keepdims=True)).min(axis=0)
+        fraction = (squares / squares.sum(axis=1, keepdims=True)).min(axis=0)
         stages.append((np.sign(run.states).sum(axis=0) / len(run.states), np.abs(run.states).min(axis=0)))
         i = _holder(stages[-DOUBLINGS - 1:], begin) if len(stages) > DOUBLINGS else None
-        if i is None and share.max() > SHARE and np.abs(here).max() > FASTER * begin:
-            i = int(share.argmax())
+        if i is None and fraction.max() > SHARE and np.abs(here).max() > FASTER * begin:
+            i = int(fraction.argmax())
         if i is not None and abs(stages[-1][0][i]) == 1:
-            least = Quantity(float(stages[-1][1][i]), "" if scene.variables == "scaled" else "rad/s", 4)
-            return Growth(i + 1, int(stages[-1][0][i]), t, GROWS_ALONE(least=least), steps)
+            smallest = Quantity(float(stages[-1][1][i]), "" if scene.variables == "scaled" else "rad/s", 4)
+            return Growth(i + 1, int(stages[-1][0][i]), t, GROWS_ALONE(least=smallest), steps)
         span = min(t, t_max - t)
     return Growth(0, 0, t, NO_AXIS_HOLDS, steps)
 
@@ -131,9 +131,9 @@ def growth(scene, state, t_max: float) -> Growth:
 def _holder(stages, begin):
     """The one axis that keeps its sense through the stages while its least rate grows, past `begin`; None
     where it is not one."""
-    senses, least = (np.array(column) for column in zip(*stages))
-    held = (np.abs(senses.sum(axis=0)) == len(stages)) & (least[1:] > GROWTH
-                                                          * least[:-1]).all(axis=0) & (least[-1] > begin)
+    senses, lower = (np.array(column) for column in zip(*stages))
+    held = (np.abs(senses.sum(axis=0)) == len(stages)) & (lower[1:] > GROWTH
+                                                          * lower[:-1]).all(axis=0) & (lower[-1] > begin)
     return int(held.argmax()) if held.sum() == 1 else None
 
 
@@ -165,22 +165,22 @@ def seen_of_blocks(scene: Scene, start: Mapping[str, Float3], span: Sequence[flo
     roots = np.linalg.eigvals(J) * length if np.isfinite(J).all() else np.array([np.inf])
     if abs(roots.real).max() > STIFF or abs(roots).max() > LONG:
         return {"over": TOO_FAST}
-    found = roots_of_rates(turning, start, length)
-    over = OVER_SPAN(span=Span(0.0, found.t_reached))
-    ends = system.invariants(np.vstack([found.start, found.end]))["energy"]
-    return {"extremes": tuple((float(a), float(b)) for a, b in found.extremes()),
+    result = roots_of_rates(turning, start, length)
+    over = OVER_SPAN(span=Span(0.0, result.t_reached))
+    ends = system.invariants(np.vstack([result.start, result.end]))["energy"]
+    return {"extremes": tuple((float(a), float(b)) for a, b in result.extremes()),
             "over": over,
-            **_validity(turning, found, over),
-            "evidence": {"span": found.t_reached, "energy_change": float(ends[1] - ends[0]),
-                         "rate_end": [float(v) for v in found.end[:3]], "steps": found.steps,
-                         **({"vertical_end": [float(v) for v in found.end[3:6]]}
+            **_validity(turning, result, over),
+            "evidence": {"span": result.t_reached, "energy_change": float(ends[1] - ends[0]),
+                         "rate_end": [float(v) for v in result.end[:3]], "steps": result.steps,
+                         **({"vertical_end": [float(v) for v in result.end[3:6]]}
                             if "gamma" in equations.blocks else {})}}
 
 
-def _validity(scene: Scene, found: RateRoots, over: Reason) -> dict:
+def _validity(scene: Scene, result: RateRoots, over: Reason) -> dict:
     """Of approximate laws, at every state that the search met: where a rate vanishes, and at both ends."""
     limits = limits_of(scene)
     if limits is None:
         return {}
-    return {"validity": limits.along(scene, np.vstack([found.start, found.states, found.end]),
+    return {"validity": limits.along(scene, np.vstack([result.start, result.states, result.end]),
                                      LAW_OVER(over=over))}

@@ -25,12 +25,12 @@ BACK = 1e-6  # of the size of the state: a motion that ends so near its start wa
 ALIKE = 1e-6  # relative: times that differ by less are one
 
 
-def flips_of(scene: AnyScene, found: Motion) -> Flips | None:
+def flips_of(scene: AnyScene, result: Motion) -> Flips | None:
     """How often the motion turns over; None where it does not, or where that is not known: of a motion that
     does not repeat, in scaled variables, under other effects than wheels and a constant torque, and so near a
     separatrix that doubles do not follow it round."""
-    pairs, period = found.extremes, found.period
-    if (found.fate != Fate.BOUNDED or period is None or pairs is None or not found.for_all_time
+    pairs, period = result.extremes, result.period
+    if (result.fate != Fate.BOUNDED or period is None or pairs is None or not result.for_all_time
             or scene.variables == "scaled" or not scene.plain):
         return None
     inertia, wheel = scene.body.inertia, [float(v) for v in scene.vector("gyrostat")]
@@ -41,9 +41,9 @@ def flips_of(scene: AnyScene, found: Motion) -> Flips | None:
     axis = max(both, key=lambda i: min(map(abs, swings[i])))
     free = not any(scene.vector("constant_torque"))
     if free and not any(wheel):
-        momentum = sum((d * w) ** 2 for d, w in zip(inertia, found.at))
+        momentum = sum((d * w) ** 2 for d, w in zip(inertia, result.at))
         return Flips(axis + 1, (period / 2,), True) if 2 * swings[axis][1] ** 2 > momentum else None
-    times = _zeros(scene, found.at[:3], period, axis)
+    times = _zeros(scene, result.at[:3], period, axis)
     return Flips(axis + 1, _shortest(_apart(times, period)), free) if times else None
 
 
@@ -59,34 +59,34 @@ def _zeros(scene: Scene, start: Sequence[float], period: float, axis: int) -> li
     where H is not within 45 degrees of both its directions, or the motion was not followed round."""
     form = scene.quadratic()
     D, wheel = scene.body.inertia, [float(v) for v in scene.vector("gyrostat")]
-    x, t, found = tuple(map(float, start)), 0.0, []
+    x, t, result = tuple(map(float, start)), 0.0, []
     before, first, along = 0.0, 0.0, set()  # signs yet, and those for which H lies along the axis
     largest = max(map(abs, x))
     for _ in range(STEPS):
         series = coefficients(form, x, ORDER)
-        if not all(math.isfinite(c) for one in series for c in one):
+        if not all(math.isfinite(c) for term in series for c in term):
             return None
         h = min(length(series, SHARE * (max(map(abs, x)) or largest)), period - t)
         last = 0.0
         for n in range(INSIDE + 1):
-            place = h * n / INSIDE
-            H = [d * summed(one, place) + l for d, one, l in zip(D, series, wheel)]
+            location = h * n / INSIDE
+            H = [d * summed(term, location) + l for d, term, l in zip(D, series, wheel)]
             value = H[axis]
             if 2 * value * value > sum(v * v for v in H):
                 along.add(value > 0)
             if value * before < 0:
-                found.append(t + _between(series[axis], -wheel[axis] / D[axis], last, place))
+                result.append(t + _between(series[axis], -wheel[axis] / D[axis], last, location))
             if value:
-                before, last, first = value, place, first or value
-        t, x = t + h, tuple(summed(one, h) for one in series)
+                before, last, first = value, location, first or value
+        t, x = t + h, tuple(summed(term, h) for term in series)
         largest = max(largest, *map(abs, x))
         if t >= period:
             break
     if t < period or len(along) < 2 or any(abs(a - b) > BACK * largest for a, b in zip(x, start)):
         return None
     if first * before < 0:  # it starts at a zero, which is that of the end
-        found.insert(0, 0.0)
-    return found if len(found) % 2 == 0 else None
+        result.insert(0, 0.0)
+    return result if len(result) % 2 == 0 else None
 
 
 def _between(series: list[float], level: float, low: float, high: float) -> float:

@@ -83,11 +83,11 @@ def extremes_over_period(scene, state) -> PeriodExtremes:
     Raises InputError where a torque acts, and where rates and gyrostatic moment are so far apart that no unit
     makes doubles of both.
     """
-    form, given = scene.quadratic(), list(state)
+    form, supplied = scene.quadratic(), list(state)
     state = three_numbers(state)
     if any(form.m):
         raise InputError("the period by return is for motions without torque; this scene has one")
-    exact = [Fraction(v) for v in given]
+    exact = [Fraction(v) for v in supplied]
     if not any(form.rate(exact)):
         return PeriodExtremes(np.stack([state, state], axis=1), 0.0, ALL_TIME, RESTS)
     k, mass = far(own_exponent(exact, form.rate(exact))) or 0, mass_unit(scene)
@@ -112,14 +112,14 @@ def _no_double_is_nan(period: float) -> float:
     return period if 0 < period < math.inf else math.nan
 
 
-def _in_scene_unit(found: PeriodExtremes, k: int) -> PeriodExtremes:
+def _in_scene_unit(result: PeriodExtremes, k: int) -> PeriodExtremes:
     """What was found in the unit 2^k, in the scene's own."""
     if not k:
-        return found
+        return result
     with np.errstate(over="ignore", under="ignore"):
-        box = np.ldexp(found.extremes, k)
-    return replace(found, extremes=np.where(np.isfinite(box), box, np.nan),
-                   period=found.period if math.isinf(found.period) else powered(found.period, -k))
+        box = np.ldexp(result.extremes, k)
+    return replace(result, extremes=np.where(np.isfinite(box), box, np.nan),
+                   period=result.period if math.isinf(result.period) else powered(result.period, -k))
 
 
 def _by_return(scene: Scene, form: QuadraticForm, state: np.ndarray, k: int) -> PeriodExtremes:
@@ -159,8 +159,8 @@ def _return(roots: RateRoots, state: np.ndarray):
     size = max(np.ptp(np.vstack([roots.states, state]), axis=0).max(), 1e-300)
     apart = np.abs(roots.states[1:] - roots.states[0]).max(axis=1)
     same = (roots.component[1:] == roots.component[0]) & (apart <= SAME_POINT * size)
-    found = np.nonzero(same)[0]
-    return int(found[0]) + 1 if found.size else None
+    result = np.nonzero(same)[0]
+    return int(result[0]) + 1 if result.size else None
 
 
 def _one_period(scene: Scene, roots: RateRoots, closing: int):
@@ -208,30 +208,30 @@ def _polish(form: QuadraticForm, first: Sequence[np.ndarray], second: Sequence[n
 def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL) -> Motion:
     """See `answers.motion`: the motion is closed, and one return gives its period and every extreme."""
     state = three_floats(state)
-    given = exact or state
-    decided = free_fate(scene, given)
+    supplied = exact or state
+    decided = free_fate(scene, supplied)
     fields: dict[str, Any] = {"velocity_reason": NO_BRANCHES}
     if decided.label == Fate.SEPARATRIX:
         fields = {"margin_velocity": 0.0, "velocity_bounds": (0.0, 0.0), "velocity_witness": state}
     elif has_no_saddle(scene):
         fields = {"velocity_reason": NO_SEPARATRIX_OF_SPHERE}
     lost, open_ = ["the margin in energy"] if math.isnan(decided.margin) else [], None
-    if rests(scene.quadratic(), given):
+    if rests(scene.quadratic(), supplied):
         decided = at_rest(scene, decided)
         fields["extremes"] = tuple((v, v) for v in state)
     elif needs & (BOX | ROUND):
-        closed = extremes_over_period(scene, given)
+        closed = extremes_over_period(scene, supplied)
         open_ = closed.reason if math.isnan(closed.period) and closed.over != ALL_TIME else None
-        whole = bool(np.isfinite(closed.extremes).all())
-        lost += ([] if whole else ["an extreme"]) + (["the period"] if math.isnan(closed.period)
+        full = bool(np.isfinite(closed.extremes).all())
+        lost += ([] if full else ["an extreme"]) + (["the period"] if math.isnan(closed.period)
                                                      and closed.over == ALL_TIME else [])
-        fields |= {"extremes": pairs(closed.extremes) if whole else None, "period": repeats(closed.period),
+        fields |= {"extremes": pairs(closed.extremes) if full else None, "period": repeats(closed.period),
                    "returns": closed.period,
-                   "over": closed.over if whole else NONE_IN_DOUBLES}
-    known = judged(state, decided)
-    known["reason"] = known["reason"].then(PERIOD_OPEN(why=open_) if open_ else None).then(
+                   "over": closed.over if full else NONE_IN_DOUBLES}
+    resolved = judged(state, decided)
+    resolved["reason"] = resolved["reason"].then(PERIOD_OPEN(why=open_) if open_ else None).then(
         LOST(what=", ".join(lost)) if lost else None)
-    return Motion(margin_energy=finite(decided.margin), **(known | fields))
+    return Motion(margin_energy=finite(decided.margin), **(resolved | fields))
 
 
 def fates(scene, states, fast: bool | None = None):
@@ -243,13 +243,13 @@ def extremes(scene, states, span=None, fast: bool | None = None):
     """(n, 3, 2) over all time; NaN on a separatrix and next to it, where a run shows its own span alone
     (`extremes_over_period`)."""
     rest = equilibrium_mask(scene, states)
-    known = (np.stack([s, s], axis=1) if still else _for_all_time(extremes_over_period(scene, s)) for s,
+    resolved = (np.stack([s, s], axis=1) if still else _for_all_time(extremes_over_period(scene, s)) for s,
              still in zip(states, rest))
-    return np.array(list(known)).reshape(-1, 3, 2)
+    return np.array(list(resolved)).reshape(-1, 3, 2)
 
 
-def _for_all_time(found: PeriodExtremes) -> np.ndarray:
-    return found.extremes if found.over == ALL_TIME else np.full((3, 2), np.nan)
+def _for_all_time(result: PeriodExtremes) -> np.ndarray:
+    return result.extremes if result.over == ALL_TIME else np.full((3, 2), np.nan)
 
 
 def periods(scene, states, fast: bool | None = None):

@@ -173,17 +173,17 @@ def _by_certificate(change, y, t_max, second):
                                                          change=Quantity(reach, "", 1)))
     estimate = None if name == "spin-up" and not last else vanishing
     when = None if t is None else t * unit
-    known = dict(release_estimate=estimate, certificate=name, t_certificate=when, steps=steps)
+    resolved = dict(release_estimate=estimate, certificate=name, t_certificate=when, steps=steps)
     if name == "well":
         sense = (1 if change.rates[2] > 0 else -1) * (1 if end[2] > 0 else -1)
-        return known | dict(fate=Fate.SPIN_UP, axis=q + 1, sense=sense, reason=CAPTURED(axis=other))
+        return resolved | dict(fate=Fate.SPIN_UP, axis=q + 1, sense=sense, reason=CAPTURED(axis=other))
     if name == "spin-up":
-        return spin | known | dict(release_time=last * unit,
+        return spin | resolved | dict(release_time=last * unit,
                             reason=NO_MORE_REVERSAL(axis=axis, time=Quantity(when, second).upper))
     if c > 0:
-        return spin | known | dict(certificate="bound", t_certificate=0.0, reason=GROWING_BOUND(
+        return spin | resolved | dict(certificate="bound", t_certificate=0.0, reason=GROWING_BOUND(
             axis=axis, time=Quantity(estimate, second)))
-    return known | dict(reason=NEITHER_CERTAIN(axis=axis, other=other, steps=steps,
+    return resolved | dict(reason=NEITHER_CERTAIN(axis=axis, other=other, steps=steps,
                                                time=Quantity(t_max, second)))
 
 
@@ -197,48 +197,48 @@ def _without_form(scene, state, axis, t_max):
         return dict(fate=Fate.SPIN_UP, release_time=0.0, certificate="law", t_certificate=0.0,
                     reason=ALONG_WHEEL)
     t_max = MAX_TIME / math.sqrt(abs(form.m[axis])) if t_max is None else t_max
-    seen = seen_growth(scene, state, t_max)
-    span = Quantity(seen.span, scene.time_unit)
-    shown = (RUN_SPINS_UP(axis=Axis(seen.axis), time=span, seen=seen.reason) if seen.axis
+    visited = seen_growth(scene, state, t_max)
+    span = Quantity(visited.span, scene.time_unit)
+    shown = (RUN_SPINS_UP(axis=Axis(visited.axis), time=span, seen=visited.reason) if visited.axis
              else RUN_NO_AXIS(time=span))
-    known = dict(fate=Fate.SPIN_UP, certificate="evidence") if seen.axis else {}
-    return known | dict(axis=seen.axis, sense=seen.sense, steps=seen.steps,
+    resolved = dict(fate=Fate.SPIN_UP, certificate="evidence") if visited.axis else {}
+    return resolved | dict(axis=visited.axis, sense=visited.sense, steps=visited.steps,
                         reason=UNBOUNDED_BY_LAW(number=axis + 1).then(shown))
 
 
 def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL) -> Motion:
     """See `answers.motion`: unbounded by an exact law; what is seen over the span is told beside it."""
     state = three_floats(state)
-    found = captured_fate(scene, state, exact=exact)
-    known = {"certificate": found.certificate, "t_certificate": found.t_certificate,
-             "release_time": found.release_time,
-             "release_estimate": found.release_estimate, "steps": found.steps}
-    fields, seen = {**judged(state, unbounded(found)), "reason": found.reason, "returns": math.inf,
-                    "level": LEVEL.get(found.certificate, "undecided")}, {}
-    if needs & Needs.EXTREMES and (span is not None or _for_ever(found)):
-        grown = captured_extremes(scene, state, found, reach_of(span), exact)
+    result = captured_fate(scene, state, exact=exact)
+    info = {"certificate": result.certificate, "t_certificate": result.t_certificate,
+             "release_time": result.release_time,
+             "release_estimate": result.release_estimate, "steps": result.steps}
+    fields, noted = {**judged(state, unbounded(result)), "reason": result.reason, "returns": math.inf,
+                    "level": LEVEL.get(result.certificate, "undecided")}, {}
+    if needs & Needs.EXTREMES and (span is not None or _for_ever(result)):
+        grown = captured_extremes(scene, state, result, reach_of(span), exact)
         fields |= {"extremes": pairs(grown.box), "over": grown.over}
-        seen = ({} if span is None
+        noted = ({} if span is None
                 else seen_over(scene, state, (0.0, grown.span or reach_of(span)))["evidence"])
     elif needs & Needs.EXTREMES:
         fields["over"] = NO_EXTREMES(why=str(span_needed(scene)))
-    return Motion(**fields, invariants={"J": found.J0, "J_rate": found.J_rate}, evidence={**seen, **known})
+    return Motion(**fields, invariants={"J": result.J0, "J_rate": result.J_rate}, evidence={**noted, **info})
 
 
-def _for_ever(found: CapturedFate) -> bool:
+def _for_ever(result: CapturedFate) -> bool:
     """Whether all extremes of the motion are known for all time."""
-    return found.certificate in ("axis", "law")
+    return result.certificate in ("axis", "law")
 
 
 def extremes(scene, states, span=None, fast: bool | None = None):
     """(n, 3, 2), as of `captured_extremes`, NaN where the run ends before its span does; InputError where
     they are not known for all time and no span is named."""
-    found = [captured_fate(scene, state) for state in states]
-    if span is None and not all(map(_for_ever, found)):
+    rows = [captured_fate(scene, state) for state in states]
+    if span is None and not all(map(_for_ever, rows)):
         raise span_needed(scene)
-    known = [captured_extremes(scene, *row, span) for row in zip(states, found)]
-    return np.array([one.box if one.whole else np.where(np.isinf(one.box), one.box, np.nan)
-                     for one in known]).reshape(-1, 3, 2)
+    resolved = [captured_extremes(scene, *row, span) for row in zip(states, rows)]
+    return np.array([item.box if item.whole else np.where(np.isinf(item.box), item.box, np.nan)
+                     for item in resolved]).reshape(-1, 3, 2)
 
 
 def periods(scene, states, fast: bool | None = None):
@@ -246,9 +246,9 @@ def periods(scene, states, fast: bool | None = None):
     return np.full(len(states), math.inf)
 
 
-def unbounded(found: CapturedFate) -> OneFate:
+def unbounded(result: CapturedFate) -> OneFate:
     """The fate that `captured_fate` found under the law: unbounded, about an axis that may be undecided."""
-    return OneFate(found.fate, Basis.UNBOUNDED_LAW, -math.inf, found.axis, found.sense)
+    return OneFate(result.fate, Basis.UNBOUNDED_LAW, -math.inf, result.axis, result.sense)
 
 
 def fates(scene: Scene, states: np.ndarray, fast: bool | None = None) -> FateResult:

@@ -200,8 +200,8 @@ def certificate(c: float, y: np.ndarray | Sequence[float]) -> str | None:
 def search_certificate(c: float, y: Sequence[float], t_max: float):
     """(certificate or "none", its time, state there, last reversal of the turn, steps): run until one holds.
     """
-    if found := certificate(c, y):
-        return found, 0.0, y, 0.0, 0
+    if result := certificate(c, y):
+        return result, 0.0, y, 0.0, 0
     if not math.isfinite(sum(v * v for v in y) * (1 + c * c)):
         return "none", None, y, 0.0, 0
     run, t, last, steps = turning_run(c), 0.0, 0.0, 0
@@ -212,8 +212,8 @@ def search_certificate(c: float, y: Sequence[float], t_max: float):
         last = t + float(passed.times[-1]) if len(passed.times) else last
         t = t + passed.t if passed.reason else end
         y, steps = tuple(passed.state.tolist()), steps + passed.steps
-        if found := certificate(c, y):
-            return found, t, y, last, steps
+        if result := certificate(c, y):
+            return result, t, y, last, steps
         if passed.reason:
             break
     return "none", None, y, last, steps
@@ -268,23 +268,23 @@ def captured_extremes(scene, state, answer, span: float | None = None, exact=Non
     twenty units of the motion). A spin-up is run on to where its growing component can fall no lower than it
     has: P >= sqrt(2L), and for c > 0 2cu >= -J. exact: the state as it was given (Fractions).
     """
-    known = law_extremes(scene, exact or state, answer.certificate)
-    if known is not None:
-        return GrowthExtremes(np.array([[float(v) for v in pair] for pair in known]), ALL_TIME, None)
+    resolved = law_extremes(scene, exact or state, answer.certificate)
+    if resolved is not None:
+        return GrowthExtremes(np.array([[float(v) for v in pair] for pair in resolved]), ALL_TIME, None)
     change = standard_form(scene)
     unit = change.time if change else 1 / math.sqrt(max(abs(float(v)) for v in scene.quadratic().m))
     span = max(1.5 * (answer.t_certificate or 0.0), 20 * unit) if span is None else span
     roots, certain = _run_to_floor(scene, state, change, answer, span)
     box = roots.extremes()
-    reach, whole = Span(0.0, roots.t_reached, scene.time_unit), not roots.reason
+    reach, full = Span(0.0, roots.t_reached, scene.time_unit), not roots.reason
     over = OVER_SPAN(span=reach)
     if span < 0:  # nothing is known of what was before
-        return GrowthExtremes(box, over, roots.t_reached, whole)
+        return GrowthExtremes(box, over, roots.t_reached, full)
     if answer.certificate in ("spin-up", "bound", "well"):
         box[answer.axis - 1, 1 if answer.sense > 0 else 0] = answer.sense * np.inf
         over = (GROWS_FOR_EVER(axis=Axis(answer.axis), span=reach) if certain
                 else FINITE_OVER(span=reach))
-    return GrowthExtremes(box, over, roots.t_reached, whole)
+    return GrowthExtremes(box, over, roots.t_reached, full)
 
 
 def _run_to_floor(scene, state, change, answer, span):
@@ -306,13 +306,13 @@ def _floor_holds(change, roots):
     """Whether u can fall no lower after the run than it did in it: u >= sqrt(2L) - |c|/2, L growing
     (`growth`), or u >= -J/2c, J falling."""
     c, i = change.c, change.axes[0]
-    least = min(change.to_standard(x.tolist())[0]
+    smallest = min(change.to_standard(x.tolist())[0]
                 for x in (roots.start, roots.end, *roots.states[roots.component == i]))
     end = change.to_standard(roots.end.tolist())
     margin, _ = spin_up_margin(c, end)
-    if margin > 0 and math.sqrt(2 * (margin + c * c / 2)) - abs(c) / 2 >= least:
+    if margin > 0 and math.sqrt(2 * (margin + c * c / 2)) - abs(c) / 2 >= smallest:
         return True
-    return c > 0 and -angle_of(c, end)[2] / (2 * c) >= least
+    return c > 0 and -angle_of(c, end)[2] / (2 * c) >= smallest
 
 
 # -- what is known for all time
@@ -356,10 +356,10 @@ def _about_axis(form, x, i, numbers):
     return pairs
 
 
-def _growing(least, way):
+def _growing(smallest, route):
     """The pair of a component that grows without bound in one direction, `least` being how far it goes in the
     other."""
-    return (least, math.inf) if way > 0 else (-math.inf, least)
+    return (smallest, math.inf) if route > 0 else (-math.inf, smallest)
 
 
 def _drifting(scene, x, a, numbers):

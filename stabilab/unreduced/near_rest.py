@@ -56,12 +56,12 @@ class FromStart(Recursion):
 def small_loop(form, state, digits: int = RETURN_DIGITS):
     """(period, [(least, greatest)] * 3) of a closed motion as balls; None where it did not return within the
     work allowed."""
-    share = smallness(form, state)
+    fraction = smallness(form, state)
     # a saddle so near magnifies by as much on the way out, and on the way back
-    lost = len(str(share.denominator // share.numerator))
-    _, found = one_run(FromStart(form, state), (0, 0, 0), [], digits + 2 * lost, [WORK], orbit=True)
-    if found is None:
+    lost = len(str(fraction.denominator // fraction.numerator))
+    _, result = one_run(FromStart(form, state), (0, 0, 0), [], digits + 2 * lost, [WORK], orbit=True)
+    if result is None:
         return None
-    period, swings = found
+    period, swings = result
     with working(512) as numbers:
         return period, [tuple(numbers.ball(x) + v for v in pair) for x, pair in zip(state, swings)]

@@ -55,8 +55,8 @@ def ranges_until(scene: Scene, state: Sequence[float], t: float,
     while course.status == enclosure_kernel.GOING and course.steps < steps:
         band = course.advance(t, steps - course.steps, band=True)
         if band is not None:
-            found = ranges(band)
-            out = np.stack([np.minimum(out[:, 0], found[:, 0]), np.maximum(out[:, 1], found[:, 1])], axis=1)
+            result = ranges(band)
+            out = np.stack([np.minimum(out[:, 0], result[:, 0]), np.maximum(out[:, 1], result[:, 1])], axis=1)
     return out if course.status == enclosure_kernel.DONE else None
 
 
@@ -91,22 +91,22 @@ def motion(scene, state, span=None, exact=None, needs: Needs = Needs.ALL, follow
         return Motion(**judged(state, decided), margin_energy=finite(decided.margin),
                       extremes=tuple((v, v) for v in state), velocity_reason=NO_BRANCHES)
     start = list(exact or state) if proof else state
-    found = spin_up(scene, start, **_limits(follow), tell=tell, proof=proof)
-    decided = OneFate(found.fate, REASON[found.level], math.nan, found.axis, found.sense)
-    bounds = bounds_for_ever(scene, start, found) if needs & Needs.EXTREMES else None
-    fields = {**judged(state, decided), "velocity_reason": NO_BRANCHES, "level": found.level,
-              "finding": found.reason, "bounds": bounds,
+    result = spin_up(scene, start, **_limits(follow), tell=tell, proof=proof)
+    decided = OneFate(result.fate, REASON[result.level], math.nan, result.axis, result.sense)
+    bounds = bounds_for_ever(scene, start, result) if needs & Needs.EXTREMES else None
+    fields = {**judged(state, decided), "velocity_reason": NO_BRANCHES, "level": result.level,
+              "finding": result.reason, "bounds": bounds,
               "extremes": bounds, "over": AS_BOUNDS if bounds else NO_SPAN(unit=scene.time_unit)}
-    fields["reason"] = decided.reason.then(found.reason)
-    known = {"t_certificate" if found.fate == Fate.SPIN_UP else "followed_until": found.t,
-             "steps_followed": found.steps,
-             "small_change_grew": found.condition}
-    seen = {} if span is None or not needs & Needs.EXTREMES else seen_over(scene, state, span)
-    if found.fate == Fate.UNDECIDED and found.reason.says(ISLAND_SEEN):
-        fields["reason"] = fields["reason"].then(_middle(scene, found.state))
-    if seen and found.fate == Fate.UNDECIDED:
-        fields["reason"] = fields["reason"].then(sizes(seen["evidence"], scene.variables == "scaled"))
-    return Motion(**fields | seen | {"evidence": {**seen.get("evidence", {}), **known}})
+    fields["reason"] = decided.reason.then(result.reason)
+    resolved = {"t_certificate" if result.fate == Fate.SPIN_UP else "followed_until": result.t,
+             "steps_followed": result.steps,
+             "small_change_grew": result.condition}
+    visited = {} if span is None or not needs & Needs.EXTREMES else seen_over(scene, state, span)
+    if result.fate == Fate.UNDECIDED and result.reason.says(ISLAND_SEEN):
+        fields["reason"] = fields["reason"].then(_middle(scene, result.state))
+    if visited and result.fate == Fate.UNDECIDED:
+        fields["reason"] = fields["reason"].then(sizes(visited["evidence"], scene.variables == "scaled"))
+    return Motion(**fields | visited | {"evidence": {**visited.get("evidence", {}), **resolved}})
 
 
 def _middle(scene, state) -> Reason | None:
@@ -123,17 +123,17 @@ def _limits(follow: float | None) -> dict:
     return {"t_max": float(follow), "budget": ENDLESS}
 
 
-def bounds_for_ever(scene: Scene, state: Sequence[float], found: SpinUp) -> tuple | None:
+def bounds_for_ever(scene: Scene, state: Sequence[float], result: SpinUp) -> tuple | None:
     """((low, high),) * 3 of the rates at all t >= 0 of a motion that spins up: those of the trap from found.t
     on, and the extremes of the run until then (where the spin-up is proved: what the enclosure of the way
     cannot leave); None where they are not known."""
-    if found.fate != Fate.SPIN_UP or found.trap is None:
+    if result.fate != Fate.SPIN_UP or result.trap is None:
         return None
-    later = tuple((outward(a, ROUND_FLOOR), outward(b, ROUND_CEILING)) for a, b in found.trap.bounds())
-    if not found.t:
+    later = tuple((outward(a, ROUND_FLOOR), outward(b, ROUND_CEILING)) for a, b in result.trap.bounds())
+    if not result.t:
         return later
-    before = (_extremes_until(scene, state, found) if found.passed <= MAX_STEPS
-              else _reach(scene, state, found.t))
+    before = (_extremes_until(scene, state, result) if result.passed <= MAX_STEPS
+              else _reach(scene, state, result.t))
     return before and tuple((min(a, c), max(b, d)) for (a, b), (c, d) in zip(later, before))
 
 
@@ -142,16 +142,16 @@ def outward(bound: float, towards: str) -> float:
     processor to processor."""
     if not bound or not math.isfinite(bound):
         return bound
-    told = float(Context(prec=BOUND_DIGITS, rounding=towards).create_decimal_from_float(bound))
+    printed = float(Context(prec=BOUND_DIGITS, rounding=towards).create_decimal_from_float(bound))
     side = math.inf if towards == ROUND_CEILING else -math.inf
     # the double next to the decimal
-    return told if told == bound or (told > bound) == (side > 0) else math.nextafter(told, side)
+    return printed if printed == bound or (printed > bound) == (side > 0) else math.nextafter(printed, side)
 
 
-def _extremes_until(scene: Scene, state: Sequence[float], found: SpinUp) -> tuple | None:
-    if found.level == "proved" and (sure := ranges_until(scene, state, found.t)) is not None:
+def _extremes_until(scene: Scene, state: Sequence[float], result: SpinUp) -> tuple | None:
+    if result.level == "proved" and (sure := ranges_until(scene, state, result.t)) is not None:
         return pairs(sure)
-    run = roots_of_rates(scene, three_floats(state), found.t)
+    run = roots_of_rates(scene, three_floats(state), result.t)
     return None if run.reason else pairs(run.extremes())
 
 
@@ -194,10 +194,10 @@ class Followed:
         return None if self.place[number] < 0 else self.found.row(int(self.place[number]))
 
 
-def _island(found: SpinUp | None) -> int:
-    if found is None or found.fate != Fate.UNDECIDED:
+def _island(result: SpinUp | None) -> int:
+    if result is None or result.fate != Fate.UNDECIDED:
         return 0
-    return 2 if found.reason.says(ISLAND_SEEN) else int(found.reason.says(ISLAND_POSSIBLE.sentence))
+    return 2 if result.reason.says(ISLAND_SEEN) else int(result.reason.says(ISLAND_POSSIBLE.sentence))
 
 
 def fates(scene, states, fast: bool | None = None, follow: float | None = None, tell=None,
@@ -206,15 +206,15 @@ def fates(scene, states, fast: bool | None = None, follow: float | None = None, 
     another."""
     rest = equilibrium_mask(scene, states)
     moving = np.flatnonzero(~rest)
-    found = spin_up_many(scene, states[moving], **_limits(follow), tell=tell, fast=fast, proof=proof)
+    result = spin_up_many(scene, states[moving], **_limits(follow), tell=tell, fast=fast, proof=proof)
     out = empty_columns(len(states)) | {"margins": np.full(len(states), np.nan)}
     out["labels"][:], out["reasons"][:] = Fate.EQUILIBRIUM, Basis.AT_REST
-    for name, values in (("labels", found.fate), ("axis", found.axis), ("sense", found.sense)):
+    for name, values in (("labels", result.fate), ("axis", result.axis), ("sense", result.sense)):
         out[name][moving] = values
-    out["reasons"][moving] = np.array([REASON[word] for word in LEVELS], np.int8)[found.level]
-    place = np.full(len(states), -1)
-    place[moving] = np.arange(len(moving))
-    blank = FateResult(**out, followed=Followed(found, place))  # type: ignore[arg-type]  # the columns alone
+    out["reasons"][moving] = np.array([REASON[word] for word in LEVELS], np.int8)[result.level]
+    index = np.full(len(states), -1)
+    index[moving] = np.arange(len(moving))
+    blank = FateResult(**out, followed=Followed(result, index))  # type: ignore[arg-type]  # the columns alone
     if rest.any():
         resting = at_rest(scene, OneFate(Fate.UNDECIDED, Basis.OFF_AXIS, math.nan))
         blank = replace(blank, margins=np.where(rest, resting.margin, blank.margins))
@@ -232,12 +232,12 @@ def extremes(scene, states, span=None, fast: bool | None = None, follow: float |
     rest = equilibrium_mask(scene, states)
     still = np.stack([states, states], axis=2)
     if span is not None:
-        return np.array([one if at else extremes_over(scene, s, span) for s, one,
+        return np.array([item if at else extremes_over(scene, s, span) for s, item,
                          at in zip(states, still, rest)]).reshape(-1, 3, 2)
     moving = np.flatnonzero(~rest)
-    found = spin_up_many(scene, states[moving], **_limits(follow), tell=tell, fast=fast)
-    if len(moving) and not (found.fate == Fate.SPIN_UP).any():
+    result = spin_up_many(scene, states[moving], **_limits(follow), tell=tell, fast=fast)
+    if len(moving) and not (result.fate == Fate.SPIN_UP).any():
         raise InputError(f"extremes: {NO_SPAN(unit=scene.time_unit)}")
     for n, row in enumerate(moving):
-        still[row] = bounds_for_ever(scene, states[row].tolist(), found.row(n)) or np.nan
+        still[row] = bounds_for_ever(scene, states[row].tolist(), result.row(n)) or np.nan
     return still

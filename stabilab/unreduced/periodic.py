@@ -65,8 +65,8 @@ class Periodic:
     @property
     def elliptic(self) -> bool:
         """Whether the multipliers are a pair on the unit circle, not real."""
-        one = self.multipliers[0]
-        return abs(one.imag) > 1e-9 and abs(abs(one) - 1) < 1e-6
+        item = self.multipliers[0]
+        return abs(item.imag) > 1e-9 and abs(abs(item) - 1) < 1e-6
 
     @property
     def angle(self) -> float:
@@ -103,10 +103,10 @@ def periodic(scene: Any, state: Any, section: Section) -> Periodic | None:
     x = np.array(state, float)
     x[section.axis], across = section.level, section.across
     for _ in range(PASSES):
-        found = passage(scene, x, section)
-        if found is None:
+        result = passage(scene, x, section)
+        if result is None:
             return None
-        t, y, V = found
+        t, y, V = result
         f = np.array(scene.quadratic().rate(y.tolist()))
         slope = (V - np.outer(f, V[section.axis]) / f[section.axis])[np.ix_(across, across)]
         gap = (y - x)[across]
@@ -233,8 +233,8 @@ def crossed(scene: Any, state: Any, until: float = math.inf) -> Section | None:
     states = sampled(scene, state, until=until)
     if states is None or len(states) < LEAST:
         return None
-    return next((one for one in sections(states)
-                 if len(returns(scene, state, one, LEAST, until)[0]) == LEAST), None)
+    return next((section for section in sections(states)
+                 if len(returns(scene, state, section, LEAST, until)[0]) == LEAST), None)
 
 
 def returns(scene: Any, state: Any, section: Section, count: int, until: float = math.inf,
@@ -244,8 +244,8 @@ def returns(scene: Any, state: Any, section: Section, count: int, until: float =
     times: list[float] = []
     places: list[np.ndarray] = []
     now, x = 0.0, np.array(state, float)
-    while len(times) < count and (found := passage(scene, x, section, linear=False)) is not None:
-        now, x = now + found[0], found[1]
+    while len(times) < count and (result := passage(scene, x, section, linear=False)) is not None:
+        now, x = now + result[0], result[1]
         if not now <= until or math.hypot(*x) > reach:
             break
         times.append(now)
@@ -253,20 +253,20 @@ def returns(scene: Any, state: Any, section: Section, count: int, until: float =
     return np.array(times), np.array(places).reshape(-1, 3)
 
 
-def neighbours_of(middle: np.ndarray, place: np.ndarray, section: Section, number: int) -> np.ndarray:
+def neighbours_of(middle: np.ndarray, location: np.ndarray, section: Section, number: int) -> np.ndarray:
     """(number, 3) states on the section along the line from a middle through a place: half of them between
     the two, half up to as far beyond. Where the two are one place, all of them beside it along the first of
     the other rates."""
-    way, size = place - middle, float(np.abs(middle).max())
-    way[section.axis] = 0.0
+    route, size = location - middle, float(np.abs(middle).max())
+    route[section.axis] = 0.0
     inside, reach = number // 2, 1.0
-    if math.hypot(*way) <= ONE_PLACE * size:
+    if math.hypot(*route) <= ONE_PLACE * size:
         inside, reach = 0, 0.0
-        way = ASIDE * size * np.eye(3)[section.across[0]]
+        route = ASIDE * size * np.eye(3)[section.across[0]]
     outside = number - inside
     shares = [*(n / (inside + 1) for n in range(1, inside + 1)),
               *(reach + n / outside for n in range(1, outside + 1))]
-    return middle + np.array(shares).reshape(-1, 1) * way
+    return middle + np.array(shares).reshape(-1, 1) * route
 
 
 def one_place(places: np.ndarray) -> bool:

@@ -39,8 +39,8 @@ class Verification:
 
     @property
     def status(self) -> str:
-        found = {f.status for f in self.findings}
-        return "refuted" if "refuted" in found else "proved" if found <= {"proved"} and found else "partly"
+        result = {f.status for f in self.findings}
+        return "refuted" if "refuted" in result else "proved" if result <= {"proved"} and result else "partly"
 
 
 def verify(certificate: dict) -> Verification:

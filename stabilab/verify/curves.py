@@ -69,10 +69,10 @@ def on_common_level(rates: Rates, x: Sequence[Fraction]):
     if not any(g):
         (B, g), (A, h) = (A, h), (B, g)
     pivot = next(i for i in range(3) if g[i])
-    share = h[pivot] / g[pivot]
-    if any(u - share * v for u, v in zip(h, g)):
+    part = h[pivot] / g[pivot]
+    if any(u - part * v for u, v in zip(h, g)):
         return None
-    return _meets_surface([u - share * v for u, v in zip(A, B)], g, B)
+    return _meets_surface([u - part * v for u, v in zip(A, B)], g, B)
 
 
 def _meets_surface(A: Sequence[Fraction], g: Sequence[Fraction], B: Sequence[Fraction]):
@@ -171,9 +171,9 @@ def drift(rates, J, m):
 def leaves_fold(J, zero):
     """At a simple zero of m on a line of equilibria where J^2 is not zero: z' = y, y' = w, w' = b z y + ...,
     b = -dm/dz."""
-    whole = any(entry % zero.polynomial != 0 for row in product(J, J) for entry in row)
+    full = any(entry % zero.polynomial != 0 for row in product(J, J) for entry in row)
     return ("unstable",
-            "m changes sign on a line of equilibria: z ~ 12/(b t^2) leaves the point") if whole else None
+            "m changes sign on a line of equilibria: z ~ 12/(b t^2) leaves the point") if full else None
 
 
 def leaves_double_root(rates: Rates, x: Sequence[Fraction], m: Fraction):

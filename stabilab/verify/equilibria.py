@@ -99,11 +99,11 @@ def whole_line(kind: str, points: Sequence[_Point], curves: Sequence[Curve], pla
     """(status, reason): equilibria of a torque whose two conditions meet in a line. places: those on it
     (`Line`)."""
     if places is None:
-        whole = kind == "curves" and len(curves) == 1 and not points and curves[0].straight
-        return ("proved" if whole
+        full = kind == "curves" and len(curves) == 1 and not points and curves[0].straight
+        return ("proved" if full
                 else "refuted"), "the rates vanish all along the line where the two conditions meet"
     once = (len(points) == len(places)
-            and all(sum(place.within(p.box) for p in points) == 1 for place in places))
+            and all(sum(location.within(p.box) for p in points) == 1 for location in places))
     right = once and not curves and kind == ("points" if places else "none")
     why = f"on the line where the two conditions meet the rates have {len(places)} common zeros"
     return ("proved" if right else "refuted"), f"{why}, {'' if once else 'not '}each in a box of its own"
@@ -139,8 +139,8 @@ def whole_conic(rates, kind, points, curves):
     A, B, C, D, E, F = (conic[powers] for powers in ((2, 0), (1, 1), (0, 2), (1, 0), (0, 1), (0, 0)))
     degenerate = 4 * A * C * F + B * D * E - A * E * E - C * D * D - B * B * F == 0
     if not degenerate:
-        one = curves[0] if len(curves) == 1 else None
-        proper = one is not None and one.degree == 2 and one.bottom.degree() < 2
+        item = curves[0] if len(curves) == 1 else None
+        proper = item is not None and item.degree == 2 and item.bottom.degree() < 2
         return ("proved" if proper else "refuted",
                 "a conic that does not fall apart; a parametrisation of degree 2 runs over all of it")
     if not all(curve.straight for curve in curves):
@@ -171,8 +171,8 @@ def _conic(rates: Rates):
     for i, coordinate in zip(free, PLANE.gens()):
         x[i] = coordinate
     x[pivot] = -(sum(q(normal[i]) * x[i] for i in free) + q(constant)) / q(normal[pivot])
-    found = [rate for rate in rates.at(x) if rate != 0]
-    return found[0] if found and all(_proportional(rate, found[0]) for rate in found) else None
+    rows = [rate for rate in rates.at(x) if rate != 0]
+    return rows[0] if rows and all(_proportional(rate, rows[0]) for rate in rows) else None
 
 
 def _proportional(f: fmpq_mpoly, g: fmpq_mpoly) -> bool:
@@ -216,11 +216,11 @@ def _matched(parts, curves, planes):
     """(names of parts that nothing claimed is, claims that are no part or one that is taken already)."""
     spare, missing = [*curves, *planes], []
     for name, is_it in parts:
-        found = next((claimed for claimed in spare if is_it(claimed)), None)
-        if found is None:
+        result = next((claimed for claimed in spare if is_it(claimed)), None)
+        if result is None:
             missing.append(name)
         else:
-            spare.remove(found)
+            spare.remove(result)
     return missing, [claimed.claim for claimed in spare]
 
 
@@ -250,8 +250,8 @@ def _parts(rates: Rates):
 def _scaled_lines(rates: Rates):
     """(base, direction) of the three lines of the scaled system without torque."""
     a, b = -rates.sigma[1], rates.rho[2]
-    o, one = Fraction(0), Fraction(1)
-    return [([o, o, o], [one, o, o]), ([-b, o, o], [o, one, o]), ([-a, o, o], [o, o, one])]
+    o, item = Fraction(0), Fraction(1)
+    return [([o, o, o], [item, o, o]), ([-b, o, o], [o, item, o]), ([-a, o, o], [o, o, item])]
 
 
 def _is_the_plane(axis: int, height: Fraction, claimed: Plane) -> bool:
@@ -302,7 +302,7 @@ class Claims:
 
 def equilibria_of(table: Mapping[str, Any]) -> Claims:
     """The claims on equilibria. Raises `Malformed` before anything is worked out."""
-    read = lambda key, made: [made(v, f"equilibria.{key}[{i}]")
+    read = lambda key, built: [built(v, f"equilibria.{key}[{i}]")
                               for i, v in enumerate(entries(table, key, "equilibria"))]
     return Claims(word(table, "kind", "equilibria", KINDS), read("points", _Point), read("curves", Curve),
                   read("planes", Plane))
@@ -358,7 +358,7 @@ def _check_point(rates: Rates, point: _Point, line: Line | None, note: Callable[
 
 def _check_box(rates: Rates, point: _Point, places: Sequence[Place], note: Callable[[str, str], None]):
     """Findings on a box of some width, given all equilibria of the scene exactly."""
-    held = [place for place in places if place.within(point.box)]
+    held = [location for location in places if location.within(point.box)]
     if len(held) != 1:
         note(point.claim, "refuted", f"the box holds {len(held)} zeros of the rates, not one")
         return

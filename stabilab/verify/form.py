@@ -79,21 +79,21 @@ def check_frame(certificate, schema: str = SCHEMA) -> None:
 def strangers(certificate, keys=None) -> list[str]:
     """Where keys stand that have no meaning: nothing is known of what they say."""
     scene = certificate.get("scene")
-    known = SCENES.get(field(scene, "variables", "scene", str), ()) if scene is not None else ()
-    return list(_strangers(certificate, (KEYS if keys is None else keys) | {"scene": dict.fromkeys(known)},
+    resolved = SCENES.get(field(scene, "variables", "scene", str), ()) if scene is not None else ()
+    return list(_strangers(certificate, (KEYS if keys is None else keys) | {"scene": dict.fromkeys(resolved)},
                            ""))
 
 
-def _strangers(value, known, where):
-    if isinstance(known, list) and isinstance(value, list):
+def _strangers(value, resolved, where):
+    if isinstance(resolved, list) and isinstance(value, list):
         for i, entry in enumerate(value):
-            yield from _strangers(entry, known[0], f"{where}[{i}]")
-    elif isinstance(known, dict) and isinstance(value, dict):
+            yield from _strangers(entry, resolved[0], f"{where}[{i}]")
+    elif isinstance(resolved, dict) and isinstance(value, dict):
         for key, entry in value.items():
-            if key not in known:
+            if key not in resolved:
                 yield f"{quoted(key)}{where and ' in ' + where}"
             else:
-                yield from _strangers(entry, known[key], f"{where and where + '.'}{key}")
+                yield from _strangers(entry, resolved[key], f"{where and where + '.'}{key}")
 
 
 # --- What a certificate is about: the numbers of its scene and state, in a line, and compared with those of
@@ -116,25 +116,25 @@ def about(certificate: dict) -> dict:
             | ({"state": motion["state"]} if motion else {}))
 
 
-def line(told: dict) -> str:
+def line(text: dict) -> str:
     """The line that `stabilab verify` prints first."""
-    if "range" in told:
-        return diagram.line(told)
-    units = UNITS if told.get("variables") == "physical" else {}
+    if "range" in text:
+        return diagram.line(text)
+    units = UNITS if text.get("variables") == "physical" else {}
     parts = [f"{BODY_LABELS.get(key, key)} {_short(value)} {units.get(key, '')}".rstrip()
-             for key, value in told.items() if key != "variables"]
-    return f"about: {', '.join(parts) or 'no scene'}" + ("" if "state" in told or not told else ", no state")
+             for key, value in text.items() if key != "variables"]
+    return f"about: {', '.join(parts) or 'no scene'}" + ("" if "state" in text or not text else ", no state")
 
 
-def differences(told: dict, case: dict) -> list[str]:
+def differences(printed: dict, case: dict) -> list[str]:
     """What a certificate is about that a case is not: both as `about` tells it, numbers compared exactly. A
     certificate without a motion says nothing of a state, so the case's may be any."""
-    if "range" in told:
-        return diagram.differences(told, case)
-    keys = [*told, *(key for key in case if key not in told and key != "state")]
-    return [f"{BODY_LABELS.get(key, key)}: the certificate's {_short(told.get(key))}, the case's "
+    if "range" in printed:
+        return diagram.differences(printed, case)
+    keys = [*printed, *(key for key in case if key not in printed and key != "state")]
+    return [f"{BODY_LABELS.get(key, key)}: the certificate's {_short(printed.get(key))}, the case's "
             f"{_short(case.get(key))}"
-            for key in keys if _exact(told.get(key)) != _exact(case.get(key))]
+            for key in keys if _exact(printed.get(key)) != _exact(case.get(key))]
 
 
 def _exact(value):

@@ -73,13 +73,13 @@ class Ledger:
     left: dict
 
 
-def _corrected(rate, added, most, degree, over_turning, price) -> Ledger:
+def _corrected(rate, added, largest, degree, over_turning, price) -> Ledger:
     """The oscillating terms taken out of a rate by terms added to those of a quantity, lowest degree first up
     to the most; over_turning: of terms over the rate at which zeta turns; price: what else the added terms
     bring."""
     while True:
         degrees = [degree(key) for key in rate if key[0] != key[1]]
-        if not degrees or (lowest := min(degrees)) > most:
+        if not degrees or (lowest := min(degrees)) > largest:
             return Ledger(added, rate)
         moving = [key for key in rate if key[0] != key[1] and degree(key) == lowest]
         now = over_turning({key: -rate.pop(key) / (_i() * (key[0] - key[1])) for key in moving})
@@ -158,9 +158,9 @@ class Inequality:
         return [fault for fault in faults if fault], eta
 
 
-def compared(greater, less, words: str):
+def compared(greater, less, text: str):
     """None where it holds; (words, whether it surely does not) else."""
-    return None if greater > less else (words, bool(greater <= less))
+    return None if greater > less else (text, bool(greater <= less))
 
 
 def _i():
@@ -189,10 +189,10 @@ def total(*tables):
     return out
 
 
-def product(one: Mapping[tuple[int, ...], Any], other: Mapping[tuple[int, ...], acb]):
+def product(item: Mapping[tuple[int, ...], Any], other: Mapping[tuple[int, ...], acb]):
     """The product of two tables of terms, keys of any length added up."""
     out: dict = {}
-    for here, c in one.items():
+    for here, c in item.items():
         for there, d in other.items():
             key = tuple(map(add, here, there))
             out[key] = out[key] + c * d if key in out else c * d
@@ -306,17 +306,17 @@ class MovingInequality:
         faults = [compared(x, z, "x > z"), compared(A, size, "|zeta| < A")]
         e, k, b = (sizes.bound(A, from_z)
                    for sizes in (self.energy_added, self.energy_left, self.amplitude_added))
-        least = (form.M + sum((c.real.min(ball(0)) * from_z.greatest(a, b)
+        smallest = (form.M + sum((c.real.min(ball(0)) * from_z.greatest(a, b)
                                for (_, _, a, b), c in self.G.items() if a or b), ball(0)))
-        eta = least - k
+        eta = smallest - k
         mean = (x - z) * (_turning(form, x) + from_z.turning) / 2
         faults += [compared(mean + self._value(self.energy.added, x, zeta), e, "the energy is high enough"),
                    compared(eta, ball(0), "the spin grows")]
-        if eta > 0 and least > 0:
+        if eta > 0 and smallest > 0:
             r = self.amplitude_left.bound(A, from_z, tails=True)
             weight = self._value(self.G, x, zeta) / form.M
             start = weight * size * size + self._value(self.amplitude.added, x, zeta)
-            faults.append(compared(A * A, (start + b + r / eta) * form.M / least,
+            faults.append(compared(A * A, (start + b + r / eta) * form.M / smallest,
                                    "the amplitude stays below A"))
         return [fault for fault in faults if fault], eta
 
@@ -378,19 +378,19 @@ class _Factors:
         """The integral from x on of a majorant that falls: one factor stays at its value, or a power of the
         quotient splits off; the least of these."""
         P, Q = self.ends
-        found = []
+        rows = []
         if a > 4 and b >= 0:
-            found.append(self.at(a, b) * P / (self.p * (ball(a) / 4 - 1)))
+            rows.append(self.at(a, b) * P / (self.p * (ball(a) / 4 - 1)))
         if not self.alone:
             if b > 4 and a >= 0:
-                found.append(self.at(a, b) * Q / (self.q * (ball(b) / 4 - 1)))
+                rows.append(self.at(a, b) * Q / (self.q * (ball(b) / 4 - 1)))
             if a + b > 4:
                 n = ball(a + b) / 4 - 1
-                found.append((self.down**b if b > 0 else self.up**-b) * self.at(a + b, 0) * P / (self.p * n))
-                found.append((self.up**a if a > 0 else self.down**-a) * self.at(0, a + b) * Q / (self.q * n))
-        if not found:
+                rows.append((self.down**b if b > 0 else self.up**-b) * self.at(a + b, 0) * P / (self.p * n))
+                rows.append((self.up**a if a > 0 else self.down**-a) * self.at(0, a + b) * Q / (self.q * n))
+        if not rows:
             raise Unsuited("a term of the amplitude's rate does not fall fast enough")
-        return reduce(arb.min, found)
+        return reduce(arb.min, rows)
 
 
 def _turning(form: MovingForm, x: arb):

@@ -104,11 +104,11 @@ def _turning(orbit: Orbit, side: int):
     if against:  # each turn behind is higher: skip those that are surely too low
         turns = _turns_below(orbit, spots)
         inner = side * turns * orbit.turn if turns else None
-        spots = [spot + side * n * orbit.turn for n in range(turns, turns + 4) for spot in spots]
-    for spot in spots:
-        if _over(orbit, spot):
-            return _crossing(orbit, inner, spot)
-        inner = spot
+        spots = [site + side * n * orbit.turn for n in range(turns, turns + 4) for site in spots]
+    for point in spots:
+        if _over(orbit, point):
+            return _crossing(orbit, inner, point)
+        inner = point
     if circle and not against:
         return None
     if circle and spots:
@@ -128,9 +128,9 @@ def _ahead(orbit: Orbit, side: int):
     return orbit.spots(ball(0), far) if side > 0 else orbit.spots(-far, ball(0))[::-1]
 
 
-def _over(orbit: Orbit, place: arb) -> bool:
+def _over(orbit: Orbit, location: arb) -> bool:
     """Whether the potential is above the energy."""
-    over = sign(orbit.excess(place))
+    over = sign(orbit.excess(location))
     if over is None:
         raise Open
     return over > 0
@@ -206,7 +206,7 @@ def _slowest_ahead(orbit: Orbit, sense: int):
         behind = _behind(orbit, sense)
         low, high = (behind, ball(0)) if sense > 0 else (ball(0), behind)
         return -(-2 * _lowest(orbit, low, high)).sqrt()
-    slowest = reduce(arb.min, (-orbit.excess(spot) for spot in _ahead(orbit, sense)), ball(orbit.E))
+    slowest = reduce(arb.min, (-orbit.excess(point) for point in _ahead(orbit, sense)), ball(orbit.E))
     return (2 * slowest).sqrt()
 
 
@@ -305,17 +305,17 @@ def check_motion(rates: Rates, claims: Claims, note: Callable[[str, str], None])
         _check_trapped(rates, claims, note)
         return
     orbit = _orbit(rates, claims.state)
-    found = orbit and at_rising_precision(partial(_facts, orbit))
-    if found is None:
+    result = orbit and at_rising_precision(partial(_facts, orbit))
+    if result is None:
         why = (f"not decided with {MOST_BITS} bits" if orbit
                else "the scene has no reduction to one degree of freedom")
         note(claims.words, "not checked", why)
         _leave_numbers(claims, why, note)
         return
-    axis = orbit.axis + 1 if found.fate == "spin-up" else 0
-    _check_words(claims, found.fate, axis, exact_sign(orbit.tilt) if axis else 0, found.reason, note)
-    if claims.fate in (found.fate, "undecided"):
-        _check_numbers(claims, orbit, found, note)
+    axis = orbit.axis + 1 if result.fate == "spin-up" else 0
+    _check_words(claims, result.fate, axis, exact_sign(orbit.tilt) if axis else 0, result.reason, note)
+    if claims.fate in (result.fate, "undecided"):
+        _check_numbers(claims, orbit, result, note)
 
 
 def _check_rest(claims: Claims, note: Callable[[str, str], None]):
@@ -381,10 +381,10 @@ def _leave_numbers(claims: Claims, why: str, note: Callable[[str, str], None], p
 
 
 def _named(claimed: Sequence[list[tuple[Fraction, Fraction] | None]] | None,
-           found: Sequence[Sequence[Fraction | tuple[int, int] | None]]):
+           result: Sequence[Sequence[Fraction | tuple[int, int] | None]]):
     """(claim, claimed, found) of the six extremes."""
     for i, pair in enumerate(claimed or ()):
-        for word_, said, true in zip(("least", "greatest"), pair, found[i]):
+        for word_, said, true in zip(("least", "greatest"), pair, result[i]):
             yield f"{word_} x{i + 1}", said, true
 
 
@@ -394,21 +394,21 @@ def _orbit(rates: Rates, state: Sequence[Fraction]):
     acting = [i for i in range(3) if rates.m[i]]
     if len(acting) > 1:
         return None
-    made = []
+    built = []
     for axis in acting or range(3):
         try:
-            made.append(Orbit(rates, axis, state))
+            built.append(Orbit(rates, axis, state))
         except ValueError:
             pass
-    return min(made, key=lambda o: (-1, 1, 0).index(o.kind), default=None)
+    return min(built, key=lambda o: (-1, 1, 0).index(o.kind), default=None)
 
 
-def at_rising_precision(question: Callable[[], str] | partial[Facts], least: int | None = None,
-                        most: int | None = None):
+def at_rising_precision(question: Callable[[], str] | partial[Facts], smallest: int | None = None,
+                        largest: int | None = None):
     """question() at more and more bits while it raises Open; None when the most are not enough, or the work
     is too much."""
-    bits = least or BITS
-    while bits <= (most or MOST_BITS):
+    bits = smallest or BITS
+    while bits <= (largest or MOST_BITS):
         with working(bits):
             try:
                 return question()
@@ -417,24 +417,24 @@ def at_rising_precision(question: Callable[[], str] | partial[Facts], least: int
     return None
 
 
-def _check_numbers(claims, orbit, found, note):
+def _check_numbers(claims, orbit, result, note):
     """The brackets of extremes and period."""
     for claim, said, true in _named(claims.extremes, [[(i, k) for k in (0, 1)] for i in range(3)]):
         i, k = true
-        if said is None or found.extremes[i][k] is None:
-            unbounded = found.extremes[i][k] is None
+        if said is None or result.extremes[i][k] is None:
+            unbounded = result.extremes[i][k] is None
             note(claim, "proved" if unbounded and said is None else "refuted",
                  "unbounded" if unbounded else "bounded")
         else:
             status = at_rising_precision(lambda i=i, k=k, said=said:
-                                         _within(_facts(orbit).extremes[i][k], *said), found.bits,
-                                         CLOSER * found.bits)
+                                         _within(_facts(orbit).extremes[i][k], *said), result.bits,
+                                         CLOSER * result.bits)
             note(claim, status or "not checked",
                  "roots on the potential" if status else "the bracket ends too close to the true value")
-    if claims.period is not None and found.fate != "bounded":
+    if claims.period is not None and result.fate != "bounded":
         note("period", "refuted", "a motion that spins up does not repeat")
     elif claims.period is not None:
-        status = _period_status(orbit, claims.period, found.bits)
+        status = _period_status(orbit, claims.period, result.bits)
         note("period", status or "not checked",
              "verified quadrature between the turning points, or round the circle" if status
              else "the verified quadrature did not close, or not on one side of the bracket's ends")
@@ -473,9 +473,9 @@ def _period(orbit: Orbit, goal: int):
 def _within(true: arb, low: Fraction, high: Fraction) -> str:
     """"proved" or "refuted": that the ball lies in the bracket. Raises Open where it is neither inside nor
     outside."""
-    least, most = below(true), above(true)
-    if low <= least and most <= high:
+    smallest, largest = below(true), above(true)
+    if low <= smallest and largest <= high:
         return "proved"
-    if least <= high and low <= most:
+    if smallest <= high and low <= largest:
         raise Open
     return "refuted"

@@ -183,9 +183,9 @@ def _form(rows, kappa, rho, sigma, m) -> MovingForm | None:
     side = acb(0, tau)
     k = _balls(k) | {key: side * arb(c) for key, c in (((1, 3), h + k1 * N2[1]), ((-3, 3), t))}
     f = {(1, 7): acb(arb(_wronskian(Q, N2))), (7, 1): side * arb(_wronskian(P, N3))}
-    seen = lambda terms: {key: c for key, c in terms.items() if not c.is_zero()}
+    noted = lambda terms: {key: c for key, c in terms.items() if not c.is_zero()}
     P_, Q_, N2_, N3_ = (tuple(map(arb, line)) for line in (P, Q, N2, N3))
-    return MovingForm(rows, tau, P_, Q_, N2_, N3_, arb(M), seen(_balls({(0, 0): M} | G)), seen(k), seen(f),
+    return MovingForm(rows, tau, P_, Q_, N2_, N3_, arb(M), noted(_balls({(0, 0): M} | G)), noted(k), noted(f),
                       arb((Q[0] * P[1] - P[0] * Q[1]) / 4), tau * arb(k1) / 2,
                       None if flat or Q[0] * P[1] != P[0] * Q[1] else arb(Q[0] / P[0]))
 

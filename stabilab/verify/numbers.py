@@ -41,10 +41,10 @@ def shown(value) -> str:
         return type(value).__name__
 
 
-def quoted(words: str) -> str:
+def quoted(text: str) -> str:
     """Words of the file that nothing here checks, marked as its own: as one quotation, whose marks cannot be
     closed from within, without control characters."""
-    plain = "".join(c for c in words if c.isprintable())
+    plain = "".join(c for c in text if c.isprintable())
     return f"named in the file: {plain[:80]!r}"
 
 
@@ -93,8 +93,8 @@ def brackets(values, where: str) -> list[tuple[Fraction, Fraction]]:
 def whole(value: float, where: str, known: range | Sequence[int]) -> int:
     """One of the whole numbers that are known (a range, or a tuple); truth values are none."""
     if type(value) is not int or value not in known:
-        words = f"{known[0]} to {known[-1]}" if isinstance(known, range) else ", ".join(map(str, known))
-        raise Malformed(f"{where}: expected a whole number, {words}; got {shown(value)}")
+        text = f"{known[0]} to {known[-1]}" if isinstance(known, range) else ", ".join(map(str, known))
+        raise Malformed(f"{where}: expected a whole number, {text}; got {shown(value)}")
     return value
 
 
@@ -113,11 +113,11 @@ def field(table, key: str, where: str, kind=None):
     return table[key]
 
 
-def word(table: Mapping[str, Any] | int | None, key: str, where: str, known: tuple) -> str:
+def word(table: Mapping[str, Any] | int | None, key: str, where: str, resolved: tuple) -> str:
     """table[key], one of the words that are known."""
     value = field(table, key, where)
-    if not isinstance(value, str) or value not in known:
-        raise Malformed(f"{where}.{key}: expected one of {', '.join(known)}, got {shown(value)}")
+    if not isinstance(value, str) or value not in resolved:
+        raise Malformed(f"{where}.{key}: expected one of {', '.join(resolved)}, got {shown(value)}")
     return value
 
 
@@ -307,12 +307,12 @@ def written_out(variables: str, first, second, torque) -> tuple:
     lambda) x x + M; [a] and [b] of the scaled system x1' = x2 x3 + mu1, x2' = -x3 (x1 + a) + mu2, x3' = x2
     (x1 + b) + mu3. Of numbers of any kind."""
     o = 0 * torque[0]
-    one = o + 1
+    item = o + 1
     if variables == "scaled":
         (a,), (b,), mu = first, second, torque
         conditions = ([mu[0], mu[1], o], mu[0] * a), ([mu[0], o, -mu[2]], mu[0] * b)
-        integrals = ([one, one, o], [a, o, o]), ([one, o, -one], [b, o, o])
-        return [one] * 3, [one, -one, one], [o, o, b], [o, -a, o], mu, conditions, integrals
+        integrals = ([item, item, o], [a, o, o]), ([item, o, -item], [b, o, o])
+        return [item] * 3, [item, -item, item], [o, o, b], [o, -a, o], mu, conditions, integrals
     D, lam = first, second
     times = lambda v: [d * c for d, c in zip(D, v)]
     conditions = (torque, o), (times(torque), sum((l * t for l, t in zip(lam, torque)), o))
@@ -489,16 +489,16 @@ def roots(polynomials: Iterable, low: Fraction, high: Fraction, work: Work) -> l
             work.factors(p)
             factors |= {str(f / f.leading_coefficient()): f / f.leading_coefficient()
                         for f, _ in p.factor()[1]}
-    found = [root for f in factors.values() for root in _of(f, low, high, work)]
+    rows = [root for f in factors.values() for root in _of(f, low, high, work)]
     for _ in range(HALVINGS):
-        found.sort(key=lambda root: (root.low, root.high))
-        near = {n for n, (a, b) in enumerate(zip(found, found[1:])) if a.high >= b.low}
-        near |= ({n + 1 for n in near} | {n for n, root in enumerate(found) if not root.rational
+        rows.sort(key=lambda root: (root.low, root.high))
+        nearby = {n for n, (a, b) in enumerate(zip(rows, rows[1:])) if a.high >= b.low}
+        nearby |= ({n + 1 for n in nearby} | {n for n, root in enumerate(rows) if not root.rational
                                           and (root.low == low or root.high == high)})
-        if not near:
-            return found
-        for n in near:
-            found[n].halve()
+        if not nearby:
+            return rows
+        for n in nearby:
+            rows[n].halve()
     raise Malformed(f"two values that {HALVINGS} halvings do not tell apart")
 
 

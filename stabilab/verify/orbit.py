@@ -145,10 +145,10 @@ def _sphere(rates: Rates, state: Sequence[Fraction]):
 def _symmetric(rates: Rates, state: Sequence[Fraction]):
     if not any(rates.m):
         return "no torque acts"
-    found = [i for i in range(3) if not rates.kappa[i] and not rates.rho[i] and not rates.sigma[i]]
-    if len(found) != 1:
+    rows = [i for i in range(3) if not rates.kappa[i] and not rates.rho[i] and not rates.sigma[i]]
+    if len(rows) != 1:
         return "no axis, or more than one, about which the spin obeys the torque alone"
-    (i,) = found
+    (i,) = rows
     j, k = AHEAD[i]
     if rates.rho[j] or rates.sigma[k] or rates.kappa[j] != -rates.kappa[k] or rates.sigma[j] != -rates.rho[
         k] or not rates.kappa[j]:
@@ -289,14 +289,14 @@ class Orbit:
     def spots(self, left: arb, right: arb) -> list:
         """The places between two, balls, where the force changes sign, rising; the state's own is none of
         them. Raises Open where one cannot be distinguished from an end."""
-        found = _spots(self, ctx.prec)
+        result = _spots(self, ctx.prec)
         if self.kind < 0:
             first, last = (int(end // below(self.turn)) for end in (below(left), above(right)))
-            found = [spot + n * self.turn for n in range(first - 1, last + 2) for spot in found]
-        near = [spot for spot in found if not (spot.is_zero() or spot < left or spot > right)]
-        if not all(spot > left and spot < right for spot in near):
+            result = [point + n * self.turn for n in range(first - 1, last + 2) for point in result]
+        nearby = [point for point in result if not (point.is_zero() or point < left or point > right)]
+        if not all(point > left and point < right for point in nearby):
             raise Open
-        return near
+        return nearby
 
     def _zeros(self):
         """All zeros of the force: (polynomial, place of a root of it as a ball, None where that is not of the
@@ -401,19 +401,19 @@ def _balls(orbit: Orbit, bits: int):
 def _spots(orbit: Orbit, bits: int):
     """Where the force changes sign, balls of so many bits, rising: on a circle from 0 to a turn, exactly 0
     for the state itself. The force may vanish to any order: an even one changes no sign."""
-    force, place, found = orbit._zeros()
+    force, location, result = orbit._zeros()
     if force == 0:
         raise Open
     w = orbit._chord()[0] if orbit.kind and not orbit.balls.decays else fmpq_poly([1])
-    found = found + [(place(root), order) for factor, order in force.factor()[1] if w % factor != 0
+    result = result + [(location(root), order) for factor, order in force.factor()[1] if w % factor != 0
                      for root in _real_roots(factor)]
-    found = [(spot, order) for spot, order in found if spot is not None]
-    here = [0 in spot for spot, _ in found]
-    if not all(spot.is_finite() for spot, _ in found) or sum(here) != (orbit.F0 == 0):
+    result = [(point, order) for point, order in result if point is not None]
+    here = [0 in point for point, _ in result]
+    if not all(point.is_finite() for point, _ in result) or sum(here) != (orbit.F0 == 0):
         raise Open
-    spots = [arb(0) if 0 in spot else spot + orbit.turn if orbit.kind < 0 and spot < 0 else spot
-             for spot, order in found if order % 2]
-    return sorted(spots, key=lambda spot: below(spot))
+    spots = [arb(0) if 0 in point else point + orbit.turn if orbit.kind < 0 and point < 0 else point
+             for point, order in result if order % 2]
+    return sorted(spots, key=lambda point: below(point))
 
 
 def _angle(y: arb, x: arb):
@@ -445,8 +445,8 @@ def _shift(rates: Rates, axis: int):
 
 def _real_roots(factor):
     """The real roots of an irreducible polynomial with rational coefficients, as balls."""
-    whole = fmpz_poly([int(c * factor.denom()) for c in factor.coeffs()])
-    return [root.real for root, _ in whole.complex_roots() if root.imag == 0]
+    full = fmpz_poly([int(c * factor.denom()) for c in factor.coeffs()])
+    return [root.real for root, _ in full.complex_roots() if root.imag == 0]
 
 
 # --- The period of a motion between two turning points: verified quadrature, with the root at each end

@@ -196,34 +196,34 @@ def _sizes(rows: Sequence[list[arb]], h: arb):
     return sizes, [sum(row).abs_upper() for row in sizes]
 
 
-def _beyond(one: Sequence[arb], other: Sequence[arb]):
+def _beyond(item: Sequence[arb], other: Sequence[arb]):
     """Sum of one_m other_n over m + n >= N, both up to N."""
     tails, total = [], _nothing()
     for value in reversed(other):
         total = total + value
         tails.append(total)  # tails[m]: the sum of other_n over n >= N - m
-    return sum(map(mul, one, tails), _nothing())
+    return sum(map(mul, item, tails), _nothing())
 
 
 def _tail(numbers: Sequence[list[arb]], rows: Sequence[list[arb]], h: arb):
     """(sums, tails) of a series at h; None where no tail is found."""
     sizes, sums = _sizes(rows, h)
     kappa, rho, sigma, _ = [[abs(v) for v in row] for row in numbers]
-    share = h / len(rows[0])
-    known = [share * (kappa[i] * _beyond(sizes[j], sizes[k]) + rho[i] * sizes[k][-1]
+    fraction = h / len(rows[0])
+    resolved = [fraction * (kappa[i] * _beyond(sizes[j], sizes[k]) + rho[i] * sizes[k][-1]
                       + sigma[i] * sizes[j][-1]) for i, (j, k) in enumerate(AHEAD)]
-    return _closed(known,
-                   lambda T: [share * (kappa[i] * (sums[j] * T[k] + T[j] * sums[k] + T[j] * T[k])
+    return _closed(resolved,
+                   lambda T: [fraction * (kappa[i] * (sums[j] * T[k] + T[j] * sums[k] + T[j] * T[k])
                                        + rho[i] * T[k] + sigma[i] * T[j])
                                      for i, (j, k) in enumerate(AHEAD)], sums)
 
 
-def _closed(known: Sequence[arb], more: Callable[[list[arb]], list[arb]], sums: Sequence[arb]):
+def _closed(resolved: Sequence[arb], more: Callable[[list[arb]], list[arb]], sums: Sequence[arb]):
     """(sums, T) with known + more(T) <= T, tried at twice what goes in; None where that does not close."""
-    floor = max((v.abs_upper() for v in known), key=float)
-    T = [2 * (v.abs_upper() + floor) for v in known]
+    floor = max((v.abs_upper() for v in resolved), key=float)
+    T = [2 * (v.abs_upper() + floor) for v in resolved]
     for _ in range(3):
-        right = [(a + b).abs_upper() for a, b in zip(known, more(T))]
+        right = [(a + b).abs_upper() for a, b in zip(resolved, more(T))]
         if all(a <= b for a, b in zip(right, T)):
             return sums, T
         T = [2 * max(a, b) for a, b in zip(right, T)]
@@ -236,13 +236,13 @@ def _linear_end(numbers: Sequence[list[arb]], x: Sequence[list[arb]], known_tail
     (sizes, _), (v, vsum) = _sizes(x, h), _sizes(V, h)
     sums, T = known_tail
     kappa, rho, sigma, _ = [[abs(c) for c in row] for row in numbers]
-    share = h / len(V[0])
-    known = [share * (kappa[i] * (_beyond(sizes[j], v[k]) + _beyond(sizes[k], v[j]) + T[j] * vsum[k]
+    fraction = h / len(V[0])
+    resolved = [fraction * (kappa[i] * (_beyond(sizes[j], v[k]) + _beyond(sizes[k], v[j]) + T[j] * vsum[k]
                                   + T[k] * vsum[j])
                       + rho[i] * v[k][-1] + sigma[i] * v[j][-1]) for i, (j, k) in enumerate(AHEAD)]
-    whole = [a + b for a, b in zip(sums, T)]
-    closed = _closed(known,
-                     lambda U: [share * (kappa[i] * (whole[j] * U[k] + whole[k] * U[j]) + rho[i] * U[k]
+    full = [a + b for a, b in zip(sums, T)]
+    closed = _closed(resolved,
+                     lambda U: [fraction * (kappa[i] * (full[j] * U[k] + full[k] * U[j]) + rho[i] * U[k]
                                          + sigma[i] * U[j])
                                        for i, (j, k) in enumerate(AHEAD)], vsum)
     return closed and [_value(row, h) + _about_zero(u) for row, u in zip(V, closed[1])]
@@ -284,19 +284,19 @@ def spin_up_of(table: Mapping[str, Any]) -> SpinUpClaims:
     if not isinstance(table, dict):
         raise Malformed(f"{where}: expected an object, got {shown(table)}")
     t = _time(table, where)
-    cone, least, gain = (number(field(table, key, where), f"{where}.{key}")
+    cone, smallest, gain = (number(field(table, key, where), f"{where}.{key}")
                          for key in ("cone", "least", "gain"))
     orders = field(table, "orders", where, list)
     if len(orders) != 2 or not all(type(n) is int and 0 <= n <= MOST_ORDER for n in orders):
         raise Malformed(f"{where}.orders: expected two whole numbers up to {MOST_ORDER}, got {shown(orders)}")
-    way = [_point(entry, f"{where}.way[{i}]") for i, entry in enumerate(entries(table, "way", where))]
-    if any(a >= b for (a, _), (b, _) in zip(way, way[1:])):
+    route = [_point(entry, f"{where}.way[{i}]") for i, entry in enumerate(entries(table, "way", where))]
+    if any(a >= b for (a, _), (b, _) in zip(route, route[1:])):
         raise Malformed(f"{where}.way: expected rising times")
     about = word(table, "about", where, tuple(FORMS)) if "about" in table else "fixed centre"
-    known = {"axis": (0,), "sense": (1,)} if about == "equator" else {"axis": (1, 2, 3), "sense": (-1, 1)}
-    axis, sense = (whole(field(table, key, where), f"{where}.{key}", of) for key, of in known.items())
-    return SpinUpClaims(about, axis, sense, tuple(orders), t, cone, least, gain,
-                        way)
+    resolved = {"axis": (0,), "sense": (1,)} if about == "equator" else {"axis": (1, 2, 3), "sense": (-1, 1)}
+    axis, sense = (whole(field(table, key, where), f"{where}.{key}", of) for key, of in resolved.items())
+    return SpinUpClaims(about, axis, sense, tuple(orders), t, cone, smallest, gain,
+                        route)
 
 
 def _time(table: Mapping[str, Any], where: str):
@@ -316,23 +316,23 @@ def check_spin_up(rates: Rates, state: Sequence[Fraction], claims: SpinUpClaims,
     spin-up itself."""
     findings, verdict, left = [], ("not checked", ""), MOST_STEPS
     for bits in TRIED_BITS:
-        way = Way(rates, state, bits, left)
+        route = Way(rates, state, bits, left)
         try:
-            findings, verdict = _judged(rates, claims, way)
+            findings, verdict = _judged(rates, claims, route)
         except Unsuited as error:
             findings, verdict = [], ("not checked", str(error))
             break
         except Lost as error:
             if not findings:
                 verdict = "not checked", str(error)
-        left -= way.steps
+        left -= route.steps
         if left <= 0 or (findings and all(status != "not checked" for _, status, _ in findings)):
             break
-    told = {claim for claim, _, _ in findings}
+    printed = {claim for claim, _, _ in findings}
     for finding in findings:
         note(*finding)
     for claim in (*(_name(t) for t, _ in claims.way), _trap(claims)):
-        if claim not in told:
+        if claim not in printed:
             note(claim, "not checked", verdict[1])
     return verdict
 
@@ -350,24 +350,24 @@ FORMS = {"fixed centre": (form_about, Inequality), "moving centre": (moving_form
          "equator": (lambda rates, axis, sense: equator(rates), MovingInequality)}
 
 
-def _judged(rates, claims, way):
+def _judged(rates, claims, route):
     make, inequality_of = FORMS[claims.about]
-    with working(max(way.bits, 128)):
+    with working(max(route.bits, 128)):
         form = make(rates, claims.axis - 1, claims.sense)
         if form is None or not form.M > 0:
             why = ("the spin there does not turn the other two" if form is None
                    else "the torque's component does not have the direction of the spin")
             return [(_trap(claims), "refuted", why)], ("not checked", why)
         inequality = inequality_of(form, claims.orders)
-    found, states = [], {}
+    result, states = [], {}
     for t in sorted({claims.t, *(t for t, _ in claims.way)}):
-        states[t] = way.to(t)
-    with working(max(way.bits, 128)):
+        states[t] = route.to(t)
+    with working(max(route.bits, 128)):
         for t, box in claims.way:
-            found.append((_name(t), *_within(states[t], box, way.steps)))
+            result.append((_name(t), *_within(states[t], box, route.steps)))
         status, why = _trapped(inequality, states[claims.t], claims)
-    found.append((_trap(claims), status, why))
-    return found, (status if status == "proved" else "not checked", why)
+    result.append((_trap(claims), status, why))
+    return result, (status if status == "proved" else "not checked", why)
 
 
 def _within(state: Sequence[arb], box: Sequence[tuple[Fraction, Fraction]], steps: int):
@@ -390,5 +390,5 @@ def _trapped(inequality: MovingInequality, state: Sequence[arb], claims: SpinUpC
         return ("proved",
                 f"the inequality of orders {claims.orders[0]} and {claims.orders[1]}, worked out anew, "
                 f"holds: the spin grows for ever")
-    words = f"the inequality fails: {', '.join(words for words, _ in faults)}"
-    return ("refuted" if any(surely for _, surely in faults) else "not checked"), words
+    text = f"the inequality fails: {', '.join(phrase for phrase, _ in faults)}"
+    return ("refuted" if any(surely for _, surely in faults) else "not checked"), text

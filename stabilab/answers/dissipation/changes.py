@@ -43,20 +43,20 @@ class Span:
     up: float
 
 
-def spans_of(spinner: Spinner, until: float, steps: int, most: int) -> tuple[Span, ...]:
+def spans_of(spinner: Spinner, until: float, steps: int, largest: int) -> tuple[Span, ...]:
     """The bands of one outcome about the start, where the motion begins about the minor axis. until: when it
     crosses the separatrix, s; steps: of a run until then; most: of all runs for one number."""
     room = _room(spinner)
-    if room <= 1 or not spinner.start[spinner.order[2]] or 2 * steps * RUNS > most:
+    if room <= 1 or not spinner.start[spinner.order[2]] or 2 * steps * RUNS > largest:
         return ()
-    found = after_the_separatrix(spinner, spinner.start, until)
+    out = after_the_separatrix(spinner, spinner.start, until)
     turns = max(1.0, until * float(np.linalg.norm(spinner.start[:3])) / math.pi)
 
     def of_scene(change: Callable[[Scene, Fraction], Scene]) -> Callable[[float], bool]:
-        return lambda share: after_the_separatrix(
-            replace(spinner, scene=change(spinner.scene, 1 + Fraction(share))), spinner.start, until) != found
+        return lambda part: after_the_separatrix(
+            replace(spinner, scene=change(spinner.scene, 1 + Fraction(part))), spinner.start, until) != out
 
-    nutation = lambda share: after_the_separatrix(spinner, _moved(spinner, 0.0, share), until) != found
+    nutation = lambda fraction: after_the_separatrix(spinner, _moved(spinner, 0.0, fraction), until) != out
     tried = [("nutation", nutation, 0.99 * (room - 1))]
     if spinner.inside:
         # a sphere of more inertia must still fit into the body
@@ -84,9 +84,9 @@ def phase_span(spinner: Spinner, until: float) -> Span:
 def _across(spinner: Spinner) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(the angular momentum of all that turns with the body (3,), weights (2,) that make circles of polhodes
     about the minor axis, its components along the major and the intermediate axis with these (2,))."""
-    one, two, three = spinner.inverses
+    item, two, three = spinner.inverses
     L = np.array(spinner.scene.body.inertia) * spinner.start[:3]
-    weights = np.sqrt([three - one, three - two])
+    weights = np.sqrt([three - item, three - two])
     return L, weights, weights * L[list(spinner.order[:2])]
 
 
@@ -96,7 +96,7 @@ def _room(spinner: Spinner) -> float:
     return float(np.sqrt(weights[1] ** 2 * (L @ L) / max(across @ across, 1e-300)))
 
 
-def _moved(spinner: Spinner, angle: float, share: float) -> np.ndarray:
+def _moved(spinner: Spinner, angle: float, fraction: float) -> np.ndarray:
     """The start turned along its polhode by an angle about the minor axis, its nutation greater by a share.
     """
     i, j, k = spinner.order
@@ -104,7 +104,7 @@ def _moved(spinner: Spinner, angle: float, share: float) -> np.ndarray:
     c, s = math.cos(angle), math.sin(angle) * (1 if spinner.right_handed else -1)
     turn = np.array([[c, -s], [s, c]])  # positive from the axis i to j
     new, state, parts = L.copy(), spinner.start.copy(), slices(spinner.scene.blocks)
-    new[[i, j]] = (1 + share) * (turn @ across) / weights
+    new[[i, j]] = (1 + fraction) * (turn @ across) / weights
     new[k] = math.copysign(math.sqrt(max(0.0, L @ L - new[i] ** 2 - new[j] ** 2)), L[k])
     state[:3] = new / spinner.scene.body.inertia
     if "damper" in parts:
@@ -119,27 +119,27 @@ def _damped(scene: Scene, inertia: Fraction | int, coefficient: Fraction | int) 
     damper: Any = scene.effect("viscous_damper")
     k, c = damper.exact
     changed = type(damper)(k * inertia, c * coefficient)
-    return Scene(scene.body, *(changed if one.name == "viscous_damper" else one for one in scene.effects))
+    return Scene(scene.body, *(changed if item.name == "viscous_damper" else item for item in scene.effects))
 
 
 def _filled(scene: Scene, times: Fraction) -> Scene:
     """The scene with the torque of its liquid multiplied by this."""
     liquid: Any = scene.effect("liquid_cavity")
     changed = replace(liquid, P0=Fraction(liquid.P0) * times)
-    return Scene(scene.body, *(changed if one.name == "liquid_cavity" else one for one in scene.effects))
+    return Scene(scene.body, *(changed if item.name == "liquid_cavity" else item for item in scene.effects))
 
 
-def _edge(flips: Callable[[float], bool], first: float, most: float) -> float:
+def _edge(flips: Callable[[float], bool], first: float, largest: float) -> float:
     """The size of the smallest change, of the sign of `first`, of which the outcome is another, to three
     digits; inf where there is none up to `most`."""
     judge = lambda size: side(not flips(math.copysign(size, first)))
     size = abs(first)
-    found = first_bracket(judge, min(size, most), most, FINEST * size)
-    if found is None or not found.same:
-        return math.inf if found is None else float(found.other)
+    result = first_bracket(judge, min(size, largest), largest, FINEST * size)
+    if result is None or not result.same:
+        return math.inf if result is None else float(result.other)
     for n in range(1, BETWEEN):  # a shift to and fro before is none of the two places above
-        if judge(place := found.same * n / BETWEEN) < 0:
-            found = Bracket(found.same * (n - 1) / BETWEEN, place)
+        if judge(location := result.same * n / BETWEEN) < 0:
+            result = Bracket(result.same * (n - 1) / BETWEEN, location)
             break
-    found = narrowed(judge, found, Fraction(0), steps=HALVINGS)
-    return float(found.same + found.other) / 2
+    result = narrowed(judge, result, Fraction(0), steps=HALVINGS)
+    return float(result.same + result.other) / 2

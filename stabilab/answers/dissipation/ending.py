@@ -112,16 +112,16 @@ class Ending(Shown, Compared, Reasoned):
     @property
     def until(self) -> float | None:
         """By when all is over that the times tell of, s."""
-        return max((one.at for _, one in self.times), default=None)
+        return max((item.at for _, item in self.times), default=None)
 
 
 def with_end(case: Case, motion: Motion) -> Motion:
     """The motion of a case with how it ends; its reason no longer says that a direction is open which a run
     shows."""
-    found = ending(case, motion)
-    known = found is not None and found.sense
-    reason = motion.reason.without(OPEN_DIRECTION) if known else motion.reason
-    return replace(motion, ending=found, reason=reason)
+    result = ending(case, motion)
+    resolved = result is not None and result.sense
+    reason = motion.reason.without(OPEN_DIRECTION) if resolved else motion.reason
+    return replace(motion, ending=result, reason=reason)
 
 
 def ending(case: Any, motion: Motion) -> Ending | None:
@@ -158,20 +158,20 @@ def _inside(case: Any) -> Ending:
         return Ending("undecided", "undecided", reason=as_reason(str(error)))
 
 
-def of_spin(found: FlatSpin) -> Ending:
+def of_spin(result: FlatSpin) -> Ending:
     """The same of a free body whose angular momentum stays."""
     names = ("leaves", "crosses", "settles", "tenth")
-    ahead = [(name, one) for name in names if (one := getattr(found, name)) is not None]
-    sense = 0 if found.outcome in (UNDECIDED, ACROSS) else 1 if found.outcome == POSITIVE else -1
-    reason = found.reason
-    for drawn in (one.reason for one in found.caveats if one.kind is Kind.UNCERTAIN):
+    ahead = [(name, item) for name in names if (item := getattr(result, name)) is not None]
+    sense = 0 if result.outcome in (UNDECIDED, ACROSS) else 1 if result.outcome == POSITIVE else -1
+    reason = result.reason
+    for drawn in (caveat.reason for caveat in result.caveats if caveat.kind is Kind.UNCERTAIN):
         reason = reason.then(drawn)
-    kind = "flat spin" if found.nutation is None else "nutation dies out"
-    axis = 0 if found.outcome == ACROSS else found.axis
-    times = tuple(sorted(ahead, key=lambda one: one[1].at))
-    return Ending(kind, found.level, axis, found.minor, sense,
-                  found.final_rate, found.rates, found.within, times, found.nutation, found.growth,
-                  found.decay, reason=reason)
+    kind = "flat spin" if result.nutation is None else "nutation dies out"
+    axis = 0 if result.outcome == ACROSS else result.axis
+    times = tuple(sorted(ahead, key=lambda entry: entry[1].at))
+    return Ending(kind, result.level, axis, result.minor, sense,
+                  result.final_rate, result.rates, result.within, times, result.nutation, result.growth,
+                  result.decay, reason=reason)
 
 
 
@@ -183,10 +183,10 @@ def _outside(scene: AnyScene, parts: Content, start: np.ndarray, motion: Motion)
     first = float(energy(start[None])[0])
     rests = motion.invariants.get("late_rate_bound") == 0.0
     if rests and not parts.directed and not parts.inside and first > 0:
-        found = Ending("rest", "exact", reason=ENERGY_FALLS, rate=0.0, rates=(0.0,) * 3)
+        result = Ending("rest", "exact", reason=ENERGY_FALLS, rate=0.0, rates=(0.0,) * 3)
         slowest = float(decay(parts))
         latest = math.log(1 / END_REACHED) / slowest if slowest and not any(parts.M) else None
-        return _timed(replace(found, at_the_latest=latest), scene, start, lambda y: energy(y) / first)[0]
+        return _timed(replace(result, at_the_latest=latest), scene, start, lambda y: energy(y) / first)[0]
     if _field_alone(parts):
         return _about_the_field(scene, parts, start, energy, first)
     drawn = _drawn(parts)
@@ -194,9 +194,9 @@ def _outside(scene: AnyScene, parts: Content, start: np.ndarray, motion: Motion)
         end = np.array(drawn)
         apart = lambda y: (y[:, :3] - end) ** 2 @ np.array(D) / 2
         begun = float(apart(start[None])[0])
-        found = Ending("steady rotation", "exact", reason=ONE_EQUILIBRIUM,
+        result = Ending("steady rotation", "exact", reason=ONE_EQUILIBRIUM,
                        rate=math.hypot(*drawn), rates=drawn)
-        return _timed(found, scene, start, lambda y: apart(y) / begun)[0] if begun > 0 else found
+        return _timed(result, scene, start, lambda y: apart(y) / begun)[0] if begun > 0 else result
     return _settled(scene, start, rests)
 
 
@@ -204,7 +204,7 @@ def _drawn(parts: Content) -> Float3 | None:
     """The equilibrium that draws every motion under resistance and a torque; None where none is proved to."""
     if parts.inside or parts.kappa or parts.directed or any(parts.u) or not decay(parts):
         return None
-    points = [one for one in resisted_equilibria(parts).points if one.reason.says(GLOBAL.sentence)]
+    points = [point for point in resisted_equilibria(parts).points if point.reason.says(GLOBAL.sentence)]
     return tuple(map(float, points[0].at[:3])) if points else None
 
 
@@ -222,35 +222,35 @@ def _about_the_field(scene: AnyScene, parts: Content, start: np.ndarray, energy:
     gamma = start[slices(scene.blocks)["gamma"]]
     p = float(dot([float(d) * w for d, w in zip(parts.D, start[:3])], gamma.tolist()))
     axis = max(range(3), key=lambda i: parts.D[i])
-    most = float(parts.D[axis])
-    lowest, rate = p * p / (2 * most), abs(p) / most
+    largest = float(parts.D[axis])
+    lowest, rate = p * p / (2 * largest), abs(p) / largest
     reason = ABOUT_FIELD(momentum=Momentum(p), axis=Axis(axis + 1))
-    found = Ending("rotation about the field", "exact", axis + 1, reason=reason, rate=rate)
+    result = Ending("rotation about the field", "exact", axis + 1, reason=reason, rate=rate)
     if first <= lowest * (1 + 1e-12) or not p:
-        return replace(found, kind="rotation about the field" if p else "rest",
+        return replace(result, kind="rotation about the field" if p else "rest",
                        rates=None if p else (0.0,) * 3)
-    found, late = _timed(found, scene, start, lambda y: (energy(y) - lowest) / (first - lowest))
+    result, late = _timed(result, scene, start, lambda y: (energy(y) - lowest) / (first - lowest))
     if late is None:
-        return found
+        return result
     sense = 1 if late[axis] > 0 else -1
     rates = tuple(sense * rate if i == axis else 0.0 for i in range(3))
-    return replace(found, level="run", sense=sense, rates=rates,
+    return replace(result, level="run", sense=sense, rates=rates,
                    reason=reason.then(RUN_TURNS(side="positive" if sense > 0 else "negative")))
 
 
-def _timed(found: Ending, scene: AnyScene, start: np.ndarray, share: Callable[[np.ndarray], np.ndarray]
+def _timed(result: Ending, scene: AnyScene, start: np.ndarray, fraction: Callable[[np.ndarray], np.ndarray]
            ) -> tuple[Ending, np.ndarray | None]:
     """With the time at which a share that only falls is NEAR^2, by two runs, and the state there."""
-    t, late = _falls(scene, start, share, None)
+    t, late = _falls(scene, start, fraction, None)
     if late is None:
-        return replace(found, estimate=t), None
-    again, other = _falls(scene, moved_row(start, MOVED), share, SECOND_RTOL)
+        return replace(result, estimate=t), None
+    again, other = _falls(scene, moved_row(start, MOVED), fraction, SECOND_RTOL)
     if other is None or again is None or t is None:
-        return found, None
-    return replace(found, times=(("settles", Time(t, WIDER * abs(t - again) + 1e-15 * t)),)), late
+        return result, None
+    return replace(result, times=(("settles", Time(t, WIDER * abs(t - again) + 1e-15 * t)),)), late
 
 
-def _falls(scene: AnyScene, state: np.ndarray, share: Callable[[np.ndarray], np.ndarray], rtol: float | None
+def _falls(scene: AnyScene, state: np.ndarray, part: Callable[[np.ndarray], np.ndarray], rtol: float | None
            ) -> tuple[float | None, np.ndarray | None]:
     """(the time at which the share is NEAR^2, the state then); (an estimate or None, None) where that takes
     too many steps."""
@@ -262,13 +262,13 @@ def _falls(scene: AnyScene, state: np.ndarray, share: Callable[[np.ndarray], np.
         run = over(t, state, times)
         if run.status != "reached":
             return None, None
-        shares = share(run.states)
+        shares = part(run.states)
         below = np.nonzero(shares < level)[0]
         if below.size:
             at = max(0, int(below[0]) - 1)
             begun = t + float(times[at])
             more, late = _root(run.states[at], float(times[at + 1] - times[at]), partial(over, begun),
-                               lambda y: float(share(y[None])[0]) - level)
+                               lambda y: float(part(y[None])[0]) - level)
             return begun + more, late
         taken = max(1, run.counters["steps"])
         t, steps, state, before, here = t + length, steps + taken, run.states[-1], here, float(shares[-1])
@@ -317,16 +317,16 @@ def _stays(times: np.ndarray, rates: np.ndarray, end: np.ndarray, small: float, 
     """The answer of rates (n, 3) that stay at an end; small: what is left of a change, rad/s."""
     size = float(np.linalg.norm(end))
     away = np.linalg.norm(rates - end, axis=1) > END_REACHED * max(float(np.linalg.norm(rates[0])), size)
-    found: tuple[tuple[str, Time], ...] = ()
+    result: tuple[tuple[str, Time], ...] = ()
     if away.any():
         last = int(np.nonzero(away)[0][-1])
         low, high = times[last].item(), times[last + 1].item()
-        found = (("settles", Time((low + high) / 2, (high - low) / 2)),)
+        result = (("settles", Time((low + high) / 2, (high - low) / 2)),)
     if rests or size <= small:
         level, reason = ("exact", RESTS_SEEN) if rests else ("run", RUN_RESTS)
-        return Ending("rest", level, reason=reason, rate=0.0, rates=(0.0,) * 3, times=found)
+        return Ending("rest", level, reason=reason, rate=0.0, rates=(0.0,) * 3, times=result)
     return Ending("steady rotation", "run", reason=RUN_STAYS, rate=size, rates=tuple(end.tolist()),
-                  times=found)
+                  times=result)
 
 
 def _polished(form: System, state: np.ndarray, small: float) -> np.ndarray:

@@ -175,31 +175,31 @@ def flat_spin(case: Given, within: Amount = "5 deg", *, state: Start | None = No
 
 def of_case(case: Case, angle: float, spans: bool = True) -> FlatSpin:
     """The same of a case and an angle in rad; spans: also look for changes of the outcome."""
-    found = _answered(Spinner.of(case), angle, spans)
+    out = _answered(Spinner.of(case), angle, spans)
     own = without(case.caveats, Kind.UNCERTAIN)
-    found = replace(found, caveats=(*own, *found.caveats))
-    return _over_the_box(case, found) if case.uncertain and found.outcome in (POSITIVE, NEGATIVE) else found
+    out = replace(out, caveats=(*own, *out.caveats))
+    return _over_the_box(case, out) if case.uncertain and out.outcome in (POSITIVE, NEGATIVE) else out
 
 
-def _over_the_box(case: Case, found: FlatSpin) -> FlatSpin:
+def _over_the_box(case: Case, result: FlatSpin) -> FlatSpin:
     """With what uncertain numbers do: undecided where motions drawn from their box end in both directions."""
     draws, ends = np.random.default_rng(1), {POSITIVE: 0, NEGATIVE: 0}
-    drawn = max(4, min(DRAWN, SPAN_STEPS // max(1, found.steps)))
+    drawn = max(4, min(DRAWN, SPAN_STEPS // max(1, result.steps)))
     for _ in range(drawn):
         data = parsed(case.path, case.text)[0]
-        for one in case.uncertain:
-            *tables, last = one.path
-            share = Fraction(draws.uniform(-1, 1))
-            reduce(getitem, tables, data)[last] = str(one.middle + one.half * share)
+        for item in case.uncertain:
+            *tables, last = item.path
+            fraction = Fraction(draws.uniform(-1, 1))
+            reduce(getitem, tables, data)[last] = str(item.middle + item.half * fraction)
         spinner = Spinner.of(with_data(case.path, case.text, data))
-        side = (spinner.momentum[found.axis - 1] if found.crosses is None
-                else after_the_separatrix(spinner, spinner.start, found.crosses.at)[0])
+        side = (spinner.momentum[result.axis - 1] if result.crosses is None
+                else after_the_separatrix(spinner, spinner.start, result.crosses.at)[0])
         ends[POSITIVE if side > 0 else NEGATIVE] += 1
-    seen = ENDS_DRAWN(drawn=drawn, positive=ends[POSITIVE], negative=ends[NEGATIVE], axis=Axis(found.axis))
+    noted = ENDS_DRAWN(drawn=drawn, positive=ends[POSITIVE], negative=ends[NEGATIVE], axis=Axis(result.axis))
     if all(ends.values()):
-        return replace(found, outcome=UNDECIDED, level="undecided", rates=None,
-                       reason=OPEN_OVER_BOX(found=seen))
-    return replace(found, caveats=(*found.caveats, Caveat(Kind.UNCERTAIN, SAME_OVER_BOX(found=seen))))
+        return replace(result, outcome=UNDECIDED, level="undecided", rates=None,
+                       reason=OPEN_OVER_BOX(found=noted))
+    return replace(result, caveats=(*result.caveats, Caveat(Kind.UNCERTAIN, SAME_OVER_BOX(found=noted))))
 
 
 def _answered(spinner: Spinner, angle: float, spans: bool) -> FlatSpin:
@@ -207,40 +207,40 @@ def _answered(spinner: Spinner, angle: float, spans: bool) -> FlatSpin:
     D1, D2, _ = spinner.moments
     size, axis = spinner.size, spinner.order[0]
     growth, decay = spinner.constants
-    found = FlatSpin(
+    result = FlatSpin(
         UNDECIDED, "undecided", axis + 1, spinner.order[2] + 1, size, size / float(D1), None,
         float(spinner.energy), float(dot(spinner.momentum, spinner.momentum) / (2 * D1)), angle,
         growth=growth, decay=decay, reason=NOT_KNOWN)
     if not any(spinner.sigma) and not any(cross(spinner.momentum, spinner.omega)):  # nothing changes
-        return _at_rest(spinner, found)
+        return _at_rest(spinner, result)
     if spinner.ratio * D2 < 1 and D1 > D2:
         direction = spinner.momentum[axis]
-        found = _ended(found, direction, "exact", PAST(side=_side(direction), axis=Axis(axis + 1)))
-    return _timed(spinner, found, angle, spans)
+        result = _ended(result, direction, "exact", PAST(side=_side(direction), axis=Axis(axis + 1)))
+    return _timed(spinner, result, angle, spans)
 
 
 def _side(direction: Fraction | int) -> str:
     return "positive" if direction > 0 else "negative"
 
 
-def _ended(found: FlatSpin, direction: Fraction | int, level: str, reason: Reason) -> FlatSpin:
+def _ended(result: FlatSpin, direction: Fraction | int, level: str, reason: Reason) -> FlatSpin:
     """With the rates at the end; reason: why."""
     sign = 1 if direction > 0 else -1
-    rates = tuple(sign * found.final_rate if i == found.axis - 1 else 0.0 for i in range(3))
-    return replace(found, outcome=POSITIVE if sign > 0 else NEGATIVE, rates=rates, level=level,
+    rates = tuple(sign * result.final_rate if i == result.axis - 1 else 0.0 for i in range(3))
+    return replace(result, outcome=POSITIVE if sign > 0 else NEGATIVE, rates=rates, level=level,
                    reason=reason)
 
 
-def _at_rest(spinner: Spinner, found: FlatSpin) -> FlatSpin:
+def _at_rest(spinner: Spinner, result: FlatSpin) -> FlatSpin:
     """A permanent rotation: of the greatest moment it stays for ever; any other is unstable."""
     D1, D2, _ = spinner.moments
     if spinner.ratio * D1 == 1:
         if D1 == D2:
-            return replace(found, outcome=ACROSS, level="exact", reason=LEAST_ENERGY,
+            return replace(result, outcome=ACROSS, level="exact", reason=LEAST_ENERGY,
                            rates=tuple(map(float, spinner.omega)))
-        return _ended(found, spinner.momentum[spinner.order[0]], "exact", LEAST_ENERGY)
+        return _ended(result, spinner.momentum[spinner.order[0]], "exact", LEAST_ENERGY)
     name = "minor" if spinner.ratio * spinner.moments[2] == 1 else "intermediate"
-    return replace(found, reason=UNSTABLE_ROTATION(which=name))
+    return replace(result, reason=UNSTABLE_ROTATION(which=name))
 
 
 def _dying(spinner: Spinner, settled: float) -> float | None:
@@ -249,12 +249,12 @@ def _dying(spinner: Spinner, settled: float) -> float | None:
     D1, D2, _ = spinner.moments
     if not (spinner.ratio * D2 < 1 and D1 > D2) and float(spinner.ratio) >= settled:
         return None
-    one, two, three = spinner.inverses
-    share = float(spinner.ratio - 1 / D1) / ((two if two > one else three) - one)
-    return math.asin(math.sqrt(min(1.0, max(0.0, share))))
+    item, two, three = spinner.inverses
+    fraction = float(spinner.ratio - 1 / D1) / ((two if two > item else three) - item)
+    return math.asin(math.sqrt(min(1.0, max(0.0, fraction))))
 
 
-def _timed(spinner: Spinner, found: FlatSpin, angle: float, spans: bool) -> FlatSpin:
+def _timed(spinner: Spinner, result: FlatSpin, angle: float, spans: bool) -> FlatSpin:
     """The times of a motion that goes on, by two runs."""
     D1, D2, _ = spinner.moments
     levels = spinner.levels(angle)
@@ -264,36 +264,36 @@ def _timed(spinner: Spinner, found: FlatSpin, angle: float, spans: bool) -> Flat
     ahead = {name: level for name, level in levels.items() if float(spinner.ratio) >= level}
     runs = [Run(spinner, spinner.start, None, RUN_STEPS),
             Run(spinner, moved_row(spinner.start, MOVED), SECOND_RTOL, RUN_STEPS)]
-    seen: list[dict[str, float]] = [{}, {}]
+    visited: list[dict[str, float]] = [{}, {}]
     directions = [0, 0]
     for n, run in enumerate(runs):
         for name in sorted(ahead, key=lambda name: -ahead[name]):
             if (t := run.falls(ahead[name])) is None:
                 break
-            seen[n][name] = t
+            visited[n][name] = t
             if name == "crosses":
                 directions[n] = spinner.direction(run.state)
     first = runs[0]
-    times: dict[str, Any] = {name: Time(t, WIDER * abs(t - seen[1][name]) + 1e-15 * t)
-                             for name, t in seen[0].items() if name in seen[1]}
-    found = replace(found, steps=first.steps, nutation=nutation,
+    times: dict[str, Any] = {name: Time(t, WIDER * abs(t - visited[1][name]) + 1e-15 * t)
+                             for name, t in visited[0].items() if name in visited[1]}
+    result = replace(result, steps=first.steps, nutation=nutation,
                     caveats=caveats_of(spinner.scene, validity=first.validity), **times)
-    if found.outcome != UNDECIDED:
-        return found
+    if result.outcome != UNDECIDED:
+        return result
     why = first.why or runs[1].why or ENDED
     if D1 == D2:
         if "settles" not in ahead:  # near their plane already, from which the falling energy keeps it
-            return replace(found, outcome=ACROSS, level="exact", reason=BY_PHASE)
-        return (replace(found, reason=PLANE_NOT_REACHED(within=Angle(angle), why=why))
-                if "settles" not in seen[0]
-                else replace(found, outcome=ACROSS, level="run", reason=BY_PHASE))
-    if "crosses" not in seen[0] or "crosses" not in seen[1]:
-        return replace(found, reason=NOT_CROSSED(why=why))
+            return replace(result, outcome=ACROSS, level="exact", reason=BY_PHASE)
+        return (replace(result, reason=PLANE_NOT_REACHED(within=Angle(angle), why=why))
+                if "settles" not in visited[0]
+                else replace(result, outcome=ACROSS, level="run", reason=BY_PHASE))
+    if "crosses" not in visited[0] or "crosses" not in visited[1]:
+        return replace(result, reason=NOT_CROSSED(why=why))
     second: dict[str, Any] = {"moved": int(MOVED), "tolerance": Quantity(SECOND_RTOL, digits=1)}
     if directions[0] != directions[1]:
-        return replace(found, reason=BETWEEN_DIRECTIONS(**second))
-    found = _ended(found, directions[0], "run",
-                   CROSSES(side=_side(directions[0]), axis=Axis(found.axis), **second))
-    if found.crosses is None or not spans:
-        return found
-    return replace(found, spans=spans_of(spinner, found.crosses.at, found.steps, SPAN_STEPS))
+        return replace(result, reason=BETWEEN_DIRECTIONS(**second))
+    result = _ended(result, directions[0], "run",
+                   CROSSES(side=_side(directions[0]), axis=Axis(result.axis), **second))
+    if result.crosses is None or not spans:
+        return result
+    return replace(result, spans=spans_of(spinner, result.crosses.at, result.steps, SPAN_STEPS))

@@ -45,8 +45,8 @@ class Spinner:
         scene = case.scene
         if case.state is None or case.variables != "physical":
             raise InputError("flat-spin: give the start as [motion] angular_velocity, in rad/s")
-        others = [one.with_article for one in scene.effects if one.takes != "inside"]
-        if outside := [effect_words(one.name) for one in scene.effects if one.takes == "outside"]:
+        others = [effect.with_article for effect in scene.effects if effect.takes != "inside"]
+        if outside := [effect_words(effect.name) for effect in scene.effects if effect.takes == "outside"]:
             raise InputError(f"flat-spin: {' and '.join(outside)}: a torque from outside, which changes the "
                              "angular momentum, too, so that no flat spin need be the end: `stabilab "
                              "classify` says where the motion tends")
@@ -61,11 +61,11 @@ class Spinner:
         if 2 * max(D) > sum(D) and scene.effect("liquid_cavity"):
             raise InputError("flat-spin: a liquid takes energy for the moments of a rigid body alone, and no "
                              "rigid body has these")
-        found = cls.made(case)
-        if not any(found.momentum):
+        result = cls.made(case)
+        if not any(result.momentum):
             raise InputError("state: the angular momentum is zero, so that the body comes to rest; give an "
                              "angular_velocity")
-        return found
+        return result
 
     @classmethod
     def made(cls, case: Any) -> Spinner:
@@ -124,27 +124,27 @@ class Spinner:
     @cached_property
     def constants(self) -> tuple[float | None, float | None]:
         """Time constants of the nutation near the minor and the major axis, s, by eigenvalues."""
-        one, two, three = self.inverses
+        item, two, three = self.inverses
 
-        def largest(place: int, still: int) -> float:
+        def largest(location: int, still: int) -> float:
             """The largest real part of the eigenvalues at the rotation about an axis, but for those that are
             zero."""
             at = np.zeros(len(self.start))
-            at[self.order[place]] = self.size * self.inverses[place]
+            at[self.order[location]] = self.size * self.inverses[location]
             values = sorted(np.linalg.eigvals(to_numpy(self.scene).jacobian(at)), key=abs)[still:]
-            found = float(max(value.real for value in values))
-            return found if abs(found) > 1e-13 * max(map(abs, values)) else 0.0
+            result = float(max(value.real for value in values))
+            return result if abs(result) > 1e-13 * max(map(abs, values)) else 0.0
         minor = largest(2, 1) if three > two else 0.0
-        major = largest(0, 2 if one == two else 1)
+        major = largest(0, 2 if item == two else 1)
         return 1 / minor if minor > 0 else None, -1 / major if major < 0 else None
 
     def ahead(self, ratio: float, level: float) -> float:
         """About how long it takes to fall from one 2 T/|H|^2 to another, s, at the pace of the nutation near
         the axes; 0 where none is known."""
-        one, two, three = self.inverses
-        near_minor = level >= two > one
+        item, two, three = self.inverses
+        near_minor = level >= two > item
         tau = self.constants[0 if near_minor else 1]
-        gaps = ((three - level, three - ratio) if near_minor else (ratio - one, level - one))
+        gaps = ((three - level, three - ratio) if near_minor else (ratio - item, level - item))
         return tau / 2 * math.log(max(1.0, gaps[0] / gaps[1])) if tau and gaps[1] > 0 else 0.0
 
     def ratios(self, states: np.ndarray) -> np.ndarray:
@@ -169,10 +169,10 @@ class Spinner:
         """2 T/|H|^2 at which the polhode goes from the minor axis by an angle, at the separatrix, and from
         the major axis (two greatest moments equal: from their plane) by the angle; inf: there is none."""
         D1, D2, D3 = self.moments
-        (one, two, three), share = self.inverses, math.sin(angle) ** 2
-        return {"leaves": three - share * float(1 / D3 - 1 / D2) if D2 > D3 else math.inf,
+        (item, two, three), fraction = self.inverses, math.sin(angle) ** 2
+        return {"leaves": three - fraction * float(1 / D3 - 1 / D2) if D2 > D3 else math.inf,
                 "crosses": two if D1 > D2 else math.inf,
-                "settles": one + share * float(1 / (D2 if two > one else D3) - 1 / D1)}
+                "settles": item + fraction * float(1 / (D2 if two > item else D3) - 1 / D1)}
 
 
 class Run:
@@ -230,8 +230,8 @@ def after_the_separatrix(spinner: Spinner, state: np.ndarray, until: float) -> t
     """(the side on which a motion is past the separatrix, how often its angular momentum changed sides along
     the major axis before); (0, 0) where it is not past it. until: about when it crosses, s."""
     run, span, passed = Run(spinner, state, None), 1.02 * until, 0
-    one, two, three = spinner.inverses
-    quick = spinner.size * math.sqrt((three - one) * (three - two))
+    item, two, three = spinner.inverses
+    quick = spinner.size * math.sqrt((three - item) * (three - two))
     side = spinner.direction(state)
     for _ in range(60):
         samples = 1 + math.ceil(span * quick / math.pi * PASSED)

@@ -43,9 +43,9 @@ def law_of(case: Case, span: Any = None, brief: bool = False) -> Any:
     span = span or case.span or (0.0, 15.0)
     if "attitude" in case.blocks:
         from ...integrate.limits_along import law_along
-        found = law_along(case.scene, case.state, vertical_of(*case.blocks["attitude"]), span)
-        if found is not None:
-            return found
+        result = law_along(case.scene, case.state, vertical_of(*case.blocks["attitude"]), span)
+        if result is not None:
+            return result
     if brief:
         return None
     from ..simulate import simulated
@@ -53,9 +53,9 @@ def law_of(case: Case, span: Any = None, brief: bool = False) -> Any:
     if spin * longest <= MAX_TURN:
         return simulated(case.scene, case.state, span, case.blocks).validity
     first = tuple(t * MAX_TURN / (spin * longest) for t in span)
-    found = simulated(case.scene, case.state, first, case.blocks).validity
+    result = simulated(case.scene, case.state, first, case.blocks).validity
     over = ALONG_FIRST(time=Time(MAX_TURN / spin, digits=2))
-    return found and replace(found, over=over, also=tuple(replace(one, over=over) for one in found.also))
+    return result and replace(result, over=over, also=tuple(replace(item, over=over) for item in result.also))
 
 
 def law_is_open(case: Case, validity: Validity | None) -> bool:
@@ -69,8 +69,8 @@ def judged(case: Case, motion: Motion | None, brief: bool = False) -> Motion | N
     case."""
     if motion is None:
         return motion
-    found = law_of(case, brief=brief) if law_is_open(case, motion.validity) else None
-    motion = limited(motion if found is None else replace(motion, validity=found), case.scene, case)
+    result = law_of(case, brief=brief) if law_is_open(case, motion.validity) else None
+    motion = limited(motion if result is None else replace(motion, validity=result), case.scene, case)
     motion = motion if brief else with_ending(case, motion)
     if case.limits is None or brief:
         return motion

@@ -52,12 +52,12 @@ def motion(scene: Given, state: Start | None = None, span: Span | None = None, *
                                              for row in array.reshape(-1, array.shape[-1])]
     angle = None if tilt is None else angle_of(tilt)
     needs = Needs.QUICK if brief else Needs.ALL
-    found = [_whole(one, needs, angle, time_in(one.scene, follow, "follow"), tell, proof) for one in cases]
-    return found[0] if many is None else found
+    rows = [_whole(item, needs, angle, time_in(item.scene, follow, "follow"), tell, proof) for item in cases]
+    return rows[0] if many is None else rows
 
 
 def _whole(case: Case, needs: Needs, tilt: float | None, follow: float | None,
            tell: Callable[..., Any] | None, proof: bool) -> Motion:
-    found = motion_of_case(case, needs, follow, tell, proof)
-    found = judged(case, found) or found
-    return with_its_tilt(case, found, tilt)
+    result = motion_of_case(case, needs, follow, tell, proof)
+    result = judged(case, result) or result
+    return with_its_tilt(case, result, tilt)

@@ -27,17 +27,17 @@ from . import rows
 from .of_case import judged, motion_of_case, with_its_tilt
 
 
-def margin_of(one: Motion) -> float:
+def margin_of(item: Motion) -> float:
     """The margin in energy as arrays have it."""
-    return one.margin if one.margin_energy is None or one.margin == one.margin else one.margin_energy
+    return item.margin if item.margin_energy is None or item.margin == item.margin else item.margin_energy
 
 
-def period_of(one: Motion) -> float:
+def period_of(item: Motion) -> float:
     """The period as arrays have it."""
-    if one.returns == one.returns:
-        return one.returns
-    return (one.period if one.period is not None else
-            math.nan if one.fate == Fate.BOUNDED else without_return(one.fate))
+    if item.returns == item.returns:
+        return item.returns
+    return (item.period if item.period is not None else
+            math.nan if item.fate == Fate.BOUNDED else without_return(item.fate))
 
 
 COLUMNS = ("labels", "margins", "axis", "sense", "reasons")
@@ -92,19 +92,19 @@ class Motions(Shown):
 
     def motions(self, needs: Needs = Needs.ALL) -> list[Motion]:
         """The motion from each start, one after another; needs: as of `answers.motion`."""
-        known = next((found for of, found in self.kept.items() if of & needs == needs), None)
-        if known is None:
+        resolved = next((value for of, value in self.kept.items() if of & needs == needs), None)
+        if resolved is None:
             cases = [self.case] if self.one else [
                 started(self.case, row) for row in self.states.reshape(-1, self.states.shape[-1])]
             options = {name: value for name, value in self.options.items() if name != "fast"}
-            known = self.kept[needs] = [motion_of_case(case, needs, **options) for case in cases]
-        return known
+            resolved = self.kept[needs] = [motion_of_case(case, needs, **options) for case in cases]
+        return resolved
 
     @cached_property
     def ended(self) -> list[Motion]:
         """The motions, of one start with how it ends where something takes energy from it: a run."""
-        known = self.motions(Needs.FATE)
-        return [with_ending(self.case, known[0])] if self.one else known
+        resolved = self.motions(Needs.FATE)
+        return [with_ending(self.case, resolved[0])] if self.one else resolved
 
     @property
     def by_rows(self) -> bool:
@@ -125,7 +125,7 @@ class Motions(Shown):
     # --- Columns
     @property
     def labels(self) -> np.ndarray:
-        return self.column("labels", lambda one: one.fate, np.int8)
+        return self.column("labels", lambda item: item.fate, np.int8)
 
     @property
     def margins(self) -> np.ndarray:
@@ -133,15 +133,15 @@ class Motions(Shown):
 
     @property
     def axis(self) -> np.ndarray:
-        return self.column("axis", lambda one: one.axis, np.int8)
+        return self.column("axis", lambda item: item.axis, np.int8)
 
     @property
     def sense(self) -> np.ndarray:
-        return self.column("sense", lambda one: one.sense, np.int8)
+        return self.column("sense", lambda item: item.sense, np.int8)
 
     @property
     def reasons(self) -> np.ndarray:
-        return self.column("reasons", lambda one: one.code, np.int8)
+        return self.column("reasons", lambda item: item.code, np.int8)
 
     @property
     def fate(self) -> Any:
@@ -157,21 +157,21 @@ class Motions(Shown):
         """How well each fate is known: "exact" (by a law or a closed solution), "certified" (an inequality
         met by a run of machine precision), "proved" (the motion up to it enclosed) or "undecided"."""
         return (self.rows.levels if self.by_rows
-                else self._words([one.level for one in self.ended]))
+                else self._words([item.level for item in self.ended]))
 
     @property
     def reason(self) -> Any:
         """How it is known, in words."""
         return (self.rows.because if self.by_rows
-                else self._words([one.because for one in self.ended]))
+                else self._words([item.because for item in self.ended]))
 
     levels, because = level, reason
 
-    def _words(self, words: list[Any]) -> Any:
+    def _words(self, text: list[Any]) -> Any:
         if self.one:
-            return words[0]
-        array = np.empty(len(words), object)
-        array[:] = words
+            return text[0]
+        array = np.empty(len(text), object)
+        array[:] = text
         return array.reshape(self.shape)
 
     @property
@@ -189,10 +189,10 @@ class Motions(Shown):
         one, 0 on it, NaN where it is not known."""
         if self.by_rows:
             return self.rows.velocity_margins
-        known = [one.margin_velocity for one in self.motions()]
-        if self.one and known[0] is None and self.scene.plain:  # without one, or not known: as rows have it
+        settled = [motion.margin_velocity for motion in self.motions()]
+        if self.one and settled[0] is None and self.scene.plain:  # without one, or not known: as rows have it
             return rows.fates(self.case.scene, self.states).velocity_margins
-        return np.array([np.nan if one is None else one for one in known]).reshape(self.shape)[()]
+        return np.array([np.nan if item is None else item for item in settled]).reshape(self.shape)[()]
 
     @property
     def validity(self) -> Any:
@@ -200,8 +200,8 @@ class Motions(Shown):
         if self.by_rows:
             return self.rows.validity
         return self.judged.validity if self.one else max(
-            (one.validity for one in self.motions(Needs.FATE) if one.validity is not None),
-            key=lambda one: one.excess, default=None)
+            (motion.validity for motion in self.motions(Needs.FATE) if motion.validity is not None),
+            key=lambda item: item.excess, default=None)
 
     # --- What limits the answer
     @cached_property
@@ -209,8 +209,8 @@ class Motions(Shown):
         """Of one start: the motion with all that limits it; a limit of the case and a tilt of its torque cost
         a tenth of a second."""
         (motion,), case = self.ended, self.case
-        found = judged(case, motion) or motion
-        return with_its_tilt(case, found, self.tilt) if self.tilted else found
+        result = judged(case, motion) or motion
+        return with_its_tilt(case, result, self.tilt) if self.tilted else result
 
     @cached_property
     def caveats(self) -> tuple[Caveat, ...]:
@@ -221,9 +221,9 @@ class Motions(Shown):
         validity = None if self.by_rows else self.validity
         return caveats_of(self.case.scene, steady, validity=validity, file=self.case.caveats)
 
-    def __getitem__(self, place: Any) -> Motions:
+    def __getitem__(self, location: Any) -> Motions:
         """Those of some of the starts."""
-        states = self.states[place]
+        states = self.states[location]
         case = started(self.case, states) if states.ndim == 1 else self.case
         return replace(self, case=case, states=states)
 
@@ -281,9 +281,9 @@ class Values(NDArrayOperatorsMixin, Shown):
         return self.values.copy() if copy else self.values
 
     def __array_ufunc__(self, ufunc: Callable[..., Any], method: str, *inputs: Any, **options: Any) -> Any:
-        plain = [one.values if isinstance(one, Values) else one for one in inputs]
+        plain = [item.values if isinstance(item, Values) else item for item in inputs]
         if "out" in options:
-            options["out"] = tuple(one.values if isinstance(one, Values) else one for one in options["out"])
+            options["out"] = tuple(x.values if isinstance(x, Values) else x for x in options["out"])
         return getattr(ufunc, method)(*plain, **options)
 
     @property
@@ -309,8 +309,8 @@ class Values(NDArrayOperatorsMixin, Shown):
     def __len__(self) -> int:
         return len(self.values)
 
-    def __getitem__(self, place: Any) -> Any:
-        return self.values[place]
+    def __getitem__(self, location: Any) -> Any:
+        return self.values[location]
 
     def __float__(self) -> float:
         return float(self.values)

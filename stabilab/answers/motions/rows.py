@@ -25,12 +25,12 @@ def fates(scene: AnyScene, states: Any, fast: bool | None = None, follow: float 
     (without a torque: both kinetic energies). Raises InputError for arrays of another shape, for non-finite
     numbers, and for scenes with effects that rows do not have.
     """
-    given, scene, array = scene, effective(scene), checked_states(states)
-    found = many(scene).fates(scene, np.ascontiguousarray(array.reshape(-1, 3)), fast,
+    supplied, scene, array = scene, effective(scene), checked_states(states)
+    result = many(scene).fates(scene, np.ascontiguousarray(array.reshape(-1, 3)), fast,
                               **following(scene, follow, tell, proof))
-    columns = {name: getattr(found, name).reshape(array.shape[:-1])
+    columns = {name: getattr(result, name).reshape(array.shape[:-1])
                for name in ("labels", "margins", "axis", "sense", "reasons")}
-    return replace(found, **columns, scene=scene, states=array, given=given)
+    return replace(result, **columns, scene=scene, states=array, given=supplied)
 
 
 def extremes(scene: AnyScene, states: Any, reach: float | None = None, fast: bool | None = None,

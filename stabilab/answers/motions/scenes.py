@@ -77,27 +77,27 @@ def time_to(scene: Given, state: Start | None = None, rate: Any = None, componen
            "tilt": _pairs(case, tilt, ANGLE, "tilt")}
     end = time_in(case.scene, t_max, "t_max")
     if array.ndim == 1:
-        found = times.time_of_case(case, ask, end, work)
+        result = times.time_of_case(case, ask, end, work)
     else:
-        found = times.time_to(case.scene, whole_rows(case, array), **ask, t_max=end, work=work)
-    return replace(found, caveats=(*case.caveats, *found.caveats))
+        result = times.time_to(case.scene, whole_rows(case, array), **ask, t_max=end, work=work)
+    return replace(result, caveats=(*case.caveats, *result.caveats))
 
 
 def _of(value: Any, unit: Dimension, name: str) -> Any:
     """A number, or several; text with a unit as the exact number in SI, all else as it is."""
     if isinstance(value, str):
         return in_si(value, unit, name) if (split(value) or ("", ""))[1] else value
-    return [_of(one, unit, name) for one in value] if isinstance(value, (list, tuple)) else value
+    return [_of(item, unit, name) for item in value] if isinstance(value, (list, tuple)) else value
 
 
-def _pairs(case: Case, given: Any, unit: Dimension, name: str) -> Any:
+def _pairs(case: Case, raw: Any, unit: Dimension, name: str) -> Any:
     """(axis, limit), or a list of such; x, y, z are axes of the file."""
-    if isinstance(given, (list, tuple)) and len(given) == 2 and isinstance(given[0], (str, int, list, tuple)):
-        axis, limit = given
+    if isinstance(raw, (list, tuple)) and len(raw) == 2 and isinstance(raw[0], (str, int, list, tuple)):
+        axis, limit = raw
         if not isinstance(axis, (list, tuple)) or len(axis) == 3:
             axis = along(case, axis) if isinstance(axis, str) and axis in "xyz123" and axis else axis
             return axis, _of(limit, unit, name)
-    return [_pairs(case, one, unit, name) for one in given] if isinstance(given, (list, tuple)) else given
+    return [_pairs(case, item, unit, name) for item in raw] if isinstance(raw, (list, tuple)) else raw
 
 
 def chaos(scene: Given, state: Start | None = None, until: Amount | None = None,
@@ -112,12 +112,12 @@ def chaos(scene: Given, state: Start | None = None, until: Amount | None = None,
     is called meanwhile. Raises InputError for other shapes and numbers.
     """
     case = as_case(scene)
-    given: Any = state if states is None else states
-    texts = is_one(given) and not isinstance(given, Mapping) and any(isinstance(v, str) for v in given)
-    if given is None or isinstance(given, Mapping) or texts:
-        rows: Any = _row(with_start(as_case(case, given), "chaos"))
+    source: Any = state if states is None else states
+    texts = is_one(source) and not isinstance(source, Mapping) and any(isinstance(v, str) for v in source)
+    if source is None or isinstance(source, Mapping) or texts:
+        rows: Any = _row(with_start(as_case(case, source), "chaos"))
     else:  # rows of whole states, or of rates beside the other blocks of the case
-        rows = in_numbers(given, NONE if case.variables == "scaled" else RATE, "states")
+        rows = in_numbers(source, NONE if case.variables == "scaled" else RATE, "states")
         short = case.state is not None and case.scene.blocks != ("omega",) and float_array(
             rows, "states", "numbers in rows").shape[-1:] == (3,)
         if short:
@@ -147,7 +147,7 @@ def spin_up(scene: Given, state: Start | None = None, t_max: Amount | None = Non
     scenes with other effects than turn the body as wheel and torque do, and for states that are none.
     """
     case = with_start(as_case(scene, state), "spin_up")
-    end, late = (time_in(case.scene, one, name) for one, name in ((t_max, "t_max"), (after, "after")))
+    end, late = (time_in(case.scene, item, name) for item, name in ((t_max, "t_max"), (after, "after")))
     return answered(spin_ups.spin_up(case.scene, case.exact_state if proof else case.state, end, budget, late,
                                      proof, tell, fast), case)
 
@@ -199,8 +199,8 @@ def trajectory(scene: Given, state: Start | None = None, times: ArrayLike | None
         state = (case.state if case.variables == "scaled"
                  else start_of(case.scene, case.state or (), case.blocks))
     unit = NONE if case.variables == "scaled" else RATE
-    start = ({name: in_numbers(one, unit if name == "omega" else NONE, f"state: {name}")
-              for name, one in state.items()} if isinstance(state, Mapping)
+    start = ({name: in_numbers(value, unit if name == "omega" else NONE, f"state: {name}")
+              for name, value in state.items()} if isinstance(state, Mapping)
              else in_numbers(state, unit, "state"))
     run = runs.trajectory(case.scene, start, _times(case, times), method, rtol, steps, laws)
     return answered(run, case, run.validity)
@@ -229,8 +229,8 @@ def ensemble(scene: Given, states: Starts | None = None, times: ArrayLike | None
     unit = NONE if case.variables == "scaled" else RATE
     rows = (np.array([_row(with_start(case, "ensemble"))]) if states is None
             else in_numbers(states, unit, "states"))
-    found = ensembles.ensemble(case.scene, rows, _times(case, times), rtol, workers)
-    return answered(found, case, found.validity)
+    result = ensembles.ensemble(case.scene, rows, _times(case, times), rtol, workers)
+    return answered(result, case, result.validity)
 
 
 def derive(scene: Given, also: Iterable[str] = ()) -> Equations:

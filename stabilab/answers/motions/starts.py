@@ -26,7 +26,7 @@ from ...physics.coefficients import effective
 from ...physics.states import checked_states, float_array, row_of
 
 
-def asked_of(given: Given, state: Start | None, states: Starts | None, span: Span | None, question: str,
+def asked_of(supplied: Given, state: Start | None, states: Starts | None, span: Span | None, question: str,
              frame: str = "principal") -> tuple[Case, np.ndarray]:
     """(case, starts): of one start a row (N,) and the case that starts there; of many (..., N) and the case
     as it was given. Raises InputError where no start is given and the case has none."""
@@ -35,11 +35,11 @@ def asked_of(given: Given, state: Start | None, states: Starts | None, span: Spa
     name: str = "state" if states is None else "states"
     wanted: Any = state if states is None else states
     if wanted is None or is_one(wanted):
-        case = with_start(as_case(given, wanted, span, frame), question)
+        case = with_start(as_case(supplied, wanted, span, frame), question)
         return case, np.array(case.start, float)
-    case = as_case(given, None, span)
-    if isinstance(wanted, (list, tuple)) and all(isinstance(one, Mapping) for one in wanted) and wanted:
-        return case, np.array([whole(started(case, one, frame)) for one in wanted])
+    case = as_case(supplied, None, span)
+    if isinstance(wanted, (list, tuple)) and all(isinstance(item, Mapping) for item in wanted) and wanted:
+        return case, np.array([whole(started(case, item, frame)) for item in wanted])
     numbers = in_numbers(wanted, NONE if case.variables == "scaled" else RATE, name)
     if effective(case.scene).plain:
         array, axes = checked_states(numbers), turning(case, frame)
@@ -56,8 +56,8 @@ def whole_rows(case: Case, array: np.ndarray) -> np.ndarray:
     """The starts (..., N) of `asked_of` with all blocks of the state in order, as a run takes them."""
     if case.scene.blocks == ("omega",):
         return array
-    made = [started(case, row) for row in array.reshape(-1, array.shape[-1])]
-    return np.array([row_of(one.scene, one.state or (), one.blocks) for one in made]).reshape(
+    built = [started(case, row) for row in array.reshape(-1, array.shape[-1])]
+    return np.array([row_of(item.scene, item.state or (), item.blocks) for item in built]).reshape(
         *array.shape[:-1], -1)
 
 
@@ -66,5 +66,5 @@ def _rows(case: Case, numbers: Any, frame: str) -> np.ndarray:
     array = float_array(numbers, "states", "numbers in rows")
     if array.ndim < 2:
         raise InputError(f"states: expected rows of numbers, got the shape {array.shape}")
-    made = [whole(started(case, row, frame)) for row in array.reshape(-1, array.shape[-1])]
-    return np.array(made).reshape(*array.shape[:-1], -1)
+    built = [whole(started(case, row, frame)) for row in array.reshape(-1, array.shape[-1])]
+    return np.array(built).reshape(*array.shape[:-1], -1)

@@ -56,7 +56,7 @@ SHARES = (Fraction(1), Fraction(3, 4), Fraction(1, 2), Fraction(1, 4))  # of the
 
 
 def helpers(scenario: Scenario, torque: Sequence[Fraction], others: Sequence[Any],
-            seen: Outcome) -> tuple[Helper, ...]:
+            visited: Outcome) -> tuple[Helper, ...]:
     """The helpers among `others` (thrusters that do not fire) against a torque (exact, scene's axes), the
     best first.
 
@@ -66,19 +66,19 @@ def helpers(scenario: Scenario, torque: Sequence[Fraction], others: Sequence[Any
         return ()
     turned = [(t.name, scenario.axes.turned(t.torque)) for t in others]
     turned = [(name, arm) for name, arm in turned if any(arm)]
-    sets = [(one,) for one in turned] + list(combinations(turned, 2))
-    told: list[tuple[Helper, Exact3]] = []
+    sets = [(entry,) for entry in turned] + list(combinations(turned, 2))
+    printed: list[tuple[Helper, Exact3]] = []
     done: set[str] = set()
     for chosen in sets:
         names = tuple(name for name, _ in chosen)
-        if not done & set(names) and (one := _stops(scenario, torque, names, [arm for _, arm in chosen])):
-            told.append(one)
+        if not done & set(names) and (item := _stops(scenario, torque, names, [arm for _, arm in chosen])):
+            printed.append(item)
             if len(names) == 1:
                 done.add(names[0])
-    told.sort(key=lambda one: (one[0].effect != "zero", len(one[0].thrusters), one[0].torque_left))
-    tried = [_timed(scenario, helper, left, seen) for helper, left in told[:MAX_HELPERS]]
+    printed.sort(key=lambda entry: (entry[0].effect != "zero", len(entry[0].thrusters), entry[0].torque_left))
+    tried = [_timed(scenario, helper, left, visited) for helper, left in printed[:MAX_HELPERS]]
     if all(helper.effect == "none" for helper in tried):
-        tried += _slowest(scenario, torque, sets, seen)
+        tried += _slowest(scenario, torque, sets, visited)
     tried.sort(key=_rank)
     return tuple([helper for helper in tried if helper.effect != "none"] or tried[:1])
 
@@ -89,19 +89,19 @@ def _rank(helper: Helper) -> tuple[bool, bool, float]:
     return helper.effect == "none", time is not None, 0.0 if time is None else -time[0]
 
 
-def _later(time: tuple[float, float] | None, seen: Outcome) -> bool:
+def _later(time: tuple[float, float] | None, visited: Outcome) -> bool:
     """Whether a limit that is reached at `time`, if at all, is reached later than without help."""
-    return time is None or (seen.when.time is not None and time[0] > seen.when.time[1])
+    return time is None or (visited.when.time is not None and time[0] > visited.when.time[1])
 
 
-def _timed(scenario: Scenario, helper: Helper, left: Exact3, seen: Outcome,
+def _timed(scenario: Scenario, helper: Helper, left: Exact3, noted: Outcome,
            run: tuple[float, float] | None = None) -> Helper:
     """With the time of its limit: a bounded motion may come to it all the same. run: bracket by a plain run,
     which counts where none is enclosed."""
     if scenario.limit is None:
         return helper
     time = time_under(scenario, left, scenario.wheel)
-    return replace(helper, time_to_limit=time, effect=helper.effect if _later(time or run, seen) else "none")
+    return replace(helper, time_to_limit=time, effect=helper.effect if _later(time or run, noted) else "none")
 
 
 def _stops(scenario: Scenario, torque: Sequence[Fraction], names: tuple[str, ...],
@@ -117,7 +117,7 @@ def _stops(scenario: Scenario, torque: Sequence[Fraction], names: tuple[str, ...
             return helper, (Fraction(0),) * 3
     onto = [(i, duty) for i in range(3) if _possible(duty := _onto_axis(torque, arms, i))]
     for size, i, duty in sorted(((_left(torque, arms, duty)[i], i, duty) for i, duty in onto),
-                                key=lambda one: abs(one[0])):
+                                key=lambda item: abs(item[0])):
         fate = Family(scenario.body, i, size, scenario.wheel, scenario.state).fate() if size else None
         if fate in STEADY:
             helper = Helper(names, tuple(map(float, duty)), "bounded", abs(float(size)), fate.word, None)
@@ -151,8 +151,8 @@ def _onto_axis(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]], i
     n, other = (j, k) if abs(a[j]) >= abs(a[k]) else (k, j)
     if not a[n]:
         return None
-    share = -torque[n] / a[n]
-    return (share,) if (torque[other] + share * a[other]) ** 2 <= NO_TORQUE**2 * size else None
+    fraction = -torque[n] / a[n]
+    return (fraction,) if (torque[other] + fraction * a[other]) ** 2 <= NO_TORQUE**2 * size else None
 
 
 def _solved(p: Fraction, q: Fraction, r: Fraction, s: Fraction, x: Fraction, y: Fraction) -> Duty | None:
@@ -162,7 +162,7 @@ def _solved(p: Fraction, q: Fraction, r: Fraction, s: Fraction, x: Fraction, y: 
             else ((x * s - q * y) / det, (p * y - r * x) / det))
 
 
-def _slowest(scenario: Scenario, torque: Sequence[Fraction], sets: Any, seen: Outcome) -> list[Helper]:
+def _slowest(scenario: Scenario, torque: Sequence[Fraction], sets: Any, visited: Outcome) -> list[Helper]:
     """The thruster and the pair with the latest limit; without a limit those that leave the least torque."""
     out: list[tuple[float, Helper]] = []
     size = dot(torque, torque)
@@ -170,7 +170,7 @@ def _slowest(scenario: Scenario, torque: Sequence[Fraction], sets: Any, seen: Ou
         tried = [(dot(left, left), chosen, duty) for chosen in sets if len(chosen) == many
                  for duty in _in_the_box(torque, [arm for _, arm in chosen]) if all(duty)
                  for left in [_left(torque, [arm for _, arm in chosen], duty)]]
-        tried = sorted((one for one in tried if one[0] < WORTH**2 * size), key=lambda one: one[0])[:TRIED]
+        tried = sorted((item for item in tried if item[0] < WORTH**2 * size), key=lambda x: x[0])[:TRIED]
         if not tried:
             continue
         if scenario.limit is None:
@@ -178,20 +178,20 @@ def _slowest(scenario: Scenario, torque: Sequence[Fraction], sets: Any, seen: Ou
             best = math.sqrt(float(square)), chosen, duty
             better = not out or best[0] < WORTH * out[0][0]
         else:
-            best = max(((_run(scenario, torque, chosen, scaled, seen), chosen, scaled)
+            best = max(((_run(scenario, torque, chosen, scaled, visited), chosen, scaled)
                         for _, chosen, duty in tried
-                        for share in SHARES for scaled in [tuple(share * u for u in duty)]),
-                       key=lambda one: one[0])
+                        for fraction in SHARES for scaled in [tuple(fraction * u for u in duty)]),
+                       key=lambda item: item[0])
             better = not out or out[0][0] < WORTH * best[0]
         if better:
-            out.append((best[0], _slower(scenario, torque, seen, *best)))
+            out.append((best[0], _slower(scenario, torque, visited, *best)))
     return [helper for _, helper in out]
 
 
-def _run(scenario: Scenario, torque: Sequence[Fraction], chosen: Any, duty: Duty, seen: Outcome) -> float:
+def _run(scenario: Scenario, torque: Sequence[Fraction], chosen: Any, duty: Duty, visited: Outcome) -> float:
     """The time of the limit by a plain run, inf where it is not reached for long."""
-    left, alone = _left(torque, [arm for _, arm in chosen], duty), seen.when.time
-    return first_time(scenario, left, None, NEVER_AFTER * (alone[0] if alone else seen.followed))
+    left, alone = _left(torque, [arm for _, arm in chosen], duty), visited.when.time
+    return first_time(scenario, left, None, NEVER_AFTER * (alone[0] if alone else visited.followed))
 
 
 def _in_the_box(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]]) -> list[Duty]:
@@ -203,21 +203,21 @@ def _in_the_box(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]]) 
         return [(min(max(duty[0], Fraction(0)), Fraction(1)),)]
     out: list[Duty] = []
     for fixed in (0, 1):
-        for whole in (Fraction(0), Fraction(1)):
-            rest = _left(torque, [arms[fixed]], (whole,))
-            (share,) = _in_the_box(rest, [arms[1 - fixed]])[0]
-            out.append((whole, share) if fixed == 0 else (share, whole))
+        for full in (Fraction(0), Fraction(1)):
+            rest = _left(torque, [arms[fixed]], (full,))
+            (fraction,) = _in_the_box(rest, [arms[1 - fixed]])[0]
+            out.append((full, fraction) if fixed == 0 else (fraction, full))
     return out
 
 
-def _slower(scenario: Scenario, torque: Sequence[Fraction], seen: Outcome, run: float, chosen: Any,
+def _slower(scenario: Scenario, torque: Sequence[Fraction], visited: Outcome, run: float, chosen: Any,
             duty: Duty) -> Helper:
     """run: the time of the limit by a plain run."""
     left = _left(torque, [arm for _, arm in chosen], duty)
     fate = outcome_of(replace(scenario, limit=None), left).fate.word
     helper = Helper(tuple(name for name, _ in chosen), tuple(map(float, duty)), "slower",
                     math.sqrt(float(dot(left, left))), fate, None)
-    return _timed(scenario, helper, left, seen, (run, run))
+    return _timed(scenario, helper, left, visited, (run, run))
 
 
 # --- The question: a thruster is stuck open, what becomes of the spacecraft, how soon, and what helps?
@@ -276,27 +276,27 @@ def _chosen(case: Case, scenario: Scenario, all_thrusters: bool) -> list[tuple[A
 
 def _row(scenario: Scenario, thrusters: Sequence[Any], tilt: float | None = None) -> Row:
     torque = scenario.torque(thrusters)
-    seen = outcome_of(scenario, torque)
+    noted = outcome_of(scenario, torque)
     others = [t for t in scenario.case.thrusters if t not in thrusters]
     scene = scenario.scene(torque)
-    off = _tilted(scenario, thrusters, scene, seen, tilt)
-    stability = (of_gyrostat(scene, scenario.state) if seen.fate == Fate.EQUILIBRIUM and scene.plain
+    off = _tilted(scenario, thrusters, scene, noted, tilt)
+    stability = (of_gyrostat(scene, scenario.state) if noted.fate == Fate.EQUILIBRIUM and scene.plain
                  else None)
     box = _over_box(scenario, thrusters, scene)
     own = [*without(scenario.case.caveats, Kind.TOLERANCE, Kind.MISALIGNMENT)]
     if (loose := [t.name for t in thrusters if t.force_tolerance]) and not (off and off.within):
         own.append(Caveat(Kind.TOLERANCE, NOT_SEEN(thrusters=tuple(loose))))
-    caveats = caveats_of(scene, seen.fate in STEADY or seen.when.never, off, file=own, stability=stability)
+    caveats = caveats_of(scene, noted.fate in STEADY or noted.when.never, off, file=own, stability=stability)
     return Row(
         tuple(t.name for t in thrusters), torque=scenario.torque_in_file(thrusters),
         torque_principal=tuple(float(v) + 0.0 for v in torque),
-        fate=seen.fate.word, level=seen.level, axis=seen.axis or None, sense=seen.sense or None,
-        direction=seen.direction and scenario.in_file(seen.direction), limit=scenario.limit,
-        time_to_limit=seen.when.time, time_level=seen.when.level, never=seen.when.never,
-        largest_rate=seen.largest, followed=seen.followed, reason=seen.reason,
-        margins=margins(scenario, scene, seen),
-        wheels=tuple(_wheel(scenario, torque, seen, wheel) for wheel in scenario.case.wheels),
-        helpers=helpers(scenario, torque, others, seen) if seen.fate not in STEADY else (),
+        fate=noted.fate.word, level=noted.level, axis=noted.axis or None, sense=noted.sense or None,
+        direction=noted.direction and scenario.in_file(noted.direction), limit=scenario.limit,
+        time_to_limit=noted.when.time, time_level=noted.when.level, never=noted.when.never,
+        largest_rate=noted.largest, followed=noted.followed, reason=noted.reason,
+        margins=margins(scenario, scene, noted),
+        wheels=tuple(_wheel(scenario, torque, noted, wheel) for wheel in scenario.case.wheels),
+        helpers=helpers(scenario, torque, others, noted) if noted.fate not in STEADY else (),
         tilt=off, caveats=(*caveats, *(box.caveats if box else ())), box=box)
 
 
@@ -304,7 +304,7 @@ def _over_box(scenario: Scenario, thrusters: Sequence[Any], scene: Scene) -> Unc
     """What the uncertain numbers of the case, and the forces of the thrusters that fire, do to the fate under
     a torque along an axis, where a proof is to be had."""
     case = scenario.case
-    others = [one for one in case.uncertain if one.path[-1] != "force"]
+    others = [item for item in case.uncertain if item.path[-1] != "force"]
     forces = [Uncertain((*t.path, "force"), t.force, t.force_tolerance, f"thrusters.{t.name}.force")
               for t in thrusters if t.force_tolerance]
     if case.variables == "scaled" or not torque_axis(scene):
@@ -315,25 +315,25 @@ def _over_box(scenario: Scenario, thrusters: Sequence[Any], scene: Scene) -> Unc
 
 
 def _tilted(scenario: Scenario, thrusters: Sequence[Any], scene: Scene,
-            seen: Outcome, angle: float | None = None) -> Tilt | Spread | None:
+            visited: Outcome, angle: float | None = None) -> Tilt | Spread | None:
     """What a tilt of the torque does, by an angle that is given; without one to a bounded motion under one on
     an axis by the misalignment of the thrusters that fire, else by one degree; else by that misalignment
     alone; and what their tolerances do."""
     loose = any(t.misalignment or t.force_tolerance for t in thrusters)
     firing = tuple(replace(t, stuck=t in thrusters) for t in scenario.case.thrusters)
     case = replace(scenario.case, thrusters=firing, scene=scene)
-    return (of_tilt(case, angle, limit_of(case), seen.fate in STEADY)
+    return (of_tilt(case, angle, limit_of(case), visited.fate in STEADY)
             if loose or angle is not None or scenario.limit is not None else None)
 
 
-def _wheel(scenario: Scenario, torque: Exact3, seen: Outcome, wheel: Any) -> WheelAnswer:
+def _wheel(scenario: Scenario, torque: Exact3, visited: Outcome, wheel: Any) -> WheelAnswer:
     """What one wheel of the case can do, the others left as they are."""
     axis = without_trace(scenario.axes.turned(wheel.axis), torque)
-    least = NOTHING * max(map(abs, scenario.wheel))
-    others = tuple(v if abs(v) > least else v * 0
+    smallest = NOTHING * max(map(abs, scenario.wheel))
+    others = tuple(v if abs(v) > smallest else v * 0
                    for w, a in zip(scenario.wheel, axis) for v in [w - wheel.momentum * a])
-    kept, reason = intervals(scenario.scene(torque, others), scenario.state, axis)
-    later = (None if kept or seen.fate in STEADY
-             else delayed(scenario, torque, axis, wheel.momentum, seen.when.time))
-    return WheelAnswer(wheel.name, tuple(map(float, wheel.axis)), float(wheel.momentum), kept, *(later or ()),
+    rest, reason = intervals(scenario.scene(torque, others), scenario.state, axis)
+    later = (None if rest or visited.fate in STEADY
+             else delayed(scenario, torque, axis, wheel.momentum, visited.when.time))
+    return WheelAnswer(wheel.name, tuple(map(float, wheel.axis)), float(wheel.momentum), rest, *(later or ()),
                        reason=as_reason(reason))

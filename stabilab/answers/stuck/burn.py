@@ -135,9 +135,9 @@ class Latest(Reasoned):
         return "" if self.looked is None else self.looked.text()
 
 
-def _known(size: float, known: Reason) -> Reason:
+def _known(size: float, resolved: Reason) -> Reason:
     """How the closing time for a limit, rad/s, is known."""
-    return OF_CLOSING(limit=Rate(size, digits=10), known=known)
+    return OF_CLOSING(limit=Rate(size, digits=10), known=resolved)
 
 
 def largest_after(scene: Scene, rates: Sequence[float]) -> float:
@@ -159,10 +159,10 @@ def largest_of_run(scene: Scene, rates: Sequence[float]) -> float:
 def bound_of_largest(scene: Scene, states: np.ndarray) -> np.ndarray:
     """U of states (n, 3): what |omega| of the free motion through each never exceeds, rad/s, (n,)."""
     D, wheel = np.array(scene.body.inertia), np.array([float(v) for v in scene.vector("gyrostat")])
-    least, greatest = D.min(), D.max()
+    smallest, greatest = D.min(), D.max()
     apart = np.linalg.norm(states * D + wheel, axis=1) - np.linalg.norm(wheel)
-    square = ((least + greatest) * (states**2 @ D) - apart**2) / (least * greatest)
-    return np.sqrt(np.minimum(square, states**2 @ D / least))
+    square = ((smallest + greatest) * (states**2 @ D) - apart**2) / (smallest * greatest)
+    return np.sqrt(np.minimum(square, states**2 @ D / smallest))
 
 
 def latest(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
@@ -173,33 +173,33 @@ def latest(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
     limit = limit_after(base, below)
     if links and limit.reached_by(links[0].exact or links[0].start.tolist()):
         return Latest(size, 0.0, 0.0, "exact", reason=_known(size, REACHED_BEFORE))
-    found = _first(chain, links, limit)
-    if found.never:
-        return Latest(size, math.inf, math.inf, found.level, reason=_known(size, WHENEVER))
-    again = _again(base, links, found.high, size) if found.time else ()
-    return Latest(size, found.low, found.high, found.level, again, reason=_known(size, found.reason))
+    result = _first(chain, links, limit)
+    if result.never:
+        return Latest(size, math.inf, math.inf, result.level, reason=_known(size, WHENEVER))
+    again = _again(base, links, result.high, size) if result.time else ()
+    return Latest(size, result.low, result.high, result.level, again, reason=_known(size, result.reason))
 
 
-def _of_all_forces(chain: Chain, found: Latest, below: Fraction) -> Latest:
+def _of_all_forces(chain: Chain, result: Latest, below: Fraction) -> Latest:
     """The answer that holds for all forces that are looked at within what the thrusters state; found: that
     for the forces as stated."""
     forces = forces_of(chain.burning)
-    if forces is None or found.high == 0:
-        return found
-    when = Fraction(found.low) if 0 < found.low < math.inf else chain.closed
+    if forces is None or result.high == 0:
+        return result
+    when = Fraction(result.low) if 0 < result.low < math.inf else chain.closed
 
     def left(burning: Any) -> float:
         """The largest |omega| after closing at that time."""
-        one = Chain(burning, when)
-        state = list(links_of(one))[-1].end.tolist()
-        return largest_after(one.base, state) if one.free else largest_of_run(one.base, state)
+        item = Chain(burning, when)
+        state = list(links_of(item))[-1].end.tolist()
+        return largest_after(item.base, state) if item.free else largest_of_run(item.base, state)
     first, many = in_front(forces, left)
-    chains = [Chain(one, chain.until) for one in first]
-    all_of = [found, *(latest(one, list(links_of(one)), below) for one in chains)]
-    worst = min(all_of, key=lambda one: one.low)
+    chains = [Chain(item, chain.until) for item in first]
+    all_of = [result, *(latest(item, list(links_of(item)), below) for item in chains)]
+    worst = min(all_of, key=lambda item: item.low)
     return replace(worst, level="run" if worst.level in ("exact", "proved") else worst.level,
                    reason=worst.reason.then(EARLIEST(varied=forces.reason, forces=many + 1)),
-                   looked=forces.reason, forces=many + 1, stated=found)
+                   looked=forces.reason, forces=many + 1, stated=result)
 
 
 def _first(chain: Chain, links: Sequence[Link], limit: Limit, every: bool = False) -> Found:
@@ -221,54 +221,54 @@ def _by_runs(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
         return Latest(size, math.inf, math.inf, early.level, reason=_known(size, BY_ENERGY))
     late = _first(chain, links, asked(base, rate=below), every=True)
     end = late.high if late.time else math.inf
-    known = EARLY_ENOUGH(early=Time(early.low, digits=10).lower, level=early.level)
+    resolved = EARLY_ENOUGH(early=Time(early.low, digits=10).lower, level=early.level)
     if end < math.inf:
-        known = known.then(TOO_LATE(late=Time(end, digits=10).upper, level=late.level), ", ")
+        resolved = resolved.then(TOO_LATE(late=Time(end, digits=10).upper, level=late.level), ", ")
     bracket = _bracket(base, links, (early.low, end), size)
     if bracket is None:
         return Latest(size, early.low if late.time else math.inf, end, "run",
-                      reason=_known(size, NO_LOOK(looks=WHEEL_LOOKS).then(known)), surely=(early.low, end))
-    one, times = bracket
-    slack = max(RATE_TOLERANCE, *(np.abs(one.end - one.second_end) / size))
-    low, high = (_root(base, one, times, size * (1 + sign * slack)) for sign in (-1, 1))
-    begin = float(one.begin)
+                      reason=_known(size, NO_LOOK(looks=WHEEL_LOOKS).then(resolved)), surely=(early.low, end))
+    item, times = bracket
+    slack = max(RATE_TOLERANCE, *(np.abs(item.end - item.second_end) / size))
+    low, high = (_root(base, item, times, size * (1 + sign * slack)) for sign in (-1, 1))
+    begin = float(item.begin)
     low, high = math.nextafter(begin + low, -math.inf), math.nextafter(begin + high, math.inf)
     low = max(low, early.low)  # which is proved
     return Latest(size, low, max(min(high, end), low), "run",
                   reason=_known(size, BY_PERIODS(share=Quantity(slack, digits=1).upper,
-                                                 looks=WHEEL_LOOKS).then(known)), surely=(early.low, end))
+                                                 looks=WHEEL_LOOKS).then(resolved)), surely=(early.low, end))
 
 
 def _bracket(base: Scene, links: Sequence[Link], span: tuple[float, float],
              size: float) -> tuple[Link, tuple[float, float]] | None:
     """The first link and the two times after its begin, s, between which G reaches the limit; None where no
     look shows it."""
-    for one, times in _looks(links, span, WHEEL_LOOKS):
-        states = np.asarray(trajectory(one.scene, one.start, times, laws=False).states)
+    for item, times in _looks(links, span, WHEEL_LOOKS):
+        states = np.asarray(trajectory(item.scene, item.start, times, laws=False).states)
         for n in np.flatnonzero(bound_of_largest(base, states) >= size * (1 - RATE_TOLERANCE)).tolist():
             if largest_of_run(base, states[n].tolist()) >= size * (1 - RATE_TOLERANCE):
-                return one, (float(times[max(n - 1, 0)]), float(times[n]))
+                return item, (float(times[max(n - 1, 0)]), float(times[n]))
     return None
 
 
-def _looks(links: Sequence[Link], span: tuple[float, float], most: int) -> Iterator[tuple[Link, np.ndarray]]:
+def _looks(links: Sequence[Link], span: tuple[float, float], upper: int) -> Iterator[tuple[Link, np.ndarray]]:
     """Each link that fires within a span, with times after its begin, from 0 on; some `most` in all."""
     last = links[-1]
     end = min(span[1], float(last.begin + last.length))
-    for one in links:
-        begin, length = float(one.begin), float(one.length)
+    for link in links:
+        begin, length = float(link.begin), float(link.length)
         low, high = max(span[0] - begin, 0.0), min(end - begin, length)
-        if one.firing and low < high:
-            count = max(3, math.ceil(most * (high - low) / (end - span[0])))
-            yield one, np.unique([0.0, *np.linspace(low, high, count)])
+        if link.firing and low < high:
+            count = max(3, math.ceil(upper * (high - low) / (end - span[0])))
+            yield link, np.unique([0.0, *np.linspace(low, high, count)])
 
 
-def _root(base: Scene, one: Link, times: tuple[float, float], size: float) -> float:
+def _root(base: Scene, item: Link, times: tuple[float, float], size: float) -> float:
     """Where G = size between two times after the begin of a link; the nearer of them where it is beyond."""
     from scipy.optimize import brentq
 
     def over(time: float) -> float:
-        return largest_of_run(base, end_of(one.scene, one.start, Fraction(time)).tolist()) - size
+        return largest_of_run(base, end_of(item.scene, item.start, Fraction(time)).tolist()) - size
     low, high = times
     if over(low) >= 0:
         return low
@@ -281,13 +281,13 @@ def _again(base: Scene, links: Sequence[Link], after: float, size: float) -> tup
     last = links[-1]
     end = float(last.begin + last.length)
     times, sizes = [], []
-    for one in links:
-        length, begin = float(one.length), float(one.begin)
+    for link in links:
+        length, begin = float(link.length), float(link.begin)
         if begin + length <= after:
             continue
         count = max(3, math.ceil(LOOKS * length / max(end - after, length)))
         steps = np.linspace(0.0, length, count)
-        run = trajectory(one.scene, one.start, steps, laws=False)
+        run = trajectory(link.scene, link.start, steps, laws=False)
         times += (begin + np.asarray(run.t)).tolist()
         sizes += np.sqrt(np.asarray(run.states) ** 2 @ weights).tolist()
     looks = [(time, value < size) for time, value in zip(times, sizes) if time > after]
@@ -352,7 +352,7 @@ class Burned:
             None if largest is None else RATE_AT_MOST(rate=Rate(largest).upper),
             None if needed is None else CLOSE_BY(rate=Rate(needed.limit), time=Time(needed.low).lower,
                                                  level=str(needed.level)),
-            *(one.reason for one in self.caveats))
+            *(caveat.reason for caveat in self.caveats))
         return f"Burned({parts})"
 
 
@@ -373,19 +373,19 @@ def burn(burning: Any, stop: Amount | None = None, below: Amount | None = None) 
         raise InputError("below: a torque stays after the last closing, so that there is no largest rate for "
                          "ever; ask what one closing time leaves, with stop")
     links, craft = list(links_of(chain)), chain.case
-    switches = tuple(Switch(float(one.begin), one.firing, one.torque, tuple(one.start.tolist()))
-                     for one in links)
+    switches = tuple(Switch(float(link.begin), link.firing, link.torque, tuple(link.start.tolist()))
+                     for link in links)
     closed = _closed(chain, links)
     result = Burned(tuple(t.name for t in craft.thrusters), switches, closed,
                     caveats=(*craft_caveats(craft), *_granted(craft, closed)))
     if limit is None:
         return result
-    found = _of_all_forces(chain, latest(chain, links, limit), limit)
-    result = replace(result, caveats=(*craft_caveats(craft), *_granted(craft, closed, found)))
-    if not 0 < found.low < math.inf:
-        return replace(result, latest=found)
-    early = Chain(burning, Fraction(found.low))
-    return replace(result, latest=found, closed_latest=_closed(early, list(links_of(early))))
+    out = _of_all_forces(chain, latest(chain, links, limit), limit)
+    result = replace(result, caveats=(*craft_caveats(craft), *_granted(craft, closed, out)))
+    if not 0 < out.low < math.inf:
+        return replace(result, latest=out)
+    early = Chain(burning, Fraction(out.low))
+    return replace(result, latest=out, closed_latest=_closed(early, list(links_of(early))))
 
 
 def _closed(chain: Chain, links: Sequence[Link]) -> Closed:
@@ -395,15 +395,15 @@ def _closed(chain: Chain, links: Sequence[Link]) -> Closed:
     error = WIDER * float(np.abs(state - links[-1].second_end).max()) if links else 0.0
     error = max(error, ROUNDING * float(np.abs(state).max()))
     rates = tuple(state.tolist())
-    found = motion(chain.base, rates)
-    runs = [(one, *largest_rate(one.scene, one.start.tolist(), float(one.length), RUN_STEPS))
-            for one in links]
-    whole = all(reached >= float(one.length) * (1 - ROUNDING) for one, _, reached in runs)
-    before = max((size for _, size, _ in runs), default=math.hypot(*rates)) if whole else None
+    result = motion(chain.base, rates)
+    runs = [(link, *largest_rate(link.scene, link.start.tolist(), float(link.length), RUN_STEPS))
+            for link in links]
+    full = all(reached >= float(item.length) * (1 - ROUNDING) for item, _, reached in runs)
+    before = max((size for _, size, _ in runs), default=math.hypot(*rates)) if full else None
     stop = chain.until
     fired = [t.burn and sum((b - a for a, b in t.burn.windows(stop)), Fraction(0))
              for t in chain.case.thrusters]
-    largest = found.largest
+    largest = result.largest
     if chain.free:
         largest = largest_after(chain.base, rates)
     elif chain.quiet and largest is not None:
@@ -413,8 +413,8 @@ def _closed(chain: Chain, links: Sequence[Link]) -> Closed:
     return Closed(float(chain.closed), rates, error,
                   tuple(d * w + l for d, w, l in zip(body.inertia, rates, wheel)),
                   sum(d * w * w for d, w in zip(body.inertia, rates)) / 2,
-                  largest, before, found,
-                  of_motion(chain.base, rates, found) if chain.quiet else None,
+                  largest, before, result,
+                  of_motion(chain.base, rates, result) if chain.quiet else None,
                   tuple(None if v is None else float(v) for v in fired), tuple(used))
 
 
@@ -423,7 +423,7 @@ def craft_caveats(craft: Any) -> tuple[Caveat, ...]:
     return without(of_case(craft), Kind.TOLERANCE, Kind.MISALIGNMENT)
 
 
-def _granted(craft: Any, closed: Closed, found: Latest | None = None) -> Iterator[Caveat]:
+def _granted(craft: Any, closed: Closed, result: Latest | None = None) -> Iterator[Caveat]:
     """What the answer takes for granted of the thrusters; found: by when they must close, if asked."""
     if spent := sum(used or 0.0 for used in closed.used):
         mass = craft.physical.body.mass
@@ -431,12 +431,12 @@ def _granted(craft: Any, closed: Closed, found: Latest | None = None) -> Iterato
         yield Caveat(Kind.BURN, PROPELLANT_OF(spent=left, mass=Mass(mass)) if mass
                      else PROPELLANT(spent=left))
     loose = [t.name for t in craft.thrusters if t.burn and (t.misalignment or t.force_tolerance)]
-    if found is not None and found.stated is not None and found.looked is not None:
-        yield Caveat(Kind.BURN, LEAST_OF(forces=found.forces, within=found.looked))
+    if result is not None and result.stated is not None and result.looked is not None:
+        yield Caveat(Kind.BURN, LEAST_OF(forces=result.forces, within=result.looked))
     elif loose:
         yield Caveat(Kind.BURN, AS_STATED(thrusters=tuple(loose)))
-    for one in craft.assumed:
-        yield Caveat(Kind.BURN, one)
+    for item in craft.assumed:
+        yield Caveat(Kind.BURN, item)
 
 
 def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = None) -> TimeTo:
@@ -449,12 +449,12 @@ def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = Non
     """
     chain = Chain(burning)
     limit = asked(chain.base, **ask)
-    found = _first_crossing(chain, limit, ask, until)
+    result = _first_crossing(chain, limit, ask, until)
     case = chain.case
     end = until if until is not None else max(chain.closed, Fraction(case.span[1]) if case.span else 0)
-    over = over_forces(chain.burning, ask, Fraction(end), lambda one: _first_crossing(one, limit, ask, until))
+    over = over_forces(chain.burning, ask, Fraction(end), lambda x: _first_crossing(x, limit, ask, until))
     caveats = of_case(case) if over is None else (*craft_caveats(case), Caveat(Kind.TILT, over.reason))
-    return replace(times_of([found], (), limit.label, chain.base, np.array(case.state), caveats), tilt=over)
+    return replace(times_of([result], (), limit.label, chain.base, np.array(case.state), caveats), tilt=over)
 
 
 NEVER_WITH_THRUSTERS = Sentence(
@@ -471,19 +471,19 @@ def _first_crossing(chain: Chain, limit: Limit, ask: dict[str, Any], until: Frac
         if after.never:
             return replace(after, reason=NEVER_WITH_THRUSTERS)
     end = until if until is not None else max(closed, Fraction(case.span[1]) if case.span else closed)
-    found = crossing_of(chain, limit, end)
-    if found is None and limit.kind != "tilt":
+    result = crossing_of(chain, limit, end)
+    if result is None and limit.kind != "tilt":
         rest = [Piece(closed, end - closed, (), chain.base)] if end > closed else []
-        found = first_along(list(links_of(chain, [*chain.pieces(), *rest])), limit, every=True)
-    if found is not None and found.low <= end:
-        return found
-    known = 0.0 if found is None else float(end)
-    return Found(known, math.nan, "undecided" if found is None else found.level,
-                 reason=NOT_WITHIN(time=Time(known).lower))
+        result = first_along(list(links_of(chain, [*chain.pieces(), *rest])), limit, every=True)
+    if result is not None and result.low <= end:
+        return result
+    resolved = 0.0 if result is None else float(end)
+    return Found(resolved, math.nan, "undecided" if result is None else result.level,
+                 reason=NOT_WITHIN(time=Time(resolved).lower))
 
 
 def _positive(value: Any, unit: Dimension, name: str) -> Fraction:
-    found = in_si(value, unit, name)
-    if found <= 0:
-        raise InputError(f"{name}: expected a positive number, got {float(found):.10g}")
-    return found
+    result = in_si(value, unit, name)
+    if result <= 0:
+        raise InputError(f"{name}: expected a positive number, got {float(result):.10g}")
+    return result

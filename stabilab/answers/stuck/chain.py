@@ -99,7 +99,7 @@ class Chain:
         """With the torques of these thrusters added to what acts anyway."""
         torque = [sum(parts, Fraction(0)) for parts in zip(
             self.base.vector("constant_torque"), *(self.torques[n] for n in firing))]
-        effects = [one for one in self.base.effects if one.name != "constant_torque"]
+        effects = [effect for effect in self.base.effects if effect.name != "constant_torque"]
         effects += [effect_class("constant_torque")(tuple(torque))] if any(torque) else []
         return Scene(self.base.body, *effects)
 
@@ -107,10 +107,10 @@ class Chain:
 def weights_of_largest(scene: Scene) -> Exact3:
     """Of the squares of the rates in g^2, that of the largest |omega| of a free motion: see `burn`."""
     D = scene.body.exact
-    least, middle, greatest = sorted(range(3), key=lambda i: D[i])
-    found = [Fraction(1)] * 3
-    found[middle] = D[middle] * (D[least] + D[greatest] - D[middle]) / (D[least] * D[greatest])
-    return tuple(found)
+    smallest, middle, greatest = sorted(range(3), key=lambda i: D[i])
+    result = [Fraction(1)] * 3
+    result[middle] = D[middle] * (D[smallest] + D[greatest] - D[middle]) / (D[smallest] * D[greatest])
+    return tuple(result)
 
 
 def limit_after(scene: Scene, below: Fraction) -> Limit:
@@ -134,7 +134,7 @@ def simulate_burn(burning: Any, times: Any = None, attitude: str | None = None) 
     if times[0] < 0 or times[0] > times[-1]:
         raise InputError("times: a burn is followed from 0 on: give increasing times that are not negative")
     after = Piece(chain.closed, max(Fraction(times[-1]) - chain.closed, Fraction(0)), (), chain.base)
-    omega, found = case.state, []
+    omega, result = case.state, []
     blocks = {} if attitude is None else quaternion_blocks(case.blocks)
     for piece in [*chain.pieces(), after]:
         end = piece.begin + piece.length
@@ -144,26 +144,26 @@ def simulate_burn(burning: Any, times: Any = None, attitude: str | None = None) 
         if run.status != "reached":
             raise InputError(f"state: the burn cannot be followed: {run.reason}")
         keep = np.searchsorted(run.t, local)
-        found.append(replace(run, t=np.array(inside), state={n: v[keep] for n, v in run.state.items()}))
+        result.append(replace(run, t=np.array(inside), state={n: v[keep] for n, v in run.state.items()}))
         if times[-1] < end:
             break
         omega = tuple(run.state["omega"][-1])
         blocks = {"attitude": tuple(run.state["quaternion"][-1])} if "quaternion" in run.state else {}
-    whole = _joined(found)
-    return in_matrices(whole) if attitude == "matrix" else whole
+    full = _joined(result)
+    return in_matrices(full) if attitude == "matrix" else full
 
 
 def _joined(runs: Sequence[Simulation]) -> Simulation:
     """The pieces as one run: laws and errors are those of the worst, work is the sum."""
     first, last = runs[0], runs[-1]
-    most = lambda rows: {name: np.maximum.reduce([row[name] for row in rows if name in row])
+    upper = lambda rows: {name: np.maximum.reduce([row[name] for row in rows if name in row])
                          for name in {name: None for row in rows for name in row}}
     return replace(
         last, t=np.concatenate([run.t for run in runs]),
         state={name: np.concatenate([run.state[name] for run in runs]) for name in first.state},
-        invariant_drift={name: float(v) for name, v in most([run.invariant_drift for run in runs]).items()},
+        invariant_drift={name: float(v) for name, v in upper([run.invariant_drift for run in runs]).items()},
         counters={name: sum(run.counters.get(name, 0) for run in runs) for name in first.counters},
-        error=most([run.error for run in runs]), reason=last.reason.then(SWITCHES))
+        error=upper([run.error for run in runs]), reason=last.reason.then(SWITCHES))
 
 
 # --- The first crossing of a limit along it
@@ -188,13 +188,13 @@ class Link:
 
 def links_of(chain: Chain, pieces: Sequence[Piece] | None = None) -> Iterator[Link]:
     """The motions of the chain in turn, each with a second run from a start moved in its last place."""
-    given = chain.case.exact_state
+    supplied = chain.case.exact_state
     state = np.array(chain.case.state, float)
     second = moved_row(state, MOVED) if state.any() else state
     for begin, length, firing, scene in chain.pieces() if pieces is None else pieces:
-        after, after_second = (end_of(scene, one, length) for one in (state, second))
+        after, after_second = (end_of(scene, item, length) for item in (state, second))
         yield Link(begin, length, firing, tuple(float(m) for m in scene.vector("constant_torque")), scene,
-                   state, second, after, after_second, given if not begin else None)
+                   state, second, after, after_second, supplied if not begin else None)
         state, second = after, after_second
 
 
@@ -227,18 +227,18 @@ def crossing_of(chain: Chain, limit: Limit, end: Fraction | None = None) -> Foun
 def first_along(links: Sequence[Link], limit: Limit, every: bool = False) -> Found:
     """The first crossing link by link, the first of them enclosed; inf where there is none. every: in those
     too where nothing fires, and g is constant."""
-    for one in links:
-        if not one.firing and not every:
+    for link in links:
+        if not link.firing and not every:
             continue
-        found = _first(one, limit)
-        if found is not None:
-            low = float(one.begin + Fraction(found.low))
-            high = float(one.begin + Fraction(found.high)) if found.time else math.nan
-            if one.begin:  # times of the chain, rounded outward
+        result = _first(link, limit)
+        if result is not None:
+            low = float(link.begin + Fraction(result.low))
+            high = float(link.begin + Fraction(result.high)) if result.time else math.nan
+            if link.begin:  # times of the chain, rounded outward
                 low, high = math.nextafter(low, -math.inf), math.nextafter(high, math.inf)
-            return replace(found, low=low, high=high)
-    burns = [one for one in links if one.firing or every]
-    level = "proved" if len(burns) <= 1 and all(one.exact for one in burns) else "run"
+            return replace(result, low=low, high=high)
+    burns = [item for item in links if item.firing or every]
+    level = "proved" if len(burns) <= 1 and all(burn.exact for burn in burns) else "run"
     return Found(math.inf, math.inf, level, reason=NOT_IN_ANY_LINK)
 
 
@@ -246,9 +246,9 @@ def _first(link: Link, limit: Limit) -> Found | None:
     """The first crossing within a link, None where there is none: proved from an exact start, else by runs
     from the ends of those before."""
     start = link.start.tolist()
-    found = (of_one(link.scene, start, link.exact, limit, link.length) if link.exact
+    result = (of_one(link.scene, start, link.exact, limit, link.length) if link.exact
              else by_run(link.scene, start, limit, float(link.length), RUN_STEPS, link.second))
-    if found.time:
-        return found
-    whole = found.low >= float(link.length) * (1 - 2 * ROUNDING)
-    return None if whole else replace(found, level="undecided")
+    if result.time:
+        return result
+    full = result.low >= float(link.length) * (1 - 2 * ROUNDING)
+    return None if full else replace(result, level="undecided")

@@ -96,24 +96,24 @@ class Scenario:
 
     def torque_in_file(self, thrusters: Sequence[Any]) -> Float3:
         """The same in the frame of the file; what a thruster alone gives is rounded once."""
-        whole = ([sum(column) for column in zip(*(t.torque for t in thrusters))] if thrusters
+        full = ([sum(column) for column in zip(*(t.torque for t in thrusters))] if thrusters
                  else [Fraction(0)] * 3)
         base = self.in_file(self.base) if any(self.base) else (0.0,) * 3
-        return tuple(float(a) + b for a, b in zip(whole, base))
+        return tuple(float(a) + b for a, b in zip(full, base))
 
     def in_file(self, vector: Sequence[Number]) -> Float3:
         """A vector along the scene's axes in the frame of the file."""
-        found = self.axes.back([Fraction(v) for v in vector])
-        least = max(map(abs, found)) * NOTHING
-        return tuple(float(v) + 0.0 if abs(v) > least else 0.0 for v in found)
+        result = self.axes.back([Fraction(v) for v in vector])
+        smallest = max(map(abs, result)) * NOTHING
+        return tuple(float(v) + 0.0 if abs(v) > smallest else 0.0 for v in result)
 
     @cached_property
     def exact_limit(self) -> Limit:
         """The limit of the case along the scene's axes, exactly, where it has one."""
-        found = asked(self.scene(self.base), **cast(dict[str, Any], limit_of(self.case)))
-        if found.kind == "component":
-            return replace(found, label="components in the frame of the file")
-        return found
+        result = asked(self.scene(self.base), **cast(dict[str, Any], limit_of(self.case)))
+        if result.kind == "component":
+            return replace(result, label="components in the frame of the file")
+        return result
 
     @property
     def start(self) -> Float3:
@@ -222,13 +222,13 @@ def first_time(scenario: Scenario, torque: Sequence[Fraction], wheel: Sequence[F
 
 def _off_axis(scenario: Scenario, scene: Scene) -> Outcome:
     certified = spin_up(scene, scenario.start)
-    seen = proved(scene, scenario.state, certified, plain=PLAIN)
-    spins = seen.fate == Fate.SPIN_UP
-    when = _when(scenario, scene, None if spins or seen.fate == Fate.BOUNDED else seen.t, spun=certified)
-    axis, sense, direction = (seen.axis, seen.sense, seen.direction) if spins else (0, 0, None)
-    return Outcome(seen.fate, "run" if seen.level == "undecided" else seen.level, axis, sense, direction,
-                   None, when, _largest(scenario, scene, when, None if spins else seen.t),
-                   reason=seen.reason.then(_unsure(when)))
+    noted = proved(scene, scenario.state, certified, plain=PLAIN)
+    spins = noted.fate == Fate.SPIN_UP
+    when = _when(scenario, scene, None if spins or noted.fate == Fate.BOUNDED else noted.t, spun=certified)
+    axis, sense, direction = (noted.axis, noted.sense, noted.direction) if spins else (0, 0, None)
+    return Outcome(noted.fate, "run" if noted.level == "undecided" else noted.level, axis, sense, direction,
+                   None, when, _largest(scenario, scene, when, None if spins else noted.t),
+                   reason=noted.reason.then(_unsure(when)))
 
 
 def _by_law(scenario: Scenario, scene: Scene) -> Outcome:
@@ -358,12 +358,12 @@ def across(family: Family, start: Sequence[Fraction], step: Sequence[Fraction]) 
     at_0, at_1 = (family.reduction(family.along(start, step, s)) for s in (Fraction(0), Fraction(1)))
     if at_0.geometry.walled:
         return _between_walls(family, start, step)
-    found = candidates(Line(at_0, at_1, family.state, family.state))
-    if found is None:
+    result = candidates(Line(at_0, at_1, family.state, family.state))
+    if result is None:
         return (), NOT_ISOLATED
     clearly = lambda s: family.clearly(wheel=family.along(start, step, s))
-    kept = pieces(clearly, Fraction(family.momentum_unit), sorted(set(found)))
-    return kept, ENDS_ARE_TIES(candidates=len(found))
+    retained = pieces(clearly, Fraction(family.momentum_unit), sorted(set(result)))
+    return retained, ENDS_ARE_TIES(candidates=len(result))
 
 
 def _between_walls(family: Family, start: Sequence[Fraction], step: Sequence[Fraction]) -> Answer:
@@ -424,13 +424,13 @@ def delayed(scenario: Scenario, torque: Sequence[Fraction], axis: Exact3, now: F
     if math.isfinite(times[best]):
         closer = golden_section(lambda s: -until(s), places[max(best - 1, 0)],
                                 places[min(best + 1, PLACES - 1)], CLOSER)
-        s, longest = min((s, -longest), *closer, key=lambda one: one[1])
+        s, longest = min((s, -longest), *closer, key=lambda item: item[1])
         s, longest = float(s), -longest
-    told = time_under(scenario, torque, [w + Fraction(s) * a for w, a in zip(others, axis)])
-    gain = None if told is None else told[0] - time[0]
+    printed = time_under(scenario, torque, [w + Fraction(s) * a for w, a in zip(others, axis)])
+    gain = None if printed is None else printed[0] - time[0]
     if gain is not None and gain <= 0:
         return None
-    return s, told, gain, (-reach, reach), told is None or not longest < told[0] * (1 - SAME)
+    return s, printed, gain, (-reach, reach), printed is None or not longest < printed[0] * (1 - SAME)
 
 
 def times_over(scenario: Scenario, torque: Sequence[Fraction], axis: Exact3, now: Fraction,

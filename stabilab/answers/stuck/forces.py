@@ -51,14 +51,14 @@ class Forces:
         craft = self.burning.craft
         thrusters = list(craft.thrusters)
         for n, part, size in zip(self.loose, self.cone.parts, sizes):
-            one = thrusters[n]
+            item = thrusters[n]
             if azimuth is None:  # exactly
-                larger = 1 + Fraction(size) * (one.force_tolerance or 0) / one.force
-                torque = tuple(larger * m for m in one.torque)
+                larger = 1 + Fraction(size) * (item.force_tolerance or 0) / item.force
+                torque = tuple(larger * m for m in item.torque)
             else:
                 change = craft.frame.back(tuple(map(Fraction, part.change(azimuth, size).tolist())))
-                torque = tuple(m + more for m, more in zip(one.torque, change))
-            thrusters[n] = replace(one, torque=torque)
+                torque = tuple(m + more for m, more in zip(item.torque, change))
+            thrusters[n] = replace(item, torque=torque)
         return replace(self.burning, craft=replace(craft, thrusters=tuple(thrusters)))
 
 
@@ -77,16 +77,16 @@ def in_front(forces: Forces, measure: Callable[[Any], float]) -> tuple[list[Any]
     """(the burns with the greatest measure, how many were looked at): round the edge of the cone ever closer
     to the greatest."""
     places = forces.places()
-    found = sorted(((-measure(forces.at(place)), n) for n, place in enumerate(places)))
-    best, n = found[0]
-    chosen = [places[n] for _, n in found[:ANSWERED]]
+    out = sorted(((-measure(forces.at(location)), n) for n, location in enumerate(places)))
+    best, n = out[0]
+    chosen = [places[n] for _, n in out[:ANSWERED]]
     azimuth, sizes = places[n]
     if azimuth is None:
-        return [forces.at(place) for place in chosen], len(places)
-    edge = [(value, places[m][0]) for value, m in found if places[m][0] is not None and places[m][1] == sizes]
+        return [forces.at(location) for location in chosen], len(places)
+    edge = [(value, places[m][0]) for value, m in out if places[m][0] is not None and places[m][1] == sizes]
     closer = nearest_round(lambda at: -measure(forces.at((at, sizes))), edge)  # type: ignore[arg-type]
     chosen = [(min(closer)[1], sizes), *chosen[1:]]
-    return [forces.at(place) for place in chosen], len(places) + len(closer) - len(edge)
+    return [forces.at(location) for location in chosen], len(places) + len(closer) - len(edge)
 
 
 def quick_time(chain: Chain, limit: Limit, end: Fraction) -> float:
@@ -109,18 +109,18 @@ def over_forces(burning: Any, ask: dict[str, Any], end: Fraction,
     forces, limit = forces_of(burning), asked(Chain(burning).base, **ask)
     if forces is None or limit.kind == "tilt":
         return None
-    time = lambda one: quick_time(Chain(one), limit, end)
-    places = [burning, *(forces.at(place) for place in forces.places())]
-    times = [time(one) for one in places]
-    told = Spread(forces.cone.angle, forces.cone.subject, len(places), limit.least_rate(),
+    time = lambda item: quick_time(Chain(item), limit, end)
+    places = [burning, *(forces.at(location) for location in forces.places())]
+    times = [time(item) for item in places]
+    printed = Spread(forces.cone.angle, forces.cone.subject, len(places), limit.least_rate(),
                   followed=float(end), within=forces.cone.within)
     if not np.isfinite(times).any():
-        return told
+        return printed
     first, many = _end(forces, time, answer, -1)
     if first is None:
-        return told
+        return printed
     last, more = _end(forces, time, answer, 1) if np.isfinite(times).all() else (None, 0)
-    return replace(told, directions=1 + max(many, more), earliest=(first.low, first.high),
+    return replace(printed, directions=1 + max(many, more), earliest=(first.low, first.high),
                    latest=None if last is None else (last.low, last.high),
                    level=first.level if last is None or first.level == last.level else "run")
 
@@ -128,6 +128,6 @@ def over_forces(burning: Any, ask: dict[str, Any], end: Fraction,
 def _end(forces: Forces, time: Callable[[Any], float], answer: Callable[[Chain], Found],
          sign: int) -> tuple[Found | None, int]:
     """(the least (sign -1) or greatest time that is found, None where none is known; of how many forces)."""
-    first, many = in_front(forces, lambda one: sign * time(one))
-    known = [one for one in (answer(Chain(one)) for one in (forces.burning, *first)) if one.time]
-    return max(known, key=lambda one: sign * one.low, default=None), many
+    first, many = in_front(forces, lambda item: sign * time(item))
+    resolved = [item for item in (answer(Chain(item)) for item in (forces.burning, *first)) if item.time]
+    return max(resolved, key=lambda item: sign * item.low, default=None), many

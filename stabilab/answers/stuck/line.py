@@ -89,16 +89,16 @@ class Family:
         reduction = reduce(scene)
         if reduction is None:
             return Fate.SPIN_UP, math.nan
-        found = fate_of(scene, Orbit(reduction, self.state))
-        return found.label, found.margin
+        result = fate_of(scene, Orbit(reduction, self.state))
+        return result.label, result.margin
 
     def clearly(self, wheel: Sequence[Fraction] | None = None, torque: Fraction | None = None) -> float:
         """How clearly the start stays bounded: the margin in energy, positive where it does, infinite where
         no more is known than that (a `bracket.Judge`)."""
         label, margin = self._decided(wheel, torque)
         steady = label in STEADY
-        known = math.isfinite(margin) and margin and (margin > 0) == steady and label != Fate.EQUILIBRIUM
-        return margin if known else side(steady)
+        resolved = math.isfinite(margin) and margin and (margin > 0) == steady and label != Fate.EQUILIBRIUM
+        return margin if resolved else side(steady)
 
     def steady(self, wheel: Sequence[Fraction] | None = None, torque: Fraction | None = None) -> bool:
         """Whether the start stays bounded."""
@@ -242,7 +242,7 @@ def resultant(f: Sequence[Number], g: Sequence[Number]) -> Number:
 def candidates(line: Line) -> list[float] | None:
     """Every s at which the start may lie on a separatrix, ascending, in doubles; None where `MOST` cells do
     not tell."""
-    found = line.others()
+    result = line.others()
     with working(BITS, ORDER + 1) as numbers:
         pair = line.pair(numbers.ball)
         zeros = _isolated(pair)
@@ -251,24 +251,24 @@ def candidates(line: Line) -> list[float] | None:
         for h in zeros:  # the start may lie on a separatrix at real roots of f, one or both shared by g
             if h >= NARROW and (unit := line.unit(h)):
                 f, _ = pair(numbers.ball(h))
-                found += [s / unit for s in real_roots([float(v.mid()) for v in f])]
-    return sorted(found)
+                result += [s / unit for s in real_roots([float(v.mid()) for v in f])]
+    return sorted(result)
 
 
 def _isolated(pair: Pair) -> list[float] | None:
     """The h in [0, pi] at which the resultant may vanish."""
     step = math.pi * (1 + 1e-15) / CELLS
     cells = [(n * step, (n + 1) * step) for n in range(CELLS)]
-    found: list[float] = []
+    result: list[float] = []
     for _ in range(MAX_CELLS):
         if not cells:
-            return found
+            return result
         low, high = cells.pop()
         left = _narrowed(pair, low, high)
         if left is None:
             continue
         if left[1] - left[0] < NARROW:
-            found.append((left[0] + left[1]) / 2)
+            result.append((left[0] + left[1]) / 2)
         elif left[1] - left[0] < 0.5 * (high - low):
             cells.append(left)
         else:
@@ -299,9 +299,9 @@ def _narrowed(pair: Pair, low: Number, high: Number) -> tuple[Number, Number] | 
     if 0 in slope:
         return low, high
     step = value / slope  # Newton's: the zero is within middle - step
-    least = middle - float((step.mid() + step.rad()).upper())
-    most = middle - float((step.mid() - step.rad()).lower())
-    low, high = max(low, least - 1e-15), min(high, most + 1e-15)
+    smallest = middle - float((step.mid() + step.rad()).upper())
+    largest = middle - float((step.mid() - step.rad()).lower())
+    low, high = max(low, smallest - 1e-15), min(high, largest + 1e-15)
     return (low, high) if low <= high else None
 
 
@@ -332,9 +332,9 @@ def pieces(clearly: Judge, unit: Fraction, cuts: Sequence[float]) -> Intervals:
         inside, outside = (n, n + 1) if steady[n] else (n + 1, n)
         around = Bracket(samples[inside], samples[outside], (margins[inside], margins[outside]))
         step = (1 if around.same > cut else -1) * CANDIDATE_WIDTH * unit
-        near = clearly(cut + step), clearly(cut - step)
-        if near[0] > 0 > near[1]:
-            around = Bracket(cut + step, cut - step, near)
+        nearby = clearly(cut + step), clearly(cut - step)
+        if nearby[0] > 0 > nearby[1]:
+            around = Bracket(cut + step, cut - step, nearby)
         end = float(narrowed(clearly, around, scale=unit).same)
         if steady[n]:
             out.append((low, end))
@@ -344,13 +344,13 @@ def pieces(clearly: Judge, unit: Fraction, cuts: Sequence[float]) -> Intervals:
     return tuple([*out, (low, INF)] if steady[-1] else out)
 
 
-def nearest_change(kept: Intervals, steady: bool) -> tuple[float, float]:
+def nearest_change(retained: Intervals, steady: bool) -> tuple[float, float]:
     """(the least s > 0 at which the fate changes, the next one, from which on it is again what it was; inf
     where there is none).
 
     kept: the intervals of s in which the motion is bounded; steady: whether it is at s = 0.
     """
     # True: bounded up to there
-    ends = [(end, side) for pair in kept for side, end in zip((False, True), pair) if 0 < end < INF]
+    ends = [(end, side) for pair in retained for side, end in zip((False, True), pair) if 0 < end < INF]
     first = min((end for end, side in ends if side == steady), default=INF)
     return first, min((end for end, side in ends if side != steady and end > first), default=INF)

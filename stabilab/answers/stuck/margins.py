@@ -149,7 +149,7 @@ class Stuck(Shown):
     @property
     def caveats(self) -> tuple[Caveat, ...]:
         """Those of all rows, each once."""
-        return tuple(dict.fromkeys(one for row in self.rows for one in row.caveats))
+        return tuple(dict.fromkeys(caveat for row in self.rows for caveat in row.caveats))
 
 
 # --- How little must change
@@ -194,18 +194,18 @@ WHEEL_ACROSS = Sentence(
 CLOSE = 1e-6
 
 
-def margins(scenario: Scenario, scene: Scene, seen: Outcome) -> dict[str, Margin]:
+def margins(scenario: Scenario, scene: Scene, visited: Outcome) -> dict[str, Margin]:
     """The margins of one outcome, by name: "rate" (rad/s), "wheel" (N m s), "torque" (N m)."""
-    if seen.fate == Fate.SEPARATRIX:
+    if visited.fate == Fate.SEPARATRIX:
         return {name: Margin(0.0, None, reason=ON_SEPARATRIX)
                 for name in ("rate", "wheel", "torque")}
     family = family_of(scene, scenario.state)
-    if seen.motion is None or (family is None and any(scene.vector("constant_torque"))):
+    if visited.motion is None or (family is None and any(scene.vector("constant_torque"))):
         return {name: Margin(reason=NO_SEPARATRIX_KNOWN) for name in ("rate", "wheel", "torque")}
-    if family is not None and seen.fate == Fate.SPIN_UP and _walled(family):
+    if family is not None and visited.fate == Fate.SPIN_UP and _walled(family):
         any_change = Margin(0.0, None, math.inf, reason=FREE)
         return {"rate": any_change, "wheel": any_change, "torque": _torque(scenario, family, False)}
-    return {"rate": _rate(scenario, seen.motion, family), **_parameters(scenario, family)}
+    return {"rate": _rate(scenario, visited.motion, family), **_parameters(scenario, family)}
 
 
 def _rate(scenario: Scenario, motion: Motion, family: Family | None) -> Margin:
@@ -233,8 +233,8 @@ def _rate_again(family: Family, change: Sequence[Number], size: Fraction) -> flo
     reduction = family.reduction(family.wheel)
     if reduction is None:
         return None
-    way = family.turned([Fraction(v) for v in change])
-    step = unit_vector(way)
+    route = family.turned([Fraction(v) for v in change])
+    step = unit_vector(route)
     cuts = candidates(Line(reduction, reduction, family.state, family.along(family.state, step, Fraction(1))))
     if cuts is None:
         return None
@@ -260,10 +260,10 @@ def _parameters(scenario: Scenario, family: Family | None) -> dict[str, Margin]:
         steady = family.fate() in STEADY
         return {"wheel": _wheel(scenario, family, steady), "torque": _torque(scenario, family, steady)}
     reason = WHATEVER_WHEEL if family is None else WHEEL_ALONG if reduction is None else EVERY_BOUNDED
-    found = {name: Margin(reason=reason) for name in ("wheel", "torque")}
+    entries = {name: Margin(reason=reason) for name in ("wheel", "torque")}
     if family is not None and reduction is not None and not any(loose(reduction, family.state)):
-        found["torque"] = _torque(scenario, family, True)  # no wall need hold the start: it may be let go
-    return found
+        entries["torque"] = _torque(scenario, family, True)  # no wall need hold the start: it may be let go
+    return entries
 
 
 def _torque(scenario: Scenario, family: Family, steady: bool) -> Margin:
@@ -276,8 +276,8 @@ def _torque(scenario: Scenario, family: Family, steady: bool) -> Margin:
         changes, until = [sign * end - family.torque for sign, end in ends if end is not None], math.inf
     else:
         clearly = lambda m: -family.clearly(torque=now * m)
-        whole = Bracket(size, Fraction(0), (clearly(size), clearly(Fraction(0))))
-        less = narrowed(clearly, whole, scale=size).other
+        full = Bracket(size, Fraction(0), (clearly(size), clearly(Fraction(0))))
+        less = narrowed(clearly, full, scale=size).other
         opposite = _least_torque(family, -now, size)
         changes = [now * less - family.torque]
         until = math.inf if opposite is None else float(size + opposite)
@@ -294,8 +294,8 @@ def _torque(scenario: Scenario, family: Family, steady: bool) -> Margin:
 def _least_torque(family: Family, sign: int, size: Fraction) -> Fraction | None:
     """The least size of a torque in this direction that spins the start up."""
     clearly = lambda m: family.clearly(torque=sign * m)
-    found = first_bracket(clearly, size, least=size * LAST_PLACE**2)
-    return None if found is None else narrowed(clearly, found, scale=size).other
+    result = first_bracket(clearly, size, least=size * LAST_PLACE**2)
+    return None if result is None else narrowed(clearly, result, scale=size).other
 
 
 def _wheel(scenario: Scenario, family: Family, steady: bool) -> Margin:
@@ -308,13 +308,13 @@ def _wheel(scenario: Scenario, family: Family, steady: bool) -> Margin:
     if steady and any(straight := _to_point(family)):
         straight = list(unit_vector(straight))
         best = min(best, (*_along(family, straight, steady), straight))
-    for angle, near in _nearest(heights, steady):
-        for turn in TURNS if near < min(MAX_CHANGE * family.momentum_unit, best[0] * (1 + CLOSE)) else ():
+    for angle, nearby in _nearest(heights, steady):
+        for turn in TURNS if nearby < min(MAX_CHANGE * family.momentum_unit, best[0] * (1 + CLOSE)) else ():
             step = [Fraction(0)] * 3
             step[j], step[k] = Fraction(math.cos(angle + turn)), Fraction(math.sin(angle + turn))
-            found = _along(family, step, steady)
-            if found[0] < 2 * near and found[1] > found[0] * (1 + CLOSE):
-                best = min(best, (*found, step))
+            result = _along(family, step, steady)
+            if result[0] < 2 * nearby and result[1] > result[0] * (1 + CLOSE):
+                best = min(best, (*result, step))
                 break
     size, until, step = best
     if size == math.inf:
@@ -344,15 +344,15 @@ def _nearest(heights: _Rise, steady: bool) -> list[tuple[float, float]]:
     angles = np.sort(np.concatenate([np.linspace(0, 2 * math.pi, DIRECTIONS, endpoint=False),
                                      centre % (2 * math.pi)]))
     sizes = np.array([heights.first_change(a, steady) for a in angles])
-    least = [n for n in range(len(angles)) if sizes[n] <= min(sizes[n - 1], sizes[(n + 1) % len(angles)])
+    smallest = [n for n in range(len(angles)) if sizes[n] <= min(sizes[n - 1], sizes[(n + 1) % len(angles)])
              and math.isfinite(sizes[n])]
     round_and_on = np.concatenate([angles[-1:] - 2 * math.pi, angles, angles[:1] + 2 * math.pi])
-    found = []
-    for n in sorted(least, key=lambda n: sizes[n])[:FEW]:
+    rows = []
+    for n in sorted(smallest, key=lambda n: sizes[n])[:FEW]:
         closer = golden_section(lambda a: heights.first_change(a, steady), round_and_on[n],
                                 round_and_on[n + 2], CLOSER)
-        found.append(min(*closer, (angles[n], sizes[n]), key=lambda one: one[1]))
-    return found
+        rows.append(min(*closer, (angles[n], sizes[n]), key=lambda item: item[1]))
+    return rows
 
 
 class _Rise:
@@ -365,7 +365,7 @@ class _Rise:
         wheels = [[w + Fraction(self.unit) * (m == n) for m, w in enumerate(family.wheel)] for n in (j, k)]
         # none has a part along the torque
         here, *there = (cast(Reduction, family.reduction(wheel)) for wheel in (family.wheel, *wheels))
-        lines = [Line(here, one, family.state, family.state) for one in there]
+        lines = [Line(here, item, family.state, family.state) for item in there]
         floats: Any = lambda numbers: np.array([float(v) for v in numbers])
         self.fixed, self.at = floats(lines[0].fixed), floats(lines[0].at)
         self.changes = [floats(line.change) for line in lines]
@@ -397,10 +397,10 @@ def _first_end(C: np.ndarray, real: Any, low: Number, high: Number, steady: bool
     real = np.concatenate([real, real])
     if not steady:  # a straight line has no second end
         return float(np.min(starts[real & (starts > 0) & ~(ends <= starts)], initial=np.inf))
-    kept = real & (ends > starts)
-    order = np.argsort(starts[kept])
+    retained = real & (ends > starts)
+    order = np.argsort(starts[retained])
     now = math.inf if ((C > 0) & ~real[:len(C)]).any() else 0.0
-    for start, end in zip(starts[kept][order], ends[kept][order]):
+    for start, end in zip(starts[retained][order], ends[retained][order]):
         if start > now + 1e-9 * abs(now) and now > 0:
             break
         now = max(now, end)

@@ -149,8 +149,8 @@ class Box:
         for k, (name, i) in enumerate(self.places):
             if name == "inertia":
                 D[1:, i] += float(self.half[name][i]) * points[:, k]
-        found = 2 * D.max(1) <= D.sum(1) * (1 + 8 * EPS)
-        return found[1:] | ~found[0]
+        result = 2 * D.max(1) <= D.sum(1) * (1 + 8 * EPS)
+        return result[1:] | ~result[0]
 
     def rates(self, numbers: Numbers) -> QuadraticForm:
         """The equations of motion (coefficients of the kind of the numbers)."""
@@ -169,7 +169,7 @@ def box_of(case: Any) -> Box:
                          "torque alone; this scene has other effects")
     middle = {}
     oblique = case.frame if case.frame is not None and not case.frame.as_given else None
-    forces = [one for one in case.uncertain if one.path[-1] == "force"]
+    forces = [item for item in case.uncertain if item.path[-1] == "force"]
     if oblique and len(forces) == len(case.uncertain):  # nothing turns the axes: all stands along them
         oblique = None
     if oblique:
@@ -184,16 +184,16 @@ def box_of(case: Any) -> Box:
         middle.update({"a": (a,), "b": (b,), "mu": case.scene.exact_mu})
     if case.state is not None and not oblique:
         middle["state"] = tuple(map(Fraction, case.state))
-    arms = tuple(_arm(case, one, oblique) for one in forces)
+    arms = tuple(_arm(case, item, oblique) for item in forces)
     if forces:
-        middle |= {"force": tuple(one.middle for one in forces),
-                   "torque": tuple(_as_written(m - sum(one.middle * arm[i] for one, arm in zip(forces, arms)),
+        middle |= {"force": tuple(item.middle for item in forces),
+                   "torque": tuple(_as_written(m - sum(x.middle * arm[i] for x, arm in zip(forces, arms)),
                                                max(map(abs, middle["torque"])))
                                    for i, m in enumerate(middle["torque"]))}
     half = {name: [Fraction(0)] * len(numbers) for name, numbers in middle.items()}
-    for found in case.uncertain:
-        at = forces.index(found) if found in forces else found.path[-1]
-        half[_name(found.path)][at if isinstance(at, int) else 0] = found.half
+    for result in case.uncertain:
+        at = forces.index(result) if result in forces else result.path[-1]
+        half[_name(result.path)][at if isinstance(at, int) else 0] = result.half
     box = Box(middle, {name: tuple(widths) for name, widths in half.items()}, case.variables, oblique, arms)
     _scalable(box)
     return box
@@ -201,7 +201,7 @@ def box_of(case: Any) -> Box:
 
 def _arm(case: Any, force: Any, oblique: PrincipalAxes | None) -> Exact3:
     """The torque of one newton of a thruster, m, in the frame of the box."""
-    thruster = next(one for one in case.thrusters if one.path == force.path[:-1])
+    thruster = next(item for item in case.thrusters if item.path == force.path[:-1])
     arm = tuple(m / thruster.force for m in thruster.torque)
     return arm if oblique or case.frame is None else case.frame.turned(arm)
 
@@ -210,20 +210,20 @@ def _in_the_file(case: Any, frame: PrincipalAxes) -> Numbers:
     """The numbers of a case along principal axes, turned back to the frame of its file."""
     tensor = [[sum(m * axis[i] * axis[j] for m, axis in zip(frame.moments, frame.axes)) for j in range(3)]
               for i in range(3)]
-    found = {"inertia": tuple(tensor[i][i] for i in range(3)),
+    entries = {"inertia": tuple(tensor[i][i] for i in range(3)),
              "products": (tensor[0][1], tensor[0][2], tensor[1][2]),
              "momentum": frame.back(case.physical.vector("gyrostat")),
              "torque": frame.back(case.physical.vector("constant_torque"))}
-    found |= {"state": frame.back(case.exact_state)} if case.state is not None else {}
+    entries |= {"state": frame.back(case.exact_state)} if case.state is not None else {}
     return {name: tuple(_as_written(v, max(map(abs, values))) for v in values)
-            for name, values in found.items()}
+            for name, values in entries.items()}
 
 
 def _as_written(value: Fraction, size: Fraction) -> Fraction:
     """The decimal that a number good to 240 bits denotes, where there is one, or zero; size: of the largest
     number beside it."""
-    near, slack = Fraction(repr(float(value))) if value else value, size * TRACE
-    return Fraction(0) if abs(value) <= slack else near if abs(near - value) <= slack else value
+    nearby, slack = Fraction(repr(float(value))) if value else value, size * TRACE
+    return Fraction(0) if abs(value) <= slack else nearby if abs(nearby - value) <= slack else value
 
 
 def _turned(values: Numbers) -> tuple[AnyScene, Float3 | None]:
@@ -262,8 +262,8 @@ def _toward(value: Fraction, middle: Fraction, read: Callable[[float], Fraction]
     rounded = float(value)
     while (read(rounded) - value) * (value - middle) > 0:
         rounded = math.nextafter(rounded, -math.inf if value > middle else math.inf)
-    found = read(rounded)
-    return found if (found - middle) * (value - middle) >= 0 else middle
+    result = read(rounded)
+    return result if (result - middle) * (value - middle) >= 0 else middle
 
 
 def _decimal(number: float) -> Fraction:
@@ -449,15 +449,15 @@ class Family:
         return margin, sense, ~none & np.isfinite(margin)
 
 
-def prove(family: Family, claim: str, senses: Any, stretch: float = 1.0, most: int = 20_000) -> Proof:
+def prove(family: Family, claim: str, senses: Any, stretch: float = 1.0, largest: int = 20_000) -> Proof:
     """Whether "bounded" or "spin-up" holds all over the box stretched by `stretch`, for torques of these
     senses."""
     looked = 0
     for sense in senses:
-        found = (_bounded if claim == "bounded" else _spin_up)(family, sense, stretch, most - looked)
-        looked += found.parts
-        if not found.holds:
-            return found._replace(parts=looked)
+        result = (_bounded if claim == "bounded" else _spin_up)(family, sense, stretch, largest - looked)
+        looked += result.parts
+        if not result.holds:
+            return result._replace(parts=looked)
     return Proof(True, looked)
 
 
@@ -469,7 +469,7 @@ def whole(box: Box, cells: int = 1) -> Parts:
                  np.full(cells, half))
 
 
-def branch_and_bound(start: Parts, judge: Judge, most: int) -> Proof:
+def branch_and_bound(start: Parts, judge: Judge, largest: int) -> Proof:
     """Branch and bound: judge(parts) -> (settled, contradicted, across): how much each number, and last the
     angle, matters."""
     waiting, looked = start, 0
@@ -481,7 +481,7 @@ def branch_and_bound(start: Parts, judge: Judge, most: int) -> Proof:
         if against.any():
             return Proof(False, looked, tuple(batch.centres[np.flatnonzero(against)[0]].tolist()))
         left = batch.some(~settled)
-        if looked > most or (len(left.angle) and float(left.widths.max()) < NARROW):
+        if looked > largest or (len(left.angle) and float(left.widths.max()) < NARROW):
             return Proof(None, looked)
         waiting = waiting.joined(_halved(left, weights[~settled]))
     return Proof(True, looked)
@@ -503,8 +503,8 @@ def _halved(parts: Parts, weights: np.ndarray) -> Parts:
 def importance(slopes: np.ndarray, rest: np.ndarray, widths: np.ndarray) -> np.ndarray:
     """How much each number matters (n, places): its first-order share, and a like share of what is of higher
     order; where the bound is undefined, the width alone."""
-    share = np.abs(slopes) + widths * (rest / widths.shape[1])[:, None]
-    return np.where(np.isfinite(share).all(1, keepdims=True), share, widths)
+    fraction = np.abs(slopes) + widths * (rest / widths.shape[1])[:, None]
+    return np.where(np.isfinite(fraction).all(1, keepdims=True), fraction, widths)
 
 
 def _slack(m: Orbit, angle: Number) -> np.ndarray:
@@ -514,7 +514,7 @@ def _slack(m: Orbit, angle: Number) -> np.ndarray:
     return (1e3 * EPS * (np.abs(m.mu) * angle[:, None] + waves + m.w * m.w))[:, 0]
 
 
-def _bounded(family: Family, sense: int, stretch: float, most: int) -> Proof:
+def _bounded(family: Family, sense: int, stretch: float, largest: int) -> Proof:
     """A place ahead above the energy all over a part: the top of the middle's barrier, fixed, or moved with
     the numbers as the top moves to first order, which may cost more than it gives where the top is flat."""
     def judge(parts: Parts) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -535,10 +535,10 @@ def _bounded(family: Family, sense: int, stretch: float, most: int) -> Proof:
         rest: Any = np.where(better, fixed.e, moved.e)
         return settled, against, np.hstack([importance(slopes, rest, parts.widths),
                                             np.full((len(angle), 1), -1.0)])
-    return branch_and_bound(whole(family.box, 1), judge, most)
+    return branch_and_bound(whole(family.box, 1), judge, largest)
 
 
-def _spin_up(family: Family, sense: int, stretch: float, most: int) -> Proof:
+def _spin_up(family: Family, sense: int, stretch: float, largest: int) -> Proof:
     """No place of one turn ahead reaches the energy; next to the state a force ahead says so."""
     def judge(parts: Parts) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         orbit, none = family.orbit(parts.centres, parts.widths, stretch, cells=True)
@@ -562,4 +562,4 @@ def _spin_up(family: Family, sense: int, stretch: float, most: int) -> Proof:
             weights[unsure] = np.hstack([np.abs(lifted(orbit.mu).g)[unsure][:, :-1],
                                          np.full((int(unsure.sum()), 1), -1.0)])
         return settled, against, weights
-    return branch_and_bound(whole(family.box, CELLS), judge, most)
+    return branch_and_bound(whole(family.box, CELLS), judge, largest)

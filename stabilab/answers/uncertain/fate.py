@@ -179,9 +179,9 @@ def conditions(box: Box, numbers: Numbers) -> list[Condition]:
     return torque + (_conic(reduction) if present(reduction.kappa) else _line(reduction))
 
 
-def known(found: list[Condition]) -> list[Condition]:
+def known(result: list[Condition]) -> list[Condition]:
     """Those whose value depends on uncertain numbers."""
-    return [c for c in found if isinstance(c.value, Affine)]
+    return [c for c in result if isinstance(c.value, Affine)]
 
 
 def _balance(box: Box, numbers: Numbers, form: QuadraticForm) -> tuple[Triple, Triple, Triple]:
@@ -235,12 +235,12 @@ def _conic(r: Reduction) -> list[Condition]:
     first = 256 * (p * q) * squared(p * q) * squared(N) - 192 * (squared(p * q) * PQ * N)
     second = 27 * squared(p * Q2) + 6 * (p * q) * (P2 * Q2) + 27 * squared(q * P2)
     disc = (first - second) * N - 4 * PQ * squared(PQ)
-    found = [Condition(k, ACROSS_EQUAL),
+    rows = [Condition(k, ACROSS_EQUAL),
              Condition(N, HYPERBOLA_SPLITS)]
     for lead, low in ((p, P), (q, Q)):
-        found += [Condition(value, FOLD_AT_INFINITY if value is low else SOME_EQUAL)
+        rows += [Condition(value, FOLD_AT_INFINITY if value is low else SOME_EQUAL)
                   for value in (lead if present(lead) else low,) if present(value)]
-    return found + ([Condition(disc, FOLDS_MEET)] if present(disc) else [])
+    return rows + ([Condition(disc, FOLDS_MEET)] if present(disc) else [])
 
 
 def _line(r: Reduction) -> list[Condition]:
@@ -248,11 +248,11 @@ def _line(r: Reduction) -> list[Condition]:
     across = squared(r.rho) + squared(r.sigma)
     if not present(across):
         return []
-    found = [Condition(across, ACROSS_VANISHES)]
+    rows = [Condition(across, ACROSS_VANISHES)]
     if present(r.p):
-        return found + [Condition(r.p, ALL_EQUAL)]
+        return rows + [Condition(r.p, ALL_EQUAL)]
     level = r.rho * r.q0 + r.sigma * r.p0
-    return found + ([Condition(level, LINE_CHANGES)] if present(level) else [])
+    return rows + ([Condition(level, LINE_CHANGES)] if present(level) else [])
 
 
 def equilibria_over(box: Box) -> Over:
@@ -281,12 +281,12 @@ def signature_at(box: Box, point: Point) -> str | None:
         return None
 
 
-def signature(found: Any) -> str:
+def signature(result: Any) -> str:
     """Kind, number and verdicts in words: of points, and of the segments of each curve in order."""
-    points = [p.verdict for p in found.points]
-    curves = [f"{c.name} ({', '.join(s.verdict for s in c.segments)})" for c in found.curves]
+    points = [p.verdict for p in result.points]
+    curves = [f"{c.name} ({', '.join(s.verdict for s in c.segments)})" for c in result.curves]
     parts = ([f"{len(points)} isolated: {', '.join(points)}"] if points else []) + curves
-    return f"{found.kind}: {'; '.join(parts)}" if parts else found.kind
+    return f"{result.kind}: {'; '.join(parts)}" if parts else result.kind
 
 
 def _by_conditions(box: Box, here: Any, look: Look) -> Over:
@@ -315,10 +315,10 @@ def _by_conditions(box: Box, here: Any, look: Look) -> Over:
     answer: Answer = lambda point: look(point)[0]
     change = nearest_change(box, codes, answer, here)
     strict, passing = partial(_proof, all_of, box, first, signs), [c for c in first if c.passes]
-    found = bracketed(box, here, answer, change, partial(strict, passes=True), SIGNS_STAY)
-    if found.answer != "holds" or not passing or strict(1.0, FEWER).holds:
-        return found
-    return replace(found, exception=joined((WHERE(what=c.what) for c in passing), "; "))
+    result = bracketed(box, here, answer, change, partial(strict, passes=True), SIGNS_STAY)
+    if result.answer != "holds" or not passing or strict(1.0, FEWER).holds:
+        return result
+    return replace(result, exception=joined((WHERE(what=c.what) for c in passing), "; "))
 
 
 def _conditions(box: Box, centres: np.ndarray, widths: np.ndarray, stretch: float = 1.0) -> list[Condition]:
@@ -327,10 +327,10 @@ def _conditions(box: Box, centres: np.ndarray, widths: np.ndarray, stretch: floa
 
 
 def _proof(all_of: Callable[..., list[Condition]], box: Box, first: Any, signs: Any, stretch: float,
-           most: int, passes: bool = False) -> Proof:
+           largest: int, passes: bool = False) -> Proof:
     """Whether every condition keeps its sign over the stretched box; passes: but those that may pass through
     zero."""
-    kept = [(k, sign) for k, sign in enumerate(signs) if not (passes and first[k].passes)]
+    retained = [(k, sign) for k, sign in enumerate(signs) if not (passes and first[k].passes)]
 
     def judge(parts: Parts) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         values = all_of(parts.centres, parts.widths, stretch)
@@ -338,17 +338,17 @@ def _proof(all_of: Callable[..., list[Condition]], box: Box, first: Any, signs: 
                                len(parts.angle))
         settled = np.ones(len(none), bool)
         worst, weights = np.full(len(none), np.inf), np.zeros((len(none), len(box.places) + 1)) - 1.0
-        for k, sign in kept:
+        for k, sign in retained:
             value = values[k].value
             settled &= value.sign == sign
             clear = np.nan_to_num(value.c * sign / value.reach, nan=-np.inf)
             lower = clear < worst
-            share = importance(np.broadcast_to(value.g, parts.widths.shape),
+            fraction = importance(np.broadcast_to(value.g, parts.widths.shape),
                                np.broadcast_to(value.e, len(none)), parts.widths)
             worst = np.where(lower, clear, worst)
-            weights[:, :-1] = np.where(lower[:, None], share, weights[:, :-1])
+            weights[:, :-1] = np.where(lower[:, None], fraction, weights[:, :-1])
         return settled | none, np.zeros(len(none), bool), weights  # contrary cases are the search's to find
-    return branch_and_bound(whole(box), judge, most)
+    return branch_and_bound(whole(box), judge, largest)
 
 
 # --- The fate
@@ -409,11 +409,11 @@ def _over_geometries(box: Box, here: Any, answer: Answer, axis: int) -> Change |
         return None
     margins = _sided(partial(margins_of, box, axis), 1 if here == Fate.BOUNDED.word else -1)
     point = deepest(margins, n)
-    found = nearest_change(box, codes, answer, here, [point / (np.abs(point).max() or 1.0)])
-    if (found is None or found.stretch > 1) and not margins(point[None])[0] > 0:
+    result = nearest_change(box, codes, answer, here, [point / (np.abs(point).max() or 1.0)])
+    if (result is None or result.stretch > 1) and not margins(point[None])[0] > 0:
         size = float(np.abs(point).max())
-        found = confirmed(Change(point / size, size, 0.0), answer, here)
-    return found
+        result = confirmed(Change(point / size, size, 0.0), answer, here)
+    return result
 
 
 def _sided(margins: Callable[..., Any], side: int) -> Callable[[np.ndarray], np.ndarray]:
@@ -436,11 +436,11 @@ def look_at(box: Box, point: Point) -> tuple[str | None, float]:
         return UNBOUNDED, np.nan  # about which axis is a question for a run, not for the law
     reduction = reduce(scene)
     if reduction is None:
-        one = fates(scene, np.array(state))
-        return words(Fate(int(one.labels)), int(one.axis), int(one.sense)), float(one.margins)
+        item = fates(scene, np.array(state))
+        return words(Fate(int(item.labels)), int(item.axis), int(item.sense)), float(item.margins)
     # asked of boxes that have a state
-    found = fate_of(scene, Orbit(reduction, state))  # type: ignore[arg-type]
-    return words(found.label, found.axis, found.sense), found.margin
+    result = fate_of(scene, Orbit(reduction, state))  # type: ignore[arg-type]
+    return words(result.label, result.axis, result.sense), result.margin
 
 
 def words(label: Fate, axis: int, sense: int) -> str:
@@ -480,11 +480,11 @@ def _on_circles(box: Box, here: Any, answer: Answer, family: Family) -> Over:
         margin, sense, possible = family.margins(points)
         return np.where(possible, np.where(margin > 0, 0, sense), UNKNOWN)
 
-    def attempt(stretch: float, most: int) -> Proof:
+    def attempt(stretch: float, largest: int) -> Proof:
         senses = _senses(box, family, stretch)
         if senses is None or (claim == "spin-up" and len(senses) > 1):
             return Proof(None, 0)
-        return prove(family, claim, senses, stretch, most)
+        return prove(family, claim, senses, stretch, largest)
 
     steady = int(codes(np.zeros((1, len(box.places))))[0]) == 0
     if here == Fate.SEPARATRIX.word or steady != (claim == "bounded"):
@@ -591,13 +591,13 @@ class Uncertainty:
     @property
     def caveats(self) -> tuple[Caveat, ...]:
         both = ((name, over) for name, over in (("equilibria", self.equilibria), ("fate", self.fate)) if over)
-        return tuple(found for name, over in both if (found := _caveat(name, over)))
+        return tuple(result for name, over in both if (result := _caveat(name, over)))
 
 
 def _caveat(name: str, over: Over) -> Caveat | None:
     """That the answer is another elsewhere in the box or open, or that samples stand in place of a proof."""
     if over.answer == "depends":
-        others = dict.fromkeys(one.verdict for one in over.witnesses[1:])
+        others = dict.fromkeys(witness.verdict for witness in over.witnesses[1:])
         return Caveat(Kind.UNCERTAIN, ELSEWHERE(what=over.elsewhere) if name == "fate" else
                       NOT_THE_SAME(question=name, others=joined(map(reason_of, others), " or ")))
     if over.answer == "undecided":
@@ -612,10 +612,10 @@ def uncertain(case: Any, questions: Sequence[str] = ("equilibria", "fate")) -> U
     if not case.uncertain:
         return None
     ask = {"equilibria": equilibria_over, "fate": fate_over}
-    asked = [name for name in questions if name == "equilibria" or case.state is not None]
+    request = [name for name in questions if name == "equilibria" or case.state is not None]
     try:
         box = box_of(case)
-        found = {name: ask[name](box) for name in asked}
+        entries = {name: ask[name](box) for name in request}
     except InputError as error:
-        found = {name: Over("undecided", None, reason=as_reason(str(error))) for name in asked}
-    return Uncertainty(case.uncertain, found.get("equilibria"), found.get("fate"))
+        entries = {name: Over("undecided", None, reason=as_reason(str(error))) for name in request}
+    return Uncertainty(case.uncertain, entries.get("equilibria"), entries.get("fate"))

@@ -50,22 +50,22 @@ def deepest(margins: Callable[[np.ndarray], np.ndarray], n: int) -> np.ndarray:
     """The point (n,) of the box [-1, 1]^n at which a margin is least, as far as a search finds it: corners,
     points drawn at random, and from the least of these on one number at a time, in smaller and smaller steps.
     margins: points -> (m,), NaN or inf where there is none."""
-    least = lambda points: np.nan_to_num(margins(points), nan=np.inf)
+    smallest = lambda points: np.nan_to_num(margins(points), nan=np.inf)
     rng = np.random.default_rng(SEED)
     tried = np.concatenate([corners(n), rng.uniform(-1, 1, (DRAWN, n)), rng.choice(PLACES, (DRAWN, n))])
-    heights = least(tried)
+    heights = smallest(tried)
     first = np.argsort(heights, kind="stable")[:STARTS]
-    found, heights = tried[first], heights[first]
+    result, heights = tried[first], heights[first]
     step = 0.5
     for _ in range(ROUNDS):
         moves = step * np.concatenate([np.eye(n), -np.eye(n)])
-        near = np.clip(found[:, None, :] + moves, -1, 1)
-        beside = least(near.reshape(-1, n)).reshape(len(found), -1)
-        best, rows = beside.argmin(1), np.arange(len(found))
+        nearby = np.clip(result[:, None, :] + moves, -1, 1)
+        beside = smallest(nearby.reshape(-1, n)).reshape(len(result), -1)
+        best, rows = beside.argmin(1), np.arange(len(result))
         lower = beside[rows, best] < heights
-        found = np.where(lower[:, None], near[rows, best], found)
+        result = np.where(lower[:, None], nearby[rows, best], result)
         heights = np.where(lower, beside[rows, best], heights)
         step = step if lower.any() else step / 2
         if step < FINEST:
             break
-    return found[heights.argmin()]
+    return result[heights.argmin()]

@@ -88,14 +88,14 @@ class Neighbours:
         return self.rate > 0 and (self.turned or self.verdict == "unstable")
 
 
-def beside(box: Box, found: Over) -> Over:
+def beside(box: Box, result: Over) -> Over:
     """The answer over a box whose middle is at rest in the equations of motion, with what its neighbours do;
     any other as it is."""
     n = len(box.places)
     scene, state = box.at(np.zeros(n))
     exact = box.middle["state"] if box.frame is None else tuple(map(Fraction, state or ()))
     if not rests(scene.quadratic(), exact):
-        return found
+        return result
     middle = of_gyrostat(scene, exact)
     verdict, growth = middle.verdict, middle.growth or 0.0
     at_rest = not any(exact)
@@ -114,27 +114,27 @@ def beside(box: Box, found: Over) -> Over:
             best, far = gone, point
     angle = best[0] if number and not at_rest else None
     neighbours = Neighbours(verdict, growth, number, angle, best[1], turned, scene.variables == "scaled")
-    found = replace(found, neighbours=neighbours)
-    if other is not None and found.answer != "depends":
-        words = [f"{'an' if one == 'unstable' else 'a'} {one} equilibrium"
-                 for one in (verdict, _verdict_at(box, other))]
-        return _depends(box, found, words, other, float(np.abs(other).max()),
-                        MIDDLE_AND_ELSEWHERE(middle=words[0], elsewhere=words[1]).then(
-                            OF_MOTIONS(why=found.reason)))
-    if not neighbours.departing or found.answer == "depends":
-        return found
-    return _depends(box, found, [Fate.EQUILIBRIUM.word, Fate.BOUNDED.word], far,
+    result = replace(result, neighbours=neighbours)
+    if other is not None and result.answer != "depends":
+        phrases = [f"{'an' if item == 'unstable' else 'a'} {item} equilibrium"
+                 for item in (verdict, _verdict_at(box, other))]
+        return _depends(box, result, phrases, other, float(np.abs(other).max()),
+                        MIDDLE_AND_ELSEWHERE(middle=phrases[0], elsewhere=phrases[1]).then(
+                            OF_MOTIONS(why=result.reason)))
+    if not neighbours.departing or result.answer == "depends":
+        return result
+    return _depends(box, result, [Fate.EQUILIBRIUM.word, Fate.BOUNDED.word], far,
                     0.0 if verdict == "unstable" else float(np.abs(far).max()),
                     ONE_DEPARTS(stability=neighbours.reason, number=number,
-                                departure=neighbours.departure, why=found.reason))
+                                departure=neighbours.departure, why=result.reason))
 
 
-def _depends(box: Box, found: Over, words: Sequence[str], point: Point, changes_at: float,
+def _depends(box: Box, result: Over, text: Sequence[str], point: Point, changes_at: float,
              reason: Reason) -> Over:
     """The answer with the middle and a point as witnesses of these verdicts."""
-    witnesses = tuple(Witness(word, box.values(place))
-                      for word, place in zip(words, (np.zeros(len(point)), point)))
-    return replace(found, answer="depends", verdict=words[0], reason=reason, proved=0.0,
+    witnesses = tuple(Witness(word, box.values(location))
+                      for word, location in zip(text, (np.zeros(len(point)), point)))
+    return replace(result, answer="depends", verdict=text[0], reason=reason, proved=0.0,
                    exception=None, changes_at=changes_at, witnesses=witnesses)
 
 
@@ -168,7 +168,7 @@ def departure(form: QuadraticForm, start: Float3, until: float) -> tuple[float, 
         series = coefficients(form, x)
         h = min(length(series, TERM_TOLERANCE * (max(map(abs, x)) or 1.0)), until - t)
         for k in range(1, INSIDE + 1):
-            x = tuple(summed(one, h * k / INSIDE) for one in series)
+            x = tuple(summed(term, h * k / INSIDE) for term in series)
             gap = math.dist(x, start)
             rate = max(rate, gap)
             if both := size * math.hypot(*x):

@@ -68,18 +68,18 @@ def worst(margins: Callable[[np.ndarray], np.ndarray], n: int) -> np.ndarray:
     no body."""
     if 2**n <= CORNERS:
         return np.zeros((0, n))
-    least = lambda points: np.nan_to_num(margins(points), nan=np.inf)
+    smallest = lambda points: np.nan_to_num(margins(points), nan=np.inf)
     tried = corners(n)
-    found = tried[np.argsort(least(tried), kind="stable")[:NEAREST]]
+    result = tried[np.argsort(smallest(tried), kind="stable")[:NEAREST]]
     flips = 1 - 2 * np.eye(n)
     for _ in range(n):
-        near = (found[:, None, :] * flips).reshape(-1, n)
-        heights = least(near).reshape(len(found), n)
-        lower = heights.min(1) < least(found)
+        nearby = (result[:, None, :] * flips).reshape(-1, n)
+        heights = smallest(nearby).reshape(len(result), n)
+        lower = heights.min(1) < smallest(result)
         if not lower.any():
             break
-        found[lower] = near.reshape(len(found), n, n)[lower, heights[lower].argmin(1)]
-    return np.unique(found, axis=0)
+        result[lower] = nearby.reshape(len(result), n, n)[lower, heights[lower].argmin(1)]
+    return np.unique(result, axis=0)
 
 
 class Change(NamedTuple):
@@ -98,11 +98,11 @@ def rays(n: int, favoured: Iterable[np.ndarray] = ()) -> np.ndarray:
                      axis=0)
 
 
-def corners(n: int, most: int = CORNERS) -> np.ndarray:
+def corners(n: int, largest: int = CORNERS) -> np.ndarray:
     """All 2^n corners of a box of n numbers, (corners, n), or so many at random where there are more."""
-    if 2**n <= most:
+    if 2**n <= largest:
         return np.array(list(product((-1.0, 1.0), repeat=n)))
-    return np.random.default_rng(5).choice((-1.0, 1.0), (most, n))
+    return np.random.default_rng(5).choice((-1.0, 1.0), (largest, n))
 
 
 def nearest_change(box: Box, codes: Codes, answer: Answer, here: Any,
@@ -112,8 +112,8 @@ def nearest_change(box: Box, codes: Codes, answer: Answer, here: Any,
     """
     favoured = list(favoured)
     rigid = lambda points: np.where(box.rigid(points), codes(points), UNKNOWN)
-    found = _nearest(box, rigid, answer, here, favoured)
-    return found if found is not None and found.stretch <= 1 else _nearest(box, codes, answer, here, favoured)
+    out = _nearest(box, rigid, answer, here, favoured)
+    return out if out is not None and out.stretch <= 1 else _nearest(box, codes, answer, here, favoured)
 
 
 def _nearest(box: Box, codes: Codes, answer: Answer, here: Any,
@@ -137,7 +137,7 @@ def _nearest(box: Box, codes: Codes, answer: Answer, here: Any,
     beam = _halved(codes, middle, directions[chosen], before, first[chosen])
     for _ in range(ROUNDS):
         nearer = NEARER_STILL * beam[0].stretch
-        moved = np.unique(np.concatenate([_moved(one.direction) for one in beam]), axis=0)
+        moved = np.unique(np.concatenate([_moved(item.direction) for item in beam]), axis=0)
         moved = moved[_changed(codes, middle, moved * nearer)]
         if not len(moved):  # two numbers at a time
             moved = np.unique(np.concatenate(list(map(_moved, _moved(beam[0].direction)))), axis=0)
@@ -150,8 +150,8 @@ def _nearest(box: Box, codes: Codes, answer: Answer, here: Any,
 
 def _changed(codes: Codes, here: int, points: np.ndarray) -> np.ndarray:
     """(m,): whether another code than `here` is known at points (m, n)."""
-    found = np.concatenate([codes(points[i:i + CHUNK]) for i in range(0, max(1, len(points)), CHUNK)])
-    return (found != here) & (found != UNKNOWN)
+    result = np.concatenate([codes(points[i:i + CHUNK]) for i in range(0, max(1, len(points)), CHUNK)])
+    return (result != here) & (result != UNKNOWN)
 
 
 def _halved(codes: Codes, here: int, directions: np.ndarray, starts: np.ndarray,
@@ -222,18 +222,18 @@ class Sampled:
         verdicts = joined((ONE_VERDICT(verdict=reason_of(word)) if agree
                            else EACH_VERDICT(count=count, verdict=reason_of(word))
                            for word, count in self.counts.items()), ", ")
-        found = SAMPLED(number=self.number, seed=Quantity(self.seed, digits=12), verdicts=verdicts)
+        result = SAMPLED(number=self.number, seed=Quantity(self.seed, digits=12), verdicts=verdicts)
         if agree:
-            found = found.then(CONFIDENCE(percent=Quantity(100 * self.otherwise, digits=2).upper))
+            result = result.then(CONFIDENCE(percent=Quantity(100 * self.otherwise, digits=2).upper))
         if self.corners:
-            found = found.then(ALL_CORNERS(corners=self.corners) if self.every
+            result = result.then(ALL_CORNERS(corners=self.corners) if self.every
                                else SOME_CORNERS(corners=self.corners))
         if self.others:
-            found = found.then(OTHER_POINTS(others=self.others), " ")
+            result = result.then(OTHER_POINTS(others=self.others), " ")
         if self.margins:
             low, median, high = (Quantity(v, digits=4) for v in self.margins)
-            found = found.then(QUANTILES(low=low, median=median, high=high))
-        return found
+            result = result.then(QUANTILES(low=low, median=median, high=high))
+        return result
 
     @property
     def words(self) -> str:
@@ -284,13 +284,13 @@ class Over(Reasoned):
     @property
     def elsewhere(self) -> Reason:
         """What the motion does elsewhere in the box, where the answer depends on that: a sentence's end."""
-        near = self.neighbours
-        if near is None or self.otherwise != (Fate.BOUNDED.word,):
+        nearby = self.neighbours
+        if nearby is None or self.otherwise != (Fate.BOUNDED.word,):
             return (ALSO(verdicts=joined(map(reason_of, self.otherwise), " or ")) if self.otherwise
                     else ALSO_ANOTHER)
-        middle = MIDDLE_STABLE if near.verdict == "stable" else near.reason
-        return (TURNS_OVER(departure=near.departure, middle=middle) if near.turned
-                else DEPARTS(departure=near.departure, middle=middle))
+        middle = MIDDLE_STABLE if nearby.verdict == "stable" else nearby.reason
+        return (TURNS_OVER(departure=nearby.departure, middle=middle) if nearby.turned
+                else DEPARTS(departure=nearby.departure, middle=middle))
 
 
 def bracketed(box: Box, here: Any, answer: Answer, change: Change | None,
@@ -309,14 +309,14 @@ def bracketed(box: Box, here: Any, answer: Answer, change: Change | None,
     more, looked = _farthest(change, attempt, proved)
     proved, parts = max(proved, more), parts + looked
     sides = () if change is None else _sides(box, answer, change.direction * change.stretch)
-    found: dict[str, Any] = {"proved": proved, "changes_at": change and change.stretch, "witnesses": sides,
+    result: dict[str, Any] = {"proved": proved, "changes_at": change and change.stretch, "witnesses": sides,
                              "parts": parts}
     if proved >= 1:
-        return Over("holds", here, reason=reason, **found)
+        return Over("holds", here, reason=reason, **result)
     if change is not None and change.stretch <= 1:
         return Over("depends", here, reason=BOTH_SIDES(middle=reason_of(sides[0].verdict),
-                                                       elsewhere=reason_of(sides[1].verdict)), **found)
-    return Over("undecided", here, reason=NEITHER(parts=parts), **found)
+                                                       elsewhere=reason_of(sides[1].verdict)), **result)
+    return Over("undecided", here, reason=NEITHER(parts=parts), **result)
 
 
 def _farthest(change: Change | None, attempt: Callable[[float, int], Proof],
@@ -324,15 +324,15 @@ def _farthest(change: Change | None, attempt: Callable[[float, int], Proof],
     """(largest stretch proved, parts looked at): rising until a proof fails, and falling where the first one
     does."""
     looked, safe = 0, proved
-    share = 1.0 if change is None else change.stretch
+    fraction = 1.0 if change is None else change.stretch
     rising = FARTHER if change is None else NEARER
-    for stretch in (r * share for r in rising if r * share > proved):
+    for stretch in (r * fraction for r in rising if r * fraction > proved):
         proof = attempt(stretch, FEWER)
         looked += proof.parts
         if not proof.holds:
             break
         safe = stretch
-    for stretch in (s * share for s in SMALLER):
+    for stretch in (s * fraction for s in SMALLER):
         if safe >= stretch:
             break
         proof = attempt(stretch, FEWER)

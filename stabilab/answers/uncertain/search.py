@@ -78,8 +78,8 @@ class Looks:
             for k in range(len(self.box.places)):
                 at = self.least[1]
                 moved = [np.where(np.arange(len(at)) == k, value, at) for value in MOVES if value != at[k]]
-                if (found := self.first(moved)) is not None:
-                    return found
+                if (result := self.first(moved)) is not None:
+                    return result
             if not self.least[0] < before:
                 break
         return None
@@ -95,24 +95,24 @@ def by_trial(box: Box, here: Any, look: Look, reason: Reason, change: Change | N
         return _depends(looks, reason, change.direction * change.stretch, settled=True)
     n = len(box.places)
     trial = np.concatenate([np.eye(n), -np.eye(n), np.ones((1, n)), -np.ones((1, n))])
-    found = (looks.first(direction * stretch for stretch in STRETCHES for direction in trial)
+    result = (looks.first(direction * stretch for stretch in STRETCHES for direction in trial)
              if looks.settled else None)
-    return _looked(looks, reason, most) if found is None else _depends(looks, reason, found)
+    return _looked(looks, reason, most) if result is None else _depends(looks, reason, result)
 
 
-def by_sample(box: Box, here: Any, look: Look, reason: Reason, most: int = CORNERS) -> Over:
+def by_sample(box: Box, here: Any, look: Look, reason: Reason, largest: int = CORNERS) -> Over:
     """Corners (most: so many), a search from the least margin, and points drawn at random."""
-    return _looked(Looks(box, here, look), reason, most)
+    return _looked(Looks(box, here, look), reason, largest)
 
 
-def _looked(looks: Looks, reason: Reason, most: int) -> Over:
+def _looked(looks: Looks, reason: Reason, largest: int) -> Over:
     n, before = len(looks.box.places), looks.number
-    tried = corners(n, most)
-    found = looks.first(tried) if looks.settled else None
+    tried = corners(n, largest)
+    result = looks.first(tried) if looks.settled else None
     at_corners = looks.number - before
-    found = looks.descended() if looks.settled and found is None else found
-    if found is not None:
-        return _depends(looks, reason, found)
+    result = looks.descended() if looks.settled and result is None else result
+    if result is not None:
+        return _depends(looks, reason, result)
     samples, places = _drawn(looks, at_corners, len(tried) == 2**n)
     if samples is None or looks.here is None:
         return Over("undecided", looks.here, reason=reason)
@@ -149,13 +149,13 @@ def _drawn(looks: Looks, at_corners: int = 0, every: bool = False) -> tuple[Samp
 def _depends(looks: Looks, reason: Reason, point: Point, settled: bool = False) -> Over:
     """The answer from a point that does otherwise, drawn towards the middle unless that is settled; with what
     points drawn at random do."""
-    answer: Callable[[Point], Any] = lambda place: None if (word := looks.look(place)[0]) in OPEN else word
+    answer: Callable[[Point], Any] = lambda index: None if (word := looks.look(index)[0]) in OPEN else word
     size = float(np.abs(point).max())
     if not settled and size:
-        found = confirmed(Change(point / size, size, 0.0), answer, looks.here)
-        size, point = (found.stretch, found.direction * found.stretch) if found else (size, point)
-    witnesses = tuple(Witness(answer(place), looks.box.values(place))
-                      for place in (np.zeros(len(point)), point))
+        result = confirmed(Change(point / size, size, 0.0), answer, looks.here)
+        size, point = (result.stretch, result.direction * result.stretch) if result else (size, point)
+    witnesses = tuple(Witness(answer(location), looks.box.values(location))
+                      for location in (np.zeros(len(point)), point))
     samples, _ = _drawn(looks)
     reason = reason.then(samples.reason) if samples else reason
     return Over("depends", looks.here, reason=reason, changes_at=size, witnesses=witnesses, samples=samples)

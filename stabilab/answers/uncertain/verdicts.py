@@ -9,7 +9,7 @@ from ...reasons import Axis, Reason, Sentence, as_reason
 SPINS_UP = Sentence("spin-up-about", "spin-up about {axis}, {direction} direction")
 SPIN_UPS = {(n, sense): SPINS_UP(axis=Axis(n), direction="positive" if sense > 0 else "negative")
             for n in (1, 2, 3) for sense in (1, -1)}
-VERDICTS = {str(one): one for one in SPIN_UPS.values()}  # those that name an axis
+VERDICTS = {str(item): item for item in SPIN_UPS.values()}  # those that name an axis
 ALSO_ANOTHER = Sentence("also-another", "also another answer")()
 
 
@@ -20,4 +20,4 @@ def reason_of(verdict: str | None) -> Reason:
 
 def joined(reasons: Iterable[Reason], joint: str) -> Reason:
     """Several as one, each behind the joint."""
-    return reduce(lambda one, other: one.then(other, joint), reasons)
+    return reduce(lambda reason, other: reason.then(other, joint), reasons)

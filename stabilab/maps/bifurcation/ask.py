@@ -60,27 +60,27 @@ class Spent(Exception):
     open sign."""
 
 
-def with_connections(found: Diagram) -> Diagram:
+def with_connections(result: Diagram) -> Diagram:
     """The diagram with the connections in it; where they are not settled a note says so."""
-    if found.kind != LEAF:
-        return found
-    system = chosen(found.family, False)[2]
+    if result.kind != LEAF:
+        return result
+    system = chosen(result.family, False)[2]
     try:
-        return replace(found, connections=tuple(connections(found.family, system, found.pieces)))
+        return replace(result, connections=tuple(connections(result.family, system, result.pieces)))
     except (Unclear, Spent):
-        return replace(found, remarks=(*found.remarks, NOT_SETTLED))
+        return replace(result, remarks=(*result.remarks, NOT_SETTLED))
 
 
 def connections(family: Family, system: Conics | OnLine, pieces: tuple[Piece, ...]) -> list[Event]:
     """All of them in the range of one number, rising; none where the motion is on no circle."""
     if not isinstance(system, Conics):
         return []
-    eliminated, found, budget = Eliminated(family, system), [], [MAX_ENCLOSURES]
+    eliminated, result, budget = Eliminated(family, system), [], [MAX_ENCLOSURES]
     for piece in pieces:
         if sum(state.linear == "unstable" for state in piece.states) == 2:
-            found += _of_piece(family, eliminated, system.axis, piece, budget)
+            result += _of_piece(family, eliminated, system.axis, piece, budget)
     # each value once: where the torque about the centre vanishes both ways round come to one height together
-    return list({event.value: event for event in sorted(found, key=lambda event: event.value)}.values())
+    return list({event.value: event for event in sorted(result, key=lambda event: event.value)}.values())
 
 
 def _of_piece(family: Family, eliminated: Eliminated, axis: int, piece: Piece,
@@ -90,7 +90,7 @@ def _of_piece(family: Family, eliminated: Eliminated, axis: int, piece: Piece,
     width = Fraction(piece.high) - Fraction(piece.low)
     # the ends are rounded to doubles
     off = max(END_WIDTH * width, max(abs(Fraction(piece.low)), abs(Fraction(piece.high))) / (1 << 50))
-    found, before = [], None
+    result, before = [], None
     for part in parts(family, LEAF, eliminated, piece):
         low, high = Fraction(part.low) + off, Fraction(part.high) - off
         with working(BITS):
@@ -102,18 +102,18 @@ def _of_piece(family: Family, eliminated: Eliminated, axis: int, piece: Piece,
         if eliminated.main.lean:
             raise Unclear
         saddles = [n for n, state in enumerate(part.states) if state.linear == "unstable"]
-        rises = [_Rise(family, eliminated, saddles, way, budget) for way in (0, 1)]
+        rises = [_Rise(family, eliminated, saddles, route, budget) for route in (0, 1)]
         for rise in rises:
-            found += [_event(family, eliminated, piece, value) for value in _zeros(rise, low, high)]
+            result += [_event(family, eliminated, piece, value) for value in _zeros(rise, low, high)]
         if piece.seams and before is not None:
-            kept = followed(before[1], _places(family, eliminated, saddles, low))
+            retained = followed(before[1], _places(family, eliminated, saddles, low))
             # where both have changed places each goes the other's way
-            if any(rise.sign(low) != before[0][way] for rise, way in zip(rises, kept)):
-                found.append(_event(family, eliminated, piece, Fraction(part.low)))
+            if any(rise.sign(low) != before[0][route] for rise, route in zip(rises, retained)):
+                result.append(_event(family, eliminated, piece, Fraction(part.low)))
         before = ([rise.sign(high) for rise in rises],
                   _places(family, eliminated, saddles,
                           high)) if piece.seams and part.high < piece.high else None
-    return found
+    return result
 
 
 def _places(family: Family, eliminated: Eliminated, saddles: list[int], value: Fraction) -> list[Float3]:
@@ -211,14 +211,14 @@ class _Rise:
             powers.append(powers[-1] * off)  # arb's own power of a ball about zero is NaN
         for (n, _, m, _), c in moved.to_dict().items():
             coefficients[n] += powers[m] * c
-        place = arb(at) + _enclosed(coefficients, arb(0))
-        here, inside = [arb(at), arb(0), arb(rational(middle))], [place.union(arb(at)), arb(0), p]
+        location = arb(at) + _enclosed(coefficients, arb(0))
+        here, inside = [arb(at), arb(0), arb(rational(middle))], [location.union(arb(at)), arb(0), p]
         bottom, bottom_here = evaluated(self.bottom, inside), evaluated(self.bottom, here)
         if bottom.contains(0):
             raise Unclear
         # By its slopes from the middle on: far out on the conic y hardly moves, while x does.
         along_x, along_p = (evaluated(slope, inside) / (bottom * bottom) for slope in self.slopes)
-        return place, along_x * (place - at) + along_p * off - evaluated(self.top, here) / bottom_here
+        return location, along_x * (location - at) + along_p * off - evaluated(self.top, here) / bottom_here
 
     def _rise(self, at: arb_series, ends: list[tuple[arb, arb]]) -> tuple[arb, arb]:
         """U at the second end less U at the first, and its slope, by series of first order in the number that
@@ -261,12 +261,12 @@ class _Rise:
 
 def _once_round(turn: arb) -> arb:
     """The angle in (0, 2 pi)."""
-    whole = 2 * arb.pi()
+    full = 2 * arb.pi()
     while turn < 0:
-        turn = turn + whole
-    while turn > whole:
-        turn = turn - whole
-    if not (turn > 0 and turn < whole):
+        turn = turn + full
+    while turn > full:
+        turn = turn - full
+    if not (turn > 0 and turn < full):
         raise Unclear
     return turn
 
@@ -343,8 +343,8 @@ def _zero(rise: _Rise, low: Fraction, high: Fraction) -> Fraction:
             return rise.sign(value) * first * rise.size(value)
         except Unclear:
             return math.nan
-    found = narrowed(judge, Bracket(low, high, (judge(low), judge(high))), near=Fraction(0))
-    return (found.same + found.other) / 2
+    result = narrowed(judge, Bracket(low, high, (judge(low), judge(high))), near=Fraction(0))
+    return (result.same + result.other) / 2
 
 
 # --- The question
@@ -382,7 +382,7 @@ def family_of(case: Case | str | os.PathLike[str],
     family = Family(read, data, spans_of(data, _pairs(vary)))
     scene = effective(read.scene)
     if not scene.plain:
-        others = ", ".join(one.with_article for one in scene.beyond)
+        others = ", ".join(item.with_article for item in scene.beyond)
         raise InputError(f"{read.place}: a diagram is exact for a body with wheels under a constant torque; "
                          f"this case also has {others}: stabilab sweep --answer equilibria,verdict counts "
                          "there")
@@ -391,7 +391,7 @@ def family_of(case: Case | str | os.PathLike[str],
 
 def _pairs(vary: Mapping[str, Any] | Sequence[tuple[str, Any]]) -> list[tuple[str, Any]]:
     try:
-        return [(str(name), asked) for name, asked in (vary.items() if isinstance(vary, Mapping) else vary)]
+        return [(str(name), query) for name, query in (vary.items() if isinstance(vary, Mapping) else vary)]
     except (TypeError, ValueError):
         raise InputError(
             f'vary: expected names and ranges such as {{"torque[3]": "0:0.5"}}, got {vary!r:.80}') from None

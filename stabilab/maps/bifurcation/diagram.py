@@ -80,9 +80,9 @@ def ball_form(family: Family, values: list) -> tuple[QuadraticForm, list[arb]]:
     if not family.scaled:
         return euler_form(tuple(numbers["D"]), tuple(numbers["lam"]), tuple(numbers["M"])), numbers["u"]
     half, l1 = numbers["u"][0] / 2, numbers["lam"][0]
-    one: Any = arb(1)
+    item: Any = arb(1)
     zero: Any = arb(0)
-    return QuadraticForm((one, -one, one), (zero, zero, half + l1), (zero, l1 - half, zero),
+    return QuadraticForm((item, -item, item), (zero, zero, half + l1), (zero, l1 - half, zero),
                          tuple(numbers["M"]), "x"), numbers["u"]
 
 
@@ -160,11 +160,11 @@ def of_curves(family: Family, counted: Reason) -> Diagram:
     """The diagram over one number where equilibria form curves, which are named."""
     span, named = family.spans[0], list(_named(family))
     parts = [factor for f, _ in named if not f.is_constant() for factor, _ in f.factor()[1]]
-    found = cuts((univariate(f, 2) for f in parts), span.low, span.high)
+    result = cuts((univariate(f, 2) for f in parts), span.low, span.high)
     pieces: list[Piece] = []
     events: list[Event] = []
-    for n, gap in enumerate(gaps(found, span.low, span.high)):
-        event = _change_of_curves(family, found[n - 1], named) if n else None
+    for n, gap in enumerate(gaps(result, span.low, span.high)):
+        event = _change_of_curves(family, result[n - 1], named) if n else None
         if gap:
             there = _curves_at(family, gap.sample)
             same = event is None or (event.count, event.reason) == there
@@ -178,15 +178,15 @@ def of_curves(family: Family, counted: Reason) -> Diagram:
 
 
 def _curves_at(family: Family, value: Fraction) -> There:
-    found = gyrostat_equilibria(effective(family.at((value,)).scene))
-    if found.kind == "all":
+    result = gyrostat_equilibria(effective(family.at((value,)).scene))
+    if result.kind == "all":
         return There(ENDLESS, ALL_STATES)
-    return There(ENDLESS if found.curves else len(found.points), _names(found))
+    return There(ENDLESS if result.curves else len(result.points), _names(result))
 
 
-def _names(found: Equilibria) -> Reason | None:
+def _names(result: Equilibria) -> Reason | None:
     """The curves by their names; None where there are none."""
-    return clauses(curve.description.name for curve in found.curves) if found.curves else None
+    return clauses(curve.description.name for curve in result.curves) if result.curves else None
 
 
 def _change_of_curves(family: Family, cut: Cut, named: list[tuple[fmpq_mpoly, Reason]]) -> Event:
@@ -227,14 +227,14 @@ def diagram(family: Family, borders: bool = False) -> Diagram:
     if system is None:
         return of_curves(family, counted)
     eliminated = Eliminated(family, system)
-    found = cuts((univariate(c, 2) for c in eliminated.critical), span.low, span.high)
+    result = cuts((univariate(c, 2) for c in eliminated.critical), span.low, span.high)
     pieces: list[Piece | None] = []
-    for gap in gaps(found, span.low, span.high):
+    for gap in gaps(result, span.low, span.high):
         states = settled(partial(general_states, family, kind, eliminated, gap.sample)) if gap else ()
         pieces.append(Piece(*gap[:2], len(states), gap.sample, states) if gap else None)
-    events = [_event(family, kind, eliminated, cut, pieces[n:n + 2]) for n, cut in enumerate(found)]
-    kept = [piece for piece in pieces if piece is not None]
-    return Diagram(family, kind, counted, *_joined(kept, events, found), remarks=remarks)
+    events = [_event(family, kind, eliminated, cut, pieces[n:n + 2]) for n, cut in enumerate(result)]
+    retained = [piece for piece in pieces if piece is not None]
+    return Diagram(family, kind, counted, *_joined(retained, events, result), remarks=remarks)
 
 
 def _event(family: Family, kind: str, eliminated: Eliminated, cut: Cut,
@@ -253,7 +253,7 @@ def _event(family: Family, kind: str, eliminated: Eliminated, cut: Cut,
         return None
     states = settled(lambda digits: _states_at(family, kind, eliminated, cut, digits.bits, sides))
     things = "points" if kind == BORDERS else "equilibria"
-    first, *others = (EVENTS[one](things=things) for one in kinds)
+    first, *others = (EVENTS[item](things=things) for item in kinds)
     return make(kinds, len(roots), states, reason=reduce(Reason.then, others, first))
 
 
@@ -288,21 +288,21 @@ def _on_an_axis(family: Family, system: OnLine | Conics, cut: Cut) -> tuple[int,
     if value is None:
         load = cut.number.reduced(univariate(system.load, 2)) == 0
         return (ENDLESS, (), CURVE_ON_AXIS) if load else (0, (), NONE_ON_AXIS)
-    found = gyrostat_equilibria(effective(family.at((value,)).scene))
+    result = gyrostat_equilibria(effective(family.at((value,)).scene))
     states = tuple(State(point.at, 1, point.linear, point.verdict, reason=point.reason)
-                   for point in found.points)
-    why, names = found.reason, _names(found)
-    reason = (NONE_BECAUSE(why=why) if found.kind == "none" else why if names is None
+                   for point in result.points)
+    why, names = result.reason, _names(result)
+    reason = (NONE_BECAUSE(why=why) if result.kind == "none" else why if names is None
               else CURVES_BECAUSE(curves=names, why=why))
-    count = ENDLESS if found.curves or found.kind == "all" else len(states)
+    count = ENDLESS if result.curves or result.kind == "all" else len(states)
     return count, states, reason
 
 
 def _joined(pieces: list[Piece], events: list[Event | None],
-            found: Sequence[Cut]) -> tuple[tuple[Piece, ...], tuple[Event, ...]]:
+            result: Sequence[Cut]) -> tuple[tuple[Piece, ...], tuple[Event, ...]]:
     """Pieces without the cuts at which nothing happens but that branches may change their order: their seams.
     """
-    gone = {float(cut.number) for cut, event in zip(found, events) if event is None}
+    gone = {float(cut.number) for cut, event in zip(result, events) if event is None}
     out: list[Piece] = []
     for piece in pieces:
         if out and piece.low in gone and out[-1].high == piece.low:
@@ -337,9 +337,9 @@ def parts(family: Family, kind: str, eliminated: Eliminated, piece: Piece) -> li
 
 def followed(before: Sequence[Float3], after: Sequence[Float3]) -> list[int]:
     """For each state after a seam the place of the one before it that it goes on from: the nearest."""
-    found = nearest_first((sum((u - v) ** 2 for u, v in zip(a, b)), n, k) for n, a in enumerate(after)
+    result = nearest_first((sum((u - v) ** 2 for u, v in zip(a, b)), n, k) for n, a in enumerate(after)
                           for k, b in enumerate(before))
-    return [found[n] for n in range(len(after))]
+    return [result[n] for n in range(len(after))]
 
 
 BRANCH_POINTS = 64  # of a branch, closer towards both ends as a fold's parabola needs it
@@ -377,16 +377,16 @@ def _of_piece(diagram: Diagram, eliminated: Eliminated, n: int, piece: Piece,
         rows = [(value, states) for value, states in solved if states is not None]
         if rows and last is not None:
             numbers = [numbers[k] for k in followed(last, rows[0][1])]
-        for place, number in enumerate(numbers):
-            yield Branch(n, number, part.states[place].verdict, tuple(value for value, _ in rows),
-                         tuple(states[place] for _, states in rows))
+        for location, number in enumerate(numbers):
+            yield Branch(n, number, part.states[location].verdict, tuple(value for value, _ in rows),
+                         tuple(states[location] for _, states in rows))
         last = rows[-1][1] if rows else last
 
 
 def spread(low: Fraction, high: Fraction, points: int, near: int) -> list[Fraction]:
     """Values inside an interval, closer towards its ends, the outermost at 1/near of its width from these."""
     shares = [Fraction(0.5 - 0.5 * math.cos(math.pi * k / points)) for k in range(1, points)]
-    return sorted(low + (high - low) * share for share in {*shares, Fraction(1, near), 1 - Fraction(1, near)})
+    return sorted(low + (high - low) * part for part in {*shares, Fraction(1, near), 1 - Fraction(1, near)})
 
 
 def _solved(diagram: Diagram, eliminated: Eliminated, value: Fraction, count: int) -> list[Float3] | None:
@@ -413,39 +413,39 @@ def certifiable(spans: Sequence[Any]) -> None:
                          "of the plane one by one")
 
 
-def diagram_certificate(found: Diagram) -> dict[str, Any]:
+def diagram_certificate(out: Diagram) -> dict[str, Any]:
     """The object of `stabilab.diagram-certificate/1`. Raises InputError for a diagram of more events than it
     may hold."""
-    if found.kind == CURVES:
-        raise InputError(f"--certify: {found.counted.alone}: stabilab classify --certify proves "
+    if out.kind == CURVES:
+        raise InputError(f"--certify: {out.counted.alone}: stabilab classify --certify proves "
                          "them at one value")
-    pieces, events = _changes(found)
+    pieces, events = _changes(out)
     if len(events) > MAX_EVENTS:
         raise InputError(
             f"--certify: a certificate holds at most {MAX_EVENTS} events, "
             f"this range has {len(events)}: divide it")
-    family, span = found.family, found.family.spans[0]
+    family, span = out.family, out.family.spans[0]
     axis = fixed_axis(family)
     return {"schema": SCHEMA, "program": f"stabilab {__version__}",
             "number": span.key.name + (f" ({span.unit})" if span.unit else ""),
-            "scene": _scene(family), "counted": found.kind,
-            "axis": 0 if found.kind == ISOLATED or axis is None else axis + 1,
-            "start": _start(family) if found.kind == LEAF else None, "range": [str(span.low), str(span.high)],
-            "pieces": [{"equilibria": _count(piece.count), "stable": _stable(found, piece)}
+            "scene": _scene(family), "counted": out.kind,
+            "axis": 0 if out.kind == ISOLATED or axis is None else axis + 1,
+            "start": _start(family) if out.kind == LEAF else None, "range": [str(span.low), str(span.high)],
+            "pieces": [{"equilibria": _count(piece.count), "stable": _stable(out, piece)}
                        for piece in pieces],
             "events": [{"t": _bounds(event), "equilibria": _count(event.count)} for event in events],
-            "uncertified": [CONNECTIONS_BY_BALLS(connections=len(found.connections)).text()]
-            if found.connections else []}
+            "uncertified": [CONNECTIONS_BY_BALLS(connections=len(out.connections)).text()]
+            if out.connections else []}
 
 
-def _changes(found: Diagram) -> tuple[list[Piece], list[Event]]:
+def _changes(result: Diagram) -> tuple[list[Piece], list[Event]]:
     """Pieces and events without those events at which the number stays what it is on both sides."""
-    pieces, events = [found.pieces[0]], []
-    rest = list(found.pieces[1:])
-    low = found.family.spans[0].low
-    if found.events and found.events[0].exact == low:
-        events.append(found.events[0])
-    for event in found.events[len(events):]:
+    pieces, events = [result.pieces[0]], []
+    rest = list(result.pieces[1:])
+    low = result.family.spans[0].low
+    if result.events and result.events[0].exact == low:
+        events.append(result.events[0])
+    for event in result.events[len(events):]:
         after = rest.pop(0) if rest else None
         if after is not None and pieces[-1].count == event.count == after.count:
             continue
@@ -463,8 +463,8 @@ def _count(count: int) -> int | None:
     return None if count == ENDLESS else count
 
 
-def _stable(found: Diagram, piece: Piece) -> int | None:
-    return (None if found.kind == BORDERS or piece.count == ENDLESS
+def _stable(result: Diagram, piece: Piece) -> int | None:
+    return (None if result.kind == BORDERS or piece.count == ENDLESS
             else sum(state.verdict == "stable" for state in piece.states))
 
 

@@ -58,7 +58,7 @@ class Eliminated:
             x, c = self.family.ring.gens()[0], self.system.coefficients
             return (Leant(Fraction(0), c[0], c[0], c[0] + x * c[1] + x * x * c[2],
                           (self.family.ring.constant(1),)),)
-        return tuple(made for lean in LEANS if (made := self._leant(lean)) is not None)
+        return tuple(built for lean in LEANS if (built := self._leant(lean)) is not None)
 
     @cached_property
     def main(self) -> Leant:
@@ -81,8 +81,8 @@ class Eliminated:
             parts.append(R.resultant(R.derivative("x"), "x"))
         parts += [f for f, _ in _factors(self.main.R) if f.degrees()[0] < 1]
         parts.append(self.system.special)
-        found = {str(factor): factor for part in parts for factor, _ in _factors(part)}
-        return tuple(factor for factor in found.values() if not factor.is_constant())
+        entries = {str(factor): factor for part in parts for factor, _ in _factors(part)}
+        return tuple(factor for factor in entries.values() if not factor.is_constant())
 
     def _leant(self, lean: Fraction) -> Leant | None:
         f, g = self.system.leant(lean)  # type: ignore[union-attr]  # a line is not asked
@@ -125,10 +125,10 @@ class Eliminated:
             # the main view alone where it has no two points in line, else as many as tell
             apart = self.apart is not None and number.reduced(univariate(self.apart, 2)) != 0
             views = (self.main,) if apart and not _lost(self.main, number) else self.views[:SPARE + 1]
-            made = [(view, number.powers(f)) for view in views if not _lost(view, number)
+            built = [(view, number.powers(f)) for view in views if not _lost(view, number)
                     if (f := number.trimmed(over_field(view.R)))]
-            self._known[key] = (max(made, key=lambda one: sum(len(factor) - 1 for factor, _ in one[1]))
-                                if made else self._of_lines(number))
+            self._known[key] = (max(built, key=lambda item: sum(len(factor) - 1 for factor, _ in item[1]))
+                                if built else self._of_lines(number))
         return self._known[key]
 
     def _of_lines(self, number: Algebraic) -> tuple[Leant, Powers] | None:
@@ -187,8 +187,8 @@ class Eliminated:
             return tuple((of(s) + x * of(a)) / below for s, a in zip(self.system.start, self.system.along))
         rows = [[of(c, x) for c in coefficients(h, 1, 3)] for h in (view.f, view.g)]
         y = _common(rows)
-        place = {(self.system.axis + 1) % 3: x + y * rational(view.lean), (self.system.axis + 2) % 3: y}
-        return tuple(place.get(n, arb(0)) for n in range(3))
+        location = {(self.system.axis + 1) % 3: x + y * rational(view.lean), (self.system.axis + 2) % 3: y}
+        return tuple(location.get(n, arb(0)) for n in range(3))
 
 
 def _distinct(f: fmpq_poly) -> int:

@@ -75,12 +75,12 @@ class Family:
         terms = [(0, 0, *powers, 0)[:len(VARIABLES)] for powers in exponents]
         law = lambda column: self.ring.from_dict({powers: c for powers, c in zip(terms, column) if c != 0})
         laws = [law(column) for column in columns]
-        found = {name: tuple(laws[n:n + 3]) for n, (name, place) in enumerate(places) if not place}
+        entries = {name: tuple(laws[n:n + 3]) for n, (name, location) in enumerate(places) if not location}
         for number in range(1, CHECKS + 1):
             values = tuple(span.low + (span.high - span.low) * Fraction(2 * number - 1 + k, 7 + 4 * k)
                            for k, span in enumerate(self.spans))
-            self._hold(found, values)
-        return found
+            self._hold(entries, values)
+        return entries
 
     @property
     def scaled(self) -> bool:
@@ -91,16 +91,16 @@ class Family:
         try:
             return self.at(values)
         except InputError as error:
-            told = ", ".join(f"{span.label} = {float(value):.6g}" for span, value in zip(self.spans, values))
+            text = ", ".join(f"{span.label} = {float(value):.6g}" for span, value in zip(self.spans, values))
             first = str(error).splitlines()[0]
-            raise InputError(f"vary: the range leaves what a case may be: at {told}: {first}") from None
+            raise InputError(f"vary: the range leaves what a case may be: at {text}: {first}") from None
 
-    def _hold(self, found, values) -> None:
+    def _hold(self, result, values) -> None:
         """Refuse a range over which the polynomials are not the numbers of the case at further values."""
         case = self._read(values)
         put_in = dict(zip(("p", "q"), map(rational, values)))
         for name, row in _numbers_of(case).items():
-            for polynomial, value in zip(found[name], row):
+            for polynomial, value in zip(result[name], row):
                 if polynomial.subs(put_in) != rational(value):
                     keys = " and ".join(printable(span.key.name) for span in self.spans)
                     what = {"D": "principal moments", "lam": "wheel", "M": "torque", "u": "wheel",
@@ -114,8 +114,8 @@ class Family:
 def _numbers_of(case: Case) -> dict[str, tuple[Fraction, ...]]:
     p = pencil(effective(case.scene))
     start = case.exact_state
-    found = {"D": p.D, "lam": p.lam, "M": p.M, "u": p.u}
-    return found | ({"y": tuple(a * x + u for a, x, u in zip(p.A, start, p.u))} if start is not None else {})
+    result = {"D": p.D, "lam": p.lam, "M": p.M, "u": p.u}
+    return result | ({"y": tuple(a * x + u for a, x, u in zip(p.A, start, p.u))} if start is not None else {})
 
 
 CURVES = "curves"  # the kind of a diagram in words
@@ -308,11 +308,11 @@ def across(family: Family, axis: int, kind: str) -> Conics:
         keeps = _kept(family, axis)
         g = keeps(x, y) - keeps(n["y"][j], n["y"][k])
     else:
-        place: list[Any] = [None] * 3
-        place[axis], place[j], place[k] = family.ring.constant(0), x, y
-        g = _linear_m(family, place)
-    one, zero = family.ring.constant(1), family.ring.constant(0)
-    return Conics(f, g, axis, kind, M[axis] if kind == BORDERS else one, zero)
+        location: list[Any] = [None] * 3
+        location[axis], location[j], location[k] = family.ring.constant(0), x, y
+        g = _linear_m(family, location)
+    item, zero = family.ring.constant(1), family.ring.constant(0)
+    return Conics(f, g, axis, kind, M[axis] if kind == BORDERS else item, zero)
 
 
 def _kept(family: Family, axis: int):
@@ -334,7 +334,7 @@ def _kept(family: Family, axis: int):
 
 def _linear_m(family: Family, y: Sequence[fmpq_mpoly]) -> fmpq_mpoly:
     """m of z^3 + m z + n at y, times the positive moments (all 1 in scaled variables)."""
-    n, one = family.numbers, family.ring.constant(1)
+    n, item = family.numbers, family.ring.constant(1)
     kappa: Sequence[fmpq_mpoly]
     rho: Sequence[fmpq_mpoly]
     sigma: Sequence[fmpq_mpoly]
@@ -342,13 +342,13 @@ def _linear_m(family: Family, y: Sequence[fmpq_mpoly]) -> fmpq_mpoly:
         u1, l1 = n["u"][0], n["lam"][0]
         a, b = u1 / 2 - l1, u1 / 2 + l1
         x = ((y[0] - u1) / 2, y[1], -y[2])
-        weights, kappa = (one,) * 3, (one, -one, one)
-        rho, sigma = (0 * one, 0 * one, b), (0 * one, -a, 0 * one)
+        weights, kappa = (item,) * 3, (item, -item, item)
+        rho, sigma = (0 * item, 0 * item, b), (0 * item, -a, 0 * item)
     else:
         D, lam = n["D"], n["lam"]
         x, weights, kappa = (y[0], y[1], y[2]), (D[0], D[1], D[2]), tuple(D[j] - D[k] for j, k in CYCLE)
         rho, sigma = tuple(lam[j] for j, _ in CYCLE), tuple(-lam[k] for _, k in CYCLE)
-    total = 0 * one
+    total = 0 * item
     # the pair (j, k): entries row j, column k and row k, column j of the Jacobian
     for i, (j, k) in enumerate(CYCLE):
         row_j = kappa[j] * x[i] + sigma[j]
@@ -394,9 +394,9 @@ def chosen(family: Family, borders: bool) -> tuple[str, Reason, OnLine | Conics 
             return CURVES, CURVES_OF_EQUAL.then(MORE), None, ()
         return ISOLATED, ARE_ISOLATED, line, ()
     if not n["lam"][axis].is_zero():
-        one, zero = family.ring.constant(1), family.ring.constant(0)
+        item, zero = family.ring.constant(1), family.ring.constant(0)
         load = n["lam"][axis] * n["M"][axis]
-        nowhere = OnLine((one, zero, zero), (zero,) * 3, (zero,) * 3, one, load, load)
+        nowhere = OnLine((item, zero, zero), (zero,) * 3, (zero,) * 3, item, load, load)
         return ISOLATED, ARE_ISOLATED, nowhere, (NO_EQUILIBRIUM(axis=Axis(axis + 1)),)
     D = n["D"]
     if borders or "y" not in n:

@@ -57,13 +57,13 @@ def cusps(family: Family, eliminated: Eliminated, curves: Sequence[fmpq_mpoly]) 
         others = [view.R for view in eliminated.views[:2]
                   if view is not eliminated.main and not view.R.is_zero()]
         return [c for other in others[:1] for c in _conditions(eliminated.once(other))]
-    found: dict[tuple[float, ...], Cusp] = {}
+    result: dict[tuple[float, ...], Cusp] = {}
     for F in curves:
         others = [c for c in conditions if c.gcd(F).is_constant()]
         if others and F.degrees()[3] > 0 and lead.gcd(F).is_constant():
             for cusp in _on_curve(family, R, eliminated, F, others, lead, more):
-                found.setdefault(tuple(round(v, 12) for v in cusp.at), cusp)
-    return sorted(found.values())
+                result.setdefault(tuple(round(v, 12) for v in cusp.at), cusp)
+    return sorted(result.values())
 
 
 def _conditions(R: fmpq_mpoly) -> tuple[fmpq_mpoly, fmpq_mpoly]:
@@ -215,16 +215,17 @@ def plane(family: Family, borders: bool = False) -> Plane:
                          "words; over two there is nothing to draw")
     eliminated = Eliminated(family, system)
     curves = eliminated.critical
-    found = cuts(_projected(family, curves), family.spans[0].low, family.spans[0].high)
-    if len(found) > MAX_STRIPS:
-        raise InputError(f"the curves of these ranges turn and meet at {len(found)} values; at most {MAX_STRIPS} "
+    out = cuts(_projected(family, curves), family.spans[0].low, family.spans[0].high)
+    if len(out) > MAX_STRIPS:
+        raise InputError(f"the curves of these ranges turn and meet at {len(out)} values; "
+                         f"at most {MAX_STRIPS} "
                          "are followed: narrow the ranges")
     strips = []
-    for gap in gaps(found, family.spans[0].low, family.spans[0].high):
+    for gap in gaps(out, family.spans[0].low, family.spans[0].high):
         if gap:
             line = diagram(fixed(family, 0, gap.sample), borders)
             strips.append(Strip(*gap, line, tuple(_arc(curves, gap.sample, event) for event in line.events)))
-    walls = [wall for cut in found for wall in _walls(family, borders, cut, curves, strips)]
+    walls = [wall for cut in out for wall in _walls(family, borders, cut, curves, strips)]
     return Plane(family, kind, counted, curves, tuple(strips), tuple(walls),
                  tuple(cusps(family, eliminated, curves)), remarks)
 
@@ -269,10 +270,10 @@ def _arc(curves: Sequence[fmpq_mpoly], sample: Fraction, event: Event) -> Arc:
 def _rank(there: fmpq_poly, own: fmpq_poly, index: int, digits: Digits) -> int:
     """The place of a root of `own` among the real roots of `there`."""
     root = real_roots_of(own)[index][0]
-    near = [k for k, (ball, _) in enumerate(real_roots_of(there)) if ball.overlaps(root)]
-    if len(near) != 1:
+    nearby = [k for k, (ball, _) in enumerate(real_roots_of(there)) if ball.overlaps(root)]
+    if len(nearby) != 1:
         raise Unclear
-    return near[0]
+    return nearby[0]
 
 
 def _walls(family: Family, borders: bool, cut: Cut, curves: Sequence[fmpq_mpoly],
@@ -291,14 +292,14 @@ def _walls(family: Family, borders: bool, cut: Cut, curves: Sequence[fmpq_mpoly]
     return out
 
 
-def rows(found: Plane, strip: Strip, points: int = 40) -> tuple[list[float], list[list[float]]]:
+def rows(result: Plane, strip: Strip, points: int = 40) -> tuple[list[float], list[list[float]]]:
     """(values of p, q along each arc at these) inside a strip: closer towards its ends, where curves turn
     back. Each q is a certified root."""
     values: list[float] = []
     arcs: list[list[float]] = [[] for _ in strip.arcs]
     for p in spread(Fraction(strip.low), Fraction(strip.high), points, 10**7):
         try:
-            q = [_q_of(found.curves[arc.curve], p, arc.root) for arc in strip.arcs]
+            q = [_q_of(result.curves[arc.curve], p, arc.root) for arc in strip.arcs]
         except Unclear:
             continue
         values.append(float(p))
@@ -307,22 +308,22 @@ def rows(found: Plane, strip: Strip, points: int = 40) -> tuple[list[float], lis
     return values, arcs
 
 
-def count_at(found: Plane, p: Fraction, q: Fraction) -> int:
+def count_at(result: Plane, p: Fraction, q: Fraction) -> int:
     """How many equilibria there are at a place off every curve, by the curves below it alone. Raises
     InputError where no strip holds p."""
-    strip = next((s for s in found.strips if s.low < p < s.high), None)
+    strip = next((s for s in result.strips if s.low < p < s.high), None)
     if strip is None:
         raise InputError(f"p = {float(p)!r} lies outside the range, or at the end of a strip")
-    low = float(found.family.spans[1].low)
+    low = float(result.family.spans[1].low)
     events = [(arc, event) for arc, event in zip(strip.arcs, strip.line.events) if event.value != low]
-    below = sum(_q_of(found.curves[arc.curve], p, arc.root) < q for arc, _ in events)
+    below = sum(_q_of(result.curves[arc.curve], p, arc.root) < q for arc, _ in events)
     return strip.line.pieces[min(below, len(strip.line.pieces) - 1)].count
 
 
 def _q_of(F: fmpq_mpoly, p: Fraction, index: int) -> float:
     def root(digits: Digits) -> float:
-        found = real_roots_of(univariate(at_rational(F, (p,)), 3))
-        if index >= len(found):
+        result = real_roots_of(univariate(at_rational(F, (p,)), 3))
+        if index >= len(result):
             raise Unclear
-        return float(found[index][0].mid())
+        return float(result[index][0].mid())
     return settled(root, most=1024)

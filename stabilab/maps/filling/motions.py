@@ -66,12 +66,12 @@ class Rows:
             return extremes_and_periods(scene, self.states, box=box, period=times,
                                         by_numba=len(self.states) >= COMPILED)
         try:
-            found = rows.extremes(scene, self.states, reach_of(self.case.span)) if box else None
+            result = rows.extremes(scene, self.states, reach_of(self.case.span)) if box else None
         except InputError:
             if not KINDS[kind].follows:
                 raise
-            found = np.full((*self.states.shape, 2), np.nan)  # no state of this scene has bounds
-        return found, rows.periods(scene, self.states) if times else None
+            result = np.full((*self.states.shape, 2), np.nan)  # no state of this scene has bounds
+        return result, rows.periods(scene, self.states) if times else None
 
 
 of_many = Rows
@@ -92,11 +92,11 @@ def depart(case: Case, states: np.ndarray) -> np.ndarray:
         form, x = twin.quadratic(), states.T
         J = form.jacobian([*x], np.ones(len(states)))
         m, n = (np.asarray(v, float) for v in invariants_of(J))
-        open_, found = (m == 0) | (n == 0) & (m > 0) & (form.m != (0, 0, 0)), (n != 0) | (m < 0)
+        open_, result = (m == 0) | (n == 0) & (m > 0) & (form.m != (0, 0, 0)), (n != 0) | (m < 0)
     else:
-        found = open_.copy()
-    for row in np.nonzero(open_ & ~found if twin.plain else open_)[0].tolist():
+        result = open_.copy()
+    for row in np.nonzero(open_ & ~result if twin.plain else open_)[0].tolist():
         here = replace(case, state=tuple(states[row].tolist()))
         stability = motion(here.scene, here.start, needs=Needs.FATE).stability
-        found[row] = stability is not None and not stability.stable
-    return found
+        result[row] = stability is not None and not stability.stable
+    return result

@@ -78,14 +78,14 @@ def grid(land, strips, shape) -> Grid:
     """The graded loops of strips, pairs (branch, side), in the shape (rows, columns of a half)."""
     parts, rows = _whole_parts(land, strips)
     columns = np.broadcast_to(np.linspace(0, 1, TRIAL), rows.shape)
-    made, edge = measured_loops(land, parts, rows, columns)
-    forms = _Forms(land, made, parts, edge)
+    built, edge = measured_loops(land, parts, rows, columns)
+    forms = _Forms(land, built, parts, edge)
     placed = [forms.placed(k, rows[k], columns[k], shape) for k in range(len(parts))]
-    made, edge = measured_loops(land, parts, *map(np.array, zip(*placed)))
-    forms = _Forms(land, made, parts, edge)
+    built, edge = measured_loops(land, parts, *map(np.array, zip(*placed)))
+    forms = _Forms(land, built, parts, edge)
     strays = np.array([forms.strays(1), forms.strays(-1)])
     best = int(np.argmin(strays.max(axis=1)))
-    return Grid(made, (1, -1)[best], strays[best], parts)
+    return Grid(built, (1, -1)[best], strays[best], parts)
 
 
 def _whole_parts(land, strips):
@@ -110,20 +110,20 @@ def measured_loops(land: ConicLandscape, parts: Sequence[Part], s: np.ndarray, u
     more = np.concatenate([s[:, :1], 0.5 * (s[:, :1] + s[:, 1:2]), s[:, 1:-1],
                            0.5 * (s[:, -2:-1] + s[:, -1:]), s[:, -1:]], axis=1)
     all_ = loops(land, parts, np.array([part.rows(row) for part, row in zip(parts, more)]), u)
-    kept = np.delete(np.arange(more.shape[1]), (1, -2))
-    return all_.at_rows(kept), np.array([_sag(all_, 0, 1, 2), _sag(all_, -1, -2, -3)])
+    retained = np.delete(np.arange(more.shape[1]), (1, -2))
+    return all_.at_rows(retained), np.array([_sag(all_, 0, 1, 2), _sag(all_, -1, -2, -3)])
 
 
 def _sag(loops: Loops, first: int, between: int, last: int):
     """(k,) how far the chords from the row `first` to `last` stray from the branch, by the row in between."""
     before, middle, after = (loops.points[:, row] for row in (first, between, last))
-    chord, way = (after - before)[:, 1:-1], (middle - before)[:, 1:-1]
+    chord, route = (after - before)[:, 1:-1], (middle - before)[:, 1:-1]
     normal = np.cross(chord, middle[:, 2:] - middle[:, :-2])
     size = np.maximum(np.linalg.norm(normal, axis=-1), np.finfo(float).tiny)
-    part = np.sum(way * chord, axis=-1) / np.maximum(np.sum(chord * chord, axis=-1), np.finfo(float).tiny)
+    part = np.sum(route * chord, axis=-1) / np.maximum(np.sum(chord * chord, axis=-1), np.finfo(float).tiny)
     # of the chord, where the row in between passes; the sag is largest at a half
     part = np.clip(part, 0.1, 0.9)
-    sag = np.abs(np.sum(way * normal, axis=-1)) / size / (4 * part * (1 - part))
+    sag = np.abs(np.sum(route * normal, axis=-1)) / size / (4 * part * (1 - part))
     return np.where(loops.found[:, (first, between, last)].all(axis=1), sag.max(axis=1), 0.0)
 
 
@@ -140,8 +140,8 @@ def shrinks(land, branch, side) -> bool:
     """Whether the loop on one side of a saddle shrinks to a point at the fold: it does around the well that
     the saddle meets there, on the side where the force's slope falls. The loop on the other side, of a figure
     eight, keeps its size."""
-    if (told := shrinks_far(land, branch, side)) is not None:
-        return told
+    if (printed := shrinks_far(land, branch, side)) is not None:
+        return printed
     pot, fold = land.potential, branch.place(0.0)
     ahead, behind = (pot.slope(pot.move(fold, side * y)) for y in (FOLD_WIDTH, -FOLD_WIDTH))
     return not ahead - behind > FOLD_WIDTH * FOLD_WIDTH * pot.terms(fold)
@@ -179,12 +179,12 @@ def _stretched(land, branch, dense=DENSE):
     """(lengths, parameters s) along a branch: a length grows with the way near the fold, and with its
     logarithm far out."""
     s = 0.5 - 0.5 * np.cos(np.linspace(0, np.pi, dense))
-    place = np.broadcast_arrays(*branch.place(s))
-    way = np.zeros(dense)
-    np.cumsum(np.hypot(np.diff(place[0]), np.diff(place[1])), out=way[1:])
-    q = land.invariant((place[0][[0, -1]], place[1][[0, -1]]))
-    start = max(UNIFORM * np.sqrt(abs(q[0])), 0.03 * way[-1])
-    return np.log1p(way / start), s
+    location = np.broadcast_arrays(*branch.place(s))
+    route = np.zeros(dense)
+    np.cumsum(np.hypot(np.diff(location[0]), np.diff(location[1])), out=route[1:])
+    q = land.invariant((location[0][[0, -1]], location[1][[0, -1]]))
+    start = max(UNIFORM * np.sqrt(abs(q[0])), 0.03 * route[-1])
+    return np.log1p(route / start), s
 
 
 # --- Grids within an accuracy
@@ -206,23 +206,23 @@ def grids_within(land, strips, accuracy) -> list[Grid]:
     """A grid for each strip, a pair (branch, side), or for each part of one that is cut at a seam, with as
     few rows and columns as keep facets within `accuracy` of the branches."""
     parts, rows = trial_parts(land, tuple(strips))
-    todo, found = {n: (row, np.linspace(0, 1, TRIAL)) for n, row in enumerate(rows)}, {}
+    todo, result = {n: (row, np.linspace(0, 1, TRIAL)) for n, row in enumerate(rows)}, {}
     for attempt in range(ROUNDS):
         following = {}
         for group in _groups(todo):
             s, u = (np.array([todo[n][axis] for n in group]) for axis in (0, 1))
-            made, edge = measured_loops(land, [parts[n] for n in group], s, u)
-            forms = _Forms(land, made, [parts[n] for n in group], edge)
+            built, edge = measured_loops(land, [parts[n] for n in group], s, u)
+            forms = _Forms(land, built, [parts[n] for n in group], edge)
             strays = np.array([forms.strays(1), forms.strays(-1)])
             for k, n in enumerate(group):
                 best = int(strays[:, k].argmin())
                 if attempt and (strays[best, k] <= accuracy or min(s.shape[1], u.shape[1]) == MAX_ROWS
                                 or attempt == ROUNDS - 1):
-                    found[n] = Grid(made.of(k), (1, -1)[best], strays[best, k:k + 1], [parts[n]])
+                    result[n] = Grid(built.of(k), (1, -1)[best], strays[best, k:k + 1], [parts[n]])
                 else:
                     following[n] = forms.graded(k, s[k], u[k], accuracy, attempt)
         todo = following
-    return [found[n] for n in range(len(parts))]
+    return [result[n] for n in range(len(parts))]
 
 
 def _groups(todo: dict[int, tuple[np.ndarray, np.ndarray]]):
@@ -243,9 +243,9 @@ def _groups(todo: dict[int, tuple[np.ndarray, np.ndarray]]):
 
 def _waste(todo: Mapping[int, tuple[np.ndarray, np.ndarray]], group: Sequence[int], n: int):
     """Points that are computed in vain where the strip n joins a group."""
-    rows, columns = (max(len(todo[one][axis]) for one in (*group, n)) for axis in (0, 1))
-    return (len(group) + 1) * rows * columns - sum(len(todo[one][0]) * len(todo[one][1])
-                                                   for one in (*group, n))
+    rows, columns = (max(len(todo[item][axis]) for item in (*group, n)) for axis in (0, 1))
+    return (len(group) + 1) * rows * columns - sum(len(todo[item][0]) * len(todo[item][1])
+                                                   for item in (*group, n))
 
 
 def _refined(at: np.ndarray, number: int):
@@ -260,15 +260,15 @@ def _gathered(c: np.ndarray, axis: int):
     which there is one more at either end along the axis: bends of a bell's shape stray by 1.2, 1.6, 2.6 and
     at most 4 times as much where those beyond are 0.4, 0.09, 0.013 and 0 of these."""
     c = np.moveaxis(c, axis, -1)
-    share = np.minimum((c[..., :-3] + c[..., 3:]) / np.maximum(c[..., 1:-2] + c[..., 2:-1], SMALL), 1.0)
-    return np.moveaxis(1 + 3 * (1 - share * share) / (1 + 35 * share), -1, axis)
+    fraction = np.minimum((c[..., :-3] + c[..., 3:]) / np.maximum(c[..., 1:-2] + c[..., 2:-1], SMALL), 1.0)
+    return np.moveaxis(1 + 3 * (1 - fraction * fraction) / (1 + 35 * fraction), -1, axis)
 
 
-def _rims(made: Loops, r: np.ndarray, parts: Sequence[Part]):
+def _rims(built: Loops, r: np.ndarray, parts: Sequence[Part]):
     """(k, m - 1) how far edges stray from the outline of a branch, in the branch too, where it ends, from
     grids r (k, n, m + 1, 3): in the first row, a point or a rim, and in the last one; only a share `RIM` of
     that where `reach` cuts off a branch that goes on."""
-    first, last = (_along(r[:, row], np.ones((len(r), r.shape[2]), bool) & made.found[:, row, None])[:, :-1]
+    first, last = (_along(r[:, row], np.ones((len(r), r.shape[2]), bool) & built.found[:, row, None])[:, :-1]
                    for row in (0, -1))
     last[[part.seam <= 0 and part.branch.far == OPEN for part in parts]] *= RIM
     for strays, seam in ((first, -1), (last, 1)):
@@ -276,18 +276,18 @@ def _rims(made: Loops, r: np.ndarray, parts: Sequence[Part]):
         strays[[part.seam == seam and not part.over for part in parts], -1] = 0
     strays = np.maximum(first, last)
     # without torque: the edges of loops from saddle to saddle follow no outline
-    strays[made.shared.any(axis=1)] = 0
+    strays[built.shared.any(axis=1)] = 0
     return strays
 
 
-def _along(r: np.ndarray, found: np.ndarray):
+def _along(r: np.ndarray, result: np.ndarray):
     """(k, n - 1) how far the edges between points r (k, n, 3) of curves stray from them, by curvatures and
     lengths of edges."""
     step = np.diff(r, axis=1)
     size = np.maximum(np.linalg.norm(step, axis=-1), TINY)
-    whole = found[:, 2:] & found[:, 1:-1] & found[:, :-2]
-    way = step / size[..., None]
-    bend = np.where(whole, 2 * np.linalg.norm(np.cross(way[:, 1:], way[:, :-1]),
+    full = result[:, 2:] & result[:, 1:-1] & result[:, :-2]
+    route = step / size[..., None]
+    bend = np.where(full, 2 * np.linalg.norm(np.cross(route[:, 1:], route[:, :-1]),
                                               axis=-1) / (size[:, 1:] + size[:, :-1]), 0.0)
     bend = np.concatenate([np.abs(_before(bend[:, 0], bend[:, 1 if bend.shape[1] > 1 else 0]))[:, None], bend,
                            bend[:, -1:]], axis=1)
@@ -369,11 +369,11 @@ class _Forms:
         shapes, safety = [], SAFETY ** (attempt + 1)
         for mix in MIXTURES:
             p, t = mix * c, r[:, None]
-            least = max((across / p**2).max(), (along / r**2).max())
+            smallest = max((across / p**2).max(), (along / r**2).max())
             quads = self.quad_u[k] / p**2, self.quad_s[k] / t**2, self.twist[k] / (p * t), self.more_u[
                 k] / p**2 + self.more_s[k] / t**2
             for cut in (1, -1):
-                size = safety * np.sqrt(max(least, _facets(*quads, cut).max()) / accuracy)
+                size = safety * np.sqrt(max(smallest, _facets(*quads, cut).max()) / accuracy)
                 shapes.append((size * r.sum() + 1, size * p.sum() + 1))
         rows, columns = min(shapes, key=lambda shape: shape[0] * shape[1])
         less = min(np.sqrt(GROW * len(s) * len(u) / (rows * columns)), 1.0)
@@ -381,18 +381,18 @@ class _Forms:
         return _placed(r, s, rows), _placed(c, u, columns)
 
 
-def _normals(made: Loops, down: np.ndarray, across: np.ndarray):
+def _normals(built: Loops, down: np.ndarray, across: np.ndarray):
     """(3, k, n, m) unit normals of grids at their vertices; 0 where neighbouring rows have no loop, and at a
     far end that is a saddle, a corner and no bend."""
     a = np.concatenate([2 * down[:, :, :1], down[:, :, 1:] + down[:, :, :-1], 2 * down[:, :, -1:]], axis=2)
     b = np.concatenate([2 * across[..., :1], across[..., 1:] + across[..., :-1]], axis=3)
     normal = np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
-    whole = made.found.copy()
-    whole[:, 1:] &= made.found[:, :-1]
-    whole[:, :-1] &= made.found[:, 1:]
-    normal *= whole[:, :, None] / np.maximum(np.sqrt(_dot(normal, normal)), TINY)
-    if made.shared.any():
-        normal[:, made.shared, -1] = 0
+    full = built.found.copy()
+    full[:, 1:] &= built.found[:, :-1]
+    full[:, :-1] &= built.found[:, 1:]
+    normal *= full[:, :, None] / np.maximum(np.sqrt(_dot(normal, normal)), TINY)
+    if built.shared.any():
+        normal[:, built.shared, -1] = 0
     return normal
 
 
@@ -466,8 +466,8 @@ def _separatrix(scene: AnyScene, reach: float | None, shape: Sequence[int] | Non
     strips = [(branch, side) for branch in branches for side, _ in land.conic.sides(land.sense)]
     rows, columns = shape or SHAPE
     half = None if accuracy else (rows, columns // 2 + 1)
-    made = _by_arrays(land, strips, half, accuracy)
-    return Separatrix(tuple(_branches(land, made)), reason=what_it_parts(land.potential, land.sense))
+    built = _by_arrays(land, strips, half, accuracy)
+    return Separatrix(tuple(_branches(land, built)), reason=what_it_parts(land.potential, land.sense))
 
 
 def _check(reach, shape, accuracy):
@@ -493,8 +493,8 @@ def _by_arrays(land, strips, shape, accuracy):
     cut, error)] of every strip or part of one: the second half of a loop mirrors the first, with W of the
     other sign."""
     out = []
-    for made in grids_within(land, strips, accuracy) if accuracy else [grid(land, strips, shape)]:
-        loops, mirror, axis = made.loops, slice(-2, None, -1), land.reduction.axis
+    for built in grids_within(land, strips, accuracy) if accuracy else [grid(land, strips, shape)]:
+        loops, mirror, axis = built.loops, slice(-2, None, -1), land.reduction.axis
         points = np.concatenate([loops.points, loops.points[:, :, mirror]], axis=2)
         back = points[:, :, loops.w.shape[2]:, axis]
         back *= -1
@@ -502,20 +502,20 @@ def _by_arrays(land, strips, shape, accuracy):
         off = residual(land, loops)
         off = np.concatenate([off, off[:, :, mirror]], axis=2)
         out += [(part, points[k], off[k], loops.saddle_state[k], loops.centre_state[k],
-                 land.invariant(loops.saddle[:, k]), loops.found[k], made.cut,
-                 made.error[k]) for k, part in enumerate(made.parts)]
+                 land.invariant(loops.saddle[:, k]), loops.found[k], built.cut,
+                 built.error[k]) for k, part in enumerate(built.parts)]
     return out
 
 
-def _branches(land, made):
+def _branches(land, built):
     """A Branch of every strip, or part of one, in which loops close."""
-    words = dict(land.conic.sides(land.sense))
-    for number, branch in enumerate(dict.fromkeys(one[0].branch for one in made), 1):
-        kept = [one for one in made if one[0].branch is branch and np.count_nonzero(one[6]) > 1]
-        several = len({one[0].side for one in kept}) > 1
-        for part, points, off, saddle, centre, invariant, found, cut, error in kept:
-            rows = found if not found.all() else slice(None)
-            side, piece = words[part.side] if several else "", f", part {part.number}" if part.number else ""
+    text = dict(land.conic.sides(land.sense))
+    for number, branch in enumerate(dict.fromkeys(item[0].branch for item in built), 1):
+        retained = [item for item in built if item[0].branch is branch and np.count_nonzero(item[6]) > 1]
+        several = len({item[0].side for item in retained}) > 1
+        for part, points, off, saddle, centre, invariant, result, cut, error in retained:
+            rows = result if not result.all() else slice(None)
+            side, piece = text[part.side] if several else "", f", part {part.number}" if part.number else ""
             name = f"branch {number}{side}{piece}"
             yield Branch(name, points[rows], off[rows], saddle[rows], centre[rows], invariant[rows],
                          float(error), cut)

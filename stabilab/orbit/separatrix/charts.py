@@ -167,8 +167,8 @@ class HyperbolaChart(Chart):
 
     def halves(self, y: arb, dy: float):
         """Next to xi = 0 the sizes of xi count."""
-        least = float((y - dy).mid())
-        power = round(math.log2(least / (least + 2 * dy)) / 2 - 0.5) if least > 0 else -8
+        smallest = float((y - dy).mid())
+        power = round(math.log2(smallest / (smallest + 2 * dy)) / 2 - 0.5) if smallest > 0 else -8
         return halves(y, dy, 2.0 ** min(power, -1))
 
     def holds(self, t: arb, y: arb):
@@ -184,43 +184,43 @@ class HyperbolaChart(Chart):
         low, high = ends_of(y)
         if r * self.sign < 0:  # orbits do not cross a plane
             return None
-        xi, known = y * self.sign, y > 0
-        eta = r * E / xi if known else None
-        least, most_eta = ends_of(eta) if known else (-INF, INF)
-        least, most_eta = max(least, 0.0 if E > 0 else -high), min(most_eta, 0.0 if E < 0 else high)
-        if least > most_eta:
+        xi, resolved = y * self.sign, y > 0
+        eta = r * E / xi if resolved else None
+        smallest, most_eta = ends_of(eta) if resolved else (-INF, INF)
+        smallest, most_eta = max(smallest, 0.0 if E > 0 else -high), min(most_eta, 0.0 if E < 0 else high)
+        if smallest > most_eta:
             return None
-        about, half = 0.5 * (least + most_eta), 0.5 * (most_eta - least) * (1 + SLACK)
+        about, half = 0.5 * (smallest + most_eta), 0.5 * (most_eta - smallest) * (1 + SLACK)
         apart = self._least_apart(xi, arb(about, half))
         if apart > most:
             return None
-        near, far = self.curve.logarithms(t, r)
+        close, far = self.curve.logarithms(t, r)
         low_log, high_log, (fallen, risen) = _log(low), _log(high), logarithms(abs(E))
         # of the offset log(xi/r) = log(E/eta)
-        start, end = max(low_log - far, fallen - high_log), high_log - near
+        start, end = max(low_log - far, fallen - high_log), high_log - close
         # a `LoopChart` has what is near a saddle
         if start > end or -OFFSET_CHART <= start and end <= OFFSET_CHART:
             return None
         within = arb(self.sign * (low + high) / 2, (high - low) / 2)
-        least, most = ends_of(self._height(within, arb(about, half)) - self._height(r, E))
+        smallest, most = ends_of(self._height(within, arb(about, half)) - self._height(r, E))
         if self.torque:
             offsets = self.torque * start, self.torque * end
-            least, most = least + min(offsets), most + max(offsets)
-        parts = (r, E, *slopes, xi, eta) if known and (r * self.sign > 0 or not self.torque) else None
-        if known:
+            smallest, most = smallest + min(offsets), most + max(offsets)
+        parts = (r, E, *slopes, xi, eta) if resolved and (r * self.sign > 0 or not self.torque) else None
+        if resolved:
             # far along a loop xi alone counts
             side = 1 if self.curve.open and half < 0.02 * (high - low) and high_log - low_log > 1 else 0
         else:  # until the box is small beside the way to the state, then until r and E do not vanish
-            vanish = any(low == -INF and most > high_log - 8 for low, most in ((near, far), (fallen, risen)))
+            vanish = any(low == -INF and top > high_log - 8 for low, top in ((close, far), (fallen, risen)))
             side = 0 if self.torque and high < 0.01 * self.far and vanish else 1
-        return Ranges(apart, self._scaled(least, most), parts, side)
+        return Ranges(apart, self._scaled(smallest, most), parts, side)
 
-    def _scaled(self, least: float, most: float):
+    def _scaled(self, smallest: float, largest: float):
         """Of n^2 W^2/2 those of W^2."""
-        k, off = self.g["rate"], SLACK * (abs(least) + abs(most))
+        k, off = self.g["rate"], SLACK * (abs(smallest) + abs(largest))
         if off < INF:
-            return k * (least - off), k * (most + off)
-        return k * least if least == least else -INF, k * most if most == most else INF
+            return k * (smallest - off), k * (largest + off)
+        return k * smallest if smallest == smallest else -INF, k * largest if largest == largest else INF
 
     def _least_apart(self, xi, eta):
         """The least R over ranges of xi and eta."""
@@ -293,8 +293,8 @@ def logarithms(size: arb):
     from flint import arb
     if size > 0:
         return ends_of(size.log())
-    most = arb(size.upper())
-    return -INF, ends_of(most.log())[1] if most > 0 else -INF
+    largest = arb(size.upper())
+    return -INF, ends_of(largest.log())[1] if largest > 0 else -INF
 
 
 def _log(v: float):
@@ -412,9 +412,9 @@ class Logarithmic:
             return logarithms(abs(r))
         s = (-t).exp() * self.side
         slope, bend = self.curve.at(s.union(0 * s))[2::2]
-        (least, most), (low, high) = logarithms(abs(bend / 2 if self.curve.touches else slope)), ends_of(t)
+        (smallest, top), (low, high) = logarithms(abs(bend / 2 if self.curve.touches else slope)), ends_of(t)
         order = 2 if self.curve.touches else 1
-        return least - order * high, most - order * low
+        return smallest - order * high, top - order * low
 
     def at(self, t: arb):
         s = (-t).exp() * self.side

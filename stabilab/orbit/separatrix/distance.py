@@ -104,13 +104,13 @@ class _Seen:
         G, c, d, mu, cross = g["G"], g["c"], g["d"], g["mu"], None
         if not G:
             square = c * c + d * d
-            base, way = (-mu * d / square, -mu * c / square), (-c, d)
+            base, route = (-mu * d / square, -mu * c / square), (-c, d)
         elif line.dz:
-            base, way, cross = (-c / G, Fraction(0)), (Fraction(0), Fraction(1)), -d / G
+            base, route, cross = (-c / G, Fraction(0)), (Fraction(0), Fraction(1)), -d / G
         else:
-            base, way, cross = (Fraction(0), -d / G), (Fraction(1), Fraction(0)), -c / G
+            base, route, cross = (Fraction(0), -d / G), (Fraction(1), Fraction(0)), -c / G
         # Q = bend t^2 + 2 tilt t + Q0
-        bend, tilt = way[1] ** 2 - e * way[0] ** 2, base[1] * way[1] - e * base[0] * way[0]
+        bend, tilt = route[1] ** 2 - e * route[0] ** 2, base[1] * route[1] - e * base[0] * route[0]
         foot, Q0 = -tilt / bend if bend else Fraction(0), base[1] ** 2 - e * base[0] ** 2
         if bend:
             wide = math.sqrt((reach * reach + abs(float(Q0 - bend * foot * foot))) / abs(float(bend)))
@@ -118,9 +118,9 @@ class _Seen:
             wide = (reach * reach + abs(float(Q0))) / abs(float(2 * tilt)) if tilt else reach
         knots = sorted({foot, *([cross] if cross is not None else [])})
         far = Fraction(WIDER * wide + 1e-300) + max(abs(t - foot) for t in knots)
-        curve = Straight(tuple(map(ball, base)), tuple(map(ball, way)))
+        curve = Straight(tuple(map(ball, base)), tuple(map(ball, route)))
         for low, high in pairwise((foot - far, *knots, foot + far)):
-            x, z = (p + (low + high) / 2 * q for p, q in zip(base, way))
+            x, z = (p + (low + high) / 2 * q for p, q in zip(base, route))
             if low < high and slope_at(G, c, d, e, x, z) > 0:
                 yield curve, ball(low), ball(high)
 
@@ -140,21 +140,21 @@ class _Seen:
 
 def _on_circles(numbers: Digits, reduction: Reduction, state: Sequence[float | Fraction],
                 held: bool) -> Apart:
-    seen = _Seen(numbers, reduction, state)
-    hidden = Shade(seen.reduction) if held else None
+    noted = _Seen(numbers, reduction, state)
+    hidden = Shade(noted.reduction) if held else None
     for number in (SAMPLES, 16 * SAMPLES):
-        first = min(seen.first_points(4 * seen.size + seen.w, number, hidden), key=_first, default=None)
+        first = min(noted.first_points(4 * noted.size + noted.w, number, hidden), key=_first, default=None)
         if first or not hidden:
             break
     if first is None:
         return NO_SEPARATRIX
     if first[0] == 0:  # at the end of a branch
         return Apart(0.0, 0.0, _three(state))
-    reach = (seen.size + first[0] / math.sqrt(seen.g["least"])) * WIDER
+    reach = (noted.size + first[0] / math.sqrt(noted.g["least"])) * WIDER
     turn = TURN * WIDER
     ends = tuple(map(numbers.ball, (-turn, 0) if reduction.sense else (-turn / 2, turn / 2)))
-    charts = [LoopChart(seen.g, curve, (low, high), ends, -1) for curve, low, high in seen.branches(reach)]
-    return _answer(seen, state, Search(seen.g["w"], first[0], hidden), charts, first[1])
+    charts = [LoopChart(noted.g, curve, (low, high), ends, -1) for curve, low, high in noted.branches(reach)]
+    return _answer(noted, state, Search(noted.g["w"], first[0], hidden), charts, first[1])
 
 
 def _three(rates: Sequence[float | Fraction]):
@@ -168,10 +168,10 @@ def _first(point: tuple[float, tuple[arb, arb, float]]):
 
 def _on_hyperbolas(numbers: Digits, reduction: Reduction, state: Sequence[float | Fraction],
                    held: bool) -> Apart:
-    seen = _Seen(numbers, reduction, state)
-    g, plain = seen.g, seen.plain
+    noted = _Seen(numbers, reduction, state)
+    g, plain = noted.g, noted.plain
     flat = [] if reduction.sense else _flat_pieces(plain)
-    first = min([*seen.first_points(4 * seen.size + seen.w), *flat], key=_first, default=None)
+    first = min([*noted.first_points(4 * noted.size + noted.w), *flat], key=_first, default=None)
     if first is None:
         return NO_SEPARATRIX
     if first[0] == 0:
@@ -179,31 +179,31 @@ def _on_hyperbolas(numbers: Digits, reduction: Reduction, state: Sequence[float 
     wide = first[0] * sum(1 / math.sqrt(plain[name]) for name in "ab") * WIDER
     # of the window about the state
     reach = math.sqrt(math.prod(abs(plain["X"] + flip * plain["Z"]) + wide for flip in (1, -1)))
-    near: tuple = (numbers.ball(-OFFSET_CHART), numbers.ball(OFFSET_CHART))
+    nearby: tuple = (numbers.ball(-OFFSET_CHART), numbers.ball(OFFSET_CHART))
     charts: list[Chart] = []
-    for curve, low, high in seen.branches(reach):
-        charts.append(LoopChart(g, curve, (low, high), near, 1))
+    for curve, low, high in noted.branches(reach):
+        charts.append(LoopChart(g, curve, (low, high), nearby, 1))
         for flip in (1, -1):
             xi0 = g["X"] + g["Z"] * flip
-            for along, ends in _about_planes(seen, curve, low, high, flip, first[0] + seen.w, reach + wide):
+            for along, ends in _about_planes(noted, curve, low, high, flip, first[0] + noted.w, reach + wide):
                 for sign in (1, -1):
                     y = tuple(max(xi0 * sign + side * wide, numbers.ball(0)) for side in (-1, 1))
                     if y[1] > 0:
                         charts.append(HyperbolaChart(g, along, ends, y, sign, flip))
-    return _answer(seen, state, Search(g["w"], first[0]), charts, first[1])
+    return _answer(noted, state, Search(g["w"], first[0]), charts, first[1])
 
 
 def _flat_pieces(g: Mapping[str, float]):
     """[(distance, foot)] of the planes of a hyperbola without torque, where the foot of the perpendicular is
     on the separatrix."""
-    found = []
+    rows = []
     for flip in (1.0, -1.0):  # Z = flip X
         x = (g["a"] * g["X"] + flip * g["b"] * g["Z"]) / (g["a"] + g["b"])
         energy = g["w"] ** 2 / g["k"] - x * (0.5 * g["G"] * x + g["c"] + flip * g["d"])
         if energy >= 0:
             apart = abs(g["X"] - flip * g["Z"]) * math.sqrt(g["a"] * g["b"] / (g["a"] + g["b"]))
-            found.append((apart * (1 + FINE), (x - g["X"], flip * x - g["Z"], g["w"])))
-    return found
+            rows.append((apart * (1 + FINE), (x - g["X"], flip * x - g["Z"], g["w"])))
+    return rows
 
 
 def _about_planes(seen: _Seen, curve: Hyperbola, low: arb, high: arb, flip: int, fastest: float, size: float):
@@ -214,33 +214,33 @@ def _about_planes(seen: _Seen, curve: Hyperbola, low: arb, high: arb, flip: int,
     cuts = [low, *((a + b) / 2 for (a, _), (b, _) in pairwise(places)), high]
     if not plain["mu"]:
         return [(along, (low - at, high - at)) for at, along in places[:1]]
-    found = []
+    rows = []
     for n, (at, along) in enumerate(places):
         if along.r0 != 0:
             return [(along, (low - at, high - at))]
         left, right = max(cuts[n], low) - at, min(cuts[n + 1], high) - at
         for side, start, end in ((1, left, right), (-1, -right, -left)):
             if end > 0:
-                most = -start.log() if start > 0 else _longest(seen, along, end, fastest, size) - end.log()
-                found.append((Logarithmic(along, side), (-end.log(), most)))
-    return found
+                largest = -start.log() if start > 0 else _longest(seen, along, end, fastest, size) - end.log()
+                rows.append((Logarithmic(along, side), (-end.log(), largest)))
+    return rows
 
 
-def _longest(seen: _Seen, along: FromAnchor, end: arb, fastest: float, size: float):
+def _longest(visited: _Seen, along: FromAnchor, end: arb, fastest: float, size: float):
     """How far the logarithm of r/r(end) goes, beside a plane, at places that matter. With |eta| <= |xi| <=
     size an offset y = log(xi/r) = log(E/eta) is at least half of log(E/r), and beyond some y W is too great,
     or none is left."""
-    g, E, r = seen.plain, along.at(0 * end)[1], along.at(end)[0]
+    g, E, r = visited.plain, along.at(0 * end)[1], along.at(end)[0]
     G, e = abs(g["G"]), abs(g["c"]) + abs(g["d"])
     height = sum(G * v * v / 4 + e * v for v in (size, abs(double(E)[0])))
-    most = (fastest**2 / g["k"] + height) / g["mu"] + 64
-    return 2 * seen.numbers.ball(most * WIDER) + abs(abs(E / r).log())
+    largest = (fastest**2 / g["k"] + height) / g["mu"] + 64
+    return 2 * visited.numbers.ball(largest * WIDER) + abs(abs(E / r).log())
 
 
-def _zeros(seen, curve, flip):
+def _zeros(visited, curve, flip):
     """[(t, the curve by (r, E) from there)] of the places where r = x + flip z vanishes, in rising order;
     where it does not, of one place."""
-    g, zero = seen.g, seen.numbers.ball(0)
+    g, zero = visited.g, visited.numbers.ball(0)
     if isinstance(curve, Straight):
         along = curve.seen_along(flip)
         (r, E), (dr, dE) = along.base, along.direction
@@ -260,7 +260,7 @@ def _zeros(seen, curve, flip):
         falling = rising if touched else k / h
         return (h * sign).log(), FromAnchor(rising, falling, zero if exact else falling + rising - pull,
                                             falling - rising - (g["c"] - g["d"] * flip) / g["G"], touched)
-    touched = flip in planes_touched(seen.reduction)
+    touched = flip in planes_touched(visited.reduction)
     if touched:
         roots = [pull * flip / 2]
     elif square > 0:
@@ -273,26 +273,26 @@ def _zeros(seen, curve, flip):
     if not roots:  # from where r is stationary
         touched = False
         return [at((k * flip).sqrt() * sign if k * flip > 0 else zero + sign, False)]
-    return sorted((at(h) for h in roots), key=lambda place: float(place[0].mid()))
+    return sorted((at(h) for h in roots), key=lambda location: float(location[0].mid()))
 
 
-def _nearest(search: Search, charts: Sequence[Chart], place: tuple[Number, Number, float]):
+def _nearest(search: Search, charts: Sequence[Chart], location: tuple[Number, Number, float]):
     """(what a search found, (u, v, |W|) of its point in doubles); place: that of the first point."""
-    found = search.run(charts)
-    if found.at is not None:
-        chart, *at = found.at
-        place = *chart.place(*at), math.sqrt(max(float(chart.point(*at)[3].mid()), 0.0))
-    return found, tuple(v if isinstance(v, float) else float(v.mid()) for v in place)
+    result = search.run(charts)
+    if result.at is not None:
+        chart, *at = result.at
+        location = *chart.place(*at), math.sqrt(max(float(chart.point(*at)[3].mid()), 0.0))
+    return result, tuple(v if isinstance(v, float) else float(v.mid()) for v in location)
 
 
-def _answer(seen: _Seen, state: Sequence[float | Fraction], search: Search, charts: Sequence[Chart],
-            place: tuple[arb, arb, float]) -> Apart:
+def _answer(visited: _Seen, state: Sequence[float | Fraction], search: Search, charts: Sequence[Chart],
+            location: tuple[arb, arb, float]) -> Apart:
     """On circles and hyperbolas."""
-    found, (x, z, w) = _nearest(search, charts, place)
-    r, g, rates = seen.reduction, seen.reduction.constants, [0.0] * 3
+    result, (x, z, w) = _nearest(search, charts, location)
+    r, g, rates = visited.reduction, visited.reduction.constants, [0.0] * 3
     rates[r.j], rates[r.k] = float(state[r.j]) + g["flip"] * g["rx"] * x, float(state[r.k]) + g["rz"] * z
     rates[r.axis] = (1.0 if Fraction(state[r.axis]) + r.s >= 0 else -1.0) * w - float(r.s)
-    return Apart(found.lower, found.upper, _three(rates), None, found.boxes)
+    return Apart(result.lower, result.upper, _three(rates), None, result.boxes)
 
 
 class Shade:
@@ -324,15 +324,15 @@ class Shade:
         from flint import arb
         best = -INF
         for at, phi, off, slope_t in self._barriers(chart, t, y + dy):
-            known = chart.ranges(t + arb(0, dt), at, INF)
-            (bend, radius), *_ = chart.bends(known.parts)[1]
+            resolved = chart.ranges(t + arb(0, dt), at, INF)
+            (bend, radius), *_ = chart.bends(resolved.parts)[1]
             if phi + abs(slope_t) * dt + 0.5 * (abs(bend) + radius) * dt * dt + off < 0:
                 return INF
-            share = form.t / slope_t if slope_t else 0.0
-            if share > 0:  # points that count have phi >= 0 there, so this much may be taken off
+            fraction = form.t / slope_t if slope_t else 0.0
+            if fraction > 0:  # points that count have phi >= 0 there, so this much may be taken off
                 (tt, radius_tt), *rest = form.bends
-                best = max(best, Form(form.value - share * (phi + off), 0.0, form.y, [
-                    (tt - share * bend, radius_tt + share * radius), *rest]).least(dt, dy))
+                best = max(best, Form(form.value - fraction * (phi + off), 0.0, form.y, [
+                    (tt - fraction * bend, radius_tt + fraction * radius), *rest]).least(dt, dy))
             if best < search.goal and phi * phi < (slope_t * dt) ** 2 and dt < 0.1:
                 self._notch(search, chart, t, y, at)
         return best
@@ -340,10 +340,10 @@ class Shade:
     def _notch(self, search: Search, chart: LoopChart, t: arb, y: arb, at: arb):
         """Try the loop on which the two barriers are as high."""
         for _ in range(6):
-            near = [one for one in self._barriers(chart, t, min(at, y)) if (one[0] > 0) == (at > 0)]
-            if not near:
+            nearby = [item for item in self._barriers(chart, t, min(at, y)) if (item[0] > 0) == (at > 0)]
+            if not nearby:
                 return
-            at, phi, _, slope_t = min(near, key=lambda one: float(abs(one[0] - at).mid()))
+            at, phi, _, slope_t = min(nearby, key=lambda item: float(abs(item[0] - at).mid()))
             step = -phi / slope_t if slope_t else 0.0
             t = min(max(t + step, chart.t[0]), chart.t[1])
             if abs(step) < 1e-15 * (1 + abs(t)):
@@ -368,19 +368,19 @@ def _on_parabolas(numbers, reduction, state, held) -> Apart:
     sizes = [fold * 2 ** (n / 4 if n > 0 else n if not g["K"] else 0) for n in range(-8, 60)]
     starts = [((g["K"] / N - g["u"]) / g["kappa"], (N - g["v"]) / g["kappa"], 0.0)
               for N in (math.copysign(size, g["a"]) for size in sizes)]
-    upper, start = min((math.hypot(*one, w) * (1 + FINE), one) for one in starts)
+    upper, start = min((math.hypot(*item, w) * (1 + FINE), item) for item in starts)
     balls = {name: numbers.ball(value) for name, value in exact.items()} | {"sign": 1 if p0 > 0 else -1}
     t, y = (tuple(map(numbers.ball, pair)) for pair in _rectangle(g, upper))
     zero = numbers.ball(0)
     charts = [ParabolaChart(balls, None, t, side) for side in ((y[0], zero), (zero, y[1]))]
-    found, (first, second, turning) = _nearest(Search(numbers.ball(rate), upper), charts, start)
+    result, (first, second, turning) = _nearest(Search(numbers.ball(rate), upper), charts, start)
     if r.p:
         first, second = second, first
     rates = [0.0] * 3
     rates[r.j], rates[r.k] = (float(Fraction(state[axis]) + Fraction(more)) for axis, more in
                               ((r.j, first), (r.k, second)))
     rates[r.axis] = float((1 if state[r.axis] + r.s >= 0 else -1) * Fraction(turning) - r.s)
-    return Apart(found.lower, found.upper, _three(rates), None, found.boxes)
+    return Apart(result.lower, result.upper, _three(rates), None, result.boxes)
 
 
 def _rectangle(g: Mapping[str, float], upper: float):
@@ -391,12 +391,12 @@ def _rectangle(g: Mapping[str, float], upper: float):
     q2 = max(q_low * q_low, q_high * q_high)
     fold = (K * K / abs(a)) ** (1 / 3) * (1 - 1e-13)
     s_most = abs(K) / fold if fold else 0.0
-    most = v_most + 0.5 * (q2 + s_most * s_most) / abs(a)
-    least = fold if fold else most * 1e-40
-    reach = 2 * (math.sqrt(abs(a) * most) + s_most) / abs(kappa * a)  # phi >= 0 there
+    largest = v_most + 0.5 * (q2 + s_most * s_most) / abs(a)
+    smallest = fold if fold else largest * 1e-40
+    reach = 2 * (math.sqrt(abs(a) * largest) + s_most) / abs(kappa * a)  # phi >= 0 there
     span = (max(abs(q_low), abs(q_high)) + s_most) / abs(kappa * a)
     reach = min(reach, span) * WIDER
-    return (math.log(least), math.log(most)), (-reach, reach)
+    return (math.log(smallest), math.log(largest)), (-reach, reach)
 
 
 GEOMETRIES = {-1: _on_circles, 1: _on_hyperbolas, 0: _on_parabolas}
@@ -454,10 +454,10 @@ def distance_of(reduction: Reduction | None, state: Sequence[float | Fraction],
             return Apart(0.0, 0.0, _three(state))
         # only a state that a barrier holds sees which of two is higher
         held = bool(reduction.sense) and reduction.e < 0 and decide(orbit, FIRST_BITS).sign >= 0
-        found = settled(lambda numbers: GEOMETRIES[reduction.e](numbers, reduction, state, held), BITS,
+        result = settled(lambda numbers: GEOMETRIES[reduction.e](numbers, reduction, state, held), BITS,
                         MOST_BITS)
     except (Unclear, ArithmeticError, ValueError):  # the last: of a logarithm of what has vanished in doubles
         return UNKNOWN
-    if found.upper != found.upper or found.lower != found.lower:
+    if result.upper != result.upper or result.lower != result.lower:
         return UNKNOWN
-    return found if found.settled else found._replace(reason=ENDED)
+    return result if result.settled else result._replace(reason=ENDED)

@@ -108,17 +108,17 @@ LOST = 1e-4       # of a cubic's terms: a discriminant that is less may have the
 POLISH = 3        # steps of Newton's method
 
 
-def settled(pot: Circle, place: Sequence[float]):
+def settled(pot: Circle, location: Sequence[float]):
     """The place moved along its orbit to where the force vanishes, if that is near."""
     for _ in range(POLISH):
-        slope = pot.slope(place)
-        step = -pot.force(place) / slope if slope else 0.0
+        slope = pot.slope(location)
+        step = -pot.force(location) / slope if slope else 0.0
         if not abs(step) < 0.5:
             break
-        place = pot.move(place, step)
+        location = pot.move(location, step)
         if abs(step) < 1e-12:
             break
-    return place
+    return location
 
 
 def loop_end(pot: Circle | Hyperbola, sense: int, saddle: Sequence[float], side: int):
@@ -158,9 +158,9 @@ def loop_end(pot: Circle | Hyperbola, sense: int, saddle: Sequence[float], side:
     return end, centre, False
 
 
-def _terms(pot: Circle | Hyperbola, place: Sequence[float]):
+def _terms(pot: Circle | Hyperbola, location: Sequence[float]):
     """Size of the terms of the energy at a place of a circle."""
-    size = place[0] * place[0] + place[1] * place[1]
+    size = location[0] * location[0] + location[1] * location[1]
     return abs(pot.G) * size + pot.slopes * sqrt(size)
 
 
@@ -174,18 +174,18 @@ def others(pot, saddle, side):
         xi, eta = saddle
         quarter = 0.25 * pot.G
         b3, b0 = quarter * xi * xi, quarter * eta * eta
-        found = [side * log(t) for t in real_cubic(b3, b3 + pot.e1 * xi, b0 - pot.e2 * eta, b0) if t > 0]
+        rows = [side * log(t) for t in real_cubic(b3, b3 + pot.e1 * xi, b0 - pot.e2 * eta, b0) if t > 0]
     else:
         x, z = saddle
         along, across = pot.G * (z - x) * (z + x), pot.d * z - pot.c * x
         a0, a3 = along + across, -(pot.c * z + pot.d * x)
         a1, a2 = a3 - 4 * pot.G * x * z, across - along
         if abs(a0) > abs(a3):
-            found = [side * 2 * atan2(1.0, t) for t in real_cubic(a0, a1, a2, a3)]
+            rows = [side * 2 * atan2(1.0, t) for t in real_cubic(a0, a1, a2, a3)]
         else:
-            found = [side * 2 * atan(t) for t in real_cubic(a3, a2, a1, a0)]
-        found = [t + TURN if t < 0 else t for t in found]
-    return sorted(t for t in found if t > OWN)
+            rows = [side * 2 * atan(t) for t in real_cubic(a3, a2, a1, a0)]
+        rows = [t + TURN if t < 0 else t for t in rows]
+    return sorted(t for t in rows if t > OWN)
 
 
 def real_cubic(a: float, b: float, c: float, d: float):
@@ -209,10 +209,10 @@ def real_cubic(a: float, b: float, c: float, d: float):
         first, second, last = (_better(p, q, r, -2 * size * cos(angle) - third),
                                _better(p, q, r, -2 * size * cos(angle + TURN / 3) - third),
                                _better(p, q, r, -2 * size * cos(angle - TURN / 3) - third))
-        most = (first if abs(first) >= max(abs(second), abs(last)) else second if abs(second) >= abs(last)
+        largest = (first if abs(first) >= max(abs(second), abs(last)) else second if abs(second) >= abs(last)
                 else last)
-        if min(abs(first), abs(second), abs(last)) < SPREAD * abs(most):
-            return _beside_largest(p, q, r, most)
+        if min(abs(first), abs(second), abs(last)) < SPREAD * abs(largest):
+            return _beside_largest(p, q, r, largest)
         return first, second, last
     single = -copysign((abs(half) + sqrt(rest)) ** (1 / 3), half)
     only = _better(p, q, r, single + (square / single if single != 0 else 0.0) - third)

@@ -67,8 +67,8 @@ class Orbits:
     def moved(self, alpha: np.ndarray):
         """(omega_j, omega_k) at alpha (r, ...)."""
         S, C, _ = (v * alpha**n for n, v in enumerate(self._series(alpha), 1))
-        a, b, u, v = (one.reshape(one.shape + (1,) * (alpha.ndim - 1))
-                      for one in (self.a, self.b, self.u, self.v))
+        a, b, u, v = (item.reshape(item.shape + (1,) * (alpha.ndim - 1))
+                      for item in (self.a, self.b, self.u, self.v))
         return u + (a * S + self.r.p * b * C), v + (b * S + self.r.q * a * C)
 
     def fall(self, alpha: np.ndarray):
@@ -119,8 +119,8 @@ class Orbits:
         """
         with np.errstate(all="ignore"):
             half = -0.5 * (second + np.copysign(np.sqrt(second * second - 4 * first * third), second))
-            one, other = half / third, first / half
-            x = np.where(one * self.side > 0, one, other)
+            item, other = half / third, first / half
+            x = np.where(item * self.side > 0, item, other)
             for _ in range(NEWTON_STEPS):
                 step = function(x) / (second + 2 * third * x)
                 x = x - np.where(np.isfinite(step) & (np.abs(step) < 0.5 * np.abs(x)), step, 0.0)
@@ -140,10 +140,10 @@ def asymptotes(land: ConicLandscape):
 def saddles_of(land: ConicLandscape, branch: Branch, s: np.ndarray):
     """((u, v) of the saddles of a branch at s (n,) as of `Orbits`, (n,) whether they are much nearer than the
     centre)."""
-    found = asymptotes(land)
-    if found is None or branch.line is not None:
+    result = asymptotes(land)
+    if result is None or branch.line is not None:
         return (np.zeros(len(s)), np.zeros(len(s))), np.zeros(len(s), bool)
-    (first, second, product), rz = found, land.reduction.constants["rz"]
+    (first, second, product), rz = result, land.reduction.constants["rz"]
     h = branch.start + (branch.end - branch.start) * s
     u, v = product / h, rz * h
     size = np.abs(u) + np.abs(v) + 2 * (abs(first) + abs(second))
@@ -155,22 +155,22 @@ def shrinks_far(land: ConicLandscape, branch: Branch, side: int) -> bool | None:
     (u, v), far = saddles_of(land, branch, np.zeros(1))
     if not far[0]:
         return None
-    one = Orbits(land.reduction, u, v, np.ones(1))
-    return bool((one.bent / 6 + one.both / 3)[0] * side * land.unit <= 0)
+    item = Orbits(land.reduction, u, v, np.ones(1))
+    return bool((item.bent / 6 + item.both / 3)[0] * side * land.unit <= 0)
 
 
 def replaced(land: ConicLandscape, strips: Sequence[Part | tuple[Branch, int]], s: np.ndarray, u: np.ndarray,
-             made: Loops, shares_of: Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]):
+             built: Loops, shares_of: Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]):
     """The fields of `Loops` of strips at rows s (k, n) and columns u (k, m), those of rows with a far centre
     in the components; shares_of(sharpness (r,), u (r, m), numbers of strips (r,)): where columns stand."""
     r, g = land.reduction, land.reduction.constants
-    told = [saddles_of(land, strip[0], row) for strip, row in zip(strips, s)]
-    far = np.array([one[1] for one in told])
+    printed = [saddles_of(land, strip[0], row) for strip, row in zip(strips, s)]
+    far = np.array([item[1] for item in printed])
     if not far.any():
-        return made
+        return built
     strip, row = np.nonzero(far)
-    side = np.array([np.sign(one[1] * land.unit) for one in strips])[strip]
-    ways = np.moveaxis(np.array([one[0] for one in told]), 1, -1)[far]
+    side = np.array([np.sign(item[1] * land.unit) for item in strips])[strip]
+    ways = np.moveaxis(np.array([item[0] for item in printed]), 1, -1)[far]
     orbits = Orbits(r, *ways.T, side)
     fold = s[far] == 0
     end, deep = (np.where(fold, 0.0, v) for v in (orbits.ends(), orbits.centres()))
@@ -188,11 +188,11 @@ def replaced(land: ConicLandscape, strips: Sequence[Part | tuple[Branch, int]], 
            "shared": np.zeros(len(end), bool), "ways": ways,
            "saddle_state": _states(r, orbits.u, orbits.v, still),
            "centre_state": _states(r, *orbits.wells(deep), still)}
-    out = dict(vars(made))
+    out = dict(vars(built))
     for name, values in new.items():
         out[name] = np.array(out[name])
         out[name][strip[good], row[good]] = values[good]
-    return type(made)(**out)
+    return type(built)(**out)
 
 
 def _states(r: Reduction, u: np.ndarray, v: np.ndarray, w: np.ndarray):
@@ -260,22 +260,22 @@ class Part(NamedTuple):
         """t at rows s: the inverse of `rows`."""
         if not self.seam:
             return s
-        share = np.clip((np.asarray(s) - self.low) / (self.high - self.low), 0.0, 1.0)
-        return np.sqrt(share) if self.seam < 0 else 1 - np.sqrt(1 - share)
+        fraction = np.clip((np.asarray(s) - self.low) / (self.high - self.low), 0.0, 1.0)
+        return np.sqrt(fraction) if self.seam < 0 else 1 - np.sqrt(1 - fraction)
 
 
 def parted(land: ConicLandscape, strips: Sequence[tuple[Branch, int]], first: np.ndarray) -> list[Part]:
     """The parts of strips, pairs (branch, side), whose rows begin at first (k,)."""
-    found = []
+    rows = []
     for (branch, side), start in zip(strips, first):
         seam = seam_of(land, branch, side)
         if seam is None or not start < seam[0]:
-            found.append(Part(branch, side))
+            rows.append(Part(branch, side))
             continue
         before, behind, over = seam
-        found += [Part(branch, side, float(start), before, 1, over < 0, 1),
+        rows += [Part(branch, side, float(start), before, 1, over < 0, 1),
                   Part(branch, side, behind, 1.0, -1, over > 0, 2)]
-    return found
+    return rows
 
 
 def seam_of(land: ConicLandscape, branch: Branch, side: int) -> tuple[float, float, int] | None:
@@ -309,8 +309,8 @@ def _jumps(land: ConicLandscape, branch: Branch, side: int, low: float, high: fl
 
 def _far_end(land: ConicLandscape, branch: Branch, side: int, s: float) -> float:
     saddle = settled(land.potential, tuple(map(float, branch.place(s))))
-    found = loop_end(land.potential, land.sense, saddle, side)
-    return found[0] if found else 0.0
+    result = loop_end(land.potential, land.sense, saddle, side)
+    return result[0] if result else 0.0
 
 
 def _passes(pot: Circle, branch: Branch, side: int, s: float) -> bool:
@@ -327,14 +327,14 @@ def pinched_shares(pot: Circle, saddle: np.ndarray, end: np.ndarray, side: int, 
 
     saddle: (2, n).
     """
-    rows = [_second(pot, place, side, abs(far)) for place,
+    rows = [_second(pot, location, side, abs(far)) for location,
             far in zip(zip(*(v.tolist() for v in saddle)), end.tolist())]
     at, width = np.array(rows).T[:, :, None]
-    whole, v = np.abs(end)[:, None], np.clip(2 * u, 0, 1)
-    behind, v2 = whole - at, np.clip(2 * u - 1, 0, 1)
+    full, v = np.abs(end)[:, None], np.clip(2 * u, 0, 1)
+    behind, v2 = full - at, np.clip(2 * u - 1, 0, 1)
     first = _crowded(1 - v, np.maximum(width / at, PINCH))
     second = _crowded(1 - (1 - v2) ** 2, np.maximum(width / behind, PINCH))
-    shares = np.where(u <= 0.5, at * (1 - first), at + behind * second) / whole
+    shares = np.where(u <= 0.5, at * (1 - first), at + behind * second) / full
     shares[:, 0], shares[:, -1] = 0.0, 1.0  # exactly, as the ends are
     return shares
 
@@ -378,10 +378,10 @@ def loop_ends(land: ConicLandscape, saddle: Sequence[np.ndarray], side: np.ndarr
     ends, centres = np.zeros((2, len(side)))
     there, shared = np.zeros((2, len(side)), bool)
     for row, (x, z, toward) in enumerate(zip(*(v.tolist() for v in (*saddle, side)))):
-        found = loop_end(pot, land.sense, (x, z), toward)
-        if found:
+        result = loop_end(pot, land.sense, (x, z), toward)
+        if result:
             there[row] = True
-            ends[row], centres[row], shared[row] = found
+            ends[row], centres[row], shared[row] = result
     return side * ends, np.array(land.polished(pot.move(saddle, side * centres))), there, shared
 
 
@@ -431,16 +431,16 @@ def loops(land, strips, s, u) -> Loops:
     point.
     """
     k, n = s.shape
-    place = np.array([np.broadcast_arrays(*strip[0].place(row)) for strip, row in zip(strips, s)], float)
-    saddle = np.array(polished(land, (place[:, 0].ravel(), place[:, 1].ravel()), s.ravel())).reshape(2, k, n)
+    index = np.array([np.broadcast_arrays(*strip[0].place(row)) for strip, row in zip(strips, s)], float)
+    saddle = np.array(polished(land, (index[:, 0].ravel(), index[:, 1].ravel()), s.ravel())).reshape(2, k, n)
     sides = np.array([strip[1] for strip in strips])
-    end, centre, found, shared = loop_ends(land, tuple(saddle.reshape(2, -1)), np.repeat(sides, n))
-    end, found, shared = end.reshape(k, n), found.reshape(k, n), shared.reshape(k, n)
+    end, centre, result, shared = loop_ends(land, tuple(saddle.reshape(2, -1)), np.repeat(sides, n))
+    end, result, shared = end.reshape(k, n), result.reshape(k, n), shared.reshape(k, n)
     centre = centre.reshape(2, k, n)
-    found &= ~(shared & (sides[:, None] > 0))
+    result &= ~(shared & (sides[:, None] > 0))
     fold = s == 0
-    found |= fold
-    end = np.where(fold | ~found, 0.0, end)
+    result |= fold
+    end = np.where(fold | ~result, 0.0, end)
     centre = np.where(fold, saddle, centre)
     cut = [len(strip) > 2 and strip.seam != 0 for strip in strips]
     sharpest = np.where(cut, 1 / PINCH, SHARPEST)
@@ -448,14 +448,14 @@ def loops(land, strips, s, u) -> Loops:
     for strip in (n for n, part in enumerate(strips) if cut[n] and part.over):
         shares[strip] = pinched_shares(land.potential, saddle[:, strip], end[strip], sides[strip], u[strip])
     offset = end[:, :, None] * shares
-    spot = saddle[0][:, :, None], saddle[1][:, :, None]
+    point = saddle[0][:, :, None], saddle[1][:, :, None]
     with np.errstate(all="ignore"):
-        w = np.sqrt(2 * np.maximum(-land.potential.rise(offset, spot), 0))
+        w = np.sqrt(2 * np.maximum(-land.potential.rise(offset, point), 0))
     w[:, :, 0] = w[:, :, -1] = 0.0
-    points = land.components(land.potential.move(spot, offset), sides[:, None, None] * w)
-    states = (land.components(one, np.zeros((k, n))) for one in (saddle, centre))
-    made = Loops(saddle, centre, end, found, shared, offset, w, points, *states, np.full((k, n, 2), np.nan))
-    return replaced(land, strips, s, u, made, lambda sharp, at, rows: _by_turning(sharp, at, sharpest[rows]))
+    points = land.components(land.potential.move(point, offset), sides[:, None, None] * w)
+    states = (land.components(item, np.zeros((k, n))) for item in (saddle, centre))
+    built = Loops(saddle, centre, end, result, shared, offset, w, points, *states, np.full((k, n, 2), np.nan))
+    return replaced(land, strips, s, u, built, lambda sharp, at, rows: _by_turning(sharp, at, sharpest[rows]))
 
 
 def _shares(land: ConicLandscape, saddle: np.ndarray, end: np.ndarray, shared: np.ndarray, u: np.ndarray,
@@ -489,15 +489,15 @@ def residual(land: ConicLandscape, loops: Loops):
     How far the other lies from the saddle's hyperbola, relative to the size of the point, is the residual
     where that is more.
     """
-    place, w, size = land.start(loops.points)
-    spot = tuple(v[:, :, None] for v in loops.saddle)
+    location, w, size = land.start(loops.points)
+    point = tuple(v[:, :, None] for v in loops.saddle)
     pot = land.potential
     with np.errstate(all="ignore"):
-        departure = np.abs(0.5 * w * w + pot.rise(land.way(spot, place, loops.offset), spot))
-        shaken, beside = land.blurred(spot, place, size)
+        departure = np.abs(0.5 * w * w + pot.rise(land.way(point, location, loops.offset), point))
+        shaken, beside = land.blurred(point, location, size)
         scale = (0.5 * w * w + np.abs(pot.G) * (size[0] ** 2 + size[1] ** 2)
                  + pot.slopes * (size[0] + size[1]) + pot.mu + shaken)
-        found = np.fmax(np.where(departure > 0, departure / scale, 0.0), beside)
+        result = np.fmax(np.where(departure > 0, departure / scale, 0.0), beside)
     if loops.far.any():
-        found[loops.far] = residual_far(land, loops)
-    return found
+        result[loops.far] = residual_far(land, loops)
+    return result

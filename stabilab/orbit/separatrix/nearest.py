@@ -133,19 +133,19 @@ class Search:
     def descend(self, chart, t, y):
         """Steps of Newton's method from a point as long as they come nearer."""
         for _ in range(STEPS):
-            p, known = self.values(chart, t, y), chart.ranges(t, y, INF)
-            if not p.phi > 0 or known is None or known.parts is None:
+            p, resolved = self.values(chart, t, y), chart.ranges(t, y, INF)
+            if not p.phi > 0 or resolved is None or resolved.parts is None:
                 return
-            r, f = chart.bends(known.parts)
+            r, f = chart.bends(resolved.parts)
             w = math.sqrt(p.phi)
             k, c = p.gap / w, 0.5 * self.w0 / w**3
             slopes = p.apart_t + k * p.phi_t, p.apart_y + k * p.phi_y
             (a, m, b) = (x[0] + k * z[0] + c * s for x, z, s in
                          zip(r, f, (p.phi_t * p.phi_t, p.phi_t * p.phi_y, p.phi_y * p.phi_y)))
-            free = [_free(*one) for one in zip((t, y), slopes, (chart.t, chart.y))]
+            free = [_free(*item) for item in zip((t, y), slopes, (chart.t, chart.y))]
             steps = _newton_step(slopes, a, m, b, free)
-            for share in (1.0, 0.25, 0.0625):
-                at = [min(max(v + share * step, low), high) for v, step, (low, high) in
+            for fraction in (1.0, 0.25, 0.0625):
+                at = [min(max(v + fraction * step, low), high) for v, step, (low, high) in
                       zip((t, y), steps, (chart.t, chart.y))]
                 if self.offer(chart, *at):
                     break
@@ -159,15 +159,15 @@ class Search:
     def bound(self, chart, t, dt, y, dy):
         """(lower bound of D over a box, inf where it holds no point; 0 or 1: the side that is better halved).
         """
-        known = chart.ranges(widened(t, dt), widened(y, dy), self.goal)
-        if known is None or known.phi[1] < 0:
+        resolved = chart.ranges(widened(t, dt), widened(y, dy), self.goal)
+        if resolved is None or resolved.phi[1] < 0:
             return INF, 0
-        best = known.apart + self._beside(*known.phi) ** 2
-        if best >= self.goal or known.parts is None:
-            return best, known.side
-        bends = chart.bends(known.parts)
+        best = resolved.apart + self._beside(*resolved.phi) ** 2
+        if best >= self.goal or resolved.parts is None:
+            return best, resolved.side
+        bends = chart.bends(resolved.parts)
         if not all(math.isfinite(m) and math.isfinite(n) for three in bends for m, n in three):
-            return best, known.side
+            return best, resolved.side
         p = self.values(chart, t, y)
         if p.phi > 0 and p.square < self.goal and self.offer(chart, t, y, p):
             self.descend(chart, t, y)
@@ -175,7 +175,7 @@ class Search:
         swing = (abs(p.phi_t) * dt + abs(p.phi_y) * dy + 0.5 * (abs(f[0][0]) + f[0][1]) * dt * dt
                  + (abs(f[1][0]) + f[1][1]) * dt * dy + 0.5 * (abs(f[2][0]) + f[2][1]) * dy * dy)
         swing += SLACK * (abs(p.phi) + swing)
-        low, high = max(known.phi[0], p.phi - swing), min(known.phi[1], p.phi + swing)
+        low, high = max(resolved.phi[0], p.phi - swing), min(resolved.phi[1], p.phi + swing)
         if high < 0:
             return INF, 0
         w_low, w_high, gaps = math.sqrt(max(low, 0.0)), math.sqrt(high), self._gaps(p, low, high)
@@ -194,15 +194,15 @@ class Search:
             return best, 0 if along >= across else 1
         if form is flat or self.w0 > 2 * w_high:  # this bound loses by the range of W as well
             w = math.sqrt(max(p.phi, 0.0))
-            share = (abs(w - self.w0) + w_high - w_low) / (w_high + 1e-300)
-            form = Form(0.0, abs(p.apart_t) + share * abs(p.phi_t), abs(p.apart_y) + share * abs(p.phi_y),
-                        [(abs(a[0]) + a[1] + share * (abs(b[0]) + b[1]), 0.0) for a, b in zip(r, f)])
+            part = (abs(w - self.w0) + w_high - w_low) / (w_high + 1e-300)
+            form = Form(0.0, abs(p.apart_t) + part * abs(p.phi_t), abs(p.apart_y) + part * abs(p.phi_y),
+                        [(abs(a[0]) + a[1] + part * (abs(b[0]) + b[1]), 0.0) for a, b in zip(r, f)])
         return best, form.side(dt, dy)
 
     def _beside(self, low: float, high: float):
         """The least |W - w0| for W^2 between two numbers."""
-        least, most = math.sqrt(max(low, 0.0)), math.sqrt(high)
-        return max(least - self.w0 - SLACK * least, self.w0 - most - SLACK * self.w0, 0.0)
+        smallest, largest = math.sqrt(max(low, 0.0)), math.sqrt(high)
+        return max(smallest - self.w0 - SLACK * smallest, self.w0 - largest - SLACK * self.w0, 0.0)
 
     def _gaps(self, p: Values, low: float, high: float):
         """The least and greatest W - w0 for W^2 between two numbers about that of the middle."""
@@ -220,9 +220,9 @@ class Search:
             yield min(-(p.apart_t * dt * a + p.apart_y * dy * b) / square, 0.999 if self.w0 else 1.0)
 
     def _form(self, p: Values, r: Sequence[tuple[float, float]], f: Sequence[tuple[float, float]], k: float,
-              least: float, most: float):
+              smallest: float, largest: float):
         """R + k phi + the least of (1 - k) s^2 - 2 w0 s + w0^2 over the rates s = w0 + gap of a box."""
-        gap = min(max(k * self.w0 / (1 - k), least), most) if k < 1 else most if k > 1 else least
+        gap = min(max(k * self.w0 / (1 - k), smallest), largest) if k < 1 else largest if k > 1 else smallest
         s = self.w0 + gap
         over = (p.gap - gap) * (s + self.w0 + p.gap) if p.phi > 0 else p.phi - s * s  # phi - s^2
         size = p.apart + gap * gap + abs(k * over) + (0.0 if p.phi > 0 else abs(k) * s * s)
@@ -261,9 +261,9 @@ def widened(middle: arb, half: float):
     return middle + arb(0, half)
 
 
-def halves(middle: arb, half: float, share: float = 0.5):
+def halves(middle: arb, half: float, fraction: float = 0.5):
     """The two parts of an interval, the first with a share of it, a power of two."""
-    first = half * share
+    first = half * fraction
     return (middle - half + first, first), (middle + first, (half - first) * (1 + SLACK))
 
 
@@ -271,8 +271,8 @@ def least_of(value: float, g1: float, g2: float, h11: Sequence[float], h12: Sequ
              h22: Sequence[float], d1: float, d2: float) -> float:
     """A lower bound of value + g.d + d.H.d/2 over |d1| <= d1, |d2| <= d2, for all H within the radii."""
     (a, ra), (m, rm), (b, rb) = h11, h12, h22
-    a, b, most = a - ra, b - rb, rm * d1 * d2
-    box = max(_crossed(g1, g2, a, b, m, d1, d2), _crossed(g2, g1, b, a, m, d2, d1)) - most
+    a, b, largest = a - ra, b - rb, rm * d1 * d2
+    box = max(_crossed(g1, g2, a, b, m, d1, d2), _crossed(g2, g1, b, a, m, d2, d1)) - largest
     if d1 > 0 and d2 > 0:
         box = max(box, _convex(g1, g2, a - rm * d2 / d1, b - rm * d1 / d2, m, d1, d2))
     size = abs(g1) * d1 + abs(g2) * d2 + abs(a) * d1 * d1 + abs(b) * d2 * d2

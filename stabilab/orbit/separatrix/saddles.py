@@ -65,10 +65,10 @@ def limit_of(conic: Conic, reach: float) -> float:
 def saddle_branches(conic: Conic, pot: Circle | Hyperbola, limit: float) -> tuple[Branch, ...]:
     """Return every branch of saddles of a conic of equilibria, as far out as |Q| = limit. They are kept, for
     the next surface of the same scene."""
-    found = [branch for piece in conic.pieces if piece.barrier for branch in _on_piece(conic, piece, limit)]
+    rows = [branch for piece in conic.pieces if piece.barrier for branch in _on_piece(conic, piece, limit)]
     for line in conic.lines:
-        found += [Branch(conic, line, start, end, OPEN) for start, end in _on_line(conic, pot, line, limit)]
-    return tuple(found)
+        rows += [Branch(conic, line, start, end, OPEN) for start, end in _on_line(conic, pot, line, limit)]
+    return tuple(rows)
 
 
 def on_line(line: Line, t: float | np.ndarray):
@@ -207,29 +207,29 @@ def plain_separatrix(scene: AnyScene, reach: float = REACH, rows: int = 20,
         branches = saddle_branches(conic, pot, limit_of(conic, reach))
     except (ArithmeticError, ValueError):
         return (), SURFACE_BEYOND_DOUBLES
-    found = []
+    result = []
     for number, branch in enumerate(branches, 1):
         strips = [(word, points) for side,
                   word in conic.sides(r.sense) if len(points := _strip(r, pot, branch, side, rows, half)) > 1]
-        found += [PlainBranch(f"branch {number}{word if len(strips) > 1 else ''}", len(points), 2 * half - 1,
+        result += [PlainBranch(f"branch {number}{word if len(strips) > 1 else ''}", len(points), 2 * half - 1,
                              sum(points, [])) for word, points in strips]
-    return tuple(found), what_it_parts(pot, r.sense) if found else why_none(conic, r.sense)
+    return tuple(result), what_it_parts(pot, r.sense) if result else why_none(conic, r.sense)
 
 
 def _strip(r: Reduction, pot: Circle, branch: Branch, side: int, rows: int,
            half: int) -> list[list[tuple[float, ...]]]:
     """The loops of a branch on one side, a row each; the fold is a point."""
-    made = []
+    built = []
     for n in range(rows):
         s = (n / (rows - 1)) ** 2
         saddle = tuple(map(float, branch.place(s)))
         saddle = settled(pot, saddle) if n else saddle
-        found = loop_end(pot, r.sense, saddle, side)
-        if found and not (found[2] and side > 0):
-            made.append(_loop(r, pot, saddle, side * found[0], half))
+        result = loop_end(pot, r.sense, saddle, side)
+        if result and not (result[2] and side > 0):
+            built.append(_loop(r, pot, saddle, side * result[0], half))
         elif n == 0:
-            made.append([_state(r, pot, saddle, 0.0)] * (2 * half - 1))
-    return made
+            built.append([_state(r, pot, saddle, 0.0)] * (2 * half - 1))
+    return built
 
 
 def _loop(r: Reduction, pot: Circle, saddle: Sequence[float], end: float, half: int):
@@ -238,14 +238,14 @@ def _loop(r: Reduction, pot: Circle, saddle: Sequence[float], end: float, half: 
     for n in range(half):
         y = end * (1 - math.cos(math.pi * n / (half - 1))) / 2
         w = math.sqrt(2 * max(-pot.rise(y, saddle), 0.0)) if 0 < n < half - 1 else 0.0
-        place = pot.move(saddle, y)
-        out.append(_state(r, pot, place, w))
-        back.append(_state(r, pot, place, -w))
+        location = pot.move(saddle, y)
+        out.append(_state(r, pot, location, w))
+        back.append(_state(r, pot, location, -w))
     return out + back[-2::-1]
 
 
-def _state(r: Reduction, pot: Circle, place: Sequence[float], w: float):
-    x, z = pot.xz(place)
+def _state(r: Reduction, pot: Circle, location: Sequence[float], w: float):
+    x, z = pot.xz(location)
     state = [0.0] * 3
     state[r.j], state[r.k], state[r.axis] = float(r.component_j(x)), float(r.component_k(z)), float(
         r.component_i(w))

@@ -29,16 +29,16 @@ def audited(name: str | None = None, equation: str | None = None,
         return (findings_of(name, equation, tell),)
     with ProcessPoolExecutor(min(len(papers()), os.cpu_count() or 1),
                              multiprocessing.get_context("spawn")) as pool:
-        found = []
-        for done, made in enumerate(pool.map(findings_of, papers())):
-            found.append(made)
-            if tell and len(found) < len(papers()):
+        rows = []
+        for done, built in enumerate(pool.map(findings_of, papers())):
+            rows.append(built)
+            if tell and len(rows) < len(papers()):
                 tell(done + 1, len(papers()), papers()[done + 1])
-        return tuple(found)
+        return tuple(rows)
 
 
 def findings_of(name: str, equation: str | None = None,
                 tell: Tell | None = None) -> tuple[Paper, tuple[Finding, ...]]:
     """(paper, its findings, rows in order), in this process."""
-    one = paper(name)
-    return one, tuple(sorted(audit(one, equation, tell=tell), key=lambda f: key(f.row.equation)))
+    item = paper(name)
+    return item, tuple(sorted(audit(item, equation, tell=tell), key=lambda f: key(f.row.equation)))

@@ -49,30 +49,30 @@ class System:
         return sum((expression.diff(x) * r for x, r in zip(self.state, self.rates)), 0 * expression)
 
 
-def system_of(paper: Paper, name: str | None, place: str = "") -> System | None:
+def system_of(paper: Paper, name: str | None, index: str = "") -> System | None:
     """The system of a name; None for None. InputError where it is not described or does not follow from its
     parent."""
     if name is None:
         return None
     if name not in paper.systems:
         raise InputError(
-            f"{place or paper.name}: unknown system {name!r}; described are "
+            f"{index or paper.name}: unknown system {name!r}; described are "
             f"{', '.join(paper.systems) or 'none'}")
-    data, place = paper.systems[name], f"{paper.name}, systems.{name}"
+    data, index = paper.systems[name], f"{paper.name}, systems.{name}"
     unknown = (set(data) - {"effects", "names", "blocks", "state", "rates", "follows", "meaning", "pace",
                             "set", "time"})
     if unknown:
-        raise InputError(f"{place}: unknown keys {', '.join(sorted(unknown))}")
-    values = {symbol: _read(paper, place, text) for symbol, text in data.get("set", {}).items()}
+        raise InputError(f"{index}: unknown keys {', '.join(sorted(unknown))}")
+    values = {symbol: _read(paper, index, text) for symbol, text in data.get("set", {}).items()}
     if "effects" in data:
-        return _derived(paper, name, data, values, place)
+        return _derived(paper, name, data, values, index)
     if "rates" in data:
-        state = tuple(_symbol(paper, place, s) for s in data["state"])
-        return System(name, state, tuple(_put(_read(paper, place, r), values) for r in data["rates"]), values,
+        state = tuple(_symbol(paper, index, s) for s in data["state"])
+        return System(name, state, tuple(_put(_read(paper, index, r), values) for r in data["rates"]), values,
                       data.get("time", "s"))
     if "follows" not in data:
-        raise InputError(f"{place}: give effects (derived), rates (stated) or follows with set")
-    parent = system_of(paper, data["follows"], place)
+        raise InputError(f"{index}: give effects (derived), rates (stated) or follows with set")
+    parent = system_of(paper, data["follows"], index)
     return System(name, parent.state, tuple(_put(r, values) for r in parent.rates), parent.set | values,
                   parent.time)
 
@@ -83,36 +83,36 @@ def stated(paper: Paper):
     for name, data in paper.systems.items():
         if "rates" not in data or "follows" not in data:
             continue
-        place = f"{paper.name}, systems.{name}"
-        parent, own = system_of(paper, data["follows"], place), system_of(paper, name)
-        meaning = {_symbol(paper, place, s): _read(paper, place, text) for s, text in data["meaning"].items()}
-        pace = _read(paper, place, data.get("pace", "1"))
+        index = f"{paper.name}, systems.{name}"
+        parent, own = system_of(paper, data["follows"], index), system_of(paper, name)
+        meaning = {_symbol(paper, index, s): _read(paper, index, text) for s, text in data["meaning"].items()}
+        pace = _read(paper, index, data.get("pace", "1"))
         yield name, parent, [(parent.rate(meaning[x]) / pace, rate.xreplace(meaning))
                              for x, rate in zip(own.state, own.rates)]
 
 
-def _derived(paper, name, data, values, place):
+def _derived(paper, name, data, values, location):
 
-    equations = derive(_scene(data, place), tuple(data.get("blocks", ())))
+    equations = derive(_scene(data, location), tuple(data.get("blocks", ())))
     import sympy as sp
 
     renamed = {}
     for theirs in (*equations.state, *equations.symbols.values()):
         text = data.get("names", {}).get(theirs.name, theirs.name)
-        renamed[theirs] = sp.Integer(0) if text == "0" else _read(paper, place, text)
+        renamed[theirs] = sp.Integer(0) if text == "0" else _read(paper, location, text)
     state = tuple(renamed[s] for s in equations.state)
     if not all(s.is_Symbol for s in state):
-        raise InputError(f"{place}: names of the state are to be plain symbols")
+        raise InputError(f"{location}: names of the state are to be plain symbols")
     return System(name, state, tuple(_put(r.xreplace(renamed), values) for r in equations.rhs), values,
                   data.get("time", "s"))
 
 
-def _scene(data: Mapping[str, Any], place: str):
+def _scene(data: Mapping[str, Any], location: str):
 
     effects = []
     for effect in data["effects"]:
         if effect not in EFFECTS:
-            raise InputError(f"{place}: unknown effect {effect!r}; known are {', '.join(EFFECTS)}")
+            raise InputError(f"{location}: unknown effect {effect!r}; known are {', '.join(EFFECTS)}")
         effects.append(effect_class(effect)(*EFFECTS[effect]))
     return Scene(Body((7, 6, 4)), *effects)
 
@@ -122,16 +122,16 @@ def _put(expression, values):
     return expression.subs({s: values[s.name] for s in expression.free_symbols if s.name in values})
 
 
-def _read(paper: Paper, place: str, text: str):
+def _read(paper: Paper, location: str, text: str):
     try:
         return parse(text, paper.symbols)
     except FormulaError as error:
-        raise FormulaError(f"{place}: {error}") from None
+        raise FormulaError(f"{location}: {error}") from None
 
 
-def _symbol(paper: Paper, place: str, name: str):
+def _symbol(paper: Paper, location: str, name: str):
     if name not in paper.symbols:
-        raise InputError(f"{place}: unknown symbol {name!r}; declare it under [symbols]")
+        raise InputError(f"{location}: unknown symbol {name!r}; declare it under [symbols]")
     return paper.symbols[name]
 
 
@@ -154,13 +154,13 @@ def condition_of(paper: Paper, row: Row, pairs: Sequence[tuple[Expr, Expr]],
     single = singles(paper, row, pairs, setting)
     double = [(f"{a} and {b}", first | second)
               for (a, first), (b, second) in combinations(single, 2) if first.keys() != second.keys()]
-    for words, fixed in [*single, *((words, fixed) for words, fixed in double if _plain(fixed))]:
+    for text, fixed in [*single, *((phrase, fixed) for phrase, fixed in double if _plain(fixed))]:
         under = replace(setting, fixed=fixed)
-        if not _quick(mpmath.fp, pairs, under, words):
+        if not _quick(mpmath.fp, pairs, under, text):
             continue
-        decision = decide(pairs, under, row.equation + words)
+        decision = decide(pairs, under, row.equation + text)
         if decision.holds:
-            return words, decision.method
+            return text, decision.method
     return "", ""
 
 
@@ -168,8 +168,8 @@ def singles(paper: Paper, row: Row, pairs: Sequence[tuple[Expr, Expr]],
             setting: Setting) -> list[tuple[str, dict]]:
     """(words, {name: expression}) of the single conditions that speak of symbols of the pairs."""
     standing = {s.name for s in free(pairs, setting)}
-    return [(words, fixed)
-            for words, fixed in candidates(paper, row) if fixed.keys() <= standing and _plain(fixed)]
+    return [(text, fixed)
+            for text, fixed in candidates(paper, row) if fixed.keys() <= standing and _plain(fixed)]
 
 
 def _plain(fixed: Mapping[str, Expr]):
@@ -183,8 +183,8 @@ def _quick(numbers, pairs, setting, seed):
         chosen = setting.points(free(pairs, setting), seed, 2)
     except InputError:
         return False
-    found = [residual(pairs, numbers, point, setting) for point in chosen]
-    return all(r is not None and r < 1e-7 for r in found)
+    rows = [residual(pairs, numbers, point, setting) for point in chosen]
+    return all(r is not None and r < 1e-7 for r in rows)
 
 
 # --- What each kind of claim says, as pairs of expressions that are equal where the claim is true
@@ -245,13 +245,13 @@ def _equilibrium(paper, row, printed, setting):
     plain = setting.evaluator().plain
     if "solve" in row.options:
         unknowns = [paper.symbols[name] for name in row.options["solve"]]
-        found = sp.solve([plain(left - right) for left, right in printed], unknowns, dict=True)
-        if not found:
+        result = sp.solve([plain(left - right) for left, right in printed], unknowns, dict=True)
+        if not result:
             raise InputError(
                 f"{row.place}: the printed equations have no solution for {', '.join(row.options['solve'])}")
     else:
-        found = [{left: plain(right) for left, right in printed}]
-    return [(plain(rate).xreplace(point).xreplace(point), sp.Integer(0)) for point in found
+        result = [{left: plain(right) for left, right in printed}]
+    return [(plain(rate).xreplace(point).xreplace(point), sp.Integer(0)) for point in result
             for rate in setting.system.rates]
 
 
@@ -267,8 +267,8 @@ def residuals_of(row: Row):
     name = row.options["test"]
     if name not in measured.TESTS:
         raise InputError(f"{row.place}: no test {name!r}; known are {', '.join(measured.TESTS)}")
-    found = measured.TESTS[name](**row.options.get("with", {}))
-    return tuple(abs(float(v)) for v in found)
+    result = measured.TESTS[name](**row.options.get("with", {}))
+    return tuple(abs(float(v)) for v in result)
 
 
 CLAIM_DIGITS = (50, 80)  # a claim "holds" by values only if its residual shrinks with the digits
@@ -304,20 +304,20 @@ def decide(pairs: Sequence[tuple[Expr, Expr]], setting: Setting, seed: str,
         return Decision(True, 0.0, "symbols")
     if none:
         return Decision(None, float("nan"), none)
-    worst, seen = {}, 0
+    worst, visited = {}, 0
     for digits in CLAIM_DIGITS:
         numbers = precise(digits)
-        found = [residual(pairs, numbers, point, setting) for point in chosen]
-        found = [r for r in found if r is not None]
-        seen, worst[digits] = len(found), max(found, default=None)
-        if found and worst[digits] > 10.0 ** -(CLAIM_DIGITS[0] - SLACK):
+        rows = [residual(pairs, numbers, point, setting) for point in chosen]
+        rows = [r for r in rows if r is not None]
+        visited, worst[digits] = len(rows), max(rows, default=None)
+        if rows and worst[digits] > 10.0 ** -(CLAIM_DIGITS[0] - SLACK):
             return Decision(False, float(worst[digits]), f"residual at random points, {digits} digits")
-    if not seen:
+    if not visited:
         return Decision(None, float("nan"), "the formula has no value at any of the random points")
     if worst[CLAIM_DIGITS[1]] > 10.0 ** -(CLAIM_DIGITS[1] - SLACK):
         return Decision(None, float(worst[CLAIM_DIGITS[1]]), "the residual does not shrink with the digits")
     return Decision(True, float(worst[CLAIM_DIGITS[1]]),
-                    f"residuals at {seen} random points, {CLAIM_DIGITS[0]} and {CLAIM_DIGITS[1]} digits")
+                    f"residuals at {visited} random points, {CLAIM_DIGITS[0]} and {CLAIM_DIGITS[1]} digits")
 
 
 def residual(pairs, numbers, point, setting: Setting):
@@ -346,24 +346,24 @@ def free(pairs: Sequence[tuple[Expr, Expr]], setting: Setting) -> list:
     """Symbols of the pairs and the domain that need a value, in order of their names."""
     import sympy as sp
 
-    found, waiting, done = set(), [e for pair in pairs for e in pair] + list(setting.domain), set()
+    result, waiting, done = set(), [e for pair in pairs for e in pair] + list(setting.domain), set()
     if setting.system is not None and any(e.has(sp.Function("rate")) for e in waiting):
         waiting += list(setting.system.rates)
     meant = setting.fixed | setting.bound
     while waiting:
         for s in waiting.pop().free_symbols:
             if s.name not in meant:
-                found.add(s)
+                result.add(s)
             elif s.name not in done:
                 done.add(s.name)
                 waiting.append(meant[s.name])
-    return sorted(found, key=lambda s: s.name)
+    return sorted(result, key=lambda s: s.name)
 
 
 def _apart(left: Expr, right: Expr, setting: Setting, chosen: Sequence[dict[str, Fraction]]):
     """Whether two expressions differ by so much at a point that no rounding of 50 digits makes up for it."""
-    found = [residual([(left, right)], precise(CLAIM_DIGITS[0]), point, setting) for point in chosen]
-    return any(r is not None and r > APART for r in found)
+    rows = [residual([(left, right)], precise(CLAIM_DIGITS[0]), point, setting) for point in chosen]
+    return any(r is not None and r > APART for r in rows)
 
 
 def _same_in_symbols(left: Expr, right: Expr, setting: Setting, chosen: Sequence[dict[str, Fraction]]):
@@ -400,7 +400,7 @@ def order(paper: Paper, row: Row, pairs: Sequence[tuple[Expr, Expr]], setting: S
     """Whether left - right falls like the stated power of the small symbol: halved thrice, watched."""
     small, claimed = row.options["small"], row.options["order"]
     symbols = [s for s in free(pairs, replace(setting, domain=())) if s.name != small]
-    least, numbers = float("inf"), precise(60)
+    lower, numbers = float("inf"), precise(60)
     setting = replace(setting, domain=tuple(parse(t, paper.symbols) for t in row.domain if small not in t))
     for point in setting.points(symbols, row.equation, 3):
         sizes = []
@@ -413,8 +413,8 @@ def order(paper: Paper, row: Row, pairs: Sequence[tuple[Expr, Expr]], setting: S
                 return Decision(None, float("nan"), f"no value at a small {small}")
         for first, second in zip(sizes, sizes[1:]):
             if second:
-                least = min(least, float(numbers.log(first / second, 4)))
-    return Decision(least > claimed - 0.1, least, f"observed order {least:.3g} in {small}, claimed {claimed}")
+                lower = min(lower, float(numbers.log(first / second, 4)))
+    return Decision(lower > claimed - 0.1, lower, f"observed order {lower:.3g} in {small}, claimed {claimed}")
 
 
 def number(paper: Paper, row: Row) -> tuple:
@@ -442,14 +442,14 @@ def tested(row: Row) -> tuple:
     its residuals."""
     printed, corrected = residuals_of(row)
     bound = row.options.get("bound", TEST_BOUND)
-    stated = row.options.get("verdict", "holds" if printed <= bound else "wrong")
-    if (stated == "holds") != (printed <= bound) or (stated != "holds" and row.corrected
+    declared = row.options.get("verdict", "holds" if printed <= bound else "wrong")
+    if (declared == "holds") != (printed <= bound) or (declared != "holds" and row.corrected
                                                      and not corrected <= bound):
         raise InputError(
-            f"{row.place}: stated {stated}, but its residuals are {printed:.3g} (printed) and "
+            f"{row.place}: stated {declared}, but its residuals are {printed:.3g} (printed) and "
             f"{corrected:.3g} (corrected), with the bound {bound:.3g}"
         )
-    words = row.options.get("residual", "residual of the claim")
+    text = row.options.get("residual", "residual of the claim")
     conditions = row.options.get("conditions", ())
-    return (stated, conditions[0] if stated == "only-if" and conditions else "", "; ".join(row.corrected),
-            words, printed, corrected)
+    return (declared, conditions[0] if declared == "only-if" and conditions else "", "; ".join(row.corrected),
+            text, printed, corrected)

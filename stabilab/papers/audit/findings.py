@@ -35,7 +35,7 @@ def unit_fault(paper: Paper, row: Row) -> str:
         return ""
     data = paper.systems.get(row.system or "", {})
     time = dimension(_time_of(paper, data))
-    units = {name: dimension(words) for name, words in paper.units.items()}
+    units = {name: dimension(unit) for name, unit in paper.units.items()}
     bound = bound_of(paper, row)
     try:
         for name in [n for n in bound if n not in units]:
@@ -63,9 +63,9 @@ class UnitFault(Exception):
     """Two terms of a sum that differ in dimension, or a function of something with one."""
 
 
-def dimension(words: str) -> tuple:
+def dimension(text: str) -> tuple:
     """Of "kg m^2 s^-1" or "N m/s", an angle being a number. InputError for unknown units."""
-    return unit_of(words).dimension[:len(BASE)]
+    return unit_of(text).dimension[:len(BASE)]
 
 
 def times(first: tuple, second: tuple, power: int | Fraction = 1) -> tuple:
@@ -88,12 +88,12 @@ def formula_unit(expression: Expr, units: dict, time: tuple):
         if e.is_Symbol:
             return units.get(e.name, NONE)
         if e.is_Add:
-            found = [(term, visit(term)) for term in e.args]
-            found = [(term, unit) for term, unit in found if unit is not None]
-            for term, unit in found[1:]:
-                if unit != found[0][1]:
-                    raise UnitFault(f"{found[0][0]} [{told(found[0][1])}] is added to {term} [{told(unit)}]")
-            return found[0][1] if found else None
+            rows = [(term, visit(term)) for term in e.args]
+            rows = [(term, unit) for term, unit in rows if unit is not None]
+            for term, unit in rows[1:]:
+                if unit != rows[0][1]:
+                    raise UnitFault(f"{rows[0][0]} [{told(rows[0][1])}] is added to {term} [{told(unit)}]")
+            return rows[0][1] if rows else None
         if e.is_Mul:
             out = NONE
             for factor in e.args:
@@ -140,7 +140,7 @@ TWINS = {name: tuple(others.split()) for name, others in {
 def repairs(paper: Paper, row: Row, printed, setting: Setting) -> tuple[str, ...]:
     """Formulas "left = right", one edit away from the printed ones, that pass the row's check (under the
     condition of the setting); at most KEEP."""
-    found: list[str] = []
+    result: list[str] = []
     try:
         trial = _Trial(paper, row, setting)
     except InputError:
@@ -152,10 +152,10 @@ def repairs(paper: Paper, row: Row, printed, setting: Setting) -> tuple[str, ...
         for edited in islice(_edits_of_sides(paper, row, left, right, setting.fixed), MOST_EDITS):
             if edited not in printed and trial.agrees([edited] if alone
                                                       else [*printed[:at], edited, *printed[at + 1:]]):
-                found.append(f"{edited[0]} = {edited[1]}")
-            if len(found) == KEEP:
-                return tuple(found)
-    return tuple(found)
+                result.append(f"{edited[0]} = {edited[1]}")
+            if len(result) == KEEP:
+                return tuple(result)
+    return tuple(result)
 
 
 class _Trial:
@@ -176,10 +176,10 @@ class _Trial:
             pairs = checks.pairs(self.paper, self.row, printed, self.setting)
             if all(left == right for left, right in pairs):
                 return False  # an edit that leaves nothing to be said
-            found = [checks.residual(pairs, mpmath.fp, point, self.setting) for point in self.points]
+            rows = [checks.residual(pairs, mpmath.fp, point, self.setting) for point in self.points]
         except (InputError, TypeError, AttributeError, KeyError):
             return False
-        if any(r is None or r > 1e-7 for r in found):
+        if any(r is None or r > 1e-7 for r in rows):
             return False
         return checks.decide(pairs, self.setting, self.row.equation, symbolic=False).holds is True
 
@@ -189,7 +189,7 @@ class _Trial:
 
         if self.values is None:
             ready = [self.setting.settled(mpmath.fp, point) for point in self.points]
-            self.values = [self.setting.evaluator(mpmath.fp, one, in_numbers=True) for one in ready]
+            self.values = [self.setting.evaluator(mpmath.fp, item, in_numbers=True) for item in ready]
         try:
             for value in self.values:
                 for left, right in printed:
@@ -204,7 +204,7 @@ class _Trial:
 def _edits_of_sides(paper, row, left, right, fixed):
     import sympy as sp
 
-    seen = {(left, right)}
+    visited = {(left, right)}
     own = [s for s in sorted(left.free_symbols | right.free_symbols, key=lambda s: s.name)
            if s.name not in fixed]
     targets = [] if left.func.__name__ == "diff" else [(right, lambda e: (left, e))]
@@ -214,8 +214,8 @@ def _edits_of_sides(paper, row, left, right, fixed):
         for tree, put in targets:
             for edited in edits(tree, own, paper.symbols, factors):
                 pair = put(edited)
-                if pair not in seen and pair[0] != pair[1]:
-                    seen.add(pair)
+                if pair not in visited and pair[0] != pair[1]:
+                    visited.add(pair)
                     yield pair
 
 
@@ -224,26 +224,26 @@ def edits(tree, own, declared, factors):
     with a factor more or less, else the others."""
     if not factors:
         yield -tree
-    for place, node in _nodes(tree):
+    for index, node in _nodes(tree):
         for other in _with_factors(node, own,
-                                   place == ()) if factors else _others(node, own, declared, place == ()):
-            yield _replaced(tree, place, other)
+                                   index == ()) if factors else _others(node, own, declared, index == ()):
+            yield _replaced(tree, index, other)
 
 
-def _nodes(tree, place=()):
-    yield place, tree
+def _nodes(tree, location=()):
+    yield location, tree
     if tree.func.__name__ in ("rate", "diff", "mean", "at", "integral"):
         if not tree.args[0].is_Symbol:  # the rate of another variable would be another statement
-            yield from _nodes(tree.args[0], (*place, 0))
+            yield from _nodes(tree.args[0], (*location, 0))
         return
     for n, argument in enumerate(tree.args):
-        yield from _nodes(argument, (*place, n))
+        yield from _nodes(argument, (*location, n))
 
 
-def _replaced(tree, place, other):
-    if not place:
+def _replaced(tree, location, other):
+    if not location:
         return other
-    n, *rest = place
+    n, *rest = location
     return tree.func(*(_replaced(a, tuple(rest), other) if i == n else a for i, a in enumerate(tree.args)))
 
 
@@ -324,12 +324,12 @@ def audit(paper: Paper, equation: str | None = None,
         raise InputError(
             f"{paper.name} has no row for equation {equation!r}; it has "
             f"{', '.join(row.equation for row in paper.rows)}")
-    found = []
+    result = []
     for done, row in enumerate(rows):
         if tell:
             tell(done, len(rows), f"equation {row.equation}")
-        found.append(examine(paper, row))
-    return tuple(found)
+        result.append(examine(paper, row))
+    return tuple(result)
 
 
 def prove_systems(paper: Paper) -> None:
@@ -358,8 +358,8 @@ def examine(paper: Paper, row: Row, search: bool = True) -> Finding:
     """The finding of one row. search: whether conditions and repairs are looked for. InputError where the row
     cannot be tried, with file and row."""
     if row.kind in ("definition", "not-checkable"):
-        words = f"defines {row.options['defines']}" if row.kind == "definition" else row.options["because"]
-        return Finding(row, row.kind, "", "", words, float("nan"), float("nan"),
+        text = f"defines {row.options['defines']}" if row.kind == "definition" else row.options["because"]
+        return Finding(row, row.kind, "", "", text, float("nan"), float("nan"),
                        unit_fault=unit_fault(paper, row))
     if row.kind == "number":
         return Finding(row, *checks.number(paper, row))
@@ -397,10 +397,10 @@ def _formula(paper: Paper, row: Row, search: bool):
 
 def _order_condition(paper, row, pairs, setting):
     """The first single condition under which the remainder is of the claimed order."""
-    for words, fixed in checks.singles(paper, row, pairs, setting):
+    for text, fixed in checks.singles(paper, row, pairs, setting):
         decision = checks.order(paper, row, pairs, replace(setting, bound=setting.bound | fixed))
         if row.options["small"] not in fixed and decision.holds:
-            return words, decision.method
+            return text, decision.method
     return "", ""
 
 
@@ -431,10 +431,10 @@ def _fixes(paper, row, printed, pairs, setting, condition):
     fixes = repairs(paper, row, printed, setting)
     if fixes or (condition and " and " not in condition):
         return fixes, ""
-    for words, fixed in checks.singles(paper, row, pairs, setting):
-        if words in (condition or words) and (fixes := repairs(paper, row, printed,
+    for text, fixed in checks.singles(paper, row, pairs, setting):
+        if text in (condition or text) and (fixes := repairs(paper, row, printed,
                                                                replace(setting, fixed=fixed))):
-            return tuple(f"{fix} (where {words})" for fix in fixes), f" where {words}"
+            return tuple(f"{fix} (where {text})" for fix in fixes), f" where {text}"
     return (), ""
 
 
@@ -445,5 +445,5 @@ def _decided(paper: Paper, row: Row, pairs: Sequence[tuple[Expr, Expr]], setting
 
 def key(equation: str):
     """Order of equations: by number, then by what follows it."""
-    found = re.match(r"(\d+)", equation)
-    return (0, int(found[1]), equation) if found else (1, 0, equation)
+    result = re.match(r"(\d+)", equation)
+    return (0, int(result[1]), equation) if result else (1, 0, equation)

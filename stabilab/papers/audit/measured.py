@@ -69,8 +69,8 @@ def _trend(family, part, measure, goes, axis=None, truth="", only=()):
     """Steps of a family at which a measure does not go as a claim says; as it goes in truth. axis: one or
     several."""
     axes = axis if isinstance(axis, list) else [axis]
-    found = [measured(family, part, measure, one, only) for one in axes]
-    return tuple(sum(missed(values, word) for values in found) for word in (goes, truth or goes))
+    rows = [measured(family, part, measure, item, only) for item in axes]
+    return tuple(sum(missed(values, word) for values in rows) for word in (goes, truth or goes))
 
 
 def _side(family, part, axis, lies, only=()):
@@ -330,8 +330,8 @@ def _loop_order(lambda1, smaller):
 
 def _saddles():
     """How many saddles less than two, or more, the circles of Fig. 4 carry."""
-    found = [sum(_is_saddle(h, c) for h in heights_on(radius, c)) for radius, c in map(_circle, FIG4_TRUE)]
-    return sum(abs(number - 2) for number in found), 0
+    rows = [sum(_is_saddle(h, c) for h in heights_on(radius, c)) for radius, c in map(_circle, FIG4_TRUE)]
+    return sum(abs(number - 2) for number in rows), 0
 
 
 def _stable_parts():
@@ -427,10 +427,10 @@ def _pointing():
     - charge's moment)), relative."""
     body = body_of(FAMILIES["charged"]["M1"].members[0])
     velocity = solution(body, np.linspace(0.9e5, 1e5, 2001)).velocity
-    seen = float((velocity[:, 1] / velocity[:, 2]).mean())
+    visited = float((velocity[:, 1] / velocity[:, 2]).mean())
     M1, D3, r0 = body.torque[0], body.inertia[2], body.spin
     momentum = D3 * r0 + body.gyrostat - body.charge_moment
-    return seen / (M1 / (D3 * r0**2)) - 1, seen / (M1 / (r0 * momentum)) - 1
+    return visited / (M1 / (D3 * r0**2)) - 1, visited / (M1 / (r0 * momentum)) - 1
 
 
 # --- The liquid in a cavity
@@ -447,9 +447,9 @@ def _wheel_frequency():
     falls = parted = steps = 0
     for name in ("small", "large"):
         scenes = [case.scene for case in FAMILIES["cavity"][name].members]
-        for one, other in zip(scenes, scenes[1:]):
-            n = {key: float(value) for key, value in constants(one).items()}
-            grows = _frequency(other) > _frequency(one)
+        for scene, other in zip(scenes, scenes[1:]):
+            n = {key: float(value) for key, value in constants(scene).items()}
+            grows = _frequency(other) > _frequency(scene)
             falls, parted = falls + (not grows), parted + (grows != (n["Gamma"] > n["d"] + abs(n["h"])))
             steps += 1
     return falls / steps, parted / steps
@@ -490,8 +490,8 @@ def _lambda1(C: float) -> tuple[float, float]:
 def _poles():
     """Size of lambda1 where C is 1e-9 short of A + B over that at C = 1.4, less one; the residue of the pole
     seen 1e-6 short of it against 1e-9, relative."""
-    (near, at), (closer, there), (far, _) = _lambda1(2.1 - 1e-6), _lambda1(2.1 - 1e-9), _lambda1(1.4)
-    return abs(closer / far) - 1, closer * (1 - there) / (near * (1 - at)) - 1
+    (nearby, at), (closer, there), (far, _) = _lambda1(2.1 - 1e-6), _lambda1(2.1 - 1e-9), _lambda1(1.4)
+    return abs(closer / far) - 1, closer * (1 - there) / (nearby * (1 - at)) - 1
 
 
 def _closed():
@@ -503,7 +503,7 @@ def _closed():
         states = np.hstack([run.state["omega"], run.state["gamma"]])[::2]  # one each millisecond
         away = np.linalg.norm(states - states[0], axis=1)
         shares.append(float(away[100:].min() / away.max()))
-    return min(shares), sum(share < 1e-2 for share in shares)
+    return min(shares), sum(fraction < 1e-2 for fraction in shares)
 
 
 TESTS: dict[str, Callable[..., tuple]] = {

@@ -67,12 +67,12 @@ def text(findings: Sequence[tuple[Paper, list[SimpleNamespace]]], width: int = 1
 
 def counted(verdict: str, count: int) -> str:
     """A verdict as one says it of so many formulas."""
-    one, many = {"holds": ("holds", "hold"),
+    item, many = {"holds": ("holds", "hold"),
                  "only-if": ("holds only on a condition", "hold only on a condition"),
                  "wrong": ("is wrong", "are wrong"),
                  "definition": ("is a definition", "are definitions"),
                  "not-checkable": ("cannot be checked", "cannot be checked")}[verdict]
-    return one if count == 1 else many
+    return item if count == 1 else many
 
 
 def figures_of(finding: SimpleNamespace, paper: str) -> tuple[str, str]:
@@ -82,8 +82,8 @@ def figures_of(finding: SimpleNamespace, paper: str) -> tuple[str, str]:
     if not (numbers and paper):
         return "", ""
     changes = finding.verdict in ("wrong", "only-if") and not finding.row.equation.startswith("text")
-    words = "changes figures, drawn both ways with the size of the difference" if changes else "about figures"
-    return words, f"stabilab figures --paper {paper} {numbers}"
+    label = "changes figures, drawn both ways with the size of the difference" if changes else "about figures"
+    return label, f"stabilab figures --paper {paper} {numbers}"
 
 
 def _paragraph(finding, width, paper=""):
@@ -132,8 +132,8 @@ def anchor(paper: str, equation: str) -> str:
 
 def count(group: Sequence[SimpleNamespace]) -> list[tuple[str, int]]:
     """(verdict, how many) in order."""
-    found = Counter(f.verdict for f in group)
-    return [(verdict, found[verdict]) for verdict in VERDICTS if found[verdict]]
+    result = Counter(f.verdict for f in group)
+    return [(verdict, result[verdict]) for verdict in VERDICTS if result[verdict]]
 
 
 def counts(group: Sequence[SimpleNamespace]) -> str:
@@ -218,7 +218,7 @@ def _name(name: str):
     stem, index = letter.groups() if letter else (name, "")
     stem = SHORT.get(stem, stem)
     if stem not in ALPHABET:
-        found = re.fullmatch(r"([A-Za-z]+?)_?(\d*|[a-z]?)", name)
-        stem, index = found.groups() if found else (name, "")
+        result = re.fullmatch(r"([A-Za-z]+?)_?(\d*|[a-z]?)", name)
+        stem, index = result.groups() if result else (name, "")
     stem = "\u03b5" if stem == "eps" else stem  # SymPy would write out the name of this form of the letter
     return f"{stem}_{index}" if index else stem

@@ -71,11 +71,11 @@ def radius(liquid) -> float:
     return (525 * liquid.P0 / (8 * math.pi)) ** (1 / 7)
 
 
-def _done(words: str = "", own: bool = False):
+def _done(text: str = "", own: bool = False):
     """own: whether each panel has limits of its own, and no column shows the printed curves alone."""
     scene = sweep("liquid-base")[""].scene
     liquid, body = scene.effect("liquid_cavity"), scene.body.inertia[2]
-    return (f"{words}Completed data: values in the title where the paper gives none; P0 = "
+    return (f"{text}Completed data: values in the title where the paper gives none; P0 = "
             f"{float(liquid.P0):g} m^7 means {liquid_mass(liquid) / 1000:.2g} t of liquid in a body of "
             f"{float(body):g} kg m^2. Models are drawn to where they leave the exact motion's "
             f"range{'' if own else '; where printed ones do, the last panels have them alone'}.")

@@ -64,8 +64,8 @@ class Figure:
 
 def listed(values: Sequence[float] | Mapping[str, Any], form: str = "{:.3g}") -> str:
     """Numbers in words: "1.2, 3.4 and 5.6"."""
-    words = [form.format(v) for v in values]
-    return f"{', '.join(words[:-1])} and {words[-1]}" if len(words) > 1 else "".join(words)
+    phrases = [form.format(v) for v in values]
+    return f"{', '.join(phrases[:-1])} and {phrases[-1]}" if len(phrases) > 1 else "".join(phrases)
 
 
 SKETCH = ("a sketch: directions and the proportions of the box are those of the case, lengths of arrows are "
@@ -125,8 +125,8 @@ def level_curves(integral: Callable, level: float, x_range: Sequence, y_range: S
 def within(curve: np.ndarray, x_range: Sequence, y_range: Sequence) -> np.ndarray:
     """The curve (n, 2), each of its pieces divided, with NaN for what lies outside of a rectangle."""
     low, high = np.transpose([x_range, y_range])
-    place = np.arange(len(curve) * PIECES - PIECES + 1) / PIECES
-    curve = np.stack([np.interp(place, np.arange(len(curve)), values) for values in curve.T], axis=-1)
+    location = np.arange(len(curve) * PIECES - PIECES + 1) / PIECES
+    curve = np.stack([np.interp(location, np.arange(len(curve)), values) for values in curve.T], axis=-1)
     return np.where(((curve >= low) & (curve <= high)).all(axis=1, keepdims=True), curve, np.nan)
 
 
@@ -136,7 +136,7 @@ def farthest(printed: Sequence, true: Sequence) -> float:
     from scipy.spatial import cKDTree
     points, others = (np.concatenate([np.reshape(part, (-1, np.shape(part)[-1])) for part in curves])
                       for curves in (printed, true))
-    points, others = (found[np.isfinite(found).all(axis=1)] for found in (points, others))
+    points, others = (result[np.isfinite(result).all(axis=1)] for result in (points, others))
     return float(cKDTree(others).query(points)[0].max())
 
 
@@ -179,10 +179,10 @@ def _difference(row: panels.Row, column: panels.Column) -> Difference:
     (tx, true), (px, wrong) = ([np.asarray(v, float) for v in curve] for curve in curves)
     n = min(len(true), len(wrong))  # a run that stops early has fewer of the same times
     apart = np.abs(wrong[:n] - true[:n]) if row.over_time else np.hypot(wrong[:n] - true[:n], px[:n] - tx[:n])
-    seen = np.isfinite(apart)
-    if not seen.any():
+    visited = np.isfinite(apart)
+    if not visited.any():
         return Difference(*names, None, None, None, "no curve", "the two have no time in common")
-    at, times = int(np.argmax(np.where(seen, apart, -1.0))), np.asarray(exact.t)[len(exact.t) - len(true):]
+    at, times = int(np.argmax(np.where(visited, apart, -1.0))), np.asarray(exact.t)[len(exact.t) - len(true):]
     spans = [float(np.ptp(v[np.isfinite(v)])) for v in ((true,) if row.over_time else (tx, true))]
     return Difference(*names, float(apart[at]), float(np.hypot.reduce(spans)), float(times[at]), "compared")
 

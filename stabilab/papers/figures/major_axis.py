@@ -84,14 +84,14 @@ def second() -> float:
 def _rows(start):
     """[(words, lambda1 -> (states, number of them in print, place of the release or None))] a row of panels
     each."""
-    found = [(r"$\tau\in[0,15]$", {lam: (states, len(states), None) for lam, states in _runs(start).items()})]
+    rows = [(r"$\tau\in[0,15]$", {lam: (states, len(states), None) for lam, states in _runs(start).items()})]
     if captured(start):
         longer = {}
         for lam, run in _trajectories(start, True).items():
             states = np.asarray(run.states)
             longer[lam] = states, len(_times(lam, start, False)), int(round(400 * _release(lam, start)))
-        found.append(("to the release and beyond", longer))
-    return found
+        rows.append(("to the release and beyond", longer))
+    return rows
 
 
 def _title(figure, start):
@@ -110,7 +110,7 @@ def space(start):
         from matplotlib.ticker import MaxNLocator
         rows = _rows(start)
         figure = plt.figure(figsize=(12.6, 0.9 + 3.4 * len(rows)), layout="constrained")
-        for i, (words, runs) in enumerate(rows):
+        for i, (text, runs) in enumerate(rows):
             shared = i > 0 or not captured(start)
             limits = _limits([states for states, *_ in runs.values()]) if shared else None
             panels = [figure.add_subplot(len(rows), 3, 3 * i + j + 1, projection="3d")
@@ -122,7 +122,7 @@ def space(start):
                 if release is not None:
                     ax.plot(*states[release:release + 1].T, zorder=9, **RELEASE)
                 scale = "one scale" if shared else "own scale"
-                ax.set_title(rf"$\lambda_1={lam}$, {words}; {scale}", fontsize=9.5)
+                ax.set_title(rf"$\lambda_1={lam}$, {text}; {scale}", fontsize=9.5)
             bar = figure.colorbar(pieces, ax=panels, shrink=0.6, pad=0.05, ticks=MaxNLocator(8, integer=True))
             bar.ax.set_title(r"$\tau$")
         _title(figure, start)
@@ -163,14 +163,14 @@ def projection(start, plane):
         width = 8.2 if plane == "23" and len(rows) > 1 else 11.4  # a tall plane of one scale
         figure, lines = plt.subplots(len(rows), 3, figsize=(width, 0.7 + 3.5 * len(rows)), sharex="row",
                                      sharey="row", layout="constrained", squeeze=False)
-        for axes, (words, runs) in zip(lines, rows):
+        for axes, (text, runs) in zip(lines, rows):
             for ax, (lam, (states, printed, release)) in zip(axes, runs.items()):
                 ax.plot(states[printed - 1:, i], states[printed - 1:, j], **LATER)
                 ax.plot(states[:printed, i], states[:printed, j], **PRINTED_LINE)
                 ax.plot(states[0, i], states[0, j], zorder=5, **style.MARKER["start"])
                 if release is not None:
                     ax.plot(states[release, i], states[release, j], zorder=6, **RELEASE)
-                ax.set_title(rf"$\lambda_1={lam}$, {words}", fontsize=8.5 if width < 10 else 9.5)
+                ax.set_title(rf"$\lambda_1={lam}$, {text}", fontsize=8.5 if width < 10 else 9.5)
                 ax.set_xlabel(f"$x_{i + 1}$")
                 if plane == "23":
                     ax.set_aspect("equal")
@@ -208,15 +208,15 @@ def printed_31(x1: np.ndarray, x2: np.ndarray, x3: np.ndarray, side: str):
 
 def true_separatrices() -> dict:
     """side -> (alpha, x >= 0) of the separatrix on the circle of the start, from the exact potential."""
-    case, found = _case(), {}
+    case, result = _case(), {}
     plane = phase_plane(case.scene, case.state)
     start = 2 * float(np.arctan2(*plane.place))
     span = [(edge - start) / 2 for edge in WINDOW]
     for side, turn in SIDES.items():
         saddle = min(plane.repeated(plane.saddles, *span), key=lambda y: abs(start + 2 * y - turn))
         ys, rates = plane.separatrix(saddle, *span)
-        found[side] = start + 2 * ys, 2 * rates
-    return found
+        result[side] = start + 2 * ys, 2 * rates
+    return result
 
 
 def true_surfaces() -> dict:
@@ -234,8 +234,8 @@ def printed_ends(side: str) -> np.ndarray:
         far = brentq(lambda alpha: printed_energy(radius, alpha, side), saddle - 2 * np.pi, centre)
         half = np.array([saddle, far]) / 2
         return radius * np.stack([np.sin(half), np.cos(half)], axis=-1)
-    near, far = np.swapaxes([ends(radius) for radius in np.sqrt(2) * np.linspace(1.0, REACH, 201)[1:]], 0, 1)
-    return np.concatenate([near[::-1], far])
+    close, far = np.swapaxes([ends(radius) for radius in np.sqrt(2) * np.linspace(1.0, REACH, 201)[1:]], 0, 1)
+    return np.concatenate([close[::-1], far])
 
 
 def departures() -> tuple[float, float, float, float]:
@@ -249,9 +249,9 @@ def departures() -> tuple[float, float, float, float]:
     for side, branch in true_surfaces().items():
         x1, x2, x3 = np.moveaxis(np.asarray(branch.points), -1, 0)
         surface = max(surface, float(np.abs(printed_31(x1, x2, x3, side) / (x1**2 + x2**2)).max()))
-        place = np.asarray(branch.saddle)[:1]
-        fold = max(fold, abs(float(np.hypot(*place[0, :2])) - np.sqrt(2)))
-        named = max(named, farthest([NAMED[side]], [place]))
+        location = np.asarray(branch.saddle)[:1]
+        fold = max(fold, abs(float(np.hypot(*location[0, :2])) - np.sqrt(2)))
+        named = max(named, farthest([NAMED[side]], [location]))
     return energy, surface, fold, named
 
 

@@ -180,18 +180,18 @@ def _nested(ax, scene):
 
 def _figure_eight(ax):
     """The four parts of the separatrix; their names."""
-    found = branches(**EIGHT)
+    result = branches(**EIGHT)
     ax.computed_zorder = False  # short lines of equilibria over the branches that would hide them
-    for branch, colour, opaque, thin, order in zip(found.branches, LOOPS, OPAQUE, THIN, FROM_BEHIND):
+    for branch, colour, opaque, thin, order in zip(result.branches, LOOPS, OPAQUE, THIN, FROM_BEHIND):
         ax.plot_surface(*_upright(branch.points), color=colour, alpha=opaque, rstride=4, cstride=6,
                         linewidth=thin, edgecolor="#333333", shade=False,
                         zorder=order)
         ax.plot(*_upright(branch.saddle), zorder=6, **style.MEANING["unstable"])
         ax.plot(*_upright(branch.centre), zorder=6, **style.MEANING["stable"])
-    _one_eight(ax, *found.branches[:2])
+    _one_eight(ax, *result.branches[:2])
     table.name_space(ax, 0.98, order=UPRIGHT)
     ax.view_init(26, -20)  # onto both loops: from other sides one hides the other
-    return [branch.name for branch in found.branches]
+    return [branch.name for branch in result.branches]
 
 
 def _one_eight(ax, left, right):

@@ -84,12 +84,12 @@ def _heights():
 def _separatrix_by(level, alpha):
     """x >= 0 on the separatrices through the saddles of a height near alpha = 0 and 2 pi, each from its own
     loop on; NaN where there is none."""
-    found = []
-    for near in (0.0, 2 * np.pi):
-        there, h = level(alpha[np.abs(alpha - near) < 1.5]).max(), level(alpha)
-        own = (h <= there) & (alpha > near - 2 * np.pi)
-        found.append(np.sqrt(np.where(own, 2 * (there - h), np.nan)))
-    return found
+    rows = []
+    for nearby in (0.0, 2 * np.pi):
+        there, h = level(alpha[np.abs(alpha - nearby) < 1.5]).max(), level(alpha)
+        own = (h <= there) & (alpha > nearby - 2 * np.pi)
+        rows.append(np.sqrt(np.where(own, 2 * (there - h), np.nan)))
+    return rows
 
 
 def _as_printed(ax):
@@ -103,12 +103,12 @@ def _as_printed(ax):
 def departure() -> str:
     """How far x of a printed separatrix is from the true one at equal alpha, in words."""
     alpha = np.linspace(*WINDOW, 4001)
-    found = []
+    rows = []
     for name, printed, true in zip(("left", "right"), *(_separatrix_by(h, alpha) for h in _heights())):
         apart = np.abs(printed - true)
         at = int(np.nanargmax(apart))
-        found.append(f"{apart[at]:.2f} at α = {alpha[at]:.2f} on the {name} one")
-    return "Printed separatrices, by (26) and (27): their x is off by up to " + " and ".join(found) + "."
+        rows.append(f"{apart[at]:.2f} at α = {alpha[at]:.2f} on the {name} one")
+    return "Printed separatrices, by (26) and (27): their x is off by up to " + " and ".join(rows) + "."
 
 
 def _loops(ax, plane, start, span):
@@ -190,11 +190,11 @@ def circle() -> float:
 
 def left_saddles() -> str:
     """alpha of the left saddle for each lambda1."""
-    found = []
+    rows = []
     for lambda1 in table.FIG4:
         plane, start, span = _plane(lambda1)
-        found.append(start + 2 * _left(plane.repeated(plane.saddles, *span), start))
-    return listed(found, "{:.3f}").replace("-", "−")
+        rows.append(start + 2 * _left(plane.repeated(plane.saddles, *span), start))
+    return listed(rows, "{:.3f}").replace("-", "−")
 
 
 def printed_loops() -> dict:
@@ -225,11 +225,11 @@ def surface_departure() -> str:
     """How far the printed loops and folds of Fig. 5 are from the true surface of their side, in words."""
     true = {table.side(branch): np.asarray(branch.points) for branch in branches(shape=FINE).branches}
     loops = printed_loops()
-    words = [f"{listed([farthest([loop], [true[side]]) for loop in loops[side]], '{:.2f}')} on the {side}"
+    phrases = [f"{listed([farthest([loop], [true[side]]) for loop in loops[side]], '{:.2f}')} on the {side}"
              for side in SIDES]
     folds = farthest([FOLDS], [points[:1, 0] for points in true.values()])
     return (f"Dashed: the printed (31) on the circles of radius F = {listed(CIRCLES)} about the origin; "
-            f"these loops are up to {' and '.join(words)} away from the true surfaces. The printed folds, "
+            f"these loops are up to {' and '.join(phrases)} away from the true surfaces. The printed folds, "
             f"(1, −1, 0) and (−1, 1, 0) on the dashed circle of radius √2, are up to {folds:.2f} off.")
 
 
@@ -352,9 +352,9 @@ BEYOND = 8.0           # half a side of the square in which the fourth surface i
 def contour_map(plt):
     """Fig. 6: the map, and its middle enlarged."""
     figure, axes = plt.subplots(1, 2, figsize=(11.4, 6.2), layout="constrained")
-    scene, found = table.printed_scene("minor", 100), _branches()
+    scene, result = table.printed_scene("minor", 100), _branches()
     for ax, size in zip(axes, (SIZE, MAP_NEAR)):
-        heights = _map(ax, scene, found, size)
+        heights = _map(ax, scene, result, size)
     axes[0].set_title(r"Height $x_3>0$ of the separatrix surfaces, $\lambda_1=100$")
     axes[1].set_title("the middle, enlarged")
     box = axes[0].add_patch(plt.Rectangle((-MAP_NEAR, -MAP_NEAR), 2 * MAP_NEAR, 2 * MAP_NEAR, fill=False,
@@ -382,22 +382,22 @@ PRINTED_FOURTH = style.MEANING["printed"] | {"linestyle": "--", "linewidth": 1.6
 def fourth_surface() -> dict:
     """The fourth of the paper's surfaces, (30) for x3 = 0 and G1 = 0, as "printed" and "true": curves (n, 2).
     tan^-1 is the principal value, which jumps at x2 = 0: there the curves end."""
-    a, b, found = table.printed_scene("minor", 100).a, table.printed_scene("minor", 100).b, {}
+    a, b, result = table.printed_scene("minor", 100).a, table.printed_scene("minor", 100).b, {}
     for name, shift, wheel in (("printed", 0.0, b), ("true", a, b - a)):
         def energy(x1, x2, shift=shift, wheel=wheel):
             X = x1 + shift
             return x2**2 - X**2 - 4 * wheel * X - 4 * np.arctan(X / x2)
-        found[name] = [curve for half in ((0.0, BEYOND), (-BEYOND, -0.0))
+        result[name] = [curve for half in ((0.0, BEYOND), (-BEYOND, -0.0))
                        for curve in level_curves(energy, 0.0, (-BEYOND, BEYOND), half)]
-    return found
+    return result
 
 
 def fourth_departure() -> str:
     """How far the printed fourth surface is from the true one within the map, in words."""
-    found = fourth_surface()
-    shown = [within(curve, (-SIZE, SIZE), (-SIZE, SIZE)) for curve in found["printed"]]
+    result = fourth_surface()
+    shown = [within(curve, (-SIZE, SIZE), (-SIZE, SIZE)) for curve in result["printed"]]
     return (f"The fourth surface of the paper's list, (30) for x3 = 0 and G1 = 0, is drawn in truth and, "
-            f"dashed, as printed: up to {farthest(shown, found['true']):.2f} off.")
+            f"dashed, as printed: up to {farthest(shown, result['true']):.2f} off.")
 
 
 def _branches():
@@ -410,10 +410,10 @@ def map_exactness() -> str:
             f"{GRID_POINTS}")
 
 
-def _map(ax, scene, found, size):
+def _map(ax, scene, result, size):
     """One panel, `size` to all sides of the origin; the filled contours are returned."""
     a, b = scene.a, scene.b
-    for branch in found.branches:
+    for branch in result.branches:
         upper, triangles = _upper(np.asarray(branch.points))
         filled = ax.tricontourf(upper[:, 0], upper[:, 1], triangles, upper[:, 2], levels=LEVELS, cmap="Greys",
                                 antialiased=True, extend="max")

@@ -85,11 +85,11 @@ class Column:
 
 def columns_of(family: Family, span: Span) -> list[Column]:
     """A column for each case of a family."""
-    made = []
+    built = []
     for value, case in family.cases.items():
         runs, refused = compared(*case, span)
-        made.append(Column(rf"${family.symbol}={value:g}$ {family.unit}", runs, refused=refused))
-    return made
+        built.append(Column(rf"${family.symbol}={value:g}$ {family.unit}", runs, refused=refused))
+    return built
 
 
 def exactness(runs) -> str:
@@ -104,9 +104,9 @@ def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words
     """The figures of lines (Row, [Column, ...]), of at most PANELS panels each. A line shares its limits,
     unless each panel has its own; the last panels show printed curves alone that leave the limits shared."""
     words, count = MODEL_LABELS | (words or {}), len(lines[0][1])
-    whole = [(row, columns, None) for row, columns in lines if not own and _leaves(row, columns)]
+    full = [(row, columns, None) for row, columns in lines if not own and _leaves(row, columns)]
     cells = [[(row, columns, c) for c in columns] for row, columns in lines]
-    cells += [whole[n:n + count] for n in range(0, len(whole), count)]
+    cells += [full[n:n + count] for n in range(0, len(full), count)]
     each = max(1, PANELS // count)
     parts = [cells[n:n + each] for n in range(0, len(cells), each)]
     numbers = [f" ({n} of {len(parts)})" for n in range(1, len(parts) + 1)] if len(parts) > 1 else [""]
@@ -114,21 +114,21 @@ def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words
             for number, part in zip(numbers, parts)]
 
 
-def _picture(plt, title, lines, size, words, mark_words, own):
+def _picture(plt, title, lines, size, text, mark_words, own):
     """A figure of lines of cells (Row, all columns of its line, its own or None for printed curves alone)."""
     width, height = size
     heights, count = [height * (TALL if line[0][0].equal else 1) for line in lines], max(map(len, lines))
-    told = [[_cuts(row, c, _window(row, [c] if own else columns)) if c else [] for row, columns, c in line]
+    printed = [[_cuts(row, c, _window(row, [c] if own else columns)) if c else [] for row, columns, c in line]
             for line in lines]
-    stacked = [max(0, *(len(cuts) - 1 for cuts in line)) for line in told]
+    stacked = [max(0, *(len(cuts) - 1 for cuts in line)) for line in printed]
     figure, axes = plt.subplots(len(lines), count, squeeze=False, layout="constrained", height_ratios=heights,
                                 figsize=(width, 1 + sum(heights) + sum(stacked) * LINE / 72))
-    headings = [[f"{words['printed']}, alone" if c is None else c.heading for *_, c in line]
+    headings = [[f"{text['printed']}, alone" if c is None else c.heading for *_, c in line]
                 for line in lines]
     for i, (line, more) in enumerate(zip(lines, stacked)):
         for ax in axes[i, len(line):]:
             ax.remove()
-        for j, (ax, (row, columns, column), cuts) in enumerate(zip(axes[i], line, told[i])):
+        for j, (ax, (row, columns, column), cuts) in enumerate(zip(axes[i], line, printed[i])):
             if column is None:
                 _printed_alone(ax, row, columns)
             else:
@@ -138,7 +138,7 @@ def _picture(plt, title, lines, size, words, mark_words, own):
                 if not i:
                     _ending(ax, column)
             if not i or headings[i] != headings[i - 1][:len(line)]:
-                refused = "" if column is None else _refused(column, words)
+                refused = "" if column is None else _refused(column, text)
                 # above the words on cuts
                 ax.set_title(headings[i][j] + refused, pad=14 + LINE * more, fontsize=8 if refused else None)
             if not row.over_time or i + 1 == len(lines) or not lines[i + 1][0][0].over_time:
@@ -148,15 +148,15 @@ def _picture(plt, title, lines, size, words, mark_words, own):
     # numbers at the ends of axes, headings below labels
     figure.get_layout_engine().set(w_pad=0.09, h_pad=0.04 if len(set(map(tuple, headings))) < 2 else 0.12)
     figure.suptitle(title, fontsize=11)
-    style.legend(figure, _entries(lines, words, mark_words))
+    style.legend(figure, _entries(lines, text, mark_words))
     return figure
 
 
-def _entries(lines, words, mark_words) -> list:
+def _entries(lines, text, mark_words) -> list:
     """The rows of the legend of `_picture`."""
     cells = [cell for line in lines for cell in line]
     shown = [(row, c) for row, _, c in cells if c is not None]
-    rows = [(words[name], LOOKS[name]) for name in ("exact", *ORDER) if any(name in c.runs for _, c in shown)]
+    rows = [(text[name], LOOKS[name]) for name in ("exact", *ORDER) if any(name in c.runs for _, c in shown)]
     if mark_words and any(c.mark is not None and row.over_time for row, c in shown):
         rows.append((mark_words, style.MEANING["crossing"]))
     alone = next((columns for _, columns, c in cells if c is None), ())
@@ -165,9 +165,9 @@ def _entries(lines, words, mark_words) -> list:
     return rows + [("alone, thin: corrected integrals", NEIGHBOUR_LOOKS[1])] * thin
 
 
-def _refused(column: Column, words: Mapping[str, str]) -> str:
+def _refused(column: Column, text: Mapping[str, str]) -> str:
     """Which models have no curve in a column, and why, as lines of its heading."""
-    why = {reason.split(": ")[0]: [words[m] for m, other in column.refused.items() if other == reason]
+    why = {reason.split(": ")[0]: [text[m] for m, other in column.refused.items() if other == reason]
            for reason in column.refused.values()}
     return "".join("\n" + fill(f"{', '.join(f'no “{model}”' for model in models)}: {reason}", 48)
                    for reason, models in why.items())
@@ -238,23 +238,23 @@ def _curve(row: Row, column: Column, name: str):
 def _cuts(row: Row, column: Column, limits: Sequence[tuple[float, float]]) -> list[tuple[str, str]]:
     """(model, words how far it goes) of every curve of a panel that leaves its limits, upwards, downwards or
     sideways."""
-    found = []
+    rows = []
     for name in ("exact", *reversed(ORDER)):
         picked = _curve(row, column, name)
         if picked is None or not len(picked[0]):
             continue
         labels = ("", "") if row.over_time else (f"{_bare(row.xlabel)} ", f"{_bare(row.ylabel)} ")
         spans = [cost.beyond(v, *ends) for v, ends in zip(picked, limits)]
-        told = [f"{label}{'from ' if len(span) > 1 else 'to '}{' to '.join(span)}"
+        printed = [f"{label}{'from ' if len(span) > 1 else 'to '}{' to '.join(span)}"
                 for label, span in zip(labels, spans) if span]
-        found += [(name, f"cut: {', '.join(told)}")] * bool(told)
-    return found
+        rows += [(name, f"cut: {', '.join(printed)}")] * bool(printed)
+    return rows
 
 
 def _tell_cuts(ax: Axes, cuts: Sequence[tuple[str, str]]):
     """Above a panel, how far each curve goes that leaves it, in its colour."""
-    for n, (name, words) in enumerate(cuts):
-        ax.annotate(words, (1.0, 1.01), (0, LINE * n), xycoords="axes fraction", textcoords="offset points",
+    for n, (name, text) in enumerate(cuts):
+        ax.annotate(text, (1.0, 1.01), (0, LINE * n), xycoords="axes fraction", textcoords="offset points",
                     color=INK[name], ha="right", va="bottom", fontsize=8.6)
 
 

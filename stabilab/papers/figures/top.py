@@ -31,8 +31,8 @@ PANELS = {"histories": ("Histories", tuple(panels.history(*row) for row in SIX))
 
 def _lines(name: str, kind: str):
     """(row, columns) of every row of a figure."""
-    family, seen = FAMILIES[name], _with_angles if kind == "angles" else _scaled
-    columns = [replace(column, runs=seen(*case))
+    family, visited = FAMILIES[name], _with_angles if kind == "angles" else _scaled
+    columns = [replace(column, runs=visited(*case))
                for column, case in zip(panels.columns_of(family, SPAN), family.cases.values())]
     return [(row, columns) for row in PANELS[kind][1]]
 
@@ -61,14 +61,14 @@ def _scaled(file: str, variant: str):
 @lru_cache(maxsize=8)
 def _with_angles(file, variant):
     """The runs of a case with a part "euler": theta, phi, psi."""
-    case, found = sweep(file)[variant], {}
+    case, result = sweep(file)[variant], {}
     for model, run in compared(file, variant, SPAN)[0].items():
         if model == "printed":
             a = printed(case.scene, {"omega": case.state, "gamma": case.blocks["gamma"]}, run.t)
         else:
             a = euler_angles(run.t, run.state["omega"], run.state["gamma"])
-        found[model] = replace(run, state=run.state | {"euler": np.stack([a.theta, a.phi, a.psi], -1)})
-    return found
+        result[model] = replace(run, state=run.state | {"euler": np.stack([a.theta, a.phi, a.psi], -1)})
+    return result
 
 
 def _runs(family: str):

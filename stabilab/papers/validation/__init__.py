@@ -15,10 +15,10 @@ def validated(name: str | None = None, tell: Callable[[int, int, str], None]
               | None = None) -> tuple[tuple[Source, tuple[Finding, ...]], ...]:
     """(source, findings) of one source or of all on record. tell(done, count, words): before each value.
     InputError for an unknown source."""
-    chosen = [source(one) for one in ([name] if name else sources())]
-    count, done, found = sum(len(printed.values) for one in chosen for printed in one.printed), 0, []
-    for one in chosen:
-        found.append((one,
-                      findings(one, tell and (lambda n, words, before=done: tell(before + n, count, words)))))
-        done += sum(len(printed.values) for printed in one.printed)
-    return tuple(found)
+    chosen = [source(item) for item in ([name] if name else sources())]
+    count, done, result = sum(len(printed.values) for item in chosen for printed in item.printed), 0, []
+    for x in chosen:
+        result.append((x,
+                      findings(x, tell and (lambda n, text, before=done: tell(before + n, count, text)))))
+        done += sum(len(printed.values) for printed in x.printed)
+    return tuple(result)

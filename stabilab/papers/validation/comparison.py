@@ -185,12 +185,12 @@ def findings(source: Source, tell: Callable[[int, str], None] | None = None) -> 
             tell(0, f"{source.title}: following {name}")
         ordered = sorted(wanted)
         followed[name] = dict(zip(ordered, at(motion, ordered)))
-    found = []
-    for done, (printed, row) in enumerate((one, row) for one in source.printed for row in one.values):
+    rows = []
+    for done, (printed, row) in enumerate((item, row) for item in source.printed for row in item.values):
         if tell:
             tell(done, source.title)
-        found += _row(printed, row, followed[printed.motion.id])
-    return tuple(found)
+        rows += _row(printed, row, followed[printed.motion.id])
+    return tuple(rows)
 
 
 def _row(printed: Printed, row: Sequence[str], followed: Mapping[Fraction, At]):
@@ -199,8 +199,8 @@ def _row(printed: Printed, row: Sequence[str], followed: Mapping[Fraction, At]):
         balls = getattr(quantities, printed.quantity)(motion, followed[time], numbers)
         again = (reproduced(printed, float(time), [float(v.mid()) for v in balls]) if printed.scheme
                  else [None] * len(balls))
-        return [_judged(printed, row[0], *one, numbers)
-                for one in zip(COMPONENTS[printed.quantity], balls, row[1:], again)]
+        return [_judged(printed, row[0], *item, numbers)
+                for item in zip(COMPONENTS[printed.quantity], balls, row[1:], again)]
 
 
 def _judged(printed: Printed, time: str, component: str, ball: arb, theirs: str, again: float | None,
@@ -226,39 +226,39 @@ SCHEMA = "stabilab.validate/1"
 def as_dict(validated) -> dict:
     """{"schema", "sources"} of (source, findings) pairs."""
     return {"schema": SCHEMA,
-            "sources": [_source(source) | {"values": [_value(source, one) for one in found]}
-                        for source, found in validated]}
+            "sources": [_source(source) | {"values": [_value(source, item) for item in result]}
+                        for source, result in validated]}
 
 
 def _source(source: Source):
     return {"source": source.name} | values_of(source, "title repository commit licence about")
 
 
-def _value(source, one):
-    return {"tool": one.printed.tool, "file": one.printed.file, "url": source.url(one.printed.file),
-            "motion": one.printed.motion.id, "time_s": one.time,
-            "quantity": one.component, "unit": one.unit, "ours": one.ours, "ours_within": one.bound,
-            **values_of(one, "theirs difference tolerance"), "tolerance_is": one.printed.tolerance_is,
-            "verdict": one.verdict, "cause": one.explanation, "left": one.left}
+def _value(source, item):
+    return {"tool": item.printed.tool, "file": item.printed.file, "url": source.url(item.printed.file),
+            "motion": item.printed.motion.id, "time_s": item.time,
+            "quantity": item.component, "unit": item.unit, "ours": item.ours, "ours_within": item.bound,
+            **values_of(item, "theirs difference tolerance"), "tolerance_is": item.printed.tolerance_is,
+            "verdict": item.verdict, "cause": item.explanation, "left": item.left}
 
 
-def counts(found: Sequence[Finding]) -> str:
+def counts(result: Sequence[Finding]) -> str:
     """How many values have which verdict, in words."""
-    number = Counter(one.verdict for one in found)
-    told = {"agrees": "agree", "explained": "differ for a known cause", "differs": "differ"}
-    words = {verdict: many if number[verdict] > 1
+    number = Counter(item.verdict for item in result)
+    printed = {"agrees": "agree", "explained": "differ for a known cause", "differs": "differ"}
+    phrase = {verdict: many if number[verdict] > 1
              else many.replace("agree", "agrees").replace("differ", "differs")
-             for verdict, many in told.items()}
-    return (", ".join(f"{number[verdict]} {words[verdict]}" for verdict in VERDICTS if number[verdict])
+             for verdict, many in printed.items()}
+    return (", ".join(f"{number[verdict]} {phrase[verdict]}" for verdict in VERDICTS if number[verdict])
             or "no values are printed")
 
 
 def text(validated) -> str:
     """How many values agree, then a table a source: a row a value, and what explains a tool's differences
     below its rows."""
-    all_of = ([f"{len(validated)} sources: {counts([one for _, found in validated for one in found])}"]
+    all_of = ([f"{len(validated)} sources: {counts([item for _, result in validated for item in result])}"]
               if len(validated) > 1 else [])
-    return "\n\n".join([*all_of, *("\n".join(_lines(source, found)) for source, found in told(validated))])
+    return "\n\n".join([*all_of, *("\n".join(_lines(source, result)) for source, result in told(validated))])
 
 
 def told(validated) -> list:
@@ -266,19 +266,19 @@ def told(validated) -> list:
     return sorted(validated, key=lambda pair: not pair[1])
 
 
-def _lines(source, found):
-    yield f"{source.name}: {counts(found)}: {source.title}"
+def _lines(source, result):
+    yield f"{source.name}: {counts(result)}: {source.title}"
     yield f"  {source.place}, {source.licence}; {source.about}"
-    for group in grouped(found):
+    for group in grouped(result):
         printed = group[0].printed
         yield (
             f"  {printed.tool} ({printed.file.rsplit('/', 1)[-1]}; tolerance {_tolerance(printed)}: "
             f"{printed.tolerance_is})")
         yield from _table([("t (s)", "quantity", "ours", "theirs", "differs by", "")] + [
-            (one.time, one.component, _short(one.ours), one.theirs,
-             f"{one.difference:.1e} {one.unit}".strip(), one.verdict) for one in group])
-        if words := cause(group):
-            yield f"    cause: {words}"
+            (item.time, item.component, _short(item.ours), item.theirs,
+             f"{item.difference:.1e} {item.unit}".strip(), item.verdict) for item in group])
+        if phrase := cause(group):
+            yield f"    cause: {phrase}"
 
 
 def _table(rows):
@@ -303,31 +303,31 @@ def _tolerance(printed: Printed):
 
 def unexplained(validated) -> list[str]:
     """A line for each value that is farther off than its tolerance without a cause."""
-    return [f"{source.name}: {one.printed.tool}: {one.component} at {one.time} s differs by "
-            f"{one.difference:.1e}, tolerance {one.tolerance:.1e}"
-            for source, found in validated for one in found if one.verdict == "differs"]
+    return [f"{source.name}: {item.printed.tool}: {item.component} at {item.time} s differs by "
+            f"{item.difference:.1e}, tolerance {item.tolerance:.1e}"
+            for source, result in validated for item in result if item.verdict == "differs"]
 
 
-def grouped(found: Sequence[Finding]) -> list[list]:
+def grouped(result: Sequence[Finding]) -> list[list]:
     """The findings of each set of printed values."""
     groups: dict = {}
-    for one in found:
-        groups.setdefault(id(one.printed), []).append(one)
+    for item in result:
+        groups.setdefault(id(item.printed), []).append(item)
     return list(groups.values())
 
 
 def cause(group: Sequence[Finding]) -> str:
     """What explains the values of a set that are farther off than their tolerance: its worst remainder; empty
     where there is none."""
-    explained = [one for one in group if one.verdict == "explained"]
-    return max(explained, key=lambda one: one.left).explanation if explained else ""
+    explained = [item for item in group if item.verdict == "explained"]
+    return max(explained, key=lambda item: item.left).explanation if explained else ""
 
 
 def page(validated, path, **around) -> Path:
     """The page of (source, findings) pairs as a file; around: of the pages beside it (`html.render`)."""
-    sources = [{"source": source, "count": counts(found),
-                "groups": [_group(source, group) for group in grouped(found)]}
-               for source, found in told(validated)]
+    sources = [{"source": source, "count": counts(result),
+                "groups": [_group(source, group) for group in grouped(result)]}
+               for source, result in told(validated)]
     return html.write(Path(path), "validation.html", title="Numbers of other tools beside ours",
                       sources=sources, **around)
 

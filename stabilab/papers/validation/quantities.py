@@ -121,7 +121,7 @@ RPM = Fraction(6000)  # the speed at which a wheel has its nominal momentum
 
 def wheels_at(motion, times) -> list:
     """[(rates, turned rows)] at increasing times (rationals, s), as of `At`."""
-    found, wheels = [], motion.wheels
+    result, wheels = [], motion.wheels
     with working(BITS) as numbers:
         # moment of a wheel about its axis
         own = numbers.ball(wheels.momentum) / (numbers.ball(RPM) * numbers.pi() / 30)
@@ -136,9 +136,9 @@ def wheels_at(motion, times) -> list:
                 step = min(STEP, until - now, *([wheels.until - now] if driven else []))
                 motor = [numbers.ball(v if driven else 0) for v in wheels.motor]
                 state, now = _step(moments, motor, state, numbers.ball(step)), now + step
-            found.append((tuple(state[:3]),
+            result.append((tuple(state[:3]),
                           tuple(tuple(state[6 + 3 * k + i] for k in range(3)) for i in range(3))))
-    return found
+    return result
 
 
 def _step(moments: Sequence[arb], motor: Sequence[arb], state: Sequence[arb], length: arb):
@@ -151,13 +151,13 @@ def _step(moments: Sequence[arb], motor: Sequence[arb], state: Sequence[arb], le
             break
         box = [arb(w.mid(), w.rad() * 1.25 + arb(2) ** -80) for w in wider]
     rows, last = _series(moments, motor, state, ORDER - 1), _series(moments, motor, box, ORDER)
-    found = []
+    result = []
     for row, beyond in zip(rows, last):
         total = beyond[ORDER]
         for c in reversed(row):
             total = total * length + c
-        found.append(total)
-    return found
+        result.append(total)
+    return result
 
 
 def _series(moments: Sequence[arb], motor: Sequence[arb], state: Sequence[arb], order: int):
@@ -198,10 +198,10 @@ def at(motion, times) -> list[At]:
     if motion.case:
         return [At(time) for time in times]
     if motion.wheels:
-        return [At(time, *found) for time, found in zip(times, wheels_at(motion, times))]
+        return [At(time, *result) for time, result in zip(times, wheels_at(motion, times))]
     runs = [_run(motion, times, axis) for axis in UNITS]
     with working(BALL_BITS):
-        return [At(time, tuple(one[0]), _rows(one[1], two[1])) for time, one, two in zip(times, *runs)]
+        return [At(time, tuple(item[0]), _rows(item[1], two[1])) for time, item, two in zip(times, *runs)]
 
 
 def _rows(first: Sequence[arb], second: Sequence[arb]):
@@ -213,9 +213,9 @@ def _run(motion, times, axis):
     """[(rates, direction)] at the times, as many bits as it takes."""
     bits = FIRST_BITS
     while True:
-        found, lost = _attempt(motion, times, axis, bits)
+        result, lost = _attempt(motion, times, axis, bits)
         if bits - lost >= KEPT:
-            return found
+            return result
         bits = lost + KEPT + SPARE
 
 
@@ -223,34 +223,34 @@ def _attempt(motion, times, axis, bits):
     scene = motion.scene
     unit = exact_unit(scene, motion.omega)
     flow = flow_of(scene, motion.omega, bits, unit, tuple(map(Fraction, axis)))
-    found, lost = [], 0
+    result, lost = [], 0
     with working(BALL_BITS) as numbers:
         # of a unit of omega; a free motion runs so much faster
         rate = numbers.pi() / 180 if motion.unit == "deg/s" else numbers.ball(1)
         waiting = [(numbers.ball(t) - numbers.ball(motion.begins)) * numbers.ball(unit) * rate for t in times]
-        while len(found) < len(waiting):
+        while len(result) < len(waiting):
             piece = flow.step()
-            while len(found) < len(waiting) and waiting[len(found)] < numbers.ball(flow.now):
-                values = values_of(piece, waiting[len(found)], numbers)
-                found.append(([v * numbers.ball(unit) * rate for v in values[:3]], values[3:]))
+            while len(result) < len(waiting) and waiting[len(result)] < numbers.ball(flow.now):
+                values = values_of(piece, waiting[len(result)], numbers)
+                result.append(([v * numbers.ball(unit) * rate for v in values[:3]], values[3:]))
                 lost = max(lost, *(r.bit_length() for r in piece.radii))
             if flow.error.bit_length() > 900 - 64:
-                return found, flow.error.bit_length()
-    return found, lost
+                return result, flow.error.bit_length()
+    return result, lost
 
 
 def values_of(piece: Piece, now: arb, numbers: Digits) -> list:
     """The components of a piece at a time of the motion's own, a ball; balls, while `numbers` is the working
     kind."""
     from flint import arb
-    s, scale, found = (now
+    s, scale, result = (now
                        - numbers.ball(piece.start)) / numbers.ball(piece.length), arb(2) ** -piece.bits, []
     for row, radius in zip(piece.rows, piece.radii):
         total = arb(0)
         for c in reversed(row):
             total = total * s + c
-        found.append((total + arb(0, radius)) * scale)
-    return found
+        result.append((total + arb(0, radius)) * scale)
+    return result
 
 
 DEGREES = "deg/s"

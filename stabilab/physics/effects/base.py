@@ -86,12 +86,12 @@ class Effect(metaclass=Asked):
         knows (`body`, `torque_from_mu`). As it stands: three numbers under the only key.
         """
         vector = table.vector(cls.keys[0]) if table.required(*cls.keys) else None
-        made: Any = cls  # an effect of other keys reads them itself
-        return None if vector is None else made(vector)
+        built: Any = cls  # an effect of other keys reads them itself
+        return None if vector is None else built(vector)
 
     def written(self) -> dict[str, Any]:
         """Its table in a case file: key to value, exact where the effect holds it so."""
-        values = [getattr(self, one.name) for one in fields(self) if one.init]
+        values = [getattr(self, field.name) for field in fields(self) if field.init]
         exact = getattr(self, "exact", None)  # of the only number or vector; else of what several make
         return dict(zip(self.keys, values if exact is None or len(values) > 1 else [exact]))
 

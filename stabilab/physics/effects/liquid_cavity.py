@@ -128,8 +128,8 @@ class LiquidCavity(Effect):
         law = table.text("torque", "consistent")
         if law not in TORQUES:
             table.fault(f'expected "consistent" or "printed", got "{law}"', "torque")
-        given = complete and shape is not None and law in TORQUES
-        if not given or None in (values["density"], values["viscosity"], values[shape]):
+        supplied = complete and shape is not None and law in TORQUES
+        if not supplied or None in (values["density"], values["viscosity"], values[shape]):
             return None
         make = cls if shape == "P0" else cls.of_sphere
         return make(values["density"], values["viscosity"], values[shape], law)
@@ -164,7 +164,7 @@ class LiquidCavity(Effect):
         without liquid, so its torque must be small beside the body's own; and the liquid, frozen, is part of
         the body.
         """
-        least, square, kappa = min(scene.body.inertia), self.radius**2 / self.viscosity, float(self.exact)
+        lower, square, kappa = min(scene.body.inertia), self.radius**2 / self.viscosity, float(self.exact)
         return (
             Limit("Reynolds number n h^2/nu of the liquid", 1.0,
                   lambda state: square * pace(scene, state, self),
@@ -172,8 +172,8 @@ class LiquidCavity(Effect):
                   f"{NEXT_TERM:.2g} of it times as large), so a "
                   "liquid this thin does not move as computed", SOURCE),
             Limit("torque of the liquid over the body's own, kappa n/D", 1.0,
-                  lambda state: kappa / least * pace(scene, state, self),
+                  lambda state: kappa / lower * pace(scene, state, self),
                   "the liquid's torque is taken along the body's motion without liquid, which it would "
                   "outweigh", SOURCE),
-            Limit("moment of the liquid over the least of the body", 1.0, lambda state: self.moment / least,
+            Limit("moment of the liquid over the least of the body", 1.0, lambda state: self.moment / lower,
                   "no body has these moments and holds this liquid", SOURCE))

@@ -79,8 +79,8 @@ class NewtonianField(Effect):
             mass = gravity.weight / abs(self.strength * self.distance / 3)
         if not mass:
             return ()
-        share = (max(scene.body.inertia) / abs(mass)) ** 0.5 / self.distance
-        return (Limit("size of the body over the distance of the centre", SMALL, lambda state: share,
+        fraction = (max(scene.body.inertia) / abs(mass)) ** 0.5 / self.distance
+        return (Limit("size of the body over the distance of the centre", SMALL, lambda state: fraction,
                       "the field's torque is the first term of a series in this number, so near a centre the "
                       "body does not move as computed",
                       "Amer et al. 2023, fast top: eq. (2)"),)

@@ -47,9 +47,9 @@ class RateDamper(Effect):
     def from_case(cls, table: Any, context: Any) -> RateDamper | None:
         if not table.required("coefficient"):
             return None
-        given = table.data["coefficient"]
-        read = (table.number if not isinstance(given, list) else
-                table.matrix if any(isinstance(row, list) for row in given) else table.vector)
+        supplied = table.data["coefficient"]
+        read = (table.number if not isinstance(supplied, list) else
+                table.matrix if any(isinstance(row, list) for row in supplied) else table.vector)
         value = read("coefficient")
         why = None if value is None else fault_of(_rows(value))
         if why:
@@ -75,15 +75,15 @@ class RateDamper(Effect):
         return {name: self.exact[i][j] for name, (i, j) in ENTRIES.items()}
 
     def torque(self, omega: Triple, p: Mapping[str, Number]) -> Triple:
-        C = {place: p[name] for name, (i, j) in ENTRIES.items() for place in ((i, j), (j, i))}
+        C = {location: p[name] for name, (i, j) in ENTRIES.items() for location in ((i, j), (j, i))}
         return tuple(-sum(C[i, j] * omega[j] for j in range(3)) for i in range(3))
 
 
-def _rows(given: Any) -> tuple[Exact3, ...]:
+def _rows(supplied: Any) -> tuple[Exact3, ...]:
     """The matrix of a number, of three, or of three rows of them."""
-    if isinstance(given, str) or not hasattr(given, "__iter__"):
-        given = [in_si(given, MOMENTUM, "coefficient")] * 3
-    rows = list(given)
+    if isinstance(supplied, str) or not hasattr(supplied, "__iter__"):
+        supplied = [in_si(supplied, MOMENTUM, "coefficient")] * 3
+    rows = list(supplied)
     if len(rows) == 3 and all(hasattr(row, "__iter__") and not isinstance(row, str) for row in rows):
         return tuple(vector_in_si(row, MOMENTUM, "coefficient") for row in rows)
     diagonal = vector_in_si(rows, MOMENTUM, "coefficient")

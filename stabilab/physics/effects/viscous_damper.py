@@ -64,11 +64,11 @@ class ViscousDamper(Effect):
         inertia, coefficient = table.positive("inertia"), table.positive("coefficient")
         if inertia is None or coefficient is None or not complete:
             return None
-        made = cls(inertia, coefficient)
-        if not context.stand_in and (why := made.refused_by(context.body)):
+        built = cls(inertia, coefficient)
+        if not context.stand_in and (why := built.refused_by(context.body)):
             table.fault(why, "inertia")
             return None
-        return made
+        return built
 
     def terms(self) -> dict[str, Any]:
         return dict(zip(("inside", "friction"), self.exact))
@@ -77,10 +77,10 @@ class ViscousDamper(Effect):
         return dict(zip(self.keys, self.exact))
 
     def refused_by(self, body: Body) -> str:
-        least = min(body.exact)
-        return "" if self.exact[0] < least else (
+        lower = min(body.exact)
+        return "" if self.exact[0] < lower else (
             f"the sphere's moment of inertia, {float(self.exact[0]):.6g} kg m^2, must be smaller than every "
-            f"principal moment of the body, which hold it: the least is {float(least):.6g}; give the moments "
+            f"principal moment of the body, which hold it: the least is {float(lower):.6g}; give the moments "
             "of the whole, or a smaller sphere")
 
     def part(self, motion: SimpleNamespace | MotionView, p: Mapping[str, Number]) -> Part:

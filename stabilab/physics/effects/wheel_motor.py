@@ -94,8 +94,8 @@ class WheelMotor(Effect):
 
     def refuses(self, state: Mapping[str, Sequence[float]]) -> str:
         u, h = self.motor, tuple(map(float, state.get("wheel", (0.0,) * 3)))
-        most = max((abs(float(v)) for row in state.values() for v in row), default=0.0)
-        if math.hypot(*cross(u, h)) <= math.hypot(*u) * (ACROSS * math.hypot(*h) + MOVED * most):
+        largest = max((abs(float(v)) for row in state.values() for v in row), default=0.0)
+        if math.hypot(*cross(u, h)) <= math.hypot(*u) * (ACROSS * math.hypot(*h) + MOVED * largest):
             return ""
         return ("wheel: the momentum that the motor has given its wheel lies along the motor's line, and "
                 "this one does not: give here the part along effects.wheel_motor.torque, and to "
@@ -106,7 +106,7 @@ class WheelMotor(Effect):
         from .gyrostat import Gyrostat
         momentum = tuple(a + Fraction(b) for a, b in zip(scene.vector("gyrostat"), state["wheel"]))
         return type(scene)(scene.body, Gyrostat(momentum),
-                           *(one for one in scene.effects if one.name not in (self.name, "gyrostat")))
+                           *(item for item in scene.effects if item.name not in (self.name, "gyrostat")))
 
     def turned(self, frame: PrincipalAxes) -> WheelMotor:
         return WheelMotor(frame.turned(self.exact), self.duration, self.ran)

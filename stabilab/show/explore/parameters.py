@@ -27,11 +27,11 @@ LARGER, SLENDER = 1.5, 100.0  # the largest moment of a slider: times that of th
 STILL = 0.05  # rad/s: a body that no number moves turns so fast on the sliders
 
 
-def slider(name: str, words: str, unit: str, value: float, low: float, high: float, axis: int = 0
+def slider(name: str, text: str, unit: str, value: float, low: float, high: float, axis: int = 0
            ) -> dict[str, Any]:
     """One slider. name: as in a request; value, low, high: in its unit, the value with six digits at most, as
     a person reads it; words: for people, empty where it is named by its principal axis (1 to 3)."""
-    return {"name": name, "words": words, "unit": unit, "value": float(f"{value:.6g}"), "low": low,
+    return {"name": name, "words": text, "unit": unit, "value": float(f"{value:.6g}"), "low": low,
             "high": high, "axis": axis}
 
 
@@ -42,11 +42,11 @@ def groups(case: Case, units: Units) -> list[dict[str, Any]]:
                       *_around(abs(size) or _usual_torque(case))),
               slider("tilt", "tilt off it", "deg", tilt, 0.0, nice(max(TILTED, ROOM * tilt))),
               slider("azimuth", "towards", "deg", azimuth, -180.0, 180.0)]
-    found = [("Torque along", axis, torque),
+    result = [("Torque along", axis, torque),
              ("Wheel and moments" if units.scaled else "Wheel momentum about axis", None, _wheel(case)),
              ("Rates at the start", None, _start(case, units)),
              ("Moments of inertia about axis", None, _moments(case))]
-    return [{"title": title, "axis": along, "controls": rows} for title, along, rows in found if rows]
+    return [{"title": title, "axis": along, "controls": rows} for title, along, rows in result if rows]
 
 
 def vector(case: Case, name: str) -> tuple[float, ...]:
@@ -76,8 +76,8 @@ def torque_of(axis: int, size: float, tilt: float, azimuth: float) -> tuple[floa
     """The inverse of `direction`: components are exactly zero at right angles."""
     (cos_t, sin_t), (cos_a, sin_a) = _turned(tilt), _turned(azimuth)
     out = [0.0] * 3
-    for n, share in ((axis - 1, cos_t), (axis % 3, sin_t * cos_a), ((axis + 1) % 3, sin_t * sin_a)):
-        out[n] = size * share
+    for n, fraction in ((axis - 1, cos_t), (axis % 3, sin_t * cos_a), ((axis + 1) % 3, sin_t * sin_a)):
+        out[n] = size * fraction
     return tuple(out)
 
 
@@ -110,10 +110,10 @@ def _wheel(case: Case) -> list[dict[str, Any]]:
 
 def _start(case: Case, units: Units) -> list[dict[str, Any]]:
     values = vector(case, "start")
-    name, one = units.rates
-    size = max(map(abs, values)) * one or (1.0 if units.scaled else STILL * one)
-    words = [component.replace("omega", "ω") for component in case.scene.components]
-    return [slider(f"start{n}", words[n], name, value * one, *_around(size))
+    name, item = units.rates
+    size = max(map(abs, values)) * item or (1.0 if units.scaled else STILL * item)
+    phrases = [component.replace("omega", "ω") for component in case.scene.components]
+    return [slider(f"start{n}", phrases[n], name, value * item, *_around(size))
             for n, value in enumerate(values)]
 
 
@@ -144,14 +144,14 @@ SMALLEST = 1e-300  # but zero: what is drawn of smaller ones has fewer digits th
 LARGEST = 1e8  # beyond it doubles that are drawn run into overflows and lost digits; no body has such numbers
 
 
-def changed(case: Case, asked: dict[str, Any], units: Units) -> tuple[Case, str]:
+def changed(case: Case, query: dict[str, Any], units: Units) -> tuple[Case, str]:
     """(the case with the changes of a request, words on what was left out). asked: {"torque": None or {axis,
     size, tilt, azimuth}, "inertia", "wheel" and "start": a number in text, or None for the case's own, for
     each slider}. Raises InputError for what is no such request."""
     scaled = case.scene.variables == "scaled"
-    torque, inertia, start = asked.get("torque"), _numbers(asked, "inertia", 3), _numbers(asked, "start", 3)
-    wheel = _numbers(asked, "wheel", 2 if scaled else 3)
-    if all(one is None for one in (torque, inertia, wheel, start)) and case.state is not None:
+    torque, inertia, start = query.get("torque"), _numbers(query, "inertia", 3), _numbers(query, "start", 3)
+    wheel = _numbers(query, "wheel", 2 if scaled else 3)
+    if all(item is None for item in (torque, inertia, wheel, start)) and case.state is not None:
         return case, ""
     base = _base(case)
     if inertia is not None:
@@ -169,22 +169,22 @@ def changed(case: Case, asked: dict[str, Any], units: Units) -> tuple[Case, str]
         if not all(problem.key.startswith("limits") for problem in error.problems):
             raise
     base.pop("limits")
-    words = f"The start is beyond the limit of the case, which is left out here. {left}".rstrip()
-    return read_text(case.path, text_of(base, head)), words
+    text = f"The start is beyond the limit of the case, which is left out here. {left}".rstrip()
+    return read_text(case.path, text_of(base, head)), text
 
 
 def _left_out(case: Case, fires: bool) -> str:
     """What cannot be stated along principal axes; fires: whether thrusters still give the torque."""
     if case.frame is None or case.frame.as_given:
         return ""
-    found = [words for words,
+    rows = [text for text,
              there in (("limits about the axes of the file",
                         case.limits is not None and case.limits.rates is not None),
                                         ("the misalignment of thrusters",
-                                         fires and any(one.stuck and one.misalignment
-                                                       for one in case.thrusters))) if there]
-    return (f"Left out of a changed case, which stands along the principal axes: {' and '.join(found)}."
-            if found else "")
+                                         fires and any(thruster.stuck and thruster.misalignment
+                                                       for thruster in case.thrusters))) if there]
+    return (f"Left out of a changed case, which stands along the principal axes: {' and '.join(rows)}."
+            if rows else "")
 
 
 def _base(case: Case) -> dict[str, Any]:
@@ -193,17 +193,17 @@ def _base(case: Case) -> dict[str, Any]:
     scaled = case.scene.variables == "scaled"
     if not scaled and (case.frame is None or case.frame.as_given):
         return data
-    made = data_of_scene(case.scene, case.exact_state)
-    if "motion" in made:
-        made["motion"] |= _kept(data.get("motion", {}), *(("x", "tau") if scaled else ("span",)))
+    built = data_of_scene(case.scene, case.exact_state)
+    if "motion" in built:
+        built["motion"] |= _kept(data.get("motion", {}), *(("x", "tau") if scaled else ("span",)))
     if not scaled:
-        made["body"] |= _kept(data["body"], "mass")
-        for name in made.get("effects", {}).keys() - {"gyrostat", "constant_torque"}:
-            made["effects"][name] = data["effects"][name]  # alike along all axes (`pictures.check`)
+        built["body"] |= _kept(data["body"], "mass")
+        for name in built.get("effects", {}).keys() - {"gyrostat", "constant_torque"}:
+            built["effects"][name] = data["effects"][name]  # alike along all axes (`pictures.check`)
         if case.limits is not None and case.limits.rate is not None:
-            made |= _kept(data, "limits")
-    made |= _kept(data, "title", "source", "output")
-    return _kept(made, "title", "source", "scaled", "body", "effects", "limits", "output", "motion")
+            built |= _kept(data, "limits")
+    built |= _kept(data, "title", "source", "output")
+    return _kept(built, "title", "source", "scaled", "body", "effects", "limits", "output", "motion")
 
 
 def _kept(data: dict[str, Any], *keys: str) -> dict[str, Any]:
@@ -213,18 +213,18 @@ def _kept(data: dict[str, Any], *keys: str) -> dict[str, Any]:
 def _set_inertia(base: dict[str, Any], case: Case, values: list[Any]) -> None:
     if not isinstance(case.scene, Scene):
         raise InputError("inertia: scaled variables have no moments of inertia")
-    if wrong := next((one for one in values if one is not None and not float(one) > 0), None):
+    if wrong := next((value for value in values if value is not None and not float(value) > 0), None):
         raise InputError(f"inertia: expected a number above 0, got {wrong}")
-    old, given = base["body"], [exact_text(v) for v in case.scene.body.exact]
-    base["body"] = {"inertia": [own if new is None else Written(new) for own, new in zip(given, values)],
+    old, supplied = base["body"], [exact_text(v) for v in case.scene.body.exact]
+    base["body"] = {"inertia": [own if new is None else Written(new) for own, new in zip(supplied, values)],
                     **_kept(old, "mass", "centre_of_mass")}
 
 
-def _set_torque(base: dict[str, Any], asked: Mapping[str, Any], scaled: bool) -> None:
-    axis = asked.get("axis") if isinstance(asked, dict) else None
+def _set_torque(base: dict[str, Any], query: Mapping[str, Any], scaled: bool) -> None:
+    axis = query.get("axis") if isinstance(query, dict) else None
     if type(axis) is not int or axis not in (1, 2, 3):  # neither true nor 1.0
         raise InputError(f"torque: expected an axis of 1, 2 or 3, got {shown(axis)}")
-    torque = torque_of(axis, *(float(number(asked.get(name), name)) for name in ("size", "tilt", "azimuth")))
+    torque = torque_of(axis, *(float(number(query.get(name), name)) for name in ("size", "tilt", "azimuth")))
     numbers = [Written(f"{v + 0.0:.12g}") for v in torque]
     if scaled:
         base["scaled"]["mu"] = numbers
@@ -255,9 +255,9 @@ def _set_start(base: dict[str, Any], case: Case, values: list[Any], scaled: bool
                    for old, new in zip(own, values)]
 
 
-def _numbers(asked: dict[str, Any], name: str, count: int) -> list[Any] | None:
+def _numbers(request: dict[str, Any], name: str, count: int) -> list[Any] | None:
     """The changed numbers of a group, None for one that stays; None where all do."""
-    values = asked.get(name)
+    values = request.get(name)
     if values is not None and (not isinstance(values, list) or len(values) != count):
         raise InputError(f"{name}: expected a list of {count} numbers or nulls, got {shown(values)}")
     if values is None or not any(value is not None for value in values):
@@ -268,13 +268,13 @@ def _numbers(asked: dict[str, Any], name: str, count: int) -> list[Any] | None:
 def number(value: str | int, name: str) -> str:
     """A decimal in text."""
     try:
-        found = float(value) if isinstance(value, str) and len(value) <= LENGTH else math.nan
+        result = float(value) if isinstance(value, str) and len(value) <= LENGTH else math.nan
     except ValueError:
-        found = math.nan
-    if not math.isfinite(found):
+        result = math.nan
+    if not math.isfinite(result):
         raise InputError(f"{name}: expected a number, got {shown(value)}")
-    if found and not SMALLEST <= abs(found) <= LARGEST:
+    if result and not SMALLEST <= abs(result) <= LARGEST:
         raise InputError(
             f"{name}: expected 0 or a number of {SMALLEST:g} to {LARGEST:g}, which can still be drawn, got "
             f"{value}")
-    return f"{found:.12g}"
+    return f"{result:.12g}"

@@ -103,11 +103,11 @@ class Plane:
     def state(self, turn: float, rate: float) -> tuple[float, ...]:
         """The three rates of a point of the plane."""
         r, out = self.reduction, [0.0] * 3
-        place = self.potential.move(self.place, turn / self.unit)
+        location = self.potential.move(self.place, turn / self.unit)
         if r.geometry.centred:
-            x, z = self.potential.xz(place)
-            place = r.component_j(x), r.component_k(z)
-        out[r.j], out[r.k] = place
+            x, z = self.potential.xz(location)
+            location = r.component_j(x), r.component_k(z)
+        out[r.j], out[r.k] = location
         out[r.axis] = rate
         return tuple(map(float, out))
 
@@ -117,18 +117,19 @@ def plane_of(scene: AnyScene, state: tuple[float, ...]) -> Plane | None:
     r = reduce(scene)
     if r is None:
         return None
-    pot, place, W0, unit = potential(r), *_start(r, state)
-    force = pot.force(place)
-    height = lambda y: pot.rise(float(y), place, force)
+    pot, index, W0, unit = potential(r), *_start(r, state)
+    force = pot.force(index)
+    height = lambda y: pot.rise(float(y), index, force)
     if r.geometry.walled:
-        low, high = _walls(pot, place, height, W0)
+        low, high = _walls(pot, index, height, W0)
     else:  # of a circle: about the middle of the equilibria within half a turn
-        near = list(_rests(pot, place, [-math.pi + 2 * math.pi * n / POTENTIAL_POINTS for n in range(POTENTIAL_POINTS + 1)]))
+        angles = [-math.pi + 2 * math.pi * n / POTENTIAL_POINTS for n in range(POTENTIAL_POINTS + 1)]
+        near = list(_rests(pot, index, angles))
         middle = sum(near) / len(near) if near else 0.0
         low, high = middle - CIRCLE, middle + CIRCLE
     y = [low + (high - low) * n / (POTENTIAL_POINTS - 1) for n in range(POTENTIAL_POINTS)]
-    rests = [(at, height(at), pot.slope(pot.move(place, at)) > 0) for at in _rests(pot, place, y)]
-    return Plane(r, pot, place, W0, unit, y, [height(v) for v in y], rests)
+    rests = [(at, height(at), pot.slope(pot.move(index, at)) > 0) for at in _rests(pot, index, y)]
+    return Plane(r, pot, index, W0, unit, y, [height(v) for v in y], rests)
 
 
 def _start(r: Reduction, state: tuple[float, ...]) -> tuple[tuple[float, float], float, float]:
@@ -140,9 +141,9 @@ def _start(r: Reduction, state: tuple[float, ...]) -> tuple[tuple[float, float],
     return (float(first), float(second)), float(w), r.constants["flip"] / r.constants["n"]
 
 
-def _rests(pot: Circle, place: Sequence[float], y: Sequence[float]):
+def _rests(pot: Circle, location: Sequence[float], y: Sequence[float]):
     """Where the force vanishes, between places of opposite signs; nothing where it does everywhere."""
-    force = lambda v: pot.force(pot.move(place, v))
+    force = lambda v: pot.force(pot.move(location, v))
     values = [force(v) for v in y]
     for n in range(len(y) - 1 if any(values) else 0):
         if values[n] * values[n + 1] < 0 or values[n] == 0:
@@ -153,14 +154,14 @@ def _rests(pot: Circle, place: Sequence[float], y: Sequence[float]):
             yield low
 
 
-def _walls(pot, place, height, W0):
+def _walls(pot, location, height, W0):
     """How far on each side the potential of a hyperbola or parabola is worth drawing."""
     out = [NEAREST * GROWTH**n for n in range(math.ceil(math.log(FARTHEST / NEAREST, GROWTH)) + 1)]
-    marks = [0.0, *_rests(pot, place, [*(-y for y in reversed(out)), 0.0, *out])]
+    marks = [0.0, *_rests(pot, location, [*(-y for y in reversed(out)), 0.0, *out])]
     heights = [height(y) for y in marks]
-    least = min(heights)
-    lift = max(W0 * W0 / 2 - least, max(heights) - least) or 1.0
-    return tuple(_side(height, edge, sense, least + LIFT * lift, least - CELLAR * lift) for edge,
+    smallest = min(heights)
+    lift = max(W0 * W0 / 2 - smallest, max(heights) - smallest) or 1.0
+    return tuple(_side(height, edge, sense, smallest + LIFT * lift, smallest - CELLAR * lift) for edge,
                  sense in ((min(marks), -1), (max(marks), 1)))
 
 
@@ -205,23 +206,23 @@ def clicked(scene: AnyScene, state: tuple[float, ...], at: Any, units: Units) ->
     if plane is None or not (math.isfinite(turn) and math.isfinite(rate)):
         raise InputError("click: this motion has no phase plane")
     angle = 1.0 if units.scaled else units.angles[1]
-    one = units.rates[1]
-    return [f"{v * one + 0.0:.{CLICK_DIGITS}g}" for v in plane.state(turn / angle, rate / one)]
+    item = units.rates[1]
+    return [f"{v * item + 0.0:.{CLICK_DIGITS}g}" for v in plane.state(turn / angle, rate / item)]
 
 
 def over_time(bag: Bag, case: Case, motion: Motion | None, times: list[float], path: list[tuple[float, ...]],
               units: Units) -> dict[str, Any]:
     """Rates and their size over time, with known extremes over all time and the limits of the case."""
-    name, one = units.times(times[-1])
+    name, item = units.times(times[-1])
     label, rate = units.rates
     symbol = "x" if units.scaled else "ω"
     extremes = period = reached = None
     if motion is not None:
         if motion.extremes is not None and motion.for_all_time:
             extremes = [[v * rate for v in pair] for pair in motion.extremes]
-        period = None if motion.period is None else motion.period * one
-        reached = None if (at := limit_time(motion)) is None else at * one
-    return {"times": bag.add("float32", [t * one for t in times]),
+        period = None if motion.period is None else motion.period * item
+        reached = None if (at := limit_time(motion)) is None else at * item
+    return {"times": bag.add("float32", [t * item for t in times]),
             "rates": [bag.add("float32", [x[n] * rate for x in path]) for n in range(3)],
             "extremes": extremes, "period": period, "reached": reached,
             "x": "time τ" if units.scaled else with_unit("time", name),
@@ -263,8 +264,8 @@ def check(case: Case) -> None:
     if turned is None or turned.as_given:
         return
     # the same along all axes, as an isotropic damper is
-    alike = scene.blocks == ("omega",) and all(effect.turned(turned) is effect for effect in scene.beyond)
-    if not alike:
+    similar = scene.blocks == ("omega",) and all(effect.turned(turned) is effect for effect in scene.beyond)
+    if not similar:
         names = " and ".join(effect_words(effect.name) for effect in scene.beyond)
         raise InputError(f"{case.place}: explore turns wheels and torque into the principal axes, but not "
                          f"{names}: state the case along its principal axes (stabilab show tells them), or "
@@ -299,12 +300,12 @@ def path(case: Case, until: float) -> Path:
 def film(case: Case, until: float, bag: Bag, units: Units) -> dict[str, Any]:
     """The body as it turns in that time, as `templates/turning.js` draws it."""
     from ..plot import turning
-    one = turning.subject(case, span=until)
-    found = turning.turn(one, FRAMES)
-    drawn = turning.drawn(one, found, units.times(until), units.rates,
+    item = turning.subject(case, span=until)
+    result = turning.turn(item, FRAMES)
+    drawn = turning.drawn(item, result, units.times(until), units.rates,
                           lambda rows: bag.add("float32", rows.ravel().tolist()))
     return drawn | {"names": [units.axes.label(n) for n in (1, 2, 3)],
-                    "words": f"Arrows: {found.words}. {found.part(units)}"}
+                    "words": f"Arrows: {result.words}. {result.part(units)}"}
 
 
 def at_rest(scene: AnyScene) -> Equilibria | None:
@@ -321,7 +322,7 @@ def line(case: Case, form: QuadraticForm | None, until: float, moving: bool) -> 
     if form is None:
         return path(case, until)
     times, states = followed(form, case.state, until)
-    known = parting(form, (times, states))
-    if (known < len(times) or times[-1] < until) and not moving and present("numpy"):
+    resolved = parting(form, (times, states))
+    if (resolved < len(times) or times[-1] < until) and not moving and present("numpy"):
         return path(case, until)
-    return times[:known], states[:known]
+    return times[:resolved], states[:resolved]

@@ -119,17 +119,17 @@ class _Handler(BaseHTTPRequestHandler):
                                     bytes | None]] = {"answer": self.server.answer, "verify": checked}
         if not self._allowed():
             return
-        way = answers.get(self._path() or "")
-        asked = self._asked() if way else None
-        if way is None:
+        route = answers.get(self._path() or "")
+        request = self._asked() if route else None
+        if route is None:
             self._refuse(404, "there is nothing here")
-        elif asked is not None:
+        elif request is not None:
             try:
-                found = way(asked)
+                result = route(request)
             except Exception as error:  # of any kind: whoever asked is told, and the terminal stays as it is
                 self._refuse(500, f"stabilab failed unexpectedly: {type(error).__name__}: {error!s:.200}")
                 return
-            self._send(204 if found is None else 200, found or b"", "application/octet-stream")
+            self._send(204 if result is None else 200, result or b"", "application/octet-stream")
 
     def _allowed(self) -> bool:
         """Whether the question comes from the page itself; refuses it otherwise."""
@@ -151,27 +151,27 @@ class _Handler(BaseHTTPRequestHandler):
 
     def _asked(self) -> dict[str, Any] | None:
         """The question in the body; refuses what is none."""
-        told = self.headers.get("Content-Length", "")
-        length = int(told) if told.isascii() and told.isdigit() and len(told) < 10 else -1
+        printed = self.headers.get("Content-Length", "")
+        length = int(printed) if printed.isascii() and printed.isdigit() and len(printed) < 10 else -1
         if self.headers.get_content_type() != "application/json" or not 0 <= length <= LONGEST:
             self._refuse(400, f"expected JSON of at most {LONGEST} bytes with its length")
             return None
         try:
             body = self.rfile.read(length)
-            asked = json.loads(body) if len(body) == length else None
+            request = json.loads(body) if len(body) == length else None
         except TimeoutError:
             self._refuse(408, "the body is shorter than its length")
             return None
         except (ValueError, RecursionError):
-            asked = None
-        if not isinstance(asked, dict):
+            request = None
+        if not isinstance(request, dict):
             self._refuse(400, "expected a JSON object")
             return None
-        return asked
+        return request
 
-    def _refuse(self, status: int, words: str) -> None:
+    def _refuse(self, status: int, text: str) -> None:
         self.close_connection = True  # what it may still send is not read
-        self._send(status, f"{words}\n".encode(errors="backslashreplace"), "text/plain; charset=utf-8")
+        self._send(status, f"{text}\n".encode(errors="backslashreplace"), "text/plain; charset=utf-8")
 
     def _send(self, status: int, body: bytes, kind: str) -> None:
         self.send_response(status)
@@ -228,15 +228,15 @@ def write(case: Case, out: Path, pyodide: Path | None = None) -> Path:
         for name in (*NEEDED, *wheels):
             with whole_file(out / "pyodide" / name) as waiting:
                 shutil.copyfile(pyodide / name, waiting)
-    words = f"Pyodide {PYODIDE} from {ADDRESS}" if wheels is None else "Pyodide from the folder of this page"
+    text = f"Pyodide {PYODIDE} from {ADDRESS}" if wheels is None else "Pyodide from the folder of this page"
     flint = ("python-flint and NumPy from where Pyodide finds them" if wheels is None
              else f"{' and '.join(wheels)} too")
-    how = (f"Python runs in this browser and answers here: {words}, {flint}, and stabilab {__version__} from "
+    how = (f"Python runs in this browser and answers here: {text}, {flint}, and stabilab {__version__} from "
            f"stabilab.zip beside this page. "
            + ("" if wheels is None or len(wheels) > 1
               else "Without NumPy a motion that no law decides is not followed."))
     python = {"pyodide": ADDRESS if wheels is None else "pyodide/", "wheels": wheels,
-              "arrays": wheels is None, "words": words, "name": Path(case.path).name,
+              "arrays": wheels is None, "words": text, "name": Path(case.path).name,
               "text": case.text}
     _written(out / "stabilab.zip", archive())
     _written(out / "worker.js", (TEMPLATES / "explore-worker.js").read_bytes())
@@ -250,9 +250,9 @@ def archive() -> bytes:
     package, buffer = Path(__file__).parents[2], io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as packed:
         for path in sorted(package.rglob("*.py")):
-            place = path.relative_to(package).as_posix()
-            if not place.startswith(LEFT_OUT):
-                packed.writestr(zipfile.ZipInfo(f"stabilab/{place}", DAY), path.read_bytes(),
+            location = path.relative_to(package).as_posix()
+            if not location.startswith(LEFT_OUT):
+                packed.writestr(zipfile.ZipInfo(f"stabilab/{location}", DAY), path.read_bytes(),
                                 zipfile.ZIP_DEFLATED)
     return buffer.getvalue()
 
@@ -267,11 +267,11 @@ def _wheels(folder: Path) -> list[str]:
         tag = f"cp{''.join(info['python'].split('.')[:2])}-*_{info['abi_version']}_wasm32.whl"
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise InputError(f"--pyodide: {folder / 'pyodide-lock.json'} is not Pyodide's: {error}") from None
-    found = {name: sorted(path.name for path in folder.glob(f"{name}-*-cp*-{tag}"))
+    entries = {name: sorted(path.name for path in folder.glob(f"{name}-*-cp*-{tag}"))
              for name in ("python_flint", "numpy")}
-    if not found["python_flint"]:
+    if not entries["python_flint"]:
         raise InputError(f"--pyodide: {folder} has no wheel python_flint-*-{tag}: {CURE}")
-    return [names[-1] for names in found.values() if names]
+    return [names[-1] for names in entries.values() if names]
 
 
 def _written(path: Path, content: bytes) -> None:

@@ -55,36 +55,36 @@ MAX_ROWS = 12  # rows of equilibria
 def rows(case: Case, motion: Motion, units: Units) -> list[list[str]]:
     """[words, value] of what is known of the motion."""
     when, until = next(rest for name, *rest in tiles(motion, units) if name == "when")
-    found = [*([["limit", f"{when}: {until}"]] if motion.first else []),
+    result = [*([["limit", f"{when}: {until}"]] if motion.first else []),
              ["start", units.vector(motion.at[:3], units.rates)],
-             *([name, words] for name, words in margins(motion, units))]
+             *([name, text] for name, text in margins(motion, units))]
     if motion.extremes is not None and not any(map(math.isnan, sum(map(list, motion.extremes), []))):
         for component, pair in zip(case.scene.components,
                                    but_for_rounding(motion.extremes, motion.tolerance)):
-            found.append([component.replace("omega", "ω"), _range(*pair, units, motion.extremes_side)])
-    return [*found, ["why", units.said(motion.reason)]]
+            result.append([component.replace("omega", "ω"), _range(*pair, units, motion.extremes_side)])
+    return [*result, ["why", units.said(motion.reason)]]
 
 
 def _range(low: float, high: float, units: Units, side: int) -> str:
     """Least and greatest rate. side: 1 of bounds, which are rounded outward."""
-    least, greatest = units.rate(low, side=-side), units.rate(high, side=side)
+    smallest, greatest = units.rate(low, side=-side), units.rate(high, side=side)
     if math.isinf(low) or math.isinf(high):
-        return ("without end both ways" if low == -high else f"from {least} up, without end"
+        return ("without end both ways" if low == -high else f"from {smallest} up, without end"
                 if math.isinf(high) else f"from {greatest} down, without end")
-    return f"{least} to {greatest}"
+    return f"{smallest} to {greatest}"
 
 
-def equilibrium_rows(found: Equilibria, units: Units) -> dict[str, Any]:
+def equilibrium_rows(result: Equilibria, units: Units) -> dict[str, Any]:
     """{reason, rows of (where, verdict)}: of a curve a state on each of its pieces, as `classify` has it."""
-    told = [[units.vector(point.at[:3], units.rates), point.verdict] for point in found.points]
-    for curve in found.curves:
+    printed = [[units.vector(point.at[:3], units.rates), point.verdict] for point in result.points]
+    for curve in result.curves:
         for verdict, samples in groupby(curve.samples, lambda sample: sample.verdict):
             slowest = min(samples, key=lambda sample: max(map(abs, sample.at[:3])))
             name = called(curve.description.name, units)
-            told.append([f"{name}, such as {units.vector(slowest.at[:3], units.rates)}", verdict])
-    more = len(told) - MAX_ROWS
-    return {"reason": units.said(found.reason),
-            "rows": told[:MAX_ROWS] + ([[f"and {more} more", ""]] if more > 0 else [])}
+            printed.append([f"{name}, such as {units.vector(slowest.at[:3], units.rates)}", verdict])
+    more = len(printed) - MAX_ROWS
+    return {"reason": units.said(result.reason),
+            "rows": printed[:MAX_ROWS] + ([[f"and {more} more", ""]] if more > 0 else [])}
 
 
 PLAIN = (18, 17)  # rows of a branch, and columns of half of it, while a slider moves
@@ -132,58 +132,58 @@ class Session:
         except StabilabError as error:
             return Bag().framed({"error": str(error)})
         except ImportError as error:
-            if (words := explained(error)) is None:
+            if (text := explained(error)) is None:
                 raise
-            return Bag().framed({"error": str(words)})
+            return Bag().framed({"error": str(text)})
 
-    def _answer(self, asked, bag, stopped):
+    def _answer(self, request, bag, stopped):
         began = time.process_time()
-        moving, clicked = bool(asked.get("moving")), None
-        case, note = changed(self.case, asked, self.units)
+        moving, clicked = bool(request.get("moving")), None
+        case, note = changed(self.case, request, self.units)
         units = self.units
         if isinstance(case.scene, Scene):  # names of the axes by moments whose order the sliders may change
             units = replace(units, axes=with_moments(units.axes, case.scene.body.exact))
-        if asked.get("click"):
-            clicked = pictures.clicked(self._twin(case), case.state, asked["click"], self.units)
-            case, note = changed(self.case, asked | {"start": clicked, "click": None}, self.units)
-        found, words = self._motion(case, moving, stopped)
-        if found is not None:
-            found = judged(case, found, brief=True)
+        if request.get("click"):
+            clicked = pictures.clicked(self._twin(case), case.state, request["click"], self.units)
+            case, note = changed(self.case, request | {"start": clicked, "click": None}, self.units)
+        result, text = self._motion(case, moving, stopped)
+        if result is not None:
+            result = judged(case, result, brief=True)
             if not moving and present("numpy"):
-                found = with_ending(case, found)
+                result = with_ending(case, result)
             if case.limits is not None and not moving and present("numpy"):
                 from ...answers.when import with_first
-                found = with_first(case, found, QUICK)
-            words = headline(case, found, units)
+                result = with_first(case, result, QUICK)
+            text = headline(case, result, units)
         settled = time.process_time()
         twin = self._twin(case)
         at_rest = self._at_rest(case, twin, moving)
         form = None if twin is None else twin.quadratic()
-        until, cut = _length(case, found, form, moving)
+        until, cut = _length(case, result, form, moving)
         times, path = self._once("line", (case.scene, case.state, until, moving),
                                  lambda: line(case, form, until, moving))
-        whole = times, path
-        if found is not None and found.ending is not None and found.ending.until is not None:
-            end = seen(case.span, found, until)[1]  # past it, though its turns are too many for the space
-            whole = self._once("whole", (case.scene, case.state, end), lambda: pictures.path(case, end))
-        picture = self._space(bag, case, twin, found, at_rest, times, path, asked.get("box"), moving)
+        full = times, path
+        if result is not None and result.ending is not None and result.ending.until is not None:
+            end = seen(case.span, result, until)[1]  # past it, though its turns are too many for the space
+            full = self._once("whole", (case.scene, case.state, end), lambda: pictures.path(case, end))
+        picture = self._space(bag, case, twin, result, at_rest, times, path, request.get("box"), moving)
         about_axes = frame.components(self.case, units.axes)  # of the file, where they are others
         turns = not self.units.scaled and present("numpy") and (case.scene.plain or not moving)
-        holds = None if found is None else found.validity  # of an approximate law
+        holds = None if result is None else result.validity  # of an approximate law
         notes = [note, self._swept, cut, holds and units.said(holds.reason),
-                 *limiting.beside((case if found is None else found).caveats, units, words)]
-        made = {"headline": words, "fate": "undecided" if found is None else found.fate.word,
-                "look": "conditional" if found is None else look(found),
+                 *limiting.beside((case if result is None else result).caveats, units, text)]
+        built = {"headline": text, "fate": "undecided" if result is None else result.fate.word,
+                "look": "conditional" if result is None else look(result),
                 "moving": moving, "start": clicked,
                 "note": " ".join(map(_capital, filter(None, notes))),
                 "toml": case.text, "axes": _named(units), "space": picture,
                 "rows": [*([["axes", lettered(about_axes)]] if about_axes else []),
-                         *([] if found is None else rows(case, found, units))],
+                         *([] if result is None else rows(case, result, units))],
                 "plane": None if twin is None else pictures.drawn_planes(bag, twin, case.state, units),
-                "time": pictures.over_time(bag, case, found, *whole, units),
+                "time": pictures.over_time(bag, case, result, *full, units),
                 "film": pictures.film(case, times[-1], bag, units) if turns else None}
-        made["equilibria"] = equilibrium_rows(at_rest, units) if at_rest else pictures.NOT_YET
-        return made | {"analysis": 1e3 * (settled - began), "work": 1e3 * (time.process_time() - began)}
+        built["equilibria"] = equilibrium_rows(at_rest, units) if at_rest else pictures.NOT_YET
+        return built | {"analysis": 1e3 * (settled - began), "work": 1e3 * (time.process_time() - began)}
 
     def _motion(self, case: Case, moving: bool, stopped: Callable[[], Any]) -> tuple[Motion | None, str]:
         """(what is known of the motion, the verdict in a line); None where a run would keep a moving hand
@@ -199,14 +199,14 @@ class Session:
                 raise Stopped
         began = time.process_time()
         try:
-            found = motion(case.scene, case.start, needs=Needs.QUICK if moving else Needs.ALL,
+            result = motion(case.scene, case.start, needs=Needs.QUICK if moving else Needs.ALL,
                            exact=case.exact_state, tell=tell if runs else None)
         except ModuleNotFoundError as error:
             if error.name != "numpy":
                 raise
             return None, f"UNDECIDED: {NO_ARRAYS}"
         self._cost[kind] = time.process_time() - began
-        return found, ""
+        return result, ""
 
     def _twin(self, case: Case) -> AnyScene | None:
         """The scene of wheel and torque alone with the same rates; None where there is none."""
@@ -221,41 +221,41 @@ class Session:
         if moving and slow and self._kept.get("equilibria", (None,))[0] != case.scene:
             return None
         began = time.process_time()
-        found = self._once("equilibria", case.scene, lambda: pictures.at_rest(case.scene))
+        result = self._once("equilibria", case.scene, lambda: pictures.at_rest(case.scene))
         self._cost["equilibria"] = max(self._cost.get("equilibria", 0.0), time.process_time() - began)
-        return found
+        return result
 
-    def _space(self, bag, case, twin, found, at_rest, times, path, asked, moving):
-        near = space.near_part(times, path, found)
+    def _space(self, bag, case, twin, result, at_rest, times, path, request, moving):
+        nearby = space.near_part(times, path, result)
         bare, ghost = (None, False) if twin is None else _without_tilt(twin)
-        marks = space.marks_of(case.state, found, at_rest)
+        marks = space.marks_of(case.state, result, at_rest)
         limit = space.limit_of(case)
-        rests = [*space.beside_limit(limit, near), *([] if moving else space.nearest(at_rest, near))]
-        box = space.box_of(near, marks + rests, reaching=True, asked=asked, kept=moving or ghost)
-        branches, words = (), pictures.why(case.scene)
+        rests = [*space.beside_limit(limit, nearby), *([] if moving else space.nearest(at_rest, nearby))]
+        box = space.box_of(nearby, marks + rests, reaching=True, asked=request, kept=moving or ghost)
+        branches, text = (), pictures.why(case.scene)
         if bare is not None:  # as far as the box reaches
             reach = self._kept.get("reach", (None, REACH))[1]
-            branches, words, far = self._once("branches", (bare, box, moving), lambda: space.branches_of(
+            branches, text, far = self._once("branches", (bare, box, moving), lambda: space.branches_of(
                 bare, box, plain=PLAIN if moving else None, reach=reach))
-            self._kept["reach"], words = (None, far), _capital(words)
+            self._kept["reach"], text = (None, far), _capital(text)
         names = [component.replace("omega", "ω") for component in case.scene.components]
         curves = self._once("curves", (case.scene, box, moving, at_rest is None),
                             lambda: space.curves_of(at_rest, box, *POINTS[moving]))
-        drawn = space.space(names, self.units.rates, box, branches, near, marks, curves, words,
+        drawn = space.space(names, self.units.rates, box, branches, nearby, marks, curves, text,
                       " without the tilt" * ghost, limit)
         if ghost:
-            words = ("No separatrix is known for a torque off the axes"
+            text = ("No separatrix is known for a torque off the axes"
                      + (": the surface drawn is that of the torque without its tilt" if drawn.branches
                         else ""))
         return space.data(drawn, partial(bag.add, "int16")) | {
-            "words": words, "box": {"middle": box.middle, "half": box.half}}
+            "words": text, "box": {"middle": box.middle, "half": box.half}}
 
     def _once(self, name: str, key: Any, make: Callable[[], Any]) -> Any:
         """What `make` gave for this key the last time, or gives now."""
-        kept = self._kept.get(name)
-        if kept is None or kept[0] != key:
-            kept = self._kept[name] = (key, make())
-        return kept[1]
+        retained = self._kept.get(name)
+        if retained is None or retained[0] != key:
+            retained = self._kept[name] = (key, make())
+        return retained[1]
 
 
 def _named(units: Units) -> list[str]:
@@ -263,23 +263,23 @@ def _named(units: Units) -> list[str]:
 
 
 @around
-def _capital(words: str) -> str:
-    return words[:1].upper() + words[1:]
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]
 
 
-def _length(case: Case, found: Motion | None, form: QuadraticForm | None, moving: bool) -> tuple[float, str]:
+def _length(case: Case, result: Motion | None, form: QuadraticForm | None, moving: bool) -> tuple[float, str]:
     """(how far a motion is drawn, what is said where that is less than every other view shows): so many
     radians of turn at most. form: its rates, where they are quadratic."""
     rate, torque = math.hypot(*case.state), math.hypot(*form.coefficients[3]) if form is not None else 0.0
     radian = 1.0 / max(rate, math.sqrt(torque)) if rate or torque else 1.0
-    most, alone = TURNS[moving] * radian, natural(case.scene, case.state)
-    span = case.span or (0.0, alone) if found is None else seen(case.span, found, alone)
+    largest, alone = TURNS[moving] * radian, natural(case.scene, case.state)
+    span = case.span or (0.0, alone) if result is None else seen(case.span, result, alone)
     wanted = abs(reach_of(span))
-    if wanted <= most or moving:
-        return min(wanted, most), ""
+    if wanted <= largest or moving:
+        return min(wanted, largest), ""
     units = units_of(case)
-    where = " in the space of the rates" if found is not None and found.ending is not None else ""
-    return most, f"Its first {units.time(most, SHORT)} of {units.time(wanted, SHORT)} are drawn{where}."
+    where = " in the space of the rates" if result is not None and result.ending is not None else ""
+    return largest, f"Its first {units.time(largest, SHORT)} of {units.time(wanted, SHORT)} are drawn{where}."
 
 
 def _without_tilt(scene: AnyScene) -> tuple[AnyScene, bool]:
@@ -289,21 +289,21 @@ def _without_tilt(scene: AnyScene) -> tuple[AnyScene, bool]:
     if len(acting) < 2:
         return scene, False
     main = max(acting, key=lambda n: abs(torque[n]))
-    kept = tuple(v if n == main else 0 for n, v in enumerate(torque))
+    retained = tuple(v if n == main else 0 for n, v in enumerate(torque))
     if scene.variables == "scaled":
-        return ScaledGyrostat(*scene.exact_ab, kept), True
+        return ScaledGyrostat(*scene.exact_ab, retained), True
     others = [effect for effect in scene.effects if effect.name != "constant_torque"]
-    return Scene(scene.body, *others, effect_class("constant_torque")(kept)), True
+    return Scene(scene.body, *others, effect_class("constant_torque")(retained)), True
 
 
-def checked(asked: dict[str, Any]) -> bytes:
+def checked(request: dict[str, Any]) -> bytes:
     """The findings on the certificate asked["text"], as a framed message: status, about, a row a claim."""
-    text = asked.get("text")
+    text = request.get("text")
     try:
         claims = parsed(text.encode() if isinstance(text, str) else b"")
-        found = verify(claims)
+        result = verify(claims)
     except (Malformed, UnicodeError) as error:
         return Bag().framed({"error": f"This is no certificate of stabilab classify --certify: {error}"})
-    silent = f"; nothing is claimed of: {', '.join(found.silent)}" if found.silent else ""
-    return Bag().framed({"status": found.status, "about": about_line(about(claims)) + silent,
-                         "findings": [values_of(one, "claim status reason") for one in found.findings]})
+    silent = f"; nothing is claimed of: {', '.join(result.silent)}" if result.silent else ""
+    return Bag().framed({"status": result.status, "about": about_line(about(claims)) + silent,
+                         "findings": [values_of(item, "claim status reason") for item in result.findings]})

@@ -87,15 +87,15 @@ def kinds(atlas: Atlas,
     occurs, the most first."""
     chosen = np.arange(len(atlas.records)) if rows is None else rows
     records = atlas.records[chosen]
-    seen = np.where(records["fate"] == Fate.UNDECIDED, records["island"], 0)
-    keys = np.stack([records["fate"].astype(int), records["spin_axis"].astype(int), seen], axis=1)
-    found, which = np.unique(keys, axis=0, return_inverse=True)
+    visited = np.where(records["fate"] == Fate.UNDECIDED, records["island"], 0)
+    keys = np.stack([records["fate"].astype(int), records["spin_axis"].astype(int), visited], axis=1)
+    result, which = np.unique(keys, axis=0, return_inverse=True)
     which = which.ravel()
-    whole = atlas.share[chosen].sum()
-    told = [((int(key[0]), int(key[1]), int(key[2])), chosen[which == n],
-             float(atlas.share[chosen][which == n].sum() / whole))
-            for n, key in enumerate(found)]
-    return sorted(told, key=lambda one: (-one[2], one[0]))
+    full = atlas.share[chosen].sum()
+    printed = [((int(key[0]), int(key[1]), int(key[2])), chosen[which == n],
+             float(atlas.share[chosen][which == n].sum() / full))
+            for n, key in enumerate(result)]
+    return sorted(printed, key=lambda item: (-item[2], item[0]))
 
 
 def wheel_words(atlas: Atlas, number: int) -> str:
@@ -116,9 +116,9 @@ ROWS = 12  # wheel momenta that are listed one by one
 
 def text(atlas: Atlas, units: Units) -> str:
     """The answer in the first line; then what is behind it."""
-    told = limiting.lines(limits_of(atlas.asked.case, _all(atlas)), units)
+    printed = limiting.lines(limits_of(atlas.asked.case, _all(atlas)), units)
     return limiting.ahead(of_case(atlas.asked.case), "\n".join([
-        f"{atlas.asked.case.name}: {answer(atlas, units)}", *told, *_wheels(atlas, units),
+        f"{atlas.asked.case.name}: {answer(atlas, units)}", *printed, *_wheels(atlas, units),
         *_details(atlas, units), *_named(atlas, units)]))
 
 
@@ -134,11 +134,11 @@ def answer(atlas: Atlas, units: Units, rows: np.ndarray | None = None) -> str:
     what = ("directions" if len(atlas.asked.wheels) == 1 or rows is not None
             else "directions and wheel momenta")
     parts = []
-    for n, ((fate, axis), share) in enumerate(shares):
+    for n, ((fate, axis), fraction) in enumerate(shares):
         about = axes_of(atlas.asked.case).whole(axis) if axis else other_axis(atlas)
         verb = (f"about {about}" if n and shares[n - 1][0][0] == fate == Fate.SPIN_UP
                 else f"spin up about {about}" if fate == Fate.SPIN_UP else DOES[Fate(fate)][0])
-        parts.append(f"{per_cent(share)} of {what} {verb}" if not n else f"{per_cent(share)} {verb}")
+        parts.append(f"{per_cent(fraction)} of {what} {verb}" if not n else f"{per_cent(fraction)} {verb}")
     if len(shares) == 1:
         parts = [parts[0].replace("100 % of", "all", 1)]
     return ", ".join(parts) + _shortest(atlas, units, rows)
@@ -147,11 +147,11 @@ def answer(atlas: Atlas, units: Units, rows: np.ndarray | None = None) -> str:
 def _by_axis(atlas: Atlas, rows: np.ndarray | None) -> list[tuple[tuple[int, int], float]]:
     """((fate, axis), share), both senses of an axis together; spin-ups beside each other, in order of what
     most do."""
-    found: dict[tuple[int, int], float] = {}
-    for (fate, axis, _), _, share in kinds(atlas, rows):
-        found[fate, abs(axis)] = found.get((fate, abs(axis)), 0.0) + share
-    total = {fate: sum(share for (other, _), share in found.items() if other == fate) for fate, _ in found}
-    return sorted(found.items(), key=lambda one: (-total[one[0][0]], one[0][0], -one[1]))
+    result: dict[tuple[int, int], float] = {}
+    for (fate, axis, _), _, fraction in kinds(atlas, rows):
+        result[fate, abs(axis)] = result.get((fate, abs(axis)), 0.0) + fraction
+    total = {fate: sum(value for (other, _), value in result.items() if other == fate) for fate, _ in result}
+    return sorted(result.items(), key=lambda item: (-total[item[0][0]], item[0][0], -item[1]))
 
 
 def _shortest(atlas: Atlas, units: Units, rows: np.ndarray | None = None) -> str:
@@ -159,10 +159,10 @@ def _shortest(atlas: Atlas, units: Units, rows: np.ndarray | None = None) -> str
         return ""
     chosen = np.arange(len(atlas.records)) if rows is None else rows
     low, high = (atlas.records[name][chosen] for name in ("when_low", "when_high"))
-    known = np.isfinite(low) & np.isfinite(high)
-    if not known.any():
+    resolved = np.isfinite(low) & np.isfinite(high)
+    if not resolved.any():
         return f"; {limit_words(atlas, units)} is not known to be reached"
-    at = int(chosen[known][np.argmin(low[known])])
+    at = int(chosen[resolved][np.argmin(low[resolved])])
     beside = (f", wheel {wheel_words(atlas, int(atlas.leaves.wheel[at]))}" if atlas.asked.momenta
               and rows is None else "")
     where = direction_words(atlas.in_file(atlas.directions[at:at + 1])[0])
@@ -179,8 +179,8 @@ def limit_words(atlas: Atlas, units: Units) -> str:
         return units.energy(limit.limits[0], SHORT)
     if limit.kind == "tilt":
         return f"{limit.names[0]} by {units.angle(limit.limits[0], SHORT)}"
-    told = " or ".join(dict.fromkeys(units.rate(one, SHORT) for one in limit.limits))
-    return told if limit.kind == "rate" else f"{' or '.join(map(lettered, limit.names))} = {told}"
+    printed = " or ".join(dict.fromkeys(units.rate(item, SHORT) for item in limit.limits))
+    return printed if limit.kind == "rate" else f"{' or '.join(map(lettered, limit.names))} = {printed}"
 
 
 def _wheels(atlas: Atlas, units: Units) -> list[str]:
@@ -198,7 +198,7 @@ def _wheels(atlas: Atlas, units: Units) -> list[str]:
 
 
 def _details(atlas: Atlas, units: Units) -> list[str]:
-    records, whole = atlas.records, atlas.share.sum()
+    records, full = atlas.records, atlas.share.sum()
     levels = np.unique(atlas.leaves.level)
     size = math.degrees(math.sqrt(float(area(int(levels[-1])))))
     lines = [f"  torque {units.torque(float(atlas.asked.torque))}; {len(records):,} cells of equal area at "
@@ -208,42 +208,42 @@ def _details(atlas: Atlas, units: Units) -> list[str]:
              f"some {size:.2g} deg wide"]
     spun = records["fate"] == Fate.SPIN_UP
     if spun.any():
-        lines.append("  spin-up about " + _listed(atlas, records["spin_axis"], spun, whole,
+        lines.append("  spin-up about " + _listed(atlas, records["spin_axis"], spun, full,
                                                   lambda axis: _signed(atlas, axis)))
-    lines.append("  the fate is known as " + _listed(atlas, records["level"], records["level"] >= 0, whole,
+    lines.append("  the fate is known as " + _listed(atlas, records["level"], records["level"] >= 0, full,
                                                      lambda level: LEVELS[level]))
     if atlas.asked.stated_limit is not None:
-        lines.append(_times(atlas, units, whole))
+        lines.append(_times(atlas, units, full))
     lines.append("  number of equilibria: "
-                 + _listed(atlas, records["equilibria"], records["equilibria"] > -9, whole,
+                 + _listed(atlas, records["equilibria"], records["equilibria"] > -9, full,
                                                       lambda n: COUNTS.get(n) or str(n)))
     suspected = records["island"] > 0
     if suspected.any():
-        lines.append("  bounded islands: " + _listed(atlas, records["island"], suspected, whole,
+        lines.append("  bounded islands: " + _listed(atlas, records["island"], suspected, full,
                                                      lambda n: ("", "may exist", "one is seen")[n]))
     return lines
 
 
-def _listed(atlas: Atlas, values: np.ndarray, rows: np.ndarray, whole: float,
-            words: Callable[[int], str]) -> str:
-    shares = {int(value): float(atlas.share[rows & (values == value)].sum() / whole)
+def _listed(atlas: Atlas, values: np.ndarray, rows: np.ndarray, full: float,
+            phrase: Callable[[int], str]) -> str:
+    shares = {int(value): float(atlas.share[rows & (values == value)].sum() / full)
               for value in np.unique(values[rows])}
-    return ", ".join(f"{words(value)} ({per_cent(share)})"
-                     for value, share in sorted(shares.items(), key=lambda one: -one[1]))
+    return ", ".join(f"{phrase(value)} ({per_cent(fraction)})"
+                     for value, fraction in sorted(shares.items(), key=lambda item: -item[1]))
 
 
-def _times(atlas: Atlas, units: Units, whole: float) -> str:
+def _times(atlas: Atlas, units: Units, full: float) -> str:
     low, high = atlas.records["when_low"], atlas.records["when_high"]
-    known = np.isfinite(low) & np.isfinite(high)
-    told = f"  time to {limit_words(atlas, units)}: "
-    if known.any():
-        least, most = float(low[known].min()), float(high[known].max())
-        levels = _listed(atlas, atlas.records["when_level"], known, whole, lambda level: LIMIT_LEVELS[level])
-        told += f"{units.time(least, SHORT)} to {units.time(most, SHORT)}, {levels}"
-    rest = [(words, float(atlas.share[rows].sum() / whole)) for words, rows in
-            (("never", np.isinf(low)), ("not known", ~known & ~np.isinf(low))) if rows.any()]
-    return (told + ("; " if known.any() and rest else "")
-            + ", ".join(f"{words} ({per_cent(share)})" for words, share in rest))
+    settled = np.isfinite(low) & np.isfinite(high)
+    printed = f"  time to {limit_words(atlas, units)}: "
+    if settled.any():
+        smallest, largest = float(low[settled].min()), float(high[settled].max())
+        levels = _listed(atlas, atlas.records["when_level"], settled, full, lambda level: LIMIT_LEVELS[level])
+        printed += f"{units.time(smallest, SHORT)} to {units.time(largest, SHORT)}, {levels}"
+    rest = [(phrase, float(atlas.share[rows].sum() / full)) for phrase, rows in
+            (("never", np.isinf(low)), ("not known", ~settled & ~np.isinf(low))) if rows.any()]
+    return (printed + ("; " if settled.any() and rest else "")
+            + ", ".join(f"{phrase} ({per_cent(fraction)})" for phrase, fraction in rest))
 
 
 def _named(atlas: Atlas, units: Units) -> list[str]:
@@ -297,11 +297,11 @@ def csv(atlas: Atlas) -> str:
     heads = ["name", "wheel", "level", "number", "share", "direction1", "direction2", "direction3",
              "file_x", "file_y", "file_z",
              *(with_unit(column.name, unit(plan, column)) for column in columns)]
-    leaves = atlas.leaves
+    ends = atlas.leaves
     points = zip((point_name(atlas, point) for point in atlas.named), (point.wheel for point in atlas.named),
                  repeat(("", "", "")))
-    cells = zip(repeat(""), leaves.wheel.tolist(),
-                zip(leaves.level.tolist(), leaves.number.tolist(), atlas.share.tolist()))
+    cells = zip(repeat(""), ends.wheel.tolist(),
+                zip(ends.level.tolist(), ends.number.tolist(), atlas.share.tolist()))
     momenta = atlas.asked.momenta
     case = atlas.asked.case
     every = limiting.cell(case, of_every_point(case))
@@ -328,14 +328,14 @@ def _cells(columns: Any, record: Any) -> list[Any]:
 def json(atlas: Atlas, units: Units) -> str:
     """Everything: what was asked, the answer, directions with a name, each column of the cells in one list.
     """
-    asked, plan, columns = atlas.asked, atlas.asked.plan(()), columns_of(atlas.asked.answers)[1:]
-    wheels = [{"momentum": momentum, "unit": asked.unit, "vector": list(map(float, vector))}
-              for momentum, vector in zip(asked.momenta or (None,) * len(asked.wheels), asked.wheels)]
-    axes = axes_of(asked.case)
+    query, plan, columns = atlas.asked, atlas.asked.plan(()), columns_of(atlas.asked.answers)[1:]
+    wheels = [{"momentum": momentum, "unit": query.unit, "vector": list(map(float, vector))}
+              for momentum, vector in zip(query.momenta or (None,) * len(query.wheels), query.wheels)]
+    axes = axes_of(query.case)
     shares = [{"fate": Fate(fate).word, **axes.key(abs(axis)),
-               "sense": (axis > 0) - (axis < 0) or None, "island": ISLANDS[island], "share": share}
-              for (fate, axis, island), _, share in kinds(atlas)]
-    limit = asked.stated_limit
+               "sense": (axis > 0) - (axis < 0) or None, "island": ISLANDS[island], "share": fraction}
+              for (fate, axis, island), _, fraction in kinds(atlas)]
+    limit = query.stated_limit
     cells = {"wheel": atlas.leaves.wheel, "level": atlas.leaves.level, "number": atlas.leaves.number,
              "share": atlas.share,
              "direction": atlas.directions, "direction_in_file": atlas.in_file(atlas.directions)}
@@ -346,11 +346,12 @@ def json(atlas: Atlas, units: Units) -> str:
              for point, direction, of_file, record in zip(
                  atlas.named, atlas.named_directions.tolist(),
                  atlas.in_file(atlas.named_directions).tolist(), atlas.named_records)]
-    frame = asked.case.frame
-    told: dict[str, Any] = {
-        "schema": ATLAS_SCHEMA, "case": asked.case.name, "command": asked.command, "answer": answer(atlas, units),
-        "torque": float(asked.torque),
-        "moments": list(map(float, asked.case.scene.body.exact)),  # type: ignore[union-attr]
+    frame = query.case.frame
+    printed: dict[str, Any] = {
+        "schema": ATLAS_SCHEMA, "case": query.case.name, "command": query.command,
+        "answer": answer(atlas, units),
+        "torque": float(query.torque),
+        "moments": list(map(float, query.case.scene.body.exact)),  # type: ignore[union-attr]
         "axes": [[float(v) for v in row] for row in frame.axes] if frame is not None else None,
         "wheels": wheels,
         "limit": None if limit is None else {"kind": limit.kind, "names": list(limit.names),
@@ -358,7 +359,7 @@ def json(atlas: Atlas, units: Units) -> str:
         "flags": {column.name: list(column.flags) for column in columns if column.flags},
         "units": {column.name: unit(plan, column) for column in columns if column.kind == "f8"},
         "cells": cells | {column.name: endless(atlas.records[column.name].tolist()) for column in columns}}
-    return as_json(told | limiting.key(asked.case, limits_of(asked.case, _all(atlas))))
+    return as_json(printed | limiting.key(query.case, limits_of(query.case, _all(atlas))))
 
 
 # --- As a data set
@@ -386,84 +387,84 @@ def atlas(case: Given, torque: Any = None, wheel: str | None = None,
     demand("xarray")
     plan = asked(case, torque, wheel, level, refine, certify, follow, timed, **limit)
     path = None if out is None else checked(out)
-    with drawn(plan, path, workers, scheduler) as found:
-        made = dataset(found)
+    with drawn(plan, path, workers, scheduler) as result:
+        built = dataset(result)
         if path is not None:
-            write(made, path)
-        return made
+            write(built, path)
+        return built
 
 
-def dataset(found: Atlas) -> xarray.Dataset:
+def dataset(result: Atlas) -> xarray.Dataset:
     """The cells with directions, corners, shares and answers; directions with a name beside them."""
-    def numbers(dims: str | Sequence[str], values: np.ndarray | list[str], words: str, **of: str) -> Any:
-        return dims, values, {"long_name": words, **of}
+    def numbers(dims: str | Sequence[str], values: np.ndarray | list[str], phrase: str, **of: str) -> Any:
+        return dims, values, {"long_name": phrase, **of}
 
-    plan, columns, leaves = found.asked.plan(()), columns_of(found.asked.answers)[1:], found.leaves
+    plan, columns, ends = result.asked.plan(()), columns_of(result.asked.answers)[1:], result.leaves
     cell, point = ("cell", "axis"), ("point", "axis")
     values = {
-        "wheel": numbers("cell", leaves.wheel.astype(np.int32), "number of the wheel momentum"),
-        "number": numbers("cell", leaves.number.astype(np.int32), "number of the cell at its depth"),
-        "depth": numbers("cell", leaves.level.astype(np.int32),
+        "wheel": numbers("cell", ends.wheel.astype(np.int32), "number of the wheel momentum"),
+        "number": numbers("cell", ends.number.astype(np.int32), "number of the cell at its depth"),
+        "depth": numbers("cell", ends.level.astype(np.int32),
                          "depth of the cell: 8 4^depth of them make the sphere"),
-        "share": numbers("cell", found.share, "share of the sphere", units="1"),
-        "direction": numbers(cell, found.directions, "middle of the cell along the principal axes",
+        "share": numbers("cell", result.share, "share of the sphere", units="1"),
+        "direction": numbers(cell, result.directions, "middle of the cell along the principal axes",
                              units="1"),
-        "direction_in_file": numbers(cell, found.in_file(found.directions),
+        "direction_in_file": numbers(cell, result.in_file(result.directions),
                                      "the same in the frame of the file", units="1"),
-        "corners": numbers(("cell", "corner", "axis"), _corners(leaves),
+        "corners": numbers(("cell", "corner", "axis"), _corners(ends),
                            "corners of the cell along the principal axes", units="1"),
-        **{column.name: column_in("cell", column, found.records, unit(plan, column)) for column in columns},
-        "point_direction": numbers(point, found.named_directions,
+        **{column.name: column_in("cell", column, result.records, unit(plan, column)) for column in columns},
+        "point_direction": numbers(point, result.named_directions,
                                    "direction with a name, along the principal axes", units="1"),
-        "point_wheel": numbers("point", np.array([one.wheel for one in found.named], np.int32),
+        "point_wheel": numbers("point", np.array([item.wheel for item in result.named], np.int32),
                                "number of the wheel momentum"),
-        **{f"point_{column.name}": column_in("point", column, found.named_records, unit(plan, column))
+        **{f"point_{column.name}": column_in("point", column, result.named_records, unit(plan, column))
            for column in columns},
-        "wheel_momentum": numbers(("wheels", "axis"), np.array(found.asked.wheels, float),
+        "wheel_momentum": numbers(("wheels", "axis"), np.array(result.asked.wheels, float),
                                   "momentum of the wheel along the principal axes", units="N m s")}
     coordinates = {"axis": numbers("axis", np.array([1, 2, 3], np.int8), "principal axis"),
-                   "point": numbers("point", [point_name(found, one) for one in found.named],
+                   "point": numbers("point", [point_name(result, item) for item in result.named],
                                     "name of the direction")}
-    return finished(values, coordinates, _attributes(found))
+    return finished(values, coordinates, _attributes(result))
 
 
-def _corners(leaves: Leaves) -> np.ndarray:
-    out = np.empty((len(leaves.level), 3, 3))
-    for level in np.unique(leaves.level):
-        rows = leaves.level == level
+def _corners(ends: Leaves) -> np.ndarray:
+    out = np.empty((len(ends.level), 3, 3))
+    for level in np.unique(ends.level):
+        rows = ends.level == level
         out[rows] = directions(corners(int(level),
-                                       leaves.number[rows]).reshape(-1, 3) / 2.0**level).reshape(-1, 3, 3)
+                                       ends.number[rows]).reshape(-1, 3) / 2.0**level).reshape(-1, 3, 3)
     return out
 
 
-def _attributes(found: Atlas) -> dict[str, Any]:
-    of = found.asked
-    told = {"path": os.path.basename(of.path), "options": dict(of.options), "level": of.level,
+def _attributes(result: Atlas) -> dict[str, Any]:
+    of = result.asked
+    shown = {"path": os.path.basename(of.path), "options": dict(of.options), "level": of.level,
             "refine": of.refine, "certify": of.certify,
-            "limit": dict(of.limit), "timed": of.timed, "computed": found.asked_points}
-    return {**origin(of.case, of.command), "torque": float(of.torque), "case": of.text, "atlas": dumps(told),
-            "caveats": limiting.cell(of.case, limits_of(of.case, found.records))}
+            "limit": dict(of.limit), "timed": of.timed, "computed": result.asked_points}
+    return {**origin(of.case, of.command), "torque": float(of.torque), "case": of.text, "atlas": dumps(shown),
+            "caveats": limiting.cell(of.case, limits_of(of.case, result.records))}
 
 
 def atlas_of(data: xarray.Dataset, path: Path) -> Atlas:
     """The atlas that a data set of `dataset` holds. Raises InputError for one that was changed."""
     try:
-        told = loads(data.attrs["atlas"])
-        of = asked(read_text(told["path"], data.attrs["case"]), **told["options"], level=told["level"],
-                   refine=told["refine"], certify=told["certify"],
-                   timed=told.get("timed", True), **told["limit"])
-        leaves = Leaves(*(data[name].values.astype(np.int64) for name in ("wheel", "depth", "number")))
-        found = Atlas(of, leaves, _records(data, of, "cell"), of.named, _records(data, of, "point"),
-                      told["computed"], 0)
-        complete = (len(found.named_records) == len(found.named)
-                    and abs(found.share.sum() - len(of.wheels)) < 1e-9)
+        shown = loads(data.attrs["atlas"])
+        of = asked(read_text(shown["path"], data.attrs["case"]), **shown["options"], level=shown["level"],
+                   refine=shown["refine"], certify=shown["certify"],
+                   timed=shown.get("timed", True), **shown["limit"])
+        ends = Leaves(*(data[name].values.astype(np.int64) for name in ("wheel", "depth", "number")))
+        result = Atlas(of, ends, _records(data, of, "cell"), of.named, _records(data, of, "point"),
+                      shown["computed"], 0)
+        complete = (len(result.named_records) == len(result.named)
+                    and abs(result.share.sum() - len(of.wheels)) < 1e-9)
     except Exception:  # of any kind: what stands there is none, or of another version
         complete = False
     if not complete:
         raise InputError(
             f"{printable(str(path))}: what it says of its atlas cannot be read: was it changed, or made by "
             f"another version?")
-    return found
+    return result
 
 
 def _records(data: xarray.Dataset, of: Asked, dimension: str) -> np.ndarray:

@@ -125,10 +125,10 @@ def drawn(atlas: Atlas, units: Units, shown: tuple[str, ...], size: tuple[float,
     return figure
 
 
-def _wheels(atlas: Atlas, most: int) -> list[int]:
+def _wheels(atlas: Atlas, largest: int) -> list[int]:
     """So many wheel momenta at most, spread over all."""
     count = len(atlas.asked.wheels)
-    return [int(n) for n in np.unique(np.linspace(0, count - 1, min(most, count)).round())]
+    return [int(n) for n in np.unique(np.linspace(0, count - 1, min(largest, count)).round())]
 
 
 def _map(ax: Any, atlas: Atlas, wheel: int, kind: str, times: Any, plain: bool) -> None:
@@ -163,24 +163,24 @@ def _points(ax: Any, atlas: Atlas, wheel: int, plain: bool) -> None:
     # points of a unit of the map, roughly
     scale = (ax.figure.get_figwidth() * 72 * 0.9
              / (ax.get_subplotspec().get_gridspec().ncols * 2.08 * ACROSS))
-    for n, place in zip(here, on_map(atlas.named_directions[here])):
+    for n, location in zip(here, on_map(atlas.named_directions[here])):
         point = atlas.named[n]
         on_axis = point.level == AXES
-        ax.plot(*place, marker="o" if on_axis else "*", markersize=4 if on_axis else 10, color="white",
+        ax.plot(*location, marker="o" if on_axis else "*", markersize=4 if on_axis else 10, color="white",
                 markeredgecolor=style.BLACK, markeredgewidth=0.9,
                 linestyle="none", clip_on=False, zorder=3)
         pole = on_axis and point.number >= 4  # its name stands left of it: thrusters have theirs on the right
-        right = place[0] <= ACROSS * 0.75 and not pole
+        right = location[0] <= ACROSS * 0.75 and not pole
         label = _label(atlas, n, plain)
-        at, wide = place * scale, 0.62 * size * len(label)
-        for side, up in ((right, 3 if place[1] > -UP * 0.98 else -9), (right, -11), (not right, 3),
+        at, wide = location * scale, 0.62 * size * len(label)
+        for side, up in ((right, 3 if location[1] > -UP * 0.98 else -9), (right, -11), (not right, 3),
                          (not right, -11)):
             left = at[0] + (5 if side else -5 - wide)
             box = (left, left + wide, at[1] + up, at[1] + up + size)
             if not any(box[0] < b and a < box[1] and box[2] < d and c < box[3] for a, b, c, d in taken):
                 break
         taken.append(box)
-        ax.annotate(label, place, (5 if side else -5, up), textcoords="offset points", fontsize=size,
+        ax.annotate(label, location, (5 if side else -5, up), textcoords="offset points", fontsize=size,
                     path_effects=halo, zorder=4,
                     ha="left" if side else "right", fontweight="normal" if on_axis else "bold")
 
@@ -203,12 +203,12 @@ def _times(atlas: Atlas, units: Units) -> Any:
     if atlas.asked.stated_limit is None:
         return None
     from matplotlib.colors import LogNorm, Normalize
-    known = _known(atlas)
-    values = atlas.records["when_low"][known]
+    resolved = _known(atlas)
+    values = atlas.records["when_low"][resolved]
     low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 1.0)
-    name, one = units.times(float(np.median(values)) if len(values) else high)
+    name, item = units.times(float(np.median(values)) if len(values) else high)
     scale = LogNorm if low > 0 and high > LOG * low else Normalize
-    return scale(low * one, high * one if high > low else low * one + 1e-9), name, one
+    return scale(low * item, high * item if high > low else low * item + 1e-9), name, item
 
 
 def _known(atlas: Atlas) -> np.ndarray:
@@ -221,10 +221,10 @@ def colours(atlas: Atlas, kind: str, times: Any) -> np.ndarray:
         which, _, of, _ = classes(atlas, kind)
         return np.array(of)[which]
     import matplotlib
-    scale, _, one = times
-    known, low = _known(atlas), atlas.records["when_low"]
+    scale, _, item = times
+    resolved, low = _known(atlas), atlas.records["when_low"]
     out = np.where(np.isinf(low)[:, None], NEVER, UNKNOWN)
-    out[known] = matplotlib.colormaps["cividis_r"](scale(low[known] * one))[:, :3]
+    out[resolved] = matplotlib.colormaps["cividis_r"](scale(low[resolved] * item))[:, :3]
     return out
 
 
@@ -238,16 +238,16 @@ SAID = {"level": lambda v: f"the fate is {LEVELS[v]}" if v else "the fate is und
 def classes(atlas: Atlas, kind: str) -> tuple[np.ndarray, list[str], list[Any], list[str]]:
     """((n,) of which class each cell is; of each class its words, its colour, and how a legend tells it)."""
     if kind == "fate":
-        found, which = kinds(atlas), np.zeros(len(atlas.records), int)
-        for n, (_, rows, _) in enumerate(found):
+        result, which = kinds(atlas), np.zeros(len(atlas.records), int)
+        for n, (_, rows, _) in enumerate(result):
             which[rows] = n
-        words = [kind_words(atlas, *key) for key, _, _ in found]
-        return which, words, [kind_colour(*key) for key, _, _ in found], [
-            f"{word}: {100 * share:.3g} %" for word, (_, _, share) in zip(words, found)]
+        phrases = [kind_words(atlas, *key) for key, _, _ in result]
+        return which, phrases, [kind_colour(*key) for key, _, _ in result], [
+            f"{word}: {100 * fraction:.3g} %" for word, (_, _, fraction) in zip(phrases, result)]
     present, which = np.unique(atlas.records[kind], return_inverse=True)
-    words = [SAID[kind](int(value)) for value in present]
-    return which.ravel(), words, [COUNTED[(int(value) if value >= 0 else n) % len(COUNTED)]
-                                  for n, value in enumerate(present)], words
+    phrases = [SAID[kind](int(value)) for value in present]
+    return which.ravel(), phrases, [COUNTED[(int(value) if value >= 0 else n) % len(COUNTED)]
+                                  for n, value in enumerate(present)], phrases
 
 
 def _explained(figure: Any, axes: list[Any], atlas: Atlas, kind: str, times: Any, units: Units) -> None:
@@ -263,14 +263,14 @@ def _explained(figure: Any, axes: list[Any], atlas: Atlas, kind: str, times: Any
             bar.ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         bar.ax.xaxis.set_major_formatter(lambda value, _: f"{value:.4g}")
         bar.ax.xaxis.set_minor_formatter(NullFormatter())
-        known, low = _known(atlas), atlas.records["when_low"]
-        told = [(NEVER, "never", np.isinf(low)), (UNKNOWN, "time not known", ~known & ~np.isinf(low))]
-        rows = [(words, colour) for colour, words, cells in told if cells.any()]
+        resolved, low = _known(atlas), atlas.records["when_low"]
+        printed = [(NEVER, "never", np.isinf(low)), (UNKNOWN, "time not known", ~resolved & ~np.isinf(low))]
+        rows = [(phrase, colour) for colour, phrase, cells in printed if cells.any()]
     else:
-        _, _, of, words = classes(atlas, kind)
-        rows = list(zip(words, of))
+        _, _, of, text = classes(atlas, kind)
+        rows = list(zip(text, of))
     if rows:
-        looks = {words: {"facecolor": colour, "edgecolor": style.GREY} for words, colour in rows}
+        looks = {phrase: {"facecolor": colour, "edgecolor": style.GREY} for phrase, colour in rows}
         axes[-1].legend(*style.explained(looks), loc="upper center", bbox_to_anchor=(0.5, 0.0),
                         ncols=min(2, len(rows)), borderaxespad=0.2)
 
@@ -298,14 +298,14 @@ def _drawn(atlas: Atlas, units: Units, momenta: list[str]) -> dict[str, Any]:
     frame = atlas.asked.case.frame
     tables = _tables(atlas, units)
     deepest = int(atlas.leaves.level.max())
-    told = _times_on_page(atlas, units)
+    printed = _times_on_page(atlas, units)
     wheels = []
     for wheel in range(len(atlas.asked.wheels)):
         rows = np.flatnonzero(atlas.leaves.wheel == wheel)
         wheels.append({"begin": (atlas.leaves.begin[rows] >> 2 * (DEEPEST - deepest)).tolist(),
                        "depth": atlas.leaves.level[rows].tolist(),
                        "columns": {name: which[rows].tolist() for name, (which, _) in tables.items()},
-                       "times": [told[n] for n in rows] if told else None})
+                       "times": [printed[n] for n in rows] if printed else None})
     return {"deepest": deepest, "wheels": wheels,
             "kinds": {name: table | {"title": TITLES[name]} for name, (_, table) in tables.items()},
             "order": list(tables), "named": _named(atlas, units), "momenta": momenta,
@@ -315,16 +315,16 @@ def _drawn(atlas: Atlas, units: Units, momenta: list[str]) -> dict[str, Any]:
 
 def _tables(atlas: Atlas, units: Units) -> dict[str, tuple[np.ndarray, dict[str, Any]]]:
     """name -> ((n,) which entry each cell has, the entries: words, colours, what the legend tells)."""
-    told = {}
+    printed = {}
     for kind in TITLES:
         if kind != "when":
-            which, words, of, legend = classes(atlas, kind)
+            which, text, of, legend = classes(atlas, kind)
             shades = list(map(_bytes, of))
-            told[kind] = which, {"words": words, "colours": shades,
+            printed[kind] = which, {"words": text, "colours": shades,
                                  "legend": [list(pair) for pair in zip(legend, shades)]}
         elif atlas.asked.stated_limit is not None:
-            told[kind] = _shaded(atlas, units)
-    return told
+            printed[kind] = _shaded(atlas, units)
+    return printed
 
 
 def _shaded(atlas: Atlas, units: Units) -> tuple[np.ndarray, dict[str, Any]]:
@@ -332,33 +332,33 @@ def _shaded(atlas: Atlas, units: Units) -> tuple[np.ndarray, dict[str, Any]]:
     style.quiet_matplotlib()
     import matplotlib
     low, high = atlas.records["when_low"], atlas.records["when_high"]
-    known = np.isfinite(low) & np.isfinite(high)
-    heights = np.log(np.maximum(low[known], 1e-300))
-    least, most = (float(heights.min()), float(heights.max())) if len(heights) else (0.0, 0.0)
-    step = (most - least) / (SHADES - 1) or 1.0
+    resolved = np.isfinite(low) & np.isfinite(high)
+    heights = np.log(np.maximum(low[resolved], 1e-300))
+    smallest, largest = (float(heights.min()), float(heights.max())) if len(heights) else (0.0, 0.0)
+    step = (largest - smallest) / (SHADES - 1) or 1.0
     which = np.where(np.isinf(low), SHADES, SHADES + 1)
-    which[known] = np.round((heights - least) / step).astype(int)
+    which[resolved] = np.round((heights - smallest) / step).astype(int)
     colours = [*(_bytes(matplotlib.colormaps["cividis_r"](n / (SHADES - 1))) for n in range(SHADES)),
                _bytes(NEVER), _bytes(UNKNOWN)]
-    name, one = units.times(float(np.exp(np.median(heights))) if len(heights) else 1.0)
-    marks = _marks(np.exp(least) * one, np.exp(most) * one) if len(heights) else []
+    name, item = units.times(float(np.exp(np.median(heights))) if len(heights) else 1.0)
+    marks = _marks(np.exp(smallest) * item, np.exp(largest) * item) if len(heights) else []
     legend = [[f"{mark:g} {name}",
-               colours[int(np.clip(round((np.log(mark / one) - least) / step), 0, SHADES - 1))]]
+               colours[int(np.clip(round((np.log(mark / item) - smallest) / step), 0, SHADES - 1))]]
               for mark in marks]
-    legend += [[words, colours[n]] for n,
-               words in ((SHADES, "never"), (SHADES + 1, "not known")) if (which == n).any()]
+    legend += [[text, colours[n]] for n,
+               text in ((SHADES, "never"), (SHADES + 1, "not known")) if (which == n).any()]
     return which, {"words": [""] * len(colours), "colours": colours,
                    "legend": [[f"{limit_words(atlas, units)} in", None], *legend]}
 
 
-def _marks(least: float, most: float) -> list[float]:
+def _marks(lower: float, upper: float) -> list[float]:
     """Round numbers between two, 1, 2 and 5 of each ten; nearer ones where there are fewer than three."""
-    tens = (range(int(np.floor(np.log10(least))) - 1, int(np.ceil(np.log10(most))) + 1) if 0 < least <= most
+    tens = (range(int(np.floor(np.log10(lower))) - 1, int(np.ceil(np.log10(upper))) + 1) if 0 < lower <= upper
             else ())
-    within = [[one for one in (float(f"{part}e{ten}") for ten in tens for part in parts)
-               if least <= one <= most]
+    within = [[item for item in (float(f"{part}e{ten}") for ten in tens for part in parts)
+               if lower <= item <= upper]
               for parts in ((1, 2, 5), range(1, 10), np.arange(1, 10, 0.1).round(1).tolist())]
-    chosen = next((marks for marks in within if len(marks) >= 3), within[-1]) or [float(f"{least:.3g}")]
+    chosen = next((marks for marks in within if len(marks) >= 3), within[-1]) or [float(f"{lower:.3g}")]
     return chosen[::max(1, -(-len(chosen) // 8))]
 
 
@@ -368,28 +368,28 @@ def _times_on_page(atlas: Atlas, units: Units) -> list[str]:
     if limit is None:
         return []
     name = limit_words(atlas, units)
-    told = []
+    printed = []
     for low, high, level in zip(*(atlas.records[column].tolist()
                                   for column in ("when_low", "when_high", "when_level"))):
         if low == float("inf"):
-            told.append(f"never reaches {name}")
+            printed.append(f"never reaches {name}")
         elif high == high and high < float("inf"):
-            told.append(f"reaches {name} in {units.time(low)} ({LIMIT_LEVELS[level]})")
+            printed.append(f"reaches {name} in {units.time(low)} ({LIMIT_LEVELS[level]})")
         else:
-            told.append(f"when {name} is reached is not known: not before {units.time(low, side=-1)}")
-    return told
+            printed.append(f"when {name} is reached is not known: not before {units.time(low, side=-1)}")
+    return printed
 
 
 def _named(atlas: Atlas, units: Units) -> list[dict[str, Any]]:
     rows = []
     for n, (point, direction) in enumerate(zip(atlas.named, atlas.named_directions.tolist())):
         record = atlas.named_records[n]
-        words = [html.signed(does(atlas, n) + in_time(atlas, n, units)),
+        phrases = [html.signed(does(atlas, n) + in_time(atlas, n, units)),
                  f"the fate is {LEVELS[record['level']]}",
                  f"islands: {ISLANDS[record['island']].replace('_', ' ')}"]
         rows.append({"name": printable(shown_name(atlas, point)), "axis": point.level == AXES,
                      "wheel": point.wheel, "direction": direction,
-                     "words": words[:2] if not record["island"] else words})
+                     "words": phrases[:2] if not record["island"] else phrases})
     return rows
 
 

@@ -43,65 +43,65 @@ BASIN_SCHEMA = "stabilab.basin/1"
 SMOOTH = 0.1  # of the dimension: less than this above 1 is called smooth where the uncertainty allows
 
 
-def basin_name(found: Basins, label: int) -> str:
+def basin_name(result: Basins, label: int) -> str:
     """What motions of a basin do."""
     named = {BOUNDED: "bounded", UNDECIDED: "undecided",
              NO_AXIS: "spin-up about an axis between equal moments"}
-    return named.get(label) or f"spin-up about {axes_of(found.plan.case).signed(abs(label), label)}"
+    return named.get(label) or f"spin-up about {axes_of(result.plan.case).signed(abs(label), label)}"
 
 
-def text(found: Basins) -> str:
+def text(result: Basins) -> str:
     """The answer first, then the boundary, its dimension, and what was asked."""
-    mesh = found.mesh
-    lines = [f"{printable(found.plan.case.name)}: {_answer(found)}"]
-    lines += [f"  {line}" for line in (*_boundary(found), _known(found))]
+    mesh = result.mesh
+    lines = [f"{printable(result.plan.case.name)}: {_answer(result)}"]
+    lines += [f"  {line}" for line in (*_boundary(result), _known(result))]
     full = (mesh.cells[0] << mesh.depth) + 1, (mesh.cells[1] << mesh.depth) + 1
     lines.append(
         f"  {len(mesh.keys):,} states computed, of {full[0] * full[1]:,} of the grid of finest cells "
         f"({full[0]:,} x {full[1]:,})")
-    lines += (limiting.lines(limits_of(found.plan.case, found.records), units_of(found.plan.case))
-              + headline.beside(found.plan.case))
+    lines += (limiting.lines(limits_of(result.plan.case, result.records), units_of(result.plan.case))
+              + headline.beside(result.plan.case))
     if mesh.full:
         lines.append(
             "  refinement ended before the depth asked for: more than the largest number of states would be "
             "needed; take a smaller depth or plane")
-    return limiting.ahead(of_case(found.plan.case), "\n".join(lines))
+    return limiting.ahead(of_case(result.plan.case), "\n".join(lines))
 
 
-def _answer(found: Basins) -> str:
-    parts = [f"{_percent(share, found.blur)} {basin_name(found, label)}"
-             for label, share in found.shares.items()]
+def _answer(result: Basins) -> str:
+    parts = [f"{_percent(fraction, result.blur)} {basin_name(result, label)}"
+             for label, fraction in result.shares.items()]
     if len(parts) == 1:
-        return f"one basin in this plane: all of it {basin_name(found, next(iter(found.shares)))}"
+        return f"one basin in this plane: all of it {basin_name(result, next(iter(result.shares)))}"
     return (
-        f"{len(parts)} kinds of motion in this plane: {', '.join(parts)} (± {_digits(100 * found.blur)} %: "
+        f"{len(parts)} kinds of motion in this plane: {', '.join(parts)} (± {_digits(100 * result.blur)} %: "
         f"the cells on the boundaries)")
 
 
-def _percent(share: float, blur: float) -> str:
+def _percent(fraction: float, blur: float) -> str:
     places = max(0, min(6, math.ceil(-math.log10(max(100 * blur, 1e-7))) + 1))
-    return f"{100 * share:.{places}f} %"
+    return f"{100 * fraction:.{places}f} %"
 
 
 def _digits(value: float) -> str:
     return f"{value:.2g}"
 
 
-def _boundary(found: Basins) -> list[str]:
-    if not len(found.boundary):
-        seen = ("" if not found.unclear
-                else f": {found.unclear:,} finest cells lie between what is decided and what is undecided")
+def _boundary(result: Basins) -> list[str]:
+    if not len(result.boundary):
+        visited = ("" if not result.unclear
+                else f": {result.unclear:,} finest cells lie between what is decided and what is undecided")
         return [
             f"no boundary between decided basins is "
-            f"seen{seen or ' from cell to cell: a smaller basin inside a coarse cell would not be'}"]
-    steps, units = found.steps, [axis.shown_unit for axis in found.plan.axes]
+            f"seen{visited or ' from cell to cell: a smaller basin inside a coarse cell would not be'}"]
+    steps, units = result.steps, [axis.shown_unit for axis in result.plan.axes]
     size = " x ".join(f"{_digits(abs(step))}{'' if unit == '1' else f' {unit}'}"
                       for step, unit in zip(steps, units))
-    through = "; the exact separatrix passes through each" if found.exact else ""
-    rough = found.dimension
-    lines = [f"boundary: {len(found.boundary):,} cells of depth {found.mesh.depth}, {size} each{through}"]
-    if found.unclear:
-        lines.append(f"besides {found.unclear:,} cells between what is decided and what is undecided")
+    through = "; the exact separatrix passes through each" if result.exact else ""
+    rough = result.dimension
+    lines = [f"boundary: {len(result.boundary):,} cells of depth {result.mesh.depth}, {size} each{through}"]
+    if result.unclear:
+        lines.append(f"besides {result.unclear:,} cells between what is decided and what is undecided")
     if math.isnan(rough.value):
         return [*lines, f"its box dimension is not known: {rough.because}"]
     lines.append(f"its box dimension: {rough.value:.4f} ± {rough.uncertainty:.4f}, {_roughness(rough)} "
@@ -116,16 +116,16 @@ def _roughness(rough: Any) -> str:
             else "less than a line has: pieces smaller than the cells")
 
 
-def _known(found: Basins) -> str:
-    values, counts = np.unique(found.records["level"], return_counts=True)
+def _known(result: Basins) -> str:
+    values, counts = np.unique(result.records["level"], return_counts=True)
     return ("the fate is known as " + ", ".join(f"{LEVELS[value]} ({count:,})"
                                                 for value, count in zip(values.tolist(), counts.tolist())))
 
 
-def cells_of(found: Basins) -> dict[str, np.ndarray]:
+def cells_of(result: Basins) -> dict[str, np.ndarray]:
     """The cells that are not split, coarse ones first: places of their ends on the finest grid, depth,
     whether their corners differ, and the label at the first corner."""
-    mesh, rows = found.mesh, []
+    mesh, rows = result.mesh, []
     for depth, cells in leaves(mesh):
         row, column = mesh.at(depth, cells)
         step = 1 << mesh.depth - depth
@@ -136,58 +136,58 @@ def cells_of(found: Basins) -> dict[str, np.ndarray]:
     return dict(zip(names, np.concatenate(rows, axis=1)))
 
 
-def csv(found: Basins) -> str:
+def csv(result: Basins) -> str:
     """A line for each cell: its ends along both axes, its depth, and what its states do, or that it is on a
     boundary."""
-    cells = cells_of(found)
+    cells = cells_of(result)
     heads = [with_unit(f"{axis.key.name} {end}", axis.shown_unit)
-             for axis in found.plan.axes for end in ("from", "to")]
-    values = [np.array(axis.values) for axis in found.plan.axes]
+             for axis in result.plan.axes for end in ("from", "to")]
+    values = [np.array(axis.values) for axis in result.plan.axes]
     columns = [values[n][cells[name] + more].tolist()
                for n, name in enumerate(("first", "second")) for more in (0, cells["width"])]
-    words = ["boundary" if mixed else basin_name(found, label)
+    phrases = ["boundary" if mixed else basin_name(result, label)
              for mixed, label in zip(cells["mixed"].tolist(), cells["label"].tolist())]
-    told = [limiting.cell(found.plan.case, limits_of(found.plan.case, found.records))] * len(words)
+    printed = [limiting.cell(result.plan.case, limits_of(result.plan.case, result.records))] * len(phrases)
     return csv_lines([[*heads, "depth", "basin", "caveats"],
-                        *zip(*columns, cells["depth"].tolist(), words, told)])
+                        *zip(*columns, cells["depth"].tolist(), phrases, printed)])
 
 
-def json(found: Basins) -> str:
+def json(result: Basins) -> str:
     """The answer, the boundary's cells and the exact pieces of it."""
-    mesh, rough = found.mesh, found.dimension
-    row, column = mesh.at(mesh.depth, found.boundary)
-    lower = [np.array(axis.values)[place] for axis, place in zip(found.plan.axes, (row, column))]
+    mesh, rough = result.mesh, result.dimension
+    row, column = mesh.at(mesh.depth, result.boundary)
+    lower = [np.array(axis.values)[location] for axis, location in zip(result.plan.axes, (row, column))]
     axes = [{"key": axis.key.name, "unit": axis.shown_unit, "from": axis.values[0], "to": axis.values[-1],
              "cells": cells, "finest_cell": step}
-            for axis, cells, step in zip(found.plan.axes, mesh.cells, found.steps)]
-    return as_json(limiting.key(found.plan.case, limits_of(found.plan.case, found.records)) | {
-        "schema": BASIN_SCHEMA, "case": found.plan.case.name, "variables": found.plan.case.variables,
-        "command": command(found), "axes": axes,
+            for axis, cells, step in zip(result.plan.axes, mesh.cells, result.steps)]
+    return as_json(limiting.key(result.plan.case, limits_of(result.plan.case, result.records)) | {
+        "schema": BASIN_SCHEMA, "case": result.plan.case.name, "variables": result.plan.case.variables,
+        "command": command(result), "axes": axes,
         "depth": mesh.depth, "complete": not mesh.full, "states_asked": len(mesh.keys),
-        "basins": [{"basin": basin_name(found, label), "share": share}
-                   for label, share in found.shares.items()], "share_uncertainty": found.blur,
-        "boundary": {"cells": len(found.boundary), "unclear_cells": found.unclear, "exact": found.exact,
+        "basins": [{"basin": basin_name(result, label), "share": fraction}
+                   for label, fraction in result.shares.items()], "share_uncertainty": result.blur,
+        "boundary": {"cells": len(result.boundary), "unclear_cells": result.unclear, "exact": result.exact,
                      "corners": np.stack(lower, axis=1),
-                     "separatrix": found.separatrix()},
+                     "separatrix": result.separatrix()},
         "box_dimension": {"value": rough.value, "uncertainty": rough.uncertainty,
                           "depths": list(rough.depths), "cells": list(rough.counts),
                           "fitted_depths": list(rough.used), "because": rough.because,
                           "reason": rough.reason.as_dict()}})
 
 
-def command(found: Basins) -> str:
+def command(result: Basins) -> str:
     """A command that asks the same."""
     import shlex
     rows = [f"--vary={axis.key.name}={axis.values[0]!r}:{axis.values[-1]!r}:{cells + 1}"
             f"{':log' if text.count(':') == 3 else ''} {axis.unit}".strip()
-            for axis, cells, (_, text) in zip(found.plan.axes, found.mesh.cells, found.plan.vary)]
-    rows += [f"--depth={found.asked}", *([f"--follow={found.plan.follow}"] if found.plan.follow else [])]
-    return shlex.join(["stabilab", "basin", os.path.basename(found.plan.path), *rows])
+            for axis, cells, (_, text) in zip(result.plan.axes, result.mesh.cells, result.plan.vary)]
+    rows += [f"--depth={result.asked}", *([f"--follow={result.plan.follow}"] if result.plan.follow else [])]
+    return shlex.join(["stabilab", "basin", os.path.basename(result.plan.path), *rows])
 
 
-def undecided(found: Basins) -> bool:
+def undecided(result: Basins) -> bool:
     """Whether the fate of a state that was asked is."""
-    return UNDECIDED in found.shares
+    return UNDECIDED in result.shares
 
 
 # --- As a data set
@@ -211,23 +211,23 @@ def basin(case: Given, vary: Mapping[str, str], depth: int = DEPTH,
     """
     case = written(case, state, span)
     path = None if out is None else checked(out)
-    with basins(case, vary, depth, path, workers, scheduler, follow) as found:
+    with basins(case, vary, depth, path, workers, scheduler, follow) as result:
         if path is not None:
-            write(dataset(found), path)
-        return found
+            write(dataset(result), path)
+        return result
 
 
-def dataset(found: Basins) -> xarray.Dataset:
+def dataset(result: Basins) -> xarray.Dataset:
     """The states asked with their fates, the cells that are not split, and how many cells of each depth the
     boundary has."""
-    mesh, rough, cells = found.mesh, found.dimension, cells_of(found)
+    mesh, rough, cells = result.mesh, result.dimension, cells_of(result)
     places = mesh.places(mesh.keys)
     columns = (*ANSWERS["fate"].columns, *ANSWERS["level"].columns, CAVEATS)
-    words = {column.name: column for column in columns}
+    phrase = {column.name: column for column in columns}
     values: dict[str, Any] = {f"coordinate{n + 1}": (("state",), np.array(axis.values)[places[n]],
                                                      {"long_name": axis.key.name, "units": axis.shown_unit})
-                              for n, axis in enumerate(found.plan.axes)}
-    values |= {name: column_in(("state",), column, found.records, "1") for name, column in words.items()}
+                              for n, axis in enumerate(result.plan.axes)}
+    values |= {name: column_in(("state",), column, result.records, "1") for name, column in phrase.items()}
     values["place"] = (("state", "axis"), np.stack(places, axis=1).astype(np.int32),
                        {"long_name": "place of a state on the grid of finest cells, from 0"})
     values["cell"] = (("cell", "axis"), np.stack([cells["first"], cells["second"]], axis=1).astype(np.int32),
@@ -238,13 +238,13 @@ def dataset(found: Basins) -> xarray.Dataset:
                              {"long_name": "whether the corners of a cell have different fates"})
     values["boundary_cells"] = (("depth",), np.array(rough.counts, np.int32),
                                 {"long_name": "cells of a depth that hold a piece of the boundary"})
-    case = found.plan.case
+    case = result.plan.case
     depths = {"depth": (("depth",), np.array(rough.depths, np.int8), {"long_name": "depth of refinement"})}
     return finished(values, depths, {
-        **origin(case, command(found)), "case_variables": case.variables, "case": found.plan.text,
-        "basin": found.plan.as_json(brief=True),
-        "caveats": limiting.cell(case, limits_of(case, found.records)),
-        "coarse_cells": np.array(mesh.cells, np.int32), "depth_asked": np.int32(found.asked),
+        **origin(case, command(result)), "case_variables": case.variables, "case": result.plan.text,
+        "basin": result.plan.as_json(brief=True),
+        "caveats": limiting.cell(case, limits_of(case, result.records)),
+        "coarse_cells": np.array(mesh.cells, np.int32), "depth_asked": np.int32(result.asked),
         "depth_reached": np.int32(mesh.depth), "complete": np.int8(not mesh.full),
         "box_dimension": rough.value, "box_dimension_uncertainty": rough.uncertainty,
         "box_dimension_because": rough.because})
@@ -259,15 +259,15 @@ def opened(data: xarray.Dataset) -> Basins:
         records[name] = data[name].values
     records["valid"] = 1
     mesh = Mesh(cells, depth, full=not int(data.attrs["complete"]))  # type: ignore[arg-type]  # two of them
-    place, lower = data["place"].values.astype(np.int64), data["cell"].values.astype(np.int64)
-    mesh.keys, mesh.labels = place[:, 0] * mesh.width + place[:, 1], label_of(records)
+    location, lower = data["place"].values.astype(np.int64), data["cell"].values.astype(np.int64)
+    mesh.keys, mesh.labels = location[:, 0] * mesh.width + location[:, 1], label_of(records)
     own = data["cell_depth"].values.astype(np.int64)
     for n in range(depth + 1):
         here = lower[own == n] >> depth - n
         mesh.leaves.append(np.sort(mesh.number(n, here[:, 0], here[:, 1])))
-    found = Basins(plan, mesh, records, int(data.attrs["depth_asked"]))
+    result = Basins(plan, mesh, records, int(data.attrs["depth_asked"]))
     counts = tuple(int(n) for n in data["boundary_cells"].values)
     if (plan.shape != tuple((n << depth) + 1 for n in cells) or len(LEVELS) <= records["level"].max()
-            or dimension(counts).counts != found.dimension.counts):
+            or dimension(counts).counts != result.dimension.counts):
         raise ValueError("changed")
-    return found
+    return result

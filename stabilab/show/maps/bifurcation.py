@@ -21,43 +21,44 @@ NAMES = {"fold": "fold", "pitchfork": "pitchfork", "crossing": "crossing", "touc
          "connection": "connection", "curve": "curve of equilibria"}
 
 
-def text(found: Diagram | Plane) -> str:
+def text(result: Diagram | Plane) -> str:
     """The answer first, then what is counted, notes, and a table: of pieces and events over one number, over
     two an example for each number of equilibria, and the cusps."""
-    case, units = found.family.case, units_of(found.family.case)
+    case, units = result.family.case, units_of(result.family.case)
     return limiting.ahead(of_case(case), "\n".join([
-        f"{case.name}: {answer(found).replace('<=', '≤')}",
-        *(f"  {units.said(one)}" for one in (found.counted, *found.remarks)),
+        f"{case.name}: {answer(result).replace('<=', '≤')}",
+        *(f"  {units.said(item)}" for item in (result.counted, *result.remarks)),
         *limiting.lines(of_case(case), units),
-        *(_table(found) if isinstance(found, Diagram) else _examples(found)), *frame.note(case)]))
+        *(_table(result) if isinstance(result, Diagram) else _examples(result)), *frame.note(case)]))
 
 
-def answer(found: Diagram | Plane) -> str:
+def answer(result: Diagram | Plane) -> str:
     """The first line: "4 equilibria for 0 <= torque[3] < 0.82 N m, none above: fold at 0.8213 N m"; "0, 2 or
     4 equilibria over torque[3] and momentum[1]; curves: fold; 1 cusp at (..., ...)"."""
-    return _of_line(found) if isinstance(found, Diagram) else _of_plane(found)
+    return _of_line(result) if isinstance(result, Diagram) else _of_plane(result)
 
 
-def csv(found: Diagram | Plane) -> str:
+def csv(result: Diagram | Plane) -> str:
     """Over one number a line for each point of each branch, the events among them: value, piece, branch,
     state, verdict; over two one for each point of each curve, then the cusps. Caveats stand in every line, in
     one of their own where there is no other."""
-    head, rows = _line_rows(found) if isinstance(found, Diagram) else _plane_rows(found)
-    caveats = cell(of_case(found.family.case))
+    head, rows = _line_rows(result) if isinstance(result, Diagram) else _plane_rows(result)
+    caveats = cell(of_case(result.family.case))
     rows = list(rows) or [[None] * len(head)] * bool(caveats)
     return csv_lines([[*head, "caveats"], *([*row, caveats] for row in rows)])
 
 
-def json(found: Diagram | Plane) -> str:
+def json(out: Diagram | Plane) -> str:
     """Everything that is known: pieces and events each with their equilibria; curves as polynomials, strips
     with their cells, cusps."""
-    case = found.family.case
-    return as_json({"schema": BIFURCATION_SCHEMA, "case": case.name, "variables": case.variables, "answer": answer(found),
-                    "kind": found.kind, "what": found.what,
-                    "reason": found.counted.as_dict(),
-                    "axes": [_axis(span) for span in found.family.spans]}
-                   | (_line_parts(found) if isinstance(found, Diagram) else _plane_parts(found))
-                   | {"notes": list(found.notes)} | key(of_case(case)) | frame.key(case))
+    case = out.family.case
+    return as_json({"schema": BIFURCATION_SCHEMA, "case": case.name, "variables": case.variables,
+                    "answer": answer(out),
+                    "kind": out.kind, "what": out.what,
+                    "reason": out.counted.as_dict(),
+                    "axes": [_axis(span) for span in out.family.spans]}
+                   | (_line_parts(out) if isinstance(out, Diagram) else _plane_parts(out))
+                   | {"notes": list(out.notes)} | key(of_case(case)) | frame.key(case))
 
 
 # --- Over one number
@@ -68,47 +69,47 @@ def _number(value: float, digits: int = DIGITS) -> str:
     return f"{value + 0.0:.{digits}g}"
 
 
-def _digits(found: Diagram) -> int:
+def _digits(result: Diagram) -> int:
     """As many as tell all values of a diagram apart."""
-    values = {value + 0.0 for piece in found.pieces for value in (piece.low, piece.high)}
-    values |= {event.value + 0.0 for event in (*found.events, *found.connections)}
+    values = {value + 0.0 for piece in result.pieces for value in (piece.low, piece.high)}
+    values |= {event.value + 0.0 for event in (*result.events, *result.connections)}
     return next((digits for digits in range(DIGITS, 17)
                  if len({_number(value, digits) for value in values}) == len(values)), 17)
 
 
-def _things(found: Diagram, count: int) -> str:
+def _things(result: Diagram, count: int) -> str:
     if count == ENDLESS:
         return "curves of equilibria"
-    if found.kind == BORDERS:
+    if result.kind == BORDERS:
         return "1 change of stability" if count == 1 else f"{count or 'no'} changes of stability"
     return f"{count or 'no'} equilibri{'a' if count > 1 else 'um'}"
 
 
-def _of_line(found: Diagram) -> str:
-    span, pieces = found.family.spans[0], found.pieces
+def _of_line(result: Diagram) -> str:
+    span, pieces = result.family.spans[0], result.pieces
     if len({piece.count for piece in pieces}) == 1:
-        return _uniform(found, pieces[0].count)
+        return _uniform(result, pieces[0].count)
     first = next((n for n, piece in enumerate(pieces) if piece.count), 0)
     parts = [
-        f"{_things(found, pieces[first].count)} for {_range(found, pieces[first], span.label)}{unit(span)}"]
+        f"{_things(result, pieces[first].count)} for {_range(result, pieces[first], span.label)}{unit(span)}"]
     for n, piece in enumerate(pieces):
         if n != first:
             where = ("above" if n == len(pieces) - 1 and n > 0 else "below" if n == 0
-                     else f"for {_range(found, piece, span.label)}")
+                     else f"for {_range(result, piece, span.label)}")
             parts.append(f"{piece.count or 'none'} {where}")
-    told = _events_told(found)
-    return ", ".join(parts) + (f": {told}" if told else "")
+    printed = _events_told(result)
+    return ", ".join(parts) + (f": {printed}" if printed else "")
 
 
-def _uniform(found: Diagram, count: int) -> str:
+def _uniform(result: Diagram, count: int) -> str:
     """The answer where the number is the same in all pieces."""
-    span, digits = found.family.spans[0], _digits(found)
-    told = (f"{_things(found, count)} for {_number(float(span.low), digits)} <= {span.label} <= "
+    span, digits = result.family.spans[0], _digits(result)
+    printed = (f"{_things(result, count)} for {_number(float(span.low), digits)} <= {span.label} <= "
             f"{_number(float(span.high), digits)}{unit(span)}")
-    other = [f"{_things(found, event.count)} at {_number(event.value, digits)}{unit(span)}"
-             for event in found.events if event.count != count]
-    events = "" if other and found.kind == CURVES else _events_told(found)
-    return told + (f", but {listed(other)}" if other else "") + (f": {events}" if events else "")
+    other = [f"{_things(result, event.count)} at {_number(event.value, digits)}{unit(span)}"
+             for event in result.events if event.count != count]
+    events = "" if other and result.kind == CURVES else _events_told(result)
+    return printed + (f", but {listed(other)}" if other else "") + (f": {events}" if events else "")
 
 
 def unit(span: Span) -> str:
@@ -116,46 +117,46 @@ def unit(span: Span) -> str:
     return "" if span.shown_unit == "1" else f" {span.shown_unit}"
 
 
-def _range(found: Diagram, piece: Piece, name: str) -> str:
-    at, digits = {event.value: event.count for event in found.events}, _digits(found)
+def _range(result: Diagram, piece: Piece, name: str) -> str:
+    at, digits = {event.value: event.count for event in result.events}, _digits(result)
     low, high = ("<=" if at.get(end, piece.count) == piece.count else "<" for end in (piece.low, piece.high))
     return f"{_number(piece.low, digits)} {low} {name} {high} {_number(piece.high, digits)}"
 
 
-def _events_told(found: Diagram) -> str:
+def _events_told(result: Diagram) -> str:
     by_kind: dict[str, list[str]] = {}
-    digits, of = _digits(found), unit(found.family.spans[0])
-    for event in (*found.events, *found.connections):
+    digits, of = _digits(result), unit(result.family.spans[0])
+    for event in (*result.events, *result.connections):
         by_kind.setdefault(event.kinds[0], []).append(_number(event.value, digits))
-    names = NAMES | ({"curve": "other curves"} if found.kind == CURVES else {})
+    names = NAMES | ({"curve": "other curves"} if result.kind == CURVES else {})
     alone = "infinity", "axis", "curve"
     return ", ".join(f"{names[kind]}{'s' * (len(values) > 1 and kind not in alone)} at {listed(values)}{of}"
                      for kind, values in by_kind.items())
 
 
-def _table(found: Diagram) -> list[str]:
-    span = found.family.spans[0]
-    units, digits = units_of(found.family.case), _digits(found)
+def _table(result: Diagram) -> list[str]:
+    span = result.family.spans[0]
+    units, digits = units_of(result.family.case), _digits(result)
     name = with_unit(span.label, lettered(span.shown_unit))
-    rows = [[name, "changes" if found.kind == BORDERS else "equilibria",
-             *([] if found.kind == BORDERS else ["stable"]), "what"]]
-    for _, one in _in_order(found):
-        if isinstance(one, Piece):
-            rows.append([f"{_number(one.low, digits)} to {_number(one.high, digits)}",
-                         *_counts(found, one.count, one.states),
-                         units.said(one.reason) if one.reason else ""])
+    rows = [[name, "changes" if result.kind == BORDERS else "equilibria",
+             *([] if result.kind == BORDERS else ["stable"]), "what"]]
+    for _, item in _in_order(result):
+        if isinstance(item, Piece):
+            rows.append([f"{_number(item.low, digits)} to {_number(item.high, digits)}",
+                         *_counts(result, item.count, item.states),
+                         units.said(item.reason) if item.reason else ""])
         else:
-            rows.append([f"at {_number(one.value, digits)}", *_counts(found, one.count, one.states),
-                         units.said(one.reason) + _meeting(one, units)])
+            rows.append([f"at {_number(item.value, digits)}", *_counts(result, item.count, item.states),
+                         units.said(item.reason) + _meeting(item, units)])
     wide = [max(len(row[n]) for row in rows) for n in range(len(rows[0]) - 1)]
     return [("  " + "  ".join(f"{cell:>{size}}" for cell, size in zip(row, wide)) + "  " + row[-1]).rstrip()
             for row in rows]
 
 
-def _counts(found: Diagram, count: int, states: tuple[State, ...]) -> list[str]:
-    told = "curves" if count == ENDLESS else str(count)
-    return ([told] if found.kind == BORDERS
-            else [told, "" if count == ENDLESS else str(sum(s.verdict == "stable" for s in states))])
+def _counts(result: Diagram, count: int, states: tuple[State, ...]) -> list[str]:
+    printed = "curves" if count == ENDLESS else str(count)
+    return ([printed] if result.kind == BORDERS
+            else [printed, "" if count == ENDLESS else str(sum(s.verdict == "stable" for s in states))])
 
 
 def _meeting(event: Event, units: Units) -> str:
@@ -163,33 +164,33 @@ def _meeting(event: Event, units: Units) -> str:
     return f", at {' and '.join(places)}" if places else ""
 
 
-def _in_order(found: Diagram) -> list[tuple[float, Piece | Event]]:
-    rows: list[tuple[float, int, Any]] = [(piece.low, 1, piece) for piece in found.pieces]
-    rows += [(event.value, 0, event) for event in (*found.events, *found.connections)]
+def _in_order(result: Diagram) -> list[tuple[float, Piece | Event]]:
+    rows: list[tuple[float, int, Any]] = [(piece.low, 1, piece) for piece in result.pieces]
+    rows += [(event.value, 0, event) for event in (*result.events, *result.connections)]
     rows.sort(key=lambda row: (row[0], row[1]))
-    return [(value, one) for value, _, one in rows]
+    return [(value, item) for value, _, item in rows]
 
 
-def _line_rows(found: Diagram) -> tuple[list[str], list[list[Any]]]:
-    span, case = found.family.spans[0], found.family.case
+def _line_rows(result: Diagram) -> tuple[list[str], list[list[Any]]]:
+    span, case = result.family.spans[0], result.family.case
     of = "rad/s" if case.variables == "physical" else "1"
     head = [with_unit(span.key.name, span.shown_unit), "piece", "branch",
             *(with_unit(name, of) for name in case.scene.components), "verdict", "event"]
     rows: list[list[Any]] = [[value, branch.piece + 1, branch.number + 1, *state, branch.verdict, None]
-                             for branch in branches(found)
+                             for branch in branches(result)
                              for value, state in zip(branch.values, branch.states)]
-    for event in (*found.events, *found.connections):
+    for event in (*result.events, *result.connections):
         rows += [[event.value, None, None, *state.at, state.verdict,
                   event.kinds[0] if state.times > 1 else None] for state in event.states] or \
             [[event.value, None, None, None, None, None, None, event.kinds[0]]]
     return head, rows
 
 
-def _line_parts(found: Diagram) -> dict[str, Any]:
+def _line_parts(result: Diagram) -> dict[str, Any]:
     return {"pieces": [{"low": piece.low, "high": piece.high, "sample": str(piece.sample)}
                        | _states(piece.count, piece.states)
-                       | ({"words": piece.words} if piece.words else {}) for piece in found.pieces],
-            "events": [_event_row(event) for event in (*found.events, *found.connections)]}
+                       | ({"words": piece.words} if piece.words else {}) for piece in result.pieces],
+            "events": [_event_row(event) for event in (*result.events, *result.connections)]}
 
 
 def _axis(span: Span) -> dict[str, Any]:
@@ -215,31 +216,31 @@ def _states(count: int, states: tuple[State, ...]) -> dict[str, Any]:
 # --- Over two numbers
 
 
-def _of_plane(found: Plane) -> str:
-    first, second = found.family.spans
-    counts = sorted({piece.count for strip in found.strips for piece in strip.line.pieces})
-    things = ("changes of stability" if found.kind == BORDERS else "equilibria" if counts != [1]
+def _of_plane(result: Plane) -> str:
+    first, second = result.family.spans
+    counts = sorted({piece.count for strip in result.strips for piece in strip.line.pieces})
+    things = ("changes of stability" if result.kind == BORDERS else "equilibria" if counts != [1]
               else "equilibrium")
     some = listed(["no" if c == 0 and len(counts) == 1 else "curves of" if c == ENDLESS else str(c)
                    for c in counts], "or")
-    told = [f"{some} {things} over {first.label} and {second.label}"]
-    kinds = sorted({kind for strip in found.strips for arc in strip.arcs for kind in arc.kinds}
-                   | {kind for wall in found.walls for kind in wall.kinds})
+    printed = [f"{some} {things} over {first.label} and {second.label}"]
+    kinds = sorted({kind for strip in result.strips for arc in strip.arcs for kind in arc.kinds}
+                   | {kind for wall in result.walls for kind in wall.kinds})
     if kinds:
-        told.append("curves: " + ", ".join(NAMES[kind] for kind in kinds))
-    if found.cusps:
-        places = " and ".join(f"({_number(cusp.at[0])}, {_number(cusp.at[1])})" for cusp in found.cusps)
-        told.append(f"{'cusp' if len(found.cusps) == 1 else f'{len(found.cusps)} cusps'} at {places}")
-    return "; ".join(told)
+        printed.append("curves: " + ", ".join(NAMES[kind] for kind in kinds))
+    if result.cusps:
+        places = " and ".join(f"({_number(cusp.at[0])}, {_number(cusp.at[1])})" for cusp in result.cusps)
+        printed.append(f"{'cusp' if len(result.cusps) == 1 else f'{len(result.cusps)} cusps'} at {places}")
+    return "; ".join(printed)
 
 
-def _examples(found: Plane) -> list[str]:
+def _examples(result: Plane) -> list[str]:
     """A row for each number of equilibria, where it has most room, and one for each cusp."""
-    units, border = units_of(found.family.case), found.kind == BORDERS
+    units, border = units_of(result.family.case), result.kind == BORDERS
     table = [["changes" if border else "equilibria", *([] if border else ["stable"]), "such as at",
-              *(with_unit(span.label, span.shown_unit) for span in found.family.spans)]]
+              *(with_unit(span.label, span.shown_unit) for span in result.family.spans)]]
     largest: dict[int, tuple[float, float, Piece]] = {}
-    for strip in found.strips:
+    for strip in result.strips:
         for piece in strip.line.pieces:
             size = (strip.high - strip.low) * (piece.high - piece.low)
             if size > largest.get(piece.count, (-1.0,))[0]:
@@ -248,28 +249,28 @@ def _examples(found: Plane) -> list[str]:
         stable = sum(state.verdict == "stable" for state in piece.states)
         table.append([str(count), *([] if border else [str(stable)]), "", _number(p),
                       _number(float(piece.sample))])
-    for cusp in found.cusps:
+    for cusp in result.cusps:
         where = units.vector(cusp.state, units.rates) if cusp.state else "no one state"
         table.append(["cusp", *([] if border else [""]), where, _number(cusp.at[0]), _number(cusp.at[1])])
     return terminal.table(table)
 
 
-def _plane_rows(found: Plane) -> tuple[list[str], list[list[Any]]]:
+def _plane_rows(result: Plane) -> tuple[list[str], list[list[Any]]]:
     """(kind, strip, arc, p, q) of points of all curves, of walls their two ends, and of cusps."""
     out: list[list[Any]] = []
-    for n, strip in enumerate(found.strips):
-        values, arcs = rows(found, strip)
+    for n, strip in enumerate(result.strips):
+        values, arcs = rows(result, strip)
         for k, (arc, row) in enumerate(zip(strip.arcs, arcs)):
             out += [[arc.kinds[0], n + 1, k + 1, p, q] for p, q in zip(values, row)]
-    for k, wall in enumerate(found.walls):
+    for k, wall in enumerate(result.walls):
         out += [[wall.kinds[0], 0, k + 1, wall.value, q] for q in (wall.low, wall.high)]
-    names = [with_unit(span.key.name, span.shown_unit) for span in found.family.spans]
-    return ["kind", "strip", "arc", *names], out + [["cusp", None, None, *cusp.at] for cusp in found.cusps]
+    names = [with_unit(span.key.name, span.shown_unit) for span in result.family.spans]
+    return ["kind", "strip", "arc", *names], out + [["cusp", None, None, *cusp.at] for cusp in result.cusps]
 
 
-def _plane_parts(found: Plane) -> dict[str, Any]:
+def _plane_parts(result: Plane) -> dict[str, Any]:
     return {"curves": [[{"powers": [int(n) for n in powers[2:]], "coefficient": str(c)}
-                        for powers, c in sorted(F.to_dict().items())] for F in found.curves],
+                        for powers, c in sorted(F.to_dict().items())] for F in result.curves],
             "strips": [{"low": strip.low, "high": strip.high, "sample": str(strip.sample),
                         "cells": [{"low": piece.low, "high": piece.high,
                                    "equilibria": None if piece.count == ENDLESS else piece.count,
@@ -278,9 +279,9 @@ def _plane_parts(found: Plane) -> dict[str, Any]:
                         "arcs": [{"kinds": list(arc.kinds), "curve": arc.curve, "root": arc.root,
                                   "value": event.value}
                                  for arc, event in zip(strip.arcs, strip.line.events)]}
-                       for strip in found.strips],
+                       for strip in result.strips],
             "walls": [{"value": wall.value, "low": wall.low, "high": wall.high, "kinds": list(wall.kinds)}
-                      for wall in found.walls],
+                      for wall in result.walls],
             "cusps": [{"at": list(cusp.at), "state": list(cusp.state),
                        "polynomial": [str(c) for c in cusp.polynomial], "root": cusp.root}
-                      for cusp in found.cusps]}
+                      for cusp in result.cusps]}

@@ -34,18 +34,18 @@ def counts_above(ax: Any, ends: tuple[float, float], pieces: Sequence[tuple[floa
                  values: Sequence[float]) -> None:
     """How many there are in each piece (low, high, words), and the values between, above a panel whose axis
     goes from end to end."""
-    whole = ends[1] - ends[0]
-    for low, high, words in pieces:
-        if high - low > 0.03 * whole:
-            ax.annotate(words, (0.5 * (low + high), 1.0), xycoords=("data", "axes fraction"),
+    full = ends[1] - ends[0]
+    for low, high, text in pieces:
+        if high - low > 0.03 * full:
+            ax.annotate(text, (0.5 * (low + high), 1.0), xycoords=("data", "axes fraction"),
                         xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=9,
                         fontweight="bold")
     shown = sorted((value, f"{value + 0.0:.5g}") for value in values if value not in ends)
-    wide = 72 * (ax.figure.get_figwidth() - MARGIN) / whole
+    wide = 72 * (ax.figure.get_figwidth() - MARGIN) / full
     places = [wide * (value - ends[0]) for value, _ in shown]
-    for (value, told), row in zip(shown, rows_apart(places, [told for _, told in shown], SIZE, ROWS)):
+    for (value, printed), row in zip(shown, rows_apart(places, [told for _, told in shown], SIZE, ROWS)):
         if row is not None:
-            ax.annotate(told, (value, 1.0), xycoords=("data", "axes fraction"),
+            ax.annotate(printed, (value, 1.0), xycoords=("data", "axes fraction"),
                         xytext=(0, 16 + 1.3 * SIZE * row), textcoords="offset points",
                         ha="center", va="bottom", fontsize=SIZE)
 
@@ -58,11 +58,11 @@ def rows_apart(places: Sequence[float], texts: Sequence[str], size: float, rows:
     """
     ends = [-float("inf")] * rows
     out: list[int | None] = []
-    for place, text in zip(places, texts):
+    for location, text in zip(places, texts):
         half = 0.5 * GLYPH * size * len(text)
-        row = next((n for n, end in enumerate(ends) if place - half >= end + GAP), None)
+        row = next((n for n, end in enumerate(ends) if location - half >= end + GAP), None)
         if row is not None:
-            ends[row] = place + half
+            ends[row] = location + half
         out.append(row)
     return out
 
@@ -71,34 +71,34 @@ VERDICT_LABELS = {"stable": "stable (Lyapunov)", "unstable": "unstable",
          "undecided": "undecided by energy (gyroscopic)"}
 
 
-def write_orbit(case: Case, found: CircularOrbit, out: str | Path, units: Units) -> Path:
+def write_orbit(case: Case, result: CircularOrbit, out: str | Path, units: Units) -> Path:
     """Draw two angles of each equilibrium over the momentum: of the orbit normal to that momentum, and of the
     vertical to the body's minor axis. Raises InputError where there are no branches."""
-    rows = followed(found)
-    return style.write(out, lambda plt: _drawn(case, found, rows, units, plt))
+    rows = followed(result)
+    return style.write(out, lambda plt: _drawn(case, result, rows, units, plt))
 
 
-def _drawn(case: Case, found: CircularOrbit, rows: Any, units: Units, plt: Any) -> Any:
-    name, one = units.angles
-    wheel, minor = _unit(found.momentum), min(range(3), key=lambda i: found.moments[i])
+def _drawn(case: Case, result: CircularOrbit, rows: Any, units: Units, plt: Any) -> Any:
+    name, item = units.angles
+    wheel, minor = _unit(result.momentum), min(range(3), key=lambda i: result.moments[i])
     panels: list[tuple[str, float, Callable[[OrbitEquilibrium], float]]] = [
         ("orbit normal to momentum", math.pi, lambda at: math.acos(_within(dot(at.normal, wheel)))),
         ("vertical to minor axis", math.pi / 2, lambda at: math.acos(_within(abs(at.vertical[minor]))))]
     figure, axes = plt.subplots(2, 1, sharex=True, layout="constrained", figsize=(8, 7))
-    ends = 0.0, found.spans[-1].high  # type: ignore[index]
-    for ax, (words, most, angle) in zip(axes, panels):
+    ends = 0.0, result.spans[-1].high  # type: ignore[index]
+    for ax, (text, largest, angle) in zip(axes, panels):
         for branch in rows:
-            ax.plot(branch.momenta, [angle(at) * one for at in branch.points],
+            ax.plot(branch.momenta, [angle(at) * item for at in branch.points],
                     **style.MEANING[branch.verdict])
-        for span in found.spans:  # type: ignore[union-attr]
+        for span in result.spans:  # type: ignore[union-attr]
             ax.axvline(span.high, color=style.GREY, linewidth=0.7, linestyle=":", zorder=0)
-        ax.set_ylim(-0.03 * most * one, 1.03 * most * one)
-        ax.set_ylabel(f"{words} ({name})")
+        ax.set_ylim(-0.03 * largest * item, 1.03 * largest * item)
+        ax.set_ylabel(f"{text} ({name})")
     axes[-1].set_xlim(*ends)
-    own = [mark_own(ax, [math.hypot(*found.momentum)]) for ax in axes]
+    own = [mark_own(ax, [math.hypot(*result.momentum)]) for ax in axes]
     axes[-1].set_xlabel("momentum of the wheels (N m s)")
-    counts_above(axes[0], ends, [(span.low, span.high, str(span.count)) for span in found.spans],
-                 [span.low for span in found.spans])
+    counts_above(axes[0], ends, [(span.low, span.high, str(span.count)) for span in result.spans],
+                 [span.low for span in result.spans])
     figure.suptitle(f"{style.literal(case.title or case.name)}\nin bold: the number of equilibria, two or "
                     "more a line", x=0.02, ha="left", fontsize=10.5, wrap=True)
     kinds = dict.fromkeys(branch.verdict for branch in rows)
@@ -120,69 +120,69 @@ LOOKS = {"stable": ("stable", "stable"), "unstable": ("unstable", "unstable"),
          "undecided": ("dividing", "undecided")}
 
 
-def write(found: Diagram | Plane, out: str | Path, size: tuple[float, float] | None = None,
+def write(result: Diagram | Plane, out: str | Path, size: tuple[float, float] | None = None,
           dpi: float | None = None) -> Path:
     """Draw the diagram and write the picture; returns its path. Raises InputError where equilibria form
     curves for every value."""
-    if isinstance(found, Diagram) and found.kind == CURVES:
-        what = units_of(found.family.case).said(found.counted.alone)
+    if isinstance(result, Diagram) and result.kind == CURVES:
+        what = units_of(result.family.case).said(result.counted.alone)
         raise InputError(
-            f"{found.family.case.place}: {what}: these are described in words, and there are no branches to "
+            f"{result.family.case.place}: {what}: these are described in words, and there are no branches to "
             f"draw: leave out --out")
-    return style.write(out, lambda plt: drawn(found, size, plt), dpi)
+    return style.write(out, lambda plt: drawn(result, size, plt), dpi)
 
 
-def drawn(found: Diagram | Plane, size: tuple[float, float] | None, plt: ModuleType) -> Any:
+def drawn(result: Diagram | Plane, size: tuple[float, float] | None, plt: ModuleType) -> Any:
     """The figure."""
-    figure = _line(found, size, plt) if isinstance(found, Diagram) else _plane(found, size, plt)
-    handles, words = figure.axes[0].get_legend_handles_labels()
-    kept = dict(zip(words, handles))
-    style.below(figure, list(kept.values()), list(kept))
+    figure = _line(result, size, plt) if isinstance(result, Diagram) else _plane(result, size, plt)
+    handles, text = figure.axes[0].get_legend_handles_labels()
+    retained = dict(zip(text, handles))
+    style.below(figure, list(retained.values()), list(retained))
     return figure
 
 
-def _line(found: Diagram, size: tuple[float, float] | None, plt: ModuleType) -> Any:
+def _line(out: Diagram, size: tuple[float, float] | None, plt: ModuleType) -> Any:
     """The figure over one number: a panel for each component that moves, branches stable or not, events
     marked."""
-    rows = branches(found)
+    rows = branches(out)
     moving = ([i for i in range(3) if any(abs(state[i]) > 0 for branch in rows for state in branch.states)]
               or [0])
     figure, axes = plt.subplots(len(moving), 1, sharex=True, squeeze=False, layout="constrained",
                                 figsize=size or (8, 1.4 + 2.6 * len(moving)))
-    units = units_of(found.family.case)
+    units = units_of(out.family.case)
     for ax, i in zip(axes[:, 0], moving):
-        _panel(ax, found, rows, i, units.rates[1])
+        _panel(ax, out, rows, i, units.rates[1])
         ax.set_ylabel(f"$x_{i + 1}$" if units.scaled else rf"$\omega_{i + 1}$ ({units.rates[0]})")
-    span = found.family.spans[0]
+    span = out.family.spans[0]
     axes[-1, 0].set_xlabel(with_unit(span.label, span.shown_unit))
     counts_above(axes[0, 0], (float(span.low), float(span.high)),
                  [(piece.low, piece.high, str(piece.count) if piece.count >= 0 else "curves")
-                  for piece in found.pieces], [event.value for event in (*found.events, *found.connections)])
-    case = found.family.case
-    counted = "changes of stability" if found.kind == BORDERS else "equilibria"
+                  for piece in out.pieces], [event.value for event in (*out.events, *out.connections)])
+    case = out.family.case
+    counted = "changes of stability" if out.kind == BORDERS else "equilibria"
     figure.suptitle(f"{style.literal(case.title or case.name)}\nin bold: the number of {counted}", x=0.02,
                     ha="left", fontsize=10.5, wrap=True)
     return figure
 
 
-def _panel(ax: Any, found: Diagram, rows: list[Branch], i: int, one: float) -> None:
+def _panel(ax: Any, result: Diagram, rows: list[Branch], i: int, x: float) -> None:
     """The component i over the range; one: how many of the axis' unit make one of the case's variables."""
     for branch in rows:
         look, word = LOOKS[branch.verdict]
-        ax.plot(branch.values, [state[i] * one for state in branch.states], label=word, **style.MEANING[look])
-    for event in found.connections:
+        ax.plot(branch.values, [state[i] * x for state in branch.states], label=word, **style.MEANING[look])
+    for event in result.connections:
         ax.axvline(event.value, label="connection: two saddles at one height", zorder=1,
                    **style.MEANING["separatrix"] | {"linewidth": 1.2})
-    for event in found.events:
+    for event in result.events:
         ax.axvline(event.value, color=style.GREY, linewidth=0.7, linestyle=":", zorder=0)
-        met = [state.at[i] * one for state in event.states if state.times > 1]
+        met = [state.at[i] * x for state in event.states if state.times > 1]
         if met:
-            word = "changes meet" if found.kind == BORDERS else " and ".join(event.kinds)
+            word = "changes meet" if result.kind == BORDERS else " and ".join(event.kinds)
             ax.plot([event.value] * len(met), met, label=word, zorder=4, **style.MARKER["degenerate"])
-    span = found.family.spans[0]
+    span = result.family.spans[0]
     ax.set_xlim(float(span.low), float(span.high))
-    mark_own(ax, own_values(found.family.spans, found.family.data))
-    heights = sorted(abs(state[i] * one) for branch in rows for state in branch.states)
+    mark_own(ax, own_values(result.family.spans, result.family.data))
+    heights = sorted(abs(state[i] * x) for branch in rows for state in branch.states)
     if heights and heights[-1] > CROWD * (usual := heights[int(0.9 * (len(heights) - 1))]) > 0:
         ax.set_ylim(-1.5 * usual, 1.5 * usual)
 
@@ -202,27 +202,27 @@ OTHER = light(style.ORANGE, 0.35)
 SMALL = 0.004  # of the whole: regions below bear no number
 
 
-def _plane(found: Plane, size: tuple[float, float] | None, plt: ModuleType) -> Any:
+def _plane(result: Plane, size: tuple[float, float] | None, plt: ModuleType) -> Any:
     """The figure over two numbers: the curves at which equilibria change, the number in each region, cusps.
     """
-    first, second = found.family.spans
+    first, second = result.family.spans
     figure, ax = plt.subplots(layout="constrained", figsize=size or (8, 6))
-    bands = [band for strip in found.strips for band in _bands(found, strip) if band["p"]]
+    bands = [band for strip in result.strips for band in _bands(result, strip) if band["p"]]
     for band in bands:
         ax.fill_between(band["p"], band["low"], band["high"], facecolor=FILLS.get(band["count"], OTHER),
                         linewidth=0, zorder=0)
-    for strip in found.strips:
-        values, arcs = arcs_of(found, strip)
+    for strip in result.strips:
+        values, arcs = arcs_of(result, strip)
         for arc, row in zip(strip.arcs, arcs):
             ax.plot(values, row, label=TOLD[arc.kinds[0]], **style.MEANING[CURVE_LOOKS[arc.kinds[0]]])
-    for wall in found.walls:
+    for wall in result.walls:
         ax.plot([wall.value] * 2, [wall.low, wall.high], label=TOLD[wall.kinds[0]],
                 **style.MEANING[CURVE_LOOKS[wall.kinds[0]]])
-    for cusp in found.cusps:
+    for cusp in result.cusps:
         ax.plot(*cusp.at, label="cusp", zorder=5, clip_on=False, **style.MARKER["degenerate"])
-    whole = float((first.high - first.low) * (second.high - second.low))
+    full = float((first.high - first.low) * (second.high - second.low))
     for region in _regions(bands, float(second.high - second.low)):
-        if sum(band["area"] for band in region) > SMALL * whole:
+        if sum(band["area"] for band in region) > SMALL * full:
             best = max(region, key=lambda band: band["area"])
             n = max(range(len(best["p"])),
                     key=lambda n: (best["high"][n] - best["low"][n])
@@ -232,20 +232,20 @@ def _plane(found: Plane, size: tuple[float, float] | None, plt: ModuleType) -> A
                     va="center", fontsize=13, fontweight="bold", zorder=6)
     ax.set_xlim(float(first.low), float(first.high))
     ax.set_ylim(float(second.low), float(second.high))
-    mark_own(ax, own_values(found.family.spans, found.family.data))
-    for told, span in ((ax.set_xlabel, first), (ax.set_ylabel, second)):
-        told(with_unit(span.label, span.shown_unit))
-    case = found.family.case
-    shown = "changes of stability" if found.kind == "borders" else "number of equilibria"
+    mark_own(ax, own_values(result.family.spans, result.family.data))
+    for printed, span in ((ax.set_xlabel, first), (ax.set_ylabel, second)):
+        printed(with_unit(span.label, span.shown_unit))
+    case = result.family.case
+    shown = "changes of stability" if result.kind == "borders" else "number of equilibria"
     ax.set_title(f"{style.literal(case.title or case.name)}\n{shown}", loc="left", wrap=True)
     return figure
 
 
-def _bands(found: Plane, strip: Strip) -> list[dict[str, Any]]:
+def _bands(result: Plane, strip: Strip) -> list[dict[str, Any]]:
     """The cells of a strip between neighbouring arcs, along it; a curve on an end of the range has no cell
     beyond it."""
-    second = found.family.spans[1]
-    values, arcs = arcs_of(found, strip)
+    second = result.family.spans[1]
+    values, arcs = arcs_of(result, strip)
     ends = (float(second.low), float(second.high))
     inner = [row for row, event in zip(arcs, strip.line.events) if event.value not in ends]
     edges = [[ends[0]] * len(values), *inner, [ends[1]] * len(values)]
@@ -266,8 +266,8 @@ def _regions(bands: list[dict[str, Any]], height: float) -> list[list[dict[str, 
                     * (a["p"][-1] - a["p"][0] + b["p"][-1] - b["p"][0]))
             overlap = min(a["high"][-1], b["high"][0]) - max(a["low"][-1], b["low"][0])
             if meet and a["count"] == b["count"] and overlap > 1e-3 * height:
-                one, other = (next(g for g in groups if any(band is x for x in g)) for band in (a, b))
-                if one is not other:
-                    one.extend(other)
+                item, other = (next(g for g in groups if any(band is x for x in g)) for band in (a, b))
+                if item is not other:
+                    item.extend(other)
                     groups.remove(other)
     return groups

@@ -28,80 +28,80 @@ SIZE = (13.0, 6.6)
 TOP = 4.0          # of MEGNO's colours
 
 
-def write(case: Any, found: Chaos, out: str | Path) -> Path:
+def write(case: Any, result: Chaos, out: str | Path) -> Path:
     """Draw the motion of a case and write the picture; the same case gives the same bytes. Raises InputError
     for another ending."""
     demand(*style.PACKAGES)
-    target, one = endings.file(out, endings.PICTURES), subject(case)
+    target, item = endings.file(out, endings.PICTURES), subject(case)
     with style.drawing() as plt:
-        if subjects.why_not("section", one):
+        if subjects.why_not("section", item):
             figure, ax = plt.subplots(figsize=(7.6, 4.8), layout="constrained")
-            _over_time(ax, case, found)
+            _over_time(ax, case, result)
             return style.save(figure, target)
         figure, (left, right) = plt.subplots(1, 2, figsize=SIZE, layout="constrained")
-        phase_plane.section(one, ax=left, neighbours=NEIGHBOURS)
-        _map(figure, right, left, one, float(found.times[-1]) / SHORTER)
+        phase_plane.section(item, ax=left, neighbours=NEIGHBOURS)
+        _map(figure, right, left, item, float(result.times[-1]) / SHORTER)
         return style.save(figure, target)
 
 
-def _over_time(ax: Any, case: Any, found: Chaos) -> None:
-    ax.plot(found.times, found.history, marker="o", color=style.BLUE)
+def _over_time(ax: Any, case: Any, result: Chaos) -> None:
+    ax.plot(result.times, result.history, marker="o", color=style.BLUE)
     ax.axhline(2, color=style.GREY, linewidth=0.8)
-    if not np.isfinite(found.history).any():  # nothing that an axis could be made from
-        ax.set_xlim(found.times[0], found.times[-1])
+    if not np.isfinite(result.history).any():  # nothing that an axis could be made from
+        ax.set_xlim(result.times[0], result.times[-1])
         ax.set_ylim(0, TOP)
         ax.text(0.5, 0.25, "not followed: it does not come back", transform=ax.transAxes, ha="center")
     ax.set_xscale("log")
     ax.set_xlabel(f"followed for ({case.scene.time_unit})")
     ax.set_ylabel("MEGNO (2 on tori)")
-    ax.set_title(style.literal(f"{case.title or case.name}\n{Order(int(found.labels)).word}"), wrap=True)
+    ax.set_title(style.literal(f"{case.title or case.name}\n{Order(int(result.labels)).word}"), wrap=True)
 
 
-def _map(figure: Any, ax: Any, beside: Any, one: Subject, until: float) -> None:
+def _map(figure: Any, ax: Any, beside: Any, item: Subject, until: float) -> None:
     """MEGNO of the motions from the window of the section; those that spin up in a colour of their own."""
-    scale: Measures = measures(one)
-    _, plane = phase_plane.plane_of(one, subjects.certain_from(one))
+    scale: Measures = measures(item)
+    _, plane = phase_plane.plane_of(item, subjects.certain_from(item))
     limits = beside.get_xlim(), beside.get_ylim()
     x, y = (np.linspace(low, high, 2 * GRID + 1)[1::2] for low, high in limits)
     states = np.full((GRID, GRID, 3), plane.level)
     states[..., plane.across[0]], states[..., plane.across[1]] = x[:, None] / scale.rate[1], y / scale.rate[1]
-    found = chaos(one.twin, states, until)
-    if len(labels := set(found.labels.ravel().tolist())) == 1:
-        _alone(figure, ax, beside, f"of {found.labels.size} motions from this plane, each followed for "
-                                   f"{number(until)} {one.scene.time_unit}, all are {Order(*labels).word}")
+    result = chaos(item.twin, states, until)
+    if len(labels := set(result.labels.ravel().tolist())) == 1:
+        _alone(figure, ax, beside, f"of {result.labels.size} motions from this plane, each followed for "
+                                   f"{number(until)} {item.scene.time_unit}, all are {Order(*labels).word}")
         return
     extent = (*limits[0], *limits[1])
-    leaving = np.where(found.labels == Order.SPIN_UP, 1.0, np.nan)
+    leaving = np.where(result.labels == Order.SPIN_UP, 1.0, np.nan)
     ax.grid(False)
     look = {"origin": "lower", "extent": extent, "aspect": "auto", "interpolation": "nearest"}
     from matplotlib.colors import ListedColormap
     from matplotlib.patches import Patch
     ax.imshow(leaving.T, cmap=ListedColormap([light(style.VERMILION)]), **look)
-    shown = ax.imshow(found.megno.T, cmap="cividis", vmin=0, vmax=TOP, **look)
+    shown = ax.imshow(result.megno.T, cmap="cividis", vmin=0, vmax=TOP, **look)
     figure.colorbar(shown, ax=ax, label="MEGNO (2 on tori, grows where chaotic)", extend="both")
-    at = one.state
+    at = item.state
     if abs(at[plane.axis] - plane.level) < 1e-9 * max(map(abs, at)):
         ax.plot([at[plane.across[0]] * scale.rate[1]], [at[plane.across[1]] * scale.rate[1]],
                 **style.MARKER["start"])
     ax.set_xlabel(beside.get_xlabel())
     ax.set_ylabel(beside.get_ylabel())
-    ax.set_title(f"motions from this plane, each followed for {number(until)} {one.scene.time_unit}")
-    told = beside.get_legend()
-    handles, words = list(told.legend_handles), [text.get_text() for text in told.get_texts()]
-    told.remove()
+    ax.set_title(f"motions from this plane, each followed for {number(until)} {item.scene.time_unit}")
+    printed = beside.get_legend()
+    handles, phrases = list(printed.legend_handles), [text.get_text() for text in printed.get_texts()]
+    printed.remove()
     if np.isfinite(leaving).any():
         handles = [*handles, Patch(facecolor=light(style.VERMILION))]
-        words = [*words, OUTCOMES[Fate.SPIN_UP].legend]
-    figure.legend(handles, words, loc="outside lower center", ncols=5)
+        phrases = [*phrases, OUTCOMES[Fate.SPIN_UP].legend]
+    figure.legend(handles, phrases, loc="outside lower center", ncols=5)
 
 
-def _alone(figure: Any, ax: Any, beside: Any, words: str) -> None:
+def _alone(figure: Any, ax: Any, beside: Any, phrase: str) -> None:
     """The section on a figure of its own, with a sentence in place of a map of one colour."""
     from matplotlib.gridspec import GridSpec
     ax.remove()
     figure.set_size_inches(SIZE[0] * 0.6, SIZE[1])
     beside.set_subplotspec(GridSpec(1, 1, figure=figure)[0])
-    beside.set_title(f"{beside.get_title()}\n{words}", wrap=True)
+    beside.set_title(f"{beside.get_title()}\n{phrase}", wrap=True)
 
 
 # --- Whether a motion is regular or chaotic, in words, JSON and CSV: the label, how it is known, MEGNO over
@@ -111,34 +111,34 @@ FIRST = {Order.REGULAR: "REGULAR as far as it was followed", Order.CHAOTIC: "CHA
          Order.SPIN_UP: "SPIN-UP", Order.UNDECIDED: "UNDECIDED"}
 
 
-def text(case: Any, found: Chaos, _: Any = None) -> str:
+def text(case: Any, result: Chaos, _: Any = None) -> str:
     """The answer first; then what it means for a small change, and MEGNO at each doubling of the time."""
-    label, unit = Order(int(found.labels)), _unit(case)
-    resting = label == Order.REGULAR and not found.megno < FLAT
-    lines = [f"{printable(case.name)}: {'REGULAR' if resting else FIRST[label]}: {found.because}"]
+    label, unit = Order(int(result.labels)), _unit(case)
+    resting = label == Order.REGULAR and not result.megno < FLAT
+    lines = [f"{printable(case.name)}: {'REGULAR' if resting else FIRST[label]}: {result.because}"]
     if label == Order.CHAOTIC:
-        rate, error = float(found.lyapunov), float(found.lyapunov_error)
+        rate, error = float(result.lyapunov), float(result.lyapunov_error)
         lines.append(f"  neighbours part at {rate:.3g} ± {error:.1g} 1/{unit}: a small change doubles in "
                      f"{math.log(2) / rate:.3g} {unit}")
-    if np.isfinite(found.history).any():
+    if np.isfinite(result.history).any():
         lines.append("  an indicator of a finite time, no proof; time and MEGNO:")
         lines += [f"  {time:12.6g} {unit}  {0.0 if abs(value) < 5e-5 else value:9.4f}"
-                  for time, value in zip(found.times.tolist(), found.history.tolist())]
+                  for time, value in zip(result.times.tolist(), result.history.tolist())]
     return "\n".join(lines)
 
 
 def swept(rows: list[tuple[Any, Chaos]], _: Any = None) -> tuple[str, list[tuple[str, str]], list[list[str]]]:
     """(the answer in a line, columns, rows) of a sweep: how many motions are what, and of each MEGNO at the
     last time; where one is chaotic, also how soon neighbours part."""
-    labels = [Order(int(found.labels)) for _, found in rows]
-    told = ", ".join(f"{labels.count(one)} {FIRST[one]}" for one in Order if one in labels)
-    cells = [[FIRST[label].split()[0], f"{found.times[-1] / found.turn:,.0f}",
-              _number(float(found.megno), ".4f"),
-              _number(math.log(2) / float(found.lyapunov) if label == Order.CHAOTIC else math.nan, ".3g")]
-             for label, (_, found) in zip(labels, rows)]
+    labels = [Order(int(result.labels)) for _, result in rows]
+    printed = ", ".join(f"{labels.count(item)} {FIRST[item]}" for item in Order if item in labels)
+    cells = [[FIRST[label].split()[0], f"{result.times[-1] / result.turn:,.0f}",
+              _number(float(result.megno), ".4f"),
+              _number(math.log(2) / float(result.lyapunov) if label == Order.CHAOTIC else math.nan, ".3g")]
+             for label, (_, result) in zip(labels, rows)]
     columns = [("motion", ""), ("turns", ""), ("MEGNO", ""), ("doubles in", _unit(rows[0][0]))]
     shown = len(columns) if Order.CHAOTIC in labels else -1
-    return told, columns[:shown], [row[:shown] for row in cells]
+    return printed, columns[:shown], [row[:shown] for row in cells]
 
 
 def _number(value: float, form: str) -> str:
@@ -150,20 +150,20 @@ def _unit(case: Any) -> str:
     return str(case.scene.time_unit)
 
 
-def as_dict(case: Any, found: Chaos) -> dict[str, Any]:
+def as_dict(case: Any, out: Chaos) -> dict[str, Any]:
     """One object of `stabilab chaos --json`."""
     return {"schema": CHAOS_SCHEMA, "case": case.name, "variables": case.variables,
-            "answer": Order(int(found.labels)).word, "because": found.because,
-            "reason": found.reason.as_dict(), "megno": float(found.megno), "lyapunov": float(found.lyapunov),
-            "lyapunov_uncertainty": float(found.lyapunov_error),
-            "turn": found.turn, "times": found.times.tolist(), "history": found.history.tolist()}
+            "answer": Order(int(out.labels)).word, "because": out.because,
+            "reason": out.reason.as_dict(), "megno": float(out.megno), "lyapunov": float(out.lyapunov),
+            "lyapunov_uncertainty": float(out.lyapunov_error),
+            "turn": out.turn, "times": out.times.tolist(), "history": out.history.tolist()}
 
 
-def lines(case: Any, found: Chaos) -> list[Line]:
+def lines(case: Any, result: Chaos) -> list[Line]:
     """A line of CSV for each time."""
-    word = Order(int(found.labels)).word
+    word = Order(int(result.labels)).word
     return [Line((case.name, word, time, None if math.isnan(value) else value))
-            for time, value in zip(found.times.tolist(), found.history.tolist())]
+            for time, value in zip(result.times.tolist(), result.history.tolist())]
 
 
 CSV = ("case", "answer", "time", "megno"), lines

@@ -32,12 +32,12 @@ if TYPE_CHECKING:
 
 # --- A sweep along one axis: a curve for every number, the fate (or how it is known) as the colour behind
 # it
-COUNTS = tuple(one.name for answer in ANSWERS.values() for one in answer.columns if one.kind == "i4")
+COUNTS = tuple(column.name for answer in ANSWERS.values() for column in answer.columns if column.kind == "i4")
 # numbers in one panel: those of an answer that have a unit in common, and all counts
-TOGETHER = (*(tuple(one.name for one in answer.columns if one.kind == "f8" and one.unit == unit)
+TOGETHER = (*(tuple(column.name for column in answer.columns if column.kind == "f8" and column.unit == unit)
               for answer in ANSWERS.values()
-              for unit in dict.fromkeys(one.unit for one in answer.columns if one.kind == "f8")), COUNTS)
-NUMBERS = tuple(one.name for answer in ANSWERS.values() for one in answer.columns if one.kind != "i1")
+              for unit in dict.fromkeys(item.unit for item in answer.columns if item.kind == "f8")), COUNTS)
+NUMBERS = tuple(item.name for answer in ANSWERS.values() for item in answer.columns if item.kind != "i1")
 
 
 def curves(data: Any, plan: Any, kind: str, along: str, size: Any, plt: Any) -> Any:
@@ -104,9 +104,9 @@ def _lines(ax, data, x, order, names):
                         label=f"{name}, {axis}")
     if names:
         of = data[names[0]].attrs.get("units", "1")
-        told = {"least": "extremes", "when_low": "time to the limit",
+        printed = {"least": "extremes", "when_low": "time to the limit",
                 "equilibria": "number"}.get(names[0], names[0])
-        ax.set_ylabel(told if of == "1" else f"{told} ({of})")
+        ax.set_ylabel(printed if of == "1" else f"{printed} ({of})")
     else:
         ax.set_yticks([])
 
@@ -139,11 +139,11 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
                                     else (3.0 * across + 0.8, 2.8 * down + 1.2)))
     rows = shades.flag_legend(data, kind) if kind in shades.FLAGS else _blank(data, kind)
     limits = _limits(data, kind)
-    for n, (ax, place) in enumerate(zip(axes.flat, panels)):
-        here = data.isel(place)
+    for n, (ax, panel) in enumerate(zip(axes.flat, panels)):
+        here = data.isel(panel)
         shown = _map(ax, here, data, kind, moving, limits)
         if kind == "fate":
-            rows |= _boundary(ax, here, plan, moving, _index(data, plan, place))
+            rows |= _boundary(ax, here, plan, moving, _index(data, plan, panel))
             if "margin" in here and len(panels) == 1:
                 rows |= _levels(ax, here, moving)
         if kind == SHARE_COLUMN:
@@ -155,15 +155,15 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
         if n + across >= len(panels):  # the last of its column
             ax.xaxis.set_tick_params(labelbottom=True)
             ax.set_xlabel(shades.label(data, moving[0]))
-        rows |= {} if place else shades.mark_own(
+        rows |= {} if panel else shades.mark_own(
             ax, [shades.own_value(plan, _dimension(data, plan, name)) for name in moving[:2]])
         ax.set_title(",\n".join(
             f"{shades.spoken_key(data, name)} = {float(data[name][n]):.4g} {_unit(data, name)}".strip()
-            for name, n in place.items()))
+            for name, n in panel.items()))
     for ax in axes.flat[len(panels):]:
         ax.set_visible(False)
-    whole = math.prod(data.sizes[name] for name in panels[0])
-    part = f" ({len(panels)} of {whole} maps)" if len(panels) < whole else ""
+    full = math.prod(data.sizes[name] for name in panels[0])
+    part = f" ({len(panels)} of {full} maps)" if len(panels) < full else ""
     figure.suptitle(_title(data) + part, fontsize=10.5, wrap=True)
     if kind not in shades.FLAGS:
         of_axes = (f", {'least' if kind == 'least' else 'greatest'} of the three axes"
@@ -183,9 +183,9 @@ def _unit(data, name) -> str:
     return "" if unit == "1" else unit
 
 
-def _index(data, plan, place) -> tuple[int, ...]:
+def _index(data, plan, location) -> tuple[int, ...]:
     """The place along every dimension of the sweep; 0 where the map varies."""
-    places = {_dimension(data, plan, name): n for name, n in place.items()}
+    places = {_dimension(data, plan, name): n for name, n in location.items()}
     return tuple(places.get(n, 0) for n in range(len(plan.axes)))
 
 
@@ -200,9 +200,9 @@ def values_of(data, kind) -> np.ndarray:
 def _blank(data, kind) -> dict[str, Any]:
     """What the cells mean that are left white."""
     values = values_of(data, kind)
-    told = [words for words, there in ((ENDS.get(kind, "without end"), np.isinf(values)),
+    text = [phrase for phrase, there in ((ENDS.get(kind, "without end"), np.isinf(values)),
                                        ("not known", np.isnan(values))) if there.any()]
-    return {f"white: {' or '.join(told)}": {"facecolor": "white", "edgecolor": style.GREY}} if told else {}
+    return {f"white: {' or '.join(text)}": {"facecolor": "white", "edgecolor": style.GREY}} if text else {}
 
 
 def _limits(data, kind) -> tuple[float, float]:
@@ -213,14 +213,14 @@ def _limits(data, kind) -> tuple[float, float]:
     return (float(values.min()), float(values.max())) if values.size else (0.0, 1.0)
 
 
-def _map(ax, data, whole, kind, moving, limits) -> Any:
+def _map(ax, data, full, kind, moving, limits) -> Any:
     from matplotlib.colors import BoundaryNorm, ListedColormap
     x, y = (np.asarray(data[name]) for name in moving[:2])
     dims = [d for d in data[kind].dims if d != "axis"]
     values = values_of(data, kind) if dims == moving[:2] else values_of(data, kind).T
     options: dict[str, Any] = {"shading": "nearest", "rasterized": True}
     if kind in shades.FLAGS:
-        look = shades.looks(whole, kind)
+        look = shades.looks(full, kind)
         options |= {"cmap": ListedColormap([shades.light(colour) for _, colour in look.values()]),
                     "vmin": -0.5, "vmax": len(look) - 0.5}
         values = np.searchsorted(list(look), values)
@@ -264,10 +264,10 @@ def _boundary(ax, data, plan, moving, index) -> dict[str, Any]:
     margin = np.asarray(data["margin"].transpose(*moving[:2])) if "margin" in data else None
     if not exact and margin is None:
         return {}
-    way = (lambda at, along: _exact(plan, index, dims, at, along,
+    route = (lambda at, along: _exact(plan, index, dims, at, along,
                                     fates)) if exact else (lambda at, along: _zero(margin, at, along))
     x, y = (np.asarray(data[name]) for name in moving[:2])
-    segments = segments_of(fates, x, y, way)
+    segments = segments_of(fates, x, y, route)
     look = style.MEANING["separatrix"] | {"linewidth": 1.4}
     ax.add_collection(LineCollection(list(segments), color=look["color"], linewidth=look["linewidth"]))
     return {"separatrix (exact)" if exact else "margin zero": look} if len(segments) else {}
@@ -283,26 +283,26 @@ def _zero(margin, at, along):
     """Where the straight line between two margins is zero; half way where one of them is not finite."""
     here, there = margin[at[:, 0], at[:, 1]], margin[at[:, 0] + (along == 0), at[:, 1] + (along == 1)]
     with np.errstate(invalid="ignore", divide="ignore"):
-        share = here / (here - there)
-    return np.where(np.isfinite(share) & (share >= 0) & (share <= 1), share, 0.5)
+        fraction = here / (here - there)
+    return np.where(np.isfinite(fraction) & (fraction >= 0) & (fraction <= 1), fraction, 0.5)
 
 
 def segments_of(fates: np.ndarray, x: np.ndarray, y: np.ndarray,
-                way: Callable[[np.ndarray, int], np.ndarray]) -> np.ndarray:
+                route: Callable[[np.ndarray, int], np.ndarray]) -> np.ndarray:
     """(n, 2, 2): pieces of the line between what spins up and what does not, one or two in each cell of the
     map that it crosses. way(at, along): the share of the way from points (n, 2) to their neighbours along an
     axis at which the fate changes."""
-    spun, known = fates == Fate.SPIN_UP, fates < Fate.UNDECIDED
+    spun, resolved = fates == Fate.SPIN_UP, fates < Fate.UNDECIDED
     crossing = []
     for along, values in enumerate((x, y)):
         low, high = (slice(None, -1), slice(None)), (slice(1, None), slice(None))
         low, high = (low, high) if along == 0 else (low[::-1], high[::-1])
-        differs = (spun[low] != spun[high]) & known[low] & known[high]
+        differs = (spun[low] != spun[high]) & resolved[low] & resolved[high]
         at = np.argwhere(differs)
         points = np.full((*differs.shape, 2), np.nan)
         if len(at):
-            share, place = way(at, along), at[:, along]
-            moved = values[place] + (values[place + 1] - values[place]) * share
+            fraction, location = route(at, along), at[:, along]
+            moved = values[location] + (values[location + 1] - values[location]) * fraction
             other = (y[at[:, 1]], x[at[:, 0]])[along]
             points[at[:, 0], at[:, 1]] = np.stack([moved, other] if along == 0 else [other, moved], axis=1)
         crossing.append(points)
@@ -330,10 +330,11 @@ def spread(data: Any, plan: Any, kind: str, moving: list[str], size: Any, plt: A
         raise InputError("plot: shares of samples need the fate: ask for it with --answer fate")
     if len(moving) == 1:
         return _shares(data, moving, size, plt)
-    share = 100 * (data["fate"] == Fate.SPIN_UP).mean(shades.SAMPLE)
-    words = (f"share of {data.sizes[shades.SAMPLE]:,} samples that {OUTCOMES[Fate.SPIN_UP].does}, lines at "
+    part = 100 * (data["fate"] == Fate.SPIN_UP).mean(shades.SAMPLE)
+    text = (f"share of {data.sizes[shades.SAMPLE]:,} samples that {OUTCOMES[Fate.SPIN_UP].does}, lines at "
              "5, 50 and 95")
-    return fields(data.assign({SHARE_COLUMN: share.assign_attrs(long_name=words, units="%")}), plan, SHARE_COLUMN, moving,
+    shares = part.assign_attrs(long_name=text, units="%")
+    return fields(data.assign({SHARE_COLUMN: shares}), plan, SHARE_COLUMN, moving,
                   _panels(data, moving), size, plt)
 
 
@@ -351,12 +352,12 @@ def _histograms(data, kind, size, plt):
         values = np.asarray(data[name])
         finite = np.isfinite(values)
         edges = np.histogram_bin_edges(values[finite], BINS)
-        for fate, (words, colour) in shades.FATES.items():
+        for fate, (text, colour) in shades.FATES.items():
             of = finite & (np.asarray(data["fate"]) == fate) if "fate" in data else finite
             if of.any():
-                told = f"{words}: {of.sum():,}" if "fate" in data else None
+                printed = f"{text}: {of.sum():,}" if "fate" in data else None
                 ax.hist(values[of], edges, facecolor=shades.light(colour), edgecolor=colour, linewidth=0.6,
-                        label=told)
+                        label=printed)
             if "fate" not in data:
                 break
         ax.set_xlabel(shades.short_label(data, name))
@@ -371,11 +372,11 @@ def _shares(data, moving, size, plt):
     figure, ax = plt.subplots(layout="constrained", figsize=size or (8, 4.5))
     x, fates = np.asarray(data[moving[0]]), np.asarray(data["fate"].transpose(moving[0], shades.SAMPLE))
     base, rows = np.zeros(len(x)), shades.flag_legend(data, "fate")
-    for fate, (words, _) in shades.FATES.items():
-        if words in rows:
-            share = 100 * (fates == fate).mean(axis=1)
-            ax.fill_between(x, base, base + share, linewidth=0.6, **rows[words])
-            base = base + share
+    for fate, (text, _) in shades.FATES.items():
+        if text in rows:
+            fraction = 100 * (fates == fate).mean(axis=1)
+            ax.fill_between(x, base, base + fraction, linewidth=0.6, **rows[text])
+            base = base + fraction
     ax.set_xlim(x.min(), x.max())
     ax.set_ylim(0, 100)
     shades.furnish(ax, data, moving[0])
@@ -413,13 +414,13 @@ def write(path: str | Path, out: str | Path, kind: str | None = None, size: tupl
 def in_units(data: xarray.Dataset, units: Units) -> xarray.Dataset:
     """The same with the columns of rates and times in the units that people read."""
     of = {name: str(data[name].attrs.get("units", "1")) for name in map(str, data.data_vars)}
-    told = {name: units.of(unit) for name, unit in of.items()}
+    printed = {name: units.of(unit) for name, unit in of.items()}
     for names in (("period",), ("when_low", "when_high")):
-        known = [np.abs(values[np.isfinite(values)]).max(initial=0.0)
+        resolved = [np.abs(values[np.isfinite(values)]).max(initial=0.0)
                  for values in (np.asarray(data[name]) for name in names if name in of)]
-        told |= {name: units.times(max(known)) for name in names if name in of}
-    return data.assign({name: (data[name] * one).assign_attrs(data[name].attrs | {"units": written(unit)})
-                        for name, (unit, one) in told.items()
+        printed |= {name: units.times(max(resolved)) for name in names if name in of}
+    return data.assign({name: (data[name] * item).assign_attrs(data[name].attrs | {"units": written(unit)})
+                        for name, (unit, item) in printed.items()
                         if unit != of[name]})
 
 
@@ -429,12 +430,12 @@ def _basin(data, path, target, kind, size, dpi) -> Path:
         raise InputError(
             f"plot {printable(kind)[:40]}: a file of stabilab basin has one picture: leave --kind away")
     try:
-        found = basin_data.opened(data)
+        result = basin_data.opened(data)
     except Exception:  # of any kind: what stands there is not of this program, or of another version
         raise InputError(
             f"{printable(str(path))}: what it says of its basins cannot be read: was it changed, or made by "
             f"another version?") from None
-    return basin_picture.write(found, target, size, dpi)
+    return basin_picture.write(result, target, size, dpi)
 
 
 def opened(path: Path) -> tuple[xarray.Dataset, Plan]:
@@ -446,12 +447,12 @@ def opened(path: Path) -> tuple[xarray.Dataset, Plan]:
 
 def loaded(path: Path) -> xarray.Dataset:
     """The data set of a file. Raises InputError for what is none."""
-    words = _words(path)
+    text = _words(path)
     if path.is_dir():
-        raise InputError(f"{words}, got a folder")
+        raise InputError(f"{text}, got a folder")
     if not path.is_file():
         raise InputError(f"{path}: no such file; stabilab sweep --out {path} makes one")
-    return read(path, words)
+    return read(path, text)
 
 
 def _words(path: Path) -> str:
@@ -460,23 +461,23 @@ def _words(path: Path) -> str:
 
 def _plan(data: xarray.Dataset, path: Path) -> Plan:
     """The sweep that a data set is of."""
-    words = _words(path)
+    text = _words(path)
     if "sweep" not in data.attrs:
-        raise InputError(f"{words}: this one is of another kind: it does not say of which sweep it is")
+        raise InputError(f"{text}: this one is of another kind: it does not say of which sweep it is")
     try:
         plan = from_json(data.attrs["sweep"])
         off = differing(data, plan)
     except Exception:  # of any kind: what stands there is no plan, or of another version
         raise InputError(
-            f"{words}: what it says of its sweep cannot be read: was it changed, or made by another "
+            f"{text}: what it says of its sweep cannot be read: was it changed, or made by another "
             f"version?") from None
     if off:
         raise InputError(
-            f"{words}: its {off} is not that of the sweep that it says it is of: was it changed since?")
+            f"{text}: its {off} is not that of the sweep that it says it is of: was it changed since?")
     return plan
 
 
-def read(path: Path, words: str) -> xarray.Dataset:
+def read(path: Path, text: str) -> xarray.Dataset:
     """The data set of a NetCDF file; words: what is expected, for the error where it is none."""
     import warnings
 
@@ -484,14 +485,14 @@ def read(path: Path, words: str) -> xarray.Dataset:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of bytes that mean nothing a reader may say anything
-            with xarray.open_dataset(path, engine="scipy") as found:
-                return found.load()
+            with xarray.open_dataset(path, engine="scipy") as result:
+                return result.load()
     except OSError as error:
         if error.strerror:
             raise InputError(f"{printable(str(path))}: {error.strerror}") from None
     except Exception:  # and raise anything
         pass
-    raise InputError(f"{words}: this one is of another format, or cut off")
+    raise InputError(f"{text}: this one is of another format, or cut off")
 
 
 def differing(data: xarray.Dataset, plan: Plan) -> str:
@@ -517,11 +518,11 @@ def chosen(data: xarray.Dataset, kind: str | None) -> str:
     have = [name for name in ("fate", *NUMBERS, "chaos", "level", "reason") if name in data]
     if kind is not None and kind not in have:
         raise InputError(f"plot {printable(kind)[:40]}: this file has {', '.join(have)}")
-    asked = have if kind is None else [kind]
-    found = next((name for name in asked if np.isfinite(data[name]).any()), None)
-    if found is None:
-        raise InputError(f"plot: nothing to draw: no point has a finite value of {' or '.join(asked)}")
-    return found
+    request = have if kind is None else [kind]
+    result = next((name for name in request if np.isfinite(data[name]).any()), None)
+    if result is None:
+        raise InputError(f"plot: nothing to draw: no point has a finite value of {' or '.join(request)}")
+    return result
 
 
 def dimensions_of(data: xarray.Dataset) -> list[str]:
@@ -554,7 +555,7 @@ def _panels(data, moving: list[str]) -> list[dict[str, int]]:
     if not rest:
         return [{}]
     # six along one, three and two along the first two, one along any other
-    most = [PANELS] if len(rest) == 1 else [3, 2] + [1] * (len(rest) - 2)
+    largest = [PANELS] if len(rest) == 1 else [3, 2] + [1] * (len(rest) - 2)
     choices = [np.unique(np.linspace(0, data.sizes[name] - 1, min(count, data.sizes[name]))
-                         .round().astype(int)).tolist() for name, count in zip(rest, most)]
-    return [dict(zip(rest, place)) for place in product(*choices)]
+                         .round().astype(int)).tolist() for name, count in zip(rest, largest)]
+    return [dict(zip(rest, location)) for location in product(*choices)]

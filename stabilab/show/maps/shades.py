@@ -38,8 +38,8 @@ DRAWN = ("ω", "μ", "x")  # those that have an index
 def names(keys: Sequence[str]) -> list[str]:
     """A short name for each key, in letters, digits and underscores: its last word, or as many of its words
     as tell it from the others."""
-    def plain(words: Sequence[str]) -> str:
-        letters = (letter if letter.isascii() and letter.isalnum() else " " for letter in " ".join(words))
+    def plain(text: Sequence[str]) -> str:
+        letters = (letter if letter.isascii() and letter.isalnum() else " " for letter in " ".join(text))
         name = "_".join("".join(letters).split()) or "key"
         return name if name[0].isalpha() else f"key_{name}"
     return (_told_apart([key.split(".") for key in keys], plain, {SAMPLE, "axis"})
@@ -58,10 +58,10 @@ def _told_apart(parts: Sequence[Sequence[str]], name: Callable[[Sequence[str]], 
                 taken: Collection[str] = ()) -> list[str]:
     """Names of as few of the last words of each as tell it from the others, none of them taken; none where
     there are no such names."""
-    for words in range(1, max(map(len, parts), default=0) + 1):
-        found = [name(part[-words:]) for part in parts]
-        if len({*found, *taken}) == len(found) + len(taken):
-            return found
+    for text in range(1, max(map(len, parts), default=0) + 1):
+        rows = [name(part[-text:]) for part in parts]
+        if len({*rows, *taken}) == len(rows) + len(taken):
+            return rows
     return []
 
 
@@ -91,34 +91,34 @@ def of_every_point(case: Case) -> list[Caveat]:
 def limits_of(case: Case, records: np.ndarray) -> list[Caveat]:
     """What limits the answers of a map: what the file says itself, on what its points rest, a limit that was
     not looked at."""
-    found = [*of_case(case)]
+    rows = [*of_case(case)]
     numbers = records["caveats"].ravel().tolist() if "caveats" in records.dtype.names else []
     counts = Counter(number % len(CONDITIONS) for number in numbers)
     parts = [(Kind.TILT, HOLDS(condition=CONDITIONS[n]), count) for n, count in sorted(counts.items()) if n]
-    whole = [number // len(CONDITIONS) for number in numbers]
-    if all(one.kind is not Kind.UNPHYSICAL for one in found):
-        parts += [(Kind.UNPHYSICAL, NO_SUCH_BODY, sum(number % 2 for number in whole))]
-    parts += [(Kind.UNSTABLE, UNSTABLE_POINT, sum(number >= 2 for number in whole))]
+    full = [number // len(CONDITIONS) for number in numbers]
+    if all(item.kind is not Kind.UNPHYSICAL for item in rows):
+        parts += [(Kind.UNPHYSICAL, NO_SUCH_BODY, sum(number % 2 for number in full))]
+    parts += [(Kind.UNSTABLE, UNSTABLE_POINT, sum(number >= 2 for number in full))]
     for kind, reason, count in parts:
         part = None if count == len(numbers) else OF_POINTS(count=count, points=len(numbers))
-        found += [Caveat(kind, reason.then(part, " "))] if count else []
+        rows += [Caveat(kind, reason.then(part, " "))] if count else []
     if case.limits is not None and "when_low" not in records.dtype.names:
-        found.append(Caveat(Kind.LIMIT, LIMIT_UNSEEN(limit=stated(case.limits))))
-    return found
+        rows.append(Caveat(Kind.LIMIT, LIMIT_UNSEEN(limit=stated(case.limits))))
+    return rows
 
 
 # --- How fates and axes of a sweep look: colours by meaning, labels with units, straight or logarithmic
 # scales
 # fate -> (its name in a legend, its colour)
-FATES = {fate: (one.legend, style.OUTCOME[one.word]) for fate, one in OUTCOMES.items()} | {
+FATES = {fate: (outcome.legend, style.OUTCOME[outcome.word]) for fate, outcome in OUTCOMES.items()} | {
     NO_CASE: ("no case", style.GREY)}
 FLAGS = ("fate", "level", "reason", "chaos")  # columns of words
 LIGHT = 0.45  # of a colour that fills an area
 
 
-def light(colour: str, share: float = LIGHT) -> tuple[float, float, float]:
+def light(colour: str, fraction: float = LIGHT) -> tuple[float, float, float]:
     """The colour on white."""
-    red, green, blue = (1 - share * (1 - int(colour[i:i + 2], 16) / 255) for i in (1, 3, 5))
+    red, green, blue = (1 - fraction * (1 - int(colour[i:i + 2], 16) / 255) for i in (1, 3, 5))
     return red, green, blue
 
 
@@ -131,14 +131,14 @@ def label(data: Any, name: str) -> str:
     """The name of a dimension or column with its unit; of a dimension as few of its last words as tell it
     from the others of the sweep."""
     attrs = data[name].attrs
-    words = drawn(spoken_key(data, name)) if name in data.dims else str(attrs.get("long_name", name))
-    return with_unit(words, attrs.get("units", "1"))
+    text = drawn(spoken_key(data, name)) if name in data.dims else str(attrs.get("long_name", name))
+    return with_unit(text, attrs.get("units", "1"))
 
 
 def spoken_key(data: Any, name: str) -> str:
     """The key of a dimension, as short as the other keys of the sweep allow."""
-    keys = {one: str(data[one].attrs["long_name"]) for one in data.coords if one != SAMPLE
-            and "long_name" in data[one].attrs}
+    keys = {coord: str(data[coord].attrs["long_name"]) for coord in data.coords if coord != SAMPLE
+            and "long_name" in data[coord].attrs}
     return dict(zip(keys, said(list(keys.values())))).get(name, name)
 
 
@@ -208,10 +208,10 @@ def looks(data: Any, kind: str) -> dict[int, tuple[str, str]]:
     a series, as they occur."""
     if kind == "fate":
         return {int(value): FATES[value] for value in sorted(FATES)}
-    words = str(data[kind].attrs["flag_meanings"]).split()
+    text = str(data[kind].attrs["flag_meanings"]).split()
     present = np.unique(np.asarray(data[kind])).tolist()
     colours = [*style.SERIES, *style.BRANCHES]
-    return {value: (words[value].replace("_", " ") if value >= 0 else "not known",
+    return {value: (text[value].replace("_", " ") if value >= 0 else "not known",
                     style.GREY if value < 0 else colours[n % len(colours)])
             for n, value in enumerate(present)}
 
@@ -219,5 +219,5 @@ def looks(data: Any, kind: str) -> dict[int, tuple[str, str]]:
 def flag_legend(data: Any, kind: str) -> dict[str, dict[str, Any]]:
     """Words -> look of every flag of a column that occurs."""
     values = np.asarray(data[kind])
-    return {words: {"facecolor": light(colour), "edgecolor": colour}
-            for value, (words, colour) in looks(data, kind).items() if (values == value).any()}
+    return {text: {"facecolor": light(colour), "edgecolor": colour}
+            for value, (text, colour) in looks(data, kind).items() if (values == value).any()}

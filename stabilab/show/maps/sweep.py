@@ -37,7 +37,7 @@ SWEEP_SCHEMA = "stabilab.sweep/1"
 ROWS = 40  # points of a table
 FEW = 100  # points that are counted; of more their share is given
 # what points do, what one point does
-DOES = {fate: (one.do, one.does) for fate, one in OUTCOMES.items()} | {NO_CASE: ("are no case", "is no case")}
+DOES = {fate: (x.do, x.does) for fate, x in OUTCOMES.items()} | {NO_CASE: ("are no case", "is no case")}
 SHORT = {"spin_axis": "axis", "greatest": "most"}  # names of columns in a table
 # what numbers without end mean, the negative first: in a sentence, and in a cell where that is shorter
 # of a column that is a bound: which of them
@@ -51,29 +51,29 @@ CELLS = {ENDLESS: "curves", OPEN: "not known", NONE: "no case"}
 COUNTS = {ENDLESS: "curves of equilibria", OPEN: "equilibria not all known", NONE: "no case"}
 
 
-def text(found: Swept) -> str:
+def text(result: Swept) -> str:
     """The answer first; then what else was asked, in ranges; a table of the points where there are few."""
-    plan = found.plan
-    lines = [f"{plan.case.name}: {_answer(found)}", *_details(found)]
-    lines += limiting.lines(limits_of(_case_of(plan), found.records), units_of(plan.case))
+    plan = result.plan
+    lines = [f"{plan.case.name}: {_answer(result)}", *_details(result)]
+    lines += limiting.lines(limits_of(_case_of(plan), result.records), units_of(plan.case))
     lines += headline.beside(plan.case)
-    if found.broken:
-        told = (f"{found.broken:,} points are no case; the first" if found.broken > 1
+    if result.broken:
+        printed = (f"{result.broken:,} points are no case; the first" if result.broken > 1
                 else "one point is no case")
-        lines.append(f"  {told}: {printable(found.fault)}")
-    if found.records.size <= ROWS:
-        lines += _table(found)
+        lines.append(f"  {printed}: {printable(result.fault)}")
+    if result.records.size <= ROWS:
+        lines += _table(result)
     return limiting.ahead(of_case(plan.case), "\n".join(lines))
 
 
-def _answer(found: Swept) -> str:
-    names = found.records.dtype.names
+def _answer(result: Swept) -> str:
+    names = result.records.dtype.names
     if "fate" in names:
-        return _shares(found.records["fate"], lambda value: DOES[value])
+        return _shares(result.records["fate"], lambda value: DOES[value])
     if "equilibria" in names:
-        return _shares(found.records["equilibria"],
+        return _shares(result.records["equilibria"],
                        lambda value: (f"have {_number(value)}", f"has {_number(value)}"))
-    return f"{found.records.size:,} points"
+    return f"{result.records.size:,} points"
 
 
 def _number(value: int) -> str:
@@ -81,18 +81,18 @@ def _number(value: int) -> str:
             or ("no equilibrium" if not value else f"{value} equilibri{'um' if value == 1 else 'a'}"))
 
 
-def _shares(values: np.ndarray, words: Any) -> str:
+def _shares(values: np.ndarray, phrase: Any) -> str:
     """"62 % of 10,201 points stay bounded, 38 % spin up"."""
     kinds, counts = np.unique(values, return_counts=True)
     order = np.argsort(-counts, kind="stable")
     parts = [(_share(int(counts[n]), values.size),
-              words(int(kinds[n]))[int(counts[n]) == 1 and values.size <= FEW]) for n in order]
+              phrase(int(kinds[n]))[int(counts[n]) == 1 and values.size <= FEW]) for n in order]
     if len(parts) == 1:
         return (f"all {values.size:,} points {parts[0][1]}" if values.size > 1
                 else f"the one point {parts[0][1]}")
     head, *rest = parts
     return (f"{head[0]} of {values.size:,} points {head[1]}"
-            + "".join(f", {share} {what}" for share, what in rest))
+            + "".join(f", {fraction} {what}" for fraction, what in rest))
 
 
 def _share(count: int, of: int) -> str:
@@ -102,37 +102,37 @@ def _share(count: int, of: int) -> str:
     return per_cent(count / of)
 
 
-def per_cent(share: float) -> str:
+def per_cent(fraction: float) -> str:
     """A share that is not given as 100 % where it is less."""
-    percent = 100 * share
-    if percent > 99 and share < 1 - 1e-12:
+    percent = 100 * fraction
+    if percent > 99 and fraction < 1 - 1e-12:
         return f"{min(percent, 99.99):.2f} %"
     return f"{percent:.0f} %" if percent >= 1 else f"{percent:.2g} %"
 
 
-def _details(found: Swept) -> list[str]:
-    lines, names = [], found.records.dtype.names
-    cases = found.records[found.records["valid"] == 1]
-    if "spin_axis" in names and (found.records["fate"] == Fate.SPIN_UP).any():
-        about = found.records["spin_axis"][found.records["fate"] == Fate.SPIN_UP]
-        signed = axes_of(found.plan.case).signed
+def _details(result: Swept) -> list[str]:
+    lines, names = [], result.records.dtype.names
+    cases = result.records[result.records["valid"] == 1]
+    if "spin_axis" in names and (result.records["fate"] == Fate.SPIN_UP).any():
+        about = result.records["spin_axis"][result.records["fate"] == Fate.SPIN_UP]
+        signed = axes_of(result.plan.case).signed
         lines.append("  spin-up about " + _listed(about, lambda axis: signed(abs(axis), axis) if axis
                                                   else "an axis between equal moments"))
     if "level" in names:
-        flags = next(c.flags for c in columns_of(found.plan.answers) if c.name == "level")
+        flags = next(c.flags for c in columns_of(result.plan.answers) if c.name == "level")
         lines.append("  the fate is known as " + _listed(cases["level"], lambda level: flags[level]))
-    for column in columns_of(found.plan.answers):
+    for column in columns_of(result.plan.answers):
         if column.kind == "f8":
-            lines.append(_range(cases[column.name], column, *_unit(found.plan, column)))
+            lines.append(_range(cases[column.name], column, *_unit(result.plan, column)))
         elif column.kind == "i4":
             lines.append(f"  {column.description}: " + _listed(cases[column.name],
                                                          lambda value: COUNTS.get(value, str(value))))
     return lines
 
 
-def _listed(values: np.ndarray, words: Any) -> str:
+def _listed(values: np.ndarray, phrase: Any) -> str:
     kinds, counts = np.unique(values, return_counts=True)
-    return ", ".join(f"{words(int(kind))} ({count:,})" for kind,
+    return ", ".join(f"{phrase(int(kind))} ({count:,})" for kind,
                      count in sorted(zip(kinds.tolist(), counts.tolist()), key=lambda pair: -pair[1]))
 
 
@@ -144,26 +144,26 @@ def _unit(plan: Plan, column: Column) -> Unit:
     return units_of(plan.case).of(of)
 
 
-def _range(values: np.ndarray, column: Column, of: str, one: float) -> str:
+def _range(values: np.ndarray, column: Column, of: str, item: float) -> str:
     finite, name = values[np.isfinite(values)], column.name.replace("_", " ")
     (below, *_), (above, *_) = INFINITE.get(column.name, (("-∞",), ("∞",)))
-    rest = [f"{words} at {count:,}" for words, count in (
+    rest = [f"{phrase} at {count:,}" for phrase, count in (
         (below, np.isneginf(values).sum()), (above, np.isposinf(values).sum()),
         ("not known", np.isnan(values).sum())) if count]
-    ends = (list(dict.fromkeys(_in_unit(float(end), one, column.name)
+    ends = (list(dict.fromkeys(_in_unit(float(end), item, column.name)
                                for end in (finite.min(), finite.max()))) if finite.size else [])
-    told = " to ".join(ends) + (f" {of}" if of else "") if ends else "no finite value"
-    return f"  {name}: {told}" + (f" ({', '.join(rest)})" if rest else "")
+    printed = " to ".join(ends) + (f" {of}" if of else "") if ends else "no finite value"
+    return f"  {name}: {printed}" + (f" ({', '.join(rest)})" if rest else "")
 
 
-def undecided(found: Swept) -> bool:
+def undecided(result: Swept) -> bool:
     """Whether the fate of a point is."""
-    return "fate" in found.plan.answers and bool((found.records["fate"] == Fate.UNDECIDED).any())
+    return "fate" in result.plan.answers and bool((result.records["fate"] == Fate.UNDECIDED).any())
 
 
-def heads(found: Swept) -> list[str]:
+def heads(result: Swept) -> list[str]:
     """What the cells of `rows` are: keys with their units, then columns with theirs."""
-    plan = found.plan
+    plan = result.plan
     keys = [with_unit(axis.key.name, axis.shown_unit) for axis in plan.axes]
     keys += ([SAMPLE, *(with_unit(key.name, plan.sampled.unit(n)) for n, key in enumerate(plan.sampled.keys))]
              if plan.sampled else [])
@@ -173,16 +173,16 @@ def heads(found: Swept) -> list[str]:
     return keys
 
 
-def rows(found: Swept) -> Iterator[list[Any]]:
+def rows(result: Swept) -> Iterator[list[Any]]:
     """A row for every point, the last dimension fastest: what varies, then the answers, words for flags."""
-    plan = found.plan
+    plan = result.plan
     sampled = plan.sampled.values(0, plan.sampled.count).tolist() if plan.sampled else []
     columns = columns_of(plan.answers)[1:]
     for index in np.ndindex(*plan.shape):
         row: list[Any] = [axis.values[n] for axis, n in zip(plan.axes, index)]
         row += [index[-1], *sampled[index[-1]]] if plan.sampled else []
         for column in columns:
-            value = found.records[column.name][index].tolist()
+            value = result.records[column.name][index].tolist()
             row += (value if column.shape else [column.flags[value] if column.flags and value >= 0
                                                 else "" if column.flags else value])
         yield row
@@ -192,29 +192,29 @@ def _case_of(plan: Plan) -> Any:
     """The case, without the caveat that an answer is of the middles of its uncertain numbers where the points
     go through all of these."""
     varied = {path for axis in plan.axes for path in axis.key.paths}
-    if plan.sampled is None and not all(one.path in varied for one in plan.case.uncertain):
+    if plan.sampled is None and not all(item.path in varied for item in plan.case.uncertain):
         return plan.case
     return replace(plan.case, caveats=without(plan.case.caveats, Kind.UNCERTAIN, Kind.TOLERANCE))
 
 
-def csv(found: Swept) -> str:
+def csv(result: Swept) -> str:
     """Every point as a line, with what limits the answers of all points beside what limits its own."""
-    case = _case_of(found.plan)
+    case = _case_of(result.plan)
     every = limiting.cell(case, of_every_point(case))
-    lines = rows(found)
-    if every and CAVEATS in columns_of(found.plan.answers):
+    lines = rows(result)
+    if every and CAVEATS in columns_of(result.plan.answers):
         lines = ([*row, "; ".join(filter(None, (every, own)))] for *row, own in lines)
-    return csv_lines([heads(found), *lines])
+    return csv_lines([heads(result), *lines])
 
 
-def json(found: Swept) -> str:
+def json(result: Swept) -> str:
     """Every point: axes with their values, then each column in one list, the last axis fastest."""
-    plan = found.plan
+    plan = result.plan
     axes = [{"key": axis.key.name, "unit": axis.shown_unit, "values": list(axis.values)}
             for axis in plan.axes]
     columns = {column.name: {"unit": unit(plan, column), "long_name": column.description}
                | ({"flags": list(column.flags)} if column.flags else {})
-               | {"values": endless(found.records[column.name].ravel().tolist())}
+               | {"values": endless(result.records[column.name].ravel().tolist())}
                for column in columns_of(plan.answers)[1:]}
     told: dict[str, Any] = {"schema": SWEEP_SCHEMA, "case": plan.case.name, "variables": plan.case.variables,
                             "command": plan.command,
@@ -223,14 +223,14 @@ def json(found: Swept) -> str:
         told["samples"] = {"count": plan.sampled.count, "seed": plan.sampled.seed,
                            "keys": [key.name for key in plan.sampled.keys],
                            "values": plan.sampled.values(0, plan.sampled.count).tolist()}
-    told |= limiting.key(plan.case, limits_of(_case_of(plan), found.records))
-    return as_json(told | {"no_case": {"points": found.broken, "because": found.fault}, "columns": columns})
+    told |= limiting.key(plan.case, limits_of(_case_of(plan), result.records))
+    return as_json(told | {"no_case": {"points": result.broken, "because": result.fault}, "columns": columns})
 
 
-def _table(found: Swept) -> list[str]:
+def _table(result: Swept) -> list[str]:
     """A row a point under short names and units, rates in the units of the case."""
-    plan, columns = found.plan, columns_of(found.plan.answers)[1:]
-    told = list(rows(found))
+    plan, columns = result.plan, columns_of(result.plan.answers)[1:]
+    told = list(rows(result))
     if columns[-1:] == (CAVEATS,):  # in words above the table
         columns, told = columns[:-1], [row[:-1] for row in told]
     keys = [(axis.key.name, axis.shown_unit) for axis in plan.axes]
@@ -242,20 +242,20 @@ def _table(found: Swept) -> list[str]:
     units = ["" if of == "1" else lettered(of) for of in units]
     factors, kinds = [1.0] * len(units), [""] * len(units)
     for column in columns:
-        (of, one), name = _unit(plan, column), SHORT.get(column.name, column.name.replace("_", " "))
+        (of, item), name = _unit(plan, column), SHORT.get(column.name, column.name.replace("_", " "))
         titles += ([f"{lettered(component)} {name}" for component in plan.case.scene.components]
                    if column.shape else [name])
         places = math.prod(column.shape)
-        units, factors = units + [of] * places, factors + [one] * places
+        units, factors = units + [of] * places, factors + [item] * places
         kinds += [column.name] * places
     axes = axes_of(plan.case)
-    cells = [[_cell(value, one, kind, axes) for value, one, kind in zip(row, factors, kinds)] for row in told]
+    cells = [[_cell(value, x, kind, axes) for value, x, kind in zip(row, factors, kinds)] for row in told]
     said_of = [n for n in range(len(titles)) if any(row[n] for row in cells)]
     return terminal.table([[row[n] for n in said_of] for row in (titles, units, *cells)], len(keys + sampled),
                       terminal.width())
 
 
-def _cell(value: Any, one: float, kind: str, axes: Axes) -> str:
+def _cell(value: Any, item: float, kind: str, axes: Axes) -> str:
     if kind == "spin_axis":
         return axes.signed(abs(value), value)
     if isinstance(value, int) and kind in ("equilibria", "stable", "unstable", "open"):
@@ -264,12 +264,12 @@ def _cell(value: Any, one: float, kind: str, axes: Axes) -> str:
         return str(value)
     if math.isinf(value) and kind in INFINITE:
         return INFINITE[kind][value > 0][-1]
-    return "not known" if math.isnan(value) else _in_unit(value, one, kind)
+    return "not known" if math.isnan(value) else _in_unit(value, item, kind)
 
 
-def _in_unit(value: float, one: float, kind: str) -> str:
+def _in_unit(value: float, item: float, kind: str) -> str:
     """A number of a column in its unit, a bound rounded outward."""
-    return f"{as_bound(value, one, 6, SIDES.get(kind, 0)) + 0.0:.6g}"
+    return f"{as_bound(value, item, 6, SIDES.get(kind, 0)) + 0.0:.6g}"
 
 
 # --- As a data set
@@ -298,11 +298,11 @@ def sweep(case: Given, vary: Mapping[str, Any] | None = None,
     demand("xarray")
     plan = planned(case, vary or {}, samples, seed, answer, follow, **limit)
     path = None if out is None else checked(out)
-    with run(plan, path, workers, scheduler) as found:
-        made = dataset(found)
+    with run(plan, path, workers, scheduler) as result:
+        built = dataset(result)
         if path is not None:
-            write(made, path)
-        return made
+            write(built, path)
+        return built
 
 
 def checked(path: str | os.PathLike[str]) -> Path:
@@ -311,54 +311,54 @@ def checked(path: str | os.PathLike[str]) -> Path:
     return endings.file(path, ENDING)
 
 
-def write(made: xarray.Dataset, path: Path) -> Path:
+def write(built: xarray.Dataset, path: Path) -> Path:
     """Write a data set as NetCDF 3: every reader knows it, and it holds neither time nor machine. Whole or
     not at all."""
     # in memory first: a full disk then says so in plain words
-    content = bytes(made.to_netcdf(engine="scipy"))
+    content = bytes(built.to_netcdf(engine="scipy"))
     with whole_file(path) as waiting:
         waiting.write_bytes(content)
     return path
 
 
-def dataset(found: Swept) -> xarray.Dataset:
+def dataset(result: Swept) -> xarray.Dataset:
     """The records with their dimensions, units and words."""
-    plan, dims = found.plan, dimensions(found.plan)
-    values = {column.name: column_in((*dims, *["axis"] * len(column.shape)), column, found.records,
+    plan, dims = result.plan, dimensions(result.plan)
+    values = {column.name: column_in((*dims, *["axis"] * len(column.shape)), column, result.records,
                                      unit(plan, column))
-              for column in columns_of(plan.answers) if column is not VALID or found.broken}
+              for column in columns_of(plan.answers) if column is not VALID or result.broken}
     coordinates = {name: ((name,), np.array(axis.values),
                           {"long_name": axis.key.name, "units": axis.shown_unit})
                    for name, axis in zip(dims, plan.axes)}
     if plan.sampled:
         coordinates |= _sampled(plan)
-    if any("axis" in one[0] for one in values.values()):
-        told = "; ".join(map(axes_of(plan.case).name, (1, 2, 3)))
+    if any("axis" in value[0] for value in values.values()):
+        printed = "; ".join(map(axes_of(plan.case).name, (1, 2, 3)))
         coordinates["axis"] = (("axis",), np.array([1, 2, 3], np.int8),
-                               {"long_name": "principal axis", "names": told})
-    return finished(values, coordinates, _attributes(found))
+                               {"long_name": "principal axis", "names": printed})
+    return finished(values, coordinates, _attributes(result))
 
 
 def finished(values: dict[str, Any], coordinates: dict[str, Any],
              attributes: dict[str, Any]) -> xarray.Dataset:
     """The data set, in which no value stands for one that is missing."""
     import xarray
-    made = xarray.Dataset(values, coordinates, attributes)
-    for variable in made.variables.values():
+    built = xarray.Dataset(values, coordinates, attributes)
+    for variable in built.variables.values():
         variable.encoding["_FillValue"] = None
-    return made
+    return built
 
 
 def column_in(dims: str | Sequence[str], column: Column, records: np.ndarray,
               of: str) -> tuple[Any, np.ndarray, dict]:
     """A column of answers with its dimensions, its words, unit (`of`) and flags."""
-    words: dict[str, Any] = {"long_name": column.description} | ({"units": of} if column.kind == "f8" else {})
+    label: dict[str, Any] = {"long_name": column.description} | ({"units": of} if column.kind == "f8" else {})
     if column.flags:
-        words |= {"flag_values": np.arange(len(column.flags), dtype=np.int8),
+        label |= {"flag_values": np.arange(len(column.flags), dtype=np.int8),
                   "flag_meanings": " ".join(flag.replace(" ", "_") or "none" for flag in column.flags)}
     if column.note:
-        words |= {"comment": column.note}
-    return dims, np.ascontiguousarray(records[column.name]).astype(column.kind), words
+        label |= {"comment": column.note}
+    return dims, np.ascontiguousarray(records[column.name]).astype(column.kind), label
 
 
 def _sampled(plan: Plan) -> dict[str, Any]:
@@ -371,12 +371,12 @@ def _sampled(plan: Plan) -> dict[str, Any]:
                      {"long_name": "number of a random point"}), **columns}
 
 
-def _attributes(found: Swept) -> dict[str, Any]:
-    plan, case = found.plan, found.plan.case
-    broken = {"no_case": f"{found.broken} points: {printable(found.fault)}"} if found.broken else {}
+def _attributes(result: Swept) -> dict[str, Any]:
+    plan, case = result.plan, result.plan.case
+    broken = {"no_case": f"{result.broken} points: {printable(result.fault)}"} if result.broken else {}
     return {**origin(case, plan.command), "case_variables": case.variables, "case": plan.text,
             "sweep": plan.as_json(brief=True),
-            "caveats": limiting.cell(case, limits_of(_case_of(found.plan), found.records)), **broken}
+            "caveats": limiting.cell(case, limits_of(_case_of(result.plan), result.records)), **broken}
 
 
 def origin(case: Case, command: str) -> dict[str, Any]:

@@ -41,20 +41,20 @@ def data_of(targets: Iterable[Path]) -> Path | None:
     return data[0] if data else None
 
 
-def write_basins(found: Basins, path: Path) -> Path:
+def write_basins(result: Basins, path: Path) -> Path:
     """Write basins in the format of the ending."""
-    return (sweep.write(basins.dataset(found), path) if endings.ending(path) in sweep.ENDING
-            else basin_picture.write(found, path))
+    return (sweep.write(basins.dataset(result), path) if endings.ending(path) in sweep.ENDING
+            else basin_picture.write(result, path))
 
 
-def write_atlas(found: Atlas, path: Path, units: Units, kind: str | None = None,
+def write_atlas(result: Atlas, path: Path, units: Units, kind: str | None = None,
                 size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
     """Write the atlas in the format of the ending."""
     if endings.ending(path) in sweep.ENDING:
-        return sweep.write(atlas.dataset(found), path)
+        return sweep.write(atlas.dataset(result), path)
     if endings.ending(path) in endings.PICTURES:
-        return atlas_picture.write_picture(found, path, units, kind, size, dpi)
-    return atlas_picture.write_page(found, path, units)
+        return atlas_picture.write_picture(result, path, units, kind, size, dpi)
+    return atlas_picture.write_page(result, path, units)
 
 
 def is_atlas(path: Path) -> bool:
@@ -71,6 +71,6 @@ def is_atlas(path: Path) -> bool:
 def redrawn(path: Path, out: Path, kind: str | None, size: tuple[float, float] | None, dpi: float | None,
             units: str | None) -> Path:
     """Draw the atlas of a NetCDF file."""
-    found = atlas.atlas_of(read(path, f"{printable(str(path))}: expected a file of stabilab atlas"), path)
-    return write_atlas(found, endings.file(out, (*endings.PICTURES, *PAGES)),
-                       units_of(found.asked.case, units), kind, size, dpi)
+    result = atlas.atlas_of(read(path, f"{printable(str(path))}: expected a file of stabilab atlas"), path)
+    return write_atlas(result, endings.file(out, (*endings.PICTURES, *PAGES)),
+                       units_of(result.asked.case, units), kind, size, dpi)

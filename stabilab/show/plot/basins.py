@@ -51,40 +51,40 @@ def basin(found: Basins, ax: Axes | None = None, size: tuple[float, float] | Non
                                 found.plan.case.title or found.plan.case.name, edge)
 
 
-def write(found: Basins, out: str | Path, size: tuple[float, float] | None = None,
+def write(result: Basins, out: str | Path, size: tuple[float, float] | None = None,
           dpi: float | None = None) -> Path:
     """Draw basins and write the picture, whole or not at all; the same basins give the same bytes."""
-    return style.write(out, lambda plt: basin(found, size=size).figure, dpi)
+    return style.write(out, lambda plt: basin(result, size=size).figure, dpi)
 
 
-def _areas(ax: Axes, found: Basins) -> list[tuple[str, dict[str, Any]]]:
+def _areas(ax: Axes, result: Basins) -> list[tuple[str, dict[str, Any]]]:
     """The cells in the colours of their lower corners, and what these mean."""
     from matplotlib.collections import PolyCollection
-    cells = cells_of(found)
+    cells = cells_of(result)
     (left, right), (below, above) = (
         (np.array(axis.values)[cells[name]], np.array(axis.values)[cells[name] + cells["width"]])
-        for axis, name in zip(found.plan.axes, ("first", "second")))
+        for axis, name in zip(result.plan.axes, ("first", "second")))
     corners = np.array([[left, below], [right, below], [right, above], [left, above]])
-    labels = np.array(list(found.shares))
+    labels = np.array(list(result.shares))
     order = np.argsort(labels)
     colours = np.array([AREAS[label] for label in labels[order].tolist()])
     shown = colours[np.searchsorted(labels[order], cells["label"])]
-    black = not found.exact and len(found.boundary)
+    black = not result.exact and len(result.boundary)
     if black:
-        number = found.mesh.number(found.mesh.depth, cells["first"], cells["second"])
-        shown[(cells["width"] == 1) & np.isin(number, found.boundary)] = 0.0
+        number = result.mesh.number(result.mesh.depth, cells["first"], cells["second"])
+        shown[(cells["width"] == 1) & np.isin(number, result.boundary)] = 0.0
     ax.add_collection(PolyCollection(list(np.moveaxis(corners, 2, 0)), facecolors=shown, edgecolors="none",
                                      antialiaseds=False, rasterized=True))
     ax.set(xlim=(corners[:, 0].min(), corners[:, 0].max()), ylim=(corners[:, 1].min(), corners[:, 1].max()))
-    rows = [(basin_name(found, label), {"facecolor": AREAS[label], "edgecolor": style.GREY})
-            for label in found.shares]
+    rows = [(basin_name(result, label), {"facecolor": AREAS[label], "edgecolor": style.GREY})
+            for label in result.shares]
     return (rows + ([("finest cells on the boundary", {"facecolor": "black", "edgecolor": "black"})] if black
                     else []))
 
 
-def _line(ax: Axes, found: Basins) -> list[tuple[str, dict[str, Any]]]:
+def _line(ax: Axes, result: Basins) -> list[tuple[str, dict[str, Any]]]:
     from matplotlib.collections import LineCollection
-    pieces = found.separatrix()
+    pieces = result.separatrix()
     if not len(pieces):
         return []
     look: dict[str, Any] = style.MEANING["separatrix"] | {"linewidth": 1.2}

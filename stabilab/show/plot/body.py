@@ -41,70 +41,70 @@ def body(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
     arrows are not. bare: the body and the effects alone, axes by number. Raises InputError for scaled
     variables.
     """
-    one = subject(case, state)
-    subjects.check("body", one)
+    item = subject(case, state)
+    subjects.check("body", item)
     from matplotlib.patheffects import withStroke
-    scene = subjects.bodily(one)
+    scene = subjects.bodily(item)
     sides = box_sides(scene.body.inertia)
     with canvas.on(ax, size or SIZE, space=True) as target:
         target.computed_zorder = False
-        _box(target, sides, PLAIN if bare else one.axes)
+        _box(target, sides, PLAIN if bare else item.axes)
         rows = [(f"{BOX}: D = {_vector(scene.body.inertia)} kg m²",
                  {"color": style.GREY, "linewidth": 8, "alpha": 0.4, "solid_capstyle": "butt"})]
-        rows += [_effect(target, one, effect, sides) for effect in scene.effects]
-        if not bare and one.physical:
-            rows += _start(target, one) + ([] if one.case is None else _craft(target, one.case, sides))
+        rows += [_effect(target, item, effect, sides) for effect in scene.effects]
+        if not bare and item.physical:
+            rows += _start(target, item) + ([] if item.case is None else _craft(target, item.case, sides))
         target.set(xlim=(-0.8, 0.8), ylim=(-0.8, 0.8), zlim=(-0.7, 0.9))
         target.set_axis_off()
         target.view_init(*VIEW)
         target.set_box_aspect((1, 1, 1), zoom=1.3)
         halo = [withStroke(linewidth=2.5, foreground="white")]  # words lie on lines and arrows
-        for words in target.texts:
-            words.set(path_effects=halo, zorder=LETTERS["zorder"])
+        for text in target.texts:
+            text.set(path_effects=halo, zorder=LETTERS["zorder"])
         if not bare:
-            canvas.title(target, one.heading)
+            canvas.title(target, item.heading)
         if legend:
             style.legend(target.figure, rows, columns=1)
     return target
 
 
-def _effect(ax: Any, one: Subject, effect: Any, sides: np.ndarray) -> tuple[str, dict[str, Any]]:
+def _effect(ax: Any, item: Subject, effect: Any, sides: np.ndarray) -> tuple[str, dict[str, Any]]:
     """What an effect is drawn by; a row of the legend alone where PARTS has no sketch of it."""
     if effect.name not in PARTS:
         return f"{effect_words(effect.name)}, not drawn", {"linestyle": "none"}
-    return PARTS[effect.name][1](ax, one, effect, sides)
+    return PARTS[effect.name][1](ax, item, effect, sides)
 
 
-def _start(ax: Any, one: Subject) -> list[tuple[str, dict[str, Any]]]:
+def _start(ax: Any, item: Subject) -> list[tuple[str, dict[str, Any]]]:
     """The axis about which the body turns at the start."""
-    if one.state is None or not any(one.state):
+    if item.state is None or not any(item.state):
         return []
-    unit, per = measures(one).rate
-    look = _arrow(ax, (0, 0, 0), _along(one.state, 0.85), r"$\omega$", style.ORANGE, 1.8)
-    return [(f"rates at the start ω = {_vector(per * np.array(one.state))} {unit}", look)]
+    unit, per = measures(item).rate
+    look = _arrow(ax, (0, 0, 0), _along(item.state, 0.85), r"$\omega$", style.ORANGE, 1.8)
+    return [(f"rates at the start ω = {_vector(per * np.array(item.state))} {unit}", look)]
 
 
 def _craft(ax: Any, case: Any, sides: np.ndarray) -> list[tuple[str, dict[str, Any]]]:
     """Thrusters and wheels where the case has them, and the axes of its file; rows of the legend."""
     turn = np.eye(3) if case.frame is None else np.array([[float(v) for v in row] for row in case.frame.axes])
     principal = lambda vector: turn @ np.array([float(v) for v in vector])
-    arms = [principal(one.arm) for one in case.thrusters]
+    arms = [principal(thruster.arm) for thruster in case.thrusters]
     per_metre = _per_metre(case.scene.body, arms, sides)
     rows = []
-    for one, arm in zip(case.thrusters, arms):
-        place = per_metre * arm
-        place *= min(1.0, FARTHEST / max(float(np.linalg.norm(place)), 1e-12))
-        colour = style.PURPLE if one.stuck else style.GREY
-        ax.plot(*np.array([np.zeros(3), place]).T, color=style.GREY, linewidth=0.8, linestyle=":", zorder=5)
-        ax.plot(*place[:, None], marker="o", color=colour, markersize=6, zorder=9)
-        look = _arrow(ax, place, 0.3 * principal(one.direction), "", colour, 2.0)
-        ax.text(*place, f" {one.name}", color=colour, ha="left", va="top", **LETTERS)
-        stuck = ", stuck" * one.stuck
-        rows.append((f"force of {one.name} on the body, {float(one.force):.4g} N{stuck}", look))
-    for one in case.wheels if len(case.wheels) > 1 else ():
-        turning = np.sign(float(one.momentum) or 1.0) * principal(one.axis)
-        look = _arrow(ax, (0, 0, 0), 0.4 * turning, one.name, style.SKY, 1.6)
-        rows.append((f"momentum of {one.name}, {float(one.momentum):.4g} N m s", look))
+    for wheel, arm in zip(case.thrusters, arms):
+        index = per_metre * arm
+        index *= min(1.0, FARTHEST / max(float(np.linalg.norm(index)), 1e-12))
+        colour = style.PURPLE if wheel.stuck else style.GREY
+        ax.plot(*np.array([np.zeros(3), index]).T, color=style.GREY, linewidth=0.8, linestyle=":", zorder=5)
+        ax.plot(*index[:, None], marker="o", color=colour, markersize=6, zorder=9)
+        look = _arrow(ax, index, 0.3 * principal(wheel.direction), "", colour, 2.0)
+        ax.text(*index, f" {wheel.name}", color=colour, ha="left", va="top", **LETTERS)
+        stuck = ", stuck" * wheel.stuck
+        rows.append((f"force of {wheel.name} on the body, {float(wheel.force):.4g} N{stuck}", look))
+    for wheel in case.wheels if len(case.wheels) > 1 else ():
+        turning = np.sign(float(wheel.momentum) or 1.0) * principal(wheel.axis)
+        look = _arrow(ax, (0, 0, 0), 0.4 * turning, wheel.name, style.SKY, 1.6)
+        rows.append((f"momentum of {wheel.name}, {float(wheel.momentum):.4g} N m s", look))
     if case.frame is not None and not case.frame.as_given:
         for letter, axis in zip("xyz", turn.T):
             ax.plot(*np.array([-0.72 * axis, 0.72 * axis]).T, color=style.BROWN, linewidth=1.0,
@@ -174,30 +174,30 @@ def _ring(ax: Axes3D, axis: np.ndarray, radius: float):
     ax.plot(*ring.T, color=style.BLUE, linewidth=3.0, zorder=7)
 
 
-def _vector_of(attribute: str, length: float, label: str, colour: str, words: str, width: float = 2.4,
+def _vector_of(attribute: str, length: float, label: str, colour: str, text: str, width: float = 2.4,
                ring: float = 0.0) -> Callable:
     """What draws an effect that is a vector, along it; a rotor with a ring about it."""
-    def draw(ax: Axes3D, one: Subject, effect: Effect, sides: np.ndarray):
+    def draw(ax: Axes3D, item: Subject, effect: Effect, sides: np.ndarray):
         axis = _along(getattr(effect, attribute), 1.0)
         if ring:
             _ring(ax, axis, ring)
         duration = getattr(effect, "duration", None)
         end = "" if duration is None else f" for {float(duration):g} s"
         look = _arrow(ax, (0, 0, 0), length * axis, label, colour, width)
-        return words.format(_vector(getattr(effect, attribute))) + end, look
+        return text.format(_vector(getattr(effect, attribute))) + end, look
     return draw
 
 
-def _charge(ax, one, effect, sides):
+def _charge(ax, item, effect, sides):
     """The charge on axis 3, at its arm where the mass tells the size of the box, and lines of the field."""
-    body = subjects.bodily(one).body
+    body = subjects.bodily(item).body
     mass, D = body.mass, np.array(body.inertia)
     longest = np.sqrt(6 * (D.sum() - 2 * D).max() / mass) if mass else 2 * effect.arm / sides[2]
-    place = np.array([0.0, 0.0, effect.arm / longest])
-    field = (one.blocks.get("gamma", (0, 0, 1)) if effect.follows_attitude
+    location = np.array([0.0, 0.0, effect.arm / longest])
+    field = (item.blocks.get("gamma", (0, 0, 1)) if effect.follows_attitude
              else (0.0, np.sin(effect.angle), np.cos(effect.angle)))
-    ax.plot(*place[:, None], marker="o", color=style.ORANGE, markersize=11, linestyle="none", zorder=9)
-    ax.text(*place, "charge e  ", color=style.ORANGE, ha="right", va="bottom", **LETTERS)
+    ax.plot(*location[:, None], marker="o", color=style.ORANGE, markersize=11, linestyle="none", zorder=9)
+    ax.text(*location, "charge e  ", color=style.ORANGE, ha="right", va="bottom", **LETTERS)
     for shift, label in ((-0.85, ""), (0.75, "field H")):
         look = _arrow(ax, (0.0, shift, -0.3), _along(field, 0.75), label, style.PURPLE, 1.6)
     angle = "of the attitude" if effect.follows_attitude else f"= {effect.angle:g} rad"
@@ -214,63 +214,63 @@ def _ball(ax, sides, word):
     return {"color": style.SKY, "marker": "o", "markersize": 10, "linestyle": "none", "alpha": 0.6}
 
 
-def _liquid(ax, one, effect, sides):
+def _liquid(ax, item, effect, sides):
     return (f"cavity of liquid: ρ = {effect.density:g} kg/m³, ν = {effect.viscosity:g} m²/s, P0 = "
             f"{effect.P0:g} m⁷", _ball(ax, sides, "liquid"))
 
 
-def _damper(ax, one, effect, sides):
+def _damper(ax, item, effect, sides):
     return (f"damper: sphere of {effect.inertia:g} kg m² in a fluid of {effect.coefficient:g} N m s",
             _ball(ax, sides, "damper"))
 
 
-def _against(one: Subject, ax: Any, matrix: Any, label: str) -> dict[str, Any]:
+def _against(item: Subject, ax: Any, matrix: Any, label: str) -> dict[str, Any]:
     """An arrow against a multiple of the angular velocity at the start; its look in the legend."""
-    torque = -np.array(matrix) @ np.array((0, 0, 0) if one.state is None else one.state)
+    torque = -np.array(matrix) @ np.array((0, 0, 0) if item.state is None else item.state)
     if not np.any(torque):
         return {"color": style.BLACK, "linewidth": 1.6}
     return _arrow(ax, (0, 0, 0), _along(torque, 0.8), label, style.BLACK, 1.6)
 
 
-def _resistance(ax, one, effect, sides):
-    look = _against(one, ax, np.diag(subjects.bodily(one).body.inertia), r"resistance $-cD\omega$")
+def _resistance(ax, item, effect, sides):
+    look = _against(item, ax, np.diag(subjects.bodily(item).body.inertia), r"resistance $-cD\omega$")
     return f"resistance −c Dω, c = {effect.coefficient:g} 1/s, at the start", look
 
 
-def _rate_damper(ax, one, effect, sides):
-    return "linear damper −C ω, at the start", _against(one, ax, effect.coefficient, r"damping $-C\omega$")
+def _rate_damper(ax, item, effect, sides):
+    return "linear damper −C ω, at the start", _against(item, ax, effect.coefficient, r"damping $-C\omega$")
 
 
-def _eddy(ax, one, effect, sides):
+def _eddy(ax, item, effect, sides):
     """Lines of the field, half of each on either side of the plane of axes 2 and 3."""
-    field, look = _along(_down(one), 0.75), {}
+    field, look = _along(_down(item), 0.75), {}
     for shift, label in ((-0.75, ""), (0.75, "field B")):
         look = _arrow(ax, (0.0, shift, -0.3) - field / 2, field, label, style.PURPLE, 1.6)
     return (f"eddy currents in a field of {effect.field_strength:g} T, k = {effect.coefficient:g} N m s/T²",
             look)
 
 
-def _down(one: Subject):
-    return np.array(one.blocks.get("gamma", (0.0, 0.0, -1.0)), float)
+def _down(item: Subject):
+    return np.array(item.blocks.get("gamma", (0.0, 0.0, -1.0)), float)
 
 
-def _weight(ax, one, effect, sides):
+def _weight(ax, item, effect, sides):
     """The fixed point, the centre of mass and its weight."""
     centre = _along(effect.centre_of_mass, 0.45) if np.any(effect.centre_of_mass) else np.zeros(3)
     ax.plot([0], [0], [0], zorder=9, marker="s", color=style.BLACK, markersize=8, linestyle="none")
     ax.text(0.0, 0.0, 0.0, "  fixed point O", color=style.BLACK, ha="left", va="bottom", **LETTERS)
     ax.plot(*np.array([np.zeros(3), centre]).T, color=style.BLACK, linewidth=1.0, linestyle=":", zorder=8)
     ax.plot(*centre[:, None], zorder=9, marker="o", color=style.VERMILION, markersize=7, linestyle="none")
-    look = _arrow(ax, centre, 0.5 * _down(one), "weight Mg", style.VERMILION, side="left")
+    look = _arrow(ax, centre, 0.5 * _down(item), "weight Mg", style.VERMILION, side="left")
     return (f"weight Mg = {effect.weight:g} N at the centre of mass {_vector(effect.centre_of_mass)} m", look)
 
 
-def _attraction(ax, one, effect, sides):
+def _attraction(ax, item, effect, sides):
     """The attracting centre, far along gamma."""
-    place = 1.15 * _down(one)
-    ax.plot(*np.array([np.zeros(3), place]).T, color=style.GREEN, linewidth=1.2, linestyle="--", zorder=5)
-    ax.plot(*place[:, None], marker="*", color=style.GREEN, markersize=15, linestyle="none", zorder=9)
-    ax.text(*place + [0.0, 0.0, -0.07], "attracting centre", color=style.GREEN, ha="center", va="top",
+    location = 1.15 * _down(item)
+    ax.plot(*np.array([np.zeros(3), location]).T, color=style.GREEN, linewidth=1.2, linestyle="--", zorder=5)
+    ax.plot(*location[:, None], marker="*", color=style.GREEN, markersize=15, linestyle="none", zorder=9)
+    ax.text(*location + [0.0, 0.0, -0.07], "attracting centre", color=style.GREEN, ha="center", va="top",
             **LETTERS)
     away = "" if effect.distance is None else f", R = {effect.distance:g} m away"
     return (f"attracting centre{away}: N = {effect.strength:.3g} 1/s²",

@@ -70,17 +70,17 @@ def legend(ax: Axes | Axes3D, rows: list[tuple[str, dict[str, Any]]], own: bool)
         ax.legend(*style.explained(rows), loc="best", fontsize="small")
 
 
-def answer(one: Subject, scale: Measures) -> str:
+def answer(item: Subject, scale: Measures) -> str:
     """What becomes of the motion of a case, and when it reaches its limit, as its headline begins; empty
     without a case."""
-    if one.case is None or one.state is None:
+    if item.case is None or item.state is None:
         return ""
-    units = replace(scale.system or units_of(one.case), axes=axes_of(one.case))
-    became, limit, _ = outcome(one.motion, units)
-    left_out = [limiting.words(of, units).split("; ")[0] for of in one.motion.caveats
+    units = replace(scale.system or units_of(item.case), axes=axes_of(item.case))
+    became, limit, _ = outcome(item.motion, units)
+    left_out = [limiting.words(of, units).split("; ")[0] for of in item.motion.caveats
                 if of.kind in (Kind.TOLERANCE, Kind.MISALIGNMENT, Kind.UNCERTAIN)]
-    words = "; ".join(filter(None, (became, limit, *left_out)))
-    return headline.warned(one.motion.validity, limiting.ahead(one.motion.caveats, words, named=False))
+    text = "; ".join(filter(None, (became, limit, *left_out)))
+    return headline.warned(item.motion.validity, limiting.ahead(item.motion.caveats, text, named=False))
 
 
 def title(ax: Any, heading: str, *lines: str) -> None:
@@ -88,6 +88,6 @@ def title(ax: Any, heading: str, *lines: str) -> None:
     (omega becomes ω); nothing for what is empty."""
     # beside others it has its own share alone
     width = ax.get_position().width if len(ax.figure.axes) > 1 else 1.0
-    told = (style.clauses(line, ax.figure.get_figwidth() * width)
+    printed = (style.clauses(line, ax.figure.get_figwidth() * width)
             for line in (heading, *map(written, lines)) if line)
-    ax.set_title("\n".join(map(style.literal, told)), wrap=True)
+    ax.set_title("\n".join(map(style.literal, printed)), wrap=True)

@@ -40,21 +40,21 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
     themselves. A state, given or of the case, is marked. Of scenes with a direction of space (top) the rates
     of the permanent rotations are drawn. Raises InputError where there is none.
     """
-    one = subject(case, state)
-    found = all_of(one.case or one.scene)
-    if not found.points and not found.curves:
-        raise InputError(f"plot equilibria: there is nothing to draw: {found.reason}")
-    scale, per = measures(one, units), measures(one, units).rate[1]
-    planes = [curve for curve in found.curves if curve.plane]
-    bent = replace(found, curves=tuple(curve for curve in found.curves if curve not in planes))
+    item = subject(case, state)
+    result = all_of(item.case or item.scene)
+    if not result.points and not result.curves:
+        raise InputError(f"plot equilibria: there is nothing to draw: {result.reason}")
+    scale, per = measures(item, units), measures(item, units).rate[1]
+    planes = [curve for curve in result.curves if curve.plane]
+    bent = replace(result, curves=tuple(curve for curve in result.curves if curve not in planes))
     folds = np.array([fold[:3] for curve in bent.curves for fold in curve.folds], float).reshape(-1, 3)
-    number = MANY if one.twin.plain else FEW
-    box = _box(found, folds, one, number[0])
-    drawn = drawn_in(scale.names, scale.rate, box, (), [], marks_of(one.state, None, found),
+    number = MANY if item.twin.plain else FEW
+    box = _box(result, folds, item, number[0])
+    drawn = drawn_in(scale.names, scale.rate, box, (), [], marks_of(item.state, None, result),
                      curves_of(bent, box, *number), "")
     spatial = planes or getattr(ax, "name", "") == "3d"
-    flat = None if spatial else _flat_axis(drawn, found)
-    rows = {words: look(words) for words, _ in drawn.curves}
+    flat = None if spatial else _flat_axis(drawn, result)
+    rows = {phrase: look(phrase) for phrase, _ in drawn.curves}
     with canvas.on(ax, size, space=flat is None) as target:
         for plane in planes:
             kinds = [style.kind_of(segment) for segment in plane.segments]
@@ -69,32 +69,32 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
             in_space.line(target, folds[holds(box, folds)] * per, FOLD, zorder=9)
         else:
             _in_plane(target, drawn, folds, flat)
-        rows |= {f"{kind} equilibrium": EQUILIBRIUM_LOOKS[kind] for kind in map(style.kind_of, found.points)}
+        rows |= {f"{kind} equilibrium": EQUILIBRIUM_LOOKS[kind] for kind in map(style.kind_of, result.points)}
         rows |= {"change of stability": FOLD} if len(folds) else {}
-        if one.state is not None:
+        if item.state is not None:
             rows["start of the motion" if flat is None
                  else "start of the motion, seen along the axis"] = style.MARKER["start"]
         constant = ("" if flat is None else f"all have {scale.plain(flat)} = "
                  f"{drawn.curves[0][1][0][flat] * per + 0.0:.4g} {scale.rate[0]}".rstrip())
-        stopped = once_stopped(found)
-        words = "; ".join(filter(None, (constant, stopped and stopped.text(letters=True))))
-        return canvas.explained(target, list(rows.items()) if legend else [], ax is None, one.heading, words)
+        stopped = once_stopped(result)
+        text = "; ".join(filter(None, (constant, stopped and stopped.text(letters=True))))
+        return canvas.explained(target, list(rows.items()) if legend else [], ax is None, item.heading, text)
 
 
-def _box(found: Equilibria, folds: np.ndarray, one: Subject, number: int) -> Box:
+def _box(result: Equilibria, folds: np.ndarray, item: Subject, number: int) -> Box:
     """What to show: all points and folds, the start, and of curves as much again."""
-    marks = [at for _, at in marks_of(one.state, None, found)] + folds.tolist()
-    near = [min(size for t in spread(*segment.t, number)
+    marks = [at for _, at in marks_of(item.state, None, result)] + folds.tolist()
+    nearby = [min(size for t in spread(*segment.t, number)
                 if math.isfinite(size := math.hypot(*curve.point(t)[:3])))
-            for curve in found.curves if not curve.plane for segment in curve.segments]
-    size = max([*(abs(v) for at in marks for v in at), *near], default=0.0) or 1.0
-    return Box((0.0,) * 3, (size * (BEYOND if found.curves else 1.1),) * 3)
+            for curve in result.curves if not curve.plane for segment in curve.segments]
+    size = max([*(abs(v) for at in marks for v in at), *nearby], default=0.0) or 1.0
+    return Box((0.0,) * 3, (size * (BEYOND if result.curves else 1.1),) * 3)
 
 
-def _flat_axis(drawn: Space, found: Equilibria) -> int | None:
+def _flat_axis(drawn: Space, result: Equilibria) -> int | None:
     """The axis across which all equilibria lie in one plane; None where they do not, or lie on one line."""
     places = np.array([*(at for _, curve in drawn.curves for at in curve if drawn.box.holds(at)),
-                       *(point.at[:3] for point in found.points)], float)
+                       *(point.at[:3] for point in result.points)], float)
     if len(places) < 3:
         return None
     flat = [axis for axis in range(3) if np.ptp(places[:, axis]) < FLAT * drawn.box.half[0]]
@@ -104,10 +104,10 @@ def _flat_axis(drawn: Space, found: Equilibria) -> int | None:
 def _in_plane(ax: Axes, drawn: Space, folds: np.ndarray, flat: int) -> None:
     first, second = (n for n in range(3) if n != flat)
     per, box = drawn.rate, drawn.box.scaled(drawn.rate)
-    for words, places in drawn.curves:
-        ax.plot(*inside(box, per * np.array(places))[:, [first, second]].T, **look(words))
-    for words, at in drawn.marks:
-        ax.plot(per * at[first], per * at[second], zorder=5, **marker(words))
+    for text, places in drawn.curves:
+        ax.plot(*inside(box, per * np.array(places))[:, [first, second]].T, **look(text))
+    for text, at in drawn.marks:
+        ax.plot(per * at[first], per * at[second], zorder=5, **marker(text))
     ax.plot(folds[:, first] * per, folds[:, second] * per, zorder=5, **FOLD)
     ax.axhline(0, color=style.GREY, linewidth=0.6, zorder=1)
     ax.axvline(0, color=style.GREY, linewidth=0.6, zorder=1)

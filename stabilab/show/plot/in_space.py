@@ -73,10 +73,10 @@ def inside(box: Box, line: np.ndarray) -> np.ndarray:
 
 def clipped(box: Box, triangles: np.ndarray) -> np.ndarray:
     """The parts of triangles (n, 3, 3) that lie inside, as triangles."""
-    whole = holds(box, triangles).all(axis=1)
+    full = holds(box, triangles).all(axis=1)
     outside = np.any((triangles < box.low).all(axis=1) | (triangles > box.high).all(axis=1), axis=1)
-    parts = [triangles[whole]]
-    for corners in triangles[~whole & ~outside]:
+    parts = [triangles[full]]
+    for corners in triangles[~full & ~outside]:
         for axis, sign in product(range(3), (1, -1)):
             corners = _above(corners, sign * (corners[:, axis] - box.middle[axis]) + box.half[axis])
         if len(corners) > 2:  # a polygon without hollows
@@ -90,14 +90,14 @@ def _above(corners: np.ndarray, height: np.ndarray) -> np.ndarray:
     after, above = np.roll(height, -1), height >= 0
     with np.errstate(divide="ignore", invalid="ignore"):
         crossing = corners + (height / (height - after))[:, None] * (np.roll(corners, -1, axis=0) - corners)
-    kept = np.stack([above, above != (after >= 0)], axis=1).ravel()
-    return np.stack([corners, crossing], axis=1).reshape(-1, 3)[kept]
+    retained = np.stack([above, above != (after >= 0)], axis=1).ravel()
+    return np.stack([corners, crossing], axis=1).reshape(-1, 3)[retained]
 
 
-def pale(colour: str, share: float = PALE) -> tuple[float, ...]:
+def pale(colour: str, fraction: float = PALE) -> tuple[float, ...]:
     """The colour of a surface, on which lines are to be seen."""
     from matplotlib.colors import to_rgb
-    return tuple(1 - share * (1 - part) for part in to_rgb(colour))
+    return tuple(1 - fraction * (1 - part) for part in to_rgb(colour))
 
 
 def facets(ax: Axes3D, surfaces: list[tuple[np.ndarray, str]], pale_by: float = PALE) -> None:
@@ -141,16 +141,16 @@ def furnish(ax: Axes3D, box: Box, labels: tuple[str, ...], view: tuple[float, fl
     power = math.floor(math.log10(box.farthest))
     power = power if not -3 < power < 5 else 0
     if power:
-        labels = tuple(words.replace("(", rf"($10^{{{power}}}$ ") for words in labels)
+        labels = tuple(text.replace("(", rf"($10^{{{power}}}$ ") for text in labels)
     ax.computed_zorder = False  # lines before surfaces: what is behind one is to be seen, too
     for letter, low, high in zip("xyz", box.low, box.high):
         getattr(ax, f"set_{letter}lim")(low, high)
-    for setter, words, near in zip((ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), labels, (25, 25, 12)):
+    for setter, label, nearby in zip((ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), labels, (25, 25, 12)):
         # near the ticks where the figure is small, else below its edge
-        setter(words, labelpad=6 - near * (1 - small))
-    for axis, words in zip((ax.xaxis, ax.yaxis, ax.zaxis), labels):
+        setter(label, labelpad=6 - nearby * (1 - small))
+    for axis, label in zip((ax.xaxis, ax.yaxis, ax.zaxis), labels):
         # a letter alone stands upright from every side; with its unit it goes along the axis
-        if " " not in words:
+        if " " not in label:
             axis.set_rotate_label(False)
             axis.label.set_rotation(0)
         elif axis is ax.zaxis:  # upwards on either side of the box
@@ -161,8 +161,8 @@ def furnish(ax: Axes3D, box: Box, labels: tuple[str, ...], view: tuple[float, fl
     roomy = min(small, min(ax.bbox.width, ax.bbox.height) / ax.figure.dpi / ROOMY)
     lengths = np.array(box.half)
     sides = np.maximum(lengths / lengths.max(), FLATTEST)
-    for n, (axis, share) in enumerate(zip((ax.xaxis, ax.yaxis, ax.zaxis), sides / sides.max() * _seen(view))):
-        ticks = box.ticks(n, 3 if roomy * share > SEEN else 2)
+    for n, (axis, part) in enumerate(zip((ax.xaxis, ax.yaxis, ax.zaxis), sides / sides.max() * _seen(view))):
+        ticks = box.ticks(n, 3 if roomy * part > SEEN else 2)
         shown = numbers([v / 10.0**power for v in ticks])
         axis.set_ticks(ticks, labels=shown)
         if (longer := max(map(len, shown)) - USUAL) > 0:
@@ -222,10 +222,10 @@ class SurfaceLines:
         surface, zero where it hides nothing."""
         front = outward @ sight(self.view) >= 0
         for side in (True, False):
-            near = front == side
-            near[:-1] |= near[1:] if side else False  # the part in front takes the step across the edge
-            if near.any():
-                self.lines.append((np.where(near[:, None], points, np.nan), look, side))
+            nearby = front == side
+            nearby[:-1] |= nearby[1:] if side else False  # the part in front takes the step across the edge
+            if nearby.any():
+                self.lines.append((np.where(nearby[:, None], points, np.nan), look, side))
 
 
 def sight(view: tuple[float, float]) -> np.ndarray:
@@ -296,105 +296,105 @@ def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None
     it has left the separatrix behind. Scenes without a separatrix show the motion and the equilibria. span:
     as of `time`.
     """
-    one = subject(case, state, span)
-    subjects.check("space", one)
-    scale = measures(one, units)
-    found = space_of(one, scale.names, scale.rate, shape=FACETS)
+    x = subject(case, state, span)
+    subjects.check("space", x)
+    scale = measures(x, units)
+    result = space_of(x, scale.names, scale.rate, shape=FACETS)
     with canvas.on(ax, size, space=True) as target:
-        draw(target, found)
-        return canvas.explained(target, rows(found) if legend else [], ax is None,
-                                one.heading, canvas.answer(one, scale), away(one, found, scale), found.part)
+        draw(target, result)
+        return canvas.explained(target, rows(result) if legend else [], ax is None,
+                                x.heading, canvas.answer(x, scale), away(x, result, scale), result.part)
 
 
-def space_of(one: Subject, names: Iterable[str], rate: tuple[str, float], known: Equilibria | None = None,
+def space_of(item: Subject, names: Iterable[str], rate: tuple[str, float], resolved: Equilibria | None = None,
              shape: tuple[int, int] = SHAPE, most: float = WHOLE, reaching: bool = False) -> Space:
     """What is drawn of a subject. names, rate: as of `space`; known: its equilibria, where these are worked
     out already; shape: of the branches; most, reaching: as of `box_of`."""
-    moved = one.motion if one.state is not None else None
-    if known is None:
+    moved = item.motion if item.state is not None else None
+    if resolved is None:
         try:
-            known = equilibria(one.scene)
+            resolved = equilibria(item.scene)
         except StabilabError:
-            known = None
-    line, part = ([], "") if moved is None else _path(one)
-    marks = marks_of(one.state, moved, known)
-    limit = limit_of(one.case)
-    near = [*nearest(known, line), *beside_limit(limit, line)] if line else []
-    box = box_of(line, marks + near, branches_of(one.twin)[0], most, reaching)
-    surface, words, _ = branches_of(one.twin, box, shape)
-    found = drawn_in(names, rate, box, surface, line, marks, curves_of(known, box), words, limit=limit)
-    return replace(found, part=part)
+            resolved = None
+    line, part = ([], "") if moved is None else _path(item)
+    marks = marks_of(item.state, moved, resolved)
+    limit = limit_of(item.case)
+    nearby = [*nearest(resolved, line), *beside_limit(limit, line)] if line else []
+    box = box_of(line, marks + nearby, branches_of(item.twin)[0], most, reaching)
+    surface, text, _ = branches_of(item.twin, box, shape)
+    result = drawn_in(names, rate, box, surface, line, marks, curves_of(resolved, box), text, limit=limit)
+    return replace(result, part=part)
 
 
-def draw(ax: Axes3D, found: Space) -> None:
+def draw(ax: Axes3D, result: Space) -> None:
     """Draw a space on three-dimensional axes, in the unit of its labels."""
-    per, box = found.rate, found.box.scaled(found.rate)
-    grids = [(colour, np.reshape(one.points, (one.rows, one.columns, 3))) for colour, one in found.branches]
+    per, box = result.rate, result.box.scaled(result.rate)
+    grids = [(colour, np.reshape(x.points, (x.rows, x.columns, 3))) for colour, x in result.branches]
     facets(ax, [(clipped(box, per * grid_triangles(points)), colour) for colour, points in grids])
-    for words, places in found.curves:
-        line(ax, inside(box, per * np.array(places)), look(words), zorder=6)
-    path = inside(box, per * np.array(found.path)) if found.path else np.empty((0, 3))
-    depth(ax, box, path, [per * np.array(at) for _, at in found.marks], found.view)
-    slim = SLIM if any(turning(rate) > CLOSE for rate in np.array(found.path).T) else {}
+    for text, places in result.curves:
+        line(ax, inside(box, per * np.array(places)), look(text), zorder=6)
+    path = inside(box, per * np.array(result.path)) if result.path else np.empty((0, 3))
+    depth(ax, box, path, [per * np.array(at) for _, at in result.marks], result.view)
+    slim = SLIM if any(turning(rate) > CLOSE for rate in np.array(result.path).T) else {}
     line(ax, path, style.MEANING["this motion"] | slim, zorder=8)
-    for at, step in found.arrows:
-        line(ax, per * _head(np.array(at), np.array(step), found), style.MEANING["this motion"], zorder=8)
-    for words, at in reversed(found.marks):  # the start above all
-        line(ax, per * np.array([at]), marker(words), zorder=9)
-    furnish(ax, box, found.names, found.view)
+    for at, step in result.arrows:
+        line(ax, per * _head(np.array(at), np.array(step), result), style.MEANING["this motion"], zorder=8)
+    for text, at in reversed(result.marks):  # the start above all
+        line(ax, per * np.array([at]), marker(text), zorder=9)
+    furnish(ax, box, result.names, result.view)
 
 
-def _head(at: np.ndarray, step: np.ndarray, found: Space) -> np.ndarray:
+def _head(at: np.ndarray, step: np.ndarray, result: Space) -> np.ndarray:
     """(3, 3) the head of an arrow, flat to the eye, whatever the scales of the axes."""
-    half = np.array(found.box.half)
+    half = np.array(result.box.half)
     along = step / half
-    aside = np.cross(along, sight(found.view))
+    aside = np.cross(along, sight(result.view))
     return at + half * np.array([-along / 2 + 0.4 * aside, along / 2, -along / 2 - 0.4 * aside])
 
 
-def marker(words: str) -> Look:
+def marker(text: str) -> Look:
     """How a point is drawn, by its words in a legend."""
-    return next((EQUILIBRIUM_LOOKS[kind] for kind, name in style.EQUILIBRIA.items() if name == words),
-                look(words))
+    return next((EQUILIBRIUM_LOOKS[kind] for kind, name in style.EQUILIBRIA.items() if name == text),
+                look(text))
 
 
-def rows(found: Space) -> list[tuple[str, Look]]:
+def rows(result: Space) -> list[tuple[str, Look]]:
     """Rows of a legend: words and look."""
-    surfaces = {branch.name for _, branch in found.branches}
-    curves = {words for words, _ in found.curves} | {"this motion"}
-    return [(words, {"facecolor": pale(colour)} if words in surfaces
-             else look(words) if words in curves else marker(words))
-            for words, colour in found.legend.items()]
+    surfaces = {branch.name for _, branch in result.branches}
+    curves = {text for text, _ in result.curves} | {"this motion"}
+    return [(key, {"facecolor": pale(colour)} if key in surfaces
+             else look(key) if key in curves else marker(key))
+            for key, colour in result.legend.items()]
 
 
-def away(one: Subject, found: Space, scale: Measures) -> str:
+def away(item: Subject, result: Space, scale: Measures) -> str:
     """Where the separatrix is if it is not in the picture."""
-    if (one.state is None or one.motion.velocity_witness is None or one.motion.margin_velocity is None
-            or found.box.holds(one.motion.velocity_witness)):
+    if (item.state is None or item.motion.velocity_witness is None or item.motion.margin_velocity is None
+            or result.box.holds(item.motion.velocity_witness)):
         return ""
-    size = number(one.motion.margin_velocity * scale.rate[1], 4, -bool(one.motion.velocity_reason))
+    size = number(item.motion.margin_velocity * scale.rate[1], 4, -bool(item.motion.velocity_reason))
     return (f"the separatrix is {size} {scale.rate[0]} away, "
             f"outside of this picture".replace("  ", " "))
 
 
-def _path(one: Subject) -> tuple[list[Any], str]:
+def _path(item: Subject) -> tuple[list[Any], str]:
     """The motion: one period, or the span as far as a picture can show it; and what is to be said where that
     is a part of it."""
-    period = one.motion.period
-    low, high = one.seen
-    t, omega = path(one, low, low + period if period else high)
-    omega = omega[:len(near_part(t.tolist(), omega.tolist(), one.motion))]
+    period = item.motion.period
+    low, high = item.seen
+    t, omega = path(item, low, low + period if period else high)
+    omega = omega[:len(near_part(t.tolist(), omega.tolist(), item.motion))]
     part = ""
     if (end := min(map(_end_of_the_first_turns, omega.T))) < len(omega):
-        unit, per = measures(one).time(abs(high - low))
-        shown, whole = (f"{abs(time - low) * per:.3g} {unit}" for time in (t[end], high))
-        part = f"the first {shown} of {whole} are drawn"
-        _, omega = path(one, low, t[end])
+        unit, per = measures(item).time(abs(high - low))
+        shown, full = (f"{abs(time - low) * per:.3g} {unit}" for time in (t[end], high))
+        part = f"the first {shown} of {full} are drawn"
+        _, omega = path(item, low, t[end])
     spans = np.ptp(omega, axis=0)
     size = np.where((spans < FLAT * spans.max()) & (spans > EVEN * spans.max()), spans, spans.max() or 1.0)
-    near = FINE  # of what an axis shows
-    while len(line := thinned(omega / size, near)) > MOST:
-        near *= 2
+    nearby = FINE  # of what an axis shows
+    while len(line := thinned(omega / size, nearby)) > MOST:
+        nearby *= 2
     return (line * size).tolist(), part
 
 

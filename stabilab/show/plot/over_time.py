@@ -69,29 +69,29 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
     the principal ones, the components along those axes are drawn instead. span: (from, to) or the end; None:
     the case's own, at most ten periods, and past the time at which a limit is reached.
     """
-    one = subject(case, state, span)
-    subjects.check("time", one)
-    scale = measures(one, units)
-    low, high = one.seen
-    t, omega = path(one, low, high)
-    turned = file_axes(one)
+    item = subject(case, state, span)
+    subjects.check("time", item)
+    scale = measures(item, units)
+    low, high = item.seen
+    t, omega = path(item, low, high)
+    turned = file_axes(item)
     omega = omega if turned is None else omega @ turned.T
-    (time_unit, per_time), (rate_unit, per_rate) = scale.time(_measured(one, low, high)), scale.rate
+    (time_unit, per_time), (rate_unit, per_rate) = scale.time(_measured(item, low, high)), scale.rate
     names = scale.names if turned is None else IN_FILE
     with canvas.on(ax, size) as target:
         rows, looks = _rates(target, t, omega, names, scale, (time_unit, per_time))
-        rows += _samples(target, one, t, per_time, per_rate, looks) if turned is None else []
-        rows += _extremes(target, one, per_rate) if turned is None else []
-        rows += _periods(target, one, low, high, per_time, scale)
-        if one.motion.first is not None:
-            reached, stated = one.motion.first[1], one.case.limits
-            limit = stated.rate if stated.rate is not None else stated.rates
+        rows += _samples(target, item, t, per_time, per_rate, looks) if turned is None else []
+        rows += _extremes(target, item, per_rate) if turned is None else []
+        rows += _periods(target, item, low, high, per_time, scale)
+        if item.motion.first is not None:
+            reached, declared = item.motion.first[1], item.case.limits
+            limit = declared.rate if declared.rate is not None else declared.rates
             rows += _limit(target, limit, (reached.low + reached.high) / 2, t, omega, (time_unit, per_time),
                            scale.rate)
         if turned is not None:
             target.set_ylabel(with_unit("rate, axes of the file", rate_unit))
         return canvas.explained(target, rows if legend else [], ax is None,
-                                one.heading, "" if one.case is None else _answer(one, scale))
+                                item.heading, "" if item.case is None else _answer(item, scale))
 
 
 def _rates(ax: Axes, t: np.ndarray, omega: np.ndarray, names: Sequence[str], scale: Measures,
@@ -112,18 +112,18 @@ def _rates(ax: Axes, t: np.ndarray, omega: np.ndarray, names: Sequence[str], sca
     return [(scale.size or "$|x|$", SIZE_LOOK), *zip(names, looks)], looks
 
 
-def _answer(one: Subject, scale: Measures):
+def _answer(item: Subject, scale: Measures):
     """The answer in one line; of uncertain numbers only their middles are drawn."""
-    told = headline(one.case, one.motion, scale.system, placed=False)
-    return told + ("; for the middles of the uncertain numbers" if one.case.uncertain else "")
+    printed = headline(item.case, item.motion, scale.system, placed=False)
+    return printed + ("; for the middles of the uncertain numbers" if item.case.uncertain else "")
 
 
-def _samples(ax, one, t, per_time, per_rate, looks):
+def _samples(ax, item, t, per_time, per_rate, looks):
     """Bands between the least and the greatest rates of motions at corners of the box of uncertain numbers,
     all where there are few."""
-    if one.case is None or not one.case.uncertain or not one.scene.plain:
+    if item.case is None or not item.case.uncertain or not item.scene.plain:
         return []
-    box = box_of(one.case)
+    box = box_of(item.case)
     if box.frame is not None:  # each corner has principal axes of its own
         return []
     corners = np.array(list(product((-1, 1), repeat=min(len(box.places), FEW))))
@@ -144,12 +144,12 @@ def _samples(ax, one, t, per_time, per_rate, looks):
 def told_apart(looks: Sequence[dict[str, Any]], curves: Sequence[np.ndarray]) -> list[dict[str, Any]]:
     """The looks of curves (n,) in the order in which they are drawn: one that lies on an earlier one is
     broken, so that both are seen."""
-    near = ALIKE * (max(values.max() for values in curves) - min(values.min() for values in curves))
-    told = []
+    nearby = ALIKE * (max(values.max() for values in curves) - min(values.min() for values in curves))
+    printed = []
     for n, (look, values) in enumerate(zip(looks, curves)):
-        below = sum(bool(np.abs(values - earlier).max() <= near) for earlier in curves[:n])
-        told.append(look | {"linestyle": BROKEN[below - 1]} if below else look)
-    return told
+        below = sum(bool(np.abs(values - earlier).max() <= nearby) for earlier in curves[:n])
+        printed.append(look | {"linestyle": BROKEN[below - 1]} if below else look)
+    return printed
 
 
 def _curve(ax: Axes, t: np.ndarray, values: np.ndarray, look: Mapping[str, Any], height: float):
@@ -165,50 +165,50 @@ def _curve(ax: Axes, t: np.ndarray, values: np.ndarray, look: Mapping[str, Any],
         ax.fill_between(times, low, high, color=look["color"], alpha=0.45, linewidth=0.3)
 
 
-def _extremes(ax, one, per_rate):
+def _extremes(ax, item, per_rate):
     """Dotted lines at the least and greatest value of each component; the row of the legend."""
-    found = one.motion.extremes
-    if found is None or not one.motion.for_all_time:
+    result = item.motion.extremes
+    if result is None or not item.motion.for_all_time:
         return []
-    drawn = [(value, look) for pair, look in zip(found, COMPONENTS) for value in set(pair)
+    drawn = [(value, look) for pair, look in zip(result, COMPONENTS) for value in set(pair)
              if value is not None and math.isfinite(value)]
     for value, look in drawn:
         ax.axhline(value * per_rate, color=look["color"], zorder=1.5, **EXTREME)
     return [("extremes for ever", {"color": style.GREY, **EXTREME})] if drawn else []
 
 
-def _marked(one: Subject, low: float, high: float) -> bool:
+def _marked(item: Subject, low: float, high: float) -> bool:
     """Whether the ends of the periods are drawn: there are some, and not so many that they would be a grey
     ground."""
-    period = one.motion.period
+    period = item.motion.period
     return bool(period) and period <= high - low <= MARKED * period
 
 
-def _measured(one: Subject, low: float, high: float):
+def _measured(item: Subject, low: float, high: float):
     """The time whose unit is that of the axis: of the period where its ends are marked, else of the picture.
     """
-    return one.motion.period if _marked(one, low, high) else high - low
+    return item.motion.period if _marked(item, low, high) else high - low
 
 
-def _periods(ax, one, low, high, per_time, scale):
-    period = one.motion.period
+def _periods(ax, item, low, high, per_time, scale):
+    period = item.motion.period
     if not period or high - low < period:
         return []
     unit, per = scale.time(period)
-    words = f"period {period * per:.5g} {unit}"
-    if not _marked(one, low, high):
-        return [(words, {"linestyle": "none"})]
+    text = f"period {period * per:.5g} {unit}"
+    if not _marked(item, low, high):
+        return [(text, {"linestyle": "none"})]
     for end in np.arange(math.ceil(low / period), math.floor(high / period) + 1) * period:
         ax.axvline(end * per_time, zorder=1, **PERIOD)
-    return [(words, PERIOD)]
+    return [(text, PERIOD)]
 
 
-def file_axes(one: Subject):
+def file_axes(item: Subject):
     """Rows that turn rates to the axes of the file, where limits are about those and they are not the
     principal ones."""
-    case = one.case
-    stated = case is not None and case.limits is not None and case.limits.rate is None
-    if not stated or case.frame is None or case.frame.as_given:
+    case = item.case
+    declared = case is not None and case.limits is not None and case.limits.rate is None
+    if not declared or case.frame is None or case.frame.as_given:
         return None
     return np.array([[float(v) for v in axis] for axis in case.frame.axes]).T
 
@@ -220,11 +220,11 @@ def _limit(ax, limit, when, t, omega, time_unit, rate_unit):
     alone = not isinstance(limit, (tuple, list))
     limits = [float(v) for v in ([limit] if alone else limit)]
     same = len(set(limits)) == 1
-    for most, look in zip(limits, COMPONENTS):
+    for largest, look in zip(limits, COMPONENTS):
         for sign in (1,) if alone else (1, -1):
-            ax.axhline(sign * most * per_rate, **LIMIT | ({} if same else {"color": look["color"]}))
-    told = f"limit of {'|ω|' if alone else 'each'}, {limits[0] * per_rate:.4g} {name}"
-    rows = [(told if same else "limits", LIMIT)]
+            ax.axhline(sign * largest * per_rate, **LIMIT | ({} if same else {"color": look["color"]}))
+    printed = f"limit of {'|ω|' if alone else 'each'}, {limits[0] * per_rate:.4g} {name}"
+    rows = [(printed if same else "limits", LIMIT)]
     if when is None or not t[0] <= when <= t[-1]:
         return rows
     values = np.array([np.interp(float(when), t, column) for column in omega.T])
@@ -239,9 +239,9 @@ NATURAL = 15  # units of the motion's own time, where nothing else says how far
 MOST_PANELS = 4
 
 
-def write_stuck(case: Case, found: Stuck, units: Units, path: str | Path) -> Path:
+def write_stuck(case: Case, result: Stuck, units: Units, path: str | Path) -> Path:
     """Draw the answer of `stuck` and write the picture."""
-    return style.write(path, lambda plt: stuck(case, found, units, plt))
+    return style.write(path, lambda plt: stuck(case, result, units, plt))
 
 
 def stuck(case: Case, found: Stuck, units: Units, plt: Any) -> Any:
@@ -251,7 +251,7 @@ def stuck(case: Case, found: Stuck, units: Units, plt: Any) -> Any:
     rows = found.rows[:MOST_PANELS]
     figure, axes = plt.subplots(len(rows), 1, figsize=(7.6, 1.0 + 3.4 * len(rows)), layout="constrained",
                                 squeeze=False)
-    told: dict[str, Any] = {}
+    printed: dict[str, Any] = {}
     for ax, row in zip(axes[:, 0], rows):
         scene = scenario.scene(scenario.torque([t for t in case.thrusters if t.name in row.thrusters]))
         until = _until(scenario, row, scene)
@@ -264,9 +264,9 @@ def stuck(case: Case, found: Stuck, units: Units, plt: Any) -> Any:
         ax.set_ylabel(with_unit("rate, axes of the file", scale.rate[0]))
         became = answer_line(row, units).partition("; ")[0].rsplit(" (", 1)[0]
         canvas.title(ax, "", f"{row_name(row)}: {became}")
-        told |= {words.partition(" after ")[0]: look for words, look in drawn}
+        printed |= {text.partition(" after ")[0]: look for text, look in drawn}
     figure.suptitle(style.literal(case.heading), fontsize=10.5, wrap=True)
-    canvas.legend(axes[-1, 0], list(told.items()), True)
+    canvas.legend(axes[-1, 0], list(printed.items()), True)
     return figure
 
 
@@ -303,15 +303,15 @@ def states(case: Any, start: Any = None, span: Any = None, size: tuple[float, fl
     """The figures of all parts of the state, two to a figure; arguments as of `state`."""
     import matplotlib
     from matplotlib import pyplot as plt
-    one = subject(case, start, span)
-    subjects.check("state", one)
-    scale = measures(one, units)
-    begin, end = one.asked or (one.seen[0], max(*one.seen, *(one.span or ())))  # slow parts need all
-    runs, _ = side_by_side(one, np.linspace(begin, end, TIMES))
+    item = subject(case, start, span)
+    subjects.check("state", item)
+    scale = measures(item, units)
+    begin, end = item.asked or (item.seen[0], max(*item.seen, *(item.span or ())))  # slow parts need all
+    runs, _ = side_by_side(item, np.linspace(begin, end, TIMES))
     # again where so few times hide some of the turns
     while span is None and (turns := _turns(runs["exact"].state)) > CROWDED:
         end = begin + FEWER * (end - begin) * CROWDED / turns
-        runs, _ = side_by_side(one, np.linspace(begin, end, TIMES))
+        runs, _ = side_by_side(item, np.linspace(begin, end, TIMES))
     exact = runs["exact"].state
     have = [name for name in cost.SYMBOLS if name in exact]
     if parts is not None and not (0 < len(parts) <= ROWS and set(parts) <= set(have)):
@@ -320,7 +320,7 @@ def states(case: Any, start: Any = None, span: Any = None, size: tuple[float, fl
     groups = [shown[n:n + ROWS] for n in range(0, len(shown), ROWS)]
     warned = f"\n{law.short}" if law is not None and not law.held else ""
     with matplotlib.rc_context(style.RC | style.letters(size)):
-        return [cost.picture(plt, one, runs, group, size, scale.system,
+        return [cost.picture(plt, item, runs, group, size, scale.system,
                                    f" ({n} of {len(groups)})" * (len(groups) > 1) + warned)
                 for n, group in enumerate(groups, 1)]
 
@@ -356,54 +356,54 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
     reaches it, which is proved. The limit is that of the case, else twice the largest rate of the bounded
     motion. Raises InputError where no constant torque acts, or nothing is to be reached.
     """
-    one = subject(case, state)
-    subjects.check("tilt", one)
-    scale, given = measures(one, units), one.case
-    scene: Any = one.scene  # physical: `which` refuses the others
-    found = by_angle(scene, one.state, ANGLES, given,
-                     None if given is None or given.limits is None else limit_of(given), closer=True)
+    item = subject(case, state)
+    subjects.check("tilt", item)
+    scale, supplied = measures(item, units), item.case
+    scene: Any = item.scene  # physical: `which` refuses the others
+    out = by_angle(scene, item.state, ANGLES, supplied,
+                     None if supplied is None or supplied.limits is None else limit_of(supplied), closer=True)
     finite = np.concatenate([times[np.isfinite(times) & (times > 0)] for times in
-                             (found.earliest, found.latest, found.not_before)])
+                             (out.earliest, out.latest, out.not_before)])
     unit, per = scale.time(float(finite.max(initial=0.0)) or 1.0)
-    degrees = np.degrees(found.angles)
+    degrees = np.degrees(out.angles)
     with canvas.on(ax, size) as target:
         target.set(xscale="log", yscale="log")
         rows: list[tuple[str, dict[str, Any]]] = [("earliest, by runs", EARLIEST)]
-        ends = np.isfinite(found.latest).all()
+        ends = np.isfinite(out.latest).all()
         top = (1.2 if ends else 3.0) * per * float(finite.max(initial=0.0))
-        reached = np.isfinite(found.earliest)
+        reached = np.isfinite(out.earliest)
         if reached.any():
-            target.fill_between(degrees, per * found.earliest, np.minimum(per * found.latest, OPEN_TOP * top),
+            target.fill_between(degrees, per * out.earliest, np.minimum(per * out.latest, OPEN_TOP * top),
                                 where=reached, **BAND)
-            target.plot(degrees[reached], per * found.earliest[reached], **EARLIEST)
-            rows.append((f"to the latest of {SIDES} directions" + f", with {found.within}"
-                         * bool(found.within), BAND))
-        if found.not_before.any():
+            target.plot(degrees[reached], per * out.earliest[reached], **EARLIEST)
+            rows.append((f"to the latest of {SIDES} directions" + f", with {out.within}"
+                         * bool(out.within), BAND))
+        if out.not_before.any():
             low = 0.3 * per * float(finite.min())
-            target.fill_between(degrees, low, np.maximum(per * found.not_before, low), **SURE)
+            target.fill_between(degrees, low, np.maximum(per * out.not_before, low), **SURE)
             target.set_ylim(bottom=low)
             rows.append(("not yet, proved", SURE))
-        if (at := limit_time(one.motion)) is not None:
+        if (at := limit_time(item.motion)) is not None:
             target.axhline(per * at, **NOW)
             rows.append(("as it is", NOW))
-        stated = [float(t.misalignment) for t in (() if given is None else given.thrusters)
+        declared = [float(t.misalignment) for t in (() if supplied is None else supplied.thrusters)
                   if t.stuck and t.misalignment]
-        if stated:
-            target.axvline(np.degrees(max(stated)), **STATED)
+        if declared:
+            target.axvline(np.degrees(max(declared)), **STATED)
             rows.append(("misalignment of the case", STATED))
         target.set_xlim(degrees[0], degrees[-1])
         target.set_ylim(top=top)
-        if not found.not_before.any() and finite.max() < TALL * finite.min():
+        if not out.not_before.any() and finite.max() < TALL * finite.min():
             target.set_yscale("linear")
             target.set_ylim(0.0, top)
         for axis in (target.xaxis, target.yaxis):
             axis.set_major_formatter("{x:g}")
-        target.set_xlabel(f"tilt of {found.of} (deg)")
-        least = f"{number(found.limit.least_rate() * scale.rate[1], SHORT)} {scale.rate[0]}"
-        reaches = r"$|\omega|$ =" if found.limit.kind == "rate" else "a component of"
-        target.set_ylabel(f"time to {reaches} {least} ({unit})")
+        target.set_xlabel(f"tilt of {out.of} (deg)")
+        smallest = f"{number(out.limit.least_rate() * scale.rate[1], SHORT)} {scale.rate[0]}"
+        reaches = r"$|\omega|$ =" if out.limit.kind == "rate" else "a component of"
+        target.set_ylabel(f"time to {reaches} {smallest} ({unit})")
         return canvas.explained(target, rows if legend else [], ax is None,
-                                one.heading, canvas.answer(one, scale))
+                                item.heading, canvas.answer(item, scale))
 
 
 def wheel(case: Given | Subject, ax: Axes | None = None, units: str | None = None,
@@ -414,23 +414,23 @@ def wheel(case: Given | Subject, ax: Axes | None = None, units: str | None = Non
     reach the limit within PATIENCE times the time of now. Green: momenta that keep the motion bounded.
     Raises InputError where the case has no wheel, or its motion does not reach a limit.
     """
-    one = subject(case)
-    subjects.check("wheel", one)
-    scale, scenario, row = measures(one, units), scenario_of(one.case), one.stuck
-    torque, first = scenario.torque([t for t in scenario.case.thrusters if t.stuck]), one.motion.first[1]
+    item = subject(case)
+    subjects.check("wheel", item)
+    scale, scenario, row = measures(item, units), scenario_of(item.case), item.stuck
+    torque, first = scenario.torque([t for t in scenario.case.thrusters if t.stuck]), item.motion.first[1]
     time = float(first.low), float(first.high)
     curves = []
-    for part, found in zip(scenario.case.wheels, row.wheels):
+    for part, result in zip(scenario.case.wheels, row.wheels):
         axis = without_trace(scenario.axes.turned(part.axis), torque)
-        curves.append((part, found, *times_over(scenario, torque, axis, part.momentum, time)))
+        curves.append((part, result, *times_over(scenario, torque, axis, part.momentum, time)))
     gains = [times - time[0] for *_, times in curves]
     unit, per = scale.time(max(float(np.abs(gain[np.isfinite(gain)]).max(initial=time[0])) for gain in gains))
     with canvas.on(ax, size) as target:
         rows: list[tuple[str, dict[str, Any]]] = []
-        for (part, found, momenta, _), gain, look in zip(curves, gains, WHEELS):
-            if found.gain is not None:
-                after = int(np.searchsorted(momenta, found.best))
-                momenta, gain = np.insert(momenta, after, found.best), np.insert(gain, after, found.gain)
+        for (part, result, momenta, _), gain, look in zip(curves, gains, WHEELS):
+            if result.gain is not None:
+                after = int(np.searchsorted(momenta, result.best))
+                momenta, gain = np.insert(momenta, after, result.best), np.insert(gain, after, result.gain)
             reached = np.isfinite(gain)
             target.plot(momenta, per * np.where(reached, gain, np.nan), **look)
             rows.append((f"wheel {part.name}", look))
@@ -438,22 +438,22 @@ def wheel(case: Given | Subject, ax: Axes | None = None, units: str | None = Non
                 top = per * float(gain[reached].max(initial=time[0]))
                 target.plot(momenta[~reached], np.full((~reached).sum(), top), color=look["color"], **NEVER)
                 rows.append((f"not within {NEVER_AFTER} times as long", NEVER | {"color": look["color"]}))
-            if found.gain is not None:
-                best, later = found.best, per * found.gain
-                words = f"{number(best, SHORT)} N m s: {number(later, SHORT)} {unit}"
-                side = ("left", "center", "right")[int(np.digitize(best / found.searched[1], (-0.5, 0.5)))]
-                target.annotate(words.replace("-", "\u2212"), (best, later), (0, 6), ha=side,
+            if result.gain is not None:
+                best, later = result.best, per * result.gain
+                text = f"{number(best, SHORT)} N m s: {number(later, SHORT)} {unit}"
+                side = ("left", "center", "right")[int(np.digitize(best / result.searched[1], (-0.5, 0.5)))]
+                target.annotate(text.replace("-", "\u2212"), (best, later), (0, 6), ha=side,
                                 textcoords="offset points", color=look["color"])
                 target.plot(best, later, marker="o", color=look["color"], markersize=4)
             target.plot([float(part.momentum)], [0.0], zorder=5, **style.MARKER["start"])
-            kept = () if one.motion.fate in STEADY else found.keeps_bounded
-            for low, high in kept:
+            retained = () if item.motion.fate in STEADY else result.keeps_bounded
+            for low, high in retained:
                 target.axvspan(max(low, momenta[0]), min(high, momenta[-1]), **KEEPS)
-            rows += [("keeps the motion bounded", KEEPS)] if kept else []
+            rows += [("keeps the motion bounded", KEEPS)] if retained else []
         rows.append((f"now: {scale.system.time(time[0], SHORT)}", style.MARKER["start"]))
         target.axhline(0.0, color=style.GREY, linewidth=0.8)
         target.margins(y=0.12)
         target.set_xlabel("momentum of the wheel along its axis (N m s)")
         target.set_ylabel(f"later by ({unit})")
         return canvas.explained(target, list(dict(rows).items()) if legend else [], ax is None,
-                                one.heading, canvas.answer(one, scale))
+                                item.heading, canvas.answer(item, scale))

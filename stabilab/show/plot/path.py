@@ -33,27 +33,27 @@ LOST_DIGITS = 4
 BINS, SOLID = 700, 500  # a curve with more turning points than this is drawn as a band of so many pieces
 
 
-def path(one: Subject, start: float, end: float) -> tuple[np.ndarray, np.ndarray]:
+def path(item: Subject, start: float, end: float) -> tuple[np.ndarray, np.ndarray]:
     """(times (n,), rates (n, 3)) of the motion from `start` to `end`; fewer where the run stops. InputError
     where it does not begin."""
-    t, states = along(one, np.linspace(start, end, FINE), np.linspace(start, end, FEWER))
+    t, states = along(item, np.linspace(start, end, FINE), np.linspace(start, end, FEWER))
     if len(t) < 2:
         raise InputError("plot: the motion cannot be followed: the run stopped at its start")
     return t, states
 
 
-def along(one: Subject, times: np.ndarray,
+def along(item: Subject, times: np.ndarray,
           fewer: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
     """(times (n,), rates (n, 3)) of the motion at the times, or as many as a run reaches. fewer: times enough
     for a line where doubles are not and each time costs many digits."""
-    scene, start = (one.twin, one.state) if one.twin.plain else (one.scene, one.start)
+    scene, start = (item.twin, item.state) if item.twin.plain else (item.scene, item.start)
     if not scene.plain:
-        found = simulated(one.scene, one.state, times, one.blocks)
-        return np.asarray(found.t), np.asarray(found.state["omega"])
+        result = simulated(item.scene, item.state, times, item.blocks)
+        return np.asarray(result.t), np.asarray(result.state["omega"])
     t, states = _run(scene, start, times)
     if _sure(scene, start, t, states):
         return t, states
-    exact = _in_digits(replace(one, scene=scene, blocks={}), times if fewer is None else fewer)
+    exact = _in_digits(replace(item, scene=scene, blocks={}), times if fewer is None else fewer)
     return exact or (t, states)
 
 
@@ -70,12 +70,12 @@ def _sure(scene: AnyScene, start: Sequence[float], t: np.ndarray, states: np.nda
             and bool((np.abs(moved - states) <= SEEN * np.abs(states).max(initial=0.0)).all()))
 
 
-def _in_digits(one, times):
+def _in_digits(item, times):
     """(times, rates) by the cheapest way that is sure of them; None where none is known."""
-    found = best_reached(one, times, LOST_DIGITS)
-    if found.run.status != "reached" or found.digits <= 1:
+    result = best_reached(item, times, LOST_DIGITS)
+    if result.run.status != "reached" or result.digits <= 1:
         return None
-    return found.run.t, found.run.state["x" if one.scene.variables == "scaled" else "omega"]
+    return result.run.t, result.run.state["x" if item.scene.variables == "scaled" else "omega"]
 
 
 def turning(values: np.ndarray) -> int:
@@ -90,28 +90,28 @@ def band(t: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.
     columns."""
     edges = np.linspace(t[0], t[-1], BINS + 1)
     first = np.clip(np.searchsorted(t, edges[:-1]), 0, len(t) - 1)
-    least, most = np.minimum.reduceat(values, first), np.maximum.reduceat(values, first)
-    return 0.5 * (edges[:-1] + edges[1:]), least, most
+    smallest, largest = np.minimum.reduceat(values, first), np.maximum.reduceat(values, first)
+    return 0.5 * (edges[:-1] + edges[1:]), smallest, largest
 
 
-def thinned(points: np.ndarray, near: float) -> np.ndarray:
+def thinned(points: np.ndarray, nearby: float) -> np.ndarray:
     """Of the points (n, d) of a line those without which it would be farther than `near` from some: of each
     stretch the farthest, until all are near."""
-    kept = np.zeros(len(points), bool)
-    kept[[0, -1]] = True
+    retained = np.zeros(len(points), bool)
+    retained[[0, -1]] = True
     stretches = [(0, len(points) - 1)]
     while stretches:
         low, high = stretches.pop()
         if high - low < 2:
             continue
         along, off = points[high] - points[low], points[low + 1:high] - points[low]
-        share = np.clip(off @ along / max(float(along @ along), np.finfo(float).tiny), 0.0, 1.0)
-        apart = np.linalg.norm(off - share[:, None] * along, axis=1)
+        fraction = np.clip(off @ along / max(float(along @ along), np.finfo(float).tiny), 0.0, 1.0)
+        apart = np.linalg.norm(off - fraction[:, None] * along, axis=1)
         far = int(apart.argmax())
-        if apart[far] > near:
-            kept[low + 1 + far] = True
+        if apart[far] > nearby:
+            retained[low + 1 + far] = True
             stretches += [(low, low + 1 + far), (low + 1 + far, high)]
-    return points[kept]
+    return points[retained]
 
 
 # --- What accuracy costs in time for one motion
@@ -129,25 +129,25 @@ def budget(case: Any, state: Any = None, ax: Axes | None = None, span: Any = Non
     effort: "full" (a minute), "quick", "brief" or "glance" (a second). The times are measured, so two runs
     differ; everything else in the picture does not.
     """
-    found = measured(case, state, span, effort)
-    if question not in found.questions:
+    out = measured(case, state, span, effort)
+    if question not in out.questions:
         raise InputError(
-            f"question: expected one of {', '.join(found.questions) or 'none: ' + found.reference.because}, "
+            f"question: expected one of {', '.join(out.questions) or 'none: ' + out.reference.because}, "
             f"got {question!r:.40}")
     with canvas.on(ax, size or SIZE) as target:
-        panel(target, found, question)
+        panel(target, out, question)
         if legend:
-            canvas.legend(target, meanings(found, (question,)), ax is None)
+            canvas.legend(target, meanings(out, (question,)), ax is None)
     return target
 
 
 def measured(case: Any, state: Any = None, span: Any = None, effort: str = "quick") -> Precision:
     """The measurement that a plot shows."""
-    one = subject(case, state, span)
-    subjects.check("budget", one)
+    item = subject(case, state, span)
+    subjects.check("budget", item)
     if effort not in EFFORTS:
         raise InputError(f"effort: expected one of {', '.join(EFFORTS)}, got {effort!r:.40}")
-    return precision(one, effort)
+    return precision(item, effort)
 
 
 def whole(case: Any, units: str | None = None, size: tuple[float, float] | None = None) -> list[Any]:

@@ -48,9 +48,9 @@ def phase(case: Given | Subject, state: Start | None = None, ax: Axes | None = N
     A figure of its own has a second plane where the motion is too small to be seen in the first. Raises
     InputError where the motion has no such plane; it names the kinds of plot that there are.
     """
-    one = subject(case, state)
-    subjects.check("phase", one)
-    scale, plane = measures(one, units), phase_plane(one.twin, one.state)
+    item = subject(case, state)
+    subjects.check("phase", item)
+    scale, plane = measures(item, units), phase_plane(item.twin, item.state)
     i = plane.reduction.axis
     with canvas.on(ax, size) as target:
         factors = {"scale": plane.unit * scale.angle[1], "rate_scale": scale.rate[1]}
@@ -58,12 +58,12 @@ def phase(case: Given | Subject, state: Start | None = None, ax: Axes | None = N
         draw(target, plane, start=not small, **factors)
         if small:
             _enlarged(target, plane, factors)
-        target.set_xlabel(with_unit(rf"turn $\alpha_{i + 1}$ about {one.axes.short(i + 1)} from the start",
+        target.set_xlabel(with_unit(rf"turn $\alpha_{i + 1}$ about {item.axes.short(i + 1)} from the start",
                                     scale.angle[0]))
         target.set_ylabel(with_unit(scale.names[i], scale.rate[0]))
         rows = rows_of({"centre": plane.centres, "saddle": plane.saddles})
         return canvas.explained(target, rows if legend else [], ax is None,
-                                one.heading, canvas.answer(one, scale))
+                                item.heading, canvas.answer(item, scale))
 
 
 # of the walls: a motion below it would be a line, and the grid may miss the bottom of its well
@@ -149,9 +149,9 @@ def curves_of(plane: PhasePlane, low: float, high: float, top: float,
 
 def equilibria_of(plane: PhasePlane, low: float, high: float) -> list[tuple[str, np.ndarray]]:
     """(kind, places (n,)) of the centres and saddles between two places, as far as there are any."""
-    found = (("centre", plane.repeated(plane.centres, low, high)),
+    result = (("centre", plane.repeated(plane.centres, low, high)),
              ("saddle", plane.repeated(plane.saddles, low, high)))
-    return [(kind, np.array(places)) for kind, places in found if len(places)]
+    return [(kind, np.array(places)) for kind, places in result if len(places)]
 
 
 def highest(plane: PhasePlane, low: float, high: float) -> float:
@@ -197,26 +197,26 @@ def section(case: Any, states: Any = None, ax: Axes | None = None, units: str | 
     motion, that is marked. Raises InputError for a body with a liquid, in a medium or in a field, a motion at
     rest, and one that spins up before it has passed any plane often enough.
     """
-    one, rest = _motions(case, states)
-    subjects.check("section", one)
-    fan = next((n for n in (neighbours, one.neighbours) if n is not None), USUAL)
+    item, rest = _motions(case, states)
+    subjects.check("section", item)
+    fan = next((n for n in (neighbours, item.neighbours) if n is not None), USUAL)
     _check("neighbours", fan, 0, FAN)
     _check("passages", PASSAGES if passages is None else passages, 1, MOST)
-    scale, until = measures(one, units), subjects.certain_from(one)
-    orbit, plane = plane_of(one, until)
+    scale, until = measures(item, units), subjects.certain_from(item)
+    orbit, plane = plane_of(item, until)
     count, followed = passages or _round(PASSAGES, orbit), _round(NEIGHBOUR_PASSAGES, orbit)
-    times, places = returns(one.twin, one.state, plane, count, until)
+    times, places = returns(item.twin, item.state, plane, count, until)
     sets = [(THIS, "this motion", places)]
-    sets += [(OTHER, "the other states", found)
-             for found in [_together([returns(one.twin, row, plane, count)[1] for row in rest])]
-             if len(found)]
-    stay, leave = _fan(one.twin, orbit, plane, places, min(followed, len(places)), fan)
+    sets += [(OTHER, "the other states", result)
+             for result in [_together([returns(item.twin, row, plane, count)[1] for row in rest])]
+             if len(result)]
+    stay, leave = _fan(item.twin, orbit, plane, places, min(followed, len(places)), fan)
     sets += [(STAYS, "neighbours", stay)] * bool(len(stay))
     with canvas.on(ax, size or canvas.SQUARE) as target:
         rows = _draw(target, sets, leave, orbit, plane, scale)
-        return canvas.explained(target, rows if legend else [], ax is None, one.heading,
+        return canvas.explained(target, rows if legend else [], ax is None, item.heading,
                                 _plane_words(plane, scale),
-                                *_passed(one, times, places, until, scale, orbit))
+                                *_passed(item, times, places, until, scale, orbit))
 
 
 def _motions(case: Any, states: Any) -> tuple[Subject, np.ndarray]:
@@ -229,24 +229,24 @@ def _motions(case: Any, states: Any) -> tuple[Subject, np.ndarray]:
     return subject(case, rows[0].tolist()), rows[1:]
 
 
-def _check(name: str, value: Any, least: int, most: int) -> None:
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= most:
-        raise InputError(f"{name}: expected a whole number from {least} to {most}, got {value!r:.40}")
+def _check(name: str, value: Any, smallest: int, upper: int) -> None:
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not smallest <= value <= upper:
+        raise InputError(f"{name}: expected a whole number from {smallest} to {upper}, got {value!r:.40}")
 
 
-def _all_repeat(one: Subject) -> bool:
+def _all_repeat(item: Subject) -> bool:
     """Whether every bounded motion off a separatrix is periodic: one degree of freedom, or no torque."""
-    return reduce(one.twin) is not None or subjects.free(one)
+    return reduce(item.twin) is not None or subjects.free(item)
 
 
-def plane_of(one: Subject, until: float) -> tuple[Periodic | None, Section]:
+def plane_of(item: Subject, until: float) -> tuple[Periodic | None, Section]:
     """The periodic motion in the middle, where there is one, and the plane that the motion passes."""
     # where an integral of motion is known periodic motions are never isolated
-    island = one.motion.fate == Fate.UNDECIDED and not _all_repeat(one)
-    orbit = in_the_middle(one.twin, one.state) if island else None
-    if orbit is not None and len(returns(one.twin, one.state, orbit.section, LEAST)[0]) == LEAST:
+    island = item.motion.fate == Fate.UNDECIDED and not _all_repeat(item)
+    orbit = in_the_middle(item.twin, item.state) if island else None
+    if orbit is not None and len(returns(item.twin, item.state, orbit.section, LEAST)[0]) == LEAST:
         return orbit, orbit.section
-    plane = crossed(one.twin, one.state, until)
+    plane = crossed(item.twin, item.state, until)
     if plane is None:
         raise InputError("plot section: the motion passes no plane often enough")
     return None, plane
@@ -267,14 +267,14 @@ def _fan(scene: Any, orbit: Periodic | None, plane: Section, places: np.ndarray,
          number_of: int) -> tuple[np.ndarray, np.ndarray]:
     """Passages (n, 3) of the neighbours that stay as long as they are followed, and of those that leave, or
     pass no more within the steps of a search."""
-    kept: dict[bool, list[np.ndarray]] = {True: [], False: []}
+    retained: dict[bool, list[np.ndarray]] = {True: [], False: []}
     if number_of:
         middle = np.array(orbit.state) if orbit is not None else places.mean(axis=0)
         reach = GONE * float(np.linalg.norm(places, axis=1).max())
         for start in neighbours_of(middle, places[0], plane, number_of):
-            _, found = returns(scene, start, plane, count, reach=reach)
-            kept[len(found) == count].append(np.vstack([start, found]))
-    return _together(kept[True]), _together(kept[False])
+            _, result = returns(scene, start, plane, count, reach=reach)
+            retained[len(result) == count].append(np.vstack([start, result]))
+    return _together(retained[True]), _together(retained[False])
 
 
 def _draw(ax: Any, sets: list, leave: np.ndarray, orbit: Periodic | None, plane: Section,
@@ -296,10 +296,10 @@ def _draw(ax: Any, sets: list, leave: np.ndarray, orbit: Periodic | None, plane:
         rows.append(("periodic motion in the middle (elliptic)", MIDDLE))
     every = np.concatenate([places for _, _, places in sets]
                            + ([np.array([orbit.state])] if orbit is not None else []))
-    least = NEAR_SEPARATRIX * float(np.abs(every).max())
+    smallest = NEAR_SEPARATRIX * float(np.abs(every).max())
     for axis, setter, labels in ((j, ax.set_xlim, ax.set_xlabel), (k, ax.set_ylim, ax.set_ylabel)):
         low, high = float(every[:, axis].min()), float(every[:, axis].max())
-        half = max((high - low) * (0.5 + MARGIN), least)
+        half = max((high - low) * (0.5 + MARGIN), smallest)
         setter((low + high) / 2 * per_rate - half * per_rate, (low + high) / 2 * per_rate + half * per_rate)
         labels(with_unit(scale.names[axis], scale.rate[0]))
     return rows
@@ -311,7 +311,7 @@ def _plane_words(plane: Section, scale: Measures) -> str:
             + " and grows")
 
 
-def _passed(one: Subject, times: np.ndarray, places: np.ndarray, until: float, scale: Measures,
+def _passed(item: Subject, times: np.ndarray, places: np.ndarray, until: float, scale: Measures,
             orbit: Periodic | None) -> list[str]:
     """Lines on the passages, and on what they go round."""
     turn = ("" if orbit is None
@@ -319,10 +319,10 @@ def _passed(one: Subject, times: np.ndarray, places: np.ndarray, until: float, s
     if len(places) > 1 and one_place(places):
         return [
             f"all {len(places)} passages at one place: periodic, {_time(float(times[1] - times[0]), scale)}",
-            turn or "a dot for each motion: all that stay bounded here are periodic" * _all_repeat(one)]
+            turn or "a dot for each motion: all that stay bounded here are periodic" * _all_repeat(item)]
     passed = f"{len(places)} passages in {_time(float(times[-1]), scale)}"
     if math.isfinite(until):
-        passed += f", until spin-up about {one.axes.short(one.motion.axis)} is certain"
+        passed += f", until spin-up about {item.axes.short(item.motion.axis)} is certain"
     return [passed, "" if orbit is None else f"in the middle: period {_time(orbit.period, scale)}, {turn}"]
 
 
@@ -347,12 +347,12 @@ def potential(case: Scene, state: Sequence[float] | None = None, ax: Axes | None
     leads from the energy to the barrier ahead, whose height above it is the margin of `fate`. Raises
     InputError where the motion does not reduce.
     """
-    one = subject(case, state)
-    subjects.check("potential", one)
-    scale, plane = measures(one, units), phase_plane(one.twin, one.state)
+    item = subject(case, state)
+    subjects.check("potential", item)
+    scale, plane = measures(item, units), phase_plane(item.twin, item.state)
     across, up = plane.unit * scale.angle[1], float(plane.reduction.energy_unit)
     low, high = window(plane)
-    margin, energy = one.motion.margin_energy, plane.W0**2 / 2
+    margin, energy = item.motion.margin_energy, plane.W0**2 / 2
     barrier = _barrier(plane, margin, up, (low, high))
     if barrier is not None:  # it may stand a turn ahead
         low, high = min(low, barrier - ROOM), max(high, barrier + ROOM)
@@ -376,11 +376,11 @@ def potential(case: Scene, state: Sequence[float] | None = None, ax: Axes | None
             _margin(target, margin, across * barrier, up * energy, " J" * bool(scale.size))
         target.set_xlim(*sorted((across * low, across * high)))
         i = plane.reduction.axis + 1
-        target.set_xlabel(with_unit(rf"turn $\alpha_{i}$ about {one.axes.short(i)} from the start",
+        target.set_xlabel(with_unit(rf"turn $\alpha_{i}$ about {item.axes.short(i)} from the start",
                                     scale.angle[0]))
         target.set_ylabel(with_unit("energy", "J" if scale.size else ""))
         return canvas.explained(target, rows if legend else [], ax is None,
-                                one.heading, canvas.answer(one, scale))
+                                item.heading, canvas.answer(item, scale))
 
 
 def _barrier(plane: PhasePlane, margin: float | None, up: float, span: tuple[float, float]) -> float | None:
@@ -392,12 +392,12 @@ def _barrier(plane: PhasePlane, margin: float | None, up: float, span: tuple[flo
     return min((y for y in above if abs(above[y] - margin) <= CLOSE * abs(margin)), key=abs, default=None)
 
 
-def _margin(ax: Axes, margin: float, place: float, energy: float, unit: str) -> None:
+def _margin(ax: Axes, margin: float, location: float, energy: float, unit: str) -> None:
     """An arrow from the energy to the barrier."""
-    ax.annotate("", (place, energy + margin), (place, energy),
+    ax.annotate("", (location, energy + margin), (location, energy),
                 arrowprops={"arrowstyle": "<->", "color": style.VERMILION, "linewidth": 1.4})
     size = number(abs(margin), SHORT) + unit
     ax.annotate(f"margin in energy {size}" if margin > 0 else f"{size} above the barrier",
-                (place, energy + margin / 2), (6, 0), textcoords="offset points", va="center",
+                (location, energy + margin / 2), (6, 0), textcoords="offset points", va="center",
                 color=style.VERMILION,
                 bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0, "alpha": 0.8})

@@ -98,8 +98,8 @@ class Subject:
         if self.known is not None:
             return self.known
         gamma = tuple(self.blocks.get("gamma", ())) if "gamma" in self.scene.blocks else ()
-        found = motion(self.scene, (*self.state, *gamma), self.span, exact=self.exact_state)
-        return found if self.case is None else headline.judged(self.case, found)
+        result = motion(self.scene, (*self.state, *gamma), self.span, exact=self.exact_state)
+        return result if self.case is None else headline.judged(self.case, result)
 
     @cached_property
     def stuck(self) -> Row:
@@ -112,21 +112,21 @@ class Subject:
         return self.asked or space.seen(self.span, self.motion, space.natural(self.scene, self.state))
 
 
-def subject(given: Any, state: Any = None, span: Any = None) -> Subject:
+def subject(source: Any, state: Any = None, span: Any = None) -> Subject:
     """The subject of a Case, of what `load` makes one of, or of a scene with a state: three rates, or a dict
     of blocks {"omega": ..., "gamma": ...}. A state or span given beside a case takes the place of the case's
     own. span: (from, to), or the end alone. Raises InputError for anything else."""
     ends = checked_span(span)
-    if isinstance(given, Subject):
-        return given
-    if isinstance(given, Case):
-        own = Subject(given.scene, given.state, given.blocks, ends or given.span, given.heading, given,
+    if isinstance(source, Subject):
+        return source
+    if isinstance(source, Case):
+        own = Subject(source.scene, source.state, source.blocks, ends or source.span, source.heading, source,
                       asked=ends)
-        return own if state is None else replace(own, case=None, **_blocks_of(given.scene, state))
-    if not hasattr(given, "quadratic"):
-        return subject(load(given), state, span)
-    start = {"state": None, "blocks": {}} if state is None else _blocks_of(given, state)
-    return Subject(checked_scene(given), span=ends, asked=ends, **start)
+        return own if state is None else replace(own, case=None, **_blocks_of(source.scene, state))
+    if not hasattr(source, "quadratic"):
+        return subject(load(source), state, span)
+    start = {"state": None, "blocks": {}} if state is None else _blocks_of(source, state)
+    return Subject(checked_scene(source), span=ends, asked=ends, **start)
 
 
 def _blocks_of(scene: AnyScene, state: Any) -> dict[str, Any]:
@@ -154,146 +154,146 @@ ALIKE = ("no approximate theory comes with a wheel and a constant torque: the ra
 NO_BODY = "scaled variables have no body: give the case in physical units"
 
 
-def why_not(kind: str, one: Subject) -> str:
+def why_not(kind: str, item: Subject) -> str:
     """Why a subject has no plot of a kind; empty where it has one."""
     if kind not in KINDS:
         return f"there is no such kind; expected one of {', '.join(KINDS)}"
     needed, why = NEEDS[KINDS[kind].needs]
-    if needed and one.state is None:
-        return ("it needs a motion: add [motion] with angular_velocity or x" if one.case is not None
+    if needed and item.state is None:
+        return ("it needs a motion: add [motion] with angular_velocity or x" if item.case is not None
                 else "it needs a state: three rates at t = 0")
-    return why(one)
+    return why(item)
 
 
-def check(kind: str, one: Subject) -> None:
+def check(kind: str, item: Subject) -> None:
     """Raise InputError where a subject has no plot of a kind; it names those that there are."""
-    why = why_not(kind, one)
+    why = why_not(kind, item)
     if not why:
         return
     if kind not in KINDS:
         raise InputError(f"kind {printable(kind)!r:.60}: {why}")
-    raise InputError(f"plot {kind}: {why}; this one has {', '.join(offered(one))}")
+    raise InputError(f"plot {kind}: {why}; this one has {', '.join(offered(item))}")
 
 
-def offered(one: Subject) -> tuple[str, ...]:
+def offered(item: Subject) -> tuple[str, ...]:
     """The kinds of plot that a subject has."""
-    return tuple(kind for kind in KINDS if not why_not(kind, one))
+    return tuple(kind for kind in KINDS if not why_not(kind, item))
 
 
-def default(one: Subject) -> str:
+def default(item: Subject) -> str:
     """The kind that says most of a subject: its plane where it reduces, all parts of a longer state, else the
     rates over time."""
-    kinds = ("phase", "time" if rates_alone(one) else "state", "time", "equilibria")
-    return next(kind for kind in kinds if not why_not(kind, one))
+    kinds = ("phase", "time" if rates_alone(item) else "state", "time", "equilibria")
+    return next(kind for kind in kinds if not why_not(kind, item))
 
 
-def rates_alone(one: Subject) -> bool:
+def rates_alone(item: Subject) -> bool:
     """Whether the picture of the state has no more than that of the rates: no theory comes with the effects,
     and of a damper or a wheel's motor it draws nothing."""
-    return models_of(one.scene) == ("exact",) and {"omega", "damper", "wheel"}.issuperset(one.scene.blocks)
+    return models_of(item.scene) == ("exact",) and {"omega", "damper", "wheel"}.issuperset(item.scene.blocks)
 
 
-def _tilt(one: Subject) -> str:
-    if not isinstance(one.scene, Scene) or not one.scene.plain:
+def _tilt(item: Subject) -> str:
+    if not isinstance(item.scene, Scene) or not item.scene.plain:
         return "it is drawn of a body with wheels and a torque alone"
-    if not any(one.scene.vector("constant_torque")):
+    if not any(item.scene.vector("constant_torque")):
         return "no constant torque acts"
-    limited = one.case is not None and one.case.limits is not None
-    if not limited and not (one.motion.fate == Fate.BOUNDED and torque_axis(one.scene)):
+    limited = item.case is not None and item.case.limits is not None
+    if not limited and not (item.motion.fate == Fate.BOUNDED and torque_axis(item.scene)):
         return "the case states no limit to be reached: add [limits]"
-    return _far(one)
+    return _far(item)
 
 
-def _wheel(one: Subject) -> str:
-    if not one.physical or not one.scene.plain:
+def _wheel(item: Subject) -> str:
+    if not item.physical or not item.scene.plain:
         return "it is drawn of a body with wheels and a torque alone"
-    if one.case is None or not one.case.wheels:
+    if item.case is None or not item.case.wheels:
         return "the case has no wheel of its own: describe it in a table [[wheels]]"
-    return "the motion is not known to reach a limit" if space.limit_time(one.motion) is None else _far(one)
+    return "the motion is not known to reach a limit" if space.limit_time(item.motion) is None else _far(item)
 
 
-def bodily(one: Subject) -> Any:
+def bodily(item: Subject) -> Any:
     """The scene with the body of a subject; None where there are scaled variables alone."""
-    return one.case.physical if one.case is not None else one.scene if one.physical else None
+    return item.case.physical if item.case is not None else item.scene if item.physical else None
 
 
-def _equilibria(one: Subject) -> str:
+def _equilibria(item: Subject) -> str:
     # there always are some with other effects, and they take longer
-    found = equilibria(one.scene) if one.twin.plain else None
-    return (f"there is none: {found.because}" if found is not None and not found.points and not found.curves
+    out = equilibria(item.scene) if item.twin.plain else None
+    return (f"there is none: {out.because}" if out is not None and not out.points and not out.curves
             else "")
 
 
-def _far(one: Subject) -> str:
-    return FAR if one.twin.plain and far_exponent(one.twin, one.state) is not None else ""
+def _far(item: Subject) -> str:
+    return FAR if item.twin.plain and far_exponent(item.twin, item.state) is not None else ""
 
 
-def _phase(one: Subject) -> str:
-    if not one.twin.plain:
-        return f"with {_beyond(one)} the motion does not reduce to one degree of freedom"
-    if reduce(one.twin) is None:
+def _phase(item: Subject) -> str:
+    if not item.twin.plain:
+        return f"with {_beyond(item)} the motion does not reduce to one degree of freedom"
+    if reduce(item.twin) is None:
         return (
             "the motion does not reduce to one degree of freedom (torque off the principal axes, or a wheel "
             "along it)")
-    return _far(one)
+    return _far(item)
 
 
-def _sphere(one: Subject) -> str:
-    if not one.twin.plain:
-        return f"with {_beyond(one)} no surface is known on which the motion stays"
-    if free(one) and one.physical:
-        return _far(one)
+def _sphere(item: Subject) -> str:
+    if not item.twin.plain:
+        return f"with {_beyond(item)} no surface is known on which the motion stays"
+    if free(item) and item.physical:
+        return _far(item)
     return (
         "no surface is known on which the motion stays (torque off the principal axes, or a wheel along it)"
-        if reduce(one.twin) is None else _far(one))
+        if reduce(item.twin) is None else _far(item))
 
 
-def certain_from(one: Subject) -> float:
+def certain_from(item: Subject) -> float:
     """The time (scene's time) from which on spin-up is certain; inf of a motion that is not known to spin up.
     """
-    found = one.motion
-    return float(found.evidence.get("t_certificate") or 0.0) if found.fate == Fate.SPIN_UP else math.inf
+    result = item.motion
+    return float(result.evidence.get("t_certificate") or 0.0) if result.fate == Fate.SPIN_UP else math.inf
 
 
-def _section(one: Subject) -> str:
-    if not one.twin.plain:
-        return f"it is drawn of a body with a wheel and a torque alone, not with {_beyond(one)}"
-    if why := _far(one):
+def _section(item: Subject) -> str:
+    if not item.twin.plain:
+        return f"it is drawn of a body with a wheel and a torque alone, not with {_beyond(item)}"
+    if why := _far(item):
         return why
-    if one.motion.fate == Fate.EQUILIBRIUM:
+    if item.motion.fate == Fate.EQUILIBRIUM:
         return "the motion is an equilibrium: it passes no plane"
-    until = certain_from(one)
-    if crossed(one.twin, one.state, until) is not None:
+    until = certain_from(item)
+    if crossed(item.twin, item.state, until) is not None:
         return ""
     if math.isinf(until):
         return f"the motion does not come back: it passes no plane {LEAST} times"
-    when = "from its start on" if not until else f"from {until:.4g} {one.scene.time_unit} on"
+    when = "from its start on" if not until else f"from {until:.4g} {item.scene.time_unit} on"
     return (
-        f"spin-up about {one.axes.short(one.motion.axis)} is certain {when}, before the motion has passed "
+        f"spin-up about {item.axes.short(item.motion.axis)} is certain {when}, before the motion has passed "
         f"any plane {LEAST} times")
 
 
-def free(one: Subject) -> bool:
+def free(item: Subject) -> bool:
     """Whether no torque acts on the body of a scene of wheel and torque."""
-    return not any(one.twin.quadratic().m)
+    return not any(item.twin.quadratic().m)
 
 
-def _beyond(one: Subject) -> str:
-    *others, last = (effect.with_article for effect in one.scene.beyond)
+def _beyond(item: Subject) -> str:
+    *others, last = (effect.with_article for effect in item.scene.beyond)
     return f"{', '.join(others)} and {last}" if others else last
 
 
 # what a kind of picture needs -> (whether a motion, why a subject has none)
 NEEDS: dict[str, tuple[bool, Callable[[Subject], str]]] = {
-    "motion": (True, lambda one: ""), "range": (True, _far), "plane": (True, _phase),
+    "motion": (True, lambda item: ""), "range": (True, _far), "plane": (True, _phase),
     "surface": (True, _sphere), "section": (True, _section), "tilt": (True, _tilt), "wheel": (True, _wheel),
     "equilibria": (False, _equilibria),
-    "body": (False, lambda one: NO_BODY * (bodily(one) is None)),
-    "body that turns": (True, lambda one: "scaled variables have no body to turn: give the case in physical "
-                                          "units" * (not one.physical)),
-    "theory": (True, lambda one: ALIKE * one.scene.plain),
-    "span": (True, lambda one: "it needs a span: the time up to which the motion is followed"
-             * (one.span is None))}
+    "body": (False, lambda item: NO_BODY * (bodily(item) is None)),
+    "body that turns": (True, lambda item: "scaled variables have no body to turn: give the case in physical "
+                                          "units" * (not item.physical)),
+    "theory": (True, lambda item: ALIKE * item.scene.plain),
+    "span": (True, lambda item: "it needs a span: the time up to which the motion is followed"
+             * (item.span is None))}
 
 
 # --- The units of the axes of a plot: name and factor of rates, times and angles, and the names of
@@ -318,13 +318,13 @@ class Measures:
         return ("ω" if self.size else "x") + "₁₂₃"[axis]
 
 
-def measures(one: Subject, units: str | None = None) -> Measures:
+def measures(item: Subject, units: str | None = None) -> Measures:
     """Those of a subject: units "deg" (deg/s, deg; seconds, minutes or hours), "deg/day", "rpm", "rev/s" or
     "si" (rad/s, rad, s), None for those of the case, else those that suit; scaled scenes have none."""
     if units is not None and units not in SYSTEMS:
         raise InputError(f"units: expected one of {', '.join(SYSTEMS)}, got {units!r:.40}")
-    if not one.physical:
+    if not item.physical:
         return Measures(("", 1.0), ("", 1.0), ("$x_1$", "$x_2$", "$x_3$"), "", None)
-    found = SYSTEMS[units or ("deg" if one.case is None else one.case.units or suited(one.case))]
-    return Measures(found.rates, found.angles, (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), r"$|\omega|$",
-                    found)
+    result = SYSTEMS[units or ("deg" if item.case is None else item.case.units or suited(item.case))]
+    return Measures(result.rates, result.angles, (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), r"$|\omega|$",
+                    result)

@@ -40,9 +40,9 @@ AROUND = 2.2  # a small motion is shown in so many times its own size
 ASIDE = 0.6  # of the way over this motion and all equilibria: how far a hyperbola or parabola is shown beyond
 
 
-def cylinder(one: Subject, units: str | None) -> SurfaceLines:
+def cylinder(item: Subject, units: str | None) -> SurfaceLines:
     """All that a plot shows, in the units of the rates."""
-    plane, scale = phase_plane(one.twin, one.state), measures(one, units)
+    plane, scale = phase_plane(item.twin, item.state), measures(item, units)
     ys, Ws = motion_curve(plane, *window(plane))
     low, high, top = _range(plane, ys, Ws)
     at = lambda y, W: plane.states(np.asarray(y, float), np.asarray(W, float)) * scale.rate[1]
@@ -54,20 +54,20 @@ def cylinder(one: Subject, units: str | None) -> SurfaceLines:
     pad = (0.04 * spread.max() if spread.min() > 0.04 * spread.max()
            else np.maximum(0.04 * spread, 0.1 * spread.max()))
     box = between(surface.min(axis=(0, 1)) - pad, surface.max(axis=(0, 1)) + pad)
-    words = f"the rates across {one.axes.short(axis + 1)} stay on a {plane.land.base}"
-    found = SurfaceLines(grid_triangles(surface), box, view,
-                         tuple(with_unit(name, scale.rate[0]) for name in scale.names), words)
+    text = f"the rates across {item.axes.short(axis + 1)} stay on a {plane.land.base}"
+    result = SurfaceLines(grid_triangles(surface), box, view,
+                         tuple(with_unit(name, scale.rate[0]) for name in scale.names), text)
     for y, W, look in curves_of(plane, low, high, top):
         shown = (np.abs(W) <= top) & (y >= low - 1e-9) & (y <= high + 1e-9) | np.isfinite(plane.land.turn)
-        found.add(np.where(shown[:, None], at(y, W), np.nan), look, _outward(plane, y, axis))
+        result.add(np.where(shown[:, None], at(y, W), np.nan), look, _outward(plane, y, axis))
     rests = equilibria_of(plane, low, high)
     for kind, places in rests:
-        for place in places:
-            front = float(_outward(plane, [place], axis)[0] @ sight(view)) >= 0
-            found.marks.append((at([place], [0.0]), style.MARKER[kind] | ({} if front else {"alpha": 0.35})))
-    found.marks.append((at([0.0], [plane.W0]), style.MARKER["start"]))
-    found.rows = rows_of(dict(rests))
-    return found
+        for index in places:
+            front = float(_outward(plane, [index], axis)[0] @ sight(view)) >= 0
+            result.marks.append((at([index], [0.0]), style.MARKER[kind] | ({} if front else {"alpha": 0.35})))
+    result.marks.append((at([0.0], [plane.W0]), style.MARKER["start"]))
+    result.rows = rows_of(dict(rests))
+    return result
 
 
 def _range(plane: PhasePlane, ys, Ws):
@@ -82,8 +82,8 @@ def _range(plane: PhasePlane, ys, Ws):
     if np.isfinite(plane.land.turn):
         return middle - np.pi, middle + np.pi, highest(plane, middle - np.pi, middle + np.pi)
     marks = np.clip([ys[0], ys[-1], *plane.saddles, *plane.centres], low, high)
-    near = ASIDE * max(float(np.ptp(marks)), 0.1)
-    return max(low, marks.min() - near), min(high, marks.max() + near), top
+    nearby = ASIDE * max(float(np.ptp(marks)), 0.1)
+    return max(low, marks.min() - nearby), min(high, marks.max() + nearby), top
 
 
 def _outward(plane, ys, axis):
@@ -116,16 +116,16 @@ EXTREME = 1e-6  # of the range of energies: so near to its end a value is no sad
 SAME = 1e-9  # of the energies: those of one saddle, found twice
 
 
-def momentum_sphere(one: Subject) -> SurfaceLines:
+def momentum_sphere(item: Subject) -> SurfaceLines:
     """All that a plot shows, in kg m^2/s; H = D omega + wheel, |H| constant, and the energy sum((H - wheel)^2
     / 2 D) tells the polhodes apart."""
-    scene: Any = one.twin  # physical: `which` refuses the others
+    scene: Any = item.twin  # physical: `which` refuses the others
     D = np.array([float(v) for v in scene.body.exact])
     wheel = np.array([float(v) for v in scene.vector("gyrostat")])
-    period = one.motion.period
-    _, omega = path(one, 0.0, period or max(one.seen, key=abs))
-    way = omega * D + wheel
-    size = float(np.linalg.norm(way[0]))
+    period = item.motion.period
+    _, omega = path(item, 0.0, period or max(item.seen, key=abs))
+    route = omega * D + wheel
+    size = float(np.linalg.norm(route[0]))
     energy = lambda H: (((H - wheel) ** 2) / (2 * D)).sum(axis=-1)
     up = np.linspace(-np.pi / 2, np.pi / 2, SPHERE_GRID[0])
     round_ = np.linspace(-np.pi, np.pi, SPHERE_GRID[1])
@@ -133,9 +133,9 @@ def momentum_sphere(one: Subject) -> SurfaceLines:
         [np.cos(up) * np.cos(round_), np.cos(up) * np.sin(round_), np.sin(up)], axis=-1)
     ball = at(*np.meshgrid(round_, up))
     height = energy(ball)
-    rest, circles = _rest(one, D, wheel, size)
-    view = facing(way.mean(axis=0) if np.linalg.norm(way.mean(axis=0)) > 0.05 * size else way[0])
-    found = SurfaceLines(grid_triangles(ball[::6, ::8]), Box((0.0,) * 3, (1.08 * size,) * 3), view,
+    rest, circles = _rest(item, D, wheel, size)
+    view = facing(route.mean(axis=0) if np.linalg.norm(route.mean(axis=0)) > 0.05 * size else route[0])
+    result = SurfaceLines(grid_triangles(ball[::6, ::8]), Box((0.0,) * 3, (1.08 * size,) * 3), view,
                          tuple(rf"$H_{n}$ (kg m$^2$/s)" for n in (1, 2, 3)),
                          f"sphere of the angular momentum, |H| = {size:.5g} kg m²/s")
     flat = float(np.ptp(height)) <= SAME * float(np.abs(height).max())
@@ -144,19 +144,19 @@ def momentum_sphere(one: Subject) -> SurfaceLines:
                          (saddles, style.MEANING["separatrix"])):
         for line in levels(round_, up, height, values):
             points = at(*line.T)
-            found.add(LIFT * points, look, points)
+            result.add(LIFT * points, look, points)
     for kind, points in circles:
-        found.add(LIFT * points, CURVES[kind], points)
-    found.add(LIFT * way, style.MEANING["this motion"], way)
-    found.marks = ([(LIFT * H[None], EQUILIBRIUM_LOOKS[kind]) for kind, H in rest if H @ sight(view) >= 0]
-                   + [(LIFT * way[:1], style.MARKER["start"])])
-    found.rows = [("this motion", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
+        result.add(LIFT * points, CURVES[kind], points)
+    result.add(LIFT * route, style.MEANING["this motion"], route)
+    result.marks = ([(LIFT * H[None], EQUILIBRIUM_LOOKS[kind]) for kind, H in rest if H @ sight(view) >= 0]
+                   + [(LIFT * route[:1], style.MARKER["start"])])
+    result.rows = [("this motion", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
                   *([("separatrix", style.MEANING["separatrix"])] if saddles else []),
                   *([] if flat else [("other energies", style.MEANING["level"])]),
                   *((f"{kind} equilibrium", EQUILIBRIUM_LOOKS[kind]) for kind in EQUILIBRIUM_LOOKS
                      if kind in dict(rest)),
                   *((f"{kind} equilibria", CURVES[kind]) for kind in CURVES if kind in dict(circles))]
-    return found
+    return result
 
 
 def _saddles(height, energies):
@@ -176,21 +176,21 @@ def _others(height, saddles):
     return [value for value in values if all(abs(value - s) > apart for s in saddles)]
 
 
-def _rest(one, D, wheel, size):
+def _rest(item, D, wheel, size):
     """([(verdict, H)] of the single equilibria whose momentum is of this size, [(verdict, points (n, 3))] of
     circles of them)."""
-    found, circles = [], []
+    result, circles = [], []
     excess = lambda curve: lambda t: float(np.linalg.norm(np.array(curve.point(float(t)), float) * D
                                                           + wheel)) - size
-    for curve in equilibria(one.twin).curves:
+    for curve in equilibria(item.twin).curves:
         if curve.plane:
             if not wheel.any():
                 circles.append((style.kind_of(curve.segments[0]), disc(plane_of(curve), size)))
             continue
         for segment in curve.segments:
-            found += [(style.kind_of(segment), np.array(curve.point(t), float) * D + wheel)
+            result += [(style.kind_of(segment), np.array(curve.point(t), float) * D + wheel)
                       for t in _roots(excess(curve), *segment.t)]
-    return found, circles
+    return result, circles
 
 
 def _roots(function, low, high):
@@ -218,17 +218,17 @@ def sphere(case: Any, state: Any = None, ax: Axes | None = None, units: str | No
     Lines behind the surface are pale. Raises InputError where no such surface is known; it names the kinds of
     plot that there are.
     """
-    one = subject(case, state)
-    subjects.check("sphere", one)
-    found = momentum_sphere(one) if one.physical and subjects.free(one) else cylinder(one, units)
+    item = subject(case, state)
+    subjects.check("sphere", item)
+    result = momentum_sphere(item) if item.physical and subjects.free(item) else cylinder(item, units)
     with canvas.on(ax, size, space=True) as target:
-        in_space.facets(target, [(found.surface, style.GREY)], pale_by=0.22)
-        for points, look, front in found.lines:
+        in_space.facets(target, [(result.surface, style.GREY)], pale_by=0.22)
+        for points, look, front in result.lines:
             in_space.line(target, points, look if front else look | BEHIND, zorder=6 if front else 3)
-        for points, look in found.marks:
+        for points, look in result.marks:
             in_space.line(target, points, look, zorder=8)
-        in_space.furnish(target, found.box, found.labels, found.view)
-        return canvas.explained(target, found.rows if legend else [], ax is None, one.heading, found.title)
+        in_space.furnish(target, result.box, result.labels, result.view)
+        return canvas.explained(target, result.rows if legend else [], ax is None, item.heading, result.title)
 
 
 BEHIND = {"alpha": 0.3, "linewidth": 0.7}

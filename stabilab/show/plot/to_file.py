@@ -50,19 +50,19 @@ def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[
     same bytes (but for "budget", whose times are measured). Raises InputError for another ending, and where
     the case has no such plot: it names those that there are.
     """
-    one = subject(case, span=span)
+    item = subject(case, span=span)
     if neighbours is not None:
-        one = replace(one, neighbours=neighbours)
-    chosen = checked(path, one, kind)
+        item = replace(item, neighbours=neighbours)
+    chosen = checked(path, item, kind)
     if neighbours and chosen != "section":
         raise InputError(f"neighbours: a section alone shows them (kind section), got kind {chosen}")
     demand(*style.PACKAGES)
     check_size(size, dpi)
     with style.drawing():
         if chosen == "attitude":
-            return [_drawing(chosen)(one, Path(path), units, size, dpi)]
-        made = _drawing(chosen)(one, units=units, size=size)
-        figures = made if isinstance(made, list) else [made.figure]
+            return [_drawing(chosen)(item, Path(path), units, size, dpi)]
+        built = _drawing(chosen)(item, units=units, size=size)
+        figures = built if isinstance(built, list) else [built.figure]
         for figure in figures:
             if size is not None:
                 figure.set_size_inches(*size)
@@ -88,11 +88,11 @@ def narrowed(figure: Any) -> Any:
     return figure
 
 
-def checked(path: str | Path, one: Subject, kind: str | None) -> str:
+def checked(path: str | Path, item: Subject, kind: str | None) -> str:
     """The kind of a plot, if it can be drawn and written to such a path: before anything is computed."""
     moving = endings.ending(path) in ENDINGS
-    chosen = kind or ("attitude" if moving else subjects.default(one))
-    subjects.check(chosen, one)
+    chosen = kind or ("attitude" if moving else subjects.default(item))
+    subjects.check(chosen, item)
     endings.file(path, ENDINGS if chosen == "attitude" else endings.PICTURES)
     return chosen
 

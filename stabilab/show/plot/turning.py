@@ -59,18 +59,18 @@ class Turn:
     def arrows(self) -> list[tuple[str, str, np.ndarray]]:
         """(letter, colour, (n, 3) in space) of momentum, torque and wheels, the longest as long as is drawn.
         """
-        found = (("H", style.BLACK, OUT, self.momentum),
+        result = (("H", style.BLACK, OUT, self.momentum),
                  ("M", style.PURPLE, OUT, self.rotations @ self.torque),
                  ("λ", style.SKY, WHEEL, self.rotations @ self.wheel))
-        largest = [np.abs(rows).max() or 1.0 for *_, rows in found]  # of tiny ones the squares vanish
-        return [(letter, colour, long * (rows / most) / np.linalg.norm(rows / most, axis=1).max())
-                for (letter, colour, long, rows), most in zip(found, largest) if rows.any()]
+        largest = [np.abs(rows).max() or 1.0 for *_, rows in result]  # of tiny ones the squares vanish
+        return [(letter, colour, long * (rows / upper) / np.linalg.norm(rows / upper, axis=1).max())
+                for (letter, colour, long, rows), upper in zip(result, largest) if rows.any()]
 
     @property
     def words(self) -> str:
         """What the arrows are."""
-        words = {"H": "angular momentum of body and wheels", "M": "torque", "λ": "momentum of the wheels"}
-        return "; ".join(f"{letter}: {words[letter]}" for letter, *_ in self.arrows)
+        text = {"H": "angular momentum of body and wheels", "M": "torque", "λ": "momentum of the wheels"}
+        return "; ".join(f"{letter}: {text[letter]}" for letter, *_ in self.arrows)
 
     def part(self, units: Units) -> str:
         """What is said of a film that ends before its span."""
@@ -79,58 +79,58 @@ class Turn:
                      f"{units.time(self.asked, SHORT)} are shown.")
 
 
-def turn(one: Subject, frames: int = FRAMES) -> Turn:
+def turn(item: Subject, frames: int = FRAMES) -> Turn:
     """The motion in so many pictures, from the start of its span on: as far as it goes, or as the pictures
     reach at `STEP`."""
     if not 2 <= frames <= 5000:
         raise InputError(f"frames: expected 2 to 5000, got {frames!r:.40}")
-    low, high = one.seen
-    (t, rotations, omega), whole = _reached(one, low, high, frames)
-    scene: Any = one.scene  # physical: `which` refuses the others
+    low, high = item.seen
+    (t, rotations, omega), full = _reached(item, low, high, frames)
+    scene: Any = item.scene  # physical: `which` refuses the others
     vector = lambda name: (np.array([float(v) for v in scene.vector(name)])
                            if scene.effect(name) is not None else np.zeros(3))
     wheel = vector("gyrostat")
     momentum = np.einsum("nij,nj->ni", rotations, omega * np.array(scene.body.inertia) + wheel)
     edges = np.maximum(box_sides(scene.body.inertia), THINNEST)
-    return Turn(t, rotations, omega, edges, whole, abs(high - low), momentum, vector("constant_torque"),
-                wheel, _share(one, omega))
+    return Turn(t, rotations, omega, edges, full, abs(high - low), momentum, vector("constant_torque"),
+                wheel, _share(item, omega))
 
 
-def _share(one: Subject, omega: np.ndarray):
+def _share(item: Subject, omega: np.ndarray):
     """(n,) how much of the limit of a case rates (n, 3) have reached; None without one."""
-    limits = None if one.case is None else one.case.limits
+    limits = None if item.case is None else item.case.limits
     if limits is None:
         return None
     if limits.rate is not None:
         return np.linalg.norm(omega, axis=1) / float(limits.rate)
-    parts = [(np.array([float(v) for v in axis]), float(most))
-             for axis, most in limits.components(one.case.frame)]
-    return np.max([np.abs(omega @ axis) / most for axis, most in parts], axis=0)
+    parts = [(np.array([float(v) for v in axis]), float(largest))
+             for axis, largest in limits.components(item.case.frame)]
+    return np.max([np.abs(omega @ axis) / largest for axis, largest in parts], axis=0)
 
 
-def _reached(one: Subject, low: float, high: float, frames: int):
+def _reached(item: Subject, low: float, high: float, frames: int):
     """(the motion at the times of the pictures, whether they reach the end of the span). The greatest rate up
     to an end grows with it, so the ends at which no step is too wide are those up to one."""
     length, direction = abs(high - low), float(np.sign(high - low))
-    t, _, omega = _at(one, low + direction * length * np.concatenate([[0.0], TRIED]))
+    t, _, omega = _at(item, low + direction * length * np.concatenate([[0.0], TRIED]))
     fastest = np.maximum.accumulate(np.linalg.norm(omega, axis=1))
     fits = fastest * np.abs(t - low) <= ROUNDED * STEP * (frames - 1)
     end = float(t[fits][-1])
-    return _at(one, np.linspace(low, end, frames)), bool(fits.all() and len(t) > len(TRIED))
+    return _at(item, np.linspace(low, end, frames)), bool(fits.all() and len(t) > len(TRIED))
 
 
-def _at(one: Subject, times: np.ndarray):
+def _at(item: Subject, times: np.ndarray):
     """(times, rotations, rates), as far as the run goes."""
-    upright = attitude_of(one.blocks["gamma"]) if "gamma" in one.blocks else (0.0, 0.0, 0.0)
-    first = tuple(one.blocks.get("attitude", upright))
-    blocks = {**one.blocks, "attitude": first}
-    if one.scene.plain:
-        run = trajectory(one.scene, start_of(one.scene, one.state, blocks), times, laws=False)
+    upright = attitude_of(item.blocks["gamma"]) if "gamma" in item.blocks else (0.0, 0.0, 0.0)
+    first = tuple(item.blocks.get("attitude", upright))
+    blocks = {**item.blocks, "attitude": first}
+    if item.scene.plain:
+        run = trajectory(item.scene, start_of(item.scene, item.state, blocks), times, laws=False)
         t, omega, attitudes = run.t, run.block("omega"), run.block("attitude")
     else:
-        found = simulated(one.scene, one.state, times, blocks)
-        t, omega = found.t, found.state["omega"]
-        attitudes = np.array([quaternion(*row) for row in found.state["angles"]])
+        result = simulated(item.scene, item.state, times, blocks)
+        t, omega = result.t, result.state["omega"]
+        attitudes = np.array([quaternion(*row) for row in result.state["angles"]])
     if len(t) < 2:
         raise InputError("plot attitude: the motion cannot be followed: the run stopped at its start")
     return t, np.moveaxis(np.array(rotation(attitudes.T)), -1, 0), omega
@@ -140,28 +140,28 @@ def _at(one: Subject, times: np.ndarray):
 SMOOTH = 600  # frames of a page, which are numbers and no pictures
 
 
-def drawn(one: Subject, found: Turn, time: Unit, rate: Unit,
+def drawn(item: Subject, result: Turn, time: Unit, rate: Unit,
           row: Callable[[np.ndarray], Any]) -> dict[str, Any]:
     """What templates/turning.js draws. time, rate: units; row: what a page has for an array of any shape."""
     unit, per = time
-    return {"t": row(found.t * per), "unit": unit, "rate": rate[0],
-            "size": row(np.linalg.norm(found.omega, axis=1) * rate[1]), "rotations": row(found.rotations),
-            "corners": (CORNERS * found.edges).round(5).tolist(), "edges": found.edges.round(5).tolist(),
-            "faces": FACES, "colours": COLOURS, "names": [one.axes.label(n) for n in (1, 2, 3)],
-            "tip": int(np.argmax(np.abs(found.omega[0]))), "real": float(abs(found.t[-1] - found.t[0])),
-            "arrows": [[letter, colour, row(rows)] for letter, colour, rows in found.arrows],
-            "share": None if found.share is None else row(found.share)}
+    return {"t": row(result.t * per), "unit": unit, "rate": rate[0],
+            "size": row(np.linalg.norm(result.omega, axis=1) * rate[1]), "rotations": row(result.rotations),
+            "corners": (CORNERS * result.edges).round(5).tolist(), "edges": result.edges.round(5).tolist(),
+            "faces": FACES, "colours": COLOURS, "names": [item.axes.label(n) for n in (1, 2, 3)],
+            "tip": int(np.argmax(np.abs(result.omega[0]))), "real": float(abs(result.t[-1] - result.t[0])),
+            "arrows": [[letter, colour, row(rows)] for letter, colour, rows in result.arrows],
+            "share": None if result.share is None else row(result.share)}
 
 
-def page(one: Subject, found: Turn, scale: Measures, path: Path) -> Path:
+def page(item: Subject, result: Turn, scale: Measures, path: Path) -> Path:
     """Write the page."""
     def row(values: np.ndarray):
         return [float(f"{v:.6g}") + 0.0 for v in values.ravel()]
-    data = drawn(one, found, scale.time(float(np.abs(found.t).max())), scale.rate, row)
+    data = drawn(item, result, scale.time(float(np.abs(result.t).max())), scale.rate, row)
     # nothing of it ends the script
     text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
-    return html.write(path, "attitude.html", title=printable(one.heading or "Attitude"), data=text,
-                      part=found.part(scale.system), arrows=found.words)
+    return html.write(path, "attitude.html", title=printable(item.heading or "Attitude"), data=text,
+                      part=result.part(scale.system), arrows=result.words)
 
 
 # --- The body's box as it turns, as an animation of Matplotlib
@@ -190,30 +190,30 @@ def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, fra
     at 15 degrees each, its first part is shown. Raises InputError for scaled variables.
     """
     from matplotlib.animation import FuncAnimation
-    one = subject(case, state, span)
-    subjects.check("attitude", one)
-    found, scale = turn(one, frames), measures(one, units)
+    item = subject(case, state, span)
+    subjects.check("attitude", item)
+    out, scale = turn(item, frames), measures(item, units)
     with canvas.on(ax, size or SIZE, space=True) as target:
-        draw = _stage(target, found, one, scale)
+        draw = _stage(target, out, item, scale)
         if ax is None:  # laid out once, not for every picture
             target.figure.draw_without_rendering()
             target.figure.set_layout_engine("none")
-        return FuncAnimation(target.figure, draw, frames=len(found.t), interval=1000 / PER_SECOND, blit=False)
+        return FuncAnimation(target.figure, draw, frames=len(out.t), interval=1000 / PER_SECOND, blit=False)
 
 
-def film(one: Subject, path: Path, units: str | None = None, size: tuple[float, float] | None = None,
+def film(item: Subject, path: Path, units: str | None = None, size: tuple[float, float] | None = None,
          dpi: float | None = None) -> Path:
     """The animation as a file: .html, a page that needs nothing else; .gif; .mp4, where ffmpeg is installed.
     """
     import matplotlib.animation
     kind = endings.ending(endings.file(path, ENDINGS))
     if kind == ".html":
-        return page(one, turn(one, SMOOTH), measures(one, units), path)
+        return page(item, turn(item, SMOOTH), measures(item, units), path)
     if kind == ".mp4" and not matplotlib.animation.writers.is_available("ffmpeg"):
         raise RenderingUnavailable(
             "no .mp4 can be written: ffmpeg is not installed: apt install ffmpeg; .gif and .html need "
             "nothing more")
-    moving = attitude(one, frames=PICTURES, units=units, size=size)
+    moving = attitude(item, frames=PICTURES, units=units, size=size)
     writer = (matplotlib.animation.PillowWriter(fps=PER_SECOND) if kind == ".gif"
               else matplotlib.animation.FFMpegWriter(
         fps=PER_SECOND, extra_args=["-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1",
@@ -228,11 +228,11 @@ def film(one: Subject, path: Path, units: str | None = None, size: tuple[float, 
     return Path(path)
 
 
-def _stage(ax: Axes3D, found: Turn, one: Subject, scale: Measures):
+def _stage(ax: Axes3D, result: Turn, item: Subject, scale: Measures):
     """The scene of the animation; draw(frame) moves it."""
     from matplotlib.patheffects import withStroke
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
-    box = Poly3DCollection(_faces(found, 0), facecolors=[in_space.pale(COLOURS[n // 2]) for n in range(6)],
+    box = Poly3DCollection(_faces(result, 0), facecolors=[in_space.pale(COLOURS[n // 2]) for n in range(6)],
                            edgecolors=style.BLACK, linewidths=0.8,
                            zorder=(BEHIND + BEFORE) / 2)
     ax.add_collection3d(box)
@@ -240,16 +240,16 @@ def _stage(ax: Axes3D, found: Turn, one: Subject, scale: Measures):
     ax.computed_zorder = False
     axes = [ax.plot([], [], [], color=colour, linewidth=2.2)[0] for colour in COLOURS]
     halo = [withStroke(linewidth=3, foreground="white")]  # a name is to be read on a face of its colour
-    names = [ax.text(0, 0, 0, one.axes.label(n), color=colour, fontsize=11, weight="bold", path_effects=halo)
+    names = [ax.text(0, 0, 0, item.axes.label(n), color=colour, fontsize=11, weight="bold", path_effects=halo)
              for n, colour in enumerate(COLOURS, 1)]
     now = ax.text2D(0.5, 0.97, "", transform=ax.transAxes, ha="center")
-    canvas.title(ax, one.heading)
-    ax.text2D(0.5, -0.02, "\n".join(filter(None, (found.words, found.part(scale.system)))),
+    canvas.title(ax, item.heading)
+    ax.text2D(0.5, -0.02, "\n".join(filter(None, (result.words, result.part(scale.system)))),
               transform=ax.transAxes, ha="center", va="top", fontsize="small")
     pointers: list[Any] = []
     ways = [ax.plot([], [], [], color=style.GREY, linewidth=0.9, zorder=order)[0]
             for order in (BEHIND, BEFORE)]
-    tips = found.rotations[:, :, int(np.argmax(np.abs(found.omega[0])))] * OUT
+    tips = result.rotations[:, :, int(np.argmax(np.abs(result.omega[0])))] * OUT
     for setter in (ax.set_xlim, ax.set_ylim, ax.set_zlim):
         setter(-HALF_PICTURE, HALF_PICTURE)
     for setter, letter in zip((ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), "XYZ"):
@@ -258,32 +258,32 @@ def _stage(ax: Axes3D, found: Turn, one: Subject, scale: Measures):
         setter([])
     ax.set_box_aspect((1, 1, 1), zoom=1.1)
     ax.view_init(*in_space.VIEW)
-    unit, per = scale.time(float(np.abs(found.t).max()))
-    rates = np.linalg.norm(found.omega, axis=1) * scale.rate[1]
+    unit, per = scale.time(float(np.abs(result.t).max()))
+    rates = np.linalg.norm(result.omega, axis=1) * scale.rate[1]
 
     def draw(frame: int):
-        box.set_verts(_faces(found, frame))
+        box.set_verts(_faces(result, frame))
         eye = _eye(ax)
         for n, (line, name) in enumerate(zip(axes, names)):
-            tip = found.rotations[frame][:, n] * OUT
-            line.set_data_3d(*zip(tip * found.edges[n] / OUT, tip))  # from its face on
+            tip = result.rotations[frame][:, n] * OUT
+            line.set_data_3d(*zip(tip * result.edges[n] / OUT, tip))  # from its face on
             name.set_position_3d(tip * 1.1)
-            seen = found.rotations[frame][:, n] @ eye > found.edges[n]  # the face that it leaves by
-            line.set_zorder(BEFORE if seen else BEHIND)
-            name.set_zorder(BEFORE if seen else BEHIND)
+            visited = result.rotations[frame][:, n] @ eye > result.edges[n]  # the face that it leaves by
+            line.set_zorder(BEFORE if visited else BEHIND)
+            name.set_zorder(BEFORE if visited else BEHIND)
         gone = tips[:frame + 1]
-        for way, shown in zip(ways, (gone @ eye <= 0, gone @ eye > 0)):
-            way.set_data_3d(*np.where(_with_ends(shown)[:, None], gone, np.nan).T)
+        for route, shown in zip(ways, (gone @ eye <= 0, gone @ eye > 0)):
+            route.set_data_3d(*np.where(_with_ends(shown)[:, None], gone, np.nan).T)
         for artist in pointers:
             artist.remove()
         pointers[:] = [ax.quiver(0, 0, 0, *rows[frame], color=colour, linewidth=2.0, arrow_length_ratio=0.12,
-                                 zorder=BEFORE + 1) for _, colour, rows in found.arrows]
+                                 zorder=BEFORE + 1) for _, colour, rows in result.arrows]
         pointers.extend(ax.text(*(1.12 * rows[frame]), letter, color=colour, weight="bold", path_effects=halo,
-                                zorder=BEFORE + 1) for letter, colour, rows in found.arrows)
-        share = None if found.share is None else found.share[frame]
-        now.set_text(f"{found.t[frame] * per:.4g} {unit}, |ω| = {rates[frame]:.4g} {scale.rate[0]}"
-                     + ("" if share is None else f", {share:.0%} of the limit".replace("%", " %")))
-        now.set_color(style.BLACK if share is None or share < 1 else style.VERMILION)
+                                zorder=BEFORE + 1) for letter, colour, rows in result.arrows)
+        fraction = None if result.share is None else result.share[frame]
+        now.set_text(f"{result.t[frame] * per:.4g} {unit}, |ω| = {rates[frame]:.4g} {scale.rate[0]}"
+                     + ("" if fraction is None else f", {fraction:.0%} of the limit".replace("%", " %")))
+        now.set_color(style.BLACK if fraction is None or fraction < 1 else style.VERMILION)
         return [box, *axes, *names, *ways, now]
 
     draw(0)
@@ -298,11 +298,11 @@ def _eye(ax: Axes3D) -> np.ndarray:
 
 def _with_ends(shown: np.ndarray):
     """Points of a line, and those next to them, so that no piece between the two halves is missing."""
-    found = shown.copy()
-    found[1:] |= shown[:-1]
-    return found
+    result = shown.copy()
+    result[1:] |= shown[:-1]
+    return result
 
 
-def _faces(found: Turn, frame: int) -> list[np.ndarray]:
-    corners = (CORNERS * found.edges) @ found.rotations[frame].T
+def _faces(result: Turn, frame: int) -> list[np.ndarray]:
+    corners = (CORNERS * result.edges) @ result.rotations[frame].T
     return [corners[list(face)] for face in FACES]

@@ -90,7 +90,7 @@ def _width(term) -> float:
 
 def _beside(element: Any) -> float:
     """The same of an element of MathML: a letter with its index is one symbol."""
-    inside = [one for one in element.childNodes if one.nodeType == one.ELEMENT_NODE]
+    inside = [childnode for childnode in element.childNodes if childnode.nodeType == childnode.ELEMENT_NODE]
     match element.tagName:
         case "mn":
             return len(unescape(element.firstChild.data))
@@ -129,15 +129,15 @@ def _printer(products: bool = True):
         def dotted(self, symbol) -> str:
             """The rate of a symbol: the dot stands above the letter, not above the middle of letter and
             index."""
-            made = self.dom.createElement("mrow")
-            made.appendChild(self._print(symbol))
-            letter = made.getElementsByTagName("mi")[0]
-            whole = letter.parentNode
+            built = self.dom.createElement("mrow")
+            built.appendChild(self._print(symbol))
+            letter = built.getElementsByTagName("mi")[0]
+            full = letter.parentNode
             dot = self._element("mover")
-            whole.replaceChild(dot, letter)
+            full.replaceChild(dot, letter)
             dot.appendChild(letter)
             dot.appendChild(self._element("mo", "&#x2D9;"))
-            return made.firstChild.toxml().encode("ascii", "xmlcharrefreplace").decode()
+            return built.firstChild.toxml().encode("ascii", "xmlcharrefreplace").decode()
 
         def parenthesize(self, item, level, strict=False):
             # a power is that of all letters of a product
@@ -166,19 +166,19 @@ def _printer(products: bool = True):
 
         def _factor(self, written):
             for mark, tag in (("_", "msub"), ("^", "msup")):
-                letter, found, beside = written.partition(mark)
-                if found:
-                    made = self._element(tag)
+                letter, result, beside = written.partition(mark)
+                if result:
+                    built = self._element(tag)
                     for part in (letter, beside):
-                        made.appendChild(self._element("mi", part))
-                    return made
+                        built.appendChild(self._element("mi", part))
+                    return built
             return self._element("mi", written)
 
         def _element(self, tag, text=None):
-            made = self.dom.createElement(tag)
+            built = self.dom.createElement(tag)
             if text is not None:
-                made.appendChild(self.dom.createTextNode(text))
-            return made
+                built.appendChild(self.dom.createTextNode(text))
+            return built
     return Book()
 
 

@@ -45,8 +45,8 @@ def book(text: str):
     return Markup(written(marked))  # escaped above
 
 
-def _marked(found):
-    letter, below, *raised = found.groups()
+def _marked(result):
+    letter, below, *raised = result.groups()
     if letter:
         return f"{ALPHABET.get(letter, letter)}<sub>{ALPHABET.get(below, below)}</sub>"
     return f"<sup>{(raised[0] or raised[1]).replace('-', '−')}</sup>"
@@ -57,8 +57,8 @@ def signed(text: str) -> str:
     """The text with the minus of a book; commands stay as they are typed."""
     first, *others = text.split("<code>")
     parts = [part.partition("</code>") for part in others]
-    made = "".join(f"<code>{command}{end}{_signed(rest)}" for command, end, rest in parts)
-    return type(text)(_signed(first) + made)  # what is escaped stays so
+    built = "".join(f"<code>{command}{end}{_signed(rest)}" for command, end, rest in parts)
+    return type(text)(_signed(first) + built)  # what is escaped stays so
 
 
 def _signed(text: str):
@@ -68,7 +68,7 @@ def _signed(text: str):
 @around
 def together(text: str) -> str:
     """The text with no end of a line between a number and its unit, or within one."""
-    return MEASURED.sub(lambda found: found[0].replace(" ", "\u00a0"), text)
+    return MEASURED.sub(lambda match: match[0].replace(" ", "\u00a0"), text)
 
 
 def formula(text):
@@ -85,17 +85,17 @@ def sentence(text: str):
     first = text.partition(" ")[0]
     text = text[:1].upper() + text[1:] if first.isascii() and first.isalpha() and first.islower() else text
     parts = text.split("`")
-    found = [escape(part) if n % 2 == 0 or n == len(parts) - 1 else typed(part) for n,
+    rows = [escape(part) if n % 2 == 0 or n == len(parts) - 1 else typed(part) for n,
              part in enumerate(parts)]
-    return Markup("").join(found).replace("|ω|", Markup('<span class="nowrap">|ω|</span>'))
+    return Markup("").join(rows).replace("|ω|", Markup('<span class="nowrap">|ω|</span>'))
 
 
 def typed(command: str):
     """A command as code; no line ends within the dashes of an option."""
     from markupsafe import Markup
-    words = [Markup('<span class="nowrap">{}</span>').format(word) if word.startswith("--") else word
+    phrases = [Markup('<span class="nowrap">{}</span>').format(word) if word.startswith("--") else word
              for word in command.split(" ")]
-    return Markup("<code>{}</code>").format(Markup(" ").join(words))
+    return Markup("<code>{}</code>").format(Markup(" ").join(phrases))
 
 
 def css(fate: str) -> str:
@@ -103,13 +103,13 @@ def css(fate: str) -> str:
     return {"stable": "bounded", "asymptotically stable": "bounded", "unstable": "spin-up"}.get(fate, fate)
 
 
-def picture(path: Path, folder: str = "", narrow: Path | None = None, /, **words) -> dict:
+def picture(path: Path, folder: str = "", narrow: Path | None = None, /, **text) -> dict:
     """What a page says of a picture: its name within a folder, and its size in pixels, so that the page does
     not jump while it loads; narrow: the same one for a telephone."""
     from PIL import Image
     with Image.open(path) as image:
         size = list(image.size)
-    return {"file": folder + path.name, "size": size, "narrow": narrow and picture(narrow, folder), **words}
+    return {"file": folder + path.name, "size": size, "narrow": narrow and picture(narrow, folder), **text}
 
 
 def render(template: str, **values) -> str:
@@ -122,17 +122,17 @@ def anchored(page: str) -> str:
     """The page with a link to itself in every heading, which gets an id of its words where it has none."""
     read = _Headings(page)
     used, parts, last = {*read.ids}, [], 0
-    for start, inside, end, name, words in read.headings:
+    for start, inside, end, name, text in read.headings:
         opening = page[start:inside]
         if not name:
-            letters = "".join(one if one.isascii() and one.isalnum() else " " for one in words.lower())
+            letters = "".join(item if item.isascii() and item.isalnum() else " " for item in text.lower())
             name = first = "-".join(letters.split()) or "part"
             while name in used:
                 name = f"{first}-{len(used)}"
             used.add(name)
             opening = f'{opening[:3]} id="{name}"{opening[3:]}'
         parts += [page[last:start], opening, page[inside:end],
-                  f' <a class="anchor" href="#{name}" aria-label="Link to: {escape(words)}">#</a>']
+                  f' <a class="anchor" href="#{name}" aria-label="Link to: {escape(text)}">#</a>']
         last = end
     return "".join([*parts, page[last:]])
 
@@ -163,8 +163,8 @@ class _Headings(HTMLParser):
     def handle_endtag(self, tag):
         if tag in ("h2", "h3") and self._open:
             start, inside, name = self._open
-            words = " ".join("".join(self._words).split())
-            self.headings.append((start, inside, self._at(), name, words))
+            text = " ".join("".join(self._words).split())
+            self.headings.append((start, inside, self._at(), name, text))
             self._open = None
 
     def _at(self):

@@ -43,13 +43,13 @@ from .tables import equilibrium_table, sensitivity, tiles
 
 
 # --- Pictures
-def space(one, at_rest, units) -> dict:
+def space(item, at_rest, units) -> dict:
     """What the script draws of a subject, the legend, and words on the separatrix. at_rest: equilibria."""
-    found = space_of(one, map(printed, one.scene.components), units.rates, at_rest, reaching=True)
-    drawn = data(found, lambda places: b64encode(places).decode("ascii"))
-    reason = "; ".join(filter(None, (found.caption, found.part)))
+    result = space_of(item, map(printed, item.scene.components), units.rates, at_rest, reaching=True)
+    drawn = data(result, lambda places: b64encode(places).decode("ascii"))
+    reason = "; ".join(filter(None, (result.caption, result.part)))
     return {"drawn": drawn, "legend": drawn["legend"], "reason": printed(units.words(reason)),
-            "clipped": any(max(map(abs, found.box.share(at))) > 1 + 1e-9 for _, branch in found.branches
+            "clipped": any(max(map(abs, result.box.share(at))) > 1 + 1e-9 for _, branch in result.branches
                            for at in branch.points)}
 
 
@@ -58,45 +58,45 @@ ALONE = ("Every part of the state over time", "No approximate theory comes with 
 OF_THE_FILE = "The rates along the axes of the file, about which its limits are."
 
 
-def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg", at_rest=None) -> list[dict]:
+def pictures(item, folder: Path, stem: str, deep: bool, units: str = "deg", at_rest=None) -> list[dict]:
     """Draw every plot of a subject (`plot.subject`) that a page shows; file, size in pixels, title and
     caption of each, in order. deep: all kinds, not only those of the motion itself. at_rest: its
     equilibria."""
-    found, offered = [], [kind for kind in SHOWN if not subjects.why_not(kind, one)]
+    result, offered = [], [kind for kind in SHOWN if not subjects.why_not(kind, item)]
     # what another part of the page has: table and space the single points, the plane what is wrapped round a
     # surface
-    case, bodily = one.case, subjects.bodily(one)
+    case, bodily = item.case, subjects.bodily(item)
     # a sketch of the body shows more than its moments: effects, or axes that the file has not
     acted_on = (bodily and bodily.effects) or case.thrusters or case.frame and not case.frame.as_given
     spared = {"equilibria": at_rest is not None and not at_rest.curves, "body": not acted_on,
-              "sphere": "phase" in offered and not subjects.free(one), "state": subjects.rates_alone(one)}
-    exact_alone = models_of(one.scene) == ("exact",)
+              "sphere": "phase" in offered and not subjects.free(item), "state": subjects.rates_alone(item)}
+    exact_alone = models_of(item.scene) == ("exact",)
     for kind, page in SHOWN.items():
         if kind in offered and (deep or page.brief) and not spared.get(kind):
             title, caption = page.title, page.caption
             if kind == "state" and exact_alone:
                 title, caption = ALONE
-            if kind == "time" and file_axes(one) is not None:
+            if kind == "time" and file_axes(item) is not None:
                 caption = OF_THE_FILE
             if kind == "time":
-                caption += _later(one)
-            narrow = None if found or kind != "time" else folder / f"{stem}-{kind}-narrow.png"
-            made, *more = to_file.write_all(one, folder / f"{stem}-{kind}.png", kind, page.size,
+                caption += _later(item)
+            narrow = None if result or kind != "time" else folder / f"{stem}-{kind}-narrow.png"
+            made, *more = to_file.write_all(item, folder / f"{stem}-{kind}.png", kind, page.size,
                                             units=units, narrow=narrow, titled=page.titled)
-            found.append(picture(made, "", narrow, caption=caption, kind=kind, title=title, place=page.place,
+            result.append(picture(made, "", narrow, caption=caption, kind=kind, title=title, place=page.place,
                                  more=[path.name for path in more],
-                                 command=f"stabilab plot {one.path} --kind {kind}"))
-    return found
+                                 command=f"stabilab plot {item.path} --kind {kind}"))
+    return result
 
 
-def _later(one) -> str:
+def _later(item) -> str:
     """What a picture that ends before a spin-up begins has to say."""
-    release = one.motion.evidence.get("release_time")
-    if release is None or one.case is None or release <= max(one.seen):
+    release = item.motion.evidence.get("release_time")
+    if release is None or item.case is None or release <= max(item.seen):
         return ""
-    units = units_of(one.case)
-    told = printed(units.moment(release) if units.scaled else units.time(release))
-    return f" The spin-up begins later: the turn reverses for the last time at {told}."
+    units = units_of(item.case)
+    text = printed(units.moment(release) if units.scaled else units.time(release))
+    return f" The spin-up begins later: the turn reverses for the last time at {text}."
 
 
 # --- A case
@@ -111,17 +111,17 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     deep: also the pictures that a page among many leaves out. certify: write a certificate and check it. What
     the analysis cannot answer stands under "absent" with its reason; nothing of it raises.
     """
-    units, absent, one = units_of(case), [], subject(case)
-    found = _tried(absent, "Equilibria", lambda: equilibria(case))
-    moved = None if case.state is None else _tried(absent, "Motion", lambda: one.motion)
+    units, absent, item = units_of(case), [], subject(case)
+    result = _tried(absent, "Equilibria", lambda: equilibria(case))
+    moved = None if case.state is None else _tried(absent, "Motion", lambda: item.motion)
     if moved is not None:
         moved = _tried(absent, "Tilt of the torque", lambda: with_tilt(case, moved)) or moved
-        one = replace(one, known=moved)
+        item = replace(item, known=moved)
     if case.state is None:
         absent.append(("Motion", "the case states none: no fate, margins and pictures of it"))
-    asked = ("equilibria", "fate") if case.state else ("equilibria",)
-    box = _tried(absent, "Uncertain numbers", lambda: uncertain(case, asked)) if case.uncertain else None
-    answer = f"No motion is given. Equilibria: {found.kind if found else 'not known'}"
+    request = ("equilibria", "fate") if case.state else ("equilibria",)
+    box = _tried(absent, "Uncertain numbers", lambda: uncertain(case, request)) if case.uncertain else None
+    answer = f"No motion is given. Equilibria: {result.kind if result else 'not known'}"
     answer = headline(case, moved, units) if moved else answer
     held = moved is None or moved.validity is None or moved.validity.held
     law = "" if held else printed(units.said(moved.validity.reason))
@@ -137,39 +137,39 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
             "look": "" if moved is None else "conditional" if open_fate(box) else look(moved),
             "tiles": [], "facts": [], "extremes": [], "over": "", "pictures": [], "sensitivity": None,
             "certificate": None,
-            "equilibria": found and equilibrium_table(found, units),
+            "equilibria": result and equilibrium_table(result, units),
             "equations": _tried(absent, "Equations", lambda: equations(case))}
     if moved is not None:
         page |= {"tiles": tiles(moved, units), "facts": facts(case, moved, units),
                  "extremes": extremes(case, moved, units), "over": _over(units.said(moved.over))}
         page["pictures"] = (_tried(absent, "Pictures",
-                                   lambda: pictures(one, folder, stem, deep,
-                                                    "deg" if units.scaled else units.name, found)) or [])
+                                   lambda: pictures(item, folder, stem, deep,
+                                                    "deg" if units.scaled else units.name, result)) or [])
         missing: dict[str, list[str]] = {}  # titles by their reason
         for kind, about in SHOWN.items():
-            missing.setdefault(subjects.why_not(kind, one), []).append(about.title)
+            missing.setdefault(subjects.why_not(kind, item), []).append(about.title)
         absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
-        page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(one, units))
-    page["space"] = _tried(absent, "Space of the rates", lambda: space(one, found, units))
+        page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(item, units))
+    page["space"] = _tried(absent, "Space of the rates", lambda: space(item, result, units))
     page["uncertain"] = uncertain_text(box, units)
     if certify:
         page["certificate"] = _tried(absent, "Certificate", lambda: _certificate(case, folder, stem))
     return page | {"absent": [(what, printed(units.words(why))) for what, why in absent]}
 
 
-def _over(words) -> str:
+def _over(text) -> str:
     """Over which times extremes are known, as the end of a heading."""
-    if words == "all time":
+    if text == "all time":
         return "for all times"
-    if not words.startswith(("finite", "the ")):
-        words = f"over {words}"
-    return printed(words.replace("finite entries over", "the finite ones over"))
+    if not text.startswith(("finite", "the ")):
+        text = f"over {text}"
+    return printed(text.replace("finite entries over", "the finite ones over"))
 
 
-def _tried(absent, what, made):
+def _tried(absent, what, built):
     """What a function makes; None where the analysis cannot answer, with the reason among the absent."""
     try:
-        return made()
+        return built()
     except StabilabError as error:
         absent.append((what, str(error)))
         return None
@@ -178,29 +178,29 @@ def _tried(absent, what, made):
 def facts(case, motion, units) -> list[tuple[str, str]]:
     """(what, its value) of everything known of the motion, in the order in which one asks."""
     validity, axes = motion.validity, frame.rows_of_axes(case)
-    found = [("law", units.said(validity.reason))] if validity is not None and validity.held else []
+    result = [("law", units.said(validity.reason))] if validity is not None and validity.held else []
     at = state(motion.at, units, case.scene.blocks)
-    found += [("start", f"{at} at {'τ' if units.scaled else 't'} = 0")]
-    found += [("because", units.said(motion.reason).removeprefix("undecided: "))]
-    found += [] if motion.ending is None else [("its end", units.said(motion.ending.reason))]
+    result += [("start", f"{at} at {'τ' if units.scaled else 't'} = 0")]
+    result += [("because", units.said(motion.reason).removeprefix("undecided: "))]
+    result += [] if motion.ending is None else [("its end", units.said(motion.ending.reason))]
     explained = EXPLAINED | ({"margin, rate": ""} if motion.velocity_reason else {})
-    found += [(name, told + explained.get(name, "")) for name, told in margins(motion, units)]
-    found += [("margin, rate", units.said(motion.velocity_reason))] if motion.velocity_reason else []
-    found += [("frame", frame.lines(case)[0].removeprefix("frame: "))] if axes else []
-    found += [(f"axis {name}", told) for name, told in axes]
-    return [(name, printed(told)) for name, told in (*found, *constants(motion, units))]
+    result += [(name, text + explained.get(name, "")) for name, text in margins(motion, units)]
+    result += [("margin, rate", units.said(motion.velocity_reason))] if motion.velocity_reason else []
+    result += [("frame", frame.lines(case)[0].removeprefix("frame: "))] if axes else []
+    result += [(f"axis {name}", text) for name, text in axes]
+    return [(name, printed(text)) for name, text in (*result, *constants(motion, units))]
 
 
 def extremes(case, motion, units) -> list[dict]:
     """A row a component: least and greatest rate, and the bounds for all times where these are others."""
     if motion.extremes is None:
         return []
-    name, one = units.rates
+    name, item = units.rates
 
     def told(value, side):
         if value in (math.inf, -math.inf):
             return "no end" if value > 0 else "no end downwards"
-        return printed(f"{shown(value, one, side=side)} {name}".rstrip())
+        return printed(f"{shown(value, item, side=side)} {name}".rstrip())
     side = motion.extremes_side
     bounds = motion.bounds if motion.bounds is not None and motion.bounds != motion.extremes else [None] * 3
     pairs = but_for_rounding(motion.extremes, motion.tolerance)
@@ -211,22 +211,22 @@ def extremes(case, motion, units) -> list[dict]:
 
 def equations(case) -> dict:
     """Equations of motion, parameters and laws, typeset."""
-    made, physical = derive(case.scene), case.variables == "physical"
+    built, physical = derive(case.scene), case.variables == "physical"
     unit = lambda name: f" {parameter_unit(name)}".rstrip() if physical else ""
-    return {"equations": formulas.equations_of_motion(made), "latex": latex(made),
+    return {"equations": formulas.equations_of_motion(built), "latex": latex(built),
             "parameters": [(formulas.symbol(name), printed(number(float(value), DIGITS) + unit(name)))
-                           for name, value in made.parameters.items()],
+                           for name, value in built.parameters.items()],
             "laws": [(printed(units_of(case).said(law.reason)), formulas.law(law))
                      for law in invariants(case.scene)]}
 
 
 def _certificate(case, folder: Path, stem: str) -> dict:
     """A certificate beside the page, checked by the code that shares nothing with the analysis."""
-    made = certificate(case.scene, case.exact_state)
-    path = certification.write(made, folder / f"{stem}-certificate.json")
-    found = verify_file(path)
-    return {"file": path.name, "summary": certification.summary(made).splitlines(), "status": found.status,
-            "findings": certification.as_dict(found, {})["findings"]}
+    built = certificate(case.scene, case.exact_state)
+    path = certification.write(built, folder / f"{stem}-certificate.json")
+    result = verify_file(path)
+    return {"file": path.name, "summary": certification.summary(built).splitlines(), "status": result.status,
+            "findings": certification.as_dict(result, {})["findings"]}
 
 
 # --- A sweep
@@ -238,21 +238,21 @@ POINTS = 801
 def sections_of_sweep(cases, folder: Path, stem: str) -> dict:
     """What the template says of the combinations of one file; the picture goes into the folder."""
     units, first = units_of(cases[0]), cases[0]
-    keys = [key_columns(cases, place) for place in range(len(first.swept))]
+    keys = [key_columns(cases, location) for location in range(len(first.swept))]
     answered = [(case, *_answer(case)) for case in cases]
-    moved = [(case, found) for case, found, _ in answered if found is not None]
+    moved = [(case, result) for case, result, _ in answered if result is not None]
     motions = [motion for _, motion in moved]
     heads, table = of_motions(motions, units) if motions else ([], [])
-    told = iter(table)
-    cells = [[why] if found is None else next(told) for _, found, why in answered]
+    text = iter(table)
+    cells = [[why] if result is None else next(text) for _, result, why in answered]
     rows = [{"name": case.name, "values": [column[n] for key in keys for _, _, column in key],
-             "told": list(map(printed, cells[n])), "fate": "" if found is None else found.fate.word}
-            for n, (case, found, _) in enumerate(answered)]
-    caveats = dict.fromkeys(one for case in cases for one in of_case(case))
+             "told": list(map(printed, cells[n])), "fate": "" if result is None else result.fate.word}
+            for n, (case, result, _) in enumerate(answered)]
+    caveats = dict.fromkeys(item for case in cases for item in of_case(case))
     without = len(cases) - len(motions)
-    answers, seen = [fates(motions, units)] if motions else [], set(map(look, motions))
+    answers, visited = [fates(motions, units)] if motions else [], set(map(look, motions))
     answers += [f"without a motion: {without}"] if without else []
-    laws = [(case, found and found.validity) for case, found, _ in answered]
+    laws = [(case, result and result.validity) for case, result, _ in answered]
     beyond = [(case, None if law is None or law.held else law) for case, law in laws]
     return {"name": stem, "title": first.title or stem,
             "caveats": [printed(line) for line in limiting.beside(caveats, units)],
@@ -262,7 +262,7 @@ def sections_of_sweep(cases, folder: Path, stem: str) -> dict:
             "equations": _equations(first),
             "picture": _picture(moved, keys, cases, units, folder / f"{stem}-sweep.png") if moved else None,
             "headline": f"{some(len(rows), 'combination')}: {'; '.join(answers)}",
-            "look": seen.pop() if len(seen) == 1 else "",
+            "look": visited.pop() if len(visited) == 1 else "",
             "law": "; ".join(lines_of(beyond, units)), "exceeded": exceeded(beyond, units)}
 
 
@@ -290,15 +290,15 @@ def _equations(case):
 
 def _picture(moved, keys, cases, units, path):
     """The rates' size over time of all combinations: colour, dashes, width by the first three keys."""
-    followed = [replace(subject(case), known=found) for case, found in moved]
-    until = max(max(one.seen) for one in followed)
-    (unit, one), (clock, per) = units.rates, units.times(until)
+    followed = [replace(subject(case), known=result) for case, result in moved]
+    until = max(max(entry.seen) for entry in followed)
+    (unit, item), (clock, per) = units.rates, units.times(until)
     letter = "ω" if unit else "x"
     with style.drawing() as plt:
         figure, ax = plt.subplots(figsize=(9.0, 4.8), layout="constrained")
         for each in followed:
             t, states = along(each, np.linspace(0.0, until, POINTS))
-            ax.plot(t * per, np.linalg.norm(states, axis=1) * one, **_look(_places(each.case)))
+            ax.plot(t * per, np.linalg.norm(states, axis=1) * item, **_look(_places(each.case)))
         ax.set(xlim=(0.0, until * per), xlabel=f"time ({clock})" if unit else "τ",
                ylabel=with_unit(f"|{letter}|", unit))
         style.legend(figure, list(_legend(keys, cases)), columns=3)
@@ -314,11 +314,11 @@ def _look(places):
 
 def _legend(keys, cases):
     """A row a value of each of the first three keys."""
-    for place, columns in enumerate(keys[:3]):
+    for location, columns in enumerate(keys[:3]):
         # value -> the first combination that has it
-        first = {_places(case)[place]: n for n, case in reversed(list(enumerate(cases)))}
+        first = {_places(case)[location]: n for n, case in reversed(list(enumerate(cases)))}
         for at, n in sorted(first.items()):
-            look = _look([at if m == place else 0 for m in range(3)])
-            words = ", ".join(f"{label.replace('_', ' ')} = {cells[n]} {unit}".rstrip() for label, unit,
+            look = _look([at if m == location else 0 for m in range(3)])
+            text = ", ".join(f"{label.replace('_', ' ')} = {cells[n]} {unit}".rstrip() for label, unit,
                               cells in columns)
-            yield words, look if place == 0 else look | {"color": style.GREY}
+            yield text, look if location == 0 else look | {"color": style.GREY}

@@ -49,47 +49,47 @@ def entries(cases: Sequence[Case]) -> list[tuple[str, list]]:
 def section(stem: str, cases: Sequence[Case], folder: Path, wanted: Wanted) -> dict:
     """Everything that a page says of one entry, its pictures and meshes written: a task of `workers`."""
     if cases[0].variant:
-        found = one_case.sections_of_sweep(cases, folder, stem)
-        return {"sweep": found, "surface": None, "beyond": headline.of_cases(cases),
-                "open": any(row["fate"] == "undecided" for row in found["rows"])}
+        result = one_case.sections_of_sweep(cases, folder, stem)
+        return {"sweep": result, "surface": None, "beyond": headline.of_cases(cases),
+                "open": any(row["fate"] == "undecided" for row in result["rows"])}
     (case,) = cases
-    made = one_case.sections(case, folder, stem, wanted.deep, wanted.certify)
-    return {"case": made, "surface": surface_of(case, stem, folder), "beyond": headline.of_cases([case]),
-            "open": made["fate"] == "undecided"}
+    built = one_case.sections(case, folder, stem, wanted.deep, wanted.certify)
+    return {"case": built, "surface": surface_of(case, stem, folder), "beyond": headline.of_cases([case]),
+            "open": built["fate"] == "undecided"}
 
 
 def surface_of(case, stem: str, folder: Path) -> dict | None:
     """The separatrix as meshes, which need no renderer: names of the files, counts and what the branches
     part; None where the case has no separatrix, whose reason its own section gives."""
     try:
-        found = separatrix(case.scene, shape=SHAPE)
+        result = separatrix(case.scene, shape=SHAPE)
     except StabilabError:
         return None
-    if not found.branches:
+    if not result.branches:
         return None
-    meshes = [surface.triangulate(branch) for branch in found.branches]
-    summary = surface.summarise(case, found, meshes)
+    meshes = [surface.triangulate(branch) for branch in result.branches]
+    summary = surface.summarise(case, result, meshes)
     files = surface.write_meshes(meshes, folder, stem)
-    return {"title": case.heading, "reason": found.because, "triangles": summary["triangles"],
+    return {"title": case.heading, "reason": result.because, "triangles": summary["triangles"],
             "residual": summary["largest_residual"], "files": [file.name for file in files]}
 
 
 def tasks(cases: Sequence[Case], folder: Path, wanted: Wanted) -> list[Task]:
     """A task an entry."""
-    place = folder / FOLDER
-    place.mkdir()
-    return [Task(f"case {stem}", "show.report.own:section", (stem, group, place, wanted),
+    location = folder / FOLDER
+    location.mkdir()
+    return [Task(f"case {stem}", "show.report.own:section", (stem, group, location, wanted),
                  3.0 + 0.3 * len(group)) for stem, group in entries(cases)]
 
 
-def write(made, place: Path, prefix: str, **around) -> Path:
+def write(built, location: Path, prefix: str, **around) -> Path:
     """The page of one entry. prefix: how the page reaches its pictures; around: what every page says of the
     folder it is in."""
-    if "sweep" in made:
-        return html.write(place, "sweep.html", sweep=made["sweep"], pictures=prefix, **around)
-    meshes = (made["surface"]
-              and made["surface"] | {"files": [prefix + name for name in made["surface"]["files"]]})
-    return html.write(place, "case.html", case=made["case"], surface=meshes, pictures=prefix, **around)
+    if "sweep" in built:
+        return html.write(location, "sweep.html", sweep=built["sweep"], pictures=prefix, **around)
+    meshes = (built["surface"]
+              and built["surface"] | {"files": [prefix + name for name in built["surface"]["files"]]})
+    return html.write(location, "case.html", case=built["case"], surface=meshes, pictures=prefix, **around)
 
 
 def of_one(made, around) -> dict:
@@ -97,29 +97,29 @@ def of_one(made, around) -> dict:
     return around | {"extra": (), "command": f"stabilab report {(made.get('sweep') or made['case'])['path']}"}
 
 
-def listed(stem, made) -> dict:
+def listed(stem, built) -> dict:
     """The row of an entry in a list of pages."""
-    found = made.get("sweep") or made["case"]
-    return {"file": f"{stem}.html", "name": stem, "title": found["title"], "headline": found["headline"],
-            "look": found["look"],
+    result = built.get("sweep") or built["case"]
+    return {"file": f"{stem}.html", "name": stem, "title": result["title"], "headline": result["headline"],
+            "look": result["look"],
             # by how much; why that matters stands on the page
-            "beyond": " ".join(filter(None, [found["exceeded"], *found["caveats"]]))}
+            "beyond": " ".join(filter(None, [result["exceeded"], *result["caveats"]]))}
 
 
 def pages(cases, folder: Path, tell, wanted: Wanted, workers=None, **around) -> list[tuple[str, bool]]:
     """All pages of a report on these cases alone; index.html is the page of the one case, or the list of
     several. Of each entry a line for each law left, and whether a fate is undecided."""
     rows = entries(cases)
-    found = done(tasks(cases, folder, wanted), folder, tell, workers)
+    result = done(tasks(cases, folder, wanted), folder, tell, workers)
     if len(rows) == 1:
-        write(found[0], folder / "index.html", f"{FOLDER}/", **around)
-        return [(found[0]["beyond"], found[0]["open"])]
+        write(result[0], folder / "index.html", f"{FOLDER}/", **around)
+        return [(result[0]["beyond"], result[0]["open"])]
     nav = [{"file": "index.html", "title": "All cases"}]
-    for (stem, _), made in zip(rows, found):
-        write(made, folder / FOLDER / f"{stem}.html", "", nav=nav, up="../", below="index.html",
-              **of_one(made, around))
+    for (stem, _), built in zip(rows, result):
+        write(built, folder / FOLDER / f"{stem}.html", "", nav=nav, up="../", below="index.html",
+              **of_one(built, around))
     listing = [row | {"file": f"{FOLDER}/{row['file']}"} for (stem, _),
-               made in zip(rows, found) for row in [listed(stem, made)]]
+               product in zip(rows, result) for row in [listed(stem, product)]]
     html.write(folder / "index.html", "list.html", title=f"{len(rows)} cases",
                groups=[{"title": "", "rows": listing}], **around)
-    return [(made["beyond"], made["open"]) for made in found]
+    return [(product["beyond"], product["open"]) for product in result]

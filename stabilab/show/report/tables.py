@@ -32,11 +32,11 @@ from .html import css
 # --- The answer at a glance
 def tiles(motion: Motion, units: Units) -> list[tuple[str, str, str]]:
     """(what, its value, what belongs to it) of four: when a limit is reached first."""
-    found = [("outcome", _outcome(motion, units)), ("when", _when(motion, units)),
+    rows = [("outcome", _outcome(motion, units)), ("when", _when(motion, units)),
              ("largest rate", _largest(motion, units)), ("to another outcome", _distance(motion, units))]
-    if any(one.kind is Kind.LIMIT for one in motion.caveats):
-        found[:2] = reversed(found[:2])
-    return [(name, printed(value), printed(note)) for name, (value, note) in found]
+    if any(caveat.kind is Kind.LIMIT for caveat in motion.caveats):
+        rows[:2] = reversed(rows[:2])
+    return [(name, printed(value), printed(note)) for name, (value, note) in rows]
 
 
 def _outcome(motion: Motion, units: Units):
@@ -57,20 +57,20 @@ def _when(motion, units):
                                       f"{'never' if math.isinf(motion.first[1].low) else 'not known to be'} "
                                       f"reached ({motion.first[1].level})")
         return value, f"{note}{unreached or ''}"
-    limit, found = motion.first or ("", None)
+    limit, result = motion.first or ("", None)
     limit = f"the limit, {units.filled(limit)},"
-    if found is not None and math.isfinite(found.high):
-        middle = 0.5 * float(found.low + found.high)
-        return units.time(middle, SHORT), f"until {limit} is reached ({found.level})"
+    if result is not None and math.isfinite(result.high):
+        middle = 0.5 * float(result.low + result.high)
+        return units.time(middle, SHORT), f"until {limit} is reached ({result.level})"
     tilt: Any = motion.tilt
     if tilt is not None and not tilt.ranges and tilt.ends:
         return (units.time(tilt.low, SHORT),
                 f"until {units.rate(tilt.limit, SHORT)}, where the torque is tilted by "
                 f"{units.angle(tilt.angle, SHORT)} ({tilt.level}); else never")
-    if found is not None:
-        never = math.isinf(found.low)
+    if result is not None:
+        never = math.isinf(result.low)
         return ("never" if never else "not known", f"{limit} is not reached" + (
-            f" ({found.level})" if never else f" before {units.time(float(found.low), SHORT, -1)}"))
+            f" ({result.level})" if never else f" before {units.time(float(result.low), SHORT, -1)}"))
     if motion.fate.word == "spin-up":
         certain = motion.evidence.get("t_certificate")
         if certain is not None:
@@ -80,20 +80,20 @@ def _when(motion, units):
 
 
 def _largest(motion: Motion, units: Units):
-    found = largest(motion, units)
+    result = largest(motion, units)
     if motion.fate.word == "spin-up":
-        return "without end", found
+        return "without end", result
     if motion.fate.word == "equilibrium":
-        return units.rate(math.hypot(*motion.at[:3]), SHORT), found
-    value, _, note = found.removeprefix("largest rate ").partition(" (")
+        return units.rate(math.hypot(*motion.at[:3]), SHORT), result
+    value, _, note = result.removeprefix("largest rate ").partition(" (")
     return value or "not known", note.replace(")", "")
 
 
 def _distance(motion: Motion, units: Units):
     rate, height = rate_and_height(motion, units)
     if rate:
-        told = f"; in energy {height}" if height else ""
-        return rate, f"the smallest change of the rates to the separatrix{told}"
+        text = f"; in energy {height}" if height else ""
+        return rate, f"the smallest change of the rates to the separatrix{text}"
     if height:
         return height, "of energy, to the barrier"
     if motion.fate.word == "separatrix":
@@ -112,10 +112,10 @@ ROUNDING = 1e-12  # of a unit vector from the difference of two states in double
 ASK_TILT = "`stabilab fate CASE --tilt \"1 deg\"` says what a tilt does."
 
 
-def equilibrium_table(found, units) -> dict:
+def equilibrium_table(result, units) -> dict:
     """kind, reason, rows and the curves' equations; places and parameters that are rates in their unit."""
-    rows = [_row(units.vector(p.at[:3], units.rates), p, units) for p in found.points]
-    for curve in found.curves:
+    rows = [_row(units.vector(p.at[:3], units.rates), p, units) for p in result.points]
+    for curve in result.curves:
         for part in curve.segments:
             where = f"{_name(curve.description, units)}, {_piece(curve.description, part.t, units)}"
             rows.append(_row(where, part, units))
@@ -123,9 +123,9 @@ def equilibrium_table(found, units) -> dict:
             row = _fold(curve, fold, units)
             rows += [] if row in rows else [row]  # a point where curves meet is one of each
     groups: dict = {}
-    for curve in found.curves:
+    for curve in result.curves:
         groups.setdefault(curve.equation, []).append(curve.description)
-    return {"kind": found.kind, "reason": printed(units.said(found.reason)), "rows": rows,
+    return {"kind": result.kind, "reason": printed(units.said(result.reason)), "rows": rows,
             "curves": [_equation(group, units) for group in groups.values()]}
 
 
@@ -137,61 +137,61 @@ def _row(where, part, units):
 def _fold(curve, at, units):
     """A point between two pieces of a curve, with its verdict where it has one."""
     where = units.vector(at[:3], units.rates)
-    found = next((sample for sample in curve.samples
+    result = next((sample for sample in curve.samples
                   if tuple(sample.at[:3]) == tuple(at[:3]) and sample.linear == "degenerate"), None)
-    if found is None:
+    if result is None:
         blank = dict.fromkeys(("verdict", "because", "css"), "")
         return {"where": printed(f"fold at {where}"), "linear": "degenerate"} | blank
-    return _row(f"{'fold' if found.reason.says(*FOLDS) else 'meeting point'} at {where}", found, units)
+    return _row(f"{'fold' if result.reason.says(*FOLDS) else 'meeting point'} at {where}", result, units)
 
 
-def _name(told, units):
+def _name(text, units):
     """The name of a curve without the range of its parameter, which its pieces tell."""
-    return called(told.name.without(FOR_ANGLES), units)
+    return called(text.name.without(FOR_ANGLES), units)
 
 
 def _equation(group, units):
     """(names, the equation that curves share with its unit, their parametrisations without ranges)."""
-    names = list(dict.fromkeys(_name(told, units) for told in group))
-    words = [units.said(told.parametrisation.without(OVER_RATE)) for told in group]
+    names = list(dict.fromkeys(_name(text, units) for text in group))
+    phrases = [units.said(text.parametrisation.without(OVER_RATE)) for text in group]
     measured = not units.scaled and holds_rates(group[0].equation)
     return (printed(" and ".join(names) if len(names) < 3 else f"{names[0]} to {names[-1]}"),
             printed(units.said(group[0].equation)) + (f" (ω in {units.rates[0]})" if measured else ""),
-            list(dict.fromkeys(map(printed, words))))
+            list(dict.fromkeys(map(printed, phrases))))
 
 
-def _piece(told, pair, units):
+def _piece(text, pair, units):
     """Between which values of its parameter a piece of a curve lies, with the parameter's name and unit."""
-    return _between(told.symbol, pair, *(units.of(told.unit) if told.unit else ("", 1.0)))
+    return _between(text.symbol, pair, *(units.of(text.unit) if text.unit else ("", 1.0)))
 
 
-def _between(name, pair, unit, one):
+def _between(name, pair, unit, item):
     """Both ends of a piece with as many digits as distinguish them; an end that is none is left out."""
     low, high = next(ends for digits in (DIGITS, 8, 10, 17)
-                     if (ends := [number(t * one, digits) for t in pair])[0] != ends[1] or digits == 17)
+                     if (ends := [number(t * item, digits) for t in pair])[0] != ends[1] or digits == 17)
     if math.isinf(pair[0]):
         return f"every {name}" if math.isinf(pair[1]) else f"{name} below {high} {unit}".rstrip()
     span = f"above {low}" if math.isinf(pair[1]) else f"from {low} to {high}"
     return f"{name} {span} {unit}".rstrip()
 
 
-def sensitivity(one, units) -> dict:
+def sensitivity(item, units) -> dict:
     """Of a subject (`plot.subject`) with a case and a motion: rows (what changes, by how much, in which
     direction, what is to be said) and sentences on wheels, thrusters and a tilt of the torque. A tilt is that
     of the motion; where it has none, the command that asks for one is named. An empty table comes with the
     reason.
     """
-    case, motion = one.case, one.motion
+    case, motion = item.case, item.motion
     try:
-        row = one.stuck
+        row = item.stuck
     except InputError as error:
         return {"rows": _of_motion(case.scene, motion, units), "words": [],
                 "reason": printed(f"No margin of wheel or torque: {units.words(str(error))}.")}
-    words = []
+    phrases = []
     if row.time_to_limit:
         limit, when = asked(stated_limit(case), units), units.clock(*row.time_to_limit)
-        words.append(f"The limit of the case, {limit}, is reached after {when} ({row.time_level}).")
-    words += [f"{line[0].upper()}{line[1:]}." for line in means(row, units)]
+        phrases.append(f"The limit of the case, {limit}, is reached after {when} ({row.time_level}).")
+    phrases += [f"{line[0].upper()}{line[1:]}." for line in means(row, units)]
     why: dict[str, list] = {}
     for name, margin in row.margins.items():
         if margin.size is None:
@@ -200,8 +200,8 @@ def sensitivity(one, units) -> dict:
                for reason, names in why.items() if reason]
     rows = [_change(name, amount(name, margin.size, units), margin.direction, holds_for(margin, units))
             for name, margin in row.margins.items() if margin.size is not None]
-    words += _tilt(case, motion if motion.tilt else row, units)
-    return {"rows": rows, "words": list(map(printed, words)), "reason": printed(" ".join(reasons))}
+    phrases += _tilt(case, motion if motion.tilt else row, units)
+    return {"rows": rows, "words": list(map(printed, phrases)), "reason": printed(" ".join(reasons))}
 
 
 def _change(name, size, along, because):
@@ -228,11 +228,11 @@ def _of_motion(scene, motion, units):
 
 def _tilt(case, answer, units):
     """What a tilt of the torque does; answer: what was asked with it."""
-    told = [f"{limiting.words(one, units)}." for one in answer.caveats if one.kind is Kind.TILT]
-    told = [("This " if one.startswith("holds") else "") + one for one in told]
+    text = [f"{limiting.words(caveat, units)}." for caveat in answer.caveats if caveat.kind is Kind.TILT]
+    text = [("This " if item.startswith("holds") else "") + item for item in text]
     if answer.tilt is None:
-        return [f"{one} {ASK_TILT}" for one in told]
+        return [f"{item} {ASK_TILT}" for item in text]
     if answer.tilt.ranges:
-        return told
+        return text
     lines = [" ".join(line.split()) for line in tilt_lines(case, answer, units)]
-    return [*told, "; ".join(lines) + "."]
+    return [*text, "; ".join(lines) + "."]

@@ -39,22 +39,22 @@ def done(tasks, folder: Path, tell, workers: int | None = None) -> list:
     number = min(cores() if workers is None else workers, MAX_WORKERS, len(tasks))
     if number < 2:
         return [_told(task, tell) for task in tasks]
-    place = folder / PLACE
-    place.mkdir()
-    (place / "tasks").write_bytes(pickle.dumps(tasks))
+    index = folder / PLACE
+    index.mkdir()
+    (index / "tasks").write_bytes(pickle.dumps(tasks))
     # they do tasks until none is left
-    with helpers(__name__, place, number - 1, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as others:
-        found = {n: _told(tasks[n], tell) for n in _taken(tasks, place)}
+    with helpers(__name__, index, number - 1, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as others:
+        entries = {n: _told(tasks[n], tell) for n in _taken(tasks, index)}
         for helper in others:
             tell("what is under way")
             helper.wait()
             helper.stdin.close()
     for n, task in enumerate(tasks):
-        if n not in found:  # a helper did it, or failed
-            made = place / f"made-{n}"
-            found[n] = pickle.loads(made.read_bytes()) if made.exists() else _told(task, tell)
-    shutil.rmtree(place)
-    return [found[n] for n in range(len(tasks))]
+        if n not in entries:  # a helper did it, or failed
+            built = index / f"made-{n}"
+            entries[n] = pickle.loads(built.read_bytes()) if built.exists() else _told(task, tell)
+    shutil.rmtree(index)
+    return [entries[n] for n in range(len(tasks))]
 
 
 def _told(task, tell):
@@ -68,28 +68,28 @@ def run(task):
     return getattr(import_module(f"stabilab.{module}"), function)(*task.arguments)
 
 
-def _taken(tasks, place):
+def _taken(tasks, location):
     """The numbers of tasks that nobody has taken when their turn comes, the dearest first."""
     for n in sorted(range(len(tasks)), key=lambda n: -tasks[n].weight):
         try:
-            (place / f"taken-{n}").touch(exist_ok=False)
+            (location / f"taken-{n}").touch(exist_ok=False)
         except FileExistsError:
             continue
         yield n
 
 
-def main(place: Path) -> None:
+def main(location: Path) -> None:
     """What a helper does: the same list in the same order, whatever is not taken yet."""
     end_with_parent()
-    tasks = pickle.loads((place / "tasks").read_bytes())
-    for n in _taken(tasks, place):
+    tasks = pickle.loads((location / "tasks").read_bytes())
+    for n in _taken(tasks, location):
         try:
-            made = pickle.dumps(run(tasks[n]))
+            built = pickle.dumps(run(tasks[n]))
         except StabilabError:
             continue  # done again where it can be told
-        waiting = place / f"making-{n}"
-        waiting.write_bytes(made)
-        waiting.rename(place / f"made-{n}")
+        waiting = location / f"making-{n}"
+        waiting.write_bytes(built)
+        waiting.rename(location / f"made-{n}")
 
 
 if __name__ == "__main__":

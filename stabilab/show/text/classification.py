@@ -66,10 +66,10 @@ def resting(equilibria: Equilibria, units: Units) -> str:
              if equilibria.points else [])
     told = [(curve.description.name, _along(curve)) for curve in equilibria.curves]
     if len(told) > FEW:
-        counts = Counter(words for _, words in told)
+        counts = Counter(phrase for _, phrase in told)
         return "; ".join([*parts,
-                          f"{len(told)} curves ({', '.join(f'{n} {words}' for words, n in counts.items())})"])
-    return "; ".join([*parts, *(f"{called(name, units)} ({words})" for name, words in told)])
+                          f"{len(told)} curves ({', '.join(f'{n} {label}' for label, n in counts.items())})"])
+    return "; ".join([*parts, *(f"{called(name, units)} ({phrase})" for name, phrase in told)])
 
 
 def _along(curve: EquilibriumCurve) -> str:
@@ -130,8 +130,8 @@ def _point(case: Case, point: EquilibriumPoint, units: Units, proofs: bool):
     lines = [row(point.verdict, state(point.at, units))]
     if case.scene.plain:
         rows = case.scene.quadratic().jacobian(tuple(map(float, point.at)))
-        found = "), (".join(", ".join(number(v + 0.0, 6) for v in one) for one in rows)
-        lines.append(f"    Jacobian ({found}){per_second(units)}")
+        result = "), (".join(", ".join(number(v + 0.0, 6) for v in item) for item in rows)
+        lines.append(f"    Jacobian ({result}){per_second(units)}")
     lines.append(f"    {spectrum(point, units)}")
     if proofs:
         lines += [f"    linear: {point.linear}", f"    {units.said(point.reason)}"]
@@ -140,12 +140,12 @@ def _point(case: Case, point: EquilibriumPoint, units: Units, proofs: bool):
 
 def spectrum(point: EquilibriumPoint, units: Units) -> str:
     """The characteristic polynomial of three rates where its coefficients are doubles; the eigenvalues."""
-    told = f"eigenvalues {', '.join(_pairs(map(complex, point.eigenvalues)))}{per_second(units)}"
+    printed = f"eigenvalues {', '.join(_pairs(map(complex, point.eigenvalues)))}{per_second(units)}"
     if len(point.eigenvalues) != 3 or not all(map(math.isfinite, point.characteristic)):
-        return told
+        return printed
     terms = [f" {'-' if value < 0 else '+'} {number(abs(value), 6)}{power}"
              for value, power in zip(point.characteristic[1:], (" z²", " z", "")) if value]
-    return f"z³{''.join(terms)}, {told}"
+    return f"z³{''.join(terms)}, {printed}"
 
 
 def per_second(units: Units) -> str:
@@ -156,27 +156,27 @@ def per_second(units: Units) -> str:
 def _samples(curve: EquilibriumCurve, units: Units):
     """States on every piece with verdict and eigenvalues: of all that are as good, the slowest."""
     rows = []
-    for known, samples in groupby(curve.samples, lambda sample: sample.verdict):
+    for resolved, samples in groupby(curve.samples, lambda sample: sample.verdict):
         piece = list(samples)
-        near = sorted(piece, key=lambda sample: max(map(abs, sample.at[:3])))[:FEW]
-        rows += [(known, state(sample.at, units), spectrum(sample, units)) for sample in piece
-                 if sample in near]
-    wide = max((len(place) for _, place, _ in rows), default=0)
-    return [f"    {known:<22}{place:<{wide}}  {roots}" for known, place, roots in rows]
+        nearby = sorted(piece, key=lambda sample: max(map(abs, sample.at[:3])))[:FEW]
+        rows += [(resolved, state(sample.at, units), spectrum(sample, units)) for sample in piece
+                 if sample in nearby]
+    wide = max((len(location) for _, location, _ in rows), default=0)
+    return [f"    {settled:<22}{location:<{wide}}  {roots}" for settled, location, roots in rows]
 
 
 def _curve(curve, units, proofs):
     """Its equation and states along it, with proofs also all pieces with their reasons; numbers that are
     rates are in the unit of rates, angles in rad."""
-    told = curve.description
-    words = f"{called(told.name, units)}: {units.said(told.equation)}"
+    printed = curve.description
+    phrase = f"{called(printed.name, units)}: {units.said(printed.equation)}"
     if not proofs:
-        return [f"  {words}, along it:", *_samples(curve, units)]
-    lines = [f"  {words}" + ("" if units.scaled else f"  (ω in {rates_of(told, units)[0]})"),
-             f"    {units.said(told.parametrisation)}"]
-    one = units.rates[1] if told.unit == RATE else 1.0
+        return [f"  {phrase}, along it:", *_samples(curve, units)]
+    lines = [f"  {phrase}" + ("" if units.scaled else f"  (ω in {rates_of(printed, units)[0]})"),
+             f"    {units.said(printed.parametrisation)}"]
+    item = units.rates[1] if printed.unit == RATE else 1.0
     for piece in curve.segments:
-        low, high = (number(t * one, 6).replace("unbounded", "∞") for t in piece.t)
+        low, high = (number(t * item, 6).replace("unbounded", "∞") for t in piece.t)
         lines += [f"    t from {low} to {high}: {piece.verdict} (linear: {piece.linear})",
                   f"      {units.said(piece.reason)}"]
     return [*lines, *(f"    fold at {state(fold, units)}" for fold in curve.folds), *_samples(curve, units)]
@@ -218,17 +218,17 @@ def as_dict(case: Case, equilibria: Equilibria, motion: Motion | None) -> dict:
 
 def _input(case: Case, at: Sequence[float]) -> dict:
     """The same vector in the frame of the file, where that is another one."""
-    found = frame.back(case, at[:3])
-    return {} if found is None else {"at_input": found}
+    result = frame.back(case, at[:3])
+    return {} if result is None else {"at_input": result}
 
 
 def _curve_dict(case, curve) -> dict:
     """With its words as sentences under `description`, and its parameter with the unit in SI."""
-    told = curve.description
+    printed = curve.description
     return values_of(curve, "name equation parametrisation") | {
-        "description": {name: getattr(told, name).as_dict()
+        "description": {name: getattr(printed, name).as_dict()
                         for name in ("name", "equation", "parametrisation")},
-        "parameter": {"symbol": plain(told.symbol), "unit": told.unit * (case.variables != "scaled")},
+        "parameter": {"symbol": plain(printed.symbol), "unit": printed.unit * (case.variables != "scaled")},
         "samples": [_point_dict(case, p) for p in curve.samples], "folds": curve.folds,
         "segments": [values_of(s, "t linear verdict because") | {"reason": s.reason.as_dict()}
                      for s in curve.segments]}
@@ -269,9 +269,9 @@ def called(name: Reason, units: Units) -> str:
     return f"{units.said(name)} {units.rates[0] if holds_rates(name) else ''}".rstrip()
 
 
-def rates_of(told: Description, units: Units) -> Unit:
+def rates_of(printed: Description, units: Units) -> Unit:
     """The unit of the rates in the formulas of a curve; rad/s where they have no number that is one."""
-    return units.rates if told.measured else SI.rates
+    return units.rates if printed.measured else SI.rates
 
 
 SUBJECTS = {"equilibria": ("hold", "depend"), "fate": ("holds", "depends")}
@@ -280,15 +280,15 @@ LONG = 8  # letters of a number in a line
 UNITS = {"inertia": "kg m²", "products": "kg m²", "momentum": "N m s", "torque": "N m", "force": "N"}
 
 
-def uncertain_dict(found) -> dict:
+def uncertain_dict(result) -> dict:
     """{"uncertain": ...} to be joined to a command's object; nothing where no number is uncertain. Numbers of
     witnesses are texts, to be written into a case file as they stand."""
-    if found is None:
+    if result is None:
         return {}
     numbers = [{"key": key(u), "middle": bare_number(u.middle), "half_width": bare_number(u.half)}
-               for u in found.numbers]
-    return {"uncertain": {"numbers": numbers, "equilibria": _over(found.equilibria),
-                          "fate": _over(found.fate)}}
+               for u in result.numbers]
+    return {"uncertain": {"numbers": numbers, "equilibria": _over(result.equilibria),
+                          "fate": _over(result.fate)}}
 
 
 def _over(over) -> dict | None:
@@ -327,23 +327,23 @@ def rounded(value: Fraction) -> str:
     return exact if len(exact) <= LONG else number(float(value), DIGITS)
 
 
-def in_si(found, units: Units) -> str:
+def in_si(result, units: Units) -> str:
     """Lines that follow what a command says of a case, with rates and angles as a file can state them."""
-    return uncertain_text(found, replace(SI, axes=units.axes))
+    return uncertain_text(result, replace(SI, axes=units.axes))
 
 
-def uncertain_text(found, units: Units) -> str:
+def uncertain_text(result, units: Units) -> str:
     """The same in the units of the case; nothing where no number is uncertain."""
-    if found is None:
+    if result is None:
         return ""
     numbers = []
-    for u in found.numbers:  # the middle and half the width, with the unit
-        unit, one = _of_file(units, unit_of_key(u.path))
-        in_unit = rounded if one == 1.0 else lambda v, one=one: number(float(v) * one, DIGITS)
+    for u in result.numbers:  # the middle and half the width, with the unit
+        unit, item = _of_file(units, unit_of_key(u.path))
+        in_unit = rounded if item == 1.0 else lambda v, entry=item: number(float(v) * entry, DIGITS)
         numbers.append(f"{key(u)} = {in_unit(u.middle)} ± {in_unit(u.half)} {unit}".rstrip())
     lines = [f"uncertain: {', '.join(numbers)}"]
     for name in SUBJECTS:
-        over = getattr(found, name)
+        over = getattr(result, name)
         lines += [] if over is None else _lines(name, over, units)
     return "\n" + "\n".join(lines)
 
@@ -358,44 +358,44 @@ IN_SHORT = {"holds": "", "depends": ", BUT not over all uncertainties", "sampled
             "undecided": ", uncertainties undecided"}
 
 
-def first(found, told: str, units: Units) -> str:
+def first(result, printed: str, units: Units) -> str:
     """The text with what the box does to its answer at the end of the first line; where that is broken, in
     short behind the outcome, too."""
-    words = what_changes(found, units)
-    if not words:
-        return told
-    answer, *rest = told.split("\n")
-    if len(answer) + len(words) + 2 > LINE:
+    phrase = what_changes(result, units)
+    if not phrase:
+        return printed
+    answer, *rest = printed.split("\n")
+    if len(answer) + len(phrase) + 2 > LINE:
         outcome, *others = clauses_of(answer)
-        answer = "; ".join([outcome + IN_SHORT[(found.fate or found.equilibria).answer], *others])
-    return "\n".join([f"{answer}; {words}", *rest])
+        answer = "; ".join([outcome + IN_SHORT[(result.fate or result.equilibria).answer], *others])
+    return "\n".join([f"{answer}; {phrase}", *rest])
 
 
-def what_changes(found, units: Units) -> str:
+def what_changes(result, units: Units) -> str:
     """Whether the answer holds for all uncertain numbers, as a clause; nothing where all are certain."""
-    over = found and (found.fate or found.equilibria)
+    over = result and (result.fate or result.equilibria)
     if not over:
         return ""
-    fate = over is found.fate
+    fate = over is result.fate
     subject = "the fate is" if fate else "they are"
-    near = fate and over.neighbours
+    nearby = fate and over.neighbours
     elsewhere = units.said(over.elsewhere if fate else ALSO_ANOTHER)
-    words = {"holds": f"{subject} the same for all that the uncertain numbers may be"
+    phrase = {"holds": f"{subject} the same for all that the uncertain numbers may be"
              + (", but for a set of measure zero" if over.exception else ""),
              "depends": f"BUT within the uncertainties {elsewhere}",
              "sampled": f"{subject} the same at {over.samples and over.samples.points} within the "
                         f"uncertainties, without a proof",
              "undecided": f"{subject} undecided within the uncertainties"}[over.answer]
-    if near and (stability := units.said(near.reason)) not in words:
-        words += f"; the equilibrium is {stability}{beside(near, units)}"
-    return words
+    if nearby and (stability := units.said(nearby.reason)) not in phrase:
+        phrase += f"; the equilibrium is {stability}{beside(nearby, units)}"
+    return phrase
 
 
-def beside(near, units: Units) -> str:
+def beside(nearby, units: Units) -> str:
     """How far the neighbours of an equilibrium go, as a clause; nothing where none departs from it."""
-    departure = units.filled(near.departure, DIGITS - 1)
-    return (f", and at {near.number} sampled points beside it the motion departs from its start by up to "
-            f"{departure}" if near.rate else "")
+    departure = units.filled(nearby.departure, DIGITS - 1)
+    return (f", and at {nearby.number} sampled points beside it the motion departs from its start by up to "
+            f"{departure}" if nearby.rate else "")
 
 
 def _lines(subject, over, units) -> list[str]:
@@ -412,8 +412,8 @@ def _lines(subject, over, units) -> list[str]:
     if over.exception:
         lines.append(f"    but for a set of measure zero: {units.said(over.exception)}")
     if over.proved and math.isfinite(over.proved):
-        least = number(as_bound(over.proved, 1.0, DIGITS, -1), DIGITS)
-        lines.append(f"    proved to stay for every change below {least} times the uncertainties")
+        smallest = number(as_bound(over.proved, 1.0, DIGITS, -1), DIGITS)
+        lines.append(f"    proved to stay for every change below {smallest} times the uncertainties")
     if over.changes_at == 0:
         lines.append("    flips however small the uncertainties are")
     elif over.changes_at is not None:
@@ -422,21 +422,21 @@ def _lines(subject, over, units) -> list[str]:
     elif over.answer == "holds" and over.proved < math.inf:
         lines.append("    no change was found up to 100 times the uncertainties")
     for w in over.witnesses:  # to six digits: JSON has them all
-        known, numbers = UNITS | ({"state": "rad/s"} if "torque" in w.values else {}), []
+        resolved, numbers = UNITS | ({"state": "rad/s"} if "torque" in w.values else {}), []
         for name, values in w.values.items():
-            unit, one = _of_file(units, known.get(name, ""))
-            row = ", ".join(number(float(v) * one, DIGITS) for v in values)
+            unit, item = _of_file(units, resolved.get(name, ""))
+            row = ", ".join(number(float(v) * item, DIGITS) for v in values)
             numbers.append(f"{name} = {row} {unit}".rstrip())
         lines.append(f"    {units.said(reason_of(w.verdict))} at {'; '.join(numbers)}")
     return lines
 
 
-def open_fate(found) -> bool:
+def open_fate(result) -> bool:
     """Whether the fate is not the same all over the box."""
-    return found is not None and found.fate is not None and found.fate.answer != "holds"
+    return result is not None and result.fate is not None and result.fate.answer != "holds"
 
 
-def open_in_box(found) -> bool:
+def open_in_box(result) -> bool:
     """Whether a verdict is not proved to be the same all over the box."""
-    return (found is not None and any(over is not None and over.answer != "holds"
-                                      for over in (found.equilibria, found.fate)))
+    return (result is not None and any(over is not None and over.answer != "holds"
+                                      for over in (result.equilibria, result.fate)))

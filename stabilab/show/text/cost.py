@@ -44,75 +44,75 @@ FATES = {"energy": "{0}, by the energy in doubles with its error bound in {1}",
          "balls": "in many digits the energy is {0}: {1}"}
 
 
-def words(found) -> list[str]:
+def words(result) -> list[str]:
     """The measurement in plain words, one sentence or two a string."""
-    fates = [FATES[f.method].format(f.word, duration(f.seconds)) for f in found.fates]
-    return [_reference_words(found), *(s for q in found.questions for s in _question_words(found, q)),
-            *([f"Fate: {'; '.join(fates)}."] if fates else []), *_model_words(found)]
+    fates = [FATES[f.method].format(f.word, duration(f.seconds)) for f in result.fates]
+    return [_reference_words(result), *(s for q in result.questions for s in _question_words(result, q)),
+            *([f"Fate: {'; '.join(fates)}."] if fates else []), *_model_words(result)]
 
 
-def _reference_words(found) -> str:
-    r = found.reference
+def _reference_words(result) -> str:
+    r = result.reference
     if not len(r.t):
         return f"Nothing was measured: {r.because}."
     reach = "" if r.status == "agrees" else f" Only so far: {r.because}; the rest of the span is not judged."
-    return (f"Judged at {some(len(r.t), 'time')} up to {_moment(found)} by a Taylor series run in "
+    return (f"Judged at {some(len(r.t), 'time')} up to {_moment(result)} by a Taylor series run in "
             f"{r.digits[0]} and in {r.digits[1]} "
             f"digits; the two differ by {outward(r.error.max(), 1, 1):.0e} of the state, which is the "
             f"reference's error.{reach}")
 
 
-def _question_words(found, question):
-    points = [p for p in found.of(question) if p.lanes == 1 and not p.parts]
-    prices = [(digits, enough[0]) for digits in DOUBLES if (enough := found.cheapest(digits, question))]
-    head = title(found, question)
+def _question_words(result, question):
+    points = [p for p in result.of(question) if p.lanes == 1 and not p.parts]
+    prices = [(digits, enough[0]) for digits in DOUBLES if (enough := result.cheapest(digits, question))]
+    head = title(result, question)
     if not prices:
         yield f"{head}: no method has {DOUBLES[0]} digits."
         return
-    enough = found.cheapest(SIX, question)
+    enough = result.cheapest(SIX, question)
     if len(enough) > 1:
         costs = ", ".join(f"{duration(p.seconds)} with {p.method}" for p in enough)
         yield f"{head}: six digits cost {costs}."
-    most = {id(p): (digits, p) for digits, p in prices}  # the most digits that one setting has
+    largest = {id(p): (digits, p) for digits, p in prices}  # the most digits that one setting has
     parts = [f"{digits} digits cost {duration(p.seconds)} ({p.method}{setting(p)})"
-             for digits, p in most.values()]
-    each = {m: digit_price(found.of(question, m)) for m in methods(found, question) if m != "taylor-batch"}
-    known = [f"{m} ×{factor:.2f}" for m, factor in each.items() if factor is not None]
-    more = f" One more digit: {', '.join(known)}." if known else ""
+             for digits, p in largest.values()]
+    each = {m: digit_price(result.of(question, m)) for m in methods(result, question) if m != "taylor-batch"}
+    resolved = [f"{m} ×{factor:.2f}" for m, factor in each.items() if factor is not None]
+    more = f" One more digit: {', '.join(resolved)}." if resolved else ""
     yield f"{head}: {', '.join(parts)}.{_against(points, prices)}{more}"
     missing = next((d for d in DOUBLES if d > prices[-1][0]), None)
     best = max(points, key=lambda p: p.digits)
     if missing:
         reached = f"{best.digits:.1f} ({best.method}{setting(best)})"
-        because = _because(found, question, missing, best)
+        because = _because(result, question, missing, best)
         yield f"No method gets {missing} digits: the best is {reached}{because}."
 
 
-def title(found, question) -> str:
+def title(result, question) -> str:
     """The question of this case, as a heading."""
-    named = {"span": f"States at {some(len(found.reference.t), 'time')} up to {_moment(found)}",
-             "end": f"The state at {_moment(found)}"}
+    named = {"span": f"States at {some(len(result.reference.t), 'time')} up to {_moment(result)}",
+             "end": f"The state at {_moment(result)}"}
     return named.get(question, f"The {question}")
 
 
-def _moment(found):
+def _moment(result):
     """The last time that is judged, with its unit."""
-    last = f"{found.reference.t[-1]:.6g}"
-    return f"τ = {last}" if found.case.variables == "scaled" else f"t = {last} s"
+    last = f"{result.reference.t[-1]:.6g}"
+    return f"τ = {last}" if result.case.variables == "scaled" else f"t = {last} s"
 
 
-def by_digits(found) -> list[dict]:
+def by_digits(result) -> list[dict]:
     """A row for each number of digits of the states that some method has: the cheapest method, how many times
     the price of the first row that is, and the second best. The reference too stands for its digits, by its
     own runs, where fewer than two methods have them."""
     rows: list[dict] = []
     for digits in WANTED:
         offers = [{"method": p.method, "setting": p.setting, "value": p.value, "seconds": p.seconds}
-                  for p in found.cheapest(digits, "span")[:2]]
-        exact = found.reference.digits[0]
-        if len(found.reference.t) and digits <= exact and len(offers) < 2:
+                  for p in result.cheapest(digits, "span")[:2]]
+        exact = result.reference.digits[0]
+        if len(result.reference.t) and digits <= exact and len(offers) < 2:
             offers.append({"method": "reference", "setting": "digits", "value": exact,
-                           "seconds": found.reference_seconds})
+                           "seconds": result.reference_seconds})
         if offers:
             first = rows[0]["seconds"] if rows else offers[0]["seconds"]
             rows.append({"digits": digits, **offers[0], "relative": offers[0]["seconds"] / first,
@@ -120,9 +120,9 @@ def by_digits(found) -> list[dict]:
     return rows
 
 
-def flat(found) -> str:
+def flat(result) -> str:
     """Why more digits cost a Taylor series little: it takes as many steps, of a higher order."""
-    points = found.of("span", "taylor")
+    points = result.of("span", "taylor")
     if len(points) < 2 or not (points[0].steps and points[-1].steps):
         return ""
     first, last = points[0], points[-1]
@@ -143,26 +143,26 @@ def _against(points, prices) -> str:
     return ""
 
 
-def _because(found, question, missing, best) -> str:
-    shift = (found.sensitivity or 0.0) * EPS if question in ("span", "end") else 0.0
+def _because(result, question, missing, best) -> str:
+    shift = (result.sensitivity or 0.0) * EPS if question in ("span", "end") else 0.0
     if shift > max(0.2 * 10.0**-missing, best.error / BLAMED):
         return (f"; a change of the start in its last place (1e-16) moves the state by {shift:.0e} within "
                 f"the span, "
                 "so doubles do not hold more")
-    if found.left_out:
+    if result.left_out:
         return "; rounding on the way has the last word, or the finer settings that were left out"
     return "; rounding on the way has the last word"
 
 
-def _model_words(found):
+def _model_words(result):
     for name in FORMULAS:
-        points = found.of("span", name)
+        points = result.of("span", name)
         if points:
             best = min(points, key=lambda p: p.error)
             yield (f"The model {name}{setting(best)}: its own error is {share(best.error)} the state, "
                    f"whatever is spent on it"
                    f"{f' (of {written(best.parts)} alone)' if best.parts else ''}.")
-        elif any(m == name for m, *_ in found.left_out):
+        elif any(m == name for m, *_ in result.left_out):
             yield f"The model {name} has no answer over the whole span."
 
 
@@ -197,9 +197,9 @@ def caption() -> str:
             + ", ".join(f"{name} {number}" for name, number in v.items()))
 
 
-def methods(found, question) -> list[str]:
+def methods(result, question) -> list[str]:
     """Names of the methods that answered a question."""
-    return list(dict.fromkeys(p.method for p in found.of(question)))
+    return list(dict.fromkeys(p.method for p in result.of(question)))
 
 
 # --- Models beside the exact motion
@@ -233,50 +233,50 @@ ROUNDING = 1e-12  # of the largest component, a range of a panel that is roundin
 REACH = 1.6
 
 
-def as_dict(case, found) -> dict:
+def as_dict(case, result) -> dict:
     """The object of `stabilab compare --json`."""
-    return {"schema": "stabilab.compare/1", "case": case.name, "time": case.scene.time_unit, "t": found.t,
+    return {"schema": "stabilab.compare/1", "case": case.name, "time": case.scene.time_unit, "t": result.t,
             "models": {name: {"status": run.status, "reason": run.because, "why": run.reason.as_dict()}
-                       for name, run in found.runs.items()}
-            | {name: {"status": "refused", "reason": why} for name, why in found.refused.items()},
+                       for name, run in result.runs.items()}
+            | {name: {"status": "refused", "reason": why} for name, why in result.refused.items()},
             "departures": [{**values_of(d, "model part error scale largest"),
                             "first": {f"{level:g}": time for level, time in d.first.items()}}
-                           for d in found.departures],
-            "theory": list(found.theory)}
+                           for d in result.departures],
+            "theory": list(result.theory)}
 
 
-def text(case, found, units: Units) -> str:
+def text(case, result, units: Units) -> str:
     """The closest model, a line per model and part of the state, then what each model says of itself."""
-    lines = [f"{case.name}: {_closest(found)}; {', '.join(list(found.runs)[1:]) or 'no model'} against the "
+    lines = [f"{case.name}: {_closest(result)}; {', '.join(list(result.runs)[1:]) or 'no model'} against the "
              f"exact motion, "
-             f"{units.span(case.scene.time_unit, found.t[0], found.t[-1])}",
+             f"{units.span(case.scene.time_unit, result.t[0], result.t[-1])}",
              f"  {'model':<10}{'part':<9}{'largest error':>13}{'of':>10}  "
              f"{'':<8}{'1 % from':>12}{'10 % from':>12}"]
-    for d in found.departures:
-        unit, one = units.of(PARTS[d.part].unit)
+    for d in result.departures:
+        unit, item = units.of(PARTS[d.part].unit)
         first = ["never" if time is None else units.time(time, SHORT) for time in d.first.values()]
         row = (
-            f"  {d.model:<10}{written(d.part):<9}{number(d.largest * one):>13}{number(d.scale * one):>10}  "
+            f"  {d.model:<10}{written(d.part):<9}{number(d.largest * item):>13}{number(d.scale * item):>10}  "
             f"{written(unit):<8}{first[0]:>12}{first[1]:>12}")
         lines.append(row)
-    return "\n".join([*lines, *(f"  {note}" for note in _notes(found, units))])
+    return "\n".join([*lines, *(f"  {note}" for note in _notes(result, units))])
 
 
-def _notes(found, units) -> list[str]:
+def _notes(result, units) -> list[str]:
     """What the models say of themselves, each once, then what the theory says beyond that."""
     models: dict[Reason, list[str]] = {}
-    for name, run in found.runs.items():
+    for name, run in result.runs.items():
         if run.reason != ALL_REACHED:
             models.setdefault(run.reason, []).append(name)
-    for name, why in found.refused.items():
+    for name, why in result.refused.items():
         models.setdefault(NO_ANSWER(why=why), []).append(name)
     return [*(f"{', '.join(names)}: {lettered(units.said(reason))}" for reason, names in models.items()),
-            *theory_lines([row for row in found.theory if row["reason"] not in models], units)]
+            *theory_lines([row for row in result.theory if row["reason"] not in models], units)]
 
 
-def _closest(found) -> str:
+def _closest(result) -> str:
     """The model that departs least from the exact rates, and by how much."""
-    rates = [d for d in found.departures if d.part == found.departures[0].part]
+    rates = [d for d in result.departures if d.part == result.departures[0].part]
     if not rates:
         return "no model has an answer"
     best = min(rates, key=lambda d: d.largest / d.scale)
@@ -285,10 +285,10 @@ def _closest(found) -> str:
     return f"{best.model} is closest, its {written(best.part)} off by {by} at most"
 
 
-def write(case, found, path) -> Path:
+def write(case, result, path) -> Path:
     """Errors over time as CSV, whole or not at all."""
-    head = [case.scene.time_unit, *(f"{d.model} {d.part}" for d in found.departures)]
-    rows = zip(found.t, *(d.error for d in found.departures))
+    head = [case.scene.time_unit, *(f"{d.model} {d.part}" for d in result.departures)]
+    rows = zip(result.t, *(d.error for d in result.departures))
     return write_text(path, csv_lines([head, *(map(float, row) for row in rows)]))
 
 
@@ -305,16 +305,16 @@ def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = 
              for name, run in runs.items()}
     for row, part in zip(axes, parts):
         for column, ax in enumerate(row):
-            unit, one = units.of(PARTS[part].unit)
-            _curves(ax, {name: (np.asarray(run.t) * second, np.asarray(run.state[part])[:, column] * one)
+            unit, x = units.of(PARTS[part].unit)
+            _curves(ax, {name: (np.asarray(run.t) * second, np.asarray(run.state[part])[:, column] * x)
                          for name, run in runs.items() if part in run.state}, looks)
             low, high = ax.get_ylim()
-            size = float(np.abs(runs["exact"].state[part]).max(initial=0.0)) * one
+            size = float(np.abs(runs["exact"].state[part]).max(initial=0.0)) * x
             if high - low < ROUNDING * size:  # beside the whole part of the state no motion
                 ax.set_ylim((low + high) / 2 - size / 20, (low + high) / 2 + size / 20)
             for name, run in runs.items():
                 if stops(run) and part in run.state and len(run.t):
-                    ax.plot(run.t[-1] * second, run.state[part][-1][column] * one, color=LOOKS[name]["color"],
+                    ax.plot(run.t[-1] * second, run.state[part][-1][column] * x, color=LOOKS[name]["color"],
                             scalex=False, scaley=False, **END)
             ax.set_ylabel(_labelled(ax, SYMBOLS[part][column], written(unit)))
     for ax in axes[-1]:
@@ -342,12 +342,12 @@ def _labelled(ax: Axes, name: str, unit: str) -> str:
         return f"{name} ({unit})" if unit else name
     from matplotlib.ticker import FuncFormatter
     power = math.floor(math.log10((high - low) / 2))
-    whole = math.floor(low / 10.0 ** (power + 1) + 0.5) * 10.0 ** (power + 1)
+    full = math.floor(low / 10.0 ** (power + 1) + 0.5) * 10.0 ** (power + 1)
     def shown(value, _):
-        return f"{round((value - whole) / 10.0**power, 4) + 0.0:.6g}".replace("-", "−")
+        return f"{round((value - full) / 10.0**power, 4) + 0.0:.6g}".replace("-", "−")
     ax.yaxis.set_major_formatter(FuncFormatter(shown))
     ten = rf"$10^{{{power}}}$" + (f" {unit}" if unit else "")
-    return f"{name} {'−' if whole >= 0 else '+'} {abs(whole):.12g} ({ten})"
+    return f"{name} {'−' if full >= 0 else '+'} {abs(full):.12g} ({ten})"
 
 
 def _dense(run: SimpleNamespace | Simulation, parts: Sequence[str]) -> bool:
@@ -377,8 +377,8 @@ def _tell_cut(ax, models):
     """How far the curves go that leave a panel, above it, each in its colour: a third of the width each."""
     brief = ax.figure.get_figwidth() < BRIEF * style.share()
     for (name, ends), (x, side) in zip(models, ((0.0, "left"), (1.0, "right"), (0.5, "center"))):
-        told = f"to {ends[0]}" if len(ends) == 1 else " to ".join(ends)
-        ax.text(x, 1.01, "cut" if brief else f"cut: {told}", color=DARK.get(name, LOOKS[name]["color"]),
+        printed = f"to {ends[0]}" if len(ends) == 1 else " to ".join(ends)
+        ax.text(x, 1.01, "cut" if brief else f"cut: {printed}", color=DARK.get(name, LOOKS[name]["color"]),
                 ha=side, va="bottom",
                 fontsize=(7.5 if len(models) < 3 else 6.8) * style.share(), transform=ax.transAxes)
 

@@ -36,10 +36,10 @@ def first(validity, text: str, units: Units = SI, caveats=()) -> str:
     if validity is None:
         return text
     answer, *rest = text.split("\n")
-    words = units.said(validity.reason)
+    phrase = units.said(validity.reason)
     if validity.held:
-        return "\n".join([f"{answer}; {words}", *rest])
-    return "\n".join([warned(validity, answer), f"law: {words.removeprefix(f'{validity.status.upper()}: ')}",
+        return "\n".join([f"{answer}; {phrase}", *rest])
+    return "\n".join([warned(validity, answer), f"law: {phrase.removeprefix(f'{validity.status.upper()}: ')}",
                       *rest])
 
 
@@ -51,37 +51,37 @@ def warned(validity, answer: str) -> str:
 def key(validity, case=None, steady: bool = False) -> dict:
     """The key "validity" of a JSON object, null where all laws are exact; of a case also its caveats, where
     the answer is no motion, which has them. steady: as of `caveats_of`."""
-    told = {"validity": None if validity is None else validity.as_dict()}
-    return (told if case is None
-            else told | errors.key(caveats_of(case.scene, steady, validity=validity, file=case.caveats)))
+    printed = {"validity": None if validity is None else validity.as_dict()}
+    return (printed if case is None
+            else printed | errors.key(caveats_of(case.scene, steady, validity=validity, file=case.caveats)))
 
 
-def worst(*found):
+def worst(*result):
     """The most exceeded of several; None where all laws are exact."""
-    return max((v for v in found if v is not None), key=lambda v: v.excess, default=None)
+    return max((v for v in result if v is not None), key=lambda v: v.excess, default=None)
 
 
-def beyond(*found) -> bool:
+def beyond(*result) -> bool:
     """Whether a law does not hold."""
-    return any(v is not None and not v.held for v in found)
+    return any(v is not None and not v.held for v in result)
 
 
-def until(case, found, end: float):
+def until(case, result, end: float):
     """The validity `found`, or that along the case's own run up to a time `end` (its span where that is none)
     where it needs the attitude and the case gives one."""
-    return of_case(case, (0.0, end) if 0 < end < math.inf else None) if law_is_open(case, found) else found
+    return of_case(case, (0.0, end) if 0 < end < math.inf else None) if law_is_open(case, result) else result
 
 
 def beside(case: Case) -> list[str]:
     """A line beside answers at many points, where a law is not judged; none where all are exact."""
-    found = of_case(case)
-    return [] if found is None else [f"  laws are not judged at every point; of the case as it stands: "
-                                     f"{_told(found, units_of(case))}"]
+    result = of_case(case)
+    return [] if result is None else [f"  laws are not judged at every point; of the case as it stands: "
+                                     f"{_told(result, units_of(case))}"]
 
 
 def of_cases(cases) -> str:
     """A line for every law among cases that one of them leaves; empty where there is none."""
-    beyond = [(case, found) for case in cases if (found := of_case(case)) is not None and not found.held]
+    beyond = [(case, result) for case in cases if (result := of_case(case)) is not None and not result.held]
     return "\n".join(_of_alike(group, cases) for group in _alike(beyond))
 
 
@@ -89,50 +89,50 @@ def lines_of(judged: Sequence[tuple[Case | None, ...]], units: Units = SI) -> li
     """A line for every (case, validity) that has a law to be named, one for all combinations of a file that
     stand the same way to the same limit, and one for all cases that say the same; without a name where there
     is one case. units: in which times are printed."""
-    groups, cases = _alike([one for one in judged if one[1] is not None]), [case for case, _ in judged]
+    groups, cases = _alike([item for item in judged if item[1] is not None]), [case for case, _ in judged]
     if len(cases) == 1:
-        return [_told(found, units) for group in groups for _, found in group]
+        return [_told(result, units) for group in groups for _, result in group]
     return together([_of_alike(group, cases, units) for group in groups])
 
 
 def exceeded(judged, units: Units) -> str:
     """By how much the first law of `lines_of` is left; empty where none is."""
-    group = next(iter(_alike([one for one in judged if one[1] is not None and not one[1].held])), ())
-    return units.said(worst(*(found for _, found in group)).brief) if group else ""
+    group = next(iter(_alike([item for item in judged if item[1] is not None and not item[1].held])), ())
+    return units.said(worst(*(result for _, result in group)).brief) if group else ""
 
 
-def _told(found, units) -> str:
-    return units.said(found.reason)
+def _told(result, units) -> str:
+    return units.said(result.reason)
 
 
 def _alike(judged) -> list:
     """The (case, validity) in groups: alone, or all combinations of a file that stand alike to one limit."""
-    told: dict = {}
-    for n, (case, found) in enumerate(judged):
-        told.setdefault((case.path, found.status, found.effect, found.number) if case.variant else n,
-                        []).append((case, found))
-    return list(told.values())
+    printed: dict = {}
+    for n, (case, result) in enumerate(judged):
+        printed.setdefault((case.path, result.status, result.effect, result.number) if case.variant else n,
+                        []).append((case, result))
+    return list(printed.values())
 
 
 def together(lines) -> list[str]:
     """Lines of `of_cases`, those that say the same of several cases as one line that names them all."""
-    told: dict[str, list[str]] = {}
+    printed: dict[str, list[str]] = {}
     for line in lines:
-        words, _, name = line.rpartition(" (")
-        told.setdefault(words, []).append(name.removesuffix(")"))
-    return [f"{words} ({', '.join(names)})" for words, names in told.items()]
+        text, _, name = line.rpartition(" (")
+        printed.setdefault(text, []).append(name.removesuffix(")"))
+    return [f"{phrase} ({', '.join(names)})" for phrase, names in printed.items()]
 
 
 def _of_alike(group, cases, units: Units = SI) -> str:
     """A line on a case, or on the most exceeded of a group of combinations."""
     case, _ = group[0]
-    found = worst(*(one for _, one in group))
-    words = _told(found, replace(units, axes=axes_of(case)))
+    result = worst(*(item for _, item in group))
+    text = _told(result, replace(units, axes=axes_of(case)))
     if not case.variant:
-        return f"{words} ({printable(case.name)})"
-    farthest = "" if found.value is None else ", the farthest of them given"
+        return f"{text} ({printable(case.name)})"
+    farthest = "" if result.value is None else ", the farthest of them given"
     of = sum(other.path == case.path for other in cases)
-    return (f"{words} ({printable(case.name.removesuffix(case.variant))}: {len(group)} of {of} "
+    return (f"{text} ({printable(case.name.removesuffix(case.variant))}: {len(group)} of {of} "
             f"combinations{farthest})")
 
 
@@ -176,7 +176,7 @@ def look(motion: Motion) -> str:
     "bounded"."""
     if beyond(motion.validity) or motion.fate.word == "undecided":
         return "conditional"
-    kinds = [one.kind for one in motion.caveats]
+    kinds = [caveat.kind for caveat in motion.caveats]
     turns_over = motion.ending is not None and motion.ending.kind == "flat spin"
     if (motion.fate.word in ("spin-up", "separatrix") or {Kind.LIMIT, Kind.UNSTABLE} & set(kinds)
             or turns_over):
@@ -188,15 +188,15 @@ def fate_parts(motion: Motion, units: Units, tilt: bool = True) -> tuple[str, st
     """(the fate; its axis and how well it is known; the condition that it rests on). tilt: with what a tilt
     of the torque does to that."""
     fate = motion.fate.word
-    words, where = HEADS[fate], limiting.condition(motion.caveats, units, alone=not tilt)
+    text, where = HEADS[fate], limiting.condition(motion.caveats, units, alone=not tilt)
     if where:
-        words = words.removesuffix(" for ever")
+        text = text.removesuffix(" for ever")
     if fate == "equilibrium":
-        words = f"{words if any(motion.at[:3]) else REST}{stable_word(motion)}"
+        text = f"{text if any(motion.at[:3]) else REST}{stable_word(motion)}"
     if ended := ending.words(motion.ending, units):
         return *ended, where
     about = f" about {units.axes.head(motion.axis)}, {direction(motion.sense)}" if motion.axis else ""
-    return words, about + known_as(motion), where
+    return text, about + known_as(motion), where
 
 
 def stable_word(motion: Motion) -> str:
@@ -216,12 +216,12 @@ def cause(motion: Motion, units: Units) -> str:
     bounded motion turns over."""
     fate = motion.fate.word
     if fate == "undecided":
-        words = units.said(motion.reason).removeprefix("undecided: ")
-        if motion.finding is not None and len(words) > CLAUSE:
-            words = units.said(motion.finding.alone).removeprefix("undecided: ")
+        text = units.said(motion.reason).removeprefix("undecided: ")
+        if motion.finding is not None and len(text) > CLAUSE:
+            text = units.said(motion.finding.alone).removeprefix("undecided: ")
         else:
-            words = units.said(motion.reason.alone).removeprefix("undecided: ")
-        return words if len(words) <= CLAUSE else words[:CLAUSE].rsplit(" ", 1)[0] + " ..."
+            text = units.said(motion.reason.alone).removeprefix("undecided: ")
+        return text if len(text) <= CLAUSE else text[:CLAUSE].rsplit(" ", 1)[0] + " ..."
     stays = "" if limiting.unstable(motion.caveats, units) else "every rate stays as it is"
     return {"separatrix": "the smallest change decides what becomes of it",
             "equilibrium": stays}.get(fate, flips(motion, units))
@@ -232,11 +232,11 @@ def flips(motion: Motion, units: Units) -> str:
     if motion.flips is None:
         return ""
     times, axis = motion.flips.times, units.axes.brief(motion.flips.axis)
-    words = "turns over" if motion.flips.free else f"its angular momentum along {axis} changes sign"
+    text = "turns over" if motion.flips.free else f"its angular momentum along {axis} changes sign"
     told = [units.time(time, SHORT) for time in times[:2]]
     if len(times) > 2:
-        return f"{words} {len(times)} times in {units.time(sum(times), SHORT)}"
-    return f"{words} every {told[0]}" if len(times) == 1 else f"{words} after {told[0]} and {told[1]} in turn"
+        return f"{text} {len(times)} times in {units.time(sum(times), SHORT)}"
+    return f"{text} every {told[0]}" if len(times) == 1 else f"{text} after {told[0]} and {told[1]} in turn"
 
 
 def largest(motion: Motion, units: Units) -> str:
@@ -256,8 +256,8 @@ def largest(motion: Motion, units: Units) -> str:
         end = ("" if late is None or late >= bound else f", {units.rate(late, SHORT, 1)} in the end" if late
                else ", tends to rest")
         return f"{'|x|' if units.scaled else '|ω|'} at most {units.rate(bound, SHORT, 1)}{end}"
-    found = greatest(motion, units)
-    return f"largest rate {found}" if found else ""
+    result = greatest(motion, units)
+    return f"largest rate {result}" if result else ""
 
 
 def greatest(motion: Motion, units: Units) -> str:
@@ -269,10 +269,10 @@ def greatest(motion: Motion, units: Units) -> str:
     axis = max(sizes, key=sizes.__getitem__)
     name, bound = "|x|" if units.scaled else "|ω|", math.hypot(*sizes.values())
     sharp = motion.largest is not None and not over
-    told = (f"{name} = {units.rate(motion.largest, SHORT)}" if sharp
+    printed = (f"{name} = {units.rate(motion.largest, SHORT)}" if sharp
             else f"{name} at most {units.rate(bound, SHORT, 1)}")
-    most = units.rate(sizes[axis], SHORT, 0 if sharp else 1)
-    return f"{told} ({most} about {units.axes.brief(axis)}){over}"
+    upper = units.rate(sizes[axis], SHORT, 0 if sharp else 1)
+    return f"{printed} ({upper} about {units.axes.brief(axis)}){over}"
 
 
 def _sizes(motion: Motion, units: Units):
@@ -288,10 +288,10 @@ def largest_key(motion: Motion) -> dict:
     """The largest rates in JSON, SI: "value" is |omega| at the most, "bound" whether it is an upper bound and
     not the largest that is reached, "components" the most of each; null where it has no end or is unknown."""
     pairs = motion.extremes if motion.for_all_time else motion.bounds or motion.extremes
-    most = [None if pair is None or None in pair else max(map(abs, pair)) for pair in pairs or (None,) * 3]
+    upper = [None if pair is None or None in pair else max(map(abs, pair)) for pair in pairs or (None,) * 3]
     sharp = motion.largest is not None and motion.for_all_time
-    value = motion.largest if sharp else None if None in most else math.hypot(*most)
-    return {"value": value, "bound": not sharp, "components": most}
+    value = motion.largest if sharp else None if None in upper else math.hypot(*upper)
+    return {"value": value, "bound": not sharp, "components": upper}
 
 
 def span_words(over: Reason, units: Units) -> str:
@@ -327,11 +327,11 @@ def rate_margin(motion: Motion, units: Units, digits: int) -> str:
 
 def bracketed(low: float, high: float, unit: Unit, digits: int) -> str:
     """Two bounds in SI with as many digits as tell them apart, the lower rounded down and the upper up."""
-    name, one = unit
+    name, item = unit
     more = digits
     if low > 0 and math.isfinite(high):
         more = min(17, max(digits, 1 - math.floor(math.log10((high - low) / high)) if high > low else 0))
-    ends = (number(as_bound(end, one, more, side), more) for end, side in ((low, -1), (high, 1)))
+    ends = (number(as_bound(end, item, more, side), more) for end, side in ((low, -1), (high, 1)))
     return f"{' to '.join(ends)} {name}".rstrip()
 
 

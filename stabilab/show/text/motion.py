@@ -54,41 +54,41 @@ MEANINGS = {  # of a word among them
 TILTED = 'any tilt of the torque may end this: --tilt "1 deg" says how soon'
 
 
-def row(name: str, words: str) -> str:
+def row(name: str, text: str) -> str:
     """A name in its column, then the words."""
-    return f"  {name:<{WIDE - 1}} {words}".rstrip()
+    return f"  {name:<{WIDE - 1}} {text}".rstrip()
 
 
 def table(case: Case, motion: Motion, units: Units) -> list[str]:
     """The start, the extremes, the bounds for all times, margins and period, a line each."""
     return [row("start", state(motion.at, units, case.scene.blocks)), *extreme_lines(case, motion, units),
             *bound_lines(case, motion, units),
-            *(row(name, words) for name, words in margins(motion, units))]
+            *(row(name, text) for name, text in margins(motion, units))]
 
 
 def margins(motion: Motion, units: Units) -> list[tuple[str, str]]:
     """(name, words) of margins and period, as far as they are known."""
     energy = motion.margin_energy
-    found = (("margin, rate", rate_margin(motion, units, DIGITS)),
+    result = (("margin, rate", rate_margin(motion, units, DIGITS)),
              ("margin, energy", "" if energy is None else energy_margin(energy, units.energy)),
              *energy_integral(motion, units),
              ("period", "" if motion.period is None else units.time(motion.period)))
-    return [(name, words) for name, words in found if words]
+    return [(name, text) for name, text in result if text]
 
 
 def energy_integral(motion: Motion, units: Units) -> list[tuple[str, str]]:
     """The paper's energy integral, its value on the separatrix and the difference; in scaled variables."""
-    found = motion.energy_integral
-    if found is None:
+    result = motion.energy_integral
+    if result is None:
         return []
-    words = number(found.value, DIGITS) + ("" if units.scaled else ", scaled variables")
-    if found.difference is None:
-        words += "; no saddle stands ahead"
+    text = number(result.value, DIGITS) + ("" if units.scaled else ", scaled variables")
+    if result.difference is None:
+        text += "; no saddle stands ahead"
     else:
-        more = "more" if found.difference > 0 else "less"
-        words += (f"; on the separatrix {found.name}s = {number(found.on_separatrix, DIGITS)}"
-                  + (f", {number(abs(found.difference), DIGITS)} {more}" if found.difference else ""))
-    return [(f"energy integral {found.name}", words)]
+        more = "more" if result.difference > 0 else "less"
+        text += (f"; on the separatrix {result.name}s = {number(result.on_separatrix, DIGITS)}"
+                  + (f", {number(abs(result.difference), DIGITS)} {more}" if result.difference else ""))
+    return [(f"energy integral {result.name}", text)]
 
 
 def state(at, units: Units, blocks=("omega", "gamma")) -> str:
@@ -117,24 +117,24 @@ def extreme_lines(case: Case, motion: Motion, units: Units) -> list[str]:
 
 def _head(when: str) -> list[str]:
     """Over which time, beside the heads of the columns, or above them where it is longer than its column."""
-    told = [] if len(when) < WIDE else [f"  {when}:"]
-    return [*told, f"  {'' if told else when + ',':<{WIDE}}{'least':>12}{'greatest':>14}"]
+    printed = [] if len(when) < WIDE else [f"  {when}:"]
+    return [*printed, f"  {'' if printed else when + ',':<{WIDE}}{'least':>12}{'greatest':>14}"]
 
 
 def pair_lines(case: Case, pairs: Sequence[tuple[float, float]], units: Units, side: int = 0) -> list[str]:
     """A line a component: its name, least, greatest, unit. side: 1 of bounds, which are rounded outward."""
-    name, one = units.rates
-    return [f"    {lettered(component):<{WIDE - 2}}{shown(low, one, side=-side):>12}"
-            f"{shown(high, one, side=side):>14}  {name}".rstrip()
+    name, item = units.rates
+    return [f"    {lettered(component):<{WIDE - 2}}{shown(low, item, side=-side):>12}"
+            f"{shown(high, item, side=side):>14}  {name}".rstrip()
             for component, (low, high) in zip(case.scene.components, pairs)]
 
 
-def shown(value: float | None, one: float = 1.0, digits: int = DIGITS, side: int = 0) -> str:
+def shown(value: float | None, item: float = 1.0, digits: int = DIGITS, side: int = 0) -> str:
     """A number of a column; a word where it is unbounded or unknown. side: as of `Units.told`."""
     if value is None:
         return "unknown"
     # its column says downwards or upwards
-    return "unbounded" if math.isinf(value) else number(as_bound(value, one, digits, side), digits)
+    return "unbounded" if math.isinf(value) else number(as_bound(value, item, digits, side), digits)
 
 
 def bound_lines(case: Case, motion: Motion, units: Units) -> list[str]:
@@ -161,16 +161,16 @@ def constants(motion: Motion, units: Units) -> list[tuple[str, str]]:
     """(name, words) of the invariants and of what a run showed. A potential is in the energy of a reduced
     motion, and none of its parts is that of the whole body."""
     reduced = {"energy": ("energy, reduced motion", "J")} if "Q" in motion.invariants else {}
-    found = [((*(QUANTITIES | reduced)[name], 0)[:3], value) for part in (motion.invariants, motion.evidence)
+    rows = [((*(QUANTITIES | reduced)[name], 0)[:3], value) for part in (motion.invariants, motion.evidence)
              for name, value in part.items()
              if value is not None and (name, value) != ("steps", 0)]  # a law needed no run
     return [(name.replace("ω", "x") if units.scaled else name, quantity(kind, value, units, side))
-            for (name, kind, side), value in found]
+            for (name, kind, side), value in rows]
 
 
-def reason(words: str, units: Units) -> str:
+def reason(text: str, units: Units) -> str:
     """Words of the analysis: names as letters, rates and times in these units."""
-    return lettered(units.words(words))
+    return lettered(units.words(text))
 
 
 def quantity(kind: str, value, units: Units, side: int = 0) -> str:
@@ -180,8 +180,8 @@ def quantity(kind: str, value, units: Units, side: int = 0) -> str:
     if kind == "direction":
         return vector(value)
     if kind in ("moment", "reversal") and isinstance(value, float):
-        told = units.moment(value, side=side) if units.scaled else units.time(value, side=side)
-        return told if value or kind == "moment" else "none after the start"
+        printed = units.moment(value, side=side) if units.scaled else units.time(value, side=side)
+        return printed if value or kind == "moment" else "none after the start"
     if not kind or not isinstance(value, float):
         return number(value, DIGITS) if isinstance(value, float) else MEANINGS.get(str(value), str(value))
     if kind == "s":
@@ -192,25 +192,25 @@ def quantity(kind: str, value, units: Units, side: int = 0) -> str:
 
 def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
     """What a tilt of the torque does, or how to ask for it."""
-    found = motion.tilt
-    if found is None or found.ranges:
-        asked = found is None and not units.scaled and limiting.condition(motion.caveats, units)
-        return [row("off that axis", TILTED)] if asked else []
-    stated = "" if found.stated else ", twice the largest of this motion (no limit is stated)"
-    limit = f"|ω| = {units.rate(found.limit)}{stated}"
-    lines = [f"  tilted by {DEG.angle(found.angle)}: {found.of}, to {limit}"]
-    if found.ends:
-        lines.append(f"    shortest time found   {units.clock(found.low, found.high)} ({found.level})")
+    result = motion.tilt
+    if result is None or result.ranges:
+        request = result is None and not units.scaled and limiting.condition(motion.caveats, units)
+        return [row("off that axis", TILTED)] if request else []
+    declared = "" if result.stated else ", twice the largest of this motion (no limit is stated)"
+    limit = f"|ω| = {units.rate(result.limit)}{declared}"
+    lines = [f"  tilted by {DEG.angle(result.angle)}: {result.of}, to {limit}"]
+    if result.ends:
+        lines.append(f"    shortest time found   {units.clock(result.low, result.high)} ({result.level})")
         if proofs:
-            lines.append(f"    at azimuth            {DEG.angle(found.azimuth)}, torque "
-                         f"{units.vector(found.torque, units.of('N m'))}")
+            lines.append(f"    at azimuth            {DEG.angle(result.azimuth)}, torque "
+                         f"{units.vector(result.torque, units.of('N m'))}")
     else:
-        many, far = len(found.times), units.time(found.followed, side=-1)
-        told = (f"{many} azimuths were followed for {far} or more" if many > 1
+        many, far = len(result.times), units.time(result.followed, side=-1)
+        printed = (f"{many} azimuths were followed for {far} or more" if many > 1
                 else f"one azimuth was followed for {far}, which is before it can be reached")
-        lines.append(f"    shortest time found   none: {told}")
+        lines.append(f"    shortest time found   none: {printed}")
     return [*lines,
-            f"    not before            {units.time(found.not_before, side=-1)}, whatever the azimuth and "
+            f"    not before            {units.time(result.not_before, side=-1)}, whatever the azimuth and "
             f"for any smaller tilt (proved)"]
 
 
@@ -224,11 +224,11 @@ def followed(m) -> dict:
     """How well a fate is known; of a motion that was followed also when its certificate held (null: it did
     not), what was seen on the way, and the bounds of the rates for all times (null in them: unbounded); of
     an equilibrium its stability."""
-    known = {"level": m.level} | ({} if m.stability is None else {"stability": values_of(
+    resolved = {"level": m.level} | ({} if m.stability is None else {"stability": values_of(
         m.stability, "verdict because growth")})
     if m.cause:
-        known |= {"t": m.evidence.get("t_certificate"), "cause": m.cause, "bounds": m.bounds}
-    return known
+        resolved |= {"t": m.evidence.get("t_certificate"), "cause": m.cause, "bounds": m.bounds}
+    return resolved
 
 
 def numbers(m) -> dict:
@@ -250,21 +250,21 @@ def attitude_objects(rows) -> dict:
     return {"schema": "stabilab.attitude/1", "rows": rows}
 
 
-def attitude_object(case, found) -> dict:
+def attitude_object(case, result) -> dict:
     """A row of it."""
-    return {"case": case.name} | row_of(case, found)
+    return {"case": case.name} | row_of(case, result)
 
 
-def row_of(case: Case, one: Attitude) -> dict:
+def row_of(case: Case, item: Attitude) -> dict:
     """One motion; null is what it does not have."""
-    return {"at": one.at, "fate": one.fate.word,
-            **values_of(one, "rotation_period precession_period mode momentum"),
-            "momentum_direction": in_file(case, one.momentum_direction),
-            **values_of(one, "cone lean nutation_period turn_angle"),
-            "turn_axis": in_file(case, one.turn_axis),
-            **values_of(one, "error decimals because"),
-            "reason": one.reason.as_dict() if one.reason else None
-            } | limiting.key(case, one.caveats) | frame.key(case)
+    return {"at": item.at, "fate": item.fate.word,
+            **values_of(item, "rotation_period precession_period mode momentum"),
+            "momentum_direction": in_file(case, item.momentum_direction),
+            **values_of(item, "cone lean nutation_period turn_angle"),
+            "turn_axis": in_file(case, item.turn_axis),
+            **values_of(item, "error decimals because"),
+            "reason": item.reason.as_dict() if item.reason else None
+            } | limiting.key(case, item.caveats) | frame.key(case)
 
 
 def in_file(case: Case, along: Sequence[float]):
@@ -272,60 +272,60 @@ def in_file(case: Case, along: Sequence[float]):
     return frame.back(case, along) or along
 
 
-def attitude_text(case, found, units: Units) -> str:
+def attitude_text(case, result, units: Units) -> str:
     """The answer first, then the numbers and why."""
-    condition = limiting.condition(found.caveats, units)
-    departs = limiting.unstable(found.caveats, units)
-    told = f"{case.name}: {', '.join(_answer(found, units))}{',' * bool(condition)}{condition}"
-    lines = ["; ".join(filter(None, (told, departs, limiting.tilted(found.caveats, units))))]
-    if found.momentum_direction is not None:
-        lines.append(row("angular momentum", f"{number(found.momentum, DIGITS)} N m s along "
-                                             f"{_vector(case, found.momentum_direction)}"))
-    if found.cone is not None:
-        low, high = (units.angle(angle) for angle in found.cone)
-        named = (found.mode or "").partition("-")[0]
+    condition = limiting.condition(result.caveats, units)
+    departs = limiting.unstable(result.caveats, units)
+    printed = f"{case.name}: {', '.join(_answer(result, units))}{',' * bool(condition)}{condition}"
+    lines = ["; ".join(filter(None, (printed, departs, limiting.tilted(result.caveats, units))))]
+    if result.momentum_direction is not None:
+        lines.append(row("angular momentum", f"{number(result.momentum, DIGITS)} N m s along "
+                                             f"{_vector(case, result.momentum_direction)}"))
+    if result.cone is not None:
+        low, high = (units.angle(angle) for angle in result.cone)
+        named = (result.mode or "").partition("-")[0]
         lines.append(row("cone", f"{low} to {high} between it and the {named} axis"))
-    if found.lean is not None:
-        low, high = (units.angle(angle) for angle in found.lean)
+    if result.lean is not None:
+        low, high = (units.angle(angle) for angle in result.lean)
         lines.append(row("lean", f"{low} to {high} from the upward vertical" if low != high else
                          f"{low} from the upward vertical, always"))
-    if found.turn_angle is not None:
-        about = f" about {_vector(case, found.turn_axis)}" if found.turn_axis else ""
-        lines.append(row("turn after one period", units.angle(found.turn_angle) + about))
-    for name, digits in (found.decimals or {}).items():
+    if result.turn_angle is not None:
+        about = f" about {_vector(case, result.turn_axis)}" if result.turn_axis else ""
+        lines.append(row("turn after one period", units.angle(result.turn_angle) + about))
+    for name, digits in (result.decimals or {}).items():
         lines.append(row(name.replace("_", " "), f"{digits} s"))
-    if found.error is not None and found.decimals is None:
-        lines.append(row("relative error", f"at most {outward(found.error, 1, 1):.0e}"))
-    return "\n".join([*lines, f"why: {units.said(found.reason)}", *frame.note(case)])
+    if result.error is not None and result.decimals is None:
+        lines.append(row("relative error", f"at most {outward(result.error, 1, 1):.0e}"))
+    return "\n".join([*lines, f"why: {units.said(result.reason)}", *frame.note(case)])
 
 
-def attitude_rows(found: Attitude | None, units: Units) -> list[tuple[str, str]]:
+def attitude_rows(result: Attitude | None, units: Units) -> list[tuple[str, str]]:
     """(name, words) of the periods, for the lines of another answer; "found" None: nothing."""
-    if found is None:
+    if result is None:
         return []
-    times = (("rotation period", found.rotation_period), ("precession period", found.precession_period))
-    return [*([("mode", found.mode)] if found.mode else []),
+    times = (("rotation period", result.rotation_period), ("precession period", result.precession_period))
+    return [*([("mode", result.mode)] if result.mode else []),
             *((name, units.time(time)) for name, time in times if time is not None)]
 
 
-def _answer(found, units):
-    yield MODES.get(found.mode, "ROTATION PERIOD KNOWN" if found.rotation_period else "NO ROTATION PERIOD")
-    if found.lean is not None:
-        low, high = (units.angle(angle, SHORT) for angle in found.lean)
+def _answer(result, units):
+    yield MODES.get(result.mode, "ROTATION PERIOD KNOWN" if result.rotation_period else "NO ROTATION PERIOD")
+    if result.lean is not None:
+        low, high = (units.angle(angle, SHORT) for angle in result.lean)
         yield f"leaning by {low} to {high}" if low != high else f"leaning by {low}"
-    if found.rotation_period is not None:
-        yield f"rotation period {units.time(found.rotation_period)}"
-    if found.nutation_period is not None:
-        yield f"nutation period {units.time(found.nutation_period)}"
-    if found.precession_period is not None:
-        yield f"mean precession period {units.time(found.precession_period)}"
-    elif found.nutation_period is not None:
+    if result.rotation_period is not None:
+        yield f"rotation period {units.time(result.rotation_period)}"
+    if result.nutation_period is not None:
+        yield f"nutation period {units.time(result.nutation_period)}"
+    if result.precession_period is not None:
+        yield f"mean precession period {units.time(result.precession_period)}"
+    elif result.nutation_period is not None:
         yield "no precession, for its axis passes through the vertical"
 
 
 def _vector(case: Case, along: Sequence[float]) -> str:
-    place = "in the frame of the file" if frame.back(case, along) else "along axes 1, 2, 3"
-    return f"{vector(in_file(case, along))} {place}"
+    location = "in the frame of the file" if frame.back(case, along) else "along axes 1, 2, 3"
+    return f"{vector(in_file(case, along))} {location}"
 
 
 # --- Equilibria on a circular orbit
@@ -333,50 +333,50 @@ ASSUMED = ("a circular orbit about a sphere, wheels whose momentum relative to t
            "other torque")
 
 
-def circular_orbit_dict(case, found) -> dict:
+def circular_orbit_dict(case, out) -> dict:
     """The object of `stabilab orbit --json`: SI units, vectors in the frame of the file."""
-    result = found.equilibria
-    return {"schema": "stabilab.orbit/1", "case": case.name, **values_of(found, "rate period moments"),
-            "momentum": in_file(case, found.momentum), "kind": result.kind, "reason": result.because,
+    result = out.equilibria
+    return {"schema": "stabilab.orbit/1", "case": case.name, **values_of(out, "rate period moments"),
+            "momentum": in_file(case, out.momentum), "kind": result.kind, "reason": result.because,
             "why": result.reason.as_dict(),
-            "equilibria": [_object(case, found, one) for one in result.points],
-            "families": [_object(case, found, one)
-                         | {"family": one.family, "consists": one.consists.as_dict(),
-                            "axis": one.axis and in_file(case, one.axis)} for one in result.families],
-            "momentum_spans": None if found.spans is None else
-            [{"low": one.low, "high": one.high, "families" if one.families else "equilibria": one.count,
-              "minima": one.minima} for one in found.spans]}
+            "equilibria": [_object(case, out, point) for point in result.points],
+            "families": [_object(case, out, item)
+                         | {"family": item.family, "consists": item.consists.as_dict(),
+                            "axis": item.axis and in_file(case, item.axis)} for item in result.families],
+            "momentum_spans": None if out.spans is None else
+            [{"low": span.low, "high": span.high, "families" if span.families else "equilibria": span.count,
+              "minima": span.minima} for span in out.spans]}
 
 
-def _object(case, found, one) -> dict:
-    frame = _frame(case, one)
+def _object(case, result, item) -> dict:
+    frame = _frame(case, item)
     return {**dict(zip(("velocity", "normal", "vertical"), frame)), "yaw_pitch_roll": yaw_pitch_roll(*frame),
-            **values_of(one, "linear verdict because minimum eigenvalues frequencies"),
-            "reason": one.reason.as_dict(),
-            "per_orbit": [f / found.rate for f in one.frequencies], "potential": one.potential}
+            **values_of(item, "linear verdict because minimum eigenvalues frequencies"),
+            "reason": item.reason.as_dict(),
+            "per_orbit": [f / result.rate for f in item.frequencies], "potential": item.potential}
 
 
-def _frame(case, one):
+def _frame(case, item):
     """The orbital frame in the frame of the file."""
-    return tuple(tuple(in_file(case, along)) for along in (one.velocity, one.normal, one.vertical))
+    return tuple(tuple(in_file(case, along)) for along in (item.velocity, item.normal, item.vertical))
 
 
-def circular_orbit_text(case, found, units: Units) -> str:
+def circular_orbit_text(case, out, units: Units) -> str:
     """The answer first, then each pair of equilibria, and why."""
-    result = found.equilibria
+    result = out.equilibria
     lines = [f"{case.name}: {_orbit_headline(result)}",
-             row("orbit", f"rate {units.rate(found.rate)}, period {units.time(found.period)}"),
-             row("wheels", f"{units.vector(in_file(case, found.momentum), ('N m s', 1.0))}")]
-    for number_, one in enumerate(result.points[::2]):
-        lines += _lines(case, found, one, units, f"{2 * number_ + 1} and {2 * number_ + 2}",
+             row("orbit", f"rate {units.rate(out.rate)}, period {units.time(out.period)}"),
+             row("wheels", f"{units.vector(in_file(case, out.momentum), ('N m s', 1.0))}")]
+    for number_, family in enumerate(result.points[::2]):
+        lines += _lines(case, out, family, units, f"{2 * number_ + 1} and {2 * number_ + 2}",
                         result.points[2 * number_ + 1])
-    for one in result.families:
-        lines += [row("family", units.said(one.consists)), *_lines(case, found, one, units, "one of it")]
-    for span in found.spans or ():
+    for family in result.families:
+        lines += [row("family", units.said(family.consists)), *_lines(case, out, family, units, "one of it")]
+    for span in out.spans or ():
         kind = "families" if span.families else "equilibria"
         lines.append(row("momentum", f"{number(span.low, DIGITS)} to {number(span.high, DIGITS)} N m s: "
                                      f"{span.count} {kind}, {span.minima} of them stable (Lyapunov)"))
-    reasons = dict.fromkeys((one.verdict, one.reason) for one in (*result.points, *result.families))
+    reasons = dict.fromkeys((item.verdict, item.reason) for item in (*result.points, *result.families))
     lines += [f"why: {units.said(result.reason)}",
               *(f"  {verdict}: {units.said(because)}" for verdict, because in reasons),
               f"assumed: {ASSUMED}"]
@@ -386,29 +386,29 @@ def circular_orbit_text(case, found, units: Units) -> str:
 def _orbit_headline(result) -> str:
     if result.kind == "all":
         return "EVERY ATTITUDE IS AN EQUILIBRIUM"
-    stable = sum(one.verdict == "stable" for one in result.families)
+    stable = sum(family.verdict == "stable" for family in result.families)
     families = f"{len(result.families)} FAMILIES OF EQUILIBRIA, {stable} STABLE" if result.families else ""
     if result.families and not result.points:
         return families
-    gyroscopic = sum(one.verdict == "undecided" and one.linear == "stable" for one in result.points)
+    gyroscopic = sum(point.verdict == "undecided" and point.linear == "stable" for point in result.points)
     more = [*([f"{gyroscopic} undecided (gyroscopically stable)"] if gyroscopic else []),
             *([families] if families else [])]
     return ", ".join([f"{len(result.points)} EQUILIBRIA, {result.count('stable')} STABLE", *more])
 
 
-def _lines(case, found, one, units: Units, name: str, other=None):
+def _lines(case, result, item, units: Units, name: str, other=None):
     """An attitude (and the other of its pair), its verdict and librations."""
-    pair = (yaw_pitch_roll(*_frame(case, each)) for each in (one, other) if each is not None)
+    pair = (yaw_pitch_roll(*_frame(case, each)) for each in (item, other) if each is not None)
     angles = " and ".join(units.vector(each, units.angles)
                           for each in sorted(pair, key=lambda angles: sum(map(abs, angles))))
-    word = one.verdict if one.linear != "degenerate" else f"{one.verdict}, degenerate"
+    word = item.verdict if item.linear != "degenerate" else f"{item.verdict}, degenerate"
     yield row(name, f"{word}: yaw, pitch, roll {angles}")
-    if one.verdict == "unstable":
-        grows = max(z.real for z in one.eigenvalues)
+    if item.verdict == "unstable":
+        grows = max(z.real for z in item.eigenvalues)
         yield row("", f"a disturbance grows e-fold in {units.time(1 / grows, SHORT)}")
         return
-    _, normal, vertical = map(vector, _frame(case, one))
+    _, normal, vertical = map(vector, _frame(case, item))
     yield row("", f"orbit normal {normal}, up {'+-' if other else ''}{vertical} in the body")
-    if one.frequencies:
-        yield row("", f"librations {units.vector(one.frequencies, units.rates)[1:].replace(')', '')}, "
-                      f"{', '.join(number(f / found.rate, DIGITS) for f in one.frequencies)} per orbit")
+    if item.frequencies:
+        yield row("", f"librations {units.vector(item.frequencies, units.rates)[1:].replace(')', '')}, "
+                      f"{', '.join(number(f / result.rate, DIGITS) for f in item.frequencies)} per orbit")

@@ -35,13 +35,13 @@ Column = tuple[str, str, Callable]  # its head, its unit, and what it says of a 
 
 def groups(cases: Sequence) -> list[list[int]]:
     """Indices of cases that belong together: all combinations of one file, or a case by itself."""
-    found: list[list[int]] = []
+    out: list[list[int]] = []
     for n, case in enumerate(cases):
-        if case.variant and found and cases[found[-1][-1]].path == case.path and cases[found[-1][-1]].variant:
-            found[-1].append(n)
+        if case.variant and out and cases[out[-1][-1]].path == case.path and cases[out[-1][-1]].variant:
+            out[-1].append(n)
         else:
-            found.append([n])
-    return found
+            out.append([n])
+    return out
 
 
 def text(cases: Sequence, answer: str, columns: Sequence[tuple[str, str]],
@@ -59,18 +59,18 @@ def text(cases: Sequence, answer: str, columns: Sequence[tuple[str, str]],
 def swept_columns(cases: Sequence) -> list[tuple[str, str, list[str]]]:
     """(head, unit, a cell a case) of every swept key; of a vector the components that vary. A value with a
     unit of its own is printed as written."""
-    return [column for place in range(len(cases[0].swept)) for column in key_columns(cases, place)]
+    return [column for location in range(len(cases[0].swept)) for column in key_columns(cases, location)]
 
 
-def key_columns(cases: Sequence, place: int) -> list[tuple[str, str, list[str]]]:
+def key_columns(cases: Sequence, location: int) -> list[tuple[str, str, list[str]]]:
     """(head, unit, a cell a case) of one swept key, the number of which is `place`."""
-    key, values = cases[0].swept[place][0], [case.swept[place][1] for case in cases]
+    key, values = cases[0].swept[location][0], [case.swept[location][1] for case in cases]
     path = key.split(".")
     alone = sum(other.split(".")[-1] == path[-1] for other, _ in cases[0].swept) == 1
     label = ".".join(LETTERS.get(word, word) for word in path[-1 if alone else -2:])
     # a matrix: which of those in the file
-    if any(isinstance(v, list) and any(isinstance(one, list) for one in v) for v in values):
-        return [(label, "", [f"no. {case.variant.split('-')[1 + place]}" for case in cases])]
+    if any(isinstance(v, list) and any(isinstance(item, list) for item in v) for v in values):
+        return [(label, "", [f"no. {case.variant.split('-')[1 + location]}" for case in cases])]
     if all(isinstance(v, list) and len(v) == len(values[0]) for v in values):
         moving = [i for i in range(len(values[0])) if len({repr(v[i]) for v in values}) > 1] or [0]
         return [(f"{label}[{i + 1}]", _unit(key, [v[i] for v in values]), [str(v[i]) for v in values])
@@ -96,34 +96,34 @@ def _bare(value) -> bool:
     return True
 
 
-def counted(answers: Sequence[tuple], words: Mapping[str, str], units: Units, between: str) -> str:
+def counted(answers: Sequence[tuple], phrase: Mapping[str, str], units: Units, between: str) -> str:
     """How many of the (fate, caveats) have which fate, with the condition that these share."""
-    counts, told = Counter(fate for fate, _ in answers), []
+    counts, printed = Counter(fate for fate, _ in answers), []
     for fate, count in counts.most_common():
-        where = limiting.shared([caveats for one, caveats in answers if one == fate], units)
-        name = (words[fate].removesuffix(" for ever") if where else words[fate]) + where
-        told.append(f"{name}: {count}" if len(counts) > 1 else f"each {name}")
-    return between.join(told)
+        where = limiting.shared([caveats for item, caveats in answers if item == fate], units)
+        name = (phrase[fate].removesuffix(" for ever") if where else phrase[fate]) + where
+        printed.append(f"{name}: {count}" if len(counts) > 1 else f"each {name}")
+    return between.join(printed)
 
 
 def fates(motions: Sequence, units: Units) -> str:
     """How many motions have which fate, and the range of their largest rates."""
-    words = counted([(_became(motion), motion.caveats) for motion in motions], HEADS | ending.ENDING_HEADS,
+    phrase = counted([(_became(motion), motion.caveats) for motion in motions], HEADS | ending.ENDING_HEADS,
                     units,
                     ", ")
     sizes = [(_largest(motion), motion.largest is None) for motion in motions]
     sizes = [size for size in sizes if size[0] is not None]
     if not sizes:
-        return words
-    (least, _), (most, side) = min(sizes), max(sizes)
-    low, high = number(least * units.rates[1]), units.rate(most, SHORT, side)
-    return f"{words}; largest rate " + (high if high.split()[0] == low else f"{low} to {high}")
+        return phrase
+    (smallest, _), (largest, side) = min(sizes), max(sizes)
+    low, high = number(smallest * units.rates[1]), units.rate(largest, SHORT, side)
+    return f"{phrase}; largest rate " + (high if high.split()[0] == low else f"{low} to {high}")
 
 
 def _became(motion) -> str:
     """Its fate, or how it ends where it loses energy."""
-    one = motion.ending
-    return motion.fate.word if one is None or one.kind == "undecided" else one.kind
+    item = motion.ending
+    return motion.fate.word if item is None or item.kind == "undecided" else item.kind
 
 
 def _largest(motion):
@@ -137,7 +137,7 @@ def _largest(motion):
 
 def of_motions(motions: Sequence, units: Units) -> tuple[list[tuple[str, str]], list[list[str]]]:
     """Columns and rows of fate, axis, largest rate, margins and period, without those that say nothing."""
-    name, one = units.rates
+    name, item = units.rates
     longest = max((m.period for m in motions if m.period is not None), default=0.0)
     time, per_time = units.times(longest)
     over = max((m.ending.until for m in motions if m.ending is not None and m.ending.until), default=0.0)
@@ -150,7 +150,7 @@ def of_motions(motions: Sequence, units: Units) -> tuple[list[tuple[str, str]], 
              ("ends after", hour, lambda m: number(m.ending.until * per_hour, 6) if m.ending is not None
               and m.ending.until else ""),
              ("largest rate", name, lambda m: "" if _largest(m) is None else number(
-                 as_bound(_largest(m), one, 6, m.largest is None), 6)),
+                 as_bound(_largest(m), item, 6, m.largest is None), 6)),
              ("margin", name, lambda m: rate_margin(m, units, 6).removesuffix(f" {name}") if name
               else rate_margin(m, units, 6)),
              ("to barrier", units.of("J")[0],
@@ -162,22 +162,22 @@ def of_motions(motions: Sequence, units: Units) -> tuple[list[tuple[str, str]], 
 def of_extremes(motions: Sequence, names: Sequence[str],
                 units: Units) -> tuple[list[tuple[str, str]], list[list[str]]]:
     """Columns and rows of the fate, and of least and greatest of every component."""
-    name, one = units.rates
+    name, item = units.rates
     motions = [replace(m, extremes=but_for_rounding(m.extremes, m.tolerance)) for m in motions]
     columns: list[Column] = [("fate", "", lambda m: m.fate.word + known_as(m))]
     for i, component in enumerate(names):
         for end, word in enumerate(("least", "most")):
             columns.append((f"{lettered(component)} {word}", name, lambda m, i=i,
                             end=end: "" if m.extremes is None else shown(
-                                m.extremes[i][end], one, side=m.extremes_side * (2 * end - 1))))
+                                m.extremes[i][end], item, side=m.extremes_side * (2 * end - 1))))
     return filled(columns, motions)
 
 
 def filled(columns: Sequence[Column], answers: Sequence) -> tuple[list[tuple[str, str]], list[list[str]]]:
     """(columns, rows) of those columns that say something of an answer."""
-    rows = [[words(one) for _, _, words in columns] for one in answers]
-    kept = [n for n in range(len(columns)) if any(row[n] for row in rows)]
-    return [columns[n][:2] for n in kept], [[row[n] for n in kept] for row in rows]
+    rows = [[phrase(answer) for _, _, phrase in columns] for answer in answers]
+    retained = [n for n in range(len(columns)) if any(row[n] for row in rows)]
+    return [columns[n][:2] for n in retained], [[row[n] for n in retained] for row in rows]
 
 
 RATIO_LETTERS = 12  # up to which a ratio is printed as such, not as a decimal
@@ -196,15 +196,15 @@ def of_all(cases: Sequence[Case]) -> str:
         kinds.setdefault((*lines(equations), *(law.because for law in (*equations.balances, *own))),
                          []).append((case, equations, own))
     parts = []
-    for alike in kinds.values():
-        parts.append(limiting.noted(of_case(alike[0][0]), _whole(*alike[0]), units_of(alike[0][0])))
-        if len(alike) > 1:
-            some_cases = [case for case, _, _ in alike]
+    for kind in kinds.values():
+        parts.append(limiting.noted(of_case(kind[0][0]), _whole(*kind[0]), units_of(kind[0][0])))
+        if len(kind) > 1:
+            some_cases = [case for case, _, _ in kind]
             columns = swept_columns(some_cases)
             rows = [["", *(head for head, _, _ in columns)], ["", *(unit for _, unit, _ in columns)],
                     *([case.name, *(cells[n] for _, _, cells in columns)]
                       for n, case in enumerate(some_cases))]
-            told = (f"The same equations and laws hold for {some(len(alike) - 1, 'other combination')}; the "
+            told = (f"The same equations and laws hold for {some(len(kind) - 1, 'other combination')}; the "
                     f"numbers in them are those of {some_cases[0].name}.")
             parts.append("\n".join([f"{told} Swept keys:", *table(rows, 1, width())]))
     return "\n\n".join(parts)
@@ -247,7 +247,7 @@ def _head(case: Case) -> str:
     units = units_of(case)
     rows += [f"  motion from {units.vector(case.state[:3], units.rates, DIGITS)}"] if case.state else []
     rows += [f"  to 72 digits, as π is in the unit: {', '.join(case.inexact)}"] if case.inexact else []
-    rows += [f"  note: {units.said(one)}" for one in case.assumed]
+    rows += [f"  note: {units.said(item)}" for item in case.assumed]
     return "\n".join(rows) + "\n"
 
 
@@ -293,8 +293,8 @@ def _triple(vector: Sequence[float | Fraction]) -> str:
 
 def _number(value: float | Fraction) -> str:
     """A number as it was given, where that is a short decimal; six digits of any other."""
-    given = f"{float(value):.9g}"
-    return given if Fraction(given) == Fraction(str(value)) else number(float(value), DIGITS)
+    supplied = f"{float(value):.9g}"
+    return supplied if Fraction(supplied) == Fraction(str(value)) else number(float(value), DIGITS)
 
 
 def _value(v: Fraction) -> str:

@@ -31,18 +31,18 @@ ALL = 16  # digits of a double
 GAP = 2
 
 
-def text(case: Case, run: Simulation, units: Units, known: int | None = None,
+def text(case: Case, run: Simulation, units: Units, resolved: int | None = None,
          width: int | None = None) -> str:
     """The lines for one run. known: digits that a check vouches for, where more than a table's were asked
     for; width: of a terminal, where the columns are printed part by part if they do not fit."""
-    digits = DIGITS if known is None else min(ALL, known)
+    digits = DIGITS if resolved is None else min(ALL, resolved)
     names, rows = columns(run)
     measures = [units.of(unit) for unit in _units(run)]
     head = [f"t ({written(case.scene.time_unit)})",
             *(lettered(with_unit(name, unit)) for name, (unit, _) in zip(names, measures))]
-    scale, off = [1.0, *(one for _, one in measures)], [0.0, *errors(run)]
-    cells = [[zero_within(error * one) if lost(t, value, error) else f"{value * one + 0.0:.{digits}g}"
-              for value, one, error in zip((t, *row), scale, off)] for t, row in zip(run.t, rows)]
+    scale, off = [1.0, *(item for _, item in measures)], [0.0, *errors(run)]
+    cells = [[zero_within(error * item) if lost(t, value, error) else f"{value * item + 0.0:.{digits}g}"
+              for value, item, error in zip((t, *row), scale, off)] for t, row in zip(run.t, rows)]
     laws = [f"# {lettered(name)}: largest relative departure {value:.3g}"
             for name, value in run.invariant_drift.items()]
     how = f"# {run.method}, rtol {run.rtol:.3g}" if run.rtol else f"# {run.model}: {lettered(run.method)}"
@@ -50,7 +50,7 @@ def text(case: Case, run: Simulation, units: Units, known: int | None = None,
     notes += [f"# {', '.join(PARTS[name].components)}: {PARTS[name].description}" for name in run.state
               if name in ATTITUDES]
     return "\n".join([f"{case.name}: {headline(case, run, units)}",
-                      *_columns(head, cells, width, 13 if known is None else ALL + 7), how, *laws, *notes,
+                      *_columns(head, cells, width, 13 if resolved is None else ALL + 7), how, *laws, *notes,
                       *(f"# {line.strip()}" for line in frame.note(case))])
 
 
@@ -71,8 +71,8 @@ def headline(case: Case, run: Simulation, units: Units) -> str:
     if not len(run.t):
         return f"NOT FOLLOWED: {units.said(run.reason)}"
     reached = "followed to" if run.status == "reached" else "STOPPED at"
-    kept = f"; first integrals vary by {max(run.invariant_drift.values()):.2g}" if run.invariant_drift else ""
-    return f"{reached} {units.time(float(run.t[-1]), SHORT)}{_sizes(run, units)}{kept}"
+    rest = f"; first integrals vary by {max(run.invariant_drift.values()):.2g}" if run.invariant_drift else ""
+    return f"{reached} {units.time(float(run.t[-1]), SHORT)}{_sizes(run, units)}{rest}"
 
 
 def _sizes(run: Simulation, units: Units):
@@ -80,9 +80,9 @@ def _sizes(run: Simulation, units: Units):
     if part is None:
         return ""
     error = max((float(v) for v in np.ravel(run.error.get(part, 0.0))), default=0.0)
-    unit, one = units.rates
+    unit, item = units.rates
     sizes = [(float(run.t[n]), math.hypot(*map(float, run.state[part][n]))) for n in (0, -1)]
-    first, last = (f"{zero_within(error * one)} {unit}".rstrip() if lost(t, size, error)
+    first, last = (f"{zero_within(error * item)} {unit}".rstrip() if lost(t, size, error)
                    else units.rate(size, SHORT) for t, size in sizes)
     name = "|x|" if units.scaled else "|ω|"
     return f"; {name} = {last} there" if len(run.t) == 1 else f"; {name} = {first} first, {last} last"
@@ -151,12 +151,12 @@ def _in_file(case: Case, run: Simulation) -> tuple[list[str], list[str], list]:
     """Names, units and rows of the vectors of the body in the frame of the file; none where a tensor is
     diagonal."""
     axes = oblique(case.frame)
-    known = [name for name in run.state if name in BODILY and np.shape(run.state[name])[1:] == (3,)]
-    if axes is None or not known:
+    resolved = [name for name in run.state if name in BODILY and np.shape(run.state[name])[1:] == (3,)]
+    if axes is None or not resolved:
         return [], [], []
-    turned = [turned_to_file(name, np.asarray(run.state[name], float), matrix_of(axes)) for name in known]
-    return ([f"{name}_{letter}" for name in known for letter in "xyz"],
-            [PARTS[name].unit for name in known for _ in "xyz"], np.hstack(turned).tolist())
+    turned = [turned_to_file(name, np.asarray(run.state[name], float), matrix_of(axes)) for name in resolved]
+    return ([f"{name}_{letter}" for name in resolved for letter in "xyz"],
+            [PARTS[name].unit for name in resolved for _ in "xyz"], np.hstack(turned).tolist())
 
 
 def checked(path: Path) -> Path:
@@ -181,18 +181,18 @@ def write(case: Case, run: Simulation, path: Path) -> Path:
         return write_text(path, csv_lines([head, *((float(t), *row) for t, row in zip(run.t, rows))]))
     import xarray
     time = "t" if case.variables == "physical" else "tau"
-    found, axes = Variables((time,), of_parts(run.state, time, run.error)), oblique(case.frame)
+    result, axes = Variables((time,), of_parts(run.state, time, run.error)), oblique(case.frame)
     if axes is not None:
-        beside = {f"{name}_principal": ((time, "principal_axis"), values, words)
-                  for name, (dims, values, words) in found.values.items()
+        beside = {f"{name}_principal": ((time, "principal_axis"), values, phrase)
+                  for name, (dims, values, phrase) in result.values.items()
                   if name in BODILY and dims == (time, "axis")}
-        found = in_file(found, axes)
-        found = replace(found, values={**found.values, **beside},
-                        coordinates={**found.coordinates, "principal_axis": ([1, 2, 3], {})})
+        result = in_file(result, axes)
+        result = replace(result, values={**result.values, **beside},
+                        coordinates={**result.coordinates, "principal_axis": ([1, 2, 3], {})})
     data = xarray.Dataset(
-        dict(found.values),
+        dict(result.values),
         {time: ((time,), run.t, {"units": "s" if case.variables == "physical" else "1"}), "axis": [1, 2, 3],
-         **{name: ((name,), *one) for name, one in found.coordinates.items()}},
+         **{name: ((name,), *coordinate) for name, coordinate in result.coordinates.items()}},
         {**({} if axes is None else frame_attributes(axes, True)),
          "title": case.title, "source": case.source, "case": case.text, "program": f"stabilab {__version__}",
          "model": run.model, "method": run.method, **({"rtol": run.rtol} if run.rtol else {}),

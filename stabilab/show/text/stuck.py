@@ -29,10 +29,10 @@ FIRST = 5  # lines of the answer at most
 SOON = 2  # times a margin: the fate is back before a change as great
 
 
-def as_dict(case, found) -> dict:
+def as_dict(case, out) -> dict:
     """One object of `stabilab stuck --json`: SI units, rates in rad/s; axes are those of "principal"."""
-    return {"schema": "stabilab.stuck/2", "case": found.case, "rows": [_row(row, case) for row in found.rows],
-            "principal": values_of(found.principal, "moments axes")}
+    return {"schema": "stabilab.stuck/2", "case": out.case, "rows": [_row(row, case) for row in out.rows],
+            "principal": values_of(out.principal, "moments axes")}
 
 
 def _row(row, case) -> dict:
@@ -55,9 +55,9 @@ def _row(row, case) -> dict:
                         for h in row.helpers]} | limiting.key(case, row.caveats)
 
 
-def lines(case, found):
+def lines(case, result):
     """A line of CSV a row, SI units; empty where a number does not exist."""
-    for row in found.rows:
+    for row in result.rows:
         limit = "/".join(map(repr, row.limit)) if isinstance(row.limit, tuple) else row.limit
         yield limiting.Line((printable(case.name), printable("+".join(row.thrusters)), *row.torque,
                              *row.torque_principal, row.fate, row.level, row.axis,
@@ -73,33 +73,33 @@ def _margin_sizes(row) -> dict:
     return {name: row.margins[name].size if name in row.margins else None for name in MARGIN_LABELS}
 
 
-def text(case, found, units: Units) -> str:
+def text(case, result, units: Units) -> str:
     """The answer in five lines at most, then the details."""
-    if found.ranked:  # a line a thruster, the worst first
-        head = [f"{printable(row_name(row))} {answer_line(row, units)}" for row in found.rows]
+    if result.ranked:  # a line a thruster, the worst first
+        head = [f"{printable(row_name(row))} {answer_line(row, units)}" for row in result.rows]
         if len(head) > FIRST:
             head[FIRST - 1:] = [f"and {len(head) - FIRST + 1} more below, none of them sooner"]
     else:
-        head = _first(found.rows[0], units)
+        head = _first(result.rows[0], units)
     lines = [f"{printable(case.name)}: {head[0]}", *head[1:FIRST]]
-    for row in found.rows:
+    for row in result.rows:
         lines += ["", *_details(row, units)]
     names = [units.axes.name(n) for n in (1, 2, 3)]
     lines += ["", "principal axes, unit vectors in the frame of the file:"]
     wide = max(map(len, names))
     lines += [f"  {name:<{wide}}  moment {number(moment, DIGITS)} kg m²  {vector(axis)}"
-              for name, moment, axis in zip(names, found.principal.moments, found.principal.axes)]
+              for name, moment, axis in zip(names, result.principal.moments, result.principal.axes)]
     return "\n".join(lines)
 
 
 def swept(answers, units: Units):
     """(the answer in a line, columns, rows) of a sweep: the fate, its axis, when the limit is reached."""
-    rows = [found.rows[0] for _, found in answers]
+    rows = [result.rows[0] for _, result in answers]
     counts = counted([(row.fate, row.caveats) for row in rows], FATES, units, "; ")
     ends = [row.time_to_limit[1] for row in rows if row.time_to_limit]
-    name, one = units.times(max(ends, default=0.0))
+    name, item = units.times(max(ends, default=0.0))
     cells = [[row.fate, units.axes.signed(row.axis, row.sense),
-              number(row.time_to_limit[1] * one, DIGITS) if row.time_to_limit else ""] for row in rows]
+              number(row.time_to_limit[1] * item, DIGITS) if row.time_to_limit else ""] for row in rows]
     return counts + (f"; the first limit is reached in {units.time(min(ends), SHORT)}" if ends
                      else ""), [("fate", ""), ("axis", ""), ("limit in", name)], cells
 
@@ -127,66 +127,66 @@ def answer_line(row, units) -> str:
 
 
 def _answer(row, units):
-    when, known = _when(row, units), f" ({row.level})" if row.time_to_limit is None else ""
+    when, resolved = _when(row, units), f" ({row.level})" if row.time_to_limit is None else ""
     if row.fate == "spin-up":
         about = "without bound"
         if row.axis:
             about = f"about {units.axes.whole(row.axis)}, {direction(row.sense)}"
         elif row.direction:
             about = f"about the direction {vector(row.direction)} of the file's frame"
-        return f"{FATES[row.fate]} {about}{', ' + when if when else ''}{known}"
+        return f"{FATES[row.fate]} {about}{', ' + when if when else ''}{resolved}"
     if row.fate == "undecided":
         if when:
             return f"UNDECIDED, but {when}"
         until = units.time(row.followed, SHORT, -1)
         return (f"UNDECIDED: followed for {until}" if row.limit is None
                 else f"UNDECIDED: not at {_limit(row.limit, units)} before {until} ({row.time_level})")
-    words = FATES[row.fate]
+    phrase = FATES[row.fate]
     if row.fate == "equilibrium":
         departs = limiting.unstable(row.caveats, units)
-        words = f"{words if row.largest_rate else REST}: {departs or 'every rate stays as it is'}"
+        phrase = f"{phrase if row.largest_rate else REST}: {departs or 'every rate stays as it is'}"
     while_ = limiting.condition(row.caveats, units)
     if when:
-        return f"{words}{while_}, but {when}{known}"
+        return f"{phrase}{while_}, but {when}{resolved}"
     largest = "" if row.largest_rate is None else f", |ω| at most {units.rate(row.largest_rate, SHORT, 1)}"
     below = ", never at its limit" if row.never and row.limit is not None else ""
-    return (f"{words}{while_}{largest}{below}{known}" if row.tilt is None
-            else f"{words}{largest}{below}{known},{while_}")
+    return (f"{phrase}{while_}{largest}{below}{resolved}" if row.tilt is None
+            else f"{phrase}{largest}{below}{resolved},{while_}")
 
 
 def _when(row, units) -> str:
     if row.time_to_limit is None:
         return ""
-    name, one = units.times(row.time_to_limit[1])
+    name, item = units.times(row.time_to_limit[1])
     low, high = row.time_to_limit
     if high == 0:
         return f"starts at its limit, {_limit(row.limit, units)}"
-    a, b = bracket(low, high, one)
-    return (f"reaches {_limit(row.limit, units)} in {number((low + high) / 2 * one)} {name} "
+    a, b = bracket(low, high, item)
+    return (f"reaches {_limit(row.limit, units)} in {number((low + high) / 2 * item)} {name} "
             f"({row.time_level} {a} "
             f"to {b})")
 
 
 def _limit(limit, units) -> str:
-    name, one = units.rates
+    name, item = units.rates
     if isinstance(limit, tuple):
         if len(set(limit)) == 1:
-            return f"{number(limit[0] * one)} {name} in a component"
-        return f"the limit of a component ({', '.join(number(v * one) for v in limit)} {name})"
-    return f"{number(limit * one)} {name}"
+            return f"{number(limit[0] * item)} {name} in a component"
+        return f"the limit of a component ({', '.join(number(v * item) for v in limit)} {name})"
+    return f"{number(limit * item)} {name}"
 
 
 def _margins(row, units) -> str:
-    known = {name: m for name, m in row.margins.items() if m.size is not None}
-    if not known:
+    resolved = {name: m for name, m in row.margins.items() if m.size is not None}
+    if not resolved:
         reason = next((row.margins[name].reason for name in ("wheel", "rate", "torque")
                        if name in row.margins), None)
         return f"no distance to a separatrix, as {units.said(reason)}" if reason else ""
-    ends = {name: _ends(name, m, units) for name, m in known.items()}
-    told = [" or ".join(f"{ends[name][0]} of {MARGIN_LABELS[name]}" for name, m in known.items()
+    ends = {name: _ends(name, m, units) for name, m in resolved.items()}
+    printed = [" or ".join(f"{ends[name][0]} of {MARGIN_LABELS[name]}" for name, m in resolved.items()
                         if (m.beyond or name == "torque") == beyond) for beyond in (True, False)]
-    changes = [words + sizes for words, sizes in zip(
-        ("the outcome changes with ", "only on a separatrix the outcome is another, nearest "), told)
+    changes = [phrase + sizes for phrase, sizes in zip(
+        ("the outcome changes with ", "only on a separatrix the outcome is another, nearest "), printed)
         if sizes]
     return "; ".join([*changes, *(f"beyond {back} of {MARGIN_LABELS[name]} it is again as now"
                                   for name, (_, back) in ends.items() if back)])
@@ -196,8 +196,8 @@ def _ends(name, margin, units) -> tuple[str, str]:
     """(the size of a margin, the size at which the fate turns back, where that is soon)."""
     if margin.until is None or not margin.size < margin.until < SOON * margin.size:
         return amount(name, margin.size, units, SHORT), ""
-    unit, one = _unit(name, units)
-    low, high = bracket(margin.size, margin.until, one)
+    unit, item = _unit(name, units)
+    low, high = bracket(margin.size, margin.until, item)
     return f"{low} {unit}", f"{high} {unit}"
 
 
@@ -227,8 +227,8 @@ def _wheel(wheel, units) -> str:
              else f"{units.time(wheel.best_time[0], SHORT)}")
     gain = "" if wheel.gain is None else f", {units.time(wheel.gain, SHORT)} later"
     low, high = wheel.searched
-    most = "delays the limit most of all" if wheel.most else "delays the limit, perhaps not most of all,"
-    return (f"wheel {name}, now {number(wheel.now)} N m s: {number(wheel.best)} N m s {most} within "
+    largest = "delays the limit most of all" if wheel.most else "delays the limit, perhaps not most of all,"
+    return (f"wheel {name}, now {number(wheel.now)} N m s: {number(wheel.best)} N m s {largest} within "
             f"{number(low)} to {number(high)}: {later}{gain}")
 
 
@@ -236,9 +236,9 @@ def merged(intervals):
     """[(low, high, momenta between that do not keep it bounded)]: intervals a single number apart are one."""
     out = []
     for low, high in intervals:
-        one = math.nextafter(low, -math.inf)
-        if out and math.nextafter(out[-1][1], math.inf) == one:
-            out[-1] = out[-1][0], high, (*out[-1][2], one)
+        item = math.nextafter(low, -math.inf)
+        if out and math.nextafter(out[-1][1], math.inf) == item:
+            out[-1] = out[-1][0], high, (*out[-1][2], item)
         else:
             out.append((low, high, ()))
     return out
@@ -250,20 +250,20 @@ def _span_of(low, high) -> str:
     if math.isinf(low) and math.isinf(high):
         return "any momentum"
     for digits in (DIGITS, 9, 12):
-        least, most = _inward(low, ROUND_CEILING, digits), _inward(high, ROUND_FLOOR, digits)
-        if not float(least) > float(most):
+        smallest, largest = _inward(low, ROUND_CEILING, digits), _inward(high, ROUND_FLOOR, digits)
+        if not float(smallest) > float(largest):
             break
     if math.isinf(low):
-        return f"up to {most} N m s"
-    return f"{least} N m s or more" if math.isinf(high) else f"{least} to {most} N m s"
+        return f"up to {largest} N m s"
+    return f"{smallest} N m s or more" if math.isinf(high) else f"{smallest} to {largest} N m s"
 
 
-def _inward(value: float, way: str, digits: int) -> str:
+def _inward(value: float, route: str, digits: int) -> str:
     """A number of so many digits that is inside an interval with this end."""
     if not value or math.isinf(value):
         return str(value)
     exact = Decimal(value)
-    return number(float(exact.quantize(Decimal(1).scaleb(exact.adjusted() + 1 - digits), way,
+    return number(float(exact.quantize(Decimal(1).scaleb(exact.adjusted() + 1 - digits), route,
                                         context=PRECISE)), digits)
 
 
@@ -280,25 +280,25 @@ def _helper(helper, units) -> str:
 
 
 def _details(row, units) -> list[str]:
-    found = [("torque, principal axes", f"{vector(row.torque_principal)} N m"),
+    rows = [("torque, principal axes", f"{vector(row.torque_principal)} N m"),
              ("torque, frame of file", f"{vector(row.torque)} N m"),
              ("fate", f"{row.fate} ({row.level})"), ("because", units.said(row.reason))]
     margins = {}
     for name, margin in row.margins.items():
-        told = holds_for(margin, units)
+        printed = holds_for(margin, units)
         if margin.size is not None:
             along = f" along {vector(margin.direction)}" if margin.direction else ""
-            told = f"{amount(name, margin.size, units)}{along}" + (f": {told}" if told else "")
-        margins[name] = told
+            printed = f"{amount(name, margin.size, units)}{along}" + (f": {printed}" if printed else "")
+        margins[name] = printed
     if len(margins) > 1 and len(set(margins.values())) == 1:  # nothing is known of any, for one reason
-        found.append(("margins", told))
+        rows.append(("margins", printed))
     else:
-        found += [(f"margin, {name}", told) for name, told in margins.items()]
+        rows += [(f"margin, {name}", shown) for name, shown in margins.items()]
     if row.tilt is not None and not row.tilt.ranges:
-        found.append(("tilted, not before", f"{units.time(row.tilt.not_before, side=-1)}, whatever the "
+        rows.append(("tilted, not before", f"{units.time(row.tilt.not_before, side=-1)}, whatever the "
                                             "azimuth and "
                                             "for any smaller tilt (proved)"))
-    return [printable(row_name(row)), *(f"  {name:<24} {told}" for name, told in found),
+    return [printable(row_name(row)), *(f"  {name:<24} {shown}" for name, shown in rows),
             *(f"  {line}" for line in means(row, units))]
 
 
@@ -314,68 +314,68 @@ def means(row, units) -> list[str]:
 SHOWN = 12  # switches in text; JSON has them all
 
 
-def burn_dict(case, found) -> dict:
+def burn_dict(case, result) -> dict:
     """The object of `stabilab burn --json`: SI units, vectors in the frame of the file."""
-    return {"schema": "stabilab.burn/1", "case": case.name, "thrusters": found.thrusters,
-            "switches": [{"time": one.time, "firing": one.firing,
-                          "torque": in_file(case, one.torque), "rates": in_file(case, one.rates)}
-                         for one in found.switches],
-            "closed": _closed(case, found.closed), "latest": _latest(found.latest),
-            "closed_latest": _closed(case, found.closed_latest)}
+    return {"schema": "stabilab.burn/1", "case": case.name, "thrusters": result.thrusters,
+            "switches": [{"time": switch.time, "firing": switch.firing,
+                          "torque": in_file(case, switch.torque), "rates": in_file(case, switch.rates)}
+                         for switch in result.switches],
+            "closed": _closed(case, result.closed), "latest": _latest(result.latest),
+            "closed_latest": _closed(case, result.closed_latest)}
 
 
-def burn_undecided(found) -> bool:
+def burn_undecided(result) -> bool:
     """Whether the motion that it leaves, or by when to close, is undecided."""
-    late = found.latest is not None and found.latest.level == "undecided"
-    return late or found.closed.motion.fate.word == "undecided"
+    late = result.latest is not None and result.latest.level == "undecided"
+    return late or result.closed.motion.fate.word == "undecided"
 
 
-def _closed(case, one) -> dict | None:
-    if one is None:
+def _closed(case, item) -> dict | None:
+    if item is None:
         return None
-    turn = one.attitude
-    return {"time": one.time, "rates": in_file(case, one.rates), "error": one.error,
-            "momentum": in_file(case, one.momentum), "energy": one.energy,
-            "largest_rate": one.largest_rate, "largest_rate_before": one.largest_before,
-            "fate": one.motion.fate.word, "because": one.motion.because,
-            "reason": one.motion.reason.as_dict(),
+    turn = item.attitude
+    return {"time": item.time, "rates": in_file(case, item.rates), "error": item.error,
+            "momentum": in_file(case, item.momentum), "energy": item.energy,
+            "largest_rate": item.largest_rate, "largest_rate_before": item.largest_before,
+            "fate": item.motion.fate.word, "because": item.motion.because,
+            "reason": item.motion.reason.as_dict(),
             "mode": turn and turn.mode, "rotation_period": turn and turn.rotation_period,
             "precession_period": turn and turn.precession_period,
-            "fired": one.fired, "propellant_used": one.used}
+            "fired": item.fired, "propellant_used": item.used}
 
 
-def _latest(one) -> dict | None:
+def _latest(item) -> dict | None:
     """time: [low, high], null where no closing is too late or it is not known; not_before: any closing up to
     then is early enough, null where all are; surely: as of `Latest`, its second null where not known."""
-    if one is None:
+    if item is None:
         return None
-    return {"limit": one.limit, "reached": reached(one.low, one.high),
-            "time": [one.low, one.high] if math.isfinite(one.high) else None, "not_before": one.low,
-            **values_of(one, "level because again surely within forces"), "reason": one.reason.as_dict(),
-            "stated": _latest(one.stated)}
+    return {"limit": item.limit, "reached": reached(item.low, item.high),
+            "time": [item.low, item.high] if math.isfinite(item.high) else None, "not_before": item.low,
+            **values_of(item, "level because again surely within forces"), "reason": item.reason.as_dict(),
+            "stated": _latest(item.stated)}
 
 
-def burn_text(case, found, units: Units) -> str:
+def burn_text(case, result, units: Units) -> str:
     """The answer first, then what is left, the switches and why."""
-    lines = [f"{case.name}: {_headline(found, units)}"]
-    if found.latest is not None:
-        lines += _of_latest(found, units)
-    lines += _of_closed(case, found, found.closed, units)
-    for one in found.switches[:SHOWN]:
-        firing = ", ".join(one.firing) or "none"
-        lines.append(entry(units.moment(one.time), f"firing: {firing}; rates "
-                                                 f"{units.vector(_seen(case, one.rates), units.rates)}"))
-    if len(found.switches) > SHOWN:
-        lines.append(entry("", f"and {len(found.switches) - SHOWN} more switches, in --json"))
-    return "\n".join([*lines, f"why: {units.said(found.closed.motion.reason)}"])
+    lines = [f"{case.name}: {_headline(result, units)}"]
+    if result.latest is not None:
+        lines += _of_latest(result, units)
+    lines += _of_closed(case, result, result.closed, units)
+    for switch in result.switches[:SHOWN]:
+        firing = ", ".join(switch.firing) or "none"
+        lines.append(entry(units.moment(switch.time), f"firing: {firing}; rates "
+                                                 f"{units.vector(_seen(case, switch.rates), units.rates)}"))
+    if len(result.switches) > SHOWN:
+        lines.append(entry("", f"and {len(result.switches) - SHOWN} more switches, in --json"))
+    return "\n".join([*lines, f"why: {units.said(result.closed.motion.reason)}"])
 
 
-def _headline(found, units: Units) -> str:
-    one, latest = found.closed, found.latest
+def _headline(result, units: Units) -> str:
+    item, latest = result.closed, result.latest
     if latest is None:
-        after = ("largest rate not known" if one.largest_rate is None
-                 else f"never above {units.rate(one.largest_rate, side=1)}")
-        return f"CLOSED at {units.moment(one.time)}, then {one.motion.fate.word.upper()}, {after}"
+        after = ("largest rate not known" if item.largest_rate is None
+                 else f"never above {units.rate(item.largest_rate, side=1)}")
+        return f"CLOSED at {units.moment(item.time)}, then {item.motion.fate.word.upper()}, {after}"
     aim = f"|ω| below {units.rate(latest.limit)}"
     over = ("" if latest.stated is None else
             f", {units.said(latest.looked, SHORT)}: the least of {latest.forces} "
@@ -393,11 +393,11 @@ def _headline(found, units: Units) -> str:
             f"({latest.level} {low} to {high}){over}")
 
 
-def _of_latest(found, units: Units):
-    latest, early = found.latest, found.closed_latest
-    if (stated := latest.stated) is not None:
-        known = ("never too late" if math.isinf(stated.low) else f"close by {units.time(stated.low)}")
-        yield entry("forces as stated", f"{known} ({stated.level})")
+def _of_latest(result, units: Units):
+    latest, early = result.latest, result.closed_latest
+    if (declared := latest.stated) is not None:
+        resolved = ("never too late" if math.isinf(declared.low) else f"close by {units.time(declared.low)}")
+        yield entry("forces as stated", f"{resolved} ({declared.level})")
     if early is not None:
         yield entry("closed then", f"{_turning(early, units)}; largest rate before "
                                    f"{_rate(early.largest_before, units)}")
@@ -415,26 +415,26 @@ def _rate(value, units: Units) -> str:
     return "not known" if value is None else units.rate(value)
 
 
-def _turning(one, units: Units) -> str:
+def _turning(item, units: Units) -> str:
     """What follows, in a line."""
-    parts = [one.motion.fate.word]
-    if one.largest_rate is not None:
-        parts.append(f"largest rate for ever {units.rate(one.largest_rate)}")
-    if one.attitude is not None and one.attitude.mode:
-        parts.append(f"{one.attitude.mode} mode" if "axis" in one.attitude.mode else one.attitude.mode)
+    parts = [item.motion.fate.word]
+    if item.largest_rate is not None:
+        parts.append(f"largest rate for ever {units.rate(item.largest_rate)}")
+    if item.attitude is not None and item.attitude.mode:
+        parts.append(f"{item.attitude.mode} mode" if "axis" in item.attitude.mode else item.attitude.mode)
     return ", ".join(parts)
 
 
-def _of_closed(case, found, one, units: Units):
-    yield entry("last closing", units.time(one.time))
-    yield entry("rates then", f"{units.vector(_seen(case, one.rates), units.rates)}, known to "
-                            f"{units.rate(one.error, 2, 1)}")
-    yield entry("angular momentum", f"{number(math.hypot(*one.momentum), DIGITS)} N m s, "
-                                  f"{vector(_seen(case, one.momentum))}")
-    yield entry("energy", units.energy(one.energy))
-    yield entry("largest rate before", _rate(one.largest_before, units))
-    yield entry("after it", _turning(one, units))
-    for name, fired, used in zip(found.thrusters, one.fired, one.used):
+def _of_closed(case, result, item, units: Units):
+    yield entry("last closing", units.time(item.time))
+    yield entry("rates then", f"{units.vector(_seen(case, item.rates), units.rates)}, known to "
+                            f"{units.rate(item.error, 2, 1)}")
+    yield entry("angular momentum", f"{number(math.hypot(*item.momentum), DIGITS)} N m s, "
+                                  f"{vector(_seen(case, item.momentum))}")
+    yield entry("energy", units.energy(item.energy))
+    yield entry("largest rate before", _rate(item.largest_before, units))
+    yield entry("after it", _turning(item, units))
+    for name, fired, used in zip(result.thrusters, item.fired, item.used):
         if fired is None:
             continue
         mass = "" if used is None else f", {number(used, DIGITS)} kg of propellant"
@@ -444,5 +444,5 @@ def _of_closed(case, found, one, units: Units):
 def _seen(case, along):
     """A vector in the frame of the file, 0 where a component is only the rounding of the others."""
     values = in_file(case, along)
-    least = 4 * math.ulp(max(map(abs, values)))
-    return [float(v) if abs(v) > least else 0.0 for v in values]
+    smallest = 4 * math.ulp(max(map(abs, values)))
+    return [float(v) if abs(v) > smallest else 0.0 for v in values]

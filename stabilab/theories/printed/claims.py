@@ -50,9 +50,9 @@ def sides(text: str, symbols: dict):
 def _functions_and_constants():
     import sympy as sp
 
-    known = {name: getattr(sp, name) for name in FUNCTIONS}
-    known |= {name: sp.Function(name) for name in OPERATORS}
-    return known, {"pi": sp.pi, "I": sp.I}
+    resolved = {name: getattr(sp, name) for name in FUNCTIONS}
+    resolved |= {name: sp.Function(name) for name in OPERATORS}
+    return resolved, {"pi": sp.pi, "I": sp.I}
 
 
 def _build(node, text, symbols):
@@ -60,8 +60,8 @@ def _build(node, text, symbols):
 
     functions, constants = _functions_and_constants()
 
-    def fault(words: str, at: ast.Call | ast.Name | ast.Compare):
-        raise FormulaError(f"{words} at position {at.col_offset + 1} of {text!r}")
+    def fault(phrase: str, at: ast.Call | ast.Name | ast.Compare):
+        raise FormulaError(f"{phrase} at position {at.col_offset + 1} of {text!r}")
 
     def visit(node):
         match node:
@@ -92,8 +92,8 @@ def _near(name: str, symbols: Mapping[str, Expr]):
     from difflib import get_close_matches
 
     close = get_close_matches(name, symbols, 3, 0.5)
-    near = f"near it: {', '.join(close)}; declare new ones" if close else "declare it"
-    return f" ({near} under [symbols])"
+    nearby = f"near it: {', '.join(close)}; declare new ones" if close else "declare it"
+    return f" ({nearby} under [symbols])"
 
 
 # --- What papers print, as data: a TOML file a paper, a row a claim. The format is in docs/audit.md
@@ -167,12 +167,12 @@ def read(path: Path) -> Paper:
     symbols, units, formulas, definitions = _vocabulary(data, path.name)
     rows = tuple(_row(_expanded(row, formulas), n, path.name, symbols)
                  for n, row in enumerate(data.get("row", ()), 1))
-    seen: dict = {}
+    visited: dict = {}
     for row in rows:
-        if row.equation in seen:
+        if row.equation in visited:
             raise InputError(f"{row.place}: equation {row.equation} has a row already "
-                             f"({seen[row.equation]}): give each its own name, as 18-a")
-        seen[row.equation] = row.place
+                             f"({visited[row.equation]}): give each its own name, as 18-a")
+        visited[row.equation] = row.place
     paper = Paper(data.get("name", path.stem), data.get("title", path.stem), symbols, units, definitions,
                   formulas, data.get("systems", {}), tuple(data.get("conditions", ())),
                   _tuple(data.get("domain", ())), rows, data.get("source", ""), data.get("figures", ""))
@@ -204,15 +204,15 @@ def _expanded(value, formulas):
         return [_expanded(inner, formulas) for inner in value]
     if not isinstance(value, str) or not formulas:
         return value
-    return NAME.sub(lambda found: f"({formulas[found[0]]})" if found[0] in formulas else found[0], value)
+    return NAME.sub(lambda match: f"({formulas[match[0]]})" if match[0] in formulas else match[0], value)
 
 
-def _symbol(name: str, words: str):
+def _symbol(name: str, text: str):
     import sympy as sp
 
-    if "complex" in words:
+    if "complex" in text:
         return sp.Symbol(name)
-    return sp.Symbol(name, positive=True) if "positive" in words else sp.Symbol(name, real=True)
+    return sp.Symbol(name, positive=True) if "positive" in text else sp.Symbol(name, real=True)
 
 
 def vocabulary(path: Path) -> tuple[dict, dict, dict]:
@@ -245,34 +245,34 @@ def _vocabulary(data: Mapping[str, Any], file: str):
     return symbols, units, formulas, definitions
 
 
-def _symbols(table: Mapping[str, str], place: str):
+def _symbols(table: Mapping[str, str], location: str):
     """("D1 D2" = "kg m^2, positive") -> symbols and units by name."""
     symbols, units = {}, {}
-    for names, words in table.items():
-        unit, _, kind = words.partition(",")
+    for names, value in table.items():
+        unit, _, kind = value.partition(",")
         kind = kind.strip()
         if kind not in ("", "positive", "complex"):
             raise InputError(
-                f'{place}, symbols "{names}": expected "unit", "unit, positive" or "unit, complex", got '
-                f'"{words}"')
+                f'{location}, symbols "{names}": expected "unit", "unit, positive" or "unit, complex", got '
+                f'"{value}"')
         for name in names.split():
             if not name.isidentifier():
-                raise InputError(f'{place}, symbols: "{name}" is no name (letters, digits, _)')
+                raise InputError(f'{location}, symbols: "{name}" is no name (letters, digits, _)')
             symbols[name], units[name] = _symbol(name, kind), unit.strip() or "1"
     return symbols, units
 
 
 def _row(data: Mapping[str, Any], number: int, file: str, symbols: dict[str, Expr]) -> Row:
-    place = f"{file}, row {number} (equation {data.get('equation', '?')})"
+    location = f"{file}, row {number} (equation {data.get('equation', '?')})"
     kind = data.get("kind", "holds")
     if kind not in ROW_KINDS:
-        raise InputError(f"{place}: unknown kind {kind!r}; known are {', '.join(ROW_KINDS)}")
+        raise InputError(f"{location}: unknown kind {kind!r}; known are {', '.join(ROW_KINDS)}")
     missing = [key for key in ("equation", *ROW_KINDS[kind]) if key not in data]
     if missing:
-        raise InputError(f"{place}: a row of kind {kind} needs {', '.join(missing)}")
+        raise InputError(f"{location}: a row of kind {kind} needs {', '.join(missing)}")
     if unknown := set(data) - ROW_KEYS:
         raise InputError(
-            f"{place}: unknown keys {', '.join(sorted(unknown))}; known are {', '.join(sorted(ROW_KEYS))}")
+            f"{location}: unknown keys {', '.join(sorted(unknown))}; known are {', '.join(sorted(ROW_KEYS))}")
     printed, corrected = (_tuple(data.get(key, ())) for key in ("printed", "corrected"))
     where, corrected_where = data.get("where", {}), data.get("corrected_where", {})
     domain = _tuple(data.get("domain", ()))
@@ -280,25 +280,25 @@ def _row(data: Mapping[str, Any], number: int, file: str, symbols: dict[str, Exp
         symbols.setdefault(name, _symbol(name, ""))
     if kind in ("holds", "solves", "equilibrium", "order"):
         if not printed:
-            raise InputError(f'{place}: nothing printed: give printed = "left = right"')
+            raise InputError(f'{location}: nothing printed: give printed = "left = right"')
         for text in (*printed, *corrected):
-            _located(place, sides, text, symbols)
+            _located(location, sides, text, symbols)
     for text in (*where.values(), *corrected_where.values(), *domain):
-        _located(place, parse, text, symbols)
+        _located(location, parse, text, symbols)
     return Row(str(data["equation"]), kind, printed, corrected, data.get("says", ""), data.get("system"),
                where, corrected_where, domain,
-               {key: value for key, value in data.items() if key not in OWN}, place)
+               {key: value for key, value in data.items() if key not in OWN}, location)
 
 
 def _tuple(value: str | Sequence[str]):
     return (value,) if isinstance(value, str) else tuple(value)
 
 
-def _located(place, read_it, text, symbols):
+def _located(location, read_it, text, symbols):
     try:
         return read_it(text, symbols)
     except FormulaError as error:
-        raise FormulaError(f"{place}: {error}") from None
+        raise FormulaError(f"{location}: {error}") from None
 
 
 def papers() -> tuple[str, ...]:

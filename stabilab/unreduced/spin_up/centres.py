@@ -159,17 +159,17 @@ def gathered(*parts: Terms) -> Terms:
     parts = tuple(part for part in parts if len(part.keys))
     if not parts:
         return terms_of({})
-    whole = joined(parts)
-    order = np.argsort(whole.keys, kind="stable")
-    keys = whole.keys[order]
+    full = joined(parts)
+    order = np.argsort(full.keys, kind="stable")
+    keys = full.keys[order]
     first = np.flatnonzero(np.append(True, keys[1:] != keys[:-1]))
-    return Terms(keys[first], np.add.reduceat(whole.c[order], first), np.add.reduceat(whole.m[order], first))
+    return Terms(keys[first], np.add.reduceat(full.c[order], first), np.add.reduceat(full.m[order], first))
 
 
-def product(one: Terms, other: Terms) -> Terms:
+def product(item: Terms, other: Terms) -> Terms:
     """The product of two sums of terms, like keys not yet added up."""
-    return Terms((one.keys[:, None] + other.keys).ravel(), (one.c[:, None] * other.c).ravel(),
-                 (one.m[:, None] * other.m).ravel())
+    return Terms((item.keys[:, None] + other.keys).ravel(), (item.c[:, None] * other.c).ravel(),
+                 (item.m[:, None] * other.m).ravel())
 
 
 def sizes(terms: Terms):
@@ -270,8 +270,8 @@ class FixedCentre:
     def energy(self, order: int) -> Corrected:
         """D1 X^2/2, corrected; the drive M1 X + m* is left out of its rate."""
         start = terms_of(self.swing).moved(packed(0, 0, -4, 0))
-        found = corrected(self.algebra, start, order)
-        return Corrected(found.added, found.rate[found.rate.keys != packed(0, 0, 0, 0)])
+        result = corrected(self.algebra, start, order)
+        return Corrected(result.added, result.rate[result.rate.keys != packed(0, 0, 0, 0)])
 
     def amplitude(self, order: int) -> Corrected:
         """(1 + m*/(M1 X)) |zeta|^2, corrected from |zeta|^2 + R/(om X) on."""
@@ -281,8 +281,8 @@ class FixedCentre:
                                    (0, 1, 4, 0): -1j * f.mu / f.om}))
         weight = terms_of(_present({(1, 1, 4, 0): f.drag / f.M1}))
         rate = product(first.moved(packed(0, 0, 4, 0)).times(-1), algebra.x_rate)
-        found = corrected(algebra, gathered(rate, algebra.rest_of_rate(weight)), order)
-        return Corrected(gathered(first, found.added), found.rate)
+        result = corrected(algebra, gathered(rate, algebra.rest_of_rate(weight)), order)
+        return Corrected(gathered(first, result.added), result.rate)
 
     def transverse(self, A: float, z: float):
         """((low, high), (low, high)) of omega2 and omega3 of the form while |zeta| <= A."""

@@ -102,8 +102,8 @@ def stored() -> bool:
 def axis_of_symmetry(D: Sequence[Fraction]) -> int | None:
     """The index of the axis whose two others have equal moments; None for three different moments and for a
     sphere."""
-    found = [i for i in range(3) if D[(i + 1) % 3] == D[(i + 2) % 3]]
-    return found[0] if len(found) == 1 else None
+    rows = [i for i in range(3) if D[(i + 1) % 3] == D[(i + 2) % 3]]
+    return rows[0] if len(rows) == 1 else None
 
 
 NO_TORQUE = Sentence("closed-no-torque", "without a torque the energy is constant and the motion bounded")()
@@ -203,20 +203,20 @@ def _across(vector, along):
 def exactly(scene, state) -> SpinUp | None:
     """The fate of a state where a closed solution tells it; None elsewhere. state: three floats, at their
     word."""
-    found = closed(scene, state)
-    if found is None:
+    result = closed(scene, state)
+    if result is None:
         return None
-    (axis, sense), direction, trap = found.about, None, None
-    if found.direction:
-        size = _size(found.direction)
-        direction = tuple(float(v / size) for v in found.direction)
-    if found.law == "axis of symmetry" and axis - 1 == axis_of_symmetry(scene.body.exact):
-        most, start = float(found.most) * (1 + WIDER), float(sense * state[axis - 1])
-        bounded = [(-most, most)] * 3
+    (axis, sense), direction, trap = result.about, None, None
+    if result.direction:
+        size = _size(result.direction)
+        direction = tuple(float(v / size) for v in result.direction)
+    if result.law == "axis of symmetry" and axis - 1 == axis_of_symmetry(scene.body.exact):
+        largest, start = float(result.most) * (1 + WIDER), float(sense * state[axis - 1])
+        bounded = [(-largest, largest)] * 3
         bounded[axis - 1] = (start, math.inf) if sense > 0 else (-math.inf, -start)
-        trap = SteadyTrap(axis, sense, start, float(found.gain), tuple(bounded))
+        trap = SteadyTrap(axis, sense, start, float(result.gain), tuple(bounded))
     return SpinUp(Fate.SPIN_UP if direction else Fate.BOUNDED, axis, sense, direction, "exact", trap, 0.0,
-                  tuple(map(float, state)), 0, 1.0, reason=found.reason)
+                  tuple(map(float, state)), 0, 1.0, reason=result.reason)
 
 
 def equatorial(scene) -> MovingCentre | None:
@@ -260,10 +260,10 @@ class Certifier:
             quantities = _quantity(energy.added, parts), _quantity(amplitude.added, parts)
             sums = (kernel.Sum(*_sums(amplitude.rate, sizes(amplitude.rate), parts)),
                     kernel.Sum(*_sums(energy.rate, sizes(energy.rate) / size, parts, (-a, -b))))
-        exponents = [*(one.exponents for one in quantities), *(one.exponents for one in sums)]
-        reach = 5 + max(int(np.abs(one).sum(axis=0).max()) for one in exponents)
-        self.degrees = 1 + max(int(one.powers.max()) for one in quantities)
-        self.columns = max(one.shape[1] for one in exponents)
+        exponents = [*(quantity.exponents for quantity in quantities), *(item.exponents for item in sums)]
+        reach = 5 + max(int(np.abs(exponent).sum(axis=0).max()) for exponent in exponents)
+        self.degrees = 1 + max(int(quantity.powers.max()) for quantity in quantities)
+        self.columns = max(exponent.shape[1] for exponent in exponents)
         drive = [(m * parts // 4, n * parts // 4) for _, _, m, n in field.G0]
         form = kernel.Form(field.basis, np.array(field.frame, float), field.D1, field.M1, field.a2, field.a3,
                            *field.offsets, parts, a * parts // 4, b * parts // 4, size, reach,
@@ -284,9 +284,9 @@ class Certifier:
     def constants(self, state: np.ndarray, near: float = 0.0, fast: bool = False) -> tuple[float, ...] | None:
         """The six constants for all states of the ball of radius `near` about one (3,); None where the
         inequality does not hold."""
-        fired, found = np.full(1, -1), np.full((6, 1), np.nan)
-        self.decide(np.arange(1), np.array([state], float), np.array([near], float), fired, 0, found, fast)
-        return None if fired[0] else tuple(found[:, 0].tolist())
+        fired, result = np.full(1, -1), np.full((6, 1), np.nan)
+        self.decide(np.arange(1), np.array([state], float), np.array([near], float), fired, 0, result, fast)
+        return None if fired[0] else tuple(result[:, 0].tolist())
 
 
 def _sums(terms: Terms, coefficients: np.ndarray, parts: int, shift: Sequence[int] = (0, 0)):
@@ -303,12 +303,12 @@ def _quantity(terms: Terms, parts: int) -> kernel.Quantity:
     """What is added to a quantity: its terms come with their conjugates."""
     j, k, a, b = terms.powers
     exponents, sums = _sums(terms, sizes(terms), parts)
-    _, most = _sums(terms, terms.m, parts)
+    _, largest = _sums(terms, terms.m, parts)
     half, (_, column) = j >= k, _distinct(a, b)
     powers, row = _distinct(j[half], k[half])
     values = np.zeros((powers.shape[1], exponents.shape[1]), complex)
     np.add.at(values, (row, column[half]), np.where(j == k, 1, 2)[half] * terms.c[half])
-    return kernel.Quantity(exponents, sums, most, values, powers)
+    return kernel.Quantity(exponents, sums, largest, values, powers)
 
 
 def _distinct(a: np.ndarray, b: np.ndarray):
@@ -340,8 +340,8 @@ class Tests:
 
     @cached_property
     def moving(self):
-        found = (moving_centre(form, self.scene) for form in self.forms)
-        return [moving for moving in found if moving]
+        result = (moving_centre(form, self.scene) for form in self.forms)
+        return [moving for moving in result if moving]
 
     @cached_property
     def all(self):

@@ -155,7 +155,7 @@ class Twins:
         """Take note of what has become of changes of the size `apart` (m,): states (m, 3), and twins, which
         passed the same place delays (m,) later. error (m,): of the places, in all, but for the growth.
         Returns (m,) where they tell nothing: nothing is noted there."""
-        unit, change, told = self._along(states), twins - states, np.ones(len(rows), bool)
+        unit, change, printed = self._along(states), twins - states, np.ones(len(rows), bool)
         speed, room = (self.rates(states) * unit).sum(axis=1), NO_GROWTH * _size(states)
         # the twin where it was, or will be, beside the motion: to second order in the delay
         for _ in range(2):
@@ -164,18 +164,18 @@ class Twins:
             change, delays = change + more[:,
                                            None] * self.rates(states + change
                                                               + 0.5 * more[:, None] * rate), delays + more
-            told &= np.abs(more) * speed < room
+            printed &= np.abs(more) * speed < room
         size, first = np.abs(change).max(axis=1), np.sqrt((self.rates(starts)**2).sum(axis=1))
-        told &= size < room
-        yes = rows[told]
+        printed &= size < room
+        yes = rows[printed]
         self.blur[yes] += (error * self.most[rows]
                            * (np.abs(delays) / apart
-                              + np.where(first > kernel.STILL * _size(starts), 1 / first, 0.0)))[told]
-        self.growth[yes] *= (size / apart)[told]
+                              + np.where(first > kernel.STILL * _size(starts), 1 / first, 0.0)))[printed]
+        self.growth[yes] *= (size / apart)[printed]
         self.most[yes] = np.fmax(self.most[yes], self.growth[yes])
-        turned = told & (size > 0)
+        turned = printed & (size > 0)
         self.ahead[rows[turned]] = change[turned] / size[turned, None]
-        return ~told
+        return ~printed
 
     def _along(self, states: np.ndarray):
         """Unit vectors along the motions (m, 3); zero where they hardly move."""
@@ -280,9 +280,9 @@ class Returns:
             before[open_] = height
             if rows.size:
                 late, _ = self._late(places[rows], normals[rows])
-                back, found, good = self(states[rows], normals[rows], now[rows] - late)
+                back, result, good = self(states[rows], normals[rows], now[rows] - late)
                 good &= np.sqrt(((back - states[rows])**2).sum(axis=1)) < CLOSED * far[rows]
-                times[rows[good]], steps[rows[good]] = found[good], number
+                times[rows[good]], steps[rows[good]] = result[good], number
                 open_ = np.setdiff1d(open_, rows[good])
             if not open_.size:
                 break
@@ -310,8 +310,8 @@ def matrices():
     values, coefficients = chebyshev.chebvander(places,
                                                 NODES), np.linalg.inv(chebyshev.chebvander(places, NODES))
     integral, slope = np.zeros((NODES + 2, NODES + 1)), np.zeros((NODES + 1, NODES + 1))
-    for k, one in enumerate(np.eye(NODES + 1)):
-        up, down = chebyshev.chebint(one, lbnd=-1) / 2, chebyshev.chebder(one) * 2
+    for k, item in enumerate(np.eye(NODES + 1)):
+        up, down = chebyshev.chebint(item, lbnd=-1) / 2, chebyshev.chebder(item) * 2
         integral[:up.size, k], slope[:down.size, k] = up, down
     sums = [chebyshev.chebvander(places, NODES + 1) @ integral @ coefficients,
             -0.5 * _from_start(np.eye(NODES + 1))]
@@ -383,9 +383,9 @@ def _smooth(returns, x, d, normals, guesses, allowed, good):
     out = np.zeros(len(good), bool)
     if rows.size:
         tail = np.abs(coefficients[-3:] @ d[rows])[:, :, :3].max(axis=(1, 2))
-        place, expected = _projected(returns, (between @ x[rows])[:, :, :3], normals[rows]), between @ d[rows]
-        seen, _, fine = _drift(returns, place, normals[rows], guesses[rows, NODES // 2:NODES // 2 + 1])
-        missed = np.abs(seen - expected)[:, 0, :3].max(axis=1)
+        index, expected = _projected(returns, (between @ x[rows])[:, :, :3], normals[rows]), between @ d[rows]
+        visited, _, fine = _drift(returns, index, normals[rows], guesses[rows, NODES // 2:NODES // 2 + 1])
+        missed = np.abs(visited - expected)[:, 0, :3].max(axis=1)
         out[rows] = fine & (tail <= allowed[rows]) & (missed <= allowed[rows])
     return out
 
@@ -435,17 +435,17 @@ class Leaps:
         runs, m = self.runs, len(rows)
         states = runs.states[rows]
         twins, apart = runs.twins.start(rows, states, APART)
-        found = window(self.returns, np.concatenate([states, twins]),
+        result = window(self.returns, np.concatenate([states, twins]),
                        *(np.tile(v, 2) for v in (counts, self.periods[rows], self.steps[rows])))
-        good, turns = found.good[:m] & found.good[m:], found.turns[:m]
+        good, turns = result.good[:m] & result.good[m:], result.turns[:m]
         runs.steps[rows] += (turns * (NODES * self.steps[rows])).astype(int)
-        done, passed, delays = rows[good], found.times[:m][good], (found.times[m:] - found.times[:m])[good]
+        done, passed, delays = rows[good], result.times[:m][good], (result.times[m:] - result.times[:m])[good]
         runs.rounded[done] += counts[good] * self.steps[done]
-        runs.states[done], runs.times[done] = found.states[:m][good], runs.times[done] + passed
-        lost = runs.compare(done, states[good], found.states[m:][good], delays, apart[good])
+        runs.states[done], runs.times[done] = result.states[:m][good], runs.times[done] + passed
+        lost = runs.compare(done, states[good], result.states[m:][good], delays, apart[good])
         runs.twins.growth[done[lost]] = np.inf
         runs.twins.blur[done] += STEP_ERROR * runs.rounded[done] * passed
-        self.periods[done] = found.periods[:m][good]
+        self.periods[done] = result.periods[:m][good]
         self.counts[rows] = np.where(good,
                                      counts * np.where(turns <= 8, 2.0, np.where(turns <= 11, 1.0, 0.5)),
                                      counts / 2)

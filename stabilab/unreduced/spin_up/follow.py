@@ -114,22 +114,22 @@ def chase(scene: AnyScene, tests: Tests, starts: np.ndarray, t_max: float, budge
         which = [name for every, since, name in PLAN if stage % every == 0 and runs.steps_done >= since][-1]
         # rows that have just leapt: a test costs less than what they passed
         far = np.intersect1d(ready, leapt) if leapt.size else leapt
-        for rows, asked in ((np.setdiff1d(ready, far) if far.size else ready, which), (far, "last")):
+        for rows, request in ((np.setdiff1d(ready, far) if far.size else ready, which), (far, "last")):
             if rows.size:
-                _ask(out, rows, getattr(tests, asked), runs.fast)
+                _ask(out, rows, getattr(tests, request), runs.fast)
         open_ = open_[out.fired[open_] < 0]
         ended = runs.over(open_, t_max, budget) | _hopeless(out, open_, t_max, budget)
         if ended.any():  # the last word is that of all tests that so much work is worth
-            asked = tests.last if runs.steps_done >= LAST else tests.all
-            _ask(out, open_[ended & (out.t[open_] >= after)], asked, runs.fast)
+            request = tests.last if runs.steps_done >= LAST else tests.all
+            _ask(out, open_[ended & (out.t[open_] >= after)], request, runs.fast)
         open_ = open_[~ended]
         if open_.size:
             leapt = leaps.advance(open_, t_max, after)
             rows = np.setdiff1d(open_, leapt) if leapt.size else open_
             if rows.size:
-                share = SHARES[runs.steps_done >= EARLY]
+                fraction = SHARES[runs.steps_done >= EARLY]
                 runs.advance(rows,
-                             int(min(max(FIRST, runs.steps_done * share), MOST,
+                             int(min(max(FIRST, runs.steps_done * fraction), MOST,
                                      max(1, budget - runs.steps[rows].min()))), t_max, after)
             if tell:
                 tell(float(out.t[open_].min()), runs.steps_done, open_.size)
@@ -139,14 +139,14 @@ def chase(scene: AnyScene, tests: Tests, starts: np.ndarray, t_max: float, budge
 
 def _hopeless(out: Chased, rows: np.ndarray, t_max: float, budget: int):
     """(m,) which of rows cannot come to a time that somebody names, for which many steps are allowed."""
-    found = np.zeros(len(rows), bool)
+    result = np.zeros(len(rows), bool)
     for n, row in enumerate(rows.tolist() if budget > BUDGET else ()):
         steps, t = int(out.steps[row]), float(out.t[row])
         left = steps * (t_max - t) / t if t > 0 else 0.0
-        found[n] = steps >= SETTLED and too_far(steps, left, budget, SETTLED)
-        if found[n]:
+        result[n] = steps >= SETTLED and too_far(steps, left, budget, SETTLED)
+        if result[n]:
             out.given_up[row] = why_given_up(steps, left, budget)
-    return found
+    return result
 
 
 def _ask(out: Chased, rows: np.ndarray, which: Sequence[tuple[FixedCentre | MovingCentre, tuple[int, int]]],
@@ -178,7 +178,7 @@ def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int
     the last bit. Raises InputError for scenes with other effects than turn the body as wheel and torque do,
     and for states that are none.
     """
-    given, scene, state = state, effective(checked_scene(scene)), three_floats(state)
+    supplied, scene, state = state, effective(checked_scene(scene)), three_floats(state)
     scene.quadratic()  # says which effect of the scene is not covered
     if answer := exactly(scene, state):
         return answer
@@ -191,11 +191,11 @@ def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int
         reason = RATE_TOO_LARGE(most=Quantity(FARTHEST), unit=Quantity(unit, f"1/{scene.time_unit}", 3))
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, 1.0, reason=reason)
     plain = _plain_steps(1, fast, proof)
-    found = chase(own, tests, np.array([state]) / unit, NATURAL_TIMES if t_max is None else t_max * unit,
+    result = chase(own, tests, np.array([state]) / unit, NATURAL_TIMES if t_max is None else t_max * unit,
                   BUDGET if budget is None else budget, after * unit,
                   tell and (lambda t, steps, left: tell(t / unit, steps, left)), plain)
-    answer = kept_by_law(scene, state, answer_of(scene, unit, found, 0))
-    start = given if isinstance(given, (list, tuple)) else state
+    answer = kept_by_law(scene, state, answer_of(scene, unit, result, 0))
+    start = supplied if isinstance(supplied, (list, tuple)) else state
     return proved(scene, start, answer, fast=not plain) if proof else answer
 
 
@@ -204,8 +204,8 @@ def _plain_steps(n: int, fast: bool | None, proof: bool = False) -> float:
     be had sooner, so that an answer takes at most twice the time of the quicker. proof: loads numba
     anyway."""
     patience = 1 if loaded() or stored() else COMPILING
-    asked = tests_of.cache_info()
-    soon = loaded() or proof or asked.hits + asked.misses > QUESTIONS * patience
+    request = tests_of.cache_info()
+    soon = loaded() or proof or request.hits + request.misses > QUESTIONS * patience
     if wanted(n, fast, soon, STATES * patience + 1, 1):
         return 0
     return PLAIN * patience if fast is None and installed() else math.inf
@@ -216,11 +216,11 @@ def kept_by_law(scene: AnyScene, state: tuple[float, ...], answer: SpinUp) -> Sp
     motion bounded, that."""
     if answer.fate != Fate.UNDECIDED or reduce(scene) is None:
         return answer
-    known = one_state.motion(scene, state, needs=Needs.FATE)
-    if known.fate not in (Fate.BOUNDED, Fate.EQUILIBRIUM):
+    resolved = one_state.motion(scene, state, needs=Needs.FATE)
+    if resolved.fate not in (Fate.BOUNDED, Fate.EQUILIBRIUM):
         return answer
     return replace(answer, fate=Fate.BOUNDED, level="exact",
-                   reason=BOUNDED_BY_LAW.then(known.reason, ": "))
+                   reason=BOUNDED_BY_LAW.then(resolved.reason, ": "))
 
 
 def follows(state: Sequence[float], unit: float) -> bool:
@@ -228,26 +228,26 @@ def follows(state: Sequence[float], unit: float) -> bool:
     return all(abs(v) / FARTHEST < unit for v in state)
 
 
-def answer_of(scene: AnyScene, unit: float, found: Chased, row: int) -> SpinUp:
+def answer_of(scene: AnyScene, unit: float, result: Chased, row: int) -> SpinUp:
     """The answer of one row of what `chase` found."""
-    t, state = float(found.t[row]) / unit, tuple((found.states[row] * unit).tolist())
-    steps, condition, passed = int(found.steps[row]), float(found.condition[row]), float(found.passed[row])
-    if found.fired[row] < 0 and not all(map(math.isfinite, (t, *state))):
+    t, state = float(result.t[row]) / unit, tuple((result.states[row] * unit).tolist())
+    steps, condition, passed = int(result.steps[row]), float(result.condition[row]), float(result.passed[row])
+    if result.fired[row] < 0 and not all(map(math.isfinite, (t, *state))):
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, condition, passed,
                       reason=BROKE_OFF(steps=steps))
-    if found.fired[row] < 0:
-        recurrent = recurs(found.largest[row].tolist(), found.least[row].tolist(), steps)
+    if result.fired[row] < 0:
+        recurrent = recurs(result.largest[row].tolist(), result.least[row].tolist(), steps)
         reason = seen(scene, state, island(scene, t) if recurrent else None).then(FOLLOWED(
             time=Quantity(t, scene.time_unit).lower, steps=steps, growth=Quantity(condition, digits=3)))
         if not condition * (1 + passed) * 2.0**-52 < 1 / 16:
             reason = reason.then(ROUNDING_DECIDES, ", ")
-        if row in found.given_up:
-            reason = reason.then(found.given_up[row])
+        if row in result.given_up:
+            reason = reason.then(result.given_up[row])
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, condition,
                       passed, reason=reason)
-    field, orders = found.tests.asked[found.fired[row]]
-    trap = Trap(field, field.name, orders, *map(float, found.constants[:, row]), unit, t,
-                float(found.blur[row]) / unit)  # type: ignore[call-arg]  # six constants
+    field, orders = result.tests.asked[result.fired[row]]
+    trap = Trap(field, field.name, orders, *map(float, result.constants[:, row]), unit, t,
+                float(result.blur[row]) / unit)  # type: ignore[call-arg]  # six constants
     direction = tuple(field.basis[0].tolist())
     axis, sense = (0, 1) if field.axis is None else (field.axis + 1, field.sense)
     reason = (CERTIFIED_ABOUT(axis=Axis(axis)) if axis else CERTIFIED_EQUATOR).then(
@@ -298,16 +298,16 @@ def spin_up_many(scene, states, t_max: float | None = None, budget: int | None =
         return _of_rows(scene, (spin_up(scene, state, t_max, budget, fast=fast, proof=proof)
                                 for state in states.tolist()))
     plain = _plain_steps(len(states), fast)
-    found = chase(own, tests, states / unit, NATURAL_TIMES if t_max is None else t_max * unit,
+    result = chase(own, tests, states / unit, NATURAL_TIMES if t_max is None else t_max * unit,
                   BUDGET if budget is None else budget,
                   tell=tell and (lambda t, steps, left: tell(t / unit, steps, left)), plain=plain)
-    good = found.fired >= 0
+    good = result.fired >= 0
     axes = np.array([0 if field.axis is None else field.axis + 1 for field, _ in tests.asked] + [0])
     senses = np.array([field.sense for field, _ in tests.asked] + [0])
     out = SpinUps(np.where(good, Fate.SPIN_UP, Fate.UNDECIDED).astype(np.int8),
-                  axes[found.fired].astype(np.int8), senses[found.fired].astype(np.int8),
-                  good.astype(np.int8), found.t / unit, found.steps, found.condition, found.states * unit,
-                  scene, unit, found, ())
+                  axes[result.fired].astype(np.int8), senses[result.fired].astype(np.int8),
+                  good.astype(np.int8), result.t / unit, result.steps, result.condition, result.states * unit,
+                  scene, unit, result, ())
     by_law = not good.all() and reduce(covered) is not None
     if not by_law and not proof:
         return out
@@ -316,9 +316,9 @@ def spin_up_many(scene, states, t_max: float | None = None, budget: int | None =
                             for number, state in enumerate(states.tolist())))
 
 
-def _of_rows(scene: AnyScene, given: Iterable[SpinUp]) -> SpinUps:
+def _of_rows(scene: AnyScene, supplied: Iterable[SpinUp]) -> SpinUps:
     """Columns of answers that were found one by one."""
-    rows = tuple(given)
+    rows = tuple(supplied)
     kinds = np.array([(row.fate, row.axis, row.sense, LEVELS.index(row.level)) for row in rows], np.int8)
     columns = [np.array([getattr(row, name) for row in rows]) for name in ("t", "steps", "condition")]
     states = np.array([row.state for row in rows], float).reshape(-1, 3)

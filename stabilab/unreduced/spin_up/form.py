@@ -205,10 +205,10 @@ def seen(scene: AnyScene, state: Sequence[float], recurrence: Reason | None = No
         return NO_FORM_SYMMETRIC if symmetric else NO_FORM
     looks = sorted((_look(form, state, scene) for form in forms), key=lambda look: (look[0], str(look[1])))
     causes = [cause for _, cause in looks if cause]
-    found = causes[0] if causes else SLOW
+    result = causes[0] if causes else SLOW
     for joint, cause in zip(("; ", ", ", ", "), _small(scene, forms)):
-        found = found.then(cause, joint)
-    return found.then(_between(scene, state, recurrence))
+        result = result.then(cause, joint)
+    return result.then(_between(scene, state, recurrence))
 
 
 def _rate(scene: AnyScene, value: float) -> Quantity:
@@ -279,7 +279,7 @@ def centres(scene: AnyScene) -> list[Centre]:
         return []
     D, l, M = ([float(v) for v in vector]
                for vector in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")))
-    return [found for i in range(3) if (found := _centre(D, l, M, i))]
+    return [result for i in range(3) if (result := _centre(D, l, M, i))]
 
 
 def _centre(D, l, M, i):
@@ -298,7 +298,7 @@ def _centre(D, l, M, i):
     return Centre(i + 1, X, action) if action > 0 else None
 
 
-def recurs(largest: Sequence[float], least: Sequence[float], steps: int) -> bool:
+def recurs(largest: Sequence[float], smallest: Sequence[float], steps: int) -> bool:
     """Whether the size of a motion kept its greatest value over the last three doublings of the steps, and
     swung under it.
 
@@ -308,14 +308,14 @@ def recurs(largest: Sequence[float], least: Sequence[float], steps: int) -> bool
     if last < SETTLED + DOUBLINGS:
         return False
     tops = largest[last - DOUBLINGS:last + 1]
-    return max(tops) <= SAME * min(tops) and min(least[last - DOUBLINGS:last + 1]) < SWINGS * max(tops)
+    return max(tops) <= SAME * min(tops) and min(smallest[last - DOUBLINGS:last + 1]) < SWINGS * max(tops)
 
 
 def island(scene: AnyScene, t: float) -> Reason:
     """What is said of a motion that recurs, followed for a time t."""
-    found = ISLAND_SEEN(time=Quantity(t, scene.time_unit, 4))
-    for n, one in enumerate(centres(scene)):
-        axis, rate = Axis(one.axis), _rate(scene, one.spin)
-        found = (found.then(OTHER_CENTRE(axis=axis, rate=rate), " or ") if n
-                 else found.then(AVERAGED_CENTRE(axis=axis, rate=rate)))
-    return found
+    result = ISLAND_SEEN(time=Quantity(t, scene.time_unit, 4))
+    for n, centre in enumerate(centres(scene)):
+        axis, rate = Axis(centre.axis), _rate(scene, centre.spin)
+        result = (result.then(OTHER_CENTRE(axis=axis, rate=rate), " or ") if n
+                 else result.then(AVERAGED_CENTRE(axis=axis, rate=rate)))
+    return result

@@ -69,11 +69,11 @@ class Quantity(NamedTuple):
 def fill(row: np.ndarray, base: float, parts: int, reach: int):
     """base^(n/parts) at MIDDLE + n for |n| <= reach."""
     up = base if parts == 1 else math.sqrt(math.sqrt(base))
-    down, one, other = 1 / up, 1.0, 1.0
+    down, item, other = 1 / up, 1.0, 1.0
     for n in range(1, reach + 1):
-        one *= up
+        item *= up
         other *= down
-        row[MIDDLE + n], row[MIDDLE - n] = one, other
+        row[MIDDLE + n], row[MIDDLE - n] = item, other
 
 
 def prepare(rows: np.ndarray, x: float, form: Form):
@@ -192,11 +192,11 @@ def blurred(quantity: Quantity, zeta: complex, size: float, x: float, low: float
     prepare(rows, low, form)
     exponents = quantity.exponents
     inner = total(quantity.sums, exponents, abs(zeta), rows, form, row)
-    most = total(quantity.sums, exponents, size, rows, form, row)
+    largest = total(quantity.sums, exponents, size, rows, form, row)
     for n in range(exponents.shape[1]):
         row[n] *= steepness(exponents[0, n], exponents[1, n], low, form)
     moved = summed(row, exponents, rows, form) * dx
-    return value, ((most - inner) + moved * (1 + SLACK) + SLACK * most
+    return value, ((largest - inner) + moved * (1 + SLACK) + SLACK * largest
                    + COEFFICIENT * total(quantity.most, exponents, size, rows, form, row))
 
 
@@ -235,7 +235,7 @@ def valid(x: float, form: Form):
 
 
 def search(x: float, zeta: complex, dx: float, dz: float, form: Form, energy: Quantity, amplitude: Quantity,
-           r: Sum, k: Sum, rows: np.ndarray, powers: np.ndarray, kept: np.ndarray, row: np.ndarray,
+           r: Sum, k: Sum, rows: np.ndarray, powers: np.ndarray, retained: np.ndarray, row: np.ndarray,
            out: np.ndarray):
     """Whether the inequality holds at one place, and its constants A, z, eta, z_up, eta_up, k in out (6,):
     see `certificate`. energy, amplitude: Quantity; r, k: Sum. rows, powers, kept, row: for work."""
@@ -253,12 +253,12 @@ def search(x: float, zeta: complex, dx: float, dz: float, form: Form, energy: Qu
     for number in range(PASSES):
         step = min(1e-2, growth)  # ever faster past a slow approach
         growth *= 4
-        columns(energy.sums, A, kept)
+        columns(energy.sums, A, retained)
         for _ in range(2):  # the equation for z is nearly linear
             if not valid(z, form):
                 z = low
             prepare(rows, z, form)
-            need = (max(summed(kept, energy.exponents, rows, form) - start, 0.0) * (GROWTH + step)
+            need = (max(summed(retained, energy.exponents, rows, form) - start, 0.0) * (GROWTH + step)
                     + 1e-7 * low * turn)
             z = low - 2 * need / (D1 * (turn + turning(rows, form)))
             if not valid(z, form):
@@ -268,8 +268,8 @@ def search(x: float, zeta: complex, dx: float, dz: float, form: Form, energy: Qu
         prepare(rows, z, form)
         left = total(k.sums, k.exponents, A, rows, form, row)
         least_drive, most_drive = drives(form, rows)
-        eta, least = least_drive - left - SLACK * (M1 + left), least_drive / M1 - SLACK
-        if not (eta > 0 and least > 0):
+        eta, smallest = least_drive - left - SLACK * (M1 + left), least_drive / M1 - SLACK
+        if not (eta > 0 and smallest > 0):
             return False
         if number == 0:  # its value costs most, and half of the searches end before
             value, blur = blurred(amplitude, zeta, size, x, low, dx, form, rows, powers, row)
@@ -277,11 +277,11 @@ def search(x: float, zeta: complex, dx: float, dz: float, form: Form, energy: Qu
             wide = weight * size * size * (1 + SLACK) + value + blur
             prepare(rows, z, form)
         F = (wide + total(amplitude.sums, amplitude.exponents, A, rows, form, row)
-             + integrated(r.sums, r.exponents, A, rows, form, row) * D1 / eta) / least
+             + integrated(r.sums, r.exponents, A, rows, form, row) * D1 / eta) / smallest
         if not F < 1e100:
             return False
         if F * (1 + SLACK) < A * A and size < A:
-            e = summed(kept, energy.exponents, rows, form)
+            e = summed(retained, energy.exponents, rows, form)
             gained = D1 * (low - z) * (turn + turning(rows, form)) / 2
             if gained * (1 - SLACK) - SLACK * D1 * low * turn * 2.0**-8 > e - start:
                 out[0], out[1], out[2], out[5] = A, z * (1 - SLACK), eta, left
@@ -292,34 +292,34 @@ def search(x: float, zeta: complex, dx: float, dz: float, form: Form, energy: Qu
     return False
 
 
-def place_about_fixed(w1: float, w2: float, w3: float, near: float, form: Form):
+def place_about_fixed(w1: float, w2: float, w3: float, nearby: float, form: Form):
     """(x, zeta, how far the one and the other may be off); frame: shift, centre, scale of the form."""
     shift, centre2, centre3 = form.frame[0], form.frame[1], form.frame[2]
     scale2, scale3 = form.frame[3], form.frame[4]
     size = abs(w1) + abs(w2) + abs(w3) + abs(centre2) + abs(centre3)
     return (w1 + shift, complex(scale2 * (w2 - centre2), scale3 * (w3 - centre3)),
-            BLUR * (abs(w1) + abs(shift)) + near, max(abs(scale2), abs(scale3)) * (BLUR * size + near))
+            BLUR * (abs(w1) + abs(shift)) + nearby, max(abs(scale2), abs(scale3)) * (BLUR * size + nearby))
 
 
-def place_about_moving(w1: float, w2: float, w3: float, near: float, form: Form):
+def place_about_moving(w1: float, w2: float, w3: float, nearby: float, form: Form):
     """The same; frame: s, wheel, torque, roots, n2, n3 of the form. x = 0 where there is none."""
     s, l2, l3, M2, M3 = form.frame[0], form.frame[1], form.frame[2], form.frame[3], form.frame[4]
     r2, r3, n2, n3 = form.frame[5], form.frame[6], form.frame[7], form.frame[8]
     size, a2, a3 = abs(w1) + abs(w2) + abs(w3), form.a2, form.a3
-    p, q, near = a3 * w1 + form.c3, a2 * w1 + form.c2, near + BLUR * size
-    if not (p > 0 and q > 0 and near * max(a3 / p, a2 / q) < 1 / 64):
+    p, q, nearby = a3 * w1 + form.c3, a2 * w1 + form.c2, nearby + BLUR * size
+    if not (p > 0 and q > 0 and nearby * max(a3 / p, a2 / q) < 1 / 64):
         return 0.0, 0j, 0.0, 0.0
     rho = math.sqrt(math.sqrt(q / p))
     eta = complex(r2 * rho * (w2 - s * (l2 * w1 - M3) / q), s * r3 / rho * (w3 - s * (l3 * w1 + M2) / p))
-    moved2 = CONDITION * (size + (abs(l2 * w1) + abs(M3)) / q) + near * (1 + abs(n3) / (q * q))
-    moved3 = CONDITION * (size + (abs(l3 * w1) + abs(M2)) / p) + near * (1 + abs(n2) / (p * p))
-    turned = near * abs(form.c3 * (a2 - a3)) / (4 * p * q)
-    return w1, eta, near, 1.25 * (r2 * rho * moved2 + r3 / rho * moved3 + (turned + CONDITION) * abs(eta))
+    moved2 = CONDITION * (size + (abs(l2 * w1) + abs(M3)) / q) + nearby * (1 + abs(n3) / (q * q))
+    moved3 = CONDITION * (size + (abs(l3 * w1) + abs(M2)) / p) + nearby * (1 + abs(n2) / (p * p))
+    turned = nearby * abs(form.c3 * (a2 - a3)) / (4 * p * q)
+    return w1, eta, nearby, 1.25 * (r2 * rho * moved2 + r3 / rho * moved3 + (turned + CONDITION) * abs(eta))
 
 
 def decide(chosen: np.ndarray, states: np.ndarray, reach: np.ndarray, fired: np.ndarray, number: int,
-           found: np.ndarray, form: Form, energy: Quantity, amplitude: Quantity, r: Sum, k: Sum,
-           rows: np.ndarray, powers: np.ndarray, kept: np.ndarray, row: np.ndarray, out: np.ndarray):
+           result: np.ndarray, form: Form, energy: Quantity, amplitude: Quantity, r: Sum, k: Sum,
+           rows: np.ndarray, powers: np.ndarray, retained: np.ndarray, row: np.ndarray, out: np.ndarray):
     """Ask for those of chosen rows that no test has fired for: fired (n,) becomes `number`, found (6, n) the
     constants, where the inequality holds for the whole ball of radius reach (n,) about the state."""
     basis = form.basis
@@ -334,7 +334,7 @@ def decide(chosen: np.ndarray, states: np.ndarray, reach: np.ndarray, fired: np.
             x, zeta, dx, dz = place_about_fixed(w1, w2, w3, reach[n], form)
         else:
             x, zeta, dx, dz = place_about_moving(w1, w2, w3, reach[n], form)
-        if x > 0 and search(x, zeta, dx, dz, form, energy, amplitude, r, k, rows, powers, kept, row, out):
+        if x > 0 and search(x, zeta, dx, dz, form, energy, amplitude, r, k, rows, powers, retained, row, out):
             fired[n] = number
             for i in range(6):
-                found[i, n] = out[i]
+                result[i, n] = out[i]

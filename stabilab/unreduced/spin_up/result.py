@@ -55,9 +55,9 @@ class Trap:
 
     def line(self, t: float) -> tuple[float, float]:
         """(least, greatest) spin about its axis, in its sense, at a time t >= self.t."""
-        least, most = ((t - self.t + early) * self.unit / self.field.D1 for early in (-self.blur, self.blur))
-        return (_down((self.z - self._shift + self.eta * max(0.0, least)) * self.unit),
-                -_down(-(self.z_up - self._shift + self.eta_up * most) * self.unit))
+        lower, upper = ((t - self.t + early) * self.unit / self.field.D1 for early in (-self.blur, self.blur))
+        return (_down((self.z - self._shift + self.eta * max(0.0, lower)) * self.unit),
+                -_down(-(self.z_up - self._shift + self.eta_up * upper) * self.unit))
 
     def clock(self, rate: float) -> tuple[float, float]:
         """(earliest, latest) time at which the spin about its axis, in its sense, first reaches `rate`; t

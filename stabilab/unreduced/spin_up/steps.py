@@ -36,15 +36,15 @@ def logarithm(x: float):
     where x is beyond doubles."""
     if not x < math.inf:
         return 1024.0
-    share, power = math.frexp(x)
-    return power - 2.0 + 2.0 * share
+    fraction, power = math.frexp(x)
+    return power - 2.0 + 2.0 * fraction
 
 
 def two_to(y: float):
     """2^y for |y| < 1000, within 0.3 per cent; exact for whole y."""
-    whole = math.floor(y)
-    part = y - whole
-    return math.ldexp(1.0 + part * (0.6565 + 0.3435 * part), int(whole))
+    full = math.floor(y)
+    part = y - full
+    return math.ldexp(1.0 + part * (0.6565 + 0.3435 * part), int(full))
 
 
 def series(c: np.ndarray, a: np.ndarray):
@@ -78,17 +78,17 @@ def series_beside(c: np.ndarray, a: np.ndarray, v: np.ndarray):
         v[n + 1, 2] = (c[0, 2] * s2 + c[1, 2] * v[n, 1] + c[2, 2] * v[n, 0]) * over
 
 
-def largest_of(table: np.ndarray, n: int, least: float):
+def largest_of(table: np.ndarray, n: int, smallest: float):
     """The greatest size in row n of a table, at least `least`."""
-    return max(abs(table[n, 0]), abs(table[n, 1]), abs(table[n, 2]), least)
+    return max(abs(table[n, 0]), abs(table[n, 1]), abs(table[n, 2]), smallest)
 
 
-def allowed(table: np.ndarray, order: int, least: float, share: float):
+def allowed(table: np.ndarray, order: int, smallest: float, fraction: float):
     """The logarithm of the step over which each of the last two coefficients adds to the state, or to
     `least`, at most its share (a logarithm)."""
-    most = logarithm(largest_of(table, 0, least)) + share
-    return min((most - logarithm(largest_of(table, order, 1e-290))) / order,
-               (most - logarithm(largest_of(table, order - 1, 1e-290))) / (order - 1))
+    largest = logarithm(largest_of(table, 0, smallest)) + fraction
+    return min((largest - logarithm(largest_of(table, order, 1e-290))) / order,
+               (largest - logarithm(largest_of(table, order - 1, 1e-290))) / (order - 1))
 
 
 def steepest(c: np.ndarray, a: np.ndarray):
@@ -173,12 +173,12 @@ def across(c: np.ndarray, states: np.ndarray, ahead: np.ndarray, row: int, rate:
         if max(abs(out[0]), abs(out[1]), abs(out[2])) < LOST:
             x, y, z = w, u, v + 0.1
             out[0], out[1], out[2] = v * z - w * y, w * x - u * z, u * y - v * x
-            share = LOST / math.sqrt(out[0] ** 2 + out[1] ** 2 + out[2] ** 2)
-            out[0], out[1], out[2] = share * out[0], share * out[1], share * out[2]
+            fraction = LOST / math.sqrt(out[0] ** 2 + out[1] ** 2 + out[2] ** 2)
+            out[0], out[1], out[2] = fraction * out[0], fraction * out[1], fraction * out[2]
 
 
 def note(c: np.ndarray, start: np.ndarray, states: np.ndarray, row: int, change: np.ndarray, error: float,
-         rate: np.ndarray, growth: np.ndarray, most: np.ndarray, ahead: np.ndarray, blur: np.ndarray):
+         rate: np.ndarray, growth: np.ndarray, upper: np.ndarray, ahead: np.ndarray, blur: np.ndarray):
     """What became of a change of size 1 (3,): its part across the motion is the growth, the delay a blur
     (`drift.Twins.compare`)."""
     first, largest = rates_at(c, start[0], start[1], start[2], rate)
@@ -193,16 +193,16 @@ def note(c: np.ndarray, start: np.ndarray, states: np.ndarray, row: int, change:
     if not far < math.inf:
         growth[row] = math.inf
         return
-    blur[row] += error * most[row] * late
+    blur[row] += error * upper[row] * late
     growth[row] *= far
-    most[row] = max(most[row], growth[row])
+    upper[row] = max(upper[row], growth[row])
     if far > 0.0:
         for i in range(3):
             ahead[row, i] = change[i] / far
 
 
 def advance(coefficients: np.ndarray, rows: np.ndarray, steps: int, t_max: float, pause: float,
-            step_error: float, states: np.ndarray, clock: np.ndarray, growth: np.ndarray, most: np.ndarray,
+            step_error: float, states: np.ndarray, clock: np.ndarray, growth: np.ndarray, largest: np.ndarray,
             ahead: np.ndarray, blur: np.ndarray, sizes: np.ndarray, done: np.ndarray, rounded: np.ndarray,
             a: np.ndarray, v: np.ndarray, scaled: np.ndarray, met: np.ndarray, start: np.ndarray,
             rate: np.ndarray, change: np.ndarray):
@@ -224,26 +224,26 @@ def advance(coefficients: np.ndarray, rows: np.ndarray, steps: int, t_max: float
         clock[row] = end if passed >= left else clock[row] + passed
         sizes[0, row], sizes[1, row] = math.sqrt(met[0]), math.sqrt(met[1])
         error = step_error * rounded[row] * math.sqrt(start[0] ** 2 + start[1] ** 2 + start[2] ** 2)
-        note(coefficients, start, states, row, change, error, rate, growth, most, ahead, blur)
+        note(coefficients, start, states, row, change, error, rate, growth, largest, ahead, blur)
 
 
 def measure(rows: np.ndarray, states: np.ndarray, steps: np.ndarray, rounded: np.ndarray, growth: np.ndarray,
             met: np.ndarray, step_error: float, condition: np.ndarray, reach: np.ndarray, largest: np.ndarray,
-            least: np.ndarray):
+            smallest: np.ndarray):
     """Take note of rows (`follow.Chased`): condition (n,), reach (n,) of the rounding, largest and least (n,
     48) size of the state by doublings of the steps. met (2, n): of `advance`; what it says is used up."""
     for row in rows:
         if growth[row] > condition[row]:
             condition[row] = growth[row]
         x, y, z = states[row, 0], states[row, 1], states[row, 2]
-        most = max(abs(x), abs(y), abs(z), 1.0)
-        reach[row] = step_error * (1.0 + rounded[row]) * condition[row] * most if rounded[row] > 0.0 else 0.0
+        upper = max(abs(x), abs(y), abs(z), 1.0)
+        reach[row] = step_error * (1.0 + rounded[row]) * condition[row] * upper if rounded[row] > 0.0 else 0.0
         far = math.sqrt(x * x + y * y + z * z)
         doubling, left = 0, (1 + steps[row]) >> 1
         while left:
             doubling, left = doubling + 1, left >> 1
         largest[row, doubling] = max(largest[row, doubling], far, met[0, row])
-        least[row, doubling] = min(least[row, doubling], far, met[1, row])
+        smallest[row, doubling] = min(smallest[row, doubling], far, met[1, row])
         met[0, row], met[1, row] = 0.0, math.inf
 
 

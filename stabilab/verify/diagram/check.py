@@ -35,17 +35,17 @@ def check_diagram(claims: Claims, note: Callable[..., None], work: Work | None =
 def _check(claims: Claims, note: Callable[..., None], work: Work) -> None:
     equations = Equations.of(claims)
     if claims.variables == "physical":
-        whole = all(_positive(D, claims.low, claims.high, work) for D in claims.scene["inertia"])
-        note("the moments of inertia are positive all over the range", "proved" if whole else "refuted",
+        full = all(_positive(D, claims.low, claims.high, work) for D in claims.scene["inertia"])
+        note("the moments of inertia are positive all over the range", "proved" if full else "refuted",
              "by Sturm's sequences")
-        if not whole:
+        if not full:
             return
     system = _system(claims, equations, note)
     if system is None:
         return
     places = _places(system, claims.low, claims.high, work)
-    changes = [n for n, place in enumerate(places) if place.root
-               and any(side.count.real != place.count.real for side in _sides(places, n))]
+    changes = [n for n, location in enumerate(places) if location.root
+               and any(side.count.real != location.count.real for side in _sides(places, n))]
     left = set(changes)
     for event in claims.events:
         _check_event(event, places, changes, left, note)
@@ -53,8 +53,8 @@ def _check(claims: Claims, note: Callable[..., None], work: Work) -> None:
     missed = sorted(_near(places[n].root) for n in left)
     between = (f"{sum(p.root is not None for p in places)} critical values, "
                f"{sum(p.root is None for p in places)} counts between them")
-    told = f"near {', '.join(missed)} the number changes too" if missed else f"trace forms: {between}"
-    note("the events are complete", "refuted" if missed else "proved", told)
+    printed = f"near {', '.join(missed)} the number changes too" if missed else f"trace forms: {between}"
+    note("the events are complete", "refuted" if missed else "proved", printed)
 
 
 def _positive(f: fmpq_poly, low: Fraction, high: Fraction, work: Work) -> bool:
@@ -72,9 +72,9 @@ def _system(claims: Claims, equations: Equations, note: Callable[..., None]) -> 
         note(claim, "refuted", "a rate across it does not vanish there")
         return None
     note(claim, "proved", "in the plane across it one condition is left")
-    one = equations.across(axis, equations.rates[axis])
+    item = equations.across(axis, equations.rates[axis])
     if claims.start is None:
-        return System(2, [one, equations.across(axis, equations.m)], endless=equations.torque(axis))
+        return System(2, [item, equations.across(axis, equations.m)], endless=equations.torque(axis))
     law = equations.kept(axis)
     if law is None:
         note("the curve that a motion stays on", "refuted", "no law of this form is constant")
@@ -82,14 +82,14 @@ def _system(claims: Claims, equations: Equations, note: Callable[..., None]) -> 
     note("the curve that a motion stays on", "proved",
          "the rate of its law along every motion vanishes identically")
     law = equations.rise(law, claims.start)
-    return System(2, [one, equations.across(axis, law)], [equations.across(axis, equations.m)])
+    return System(2, [item, equations.across(axis, law)], [equations.across(axis, equations.m)])
 
 
 def _places(system: System, low: Fraction, high: Fraction, work: Work) -> list[Place]:
     """Critical values and the intervals between them, rising."""
-    found = roots(critical(system, work), low, high, work)
+    result = roots(critical(system, work), low, high, work)
     out: list[Place] = []
-    ends: list[Any] = [None, *found, None]
+    ends: list[Any] = [None, *result, None]
     for first, second in zip(ends, ends[1:]):
         a, b = first.high if first else low, second.low if second else high
         if a < b:  # at an end of the range there may be none
@@ -122,26 +122,26 @@ def _check_event(event: Event, places: list[Place], changes: list[int], left: se
 def _check_pieces(claims: Claims, places: list[Place], changes: list[int], note: Callable[..., None]) -> None:
     """Findings on the pieces: those between the values at which the number changes."""
     runs: list[list[Place]] = [[]]
-    for n, place in enumerate(places):
+    for n, location in enumerate(places):
         if n in changes:
             runs.append([])
         else:
-            runs[-1].append(place)
+            runs[-1].append(location)
     runs = [run for run in runs if run]
     if len(runs) != len(claims.pieces):
         note(f"{len(claims.pieces)} pieces", "refuted", f"there are {len(runs)}")
         return
     for number, (piece, run) in enumerate(zip(claims.pieces, runs), 1):
-        told = ("endless equilibria" if piece.count is None
+        printed = ("endless equilibria" if piece.count is None
                 else f"{piece.count} counted" + ("" if piece.stable is None else f", {piece.stable} stable"))
-        right = all(place.count.real == piece.count for place in run)
-        stable = {_stable(claims, place.count) for place in run if place.root is None}
+        right = all(index.count.real == piece.count for index in run)
+        stable = {_stable(claims, index.count) for index in run if index.root is None}
         if right and piece.stable is not None and None in stable:
-            note(f"piece {number}: {told}", "not checked",
+            note(f"piece {number}: {printed}", "not checked",
                  "at some value of it the sign that tells stability is open")
             continue
         right = right and (piece.stable is None or stable == {piece.stable})
-        note(f"piece {number}: {told}", "proved" if right else "refuted",
+        note(f"piece {number}: {printed}", "proved" if right else "refuted",
              "signatures of trace forms, at one value of each interval between critical values")
 
 

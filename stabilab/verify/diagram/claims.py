@@ -47,9 +47,9 @@ class Event:
 
     @property
     def claim(self) -> str:
-        told = ("endless equilibria" if self.count is None
+        printed = ("endless equilibria" if self.count is None
                 else f"{self.count} equilibri{'um' if self.count == 1 else 'a'}")
-        return f"event near {brief((self.low + self.high) / 2)}: {told} there"
+        return f"event near {brief((self.low + self.high) / 2)}: {printed} there"
 
 
 @dataclass(frozen=True)
@@ -129,8 +129,8 @@ def _piece(table: Mapping[str, int], where: str, counted: str) -> Piece:
 def _in_order(events: Sequence[Event], pieces: Sequence[Piece], low: Fraction, high: Fraction) -> None:
     if low >= high:
         raise Malformed("range: expected its lower end first")
-    if any(one.high >= two.low
-           for one, two in zip(events, events[1:])) or any(e.low < low or e.high > high for e in events):
+    if any(event.high >= two.low
+           for event, two in zip(events, events[1:])) or any(e.low < low or e.high > high for e in events):
         raise Malformed("events: expected them rising, apart from one another and inside the range")
     ends = sum(e.low == e.high == end for e in events for end in (low, high))
     if len(pieces) != len(events) + 1 - ends:
@@ -154,36 +154,36 @@ def about(certificate: dict) -> dict[str, Any]:
             **({"state": certificate["start"]} if certificate.get("start") else {})}
 
 
-def line(told: dict) -> str:
+def line(printed: dict) -> str:
     """The line that `stabilab verify` prints first."""
-    low, high = (brief(number(end, "range")) for end in told["range"])
-    keys = [key for key, _ in PLACES[told["variables"]]] + (["state"] if "state" in told else [])
-    varying = [key for key in keys if any(len(row) > 1 for row in told[key])]
-    return (f"about: {', '.join(varying) or 'nothing'} as {_varying(told)} goes from {low} to "
-            f"{high}; {_fixed(told, keys)}")
+    low, high = (brief(number(end, "range")) for end in printed["range"])
+    keys = [key for key, _ in PLACES[printed["variables"]]] + (["state"] if "state" in printed else [])
+    varying = [key for key in keys if any(len(row) > 1 for row in printed[key])]
+    return (f"about: {', '.join(varying) or 'nothing'} as {_varying(printed)} goes from {low} to "
+            f"{high}; {_fixed(printed, keys)}")
 
 
-def _varying(told: dict) -> str:
+def _varying(printed: dict) -> str:
     """What varies: a number of which the scene alone says what it is."""
-    name = told.get("named_in_the_file")
+    name = printed.get("named_in_the_file")
     return "a number t" + (f" ({quoted(name)})" if name is not None else "")
 
 
-def _fixed(told: dict, keys: list[str]) -> str:
-    parts = [f"{key} {' '.join(row[0] if len(row) == 1 else '*' for row in told[key])}" for key in keys]
+def _fixed(printed: dict, keys: list[str]) -> str:
+    parts = [f"{key} {' '.join(row[0] if len(row) == 1 else '*' for row in printed[key])}" for key in keys]
     return f"{', '.join(parts):.200}" + (" (* varies)" if any("*" in part for part in parts) else "")
 
 
-def differences(told: dict, case: dict) -> list[str]:
+def differences(text: dict, case: dict) -> list[str]:
     """What a certificate is about that a case is not: no value of the number, inside the range or not, makes
     the scene the case's."""
-    if told["variables"] != case.get("variables"):
+    if text["variables"] != case.get("variables"):
         return [
-            f"variables: the certificate's {told['variables']}, the case's {case.get('variables') or 'none'}"]
+            f"variables: the certificate's {text['variables']}, the case's {case.get('variables') or 'none'}"]
     out, common = [], None
-    for key in [key for key, _ in PLACES[told["variables"]]] + (["state"] if "state" in told else []):
+    for key in [key for key, _ in PLACES[text["variables"]]] + (["state"] if "state" in text else []):
         values = case.get(key) if isinstance(case.get(key), (list, tuple)) else [case.get(key)]
-        for n, (row, value) in enumerate(zip(told[key], values), 1):
+        for n, (row, value) in enumerate(zip(text[key], values), 1):
             apart = _apart(row, value)
             if apart is None or apart.degree() == 0:
                 out.append(f"{key}[{n}]: the certificate's {' '.join(row):.80}, the case's "
@@ -191,7 +191,7 @@ def differences(told: dict, case: dict) -> list[str]:
             elif apart != 0:
                 common = apart if common is None else common.gcd(apart)
     if not out and common is not None and not any(factor.degree() == 1 for factor, _ in common.factor()[1]):
-        out.append(f"{_varying(told)}: no value of it gives all the case's numbers")
+        out.append(f"{_varying(text)}: no value of it gives all the case's numbers")
     return out
 
 

@@ -100,8 +100,8 @@ class Residue:
         """1 over it; it is not zero."""
         self.work.spend((1 + self.at.degree()) * (bits(self.value) + bits(self.at)))
         self.work.division(self.value, self.at)
-        _, found, _ = self.value.xgcd(self.at)
-        return Residue(found % self.at, self.at, self.work)
+        _, result, _ = self.value.xgcd(self.at)
+        return Residue(result % self.at, self.at, self.work)
 
     def over(self, whole: int) -> Residue:
         """It, over a whole number."""
@@ -140,8 +140,8 @@ def leading(f: Polynomial) -> Powers:
     return max(f, key=lambda powers: (sum(powers), powers))
 
 
-def _divides(one: Powers, other: Powers) -> bool:
-    return all(a <= b for a, b in zip(one, other))
+def _divides(item: Powers, other: Powers) -> bool:
+    return all(a <= b for a, b in zip(item, other))
 
 
 class Basis:
@@ -168,11 +168,11 @@ class Basis:
     def _against(self, n: int, k: int) -> Polynomial:
         """Two members, each raised to the least monomial that both leading ones divide, the one less the
         other."""
-        (one, f), (two, g) = self.members[n], self.members[k]
-        both = tuple(map(max, one, two))
+        (item, f), (two, g) = self.members[n], self.members[k]
+        both = tuple(map(max, item, two))
         raised = lambda h, top: {tuple(p + b - t for p, b, t in zip(powers, both, top)): c
                                  for powers, c in h.items()}
-        return added(raised(f, one), raised(g, two), less=True)
+        return added(raised(f, item), raised(g, two), less=True)
 
     def rest(self, f: Polynomial) -> Polynomial:
         """What remains of f: a sum of monomials that no leading one divides."""
@@ -197,35 +197,35 @@ class Basis:
             if not pure:
                 return None
             ends.append(min(pure))
-        found = [powers for powers in product(*map(range, ends))
+        rows = [powers for powers in product(*map(range, ends))
                  if not any(_divides(top, powers) for top in tops)]
-        return sorted(found, key=lambda powers: (sum(powers), powers))
+        return sorted(rows, key=lambda powers: (sum(powers), powers))
 
 
-def characteristic(basis: Basis, monomials: Sequence[Powers], weight: Polynomial, one: Any) -> list[Any]:
+def characteristic(basis: Basis, monomials: Sequence[Powers], weight: Polynomial, item: Any) -> list[Any]:
     """Coefficients of the form's characteristic polynomial after the leading one, by Faddeev's recursion.
     weight: q, as `basis.rest` leaves it."""
-    rows, size, zero = _form(basis, monomials, weight, one), len(monomials), one - one
-    found: list[Any] = []
-    power, last = [[zero] * size for _ in range(size)], one
+    rows, size, zero = _form(basis, monomials, weight, item), len(monomials), item - item
+    result: list[Any] = []
+    power, last = [[zero] * size for _ in range(size)], item
     for n in range(1, size + 1):
         columns = list(zip(*power))
         power = [[sum((a * b for a, b in zip(row, column)), zero) for column in columns] for row in rows]
         power = [[value + c * last for value, c in zip(*both)] for both in zip(power, rows)]
         last = (zero - sum((power[k][k] for k in range(size)), zero)).over(n)
-        found.append(last)
-    return found
+        result.append(last)
+    return result
 
 
-def _form(basis: Basis, monomials: Sequence[Powers], weight: Polynomial, one: Any) -> list[list[Any]]:
+def _form(basis: Basis, monomials: Sequence[Powers], weight: Polynomial, item: Any) -> list[list[Any]]:
     """The matrix of tr(b_i b_j weight)."""
-    zero = one - one
+    zero = item - item
     product = lambda *factors: tuple(map(sum, zip(*factors)))
-    share = lambda b, c: basis.rest({product(b, c): one}).get(c, zero)  # of c in b c
-    traces = {b: sum((share(b, c) for c in monomials), zero) for b in monomials}
+    fraction = lambda b, c: basis.rest({product(b, c): item}).get(c, zero)  # of c in b c
+    traces = {b: sum((fraction(b, c) for c in monomials), zero) for b in monomials}
 
     def entry(a: Powers, b: Powers) -> Any:
-        rest = basis.rest(times({product(a, b): one}, weight))
+        rest = basis.rest(times({product(a, b): item}, weight))
         return sum((c * traces[powers] for powers, c in rest.items()), zero)
     return [[entry(a, b) for b in monomials] for a in monomials]
 
@@ -241,8 +241,8 @@ def rank_and_signature(coefficients: Sequence[Any], sign: Callable[[Any], int]) 
 
 
 def _changes(signs: Sequence[int]) -> int:
-    kept = [s for s in signs if s]
-    return sum(a != b for a, b in zip(kept, kept[1:]))
+    retained = [s for s in signs if s]
+    return sum(a != b for a, b in zip(retained, retained[1:]))
 
 
 @dataclass(frozen=True)
@@ -363,12 +363,12 @@ class Count:
     tests: tuple[tuple[int, bool], ...] = ()
 
 
-def count_at(system: System, place: Root, work: Work) -> Count:
+def count_at(system: System, index: Root, work: Work) -> Count:
     """At a zero of a polynomial."""
-    at = place.polynomial
+    at = index.polynomial
     if system.endless is not None and system.endless % at == 0:
         return Count(None)
-    return _counted(system, lambda c: Residue(c % at, at, work), lambda element: place.sign(element.value))[0]
+    return _counted(system, lambda c: Residue(c % at, at, work), lambda element: index.sign(element.value))[0]
 
 
 def critical(system: System, work: Work) -> list[Any]:
@@ -392,18 +392,18 @@ def _counted(system: System, lift: Callable[[Any], Any], sign: Callable[[Any], i
         return Count(None), basis
     if not monomials:
         return Count(0, ((0, True),) * len(system.tests)), basis
-    one = lift(fmpq_poly([1]))
+    item = lift(fmpq_poly([1]))
 
     def judged(weight: Polynomial) -> tuple[int, int]:
-        row = characteristic(basis, monomials, weight, one)
+        row = characteristic(basis, monomials, weight, item)
         rank, signature = rank_and_signature(row, sign)
         if noted is not None and rank:
             noted.append(row[rank - 1])
         return rank, signature
-    different, real = judged({(0,) * system.unknowns: one})
-    told = []
+    different, real = judged({(0,) * system.unknowns: item})
+    printed = []
     for test in system.tests:
         weight = basis.rest({powers: e for powers, c in test.items() if (e := lift(c))})
         rank, signature = judged(weight)
-        told.append((signature, rank == different))
-    return Count(real, tuple(told)), basis
+        printed.append((signature, rank == different))
+    return Count(real, tuple(printed)), basis

@@ -116,7 +116,7 @@ def test_a_run_that_was_killed_goes_on_and_the_bytes_are_those_of_any_number_of_
 
 
 def test_a_plane_that_takes_too_many_states_ends_coarser_and_says_so(monkeypatch):
-    monkeypatch.setattr(mesh, "MOST", 1000)
+    monkeypatch.setattr(mesh, "MAX_PLACES", 1000)
     found = basin(MINOR, PLANE, depth=6)
     assert found.mesh.full and found.mesh.depth == 2 and found.asked == 6 and len(found.records) <= 1000
     assert found.plan.shape == (45, 41) and len(found.boundary)

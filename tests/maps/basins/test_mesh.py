@@ -75,7 +75,7 @@ def test_cells_cover_the_plane_once():
 
 
 def test_refinement_ends_whole_where_it_would_take_too_many_places(monkeypatch):
-    monkeypatch.setattr(meshes, "MOST", 400)
+    monkeypatch.setattr(meshes, "MAX_PLACES", 400)
     mesh, asked = followed(ellipse(np.random.default_rng(0)), (9, 7), 6)
     assert mesh.full and len(asked) <= 400 and mesh.depth < 6 and len(mesh.leaves) == mesh.depth + 1
     row, _ = mesh.at(mesh.depth, mesh.boundary)
