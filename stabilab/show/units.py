@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
@@ -12,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 from ..errors import InputError, printable
 from ..reasons import Axis, Moment, Quantity, Reason, Span, Symbolic, listed, outward
 from .axes import PLAIN, Axes, axes_of
-from .names import around
 from .terminal import lettered
 
 if TYPE_CHECKING:
@@ -25,13 +23,6 @@ WHOLE = 1e6  # below it no power of ten: 15904 and not 1.59e+04
 OWN = ("rad", "rad/s", "rad/s^2", "s", "tau")  # units of quantities that have others for people
 Unit = tuple[str, float]  # its name, and how many of it make one in SI
 TURN = 180 / math.pi
-NUMBER = r"(-?\d+(?:\.\d+)?(?:e[-+]?\d+)?)"
-IN_RADIANS = re.compile(rf"(?<![\w.])(?:{NUMBER}( to | and ))?{NUMBER} rad(/s\^2|/s)?(?![\w/^])")
-# before a bound within a sentence, which is rounded outward
-UPPER = re.compile(
-    r"(?:<=|\b(?:at most|no more than|never above|enclosed, within|certain from|from t =))\s*$")
-LOWER = re.compile(
-    r"(?:>=|\b(?:at least|not before|up to(?: t =)?|until|not reached (?:by|before)(?: t =)?))\s*$")
 
 
 @dataclass(frozen=True)
@@ -102,7 +93,7 @@ class Units:
         have their long names."""
         fill = partial(self.filled, digits=digits, whole=whole)
         return "".join(joint + (item.text(fill, letters=True) if item.code
-                                else lettered(self.words(printable(item.text()), digits)))
+                                else lettered(self.axes.sentence(printable(item.text()))))
                        for joint, item in reason.clauses())
 
     def filled(self, value: Any, digits: int = SHORT, whole: bool = False) -> str:
@@ -132,22 +123,6 @@ class Units:
         name, item = ("τ", 1.0) if unit == "tau" else self.times(max(abs(start), abs(end)))
         digits = SHORT if max(abs(start), abs(end)) * item < 10**SHORT else DIGITS
         return f"{number(start * item, digits)} to {number(end * item, digits)} {name}"
-
-    @around
-    def words(self, words: str, digits: int = DIGITS - 1) -> str:
-        """A sentence without quantities of its own, whose angles and rates are in rad and rad/s, with these
-        in these units, and with names for the numbers of axes."""
-        words = self.axes.sentence(words)
-        if self.rates[0] in ("rad/s", ""):
-            return words
-        return IN_RADIANS.sub(partial(self._turned, digits), words)
-
-    def _turned(self, digits: int, result: re.Match[str]) -> str:
-        """One number of radians, or "1 to 2" of them, by a time or its square, in these units."""
-        first, between, last, per = result.groups(default="")
-        name, item = self.rates if per == "/s" else (self.angles[0] + per, self.angles[1])
-        before = f"{number(float(first) * item, digits)}{between}" if first else ""
-        return before + self.told(float(last), (name, item), digits, 0 if first else _side(result, 3))
 
     def of(self, unit: str) -> Unit:
         """The unit in which numbers of this SI unit are printed; those of a scaled case have none."""
@@ -209,13 +184,6 @@ def number(value: float, digits: int = SHORT) -> str:
         return "unbounded" if value > 0 else "-unbounded"
     printed = f"{value + 0.0:.{digits}g}"
     return f"{value:.0f}" if "e+" in printed and abs(value) < WHOLE else printed
-
-
-def _side(result: re.Match[str], group: int) -> int:
-    """Of the number of a group in a sentence: +1 of an upper bound, -1 of a lower one, by what stands before
-    it; 0 of another number."""
-    before = result.string[max(0, result.start(group) - 24):result.start(group)]
-    return 1 if UPPER.search(before) else -1 if LOWER.search(before) else 0
 
 
 def as_bound(value: float, item: float, digits: int, side: int) -> float:

@@ -4,7 +4,6 @@ whose names no pattern knows, with the other names put in."""
 from __future__ import annotations
 
 import json
-import math
 import re
 from dataclasses import replace
 from html import escape, unescape
@@ -192,11 +191,11 @@ def test_pages_have_names_as_written(name, tmp_path, stabilab):
 def test_no_pattern_changes_a_name_that_is_spared(name):
     units = replace(SYSTEMS["deg"], axes=Axes(("x", "y", "z"), ("major", "intermediate", "minor")))
     names.spare([name])
-    for change in (lettered, printed, written, units.words):
+    for change in (lettered, printed, written, units.axes.sentence):
         for text in ("the tilt of {}, {}", "{}: {} and another: {}", "{}"):
             assert change(text.format(name, name, name)) == text.format(name, name, name)
     assert lettered(f"{name}: omega1, lambda3") == f"{name}: ω1, λ3"
-    assert units.words(f"{name} about axis 2 by {math.pi} rad") == f"{name} about the y axis by 180 deg"
+    assert units.axes.sentence(f"{name} about axis 2") == f"{name} about the y axis"
 
 
 @pytest.mark.parametrize("name", NEVER_IN_FILES)

@@ -48,7 +48,7 @@ def space(item, at_rest, units) -> dict:
     result = space_of(item, map(printed, item.scene.components), units.rates, at_rest, reaching=True)
     drawn = data(result, lambda places: b64encode(places).decode("ascii"))
     reason = "; ".join(filter(None, (result.caption, result.part)))
-    return {"drawn": drawn, "legend": drawn["legend"], "reason": printed(units.words(reason)),
+    return {"drawn": drawn, "legend": drawn["legend"], "reason": printed(units.axes.sentence(reason)),
             "clipped": any(max(map(abs, result.box.share(at))) > 1 + 1e-9 for _, branch in result.branches
                            for at in branch.points)}
 
@@ -154,7 +154,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     page["uncertain"] = uncertain_text(box, units)
     if certify:
         page["certificate"] = _tried(absent, "Certificate", lambda: _certificate(case, folder, stem))
-    return page | {"absent": [(what, printed(units.words(why))) for what, why in absent]}
+    return page | {"absent": [(what, printed(units.axes.sentence(why))) for what, why in absent]}
 
 
 def _over(text) -> str:

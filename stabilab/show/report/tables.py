@@ -186,7 +186,7 @@ def sensitivity(item, units) -> dict:
         row = item.stuck
     except InputError as error:
         return {"rows": _of_motion(case.scene, motion, units), "words": [],
-                "reason": printed(f"No margin of wheel or torque: {units.words(str(error))}.")}
+                "reason": printed(f"No margin of wheel or torque: {units.axes.sentence(str(error))}.")}
     phrases = []
     if row.time_to_limit:
         limit, when = asked(stated_limit(case), units), units.clock(*row.time_to_limit)

@@ -168,11 +168,6 @@ def constants(motion: Motion, units: Units) -> list[tuple[str, str]]:
             for (name, kind, side), value in rows]
 
 
-def reason(text: str, units: Units) -> str:
-    """Words of the analysis: names as letters, rates and times in these units."""
-    return lettered(units.words(text))
-
-
 def quantity(kind: str, value, units: Units, side: int = 0) -> str:
     """An invariant, or what a run showed, with its unit. side: of a bound, as of `Units.told`."""
     if kind == "rates":
