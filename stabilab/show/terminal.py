@@ -146,7 +146,8 @@ def by_clauses(text: str) -> str:
         first, *rest = clauses_of(line) if len(line) > LINE else [line]
         while rest and len(first) + len(rest[0]) + 2 <= LINE:
             first = f"{first}; {rest.pop(0)}"
-        indent = " " * (len(line) - len(line.lstrip()) + GAP)
+        # a remark of a table stays one
+        indent = "#   " if line.startswith("# ") else " " * (len(line) - len(line.lstrip()) + GAP)
         lines += [first, *(indent + clause for clause in rest)]
     return "\n".join(lines)
 

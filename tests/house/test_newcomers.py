@@ -4,6 +4,8 @@ import re
 
 import pytest
 
+from tests.shared import in_one_line
+
 from .test_readme import README, blocks, commands, files, follow, in_python, run, run_here
 
 # What a data sheet says: moments in kg m^2, places in m, an attitude thruster of 40 mN aligned to a degree,
@@ -76,7 +78,7 @@ def test_an_engineer_goes_from_a_data_sheet_to_a_decision(tmp_path, case_file):
     assert code == 0 and "thruster T1 (stuck)" in understood and "0.02" in understood
 
     code, answer = said("stabilab stuck sheet.toml", tmp_path)
-    first = answer.splitlines()[0]
+    first = in_one_line(answer)
     assert code == 0 and first.startswith(
         "sheet: STAYS BOUNDED") and "only while the torque is exactly along z (minor axis)" in first
     reached = re.search(r"tilted by 1 deg it reaches 30 deg/s after ([\d.]+) (min|h)", first)

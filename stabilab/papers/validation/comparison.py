@@ -14,6 +14,7 @@ from ...physics.effects.constant_torque import ConstantTorque
 from ...physics.scene import Body, Scene
 from ...representation import values_of
 from ...show.report import html
+from ...show.terminal import lettered
 from . import quantities
 from .quantities import BALL_BITS, METHOD_LABELS, At, at, reproduced
 
@@ -275,10 +276,10 @@ def _lines(source, result):
             f"  {printed.tool} ({printed.file.rsplit('/', 1)[-1]}; tolerance {_tolerance(printed)}: "
             f"{printed.tolerance_is})")
         yield from _table([("t (s)", "quantity", "ours", "theirs", "differs by", "")] + [
-            (item.time, item.component, _short(item.ours), item.theirs,
+            (item.time, lettered(item.component), _short(item.ours), item.theirs,
              f"{item.difference:.1e} {item.unit}".strip(), item.verdict) for item in group])
         if phrase := cause(group):
-            yield f"    cause: {phrase}"
+            yield f"    cause: {lettered(phrase)}"
 
 
 def _table(rows):

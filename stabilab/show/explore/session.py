@@ -264,7 +264,8 @@ def _named(units: Units) -> list[str]:
 
 @around
 def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]
+    symbol = len(text.partition(" ")[0]) == 1
+    return text if symbol else text[:1].upper() + text[1:]
 
 
 def _length(case: Case, result: Motion | None, form: QuadraticForm | None, moving: bool) -> tuple[float, str]:

@@ -114,7 +114,7 @@ def _uniform(result: Diagram, count: int) -> str:
 
 def unit(span: Span) -> str:
     """The unit after a number, with a blank before it; nothing where there is none."""
-    return "" if span.shown_unit == "1" else f" {span.shown_unit}"
+    return "" if span.shown_unit == "1" else f" {lettered(span.shown_unit)}"
 
 
 def _range(result: Diagram, piece: Piece, name: str) -> str:

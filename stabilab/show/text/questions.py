@@ -209,7 +209,8 @@ def period(case: Case, motion: Motion, told: Told, units: Units, all_digits: boo
                     else ""))
     elif all_digits:
         value = (
-            f"period {told.decimals or number(told.values, max(SHOWN, told.asked))} {case.scene.time_unit}")
+            f"period {told.decimals or number(told.values, max(SHOWN, told.asked))} "
+            f"{lettered(case.scene.time_unit)}")
     else:
         value = f"period {units.time(told.values)}"
     holds = limiting.condition(motion.caveats, units)

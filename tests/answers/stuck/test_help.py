@@ -9,7 +9,7 @@ import stabilab
 from stabilab import load, stuck
 from tests.answers.stuck.brute import Craft
 from tests.answers.stuck.energy import fate as energy_fate
-from tests.shared import craft_file
+from tests.shared import craft_file, in_one_line
 
 CASE = """title = "On an axis"
 [body]
@@ -204,7 +204,7 @@ def test_the_headline_of_a_bounded_motion_says_what_a_tilt_does(asked, stabilab,
     assert row.tilt.low * (1 - 1e-8) < t < row.tilt.high * (1 + 1e-8)
     assert 0 <= row.tilt.not_before <= row.tilt.low
     code, out, _ = stabilab("stuck", tmp_path / "own.toml")
-    first = out.splitlines()[0]
+    first = in_one_line(out)
     assert code == 0
     assert "only while the torque is exactly along z (minor axis); tilted by 5 deg it reaches 12 deg/s after " in first
     assert asked(CASE.replace('[limits]\nrate = "60 deg/s"\n', ""), "0.02").rows[0].tilt is None
@@ -243,7 +243,7 @@ def test_a_margin_into_a_narrow_gap_between_two_separatrices_says_where_the_fate
         assert energy_fate(craft.J, craft.torque(), l, craft.start)[0] == fate == craft.fate(l=l)
     code, out, _ = stabilab("stuck", tmp_path / "own.toml")
     assert code == 0 and " or 0.350597 N m s of wheel momentum or " in out
-    assert "; beyond 0.350601 N m s of wheel momentum it is again as now" in out
+    assert "; beyond 0.350601 N m s of wheel momentum it is again as now" in in_one_line(out)
 
 
 def test_an_end_at_infinity_is_a_number_in_json_and_null_is_what_is_not_known(stabilab, tmp_path):
