@@ -16,6 +16,7 @@ from ..limiting import Line
 from ..plot import phase_plane
 from ..plot import subject as subjects
 from ..plot.subject import Measures, Subject, measures, subject
+from ..terminal import lettered
 from ..units import number
 from .shades import light
 
@@ -147,7 +148,7 @@ def _number(value: float, form: str) -> str:
 
 
 def _unit(case: Any) -> str:
-    return str(case.scene.time_unit)
+    return lettered(case.scene.time_unit)
 
 
 def as_dict(case: Any, out: Chaos) -> dict[str, Any]:

@@ -426,7 +426,7 @@ def _lines(subject, over, units) -> list[str]:
         for name, values in w.values.items():
             unit, item = _of_file(units, resolved.get(name, ""))
             row = ", ".join(number(float(v) * item, DIGITS) for v in values)
-            numbers.append(f"{name} = {row} {unit}".rstrip())
+            numbers.append(f"{lettered(name)} = {row} {unit}".rstrip())
         lines.append(f"    {units.said(reason_of(w.verdict))} at {'; '.join(numbers)}")
     return lines
 
