@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ..errors import printable
 from ..files import write_text
 from ..representation import values_of
-from .terminal import some, written
+from .terminal import in_letters, some
 
 if TYPE_CHECKING:
     from ..verify import Verification
@@ -48,7 +48,7 @@ def text(result: Verification, first: str, other: str = "", physical: bool = Fal
               for word in ("proved", "not checked", "refuted")}
     count = ", ".join(f"{n} {word}" for word, n in counts.items() if n) or "no claims"
     claims = [RATES.get(f.claim, f.claim) if physical else f.claim for f in result.findings]
-    lines = [f"{f.status:<12} {written(claim)}{f': {written(f.reason)}' if f.reason else ''}"
+    lines = [f"{f.status:<12} {in_letters(claim)}{f': {in_letters(f.reason)}' if f.reason else ''}"
              for claim, f in zip(claims, result.findings)]
     silent = f"; nothing is claimed of: {', '.join(result.silent)}" if result.silent else ""
     another = f"OF ANOTHER CASE than {printable(str(other))}; its own claims: " if other else ""

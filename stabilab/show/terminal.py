@@ -43,6 +43,12 @@ def written(text: str) -> str:
 
 
 @around
+def in_letters(text: str) -> str:
+    """Words with numbers of all digits at a terminal: names as letters alone."""
+    return _in_letters(text)
+
+
+@around
 def lettered(text: str) -> str:
     """Words of the analysis at a terminal: letters as `written`, numbers with six digits."""
     return _in_letters(LONG.sub(lambda match: f"{float(match[0]):.6g}", text))
