@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 
 P = ParamSpec("P")
 FIRST, MANY = 0xF0000, 60_000  # letters of private use that stand for the names in a text; so many at most
-# what some pattern looks for: a letter's name, a number with its unit, an axis, a sign
+# what some pattern looks for: a letter's name, a number with its unit, an axis, a sign, the end of a clause
 SUSPECT = re.compile(
     r"omega|lambda|mu|gamma|alpha|sigma|zeta|tau|beta|delta|eps|eta|theta|kappa|nu|pi|phi|psi|rho|sqrt|inf"
     r"|ax[ei]s [123]|l_|_[ijk]|\^|\+-|-\+|[<>]=|-[\d.(\w]| - | x | \. |[MHωλγ]\.|\d\.\d{6}|\de[-+]?\d"
-    r"|\d (?:rad|deg|days?|min|h|s|m|J|tau|N m)\b", re.IGNORECASE)
+    r"|\d (?:rad|deg|days?|min|h|s|m|J|tau|N m)\b|; ", re.IGNORECASE)
 VARIANT = r"(?:-\d+)*"  # which combination of a [sweep] it is, behind the name of a case
 _spared: dict[str, None] = {}
 _found: list[re.Pattern[str]] = []  # of all of them, the longest first; empty where it is to be made

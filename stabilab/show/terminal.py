@@ -91,6 +91,14 @@ def _letter(result):
     return ALPHABET.get(result[result.lastgroup], "l")
 
 
+@around
+def capital(text: str) -> str:
+    """A sentence with a capital at its head, where a word stands there and no formula, symbol or file."""
+    first = text.partition(" ")[0]
+    word = (len(first) > 1 or first == "a") and first.isascii() and first.isalpha() and first.islower()
+    return text[:1].upper() + text[1:] if word else text
+
+
 def some(count: int, noun: str) -> str:
     """A number with its noun: "1 curve", "2 curves"."""
     return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
@@ -126,6 +134,7 @@ COLOURS = {"bold green": (*HEADED[Fate.BOUNDED], *HEADED[Fate.EQUILIBRIUM], "NEV
            "bold yellow": (*HEADED[Fate.UNDECIDED], *HEADED[Fate.SEPARATRIX], "NOT KNOWN")}
 COLOURED = {rf"\b(?:{'|'.join(map(re.escape, text))})\b": colour for colour, text in COLOURS.items()}
 BLANK = "\0"  # stands for a blank that no line is broken at
+PART = "\1"   # stands between two clauses
 STABLE = {r"\bunstable\b": "red", r"(?<!un)\b(?:asymptotically )?stable\b": "green",
           r"\bundecided\b": "yellow"}
 
@@ -159,15 +168,20 @@ def by_clauses(text: str) -> str:
 
 
 def clauses_of(line: str) -> list[str]:
-    """What stands between the semicolons of a line outside its brackets and quotes."""
-    result, depth, quoted, begin = [], 0, False, 0
+    """What stands between the semicolons of a line outside its brackets, its quotes and what users named."""
+    return _parted(line).split(PART)
+
+
+@around
+def _parted(line: str) -> str:
+    parts, depth, quoted, begin = [], 0, False, 0
     for n, letter in enumerate(line):
         depth += (letter in "([{") - (letter in ")]}")
         quoted ^= letter == '"'
         if line.startswith("; ", n) and depth <= 0 and not quoted:
-            result.append(line[begin:n])
+            parts.append(line[begin:n])
             begin = n + 2
-    return [*result, line[begin:]]
+    return PART.join([*parts, line[begin:]])
 
 
 def say(text: str) -> None:

@@ -24,7 +24,7 @@ from tests.shared import MOVING, later
 PLAIN = "Qqqq"  # no pattern knows it
 HOSTILE = ["axis 3 after 200 s", "lambda 2", "t = 5 s", "omega1 10 rad", "mu_i +- 1 = 2^2", "gamma3 -5 rad",
            "s in [0, 600]", "tau 1.23456789", "T.omega2", "a - b . H.H", "within 3600 s, axes 1 and 2",
-           "1 N m s at least 2 rad"]
+           "1 N m s at least 2 rad", "left; right"]
 NEVER_IN_FILES = ["omega1 10 rad/s", "l_x <= 3 & <inf>", "x axis `lambda1`", "{omega1} 50 %s"]
 TEXT = """title = {title}
 caveats = [{title}]
@@ -79,7 +79,7 @@ def write_case(folder, name, stem=None, burns=False, more=""):
 
 def one_blank(text):
     """Columns are as wide as the names in them, and a long line is broken between its clauses."""
-    return re.sub(r"\s+", " ", text.replace("; ", " "))
+    return re.sub(r"\s+", " ", re.sub(r"\n(?:# )? *", "; ", text))
 
 
 def same_but_for_names(told, name):

@@ -36,10 +36,9 @@ from ...verify.form import line as about_line
 from ...verify.numbers import Malformed
 from .. import frame, limiting, space
 from ..axes import with_moments
-from ..names import around
 from ..report.tables import tiles
 from ..space import natural, seen
-from ..terminal import lettered, written
+from ..terminal import capital, lettered, written
 from ..text.classification import called
 from ..text.headline import headline, judged, look
 from ..text.motion import margins
@@ -175,7 +174,7 @@ class Session:
         built = {"headline": text, "fate": "undecided" if result is None else result.fate.word,
                 "look": "conditional" if result is None else look(result),
                 "moving": moving, "start": clicked,
-                "note": " ".join(map(_capital, filter(None, notes))),
+                "note": " ".join(map(capital, filter(None, notes))),
                 "toml": case.text, "axes": _named(units), "space": picture,
                 "rows": [*([["axes", lettered(about_axes)]] if about_axes else []),
                          *([] if result is None else rows(case, result, units))],
@@ -237,7 +236,7 @@ class Session:
             reach = self._kept.get("reach", (None, REACH))[1]
             branches, text, far = self._once("branches", (bare, box, moving), lambda: space.branches_of(
                 bare, box, plain=PLAIN if moving else None, reach=reach))
-            self._kept["reach"], text = (None, far), _capital(text)
+            self._kept["reach"], text = (None, far), capital(text)
         names = [component.replace("omega", "ω") for component in case.scene.components]
         curves = self._once("curves", (case.scene, box, moving, at_rest is None),
                             lambda: space.curves_of(at_rest, box, *POINTS[moving]))
@@ -260,12 +259,6 @@ class Session:
 
 def _named(units: Units) -> list[str]:
     return [units.axes.short(n) for n in (1, 2, 3)]
-
-
-@around
-def _capital(text: str) -> str:
-    symbol = len(text.partition(" ")[0]) == 1
-    return text if symbol else text[:1].upper() + text[1:]
 
 
 def _length(case: Case, result: Motion | None, form: QuadraticForm | None, moving: bool) -> tuple[float, str]:

@@ -14,7 +14,7 @@ from pathlib import Path
 from ...files import write_text
 from .. import style
 from ..names import around
-from ..terminal import ALPHABET, but_for_commands, minus, written
+from ..terminal import ALPHABET, but_for_commands, capital, minus, written
 
 TEMPLATES = Path(__file__).parents[1] / "templates"
 ALONE = {"nav": (), "here": "", "below": "", "up": "", "title": ""}  # of a page that is no part of a folder
@@ -81,10 +81,7 @@ def formula(text):
 def sentence(text: str):
     """Words for a page: with a capital at their head, and what stands between backquotes as code."""
     from markupsafe import Markup, escape
-    # no formula, no name of a file
-    first = text.partition(" ")[0]
-    text = text[:1].upper() + text[1:] if first.isascii() and first.isalpha() and first.islower() else text
-    parts = text.split("`")
+    parts = capital(text).split("`")
     rows = [escape(part) if n % 2 == 0 or n == len(parts) - 1 else typed(part) for n,
              part in enumerate(parts)]
     return Markup("").join(rows).replace("|ω|", Markup('<span class="nowrap">|ω|</span>'))
