@@ -59,13 +59,6 @@ def came(value) -> str:
             else "an object of type " + type(value).__name__)
 
 
-def checked_case(case):
-    """The case itself, if it is one."""
-    if not (hasattr(case, "scene") and hasattr(case, "span") and hasattr(case, "state")):
-        raise InputError(f"case: expected a case, as stabilab.load gives it, got {came(case)}")
-    return case
-
-
 def checked_span(span) -> tuple[float, float] | None:
     """(from, to) of a span given by its two ends, or by its length; None stays."""
     if span is None:

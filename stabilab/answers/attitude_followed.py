@@ -36,7 +36,7 @@ FEWEST, MOST = 64, 1 << 17  # times of the sum
 
 
 def followed(scene: Scene, base: Attitude, result: Motion, period: float) -> Attitude:
-    """base: what is known at the start; found: the motion; period: its own."""
+    """base: what is known at the start; result: the motion; period: its own."""
     if any(scene.vector("constant_torque")):
         return _under_torque(scene, base, period)
     return _of_gyrostat(scene, base, result, period)

@@ -90,9 +90,10 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
     """The extremes, the period, or the margin of the "fate" of one state, to `digits` decimal digits (1 to
     50).
 
-    state, span, exact: as of `motion`; known: what `motion` found, where that is at hand. Digits of extremes
-    are relative to the size of their component. aim: nobody asked for the digits, so a run that misses them
-    by `NEAR` is not done again. Told.digits may be below what was asked: see Told.required.
+    state, span, exact: as of `motion`; resolved: what `motion` found, where that is at hand. Digits of
+    extremes are relative to the size of their component. aim: nobody asked for the digits, so a run that
+    misses them by `DIGITS_MISSED` is not done again. Told.digits may be below what was asked: see
+    Told.required.
     """
     digits = checked_digits(digits, MOST_DECIMALS)
     twin = effective(scene)  # it turns alike and has nothing but a wheel and a torque, if `plain`

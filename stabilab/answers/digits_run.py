@@ -109,8 +109,8 @@ def best_reached(case: Case, times: np.ndarray, digits: int = DEFAULT, aim: bool
     largest size of each part of the state over the times. Where nothing reaches them, the motion that comes
     nearest.
 
-    aim: nobody asked for the digits: the last `NEAR` of them may be missing, and many digits go no farther
-    than FAR.
+    aim: nobody asked for the digits: the last `DIGITS_MISSED` of them may be missing, and many digits go no
+    farther than LONG_TURN.
     """
     checked_digits(digits, DOUBLE_DIGITS)
     times = np.atleast_1d(np.asarray(times, float))

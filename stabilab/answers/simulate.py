@@ -351,7 +351,7 @@ def _grid(scene: Scene, start: Mapping[str, tuple[float, ...]], times: np.ndarra
 
 
 def denser(ends: np.ndarray, inside: int, largest: int) -> np.ndarray:
-    """Times from the first end on up to the last, itself left out, with so many in each step; `most` in all.
-    """
+    """Times from the first end on up to the last, itself left out, with so many in each step;
+    `largest` in all."""
     inside = max(1, min(inside, largest // len(ends)))
     return (ends[:-1, None] + np.diff(ends)[:, None] * (np.arange(inside) / inside)).ravel()

@@ -68,7 +68,7 @@ def by_clock(scene: AnyScene, state: Float3, limit: Limit, followed: float, reac
 
     followed: a time before which the limit is known not to be reached. The bounds of the trap hold from its
     own time on; where that is later than `followed` the lower end stays there. reached: how far a run came.
-    found: what `spin_up` says of the motion, where it was asked already.
+    result: what `spin_up` says of the motion, where it was asked already.
     """
     if limit.kind == "tilt" or None in [along_axes(terms) for terms, _ in limit.parts]:
         return None
@@ -373,8 +373,8 @@ def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction 
 
 def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction | None,
                      resolved: float, bands: int, spun: Any) -> Found:
-    """The work allowed in integers is done, and the limit is not reached before `known`: a run follows longer
-    ways, which compiled steps enclose, and the clock tells of the longest."""
+    """The work allowed in integers is done, and the limit is not reached before `resolved`: a run follows
+    longer ways, which compiled steps enclose, and the clock tells of the longest."""
     last = math.inf if end is None else float(end)
     run = by_run(scene, state, limit, last)
     open_end = math.isnan(run.high)  # the run did not come to the limit

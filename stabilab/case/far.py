@@ -19,7 +19,7 @@ HUGE = Fraction(10) ** 30  # products of some ten such numbers and their inverse
 @contextmanager
 def in_doubles(case: Any, location: str = "") -> Iterator[None]:
     """Context of an answer to a question of a case: InputError that names the number by which it leaves the
-    range of doubles. place: what stands before the message."""
+    range of doubles. location: what stands before the message."""
     try:
         yield
     except ArithmeticError:

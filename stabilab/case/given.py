@@ -15,7 +15,7 @@ from ..errors import InputError
 from ..numbers.exact import exact, floats
 from ..numbers.principal import IDENTITY, PrincipalAxes, oblique
 from ..numbers.units import ANGLE, LENGTH, MOMENTUM, NONE, RATE, TIME, VELOCITY, Dimension, in_si, split
-from ..numbers.vectors import Exact3, Number
+from ..numbers.vectors import Exact3
 from ..physics.scene import BLOCKS, INSIDE, AnyScene, ScaledGyrostat, Scene, slices
 from ..validation import checked_span
 from .read import Case, load, with_text
@@ -209,9 +209,3 @@ def renamed(question: str, old: str, new: str, value: Any, other: Any) -> Any:
     warn(f"{question}: {old} is called {new} now; the former name goes with the next version", FutureWarning,
          stacklevel=3)
     return value
-
-
-def exact_start(case: Case) -> tuple[Number, ...]:
-    """The start of a case, exact: its rates as they were written, the other blocks at their word."""
-    rates, start = case.exact_state or (), case.start or ()
-    return (*rates, *map(Fraction, start[3:]))

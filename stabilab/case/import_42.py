@@ -376,7 +376,7 @@ def _acting(vector: Sequence[str] | None):
 
 def _relative(craft: Craft, entries: Sequence[Entry], location: Sequence[np.ndarray], path: Path) -> None:
     """Rates relative to the orbit frame as those relative to inertial space; where these are not known the
-    craft has no motion and every answer says why. place: of the body of the case, from body 0."""
+    craft has no motion and every answer says why. location: of the body of the case, from body 0."""
     frames = (_value(entries, "", "ang vel wrt") or "").strip().upper()
     if not craft.rate or not frames or frames.startswith("N"):
         return

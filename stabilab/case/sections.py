@@ -38,8 +38,8 @@ def attitude_of(vertical) -> Float3:
 
 
 def judge_attitude(table: Table, supplied: Mapping[str, Float3], scene: AnyScene | None):
-    """Note a vertical and an attitude of [motion] that contradict each other. given: the blocks that the file
-    gives; the zero angles that an attitude starts at where the file gives none count too."""
+    """Note a vertical and an attitude of [motion] that contradict each other. supplied: the blocks that the
+    file gives; the zero angles that an attitude starts at where the file gives none count too."""
     needed = ordered((*getattr(scene, "blocks", ()), *supplied))
     if "gamma" not in supplied or "attitude" not in needed:
         return

@@ -90,7 +90,7 @@ def answer(question, cases, json, digits, strict, units, why, csv=False, follow=
 
 
 def _needed(question: str, full: bool):
-    """What of a motion the question prints. whole: with a table of all margins, or what `--why` adds."""
+    """What of a motion the question prints. full: with a table of all margins, or what `--why` adds."""
     if question == "period" and not full:
         return Needs.PERIOD | Needs.FLIPS
     return Needs.QUICK if question == "extremes" else Needs.ALL

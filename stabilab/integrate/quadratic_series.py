@@ -2,7 +2,8 @@
 
 They are for pictures that follow a slider, where neither NumPy nor a compiled step is loaded. The rates are
 x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i, so the coefficients of the series follow from one
-another by products of series. A picture needs no last digit: a step leaves SHARE of the state's size at most.
+another by products of series. A picture needs no last digit: a step leaves TERM_TOLERANCE of the state's size
+at most.
 """
 from __future__ import annotations
 
@@ -86,8 +87,8 @@ def _size(series: list[list[float]], fraction: float, sign: float = 1.0) -> floa
 
 def parting(form: QuadraticForm, path: Path) -> int:
     """How many of the first points of a path (of `followed`) lie where they are seen to lie, whatever its
-    steps left: so many steps of the motion whose start is moved by SHARE end within SEEN of the path's,
-    of the largest rate. A zero stays: what holds a rate at zero holds it in floats too."""
+    steps left: so many steps of the motion whose start is moved by TERM_TOLERANCE end within SEEN of the
+    path's, of the largest rate. A zero stays: what holds a rate at zero holds it in floats too."""
     times, states = path
     width = SEEN * max(abs(v) for x in states for v in x)
     x = tuple(v * (1 + n * TERM_TOLERANCE) for v, n in zip(states[0], APART))
@@ -113,7 +114,7 @@ def coefficients(form: QuadraticForm, x: tuple[float, ...], order: int = ORDER) 
 
 
 def length(series: list[list[float]], smallest: float) -> float:
-    """A length over which the last two terms stay below `least`; inf where there are none."""
+    """A length over which the last two terms stay below `smallest`; inf where there are none."""
     lengths, order = [], len(series[0]) - 1
     for n in (order - 1, order):
         last = max(abs(term[n]) for term in series)

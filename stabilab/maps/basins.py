@@ -97,7 +97,7 @@ MAX_PLACES = 4_000_000  # places asked for
 class Mesh:
     """cells: of the coarse grid along both axes; depth: how often a cell may be split. keys, labels: of all
     places asked for, rising; leaves: per depth the numbers of the cells that are not split, rising; split: of
-    those that are. full: whether refinement stopped for MOST."""
+    those that are. full: whether refinement stopped for MAX_PLACES."""
 
     cells: tuple[int, int]
     depth: int

@@ -199,7 +199,7 @@ class Pointed:
 
 
 def pointed_from(printed: dict[str, Any]) -> Pointed:
-    """The points that `told` wrote down."""
+    """The points that `printed` wrote down."""
     wheels = tuple(tuple(map(Fraction, wheel)) for wheel in printed["wheels"])
     return Pointed(Fraction(printed["torque"]), wheels, tuple(Point(*item) for item in printed["points"]),
                    printed["certify"])

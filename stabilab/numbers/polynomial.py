@@ -207,7 +207,7 @@ def held_newton(look: Callable[[float], tuple[float, float, bool | None]], low: 
                 part: float, enough: float, start: float | None = None) -> float:
     """The root between two floats, to a double or its neighbour: Newton's method held in a bracket.
 
-    look(x) -> (value, slope, whether x lies beyond the root; None where it is the root). share: of the
+    look(x) -> (value, slope, whether x lies beyond the root; None where it is the root). part: of the
     bracket, the longest step that is taken; enough: the last step, relative; start: where the search begins.
     """
     x = between(low, high) if start is None else start

@@ -32,7 +32,7 @@ IDENTITY = tuple(tuple(Fraction(i == j) for j in range(3)) for i in range(3))
 TURNED = (IDENTITY[1], IDENTITY[2], IDENTITY[0])  # as good as any of a sphere that is not diagonal
 NAMES = "xyz"
 ENTRY = 15  # digits of an entry in an error, which all decimals of so many keep
-# of a vector: a component as small is what irrational axes, good to BITS, leave of zero
+# of a vector: a component as small is what irrational axes, good to IRRATIONAL_BITS, leave of zero
 NOTHING = Fraction(1, 1 << 200)
 # of the largest entry of a matrix that was turned and written again: what counts as zero
 SLACK = Fraction(1, 1 << 100)

@@ -84,8 +84,8 @@ def on_top(land: Landscape, location: Sequence[np.ndarray]):
 
 def near_separatrix(land: Landscape, location: Sequence[np.ndarray], w: np.ndarray, margins: np.ndarray,
                     fraction: float | np.ndarray):
-    """(n,) True where the margin is below `share` of the energy's terms: turning points and periods magnify
-    its rounding there."""
+    """(n,) True where the margin is below `fraction` of the energy's terms: turning points and periods
+    magnify its rounding there."""
     return np.abs(margins) <= fraction * land.reduction.energy_unit * land.energy_terms(location, w)
 
 

@@ -92,8 +92,8 @@ def _on_conic(orbit, point) -> bool:
     U, V = at_u + orbit.shift_j, at_v + orbit.shift_k
 
     def excess(u: fmpq_poly, v: fmpq_poly, entry: fmpq_poly):
-        """Height minus energy, with u, v polynomials over the polynomial `one`, times its square; in units of
-        w^2/(ap aq)."""
+        """Height minus energy, with u, v polynomials over the polynomial `entry`, times its square; in units
+        of w^2/(ap aq)."""
         q = rational
         rise = (q(-sp * aq * r.kappa / 2) * (u * u - q(u0 * u0) * entry * entry)
                 - q(sp * aq * rho) * (u * entry - q(u0) * entry * entry))
@@ -466,7 +466,7 @@ class OneFate(NamedTuple):
 def fate_of(scene: AnyScene, orbit: Orbit, nearby: Orbit | None = None) -> OneFate:
     """The fate of one state of a scene with this orbit.
 
-    near: the orbit in a unit in which to compare energies; the margin is in it then.
+    nearby: the orbit in a unit in which to compare energies; the margin is in it then.
     """
     reduction, state = orbit.reduction, orbit.state
     if is_free(scene):  # in the scene's unit, whatever its size

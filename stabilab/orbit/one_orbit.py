@@ -269,8 +269,8 @@ class BallConic(BallOrbit):
 
 
 # --- An orbit in balls on each of the three geometries of the reduction: circle, hyperbola, parabola
-# exp(-FAR) is nothing against any double: an offset that stands for the end of an invariant plane
-MAX_BITS = 1 << 13
+# exp(-OUTERMOST) is nothing against any double: an offset that stands for the end of an invariant plane
+OUTERMOST = 1 << 13
 
 
 class BallCircle(BallConic):
@@ -406,14 +406,14 @@ class BallHyperbola(BallConic):
     def swept(self, left: arb | None) -> list:
         """On the decaying plane: from where it is, or where it turns back, to the plane's end."""
         zero = self.energy * 0
-        return [zero, *([] if left is None else [left]), zero + MAX_BITS]
+        return [zero, *([] if left is None else [left]), zero + OUTERMOST]
 
     def end_of_plane(self, side):
         decays = self.on_plane and self.mu.is_zero() and sign(self.xi if side < 0 else self.eta)
         if not decays:
             return None
         zero, limit = self.energy * 0, self.x * (self.G * self.x / 2 + self.c) + self.d * self.z
-        return None if limit > self.energy else (zero + side * MAX_BITS, (self.energy - limit).max(zero))
+        return None if limit > self.energy else (zero + side * OUTERMOST, (self.energy - limit).max(zero))
 
     def _direction(self):
         return None if self.on_plane else (abs(self.xi) / abs(self.eta)).log() / 2

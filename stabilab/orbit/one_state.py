@@ -84,7 +84,7 @@ def powered(value: float, k: int) -> float:
 
 
 def far_fate(scene: AnyScene, orbit: Orbit, k: int, nearby: Orbit | None = None):
-    """The fate of one state of a scene, as an `OneFate`; near: its orbit in the unit 2^k, where that is at
+    """The fate of one state of a scene, as an `OneFate`; nearby: its orbit in the unit 2^k, where that is at
     hand."""
     result = fate_of(scene, orbit, nearby or own(orbit, k))
     return result if is_free(scene) else result._replace(margin=powered(result.margin, 2 * k))

@@ -194,7 +194,7 @@ def inverted(integral: np.ndarray, rate: np.ndarray, half: np.ndarray, wanted: n
 
 
 class Panels:
-    """Time from the start of a chain of passages; with fewer than `POINTS` points a panel none is cut
+    """Time from the start of a chain of passages; with fewer than `NODES` points a panel none is cut
     further.
 
     evaluations: of dt/dx; starts: times at the panels' beginnings; owner: the passage of each; low, half:

@@ -53,7 +53,7 @@ def vertical(result: ArrayLike) -> np.ndarray:
 
 
 def beyond(result: ArrayLike) -> np.ndarray:
-    """The other 3-1-2 angles (..., 3) of the same attitudes, with cos psi < 0 where `found` has cos psi > 0.
+    """The other 3-1-2 angles (..., 3) of the same attitudes, with cos psi < 0 where `result` has cos psi > 0.
     """
     psi, phi, theta = np.moveaxis(np.asarray(result, float), -1, 0)
     return np.stack([np.pi - psi, phi + np.pi, theta + np.pi], axis=-1)

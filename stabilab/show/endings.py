@@ -21,7 +21,7 @@ OF_FILES = (*PICTURES, ".jpg", ".jpeg", ".gif", ".csv", ".json", ".nc", ".txt", 
 
 
 def file(path: str | PathLike[str], resolved: Sequence[str]) -> Path:
-    """The path of a file that is to be written, if its ending is one of `known`; InputError otherwise."""
+    """The path of a file that is to be written, if its ending is one of `resolved`; InputError otherwise."""
     path = Path(path)
     if ending(path) not in resolved:
         raise InputError(f"{path}: expected a name that ends in {listed(resolved, 'or')}, "

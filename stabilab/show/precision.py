@@ -59,7 +59,7 @@ NOTED = 1.5  # digits: stretches of the front at least so long have their price 
 def picture(plt, result, size=None, largest=None):
     """Time against error, both logarithmic: a panel per question, a line per method, the front as a grey
     band. size: (width, height) in inches; a figure of that size has as many of the questions, in their order,
-    as have room. most: of panels; where it is given the legend has the methods without their prices."""
+    as have room. largest: of panels; where it is given the legend has the methods without their prices."""
     questions = result.questions[:largest]
     if not questions:
         raise InputError(f"{result.case.name}: nothing to draw: {result.reference.reason}")

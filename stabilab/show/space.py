@@ -207,7 +207,7 @@ def space(names: Iterable[str], rate: tuple[str, float], box: Box, branches: Ite
           text: str, more: str = "", limit: float | None = None) -> Space:
     """What is drawn in a box. names, rate: of the components, and their unit (name, how many make one of the
     scene's). branches: those that come into it are drawn, in the colours of their numbers; more: behind their
-    names; words: of the separatrix. limit: of |omega|, drawn where it comes into the box, and fills a part
+    names; text: of the separatrix. limit: of |omega|, drawn where it comes into the box, and fills a part
     of it."""
     (unit, per), shares = rate, [box.share(at) for at in path]
     named = tuple(with_unit(name, unit) for name in names)

@@ -187,7 +187,7 @@ def number(value: float, digits: int = SHORT) -> str:
 
 
 def as_bound(value: float, item: float, digits: int, side: int) -> float:
-    """The value in a unit of which `one` make one in SI, rounded outward: read back in SI it is no less than
+    """The value in a unit of which `item` make one in SI, rounded outward: read back in SI it is no less than
     an upper bound (side +1) and no more than a lower one (-1); side 0: the product. With all digits before
     the point that `number` prints."""
     result = value * item
@@ -214,7 +214,7 @@ def but_for_rounding(pairs: Sequence[tuple[float, float]] | None, tolerance: flo
 
 def bracket(low: float, high: float, item: float = 1.0) -> tuple[str, str]:
     """Both ends with the decimals that tell them apart, six digits at most, rounded down and up, in a unit of
-    which `one` make one in SI: read back in SI they are no nearer to each other than the ends."""
+    which `item` make one in SI: read back in SI they are no nearer to each other than the ends."""
     width, top = (high - low) * item, high * item
     largest = max(0, 5 - math.floor(math.log10(top)))
     decimals = largest if not width > 0 else min(largest, max(0, 1 - math.floor(math.log10(width))))

@@ -165,7 +165,7 @@ SPIN_HELD = Sentence(
 
 
 def resonances(body: ChargedBody) -> tuple[Reason, ...]:
-    """The resonances and the unstable band that the data meet, to `NEAR` of the largest rate among
+    """The resonances and the unstable band that the data meet, to `RESONANCE_WIDTH` of the largest rate among
     r0, a, b. Nothing is singular at a resonance: the closed forms pass through it."""
     m, r0 = modes(body), body.spin
     small = RESONANCE_WIDTH * max(map(abs, (m.a, m.b, Fraction(r0))))

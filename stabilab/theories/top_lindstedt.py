@@ -513,7 +513,7 @@ def _residual(top: FastTop, expansion: Expansion) -> float:
 
 
 def _resonances(top: FastTop, order: int) -> tuple[Resonance, ...]:
-    """Those within NEAR whose harmonic the orders reach; C* = A and C* = B concern every order."""
+    """Those within SMALL_DIVISOR whose harmonic the orders reach; C* = A and C* = B concern every order."""
     rows = [Resonance(0, ONE_MOMENT(moment=name), abs(float(top.spin / moment - 1)))
              for name, moment in (("A", top.a), ("B", top.b))]
     if top.Omega2 > 0:

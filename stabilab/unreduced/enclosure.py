@@ -93,7 +93,8 @@ class Band:
         return out, radius * (1 + 2.0**-30)
 
     def piece(self, i: int, unit: Fraction) -> Piece:
-        """Step i in integers of BITS bits, its rates over `unit`, a power of two, its time the scene's."""
+        """Step i in integers of STEP_BITS bits, its rates over `unit`, a power of two, its time the
+        scene's."""
         shift = STEP_BITS - (unit.numerator.bit_length() - unit.denominator.bit_length())
         places = [shift] * 3 + [STEP_BITS] * (self.polynomials.shape[1] - 3)
         rows = [[int(math.ldexp(v, n)) for v in row] for n, row in zip(places, self.polynomials[i].tolist())]
@@ -179,7 +180,7 @@ class Course:
         return Band(np.append(begun, times) / self.unit, polynomials, radii)
 
     def _carried(self, t: float, t_end: float, steps: int, retained: Sequence[np.ndarray]):
-        """(time, steps made) of the set carried on; what is told of each step goes to arrays `kept`."""
+        """(time, steps made) of the set carried on; what is told of each step goes to arrays `retained`."""
         built, plainly = 0, not installed() or self.plain > 0 and not loaded()
         if plainly:
             before, largest = [v.copy() for v in self._set], min(steps, self.plain) if installed() else steps

@@ -357,8 +357,8 @@ def _about_axis(form, x, i, numbers):
 
 
 def _growing(smallest, route):
-    """The pair of a component that grows without bound in one direction, `least` being how far it goes in the
-    other."""
+    """The pair of a component that grows without bound in one direction, `smallest` being how far it goes in
+    the other."""
     return (smallest, math.inf) if route > 0 else (-math.inf, smallest)
 
 

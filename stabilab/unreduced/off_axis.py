@@ -117,7 +117,7 @@ def _middle(scene, state) -> Reason | None:
 
 
 def _limits(follow: float | None) -> dict:
-    """How far a motion is followed: to a time, or for PATIENCE steps, fewer where nothing is compiled."""
+    """How far a motion is followed: to a time, or for MAX_STEPS steps, fewer where nothing is compiled."""
     if follow is None:
         return {"budget": MAX_STEPS if installed() else MAX_STEPS // AS_WRITTEN}
     return {"t_max": float(follow), "budget": ENDLESS}

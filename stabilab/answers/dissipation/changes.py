@@ -45,7 +45,7 @@ class Span:
 
 def spans_of(spinner: Spinner, until: float, steps: int, largest: int) -> tuple[Span, ...]:
     """The bands of one outcome about the start, where the motion begins about the minor axis. until: when it
-    crosses the separatrix, s; steps: of a run until then; most: of all runs for one number."""
+    crosses the separatrix, s; steps: of a run until then; largest: of all runs for one number."""
     room = _room(spinner)
     if room <= 1 or not spinner.start[spinner.order[2]] or 2 * steps * RUNS > largest:
         return ()
@@ -131,7 +131,7 @@ def _filled(scene: Scene, times: Fraction) -> Scene:
 
 def _edge(flips: Callable[[float], bool], first: float, largest: float) -> float:
     """The size of the smallest change, of the sign of `first`, of which the outcome is another, to three
-    digits; inf where there is none up to `most`."""
+    digits; inf where there is none up to `largest`."""
     judge = lambda size: side(not flips(math.copysign(size, first)))
     size = abs(first)
     result = first_bracket(judge, min(size, largest), largest, FINEST * size)

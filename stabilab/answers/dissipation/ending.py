@@ -48,7 +48,7 @@ RUN_STEPS = 2_000_000  # of a run of a body that something outside acts on
 FEWER = 100_000  # of one that is followed until its rates stay, whatever they do
 POLISHED = 5  # steps of Newton to the equilibrium by which they stay
 ENOUGH = 20_000  # steps, by which a pace is known
-FORECAST = 4  # times STEPS: a run that would need more is given up at once
+FORECAST = 4  # times RUN_STEPS: a run that would need more is given up at once
 SAMPLES = 400  # of a part of a run
 STAYS = 1e-4  # of the largest rate: what is left of a change
 STILL = 1e-9  # of the fastest eigenvalue: one that is zero
@@ -240,7 +240,7 @@ def _about_the_field(scene: AnyScene, parts: Content, start: np.ndarray, energy:
 
 def _timed(result: Ending, scene: AnyScene, start: np.ndarray, fraction: Callable[[np.ndarray], np.ndarray]
            ) -> tuple[Ending, np.ndarray | None]:
-    """With the time at which a share that only falls is NEAR^2, by two runs, and the state there."""
+    """With the time at which a share that only falls is END_REACHED^2, by two runs, and the state there."""
     t, late = _falls(scene, start, fraction, None)
     if late is None:
         return replace(result, estimate=t), None
@@ -252,8 +252,8 @@ def _timed(result: Ending, scene: AnyScene, start: np.ndarray, fraction: Callabl
 
 def _falls(scene: AnyScene, state: np.ndarray, part: Callable[[np.ndarray], np.ndarray], rtol: float | None
            ) -> tuple[float | None, np.ndarray | None]:
-    """(the time at which the share is NEAR^2, the state then); (an estimate or None, None) where that takes
-    too many steps."""
+    """(the time at which the share is END_REACHED^2, the state then); (an estimate or None, None) where that
+    takes too many steps."""
     level, t, steps, here, ahead = END_REACHED * END_REACHED, 0.0, 0, 1.0, math.inf
     length = _quick(to_numpy(scene).jacobian(state), state)
     over = lambda after, y, times: trajectory(later(scene, after), y, times, rtol=rtol, laws=False)

@@ -22,7 +22,7 @@ from ...reasons import Quantity, Reason, Sentence, Time
 from ..simulate import trajectory
 
 RUN_STEPS = 5_000_000  # of a run: some ten seconds
-FORECAST_LIMIT = 4  # times STEPS: a forecast beyond that ends a run
+FORECAST_LIMIT = 4  # times RUN_STEPS: a forecast beyond that ends a run
 SAMPLES = 200  # of a part of a run
 ENDED = Sentence("run-ended", "it ended before")()
 TOO_LONG = Sentence("run-too-long", "it would take some {steps} steps, {time} of the motion")

@@ -60,7 +60,7 @@ def helpers(scenario: Scenario, torque: Sequence[Fraction], others: Sequence[Any
     """The helpers among `others` (thrusters that do not fire) against a torque (exact, scene's axes), the
     best first.
 
-    seen: what becomes of the motion without them.
+    visited: what becomes of the motion without them.
     """
     if not any(torque):
         return ()

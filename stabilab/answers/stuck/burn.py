@@ -181,7 +181,7 @@ def latest(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
 
 
 def _of_all_forces(chain: Chain, result: Latest, below: Fraction) -> Latest:
-    """The answer that holds for all forces that are looked at within what the thrusters state; found: that
+    """The answer that holds for all forces that are looked at within what the thrusters state; result: that
     for the forces as stated."""
     forces = forces_of(chain.burning)
     if forces is None or result.high == 0:
@@ -252,7 +252,7 @@ def _bracket(base: Scene, links: Sequence[Link], span: tuple[float, float],
 
 
 def _looks(links: Sequence[Link], span: tuple[float, float], upper: int) -> Iterator[tuple[Link, np.ndarray]]:
-    """Each link that fires within a span, with times after its begin, from 0 on; some `most` in all."""
+    """Each link that fires within a span, with times after its begin, from 0 on; some `upper` in all."""
     last = links[-1]
     end = min(span[1], float(last.begin + last.length))
     for link in links:
@@ -424,7 +424,7 @@ def craft_caveats(craft: Any) -> tuple[Caveat, ...]:
 
 
 def _granted(craft: Any, closed: Closed, result: Latest | None = None) -> Iterator[Caveat]:
-    """What the answer takes for granted of the thrusters; found: by when they must close, if asked."""
+    """What the answer takes for granted of the thrusters; result: by when they must close, if asked."""
     if spent := sum(used or 0.0 for used in closed.used):
         mass = craft.physical.body.mass
         left = Mass(spent, digits=4)

@@ -436,7 +436,7 @@ def delayed(scenario: Scenario, torque: Sequence[Fraction], axis: Exact3, now: F
 def times_over(scenario: Scenario, torque: Sequence[Fraction], axis: Exact3, now: Fraction,
                time: Bracket) -> tuple[np.ndarray, np.ndarray]:
     """(momenta (n,) of a wheel, N m s; times (n,) at which runs with them come to the limit, s, inf where not
-    within PATIENCE times that of now). Arguments as of `delayed`."""
+    within NEVER_AFTER times that of now). Arguments as of `delayed`."""
     _, reach, until = _runs(scenario, torque, axis, now, time)
     places = np.linspace(-reach, reach, PLACES)
     return places, np.array([until(s) for s in places])

@@ -240,8 +240,8 @@ def resultant(f: Sequence[Number], g: Sequence[Number]) -> Number:
 
 
 def candidates(line: Line) -> list[float] | None:
-    """Every s at which the start may lie on a separatrix, ascending, in doubles; None where `MOST` cells do
-    not tell."""
+    """Every s at which the start may lie on a separatrix, ascending, in doubles; None where `MAX_CELLS` cells
+    do not tell."""
     result = line.others()
     with working(BITS, ORDER + 1) as numbers:
         pair = line.pair(numbers.ball)
@@ -348,7 +348,7 @@ def nearest_change(retained: Intervals, steady: bool) -> tuple[float, float]:
     """(the least s > 0 at which the fate changes, the next one, from which on it is again what it was; inf
     where there is none).
 
-    kept: the intervals of s in which the motion is bounded; steady: whether it is at s = 0.
+    retained: the intervals of s in which the motion is bounded; steady: whether it is at s = 0.
     """
     # True: bounded up to there
     ends = [(end, side) for pair in retained for side, end in zip((False, True), pair) if 0 < end < INF]

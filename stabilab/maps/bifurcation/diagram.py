@@ -400,9 +400,6 @@ def _solved(diagram: Diagram, eliminated: Eliminated, value: Fraction, count: in
 # --- Its certificate
 SCHEMA = "stabilab.diagram-certificate/1"
 BOUND_BITS = 128  # of the bounds about an irrational value
-CONNECTIONS = Sentence(
-    "connections-uncertified",
-    "{number} connections: the heights of saddles hold an angle and are isolated by balls alone")
 MAX_EVENTS = 64  # events that a certificate may hold
 
 

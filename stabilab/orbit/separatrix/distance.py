@@ -277,7 +277,7 @@ def _zeros(visited, curve, flip):
 
 
 def _nearest(search: Search, charts: Sequence[Chart], location: tuple[Number, Number, float]):
-    """(what a search found, (u, v, |W|) of its point in doubles); place: that of the first point."""
+    """(what a search found, (u, v, |W|) of its point in doubles); location: that of the first point."""
     result = search.run(charts)
     if result.at is not None:
         chart, *at = result.at

@@ -30,7 +30,7 @@ STILL = 0.05  # rad/s: a body that no number moves turns so fast on the sliders
 def slider(name: str, text: str, unit: str, value: float, low: float, high: float, axis: int = 0
            ) -> dict[str, Any]:
     """One slider. name: as in a request; value, low, high: in its unit, the value with six digits at most, as
-    a person reads it; words: for people, empty where it is named by its principal axis (1 to 3)."""
+    a person reads it; text: for people, empty where it is named by its principal axis (1 to 3)."""
     return {"name": name, "words": text, "unit": unit, "value": float(f"{value:.6g}"), "low": low,
             "high": high, "axis": axis}
 
@@ -145,7 +145,7 @@ LARGEST = 1e8  # beyond it doubles that are drawn run into overflows and lost di
 
 
 def changed(case: Case, query: dict[str, Any], units: Units) -> tuple[Case, str]:
-    """(the case with the changes of a request, words on what was left out). asked: {"torque": None or {axis,
+    """(the case with the changes of a request, words on what was left out). query: {"torque": None or {axis,
     size, tilt, azimuth}, "inertia", "wheel" and "start": a number in text, or None for the case's own, for
     each slider}. Raises InputError for what is no such request."""
     scaled = case.scene.variables == "scaled"

@@ -85,8 +85,8 @@ COUNTED = (light(style.GREY, 0.35), light(style.SKY, 0.7), light(style.ORANGE, 0
 
 def write_picture(atlas: Atlas, path: Path, units: Units, kind: str | None = None,
                   size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
-    """Draw the atlas and write the picture; returns its path. kind: one of KINDS; None: the fate, and beside
-    it the time to the limit, or the number of equilibria where there is no limit."""
+    """Draw the atlas and write the picture; returns its path. kind: one of COLOURED_BY; None: the fate, and
+    beside it the time to the limit, or the number of equilibria where there is no limit."""
     return style.write(path, lambda plt: drawn(atlas, units, chosen(atlas, kind), size, plt), dpi)
 
 

@@ -166,7 +166,7 @@ def _line(out: Diagram, size: tuple[float, float] | None, plt: ModuleType) -> An
 
 
 def _panel(ax: Any, result: Diagram, rows: list[Branch], i: int, x: float) -> None:
-    """The component i over the range; one: how many of the axis' unit make one of the case's variables."""
+    """The component i over the range; x: how many of the axis' unit make one of the case's variables."""
     for branch in rows:
         look, word = LOOKS[branch.verdict]
         ax.plot(branch.values, [state[i] * x for state in branch.states], label=word, **style.MEANING[look])

@@ -290,8 +290,8 @@ def _zero(margin, at, along):
 def segments_of(fates: np.ndarray, x: np.ndarray, y: np.ndarray,
                 route: Callable[[np.ndarray, int], np.ndarray]) -> np.ndarray:
     """(n, 2, 2): pieces of the line between what spins up and what does not, one or two in each cell of the
-    map that it crosses. way(at, along): the share of the way from points (n, 2) to their neighbours along an
-    axis at which the fate changes."""
+    map that it crosses. route(at, along): the share of the way from points (n, 2) to their neighbours along
+    an axis at which the fate changes."""
     spun, resolved = fates == Fate.SPIN_UP, fates < Fate.UNDECIDED
     crossing = []
     for along, values in enumerate((x, y)):
@@ -478,7 +478,7 @@ def _plan(data: xarray.Dataset, path: Path) -> Plan:
 
 
 def read(path: Path, text: str) -> xarray.Dataset:
-    """The data set of a NetCDF file; words: what is expected, for the error where it is none."""
+    """The data set of a NetCDF file; text: what is expected, for the error where it is none."""
     import warnings
 
     import xarray

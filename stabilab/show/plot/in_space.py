@@ -308,8 +308,8 @@ def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None
 
 def space_of(item: Subject, names: Iterable[str], rate: tuple[str, float], resolved: Equilibria | None = None,
              shape: tuple[int, int] = SHAPE, most: float = WHOLE, reaching: bool = False) -> Space:
-    """What is drawn of a subject. names, rate: as of `space`; known: its equilibria, where these are worked
-    out already; shape: of the branches; most, reaching: as of `box_of`."""
+    """What is drawn of a subject. names, rate: as of `space`; resolved: its equilibria, where these are
+    worked out already; shape: of the branches; most, reaching: as of `box_of`."""
     moved = item.motion if item.state is not None else None
     if resolved is None:
         try:

@@ -95,7 +95,7 @@ def band(t: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.
 
 
 def thinned(points: np.ndarray, nearby: float) -> np.ndarray:
-    """Of the points (n, d) of a line those without which it would be farther than `near` from some: of each
+    """Of the points (n, d) of a line those without which it would be farther than `nearby` from some: of each
     stretch the farthest, until all are near."""
     retained = np.zeros(len(points), bool)
     retained[[0, -1]] = True

@@ -67,8 +67,8 @@ def beyond(*result) -> bool:
 
 
 def until(case, result, end: float):
-    """The validity `found`, or that along the case's own run up to a time `end` (its span where that is none)
-    where it needs the attitude and the case gives one."""
+    """The validity `result`, or that along the case's own run up to a time `end` (its span where that is
+    none) where it needs the attitude and the case gives one."""
     return of_case(case, (0.0, end) if 0 < end < math.inf else None) if law_is_open(case, result) else result
 
 

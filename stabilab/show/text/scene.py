@@ -63,7 +63,7 @@ def swept_columns(cases: Sequence) -> list[tuple[str, str, list[str]]]:
 
 
 def key_columns(cases: Sequence, location: int) -> list[tuple[str, str, list[str]]]:
-    """(head, unit, a cell a case) of one swept key, the number of which is `place`."""
+    """(head, unit, a cell a case) of one swept key, the number of which is `location`."""
     key, values = cases[0].swept[location][0], [case.swept[location][1] for case in cases]
     path = key.split(".")
     alone = sum(other.split(".")[-1] == path[-1] for other, _ in cases[0].swept) == 1

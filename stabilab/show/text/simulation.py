@@ -33,7 +33,7 @@ GAP = 2
 
 def text(case: Case, run: Simulation, units: Units, resolved: int | None = None,
          width: int | None = None) -> str:
-    """The lines for one run. known: digits that a check vouches for, where more than a table's were asked
+    """The lines for one run. resolved: digits that a check vouches for, where more than a table's were asked
     for; width: of a terminal, where the columns are printed part by part if they do not fit."""
     digits = DIGITS if resolved is None else min(ALL, resolved)
     names, rows = columns(run)

@@ -123,7 +123,7 @@ MAIN = "constant-torque-gyrostat"
 class Row:
     """One printed equation or claim.
 
-    equation: its number, or `text-...` for a claim of the text; kind: a key of KINDS; printed, corrected:
+    equation: its number, or `text-...` for a claim of the text; kind: a key of ROW_KINDS; printed, corrected:
     formulas "left = right" in the paper's notation; where: symbols that stand for expressions in this row
     (corrected_where: in the corrected one); domain: expressions that are positive; options: what the kind
     needs; place: file and row, for errors.

@@ -302,8 +302,8 @@ def recurs(largest: Sequence[float], smallest: Sequence[float], steps: int) -> b
     """Whether the size of a motion kept its greatest value over the last three doublings of the steps, and
     swung under it.
 
-    largest, least: of |omega| during each doubling; one that is parked beside a saddle-focus does not swing.
-    """
+    largest, smallest: of |omega| during each doubling; one that is parked beside a saddle-focus does not
+    swing."""
     last = int(math.log2(1 + steps))
     if last < SETTLED + DOUBLINGS:
         return False

@@ -238,7 +238,7 @@ def search(x: float, zeta: complex, dx: float, dz: float, form: Form, energy: Qu
            r: Sum, k: Sum, rows: np.ndarray, powers: np.ndarray, retained: np.ndarray, row: np.ndarray,
            out: np.ndarray):
     """Whether the inequality holds at one place, and its constants A, z, eta, z_up, eta_up, k in out (6,):
-    see `certificate`. energy, amplitude: Quantity; r, k: Sum. rows, powers, kept, row: for work."""
+    see `certificate`. energy, amplitude: Quantity; r, k: Sum. rows, powers, retained, row: for work."""
     low, top, D1, M1 = x - dx, x + dx, form.D1, form.M1
     if not (dx < x / 8 and valid(low, form)):
         return False

@@ -79,13 +79,13 @@ def series_beside(c: np.ndarray, a: np.ndarray, v: np.ndarray):
 
 
 def largest_of(table: np.ndarray, n: int, smallest: float):
-    """The greatest size in row n of a table, at least `least`."""
+    """The greatest size in row n of a table, at least `smallest`."""
     return max(abs(table[n, 0]), abs(table[n, 1]), abs(table[n, 2]), smallest)
 
 
 def allowed(table: np.ndarray, order: int, smallest: float, fraction: float):
     """The logarithm of the step over which each of the last two coefficients adds to the state, or to
-    `least`, at most its share (a logarithm)."""
+    `smallest`, at most its share (a logarithm)."""
     largest = logarithm(largest_of(table, 0, smallest)) + fraction
     return min((largest - logarithm(largest_of(table, order, 1e-290))) / order,
                (largest - logarithm(largest_of(table, order - 1, 1e-290))) / (order - 1))
