@@ -13,7 +13,7 @@ from ..case.read import Case
 from ..errors import Caveat, Kind
 from ..show import endings, frame, limiting
 from ..show.data import as_json
-from ..show.terminal import tell
+from ..show.terminal import clauses_of, tell
 from ..show.text import classification, headline, scene
 from ..show.units import Units
 from .common import answers_of, units_asked
@@ -164,8 +164,10 @@ def _part(view: View, rows: list[Answered], tabled: bool) -> str:
         label = scene.text([row.case for row in rows], *table)
     else:
         label = classification.first(first.box, view.text(first.case, *first.found, first.units), first.units)
-    return (headline.first(headline.worst(*(row.law for row in rows)), label, first.units,
-                           list(dict.fromkeys(_shown(view, rows, full, below))))
+    outcome = clauses_of(label.partition("\n")[0])[0].removeprefix(f"{first.case.name}: ")
+    answer = headline.first(headline.worst(*(row.law for row in rows)), label, first.units,
+                            list(dict.fromkeys(_shown(view, rows, full, below))))
+    return (classification.in_short(None if full else first.box, answer, outcome)
             + "".join(dict.fromkeys(below)))
 
 

@@ -22,7 +22,7 @@ from ...reasons import Quantity, Reason
 from ...representation import values_of
 from .. import ending, frame
 from ..axes import axes_of
-from ..terminal import LINE, clauses_of, lettered, plain, written
+from ..terminal import LINE, lettered, plain, written
 from ..units import DIGITS, SI, Unit, Units, as_bound, number
 from . import questions
 from .headline import largest_key, verdict
@@ -359,16 +359,19 @@ IN_SHORT = {"holds": "", "depends": ", BUT not over all uncertainties", "sampled
 
 
 def first(result, printed: str, units: Units) -> str:
-    """The text with what the box does to its answer at the end of the first line; where that is broken, in
-    short behind the outcome, too."""
-    phrase = what_changes(result, units)
-    if not phrase:
-        return printed
+    """The text with what the box does to its answer at the end of the first line."""
+    text = what_changes(result, units)
     answer, *rest = printed.split("\n")
-    if len(answer) + len(phrase) + 2 > LINE:
-        outcome, *others = clauses_of(answer)
-        answer = "; ".join([outcome + IN_SHORT[(result.fate or result.equilibria).answer], *others])
-    return "\n".join([f"{answer}; {phrase}", *rest])
+    return "\n".join([f"{answer}; {text}", *rest]) if text else printed
+
+
+def in_short(result, text: str, outcome: str) -> str:
+    """The text with what the box does in short behind the outcome, where its first line is to be broken."""
+    over = result and (result.fate or result.equilibria)
+    answer, *rest = text.split("\n")
+    if not over or len(answer) <= LINE:
+        return text
+    return "\n".join([answer.replace(outcome, outcome + IN_SHORT[over.answer], 1), *rest])
 
 
 def what_changes(result, units: Units) -> str:

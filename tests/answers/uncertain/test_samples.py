@@ -75,6 +75,9 @@ def test_the_first_line_says_that_they_are_samples(case_file, stabilab):
     code, out, _ = stabilab("fate", case_file(text))
     assert code == 0
     assert out.splitlines()[0].endswith(", uncertainties sampled")
+    law = "[effects.liquid_cavity]\ndensity = 1\nviscosity = 1e-6\nradius = 0.1\n"  # a warning stands before the answer
+    law = f'[body]\ninertia = [3, "2 +- 10 %", 1]\n{law}[motion]\nangular_velocity = ["1 +- 0.1", 0.2, 0.1]\n'
+    assert ", uncertainties undecided" in stabilab("fate", case_file(law))[1].splitlines()[0]
     assert "the fate is the same at 64 sampled points and 8 corners within the uncertainties, without a proof" in out
 
 
