@@ -22,7 +22,7 @@ from ...case.table import Uncertain
 from ...errors import Caveat, InputError, Kind, without
 from ...numbers.exact import floats
 from ...numbers.principal import NOTHING, without_trace
-from ...numbers.vectors import CYCLE, Exact3, dot
+from ...numbers.vectors import CYCLE, Exact3, Number, Triple, dot
 from ...orbit.result import Fate
 from ...physics.scene import Scene, torque_axis
 from ...reasons import Sentence, as_reason
@@ -48,14 +48,17 @@ from .margins import Helper, Principal, Row, Stuck, WheelAnswer, margins
 NOT_SEEN = Sentence("tolerance-not-looked-at-here",
                     "the tolerance of the force of {thrusters} is not looked at here")
 NO_TORQUE = Fraction(1, 10**9)  # of the torque: what is left of it counts as none
+NO_TORQUE_SQUARED = NO_TORQUE**2
 WORTH = Fraction(999, 1000)  # of the torque: a helper that leaves more is none
-Duty: TypeAlias = tuple[Fraction, ...]  # the share of the time that each fires
+Duty: TypeAlias = tuple[Number, ...]  # the share of the time that each fires
+Chosen: TypeAlias = tuple[tuple[str, Exact3], ...]  # thrusters by name, and the torque of each
 MAX_HELPERS = 12  # helpers that are listed
+ROUGH = 1e-6  # of the arms, and of shares: far more than what rounding does to a pair in doubles
 TRIED = 6  # thrusters, and pairs, whose times are compared: those that leave the least torque
 SHARES = (Fraction(1), Fraction(3, 4), Fraction(1, 2), Fraction(1, 4))  # of the duty that leaves the least
 
 
-def helpers(scenario: Scenario, torque: Sequence[Fraction], others: Sequence[Any],
+def helpers(scenario: Scenario, torque: Exact3, others: Sequence[Any],
             visited: Outcome) -> tuple[Helper, ...]:
     """The helpers among `others` (thrusters that do not fire) against a torque (exact, scene's axes), the
     best first.
@@ -65,20 +68,15 @@ def helpers(scenario: Scenario, torque: Sequence[Fraction], others: Sequence[Any
     if not any(torque):
         return ()
     turned = [(t.name, scenario.axes.turned(t.torque)) for t in others]
-    turned = [(name, arm) for name, arm in turned if any(arm)]
-    sets = [(entry,) for entry in turned] + list(combinations(turned, 2))
-    printed: list[tuple[Helper, Exact3]] = []
-    done: set[str] = set()
-    for chosen in sets:
-        names = tuple(name for name, _ in chosen)
-        if not done & set(names) and (item := _stops(scenario, torque, names, [arm for _, arm in chosen])):
-            printed.append(item)
-            if len(names) == 1:
-                done.add(names[0])
+    alone = [((name, arm),) for name, arm in turned if any(arm)]
+    printed = [item for chosen in alone if (item := _stops(scenario, torque, chosen))]
+    done = {name for helper, _ in printed for name in helper.thrusters}
+    pairs = [(*a, *b) for a, b in combinations(alone, 2)]
+    printed += _best_pairs(scenario, torque, [pair for pair in pairs if done.isdisjoint(dict(pair))])
     printed.sort(key=lambda entry: (entry[0].effect != "zero", len(entry[0].thrusters), entry[0].torque_left))
     tried = [_timed(scenario, helper, left, visited) for helper, left in printed[:MAX_HELPERS]]
     if all(helper.effect == "none" for helper in tried):
-        tried += _slowest(scenario, torque, sets, visited)
+        tried += _slowest(scenario, torque, (alone, pairs), visited)
     tried.sort(key=_rank)
     return tuple([helper for helper in tried if helper.effect != "none"] or tried[:1])
 
@@ -104,18 +102,17 @@ def _timed(scenario: Scenario, helper: Helper, left: Exact3, noted: Outcome,
     return replace(helper, time_to_limit=time, effect=helper.effect if _later(time or run, noted) else "none")
 
 
-def _stops(scenario: Scenario, torque: Sequence[Fraction], names: tuple[str, ...],
-           arms: Sequence[Sequence[Fraction]]
-           ) -> tuple[Helper, Exact3] | None:
+def _stops(scenario: Scenario, torque: Exact3, chosen: Chosen) -> tuple[Helper, Exact3] | None:
     """The helper that these make, and the torque, where they leave none or a bounded motion."""
+    names, arms = zip(*chosen)
     duty = _least_squares(torque, arms)
     if _possible(duty):
         left = _left(torque, arms, duty)
-        if dot(left, left) <= NO_TORQUE**2 * dot(torque, torque):
+        if dot(left, left) <= NO_TORQUE_SQUARED * dot(torque, torque):
             helper = Helper(names, tuple(map(float, duty)), "zero", math.sqrt(float(dot(left, left))),
                             "bounded", None)
             return helper, (Fraction(0),) * 3
-    onto = [(i, duty) for i in range(3) if _possible(duty := _onto_axis(torque, arms, i))]
+    onto = [(i, duty) for i in scenario.held if _possible(duty := _onto_axis(torque, arms, i))]
     for size, i, duty in sorted(((_left(torque, arms, duty)[i], i, duty) for i, duty in onto),
                                 key=lambda item: abs(item[0])):
         fate = Family(scenario.body, i, size, scenario.wheel, scenario.state).fate() if size else None
@@ -125,15 +122,52 @@ def _stops(scenario: Scenario, torque: Sequence[Fraction], names: tuple[str, ...
     return None
 
 
+def _best_pairs(scenario: Scenario, torque: Exact3, pairs: Sequence[Chosen]) -> list[tuple[Helper, Exact3]]:
+    """As many helpers as are listed, of the pairs that leave the least torque: `_stops` of each."""
+    def least(torque: Sequence[Number], arms: Sequence[Sequence[Number]]) -> float:
+        none = _shares_left(torque, arms, _least_squares(torque, arms))
+        if math.hypot(*none) < ROUGH * sum(math.hypot(*arm) for arm in arms):
+            return 0.0
+        return min((abs(_shares_left(torque, arms, _onto_axis(torque, arms, i))[i]) for i in scenario.held),
+                   default=math.inf)
+
+    out: list[tuple[Helper, Exact3]] = []
+    for bound, pair in _by_doubles(torque, pairs, least):
+        if sum(item.effect == "zero" or item.torque_left < bound for item, _ in out) >= MAX_HELPERS:
+            break
+        if item := _stops(scenario, torque, pair):
+            out.append(item)
+    return out
+
+
+def _shares_left(torque: Sequence[Number], arms: Sequence[Sequence[Number]],
+                 duty: Duty | None) -> Triple:
+    """The torque left, in doubles; infinite where rounding cannot make these shares of the time."""
+    if duty is None or not all(-ROUGH < u < 1 + ROUGH for u in duty):
+        return (math.inf,) * 3
+    return _left(torque, arms, duty)
+
+
+def _by_doubles(torque: Exact3, sets: Sequence[Chosen], least: Callable[[Any, Any], float]
+                ) -> list[tuple[float, Chosen]]:
+    """(a bound that the torque left by a set does not fall below, the set), rising; without those that leave
+    an infinite one. least(torque, arms): the least torque that is left, in doubles."""
+    size, out = list(map(float, torque)), []
+    for chosen in sets:
+        arms = [list(map(float, arm)) for _, arm in chosen]
+        out.append((least(size, arms) - ROUGH * sum(math.hypot(*arm) for arm in arms), chosen))
+    return sorted((item for item in out if item[0] < math.inf), key=lambda item: item[0])
+
+
 def _possible(duty: Duty | None) -> TypeGuard[Duty]:
     return duty is not None and all(0 < u <= 1 for u in duty)
 
 
-def _left(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]], duty: Sequence[Fraction]) -> Exact3:
+def _left(torque: Sequence[Number], arms: Sequence[Sequence[Number]], duty: Sequence[Number]) -> Exact3:
     return tuple(m + sum(u * arm[n] for u, arm in zip(duty, arms)) for n, m in enumerate(torque))
 
 
-def _least_squares(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]]) -> Duty | None:
+def _least_squares(torque: Sequence[Number], arms: Sequence[Sequence[Number]]) -> Duty | None:
     """The shares, of any sign and size, that leave the least torque; None where two arms are parallel."""
     if len(arms) == 1:
         return (-dot(arms[0], torque) / dot(arms[0], arms[0]),)
@@ -141,7 +175,7 @@ def _least_squares(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]
     return _solved(dot(a, a), dot(a, b), dot(a, b), dot(b, b), -dot(a, torque), -dot(b, torque))
 
 
-def _onto_axis(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]], i: int) -> Duty | None:
+def _onto_axis(torque: Sequence[Number], arms: Sequence[Sequence[Number]], i: int) -> Duty | None:
     """The shares that leave no torque across axis i; None where there are none."""
     j, k = CYCLE[i]
     if len(arms) == 2:
@@ -152,25 +186,23 @@ def _onto_axis(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]], i
     if not a[n]:
         return None
     fraction = -torque[n] / a[n]
-    return (fraction,) if (torque[other] + fraction * a[other]) ** 2 <= NO_TORQUE**2 * size else None
+    return (fraction,) if (torque[other] + fraction * a[other]) ** 2 <= NO_TORQUE_SQUARED * size else None
 
 
-def _solved(p: Fraction, q: Fraction, r: Fraction, s: Fraction, x: Fraction, y: Fraction) -> Duty | None:
+def _solved(p: Number, q: Number, r: Number, s: Number, x: Number, y: Number) -> Duty | None:
     """(u, v) with p u + q v = x and r u + s v = y; None where the rows are alike."""
     det = p * s - q * r
-    return (None if det * det <= NO_TORQUE**2 * (p * p + q * q) * (r * r + s * s)
+    return (None if det * det <= NO_TORQUE_SQUARED * (p * p + q * q) * (r * r + s * s)
             else ((x * s - q * y) / det, (p * y - r * x) / det))
 
 
-def _slowest(scenario: Scenario, torque: Sequence[Fraction], sets: Any, visited: Outcome) -> list[Helper]:
-    """The thruster and the pair with the latest limit; without a limit those that leave the least torque."""
+def _slowest(scenario: Scenario, torque: Exact3, sets: Sequence[Sequence[Chosen]],
+             visited: Outcome) -> list[Helper]:
+    """The thruster and the pair with the latest limit; without a limit those that leave the least torque.
+    sets: all thrusters, all pairs."""
     out: list[tuple[float, Helper]] = []
-    size = dot(torque, torque)
-    for many in (1, 2):
-        tried = [(dot(left, left), chosen, duty) for chosen in sets if len(chosen) == many
-                 for duty in _in_the_box(torque, [arm for _, arm in chosen]) if all(duty)
-                 for left in [_left(torque, [arm for _, arm in chosen], duty)]]
-        tried = sorted((item for item in tried if item[0] < WORTH**2 * size), key=lambda x: x[0])[:TRIED]
+    for many in sets:
+        tried = _least_left(torque, many)
         if not tried:
             continue
         if scenario.limit is None:
@@ -188,13 +220,29 @@ def _slowest(scenario: Scenario, torque: Sequence[Fraction], sets: Any, visited:
     return [helper for _, helper in out]
 
 
+def _least_left(torque: Exact3, sets: Sequence[Chosen]) -> list[tuple[Fraction, Chosen, Duty]]:
+    """(square of the torque that is left, thrusters, shares of time), the `TRIED` that leave the least."""
+    def least(torque: Sequence[Number], arms: Sequence[Sequence[Number]]) -> float:
+        return min(math.hypot(*_left(torque, arms, duty)) for duty in _in_the_box(torque, arms))
+
+    out: list[tuple[Fraction, Chosen, Duty]] = []
+    size = dot(torque, torque)
+    for bound, chosen in _by_doubles(torque, sets, least):
+        if bound > 0 and sum(square < bound * bound for square, *_ in out) >= TRIED:
+            break
+        arms = [arm for _, arm in chosen]
+        out += [(square, chosen, duty) for duty in _in_the_box(torque, arms) if all(duty)
+                for left in [_left(torque, arms, duty)] if (square := dot(left, left)) < WORTH**2 * size]
+    return sorted(out, key=lambda item: item[0])[:TRIED]
+
+
 def _run(scenario: Scenario, torque: Sequence[Fraction], chosen: Any, duty: Duty, visited: Outcome) -> float:
     """The time of the limit by a plain run, inf where it is not reached for long."""
     left, alone = _left(torque, [arm for _, arm in chosen], duty), visited.when.time
     return first_time(scenario, left, None, NEVER_AFTER * (alone[0] if alone else visited.followed))
 
 
-def _in_the_box(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]]) -> list[Duty]:
+def _in_the_box(torque: Sequence[Number], arms: Sequence[Sequence[Number]]) -> list[Duty]:
     """The shares in 0 to 1 among which the one is that leaves the least torque: inside, or on the border."""
     duty = _least_squares(torque, arms)
     if duty is not None and all(0 <= u <= 1 for u in duty):

@@ -108,6 +108,12 @@ class Scenario:
         return tuple(float(v) + 0.0 if abs(v) > smallest else 0.0 for v in result)
 
     @cached_property
+    def held(self) -> tuple[int, ...]:
+        """Principal axes about which a torque leaves bounded motions: no wheel momentum is along them."""
+        families = [Family(self.body, i, Fraction(1), self.wheel, self.state) for i in range(3)]
+        return tuple(family.axis for family in families if family.reduction(self.wheel) is not None)
+
+    @cached_property
     def exact_limit(self) -> Limit:
         """The limit of the case along the scene's axes, exactly, where it has one."""
         result = asked(self.scene(self.base), **cast(dict[str, Any], limit_of(self.case)))
@@ -216,6 +222,8 @@ def first_time(scenario: Scenario, torque: Sequence[Fraction], wheel: Sequence[F
     its steps end before that, the time it got to."""
     if scenario.exact_limit.reached_by(scenario.state):
         return 0.0
+    # a run is one in doubles: long fractions would cost more than the run
+    torque, wheel = ([Fraction(float(v)) for v in vector] for vector in (torque, wheel or scenario.wheel))
     t, until = run_once(scenario.scene(torque, wheel), scenario.start, scenario.exact_limit, t_max, SEARCHED)
     return t if until >= t_max else until
 

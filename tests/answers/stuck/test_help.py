@@ -267,3 +267,24 @@ def test_an_end_at_infinity_is_a_number_in_json_and_null_is_what_is_not_known(st
                                                                       "direction = [0, 1, 1]"))
     (row,) = json.loads(stabilab("stuck", tmp_path / "tilted.toml", "--json")[1])["rows"]
     assert row["margin_until"] == {"rate": None, "wheel": None, "torque": None} == row["margin"]
+
+
+def test_doubles_rank_pairs_and_miss_none_that_exact_numbers_would_list(asked, monkeypatch):
+    """All pairs judged in exact numbers, one by one, against those that doubles put in front."""
+    from stabilab.answers.stuck import ask
+    rng = np.random.default_rng(11)
+    text, tail = CASE[:CASE.index("[[thrusters]]")], CASE[CASE.index("[limits]"):]
+    for i in range(14):
+        place, line = rng.choice([-1, -0.5, 0.5, 1], 3).tolist(), np.roll([rng.choice([-1, 1]), 0, 0], i).tolist()
+        text += (f'[[thrusters]]\nname = "T{i}"\nposition = {place}\ndirection = {line}\n'
+                 f'force = "{rng.integers(1, 50)} mN"\n{"stuck = true" if i == 0 else ""}\n')
+    judged, stops, ranked = [], ask._stops, ask._by_doubles
+    monkeypatch.setattr(ask, "_stops", lambda scenario, torque, chosen: (judged.append(len(chosen) == 2),
+                                                                         stops(scenario, torque, chosen))[1])
+    few, judged_of_few = asked(text + tail).rows[0].helpers, sum(judged)
+    monkeypatch.setattr(ask, "_by_doubles", lambda torque, sets, least: [(0.0, chosen) for chosen in sets])
+    judged.clear()
+    every = asked(text + tail).rows[0].helpers
+    assert every == few and any(len(helper.thrusters) == 2 for helper in every)
+    assert judged_of_few < sum(judged) / 2
+    assert len(ranked((1, 0, 0), [(("a", (-1, 0, 0)), ("b", (0, 1, 0)))], lambda *_: math.inf)) == 0
