@@ -14,6 +14,7 @@ from stabilab.papers import audit
 from stabilab.papers.audit.checks import bound_of, decide, pairs, raw, system_of
 from stabilab.papers.audit.findings import examine, prove_systems, repairs, with_domain
 from stabilab.papers.audit.measured import missed as steps_missed
+from stabilab.papers.families import SPANS
 from stabilab.theories import cavity, charged, top
 from stabilab.theories.printed.claims import FormulaError, parse, read, sides
 from stabilab.theories.printed.evaluate import Setting
@@ -295,3 +296,66 @@ def test_claims_of_the_loops_are_wrong_where_the_other_way_round_is_said():
     row = row_of(name, "text-fig4-loops-500")
     turned = replace(row, options=row.options | {"with": {"lambda1": 500, "smaller": "right"}})
     assert (examine(PAPERS[name], row).verdict, examine(PAPERS[name], turned).verdict) == ("holds", "wrong")
+
+
+# --- Numbers in a correction or a note
+DECIMAL = re.compile(r"(?<![\w.^(/])(?:\d+\.\d+|\d{2,})\b")
+
+
+def test_no_correction_has_a_typed_number_that_the_paper_does_not_have():
+    """A number of more than a digit is one of the paper's own printed ones; all others are computed."""
+    for paper in PAPERS.values():
+        own = " ".join((f"{SPANS[paper.figures].end:g}" if paper.figures else "",  # the time of its figures
+                        *(text for row in paper.rows for text in (*row.printed, row.says))))
+        for row in paper.rows:
+            if row.kind in ("holds", "solves", "equilibrium", "order"):
+                continue  # formulas, which are tried
+            for text in (*row.corrected, row.options.get("note", ""), row.options.get("because", "")):
+                typed = [number for number in DECIMAL.findall(text) if number not in own]
+                assert not typed, (row.place, typed)
+    assert DECIMAL.findall("A = 1.286 for it, x3 >= 2, 57 times, section 4.2") == ["1.286", "57", "4.2"]
+
+
+def test_numbers_of_corrections_are_those_of_other_methods():
+    """Folds by Newton on h^4 - 0.2 h - 1, the time by DOP853, the liquid by 8 pi h^7/525 = 1.9."""
+    def newton(h):
+        for _ in range(60):
+            h -= (h**4 - 0.2 * h - 1) / (4 * h**3 - 0.2)
+        return (h * h + h**6) ** 0.5
+
+    def texts(name, equation):
+        row = examine(PAPERS[name], row_of(name, equation)).row
+        return " ".join((*row.corrected, row.options.get("note", "")))
+
+    main = "constant-torque-gyrostat"
+    for h in (1.0, -1.0):
+        assert f"A = {newton(h):.4g}" in texts(main, "text-25c")
+    assert f"A = {min(map(newton, (1.0, -1.0))):.4g}" in texts(main, "text-fig5-radius")
+    for wheel, equation in ((100, "text-fig12"), (300, "text-fig12-4")):
+        a, b = wheel / 500, wheel / 250
+        run = solve_ivp(lambda t, x: [x[1] * x[2] + 1, -x[2] * (x[0] + a), x[1] * (x[0] + b)], (0, 100),
+                        [0, -1, 5], method="DOP853", rtol=1e-12, atol=1e-12, events=lambda t, x: x[2])
+        assert f"tau = {run.t_events[0][0]:.4g}" in texts(main, equation)
+    radius = (525 * 1.9 / (8 * np.pi)) ** (1 / 7)
+    assert f"{radius:.4g} m and holds {4 / 3 * np.pi * radius**3 * 1.25:.4g} t" in texts("liquid-cavity", "text-4a")
+
+
+def test_a_row_refuses_a_number_that_is_missing_unknown_or_unused():
+    row = row_of("constant-torque-gyrostat", "text-25c")
+    for numbers, said in (({}, "got none"), ({"inner": ["fold radius", 100, 0]}, "expected one for each of inner, outer"),
+                          ({"inner": ["fold", 1], "outer": "2"}, "no quantity 'fold'")):
+        with pytest.raises(InputError, match=said):
+            examine(PAPERS["constant-torque-gyrostat"], replace(row, options=row.options | {"numbers": numbers}))
+
+
+@pytest.mark.parametrize("name, equation, verdict, judged_by, exact", [
+    # what each paper's text speaks of: its solution (41), a wheel of 15 to 25, polynomials of second degree
+    ("newtonian-field-top", "text-fig2", "holds", "the paper's solution as printed", "not so"),
+    ("newtonian-field-top", "text-fig3", "not-checkable", "the paper's solution as printed", "not so"),
+    ("liquid-cavity", "text-fig6", "holds", "the averaged motion", "as said"),
+    ("liquid-cavity", "text-fig9-1", "holds", "the averaged motion", "as said"),
+    ("liquid-cavity", "text-fig5-2", "holds", "the paper's solution as printed", "not so"),
+])
+def test_a_claim_is_compared_with_what_it_speaks_of(name, equation, verdict, judged_by, exact):
+    found = examine(PAPERS[name], row_of(name, equation))
+    assert (found.verdict, found.judged_by, found.exact_motion.split(":")[0]) == (verdict, judged_by, exact)

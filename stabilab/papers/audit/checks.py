@@ -439,17 +439,62 @@ def number(paper: Paper, row: Row) -> tuple:
 
 def tested(row: Row) -> tuple:
     """The same six of a claim that a named test decides; InputError where the stated verdict is not that of
-    its residuals."""
+    its residuals. A claim on data that were completed is never called wrong."""
     printed, corrected = residuals_of(row)
     bound = row.options.get("bound", TEST_BOUND)
     declared = row.options.get("verdict", "holds" if printed <= bound else "wrong")
-    if (declared == "holds") != (printed <= bound) or (declared != "holds" and row.corrected
-                                                     and not corrected <= bound):
+    completed = row.options.get("completed", "")
+    if ((declared == "holds") != (printed <= bound) or completed and declared in ("wrong", "only-if")
+            or declared != "holds" and row.corrected and not corrected <= bound):
         raise InputError(
             f"{row.place}: stated {declared}, but its residuals are {printed:.3g} (printed) and "
             f"{corrected:.3g} (corrected), with the bound {bound:.3g}"
         )
-    text = row.options.get("residual", "residual of the claim")
+    text = "; ".join(filter(None, (completed, row.options.get("residual", "residual of the claim"))))
     conditions = row.options.get("conditions", ())
     return (declared, conditions[0] if declared == "only-if" and conditions else "", "; ".join(row.corrected),
             text, printed, corrected)
+
+
+# --- What a claim is held against, and whether the exact motion does what a claim of a model says
+YARDSTICKS = {"exact": "the exact motion", "linear": "the paper's linear model", "averaged1":
+              "the averaged motion", "printed": "the paper's solution as printed"}
+OF_MODELS = ("trend", "side", "turns back", "closed")  # tests that take a model
+
+
+def judged_by(paper: Paper, row: Row) -> str:
+    """What a row's claim is held against, in words; "" where it is not tried."""
+    if row.kind in ("definition", "not-checkable"):
+        return ""
+    if row.kind == "number":
+        return "the value of its own formula"
+    if row.options.get("test") in OF_MODELS:
+        return YARDSTICKS[_model(paper, row)]
+    if row.kind == "test":
+        return row.options.get("judged_by", YARDSTICKS[measured.MODELS[paper.figures]] if paper.figures
+                               else "the equations of motion")
+    return "the equations of motion" if row.system else "its own definitions"
+
+
+def of_exact_motion(paper: Paper, row: Row) -> str:
+    """Whether the exact motion goes as a claim says that speaks of a model: "as said", or what it does; ""
+    for other claims."""
+    test = row.options.get("test")
+    if test not in OF_MODELS or _model(paper, row) == "exact":
+        return ""
+    arguments = row.options.get("with", {}) | {"model": "exact"}
+    printed = abs(float(measured.TESTS[test](**arguments)[0]))
+    if printed <= row.options.get("bound", TEST_BOUND):
+        return "as said"
+    if test != "trend":
+        return "not so"
+    named = {key: arguments[key] for key in ("family", "part", "measure", "model")}
+    rows = [measured.measured(**named, axis=axis, only=arguments.get("only", ()), wheel=wheel)
+            for axis in measured.axes_of(arguments.get("axis")) for wheel in arguments.get("wheels", [None])]
+    failed = next(values for values in rows
+                  if measured.missed(values, arguments["goes"], arguments.get("within", measured.ROUNDING)))
+    return f"not so: {', '.join(f'{value:.4g}' for value in failed)}"
+
+
+def _model(paper: Paper, row: Row) -> str:
+    return row.options.get("with", {}).get("model") or measured.MODELS[paper.figures]

@@ -22,6 +22,7 @@ from ...theories.printed.claims import Paper, Row, parse
 from ...theories.printed.evaluate import Setting, Undefined
 from . import checks
 from .checks import bound_of, raw
+from .numbers import filled
 
 if TYPE_CHECKING:
     from sympy import Expr
@@ -301,7 +302,8 @@ class Finding:
     verdict: of VERDICTS; condition: under which it holds, "" if none is known; correction: a formula that
     passes the check which the printed one fails; method: how it was decided; residual: of the printed
     formula; corrected_residual: of the correction; repairs: formulas one edit away that pass; unit_fault: ""
-    or which terms differ.
+    or which terms differ; judged_by: what the claim speaks of and was held against; exact_motion: whether
+    the exact motion does so too, "" where it was held against that.
     """
 
     row: Row
@@ -313,6 +315,8 @@ class Finding:
     corrected_residual: float
     repairs: tuple[str, ...] = ()
     unit_fault: str = ""
+    judged_by: str = ""
+    exact_motion: str = ""
 
 
 def audit(paper: Paper, equation: str | None = None,
@@ -355,8 +359,14 @@ def with_domain(paper: Paper, texts, pairs, setting: Setting) -> Setting:
 
 
 def examine(paper: Paper, row: Row, search: bool = True) -> Finding:
-    """The finding of one row. search: whether conditions and repairs are looked for. InputError where the row
-    cannot be tried, with file and row."""
+    """The finding of one row, its numbers computed. search: whether conditions and repairs are looked for.
+    InputError where the row cannot be tried, with file and row."""
+    row = filled(row)
+    return replace(_tried(paper, row, search), judged_by=checks.judged_by(paper, row),
+                   exact_motion=checks.of_exact_motion(paper, row))
+
+
+def _tried(paper: Paper, row: Row, search: bool) -> Finding:
     if row.kind in ("definition", "not-checkable"):
         text = f"defines {row.options['defines']}" if row.kind == "definition" else row.options["because"]
         return Finding(row, row.kind, "", "", text, float("nan"), float("nan"),

@@ -41,7 +41,7 @@ def _text_row(paper, finding):
         "equation": row.equation,
         **values_of(finding, "verdict condition"),
         "printed": "; ".join(row.printed),
-        **values_of(finding, "correction method"),
+        **values_of(finding, "correction method judged_by exact_motion"),
         "says": row.says,
         "residual": _finite(finding.residual),
         "corrected_residual": _finite(finding.corrected_residual),
@@ -100,6 +100,11 @@ def _paragraph(finding, width, paper=""):
         lines += [f"one edit away: {fix}" for fix in finding.repairs if fix != finding.correction]
     lines.append(finding.method
                  + (f", residual {finding.residual:.2g}" if finding.verdict in ("wrong", "only-if") else ""))
+    if finding.judged_by:
+        also = f"; the exact motion: {finding.exact_motion}" if finding.exact_motion else ""
+        lines.append(f"compared with {finding.judged_by}{also}")
+    if row.options.get("note"):
+        lines.append(f"note: {row.options['note']}")
     if finding.unit_fault and finding.verdict != "wrong":
         lines.append(f"units: {finding.unit_fault}")
     about, command = figures_of(finding, paper)
@@ -154,7 +159,7 @@ def _row(paper: Paper, finding: SimpleNamespace):
         else [finding.correction] if finding.correction else [],
         "where": _texts(row.where),
         "corrected_where": _texts(row.corrected_where),
-        **values_of(finding, "repairs method unit_fault"),
+        **values_of(finding, "repairs method unit_fault judged_by exact_motion"),
         "residual": f"{finding.residual:.2g}" if finding.verdict in ("wrong", "only-if") else "",
         "figures": figures_of(finding, paper.figures),
         "note": row.options.get("note", ""),

@@ -110,10 +110,11 @@ ROW_KINDS = {  # kind -> keys that a row of it needs besides `equation` and `pri
 # of a row: fields of `Row`, then options
 OWN = "equation kind says printed corrected system where corrected_where domain".split()
 ROW_KEYS = {*OWN, *("variable speed start value small order test with defines because bound note solve "
-                    "conditions residual verdict figures units repair").split()}
+                    "conditions residual verdict figures units repair numbers judged_by completed").split()}
 KEYS = "name title source figures symbols formulas definitions systems conditions domain row".split()
 # of a row: no formulas
-CLAIM_WORDS = set("equation kind says note because defines residual test system".split())
+CLAIM_WORDS = set("equation kind says note because defines residual test system numbers judged_by "
+                  "completed".split())
 NAME = re.compile(r"[A-Za-z_]\w*")
 FOLDER = Path(__file__).parent / "papers"
 MAIN = "constant-torque-gyrostat"
