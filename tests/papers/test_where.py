@@ -17,7 +17,7 @@ def unaudited(name):
     """(paper, its rows as findings that hold): places do not hang on verdicts, and the audit takes a minute."""
     one = paper(name)
     found = {"verdict": "wrong", "condition": "", "correction": "so", "method": "", "residual": 0.0, "repairs": (),
-             "corrected_residual": 0.0, "unit_fault": ""}
+             "corrected_residual": 0.0, "unit_fault": "", "judged_by": "", "exact_motion": ""}
     return one, [SimpleNamespace(row=row, **found) for row in one.rows]
 
 
