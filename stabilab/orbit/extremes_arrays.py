@@ -2,28 +2,30 @@
 balls for what these leave open.
 
 NumPy answers the rows that no two turning points bound: at rest, round a circle without torque, spinning
-up. Librations go to the kernels (`rows_kernel`, `parabola_kernel`), which numba compiles.
+up. Librations go to `rows_kernel`, which numba compiles.
 
 Balls take what doubles would lose, next to a separatrix or far from the centre of the orbits."""
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from functools import lru_cache, partial
+from functools import lru_cache
+from pathlib import Path
+from types import FunctionType
 from typing import TYPE_CHECKING
+from zlib import crc32
 
 import numpy as np
 
 from ..errors import InputError
-from ..numbers.double_double import TURN, Twofold
-from ..numbers.numba_door import compiled, installed, twins
+from ..numbers.double_double import TURN
+from ..numbers.numba_door import compiled, installed
 from ..physics.coefficients import effective
 from ..physics.states import checked_states
-from . import parabola_kernel, rows_kernel
+from . import arc_kernel, equilibria_kernel, rows_kernel
 from .extremes import precise_extremes, precise_period
 from .fate_arrays import CHUNK, FateResult, fate_on_orbit, fates, rows_beyond_doubles
 from .landscape import (
-    CENTRE,
     CircleLandscape,
     ConicLandscape,
     HyperbolaLandscape,
@@ -32,7 +34,6 @@ from .landscape import (
     Spots,
     landscape,
     spots_along,
-    twofold_constant,
 )
 from .one_orbit import Orbit
 from .one_state import far_numbers
@@ -216,17 +217,12 @@ SPINNING: dict[int, Callable[..., np.ndarray]] = {
     -1: _spinning_round, 1: _spinning_on_plane, 0: _spinning_purely}
 
 
-# --- Librations row by row, by the kernels
+# --- Librations row by row, by the kernel
 # Functions without which loops call instead of adding
-INLINED = {"swing", "lag", "sinc_cos", "sinc_minus_cos", "sinhc_and_rest", "way_of_cosine", "converged",
-           "rounding_of"}
-INLINED_ON_PARABOLAS = {"quartic", "cubic", "bend", "terms_of", "blur_of_force", "place_at"}
-# Loading the code from disk costs some 0.3 s of a processor, compiling it once per machine some ten for each
-# geometry;
-# a row of plain Python costs two milliseconds.
+INLINED = {"entire", "constant", "quartic", "converged", "component", "parts_of", "rounded"}
+# Loading the code from disk costs some 0.6 s of a processor, compiling it once per machine some ten; a row of
+# plain Python costs a third of a millisecond.
 COLD, WARM = 1000, 20
-STRAIGHT = 1e-6  # of the slopes, as in `conic`: a circle so small hardly sees the bend of its equilibria
-PARABOLA = "p", "p0", "q", "q0", "kappa", "rho", "sigma", "m", "s"
 REACH = 3.45  # of t: beyond, the weights of double-exponential nodes are 1e-20
 LAST_LEVEL = 8  # of these nodes, whose steps are 2^-level
 HALVED = 8, 16, 32, 64  # intervals whose midpoints are added to the trapezoidal nodes of eight
@@ -244,68 +240,32 @@ def settle_rows(land: Landscape, states: np.ndarray, boxes: np.ndarray, periods:
     if not rows.size:
         return
     if by_numba is None:
-        by_numba = rows.size >= (WARM if COMPILED[land.base].cache_info().currsize else COLD)
-    kernel = COMPILED[land.base]() if by_numba and installed() else plain(land.base)
+        by_numba = rows.size >= (WARM if compiled_rows.cache_info().currsize else COLD)
+    kernel = compiled_rows() if by_numba and installed() else rows_kernel.rows
     with np.errstate(all="ignore"):
-        kernel(states, rows, *kernel_input(land), boxes, periods, left_open)
+        kernel(states, rows, *kernel_input(land), rules(), boxes, periods, left_open)
 
 
-@lru_cache(maxsize=3)
-def plain(base: str):
-    """`rows` on a geometry, named as landscapes name it, in plain Python."""
-    module, _, names = _module(base)
-    return twins(module, lambda name, twin: twin, **names)["rows"]
-
-
-def _module(base: str):
-    """(module with the kernel of a geometry, its functions to inline, the names that are the geometry's own).
-    """
-    if base == "parabola":
-        return parabola_kernel, INLINED_ON_PARABOLAS, {}
-    return rows_kernel, INLINED, rows_kernel.functions_of(rows_kernel.GEOMETRIES[base])
-
-
-def _compiled(base: str):
-    module, inlined, names = _module(base)
-    return compiled(module, inlined, base, **names)["rows"]
-
-
-COMPILED = {base: lru_cache(maxsize=1)(partial(_compiled, base))
-            for base in ("circle", "hyperbola", "parabola")}
+@lru_cache(maxsize=1)
+def compiled_rows():
+    """`rows_kernel.rows` compiled, with what it takes from the kernels below it."""
+    modules, names = (arc_kernel, equilibria_kernel, rows_kernel), {}
+    # the disk's copy of a kernel knows nothing of those below
+    stamp = crc32(b"".join(Path(module.__file__).read_bytes() for module in modules))
+    for module in modules:
+        result = compiled(module, INLINED, f"{stamp:x}", **names)
+        names |= {name: result[name] for name, item in vars(module).items() if isinstance(item, FunctionType)}
+    return names["rows"]
 
 
 @lru_cache(maxsize=64)
 def kernel_input(land: Landscape):
-    """The numbers of a landscape as its kernel takes them, between the rows and what these fill."""
+    """(axes, high and low parts (10, 2) of the constants, what K changes by a radian of a circle) of a
+    landscape's reduction."""
     r = land.reduction
-    shift = float(r.s)
-    rest = float(r.s - Fraction(shift))
-    axes = r.j, r.k, r.axis
-    if land.conic is None:
-        return axes, _parts([twofold_constant(getattr(r, name)) for name in PARABOLA]), *np.empty((3, 3))
-    conic, g = land.conic, r.constants
-    # of conics
-    fine = *land.twofold, twofold_constant(r.exact_constants["n"] ** 2 / 2)  # type: ignore[attr-defined]
-    lines, straight, beside = conic.lines, np.inf, 0.0
-    if conic.pieces:
-        centre = CENTRE * (abs(conic.c) + abs(conic.d)) / abs(conic.G)
-        beside = centre if conic.mu <= (abs(conic.c) + abs(conic.d)) * centre else 0.0
-        lines, straight = (), -np.inf
-        if land.e < 0 and conic.limit is not None:
-            lines, straight = (conic.limit,), float(STRAIGHT * np.hypot(conic.c, conic.d) / conic.G) ** 2
-    form = g["flip"] * g["rx"], g["rz"], g["flip"] / g["n"], shift, rest, straight
-    numbers = tuple(map(float, (conic.c, conic.d, conic.G, conic.mu, conic.K, conic.shift, beside)))
-    pieces = np.array([(p.sign, p.inner, p.outer, p.rising, p.barrier, *conic.reach(p))
-                       for p in conic.pieces], float)
-    points = np.array([(*line, side) for line in lines for side in (-1, 1)], float)
-    folds = np.array(conic.fold_invariants + conic.tangents, float)
-    return (_parts(fine).ravel(), form, axes, numbers, pieces.reshape(-1, 7), points.reshape(-1, 5), folds,
-            rules())
-
-
-def _parts(numbers: Sequence[Twofold]):
-    """(n, 2) high and low parts of twofold numbers."""
-    return np.array([(float(number.high), float(number.low)) for number in numbers])
+    exact = r.p, r.p0, r.q, r.q0, r.kappa, r.rho, r.sigma, r.m, r.p * r.q, r.s
+    fine = np.array([(float(number), float(number - Fraction(float(number)))) for number in exact])
+    return (r.j, r.k, r.axis), fine, float(r.torque)
 
 
 @lru_cache(maxsize=1)
