@@ -23,6 +23,8 @@ import numpy as np
 
 from ..numbers.error_free import Pair, add, exact_product, exact_sum, less, scaled, times, value
 
+# functions without which loops call instead of adding
+INLINED = {"entire", "constant", "quartic", "converged", "component", "parts_of", "rounded"}
 ULP = 2.220446049250313e-16
 INFINITY = float("inf")
 ROUNDINGS = 8.0  # units of rounding of a sum, by the size of its terms
@@ -243,7 +245,9 @@ def period_about(series: Sequence[float], rho: float, left: float, right: float,
             low = -even - abs(odd)
             smallest = min(smallest, low)
             weight = 0.5 if n == 0 or n == 4 else 1.0
-            term = weight * (1 / np.sqrt(2 * (-even - odd)) + 1 / np.sqrt(2 * (odd - even))) if low > 0 else np.nan
+            term = np.nan
+            if low > 0:
+                term = weight * (1 / np.sqrt(2 * (-even - odd)) + 1 / np.sqrt(2 * (odd - even)))
             total += term
             if n == 0 or n == 4:
                 half += term
@@ -264,8 +268,8 @@ def stop_at(stop: np.ndarray, base: Sequence[Pair], y: float, end: bool, fine: n
     """Fill a stop next to an arc y from a base: there by Newton's method in twofold numbers, where K vanishes
     (an end) or its slope does.
 
-    A double leaves a rest of the arc. Of an equilibrium it costs K nothing; at an end it leaves a force, which
-    next to a barrier is much of the small one there.
+    A double leaves a rest of the arc. Of an equilibrium it costs K nothing; at an end it leaves a force,
+    which next to a barrier is much of the small one there.
     """
     there, rest = base, 0.0 * y
     for _ in range(3):

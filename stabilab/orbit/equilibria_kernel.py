@@ -16,7 +16,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .arc_kernel import INFINITY, ROUNDINGS, ULP, kinetic
+from ..numbers.error_free import Pair, value
+from .arc_kernel import ALONG_U, BEND_U, F0, INFINITY, OVER, ROUNDINGS, ULP, kinetic, moved
 
 # columns of a point of equilibrium: its arc from the base, K there and the error of that, dF/d alpha
 ARC, HEIGHT, ERROR, SLOPE = range(4)
@@ -26,6 +27,9 @@ BISECTIONS = 80
 STEP, BRACKET = 1e-9, 1e-14
 NEWTON_STEPS = 3  # from a root to its equilibrium
 LAST_STEP = 1e-7  # of an arc: K at an equilibrium is second order in it
+CLEAR = 64.0  # times its error, so far a height is from the energy where the barrier's side is certain
+TWOFOLD = 2.0**-94  # of its terms: rounding of a K in twofold numbers
+LONG_ARC = 16.0  # of n y: farther from the throat of a hyperbola twofold numbers lose exp(2 n y)
 BESIDE = 1.37  # no root of a sphere's quartic, nor of one with a single term less, stands at that times R
 
 
@@ -54,12 +58,18 @@ def root_between(q: Sequence[float], low: float, high: float, at_low: float):
     return x
 
 
-def roots_between(q: Sequence[float], cuts: np.ndarray, count: int, roots: np.ndarray):
+def roots_between(q: Sequence[float], doubts: Sequence[float], cuts: np.ndarray, count: int,
+                  roots: np.ndarray):
     """Fill roots with those of a quartic between neighbours of so many cuts, at whose inner ones it is
-    stationary; how many there are."""
+    stationary; how many there are, -1 where it nearly vanishes at a cut, by what each coefficient is in doubt
+    of."""
     total, last = 0, quartic(q, cuts[0])[0]
+    if abs(last) < quartic(doubts, abs(cuts[0]))[0]:
+        return -1
     for n in range(1, count):
         now = quartic(q, cuts[n])[0]
+        if abs(now) < quartic(doubts, abs(cuts[n]))[0]:
+            return -1
         if (last < 0 < now) or (now < 0 < last):
             roots[total] = root_between(q, cuts[n - 1], cuts[n], last)
             total += 1
@@ -70,12 +80,13 @@ def roots_between(q: Sequence[float], cuts: np.ndarray, count: int, roots: np.nd
     return total
 
 
-def real_roots(q: Sequence[float], low: float, high: float, cuts: np.ndarray, roots: np.ndarray):
-    """Fill roots with those of a quartic between low and high, ascending; how many there are. cuts: room
-    (2, 8)."""
-    _, b, c, d, e = q
+def real_roots(q: Sequence[float], doubts: Sequence[float], low: float, high: float, cuts: np.ndarray,
+               roots: np.ndarray):
+    """Fill roots with those of a quartic between low and high, ascending; how many there are, -1 in doubt.
+    cuts: room (2, 8)."""
     first, second = cuts[0], cuts[1]
     first[0], count = low, 1
+    c, d, e = q[2], q[3], q[4]
     square = 9 * d * d - 24 * c * e
     if square > 0:
         w = -(3 * d + (np.sqrt(square) if d > 0 else -np.sqrt(square)))
@@ -87,9 +98,28 @@ def real_roots(q: Sequence[float], low: float, high: float, cuts: np.ndarray, ro
             first[count] = max(one, other)
             count += 1
     first[count] = high
-    count = roots_between((b, 2 * c, 3 * d, 4 * e, 0.0), first, count + 1, second[1:])
+    count = roots_between(derivative(q), derivative(doubts), first, count + 1, second[1:])
+    if count < 0:
+        return -1
     second[0], second[count + 1] = low, high
-    return roots_between(q, second, count + 2, roots)
+    return roots_between(q, doubts, second, count + 2, roots)
+
+
+def derivative(q: Sequence[float]):
+    return q[1], 2 * q[2], 3 * q[3], 4 * q[4], 0.0 * q[0]
+
+
+def stretched(q: Sequence[float], R: float):
+    """The coefficients in x/R of a quartic in x."""
+    return q[0], q[1] * R, q[2] * R * R, q[3] * R * R * R, q[4] * R * R * R * R
+
+
+def turned(q: Sequence[float], times: int):
+    """The coefficients in 1/x of a quartic in x, over so many powers of it."""
+    q = q[4], q[3], q[2], q[1], q[0]
+    for _ in range(times):
+        q = q[1], q[2], q[3], q[4], 0.0 * q[0]
+    return q
 
 
 # --- Arcs to the equilibria
@@ -102,75 +132,76 @@ def arc_of(T: float, inverse: bool, n: float, e: float):
     return 2 / T if inverse else 2 * T
 
 
-def force_quartic(series: Sequence[float]):
-    """The coefficients of (4)."""
+def force_quartic(series: Sequence[float], doubt: float):
+    """The coefficients of (4), and so much of the size of their terms."""
     _, f0, f1, f2, c, g, e = series
-    return f0, 2 * f1, 2 * (f2 + 3 * c) - 2 * e * f0, 4 * g - 2 * e * f1, e * (e * f0 - 2 * f2 + 2 * c)
+    q = f0, 2 * f1, 2 * (f2 + 3 * c) - 2 * e * f0, 4 * g - 2 * e * f1, e * (e * f0 - 2 * f2 + 2 * c)
+    f0, f1, f2 = doubt * abs(f0), doubt * abs(f1), doubt * abs(f2)
+    c, g, e = doubt * abs(c), doubt * abs(g), abs(e)
+    return q, (f0, 2 * f1, 2 * (f2 + 3 * c) + 2 * e * f0, 4 * g + 2 * e * f1, e * (e * f0 + 2 * f2 + 2 * c))
 
 
-def stretched(q: Sequence[float], R: float):
-    """The coefficients in x/R of a quartic in x."""
-    return q[0], q[1] * R, q[2] * R * R, q[3] * R * R * R, q[4] * R * R * R * R
-
-
-def equilibria(series: Sequence[float], cuts: np.ndarray, roots: np.ndarray, arcs: np.ndarray):
+def equilibria(series: Sequence[float], doubt: float, cuts: np.ndarray, roots: np.ndarray, arcs: np.ndarray):
     """Fill arcs with those from a base to the equilibria of its orbit, once round, in no order; how many
-    there are."""
-    e, q = series[6], force_quartic(series)
+    there are, -1 where rounding of so much of the terms of (4) may make or unmake one."""
+    e, (q, doubts) = series[6], force_quartic(series, doubt)
     n = np.sqrt(abs(e))
     low, high = 0, 4
     while low < 4 and q[low] == 0:
         low += 1
     while high > 0 and q[high] == 0:
         high -= 1
-    if low >= high:
-        return 0
+    if low >= high or (q[4] == 0 and doubts[4] > 0):
+        return -1 if doubt > 0 else 0
     R, edge = BESIDE * abs(q[low] / q[high]) ** (1.0 / (high - low)), INFINITY
     if e > 0:  # T is less than 1/n on a hyperbola
         edge = 1 / n
         R = min(R, edge)
     if not 0 < R < INFINITY:
-        return 0
-    q = stretched(q, R)
-    total = 0
-    count = real_roots(q, -1.0, 1.0, cuts, roots)
-    for k in range(count):
-        arcs[total] = arc_of(roots[k] * R, False, n, e)
-        total += 1
-    q = q[4], q[3], q[2], q[1], q[0]
-    if e >= 0:  # there a root at infinity is none
-        for _ in range(4 - high):
-            q = q[1], q[2], q[3], q[4], 0.0 * q[0]
-    if R < edge:
-        for side in range(2 if e > 0 else 1):
-            first, last = -1.0, 1.0
-            if e > 0:
-                first, last = (R / edge, 1.0) if side else (-1.0, -R / edge)
-            count = real_roots(q, first, last, cuts, roots)
-            for k in range(count):
-                arcs[total] = arc_of(roots[k] / R, True, n, e)
-                total += 1
+        return -1 if doubt > 0 else 0
+    q, doubts = stretched(q, R), stretched(doubts, R)
+    total = real_roots(q, doubts, -1.0, 1.0, cuts, roots)
+    for k in range(total):
+        arcs[k] = arc_of(roots[k] * R, False, n, e)
+    missing = 4 - high if e >= 0 else 0  # a root at infinity is none but on a circle
+    q, doubts = turned(q, missing), turned(doubts, missing)
+    for side in range((2 if e > 0 else 1) if R < edge else 0):
+        first, last = -1.0, 1.0
+        if e > 0:
+            first, last = (R / edge, 1.0) if side else (-1.0, -R / edge)
+        count = real_roots(q, doubts, first, last, cuts, roots)
+        if count < 0 or total < 0:
+            return -1
+        for k in range(count):
+            arcs[total] = arc_of(roots[k] / R, True, n, e)
+            total += 1
     return total
 
 
-def equilibria_from_throat(series: Sequence[float], cuts: np.ndarray, roots: np.ndarray, arcs: np.ndarray):
+def equilibria_from_throat(series: Sequence[float], doubt: float, cuts: np.ndarray, roots: np.ndarray,
+                           arcs: np.ndarray):
     """As `equilibria`, far from the throat of a hyperbola, where the base is: there T crowds at 1/n, and K'
     is a quartic in exp(n y) over exp(2 n y). Not for small n: its coefficients go with 1/e."""
     _, f0, f1, f2, c, g, e = series
     n = np.sqrt(e)
     even, odd = 0.5 * (f2 - c) / e, 0.5 * (f1 - g / e) / n
-    q = (0.5 * c / e - 0.25 * g / (n * e), even - odd, f0 - f2 / e, even + odd,
-         0.5 * c / e + 0.25 * g / (n * e))
+    end, tilt = 0.5 * c / e, 0.25 * g / (n * e)
+    q = end - tilt, even - odd, f0 - f2 / e, even + odd, end + tilt
+    size = doubt * (0.5 * (abs(f2) + abs(c)) / e + 0.5 * (abs(f1) + abs(g) / e) / n)
+    doubts = (doubt * (abs(end) + abs(tilt)), size, doubt * (abs(f0) + abs(f2) / e), size,
+              doubt * (abs(end) + abs(tilt)))
     if q[0] == 0 or q[4] == 0:
-        return 0
+        return -1 if doubt > 0 else 0
     R, total = BESIDE * abs(q[0] / q[4]) ** 0.25, 0
-    q = stretched(q, R)
+    q, doubts = stretched(q, R), stretched(doubts, R)
     for side in range(2):
-        count = real_roots(q, 0.0, 1.0, cuts, roots)
+        count = real_roots(q, doubts, 0.0, 1.0, cuts, roots)
+        if count < 0:
+            return -1
         for k in range(count):
             arcs[total] = np.log(R / roots[k] if side else R * roots[k]) / n
             total += 1
-        q = q[4], q[3], q[2], q[1], q[0]
+        q, doubts = turned(q, 0), turned(doubts, 0)
     return total
 
 
@@ -187,19 +218,21 @@ def settled_arc(y: float, series: Sequence[float]):
     return y
 
 
-def points_along(series: Sequence[float], turn: float, drift: float, at_throat: bool, cuts: np.ndarray,
-                 roots: np.ndarray, arcs: np.ndarray, points: np.ndarray):
-    """Fill points with the equilibria along an orbit in ascending order; how many there are, -1 where rounding
-    has lost or invented one.
+def points_along(series: Sequence[float], turn: float, drift: float, at_throat: bool, doubt: float,
+                 cuts: np.ndarray, roots: np.ndarray, arcs: np.ndarray, points: np.ndarray):
+    """Fill points with the equilibria along an orbit in ascending order; how many there are, -1 where
+    rounding has lost or invented one.
 
-    turn: after so much of the arc an orbit comes to the same location again, where K has changed by `drift` a
-    radian; on a circle the equilibria of the turn on either side of the base are there too.
+    doubt: of its terms, so near to zero a force may be so; 0 where a pair of equilibria that differ in height
+    by rounding does not count. turn: after so much of the arc an orbit comes to the same location again,
+    where K has changed by `drift` a radian; on a circle the equilibria of the turn on either side of the base
+    are there too.
     """
     if at_throat:
-        total = equilibria_from_throat(series, cuts, roots, arcs)
+        total = equilibria_from_throat(series, doubt, cuts, roots, arcs)
     else:
-        total = equilibria(series, cuts, roots, arcs)
-    count = 0
+        total = equilibria(series, doubt, cuts, roots, arcs)
+    count = 0 if total >= 0 else -1
     for n in range(total):
         y = settled_arc(arcs[n], series)
         height, force, slope, terms = kinetic(y, series)
@@ -213,7 +246,7 @@ def points_along(series: Sequence[float], turn: float, drift: float, at_throat: 
     for n in range(count):
         if (n and (points[n, SLOPE] > 0) == (points[n - 1, SLOPE] > 0)) or not points[n, ERROR] < INFINITY:
             return -1
-    if turn == INFINITY and (count == 0 or points[0, SLOPE] > 0 or points[count - 1, SLOPE] > 0):
+    if turn == INFINITY and (count <= 0 or points[0, SLOPE] > 0 or points[count - 1, SLOPE] > 0):
         return -1
     return count
 
@@ -227,3 +260,19 @@ def inserted(points: np.ndarray, count: int, y: float, height: float, error: flo
         n -= 1
     points[n, ARC], points[n, HEIGHT], points[n, ERROR], points[n, SLOPE] = y, height, error, slope
     return count + 1
+
+
+def sharpened(point: np.ndarray, base: Sequence[Pair], fine: np.ndarray):
+    """K at an equilibrium, and its error, in twofold numbers."""
+    there = moved(base, point[ARC], fine)
+    force = value(there[F0])
+    point[HEIGHT] = value(there[OVER]) - 0.5 * force * force / point[SLOPE]
+    point[ERROR] = TWOFOLD / (ROUNDINGS * ULP) * point[ERROR] + ULP * abs(point[HEIGHT])
+
+
+def to_throat(base: Sequence[Pair], n: float):
+    """The arc of a base from the throat of its hyperbola; inf on an invariant plane."""
+    along, across = n * base[ALONG_U][0], base[BEND_U][0]
+    if abs(along) == abs(across):
+        return INFINITY
+    return np.arctanh(along / across if abs(along) < abs(across) else across / along) / n

@@ -8,12 +8,8 @@ Balls take what doubles would lose, next to a separatrix or far from the centre 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from fractions import Fraction
 from functools import lru_cache
-from pathlib import Path
-from types import FunctionType
 from typing import TYPE_CHECKING
-from zlib import crc32
 
 import numpy as np
 
@@ -22,9 +18,10 @@ from ..numbers.double_double import TURN
 from ..numbers.numba_door import compiled, installed
 from ..physics.coefficients import effective
 from ..physics.states import checked_states
-from . import arc_kernel, equilibria_kernel, rows_kernel
+from . import rows_kernel
+from .arc_kernel import INLINED
 from .extremes import precise_extremes, precise_period
-from .fate_arrays import CHUNK, FateResult, fate_on_orbit, fates, rows_beyond_doubles
+from .fate_arrays import CHUNK, COLD, WARM, FateResult, fate_on_orbit, fates, rows_beyond_doubles
 from .landscape import (
     CircleLandscape,
     ConicLandscape,
@@ -218,11 +215,6 @@ SPINNING: dict[int, Callable[..., np.ndarray]] = {
 
 
 # --- Librations row by row, by the kernel
-# Functions without which loops call instead of adding
-INLINED = {"entire", "constant", "quartic", "converged", "component", "parts_of", "rounded"}
-# Loading the code from disk costs some 0.6 s of a processor, compiling it once per machine some ten; a row of
-# plain Python costs a third of a millisecond.
-COLD, WARM = 1000, 20
 REACH = 3.45  # of t: beyond, the weights of double-exponential nodes are 1e-20
 LAST_LEVEL = 8  # of these nodes, whose steps are 2^-level
 HALVED = 8, 16, 32, 64  # intervals whose midpoints are added to the trapezoidal nodes of eight
@@ -243,29 +235,13 @@ def settle_rows(land: Landscape, states: np.ndarray, boxes: np.ndarray, periods:
         by_numba = rows.size >= (WARM if compiled_rows.cache_info().currsize else COLD)
     kernel = compiled_rows() if by_numba and installed() else rows_kernel.rows
     with np.errstate(all="ignore"):
-        kernel(states, rows, *kernel_input(land), rules(), boxes, periods, left_open)
+        kernel(states, rows, *land.kernel_input, rules(), boxes, periods, left_open)
 
 
 @lru_cache(maxsize=1)
 def compiled_rows():
-    """`rows_kernel.rows` compiled, with what it takes from the kernels below it."""
-    modules, names = (arc_kernel, equilibria_kernel, rows_kernel), {}
-    # the disk's copy of a kernel knows nothing of those below
-    stamp = crc32(b"".join(Path(module.__file__).read_bytes() for module in modules))
-    for module in modules:
-        result = compiled(module, INLINED, f"{stamp:x}", **names)
-        names |= {name: result[name] for name, item in vars(module).items() if isinstance(item, FunctionType)}
-    return names["rows"]
-
-
-@lru_cache(maxsize=64)
-def kernel_input(land: Landscape):
-    """(axes, high and low parts (10, 2) of the constants, what K changes by a radian of a circle) of a
-    landscape's reduction."""
-    r = land.reduction
-    exact = r.p, r.p0, r.q, r.q0, r.kappa, r.rho, r.sigma, r.m, r.p * r.q, r.s
-    fine = np.array([(float(number), float(number - Fraction(float(number)))) for number in exact])
-    return (r.j, r.k, r.axis), fine, float(r.torque)
+    """`rows_kernel.rows` compiled."""
+    return compiled(rows_kernel, INLINED)["rows"]
 
 
 @lru_cache(maxsize=1)

@@ -28,24 +28,19 @@ if TYPE_CHECKING:
 SURE = 1e-20  # of the terms: a sum that is smaller may be zero, which exact arithmetic decides
 
 
-class TwofoldConstants(NamedTuple):
-    """The constants of a reduction as numbers of 32 digits."""
+class TwofoldCentre(NamedTuple):
+    """The centre of a reduction's orbits, and the factors of its canonical variables, to 32 digits."""
 
-    G: Twofold
-    c: Twofold
-    d: Twofold
-    mu: Twofold
     sj: Twofold
     sk: Twofold
     over_x: Twofold  # flip over rx
     over_z: Twofold
 
 
-def twofold_constants(reduction: Reduction) -> TwofoldConstants:
-    """Those of a reduction to circles or hyperbolas."""
+def twofold_centre(reduction: Reduction) -> TwofoldCentre:
+    """That of a reduction to circles or hyperbolas."""
     g = reduction.exact_constants
-    exact = *(g[name] for name in ("G", "c", "d", "mu", "sj", "sk")), g["flip"] / g["rx"], 1 / g["rz"]
-    return TwofoldConstants(*map(twofold_constant, exact))
+    return TwofoldCentre(*map(twofold_constant, (g["sj"], g["sk"], g["flip"] / g["rx"], 1 / g["rz"])))
 
 
 def twofold_constant(value: Fraction) -> Twofold:
@@ -53,12 +48,6 @@ def twofold_constant(value: Fraction) -> Twofold:
     high = float(value)
     # a double broadcasts as an array does
     return Twofold(np.float64(high), np.float64(float(value - Fraction(high))))  # type: ignore[arg-type]
-
-
-def twofold_places(constants: TwofoldConstants, j: int, k: int,
-                   states: np.ndarray) -> tuple[Twofold, Twofold]:
-    """(X, Z) of states (n, 3), whose components across the axis are j and k."""
-    return (constants.sj + states[:, j]) * constants.over_x, (constants.sk + states[:, k]) * constants.over_z
 
 
 # --- Barriers and wells along the orbits of many states at once: what the three geometries have in common,
@@ -92,6 +81,15 @@ class Landscape:
     def may_rotate(self) -> bool:
         """Whether a motion may pass over all barriers and stay bounded."""
         return False
+
+    @cached_property
+    def kernel_input(self):
+        """(axes, high and low parts (10, 2) of the constants, what K changes by a radian of a circle) as
+        `arc_kernel` names them."""
+        r = self.reduction
+        exact = r.p, r.p0, r.q, r.q0, r.kappa, r.rho, r.sigma, r.m, r.p * r.q, r.s
+        fine = np.array([(float(number), float(number - Fraction(float(number)))) for number in exact])
+        return (r.j, r.k, r.axis), fine, float(r.torque)
 
     def start(self, states: np.ndarray):
         """(place, W, size): place a pair of arrays, size a pair with the magnitudes whose rounding limits the
@@ -228,9 +226,9 @@ class ConicLandscape(Landscape):
         raise NotImplementedError
 
     @cached_property
-    def twofold(self) -> TwofoldConstants:
-        """The constants in 32 digits."""
-        return twofold_constants(self.reduction)
+    def twofold(self) -> TwofoldCentre:
+        """What a place is formed with in 32 digits."""
+        return twofold_centre(self.reduction)
 
     def _exactly(self, close: np.ndarray, states: np.ndarray, location: Sequence[float | np.ndarray],
                  of: Callable[[Number, Number], tuple[Number, Number]]):
@@ -240,7 +238,9 @@ class ConicLandscape(Landscape):
             return location
         first, second = (np.array(v) for v in location)
         some = states[close]
-        x, z = twofold_places(self.twofold, self.reduction.j, self.reduction.k, some)
+        k = self.twofold
+        x = (k.sj + some[:, self.reduction.j]) * k.over_x
+        z = (k.sk + some[:, self.reduction.k]) * k.over_z
         with np.errstate(all="ignore"):
             rows = [v.value() if isinstance(v, Twofold) else v for v in of(x, z)]
             sure = (np.minimum(*np.abs(rows)) > SURE

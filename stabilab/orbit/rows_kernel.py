@@ -14,12 +14,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..numbers.error_free import Pair, value
+from . import arc_kernel, equilibria_kernel
 from .arc_kernel import (
     ALONG_U,
     ALONG_V,
     BEND_U,
     BEND_V,
-    E,
     F0,
     F1,
     INFINITY,
@@ -29,8 +29,9 @@ from .arc_kernel import (
     SHIFT,
     STOP_ARC,
     STOP_COLUMNS,
-    U,
     ULP,
+    E,
+    U,
     V,
     base_of,
     entire,
@@ -41,15 +42,26 @@ from .arc_kernel import (
     rounded,
     stop_at,
 )
-from .equilibria_kernel import ARC, BESIDE, ERROR, HEIGHT, POINTS, SLOPE, points_along
+from .equilibria_kernel import (
+    ARC,
+    BESIDE,
+    CLEAR,
+    ERROR,
+    HEIGHT,
+    LONG_ARC,
+    POINTS,
+    SLOPE,
+    TWOFOLD,
+    points_along,
+    sharpened,
+    to_throat,
+)
 
+BELOW = arc_kernel, equilibria_kernel  # modules whose functions `rows` calls
 BOX, PERIOD = 1, 2  # bits: wanted, and left open
 BOUNDED, UNBOUNDED, UNCLEAR = 1, 2, 0
 DIGITS, PERIOD_DIGITS = 1e-12, 1e-11  # promised, relative: rounding that leaves less leaves a row open
-CLEAR = 64.0  # times its error, so far a height is from the energy where the barrier's side is certain
-TWOFOLD = 2.0**-94  # of its terms: rounding of a K in twofold numbers
-# of n y: up to it terms of K do not outgrow K; from the throat farther, twofold numbers lose exp(2 n y)
-SHORT_ARC, LONG_ARC = 3.0, 16.0
+SHORT_ARC = 3.0  # of n y: up to it terms of K do not outgrow K
 DOUBLINGS, LONGEST = 1100, 1e300  # of an arc towards a wall; without one so far there is none
 STEPS = 100
 STEP_CHANGE = 0.1  # of the force at an end: what a step there may change it by
@@ -85,17 +97,9 @@ def crossing(inner: float, outer: float, series: Sequence[float]):
     return y
 
 
-def sharpened(point: np.ndarray, base: Sequence[Pair], fine: np.ndarray):
-    """K at an equilibrium, and its error, in twofold numbers."""
-    there = moved(base, point[ARC], fine)
-    force = value(there[F0])
-    point[HEIGHT] = value(there[OVER]) - 0.5 * force * force / point[SLOPE]
-    point[ERROR] = TWOFOLD / (ROUNDINGS * ULP) * point[ERROR] + ULP * abs(point[HEIGHT])
-
-
 def turning_point(side: float, start: float, base: Sequence[Pair], series: Sequence[float], count: int,
                   points: np.ndarray, turn: float, fine: np.ndarray):
-    """(`BOUNDED`, `UNBOUNDED` where there is none, or `UNCLEAR`; the arc; the largest K on the way) of the end
+    """(`BOUNDED`, `UNBOUNDED` where there is none, or `UNCLEAR`; the arc; the largest K before it) of the end
     of a motion on a side, from the arc of its state."""
     inner, fastest = start, 0.0
     for n in range(count):
@@ -126,18 +130,10 @@ def turning_point(side: float, start: float, base: Sequence[Pair], series: Seque
     return BOUNDED, crossing(inner, inner + side * arc, series), fastest
 
 
-def to_throat(base: Sequence[Pair], n: float):
-    """The arc of a base from the throat of its hyperbola; inf on an invariant plane."""
-    along, across = n * base[ALONG_U][0], base[BEND_U][0]
-    if abs(along) == abs(across):
-        return INFINITY
-    return np.arctanh(along / across if abs(along) < abs(across) else across / along) / n
-
-
 def spanned(base: Sequence[Pair], n: float, turn: float, drift: float, fine: np.ndarray, cuts: np.ndarray,
             roots: np.ndarray, arcs: np.ndarray, points: np.ndarray):
-    """(whether it is bounded, the base that arcs are from, the state's arc, those of both ends, the largest K,
-    how many points) of a motion from the state of a base.
+    """(whether it is bounded, the base that arcs are from, the state's arc, those of both ends, the largest
+    K, how many points) of a motion from the state of a base.
 
     Far from the throat of a hyperbola terms grow like exp(2 n y), and the throat is the base then; not
     otherwise: that of a flat one is so far away that all digits would be lost.
@@ -151,12 +147,12 @@ def spanned(base: Sequence[Pair], n: float, turn: float, drift: float, fine: np.
                 return UNCLEAR, base, start, left, right, fastest, count
             base = moved(base, -start, fine)
         series = rounded(base, e)
-        count = points_along(series, turn, drift, again > 0, cuts, roots, arcs, points)
+        count = points_along(series, turn, drift, again > 0, 0.0, cuts, roots, arcs, points)
         left, right, fastest = start, start, energy
         bounded = BOUNDED if count >= 0 else UNCLEAR
         for end in range(2 if bounded else 0):
             side = 2.0 * end - 1
-            if energy == 0 and force * side < 0:  # at rest it goes one way
+            if energy == 0 and force * side < 0:  # from rest it goes to one side
                 continue
             result, y, faster = turning_point(side, start, base, series, count, points, turn, fine)
             fastest, left, right = max(fastest, faster), min(left, y), max(right, y)
@@ -171,8 +167,8 @@ def spanned(base: Sequence[Pair], n: float, turn: float, drift: float, fine: np.
 
 # --- From the middle of the motion
 def end_of(y: float, series: Sequence[float]):
-    """(arc, force, its slope, error of the arc; whether Newton's method is sure) of an end of a motion, from a
-    guess, in doubles."""
+    """(arc, force, its slope, error of the arc; whether Newton's method is sure) of an end of a motion, from
+    a guess, in doubles."""
     over, force, slope, terms = kinetic(y, series)
     y -= over / force
     over, force, slope, terms = kinetic(y, series)
@@ -201,7 +197,7 @@ def sharp_end(end: Sequence[float], base: Sequence[Pair], series: Sequence[float
 
 
 def about_middle(base: Sequence[Pair], left: float, right: float, e: float, fine: np.ndarray):
-    """(the base half-way between two arcs; the ends of the motion from there), given guesses of their arcs."""
+    """(the base half-way between two arcs; the ends of the motion from there), given guesses of these."""
     at = 0.5 * (left + right)
     middle = moved(base, at, fine)
     series = rounded(middle, e)
