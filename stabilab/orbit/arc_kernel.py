@@ -197,7 +197,7 @@ def taylor(series: Sequence[float], rho: float, t: np.ndarray):
         t[2 * n + 2] = f1 * even + (0.25 * four - 1.0) * g * bent
         t[2 * n + 3] = (f2 + c * (four - 1)) * even * rho / (2 * n + 3)
         n += 1
-        if four * abs(even) < NEGLIGIBLE * rho * rho or (e == 0 and n == 2):
+        if four * abs(even) < NEGLIGIBLE * rho * rho:
             return 2 * n + 1
         if 2 * n + 3 >= MAX_COEFFICIENTS:
             return 0

@@ -24,7 +24,7 @@ ARC, HEIGHT, ERROR, SLOPE = range(4)
 POINTS = 16  # room for so many: four roots, on a circle a turn earlier or later too
 BISECTIONS = 80
 # relative: a last step of Newton's method whose square is next to nothing; a bracket that is one
-STEP, BRACKET = 1e-9, 1e-14
+STEP, BRACKET = 1e-6, 1e-14
 NEWTON_STEPS = 3  # from a root to its equilibrium
 LAST_STEP = 1e-7  # of an arc: K at an equilibrium is second order in it
 CLEAR = 64.0  # times its error, so far a height is from the energy where the barrier's side is certain
@@ -63,12 +63,12 @@ def roots_between(q: Sequence[float], doubts: Sequence[float], cuts: np.ndarray,
     """Fill roots with those of a quartic between neighbours of so many cuts, at whose inner ones it is
     stationary; how many there are, -1 where it nearly vanishes at a cut, by what each coefficient is in doubt
     of."""
-    total, last = 0, quartic(q, cuts[0])[0]
-    if abs(last) < quartic(doubts, abs(cuts[0]))[0]:
+    total, last, careful = 0, quartic(q, cuts[0])[0], max(doubts) > 0
+    if careful and abs(last) < quartic(doubts, abs(cuts[0]))[0]:
         return -1
     for n in range(1, count):
         now = quartic(q, cuts[n])[0]
-        if abs(now) < quartic(doubts, abs(cuts[n]))[0]:
+        if careful and abs(now) < quartic(doubts, abs(cuts[n]))[0]:
             return -1
         if (last < 0 < now) or (now < 0 < last):
             roots[total] = root_between(q, cuts[n - 1], cuts[n], last)
@@ -163,11 +163,11 @@ def equilibria(series: Sequence[float], doubt: float, cuts: np.ndarray, roots: n
     total = real_roots(q, doubts, -1.0, 1.0, cuts, roots)
     for k in range(total):
         arcs[k] = arc_of(roots[k] * R, False, n, e)
-    missing = 4 - high if e >= 0 else 0  # a root at infinity is none but on a circle
+    missing = 4 - high if n == 0 else 0  # a root at infinity is none on a parabola, half a turn on a circle
     q, doubts = turned(q, missing), turned(doubts, missing)
-    for side in range((2 if e > 0 else 1) if R < edge else 0):
+    for side in range((2 if edge < INFINITY else 1) if R < edge else 0):
         first, last = -1.0, 1.0
-        if e > 0:
+        if edge < INFINITY:
             first, last = (R / edge, 1.0) if side else (-1.0, -R / edge)
         count = real_roots(q, doubts, first, last, cuts, roots)
         if count < 0 or total < 0:

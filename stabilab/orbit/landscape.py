@@ -84,12 +84,12 @@ class Landscape:
 
     @cached_property
     def kernel_input(self):
-        """(axes, high and low parts (10, 2) of the constants, what K changes by a radian of a circle) as
-        `arc_kernel` names them."""
+        """(axes, high and low parts (10, 2) of the constants as `arc_kernel` names them, arc of a full circle
+        or inf, what K changes by a radian of it)."""
         r = self.reduction
         exact = r.p, r.p0, r.q, r.q0, r.kappa, r.rho, r.sigma, r.m, r.p * r.q, r.s
         fine = np.array([(float(number), float(number - Fraction(float(number)))) for number in exact])
-        return (r.j, r.k, r.axis), fine, float(r.torque)
+        return (r.j, r.k, r.axis), fine, self.turn * abs(self.unit), float(r.torque)
 
     def start(self, states: np.ndarray):
         """(place, W, size): place a pair of arrays, size a pair with the magnitudes whose rounding limits the

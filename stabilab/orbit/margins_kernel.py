@@ -57,17 +57,17 @@ def nearest_margin(start: float, direction: float, turn: float, energy: float, b
     return margin, True
 
 
-def margins(states: np.ndarray, open_rows: np.ndarray, axes: Sequence[int], fine: np.ndarray, drift: float,
-            results: np.ndarray, settled: np.ndarray):
+def margins(states: np.ndarray, open_rows: np.ndarray, axes: Sequence[int], fine: np.ndarray, turn: float,
+            drift: float, results: np.ndarray, settled: np.ndarray):
     """Fill results (n,) with the margins of the open rows of states (n, 3) that are certain, per unit of
     (omega_i + s)^2/2, and mark these in settled (n,).
 
-    axes, fine, drift: as of `rows_kernel.rows`.
+    axes, fine, turn, drift: as of `rows_kernel.rows`.
     """
     cuts, roots, arcs, points = np.empty((2, 8)), np.empty(8), np.empty(POINTS), np.empty((POINTS, 4))
     e = fine[E, 0]
     n = np.sqrt(abs(e))
-    turn, direction = 2 * np.pi / n if e < 0 else INFINITY, -1.0 if drift < 0 else 1.0
+    direction = -1.0 if drift < 0 else 1.0
     for row in open_rows:
         base, start = base_of(states[row], axes, fine), 0.0 * n
         energy = value(base[OVER])

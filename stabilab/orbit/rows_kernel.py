@@ -140,7 +140,7 @@ def spanned(base: Sequence[Pair], n: float, turn: float, drift: float, fine: np.
     """
     e, energy, force = fine[E, 0], value(base[OVER]), value(base[F0])
     start, count, left, right, fastest, bounded = 0.0 * n, 0, 0.0 * n, 0.0 * n, energy, UNCLEAR
-    for again in range(2):
+    for again in range(2 if e > 0 else 1):
         if again:
             start = to_throat(base, n)
             if not abs(n * start) <= LONG_ARC:
@@ -160,7 +160,7 @@ def spanned(base: Sequence[Pair], n: float, turn: float, drift: float, fine: np.
                 bounded = UNCLEAR
             elif result == UNBOUNDED:
                 bounded = UNBOUNDED
-        if e <= 0 or (bounded == BOUNDED and n * max(abs(left), abs(right)) <= SHORT_ARC):
+        if bounded == BOUNDED and n * max(abs(left), abs(right)) <= SHORT_ARC:
             break
     return bounded, base, start, left, right, fastest, count
 
@@ -219,14 +219,14 @@ def ends_about_middle(base: Sequence[Pair], left: float, right: float, e: float,
 
 # --- Extremes
 def stationary(speed: float, bend: float, n: float, e: float, left: float):
-    """The first arc beyond left where speed (1 + e S2) + bend S1 vanishes; inf where there is none. On a
-    circle it does so again half a turn later."""
+    """(the first arc beyond left where speed (1 + e S2) + bend S1 vanishes; how far the next is from there);
+    inf where there is none."""
     if e < 0:
-        first = -np.arctan(n * speed / bend) / n if bend != 0 else 0.5 * np.pi / n
-        return first + np.pi / n * np.ceil((left - first) * n / np.pi)
-    if e == 0:
-        return -speed / bend if bend != 0 else INFINITY
-    return -np.arctanh(n * speed / bend) / n if abs(n * speed) < abs(bend) else INFINITY
+        first, half = -np.arctan(n * speed / bend) / n if bend != 0 else 0.5 * np.pi / n, np.pi / n
+        return first + half * np.ceil((left - first) / half), half
+    if e > 0:
+        return -np.arctanh(n * speed / bend) / n if abs(n * speed) < abs(bend) else INFINITY, INFINITY
+    return -speed / bend if bend != 0 else INFINITY, INFINITY
 
 
 def component(at: float, speed: float, bend: float, e: float, y: float):
@@ -243,14 +243,12 @@ def range_of(at: float, speed: float, bend: float, n: float, e: float, left: Seq
     other, other_terms, other_slope = component(at, speed, bend, e, right[0])
     low, high = min(y, other), max(y, other)
     error = max(4 * ULP * terms + abs(slope) * left[3], 4 * ULP * other_terms + abs(other_slope) * right[3])
-    y = stationary(speed, bend, n, e, left[0])
+    y, step = stationary(speed, bend, n, e, left[0])
     while y < right[0]:
         if y > left[0]:
             top, terms, _ = component(at, speed, bend, e, y)
             low, high, error = min(low, top), max(high, top), max(error, 4 * ULP * terms)
-        if e >= 0:
-            break
-        y += np.pi / n
+        y += step
     return low, high, error
 
 
@@ -311,20 +309,21 @@ def stops_between(left: float, right: float, throat: bool, base: Sequence[Pair],
 
 
 # --- Rows
-def rows(states: np.ndarray, open_rows: np.ndarray, axes: Sequence[int], fine: np.ndarray, drift: float,
-         rules: Sequence[np.ndarray], boxes: np.ndarray, periods: np.ndarray, left_open: np.ndarray):
+def rows(states: np.ndarray, open_rows: np.ndarray, axes: Sequence[int], fine: np.ndarray, turn: float,
+         drift: float, rules: Sequence[np.ndarray], boxes: np.ndarray, periods: np.ndarray,
+         left_open: np.ndarray):
     """Fill boxes (n, 3, 2) and periods (n,) of the open rows of states (n, 3), as far as their bits in
     left_open (n,) ask; the bits of what is settled go.
 
     axes: the two across the axis and the axis; fine: (10, 2) high and low parts of the constants of the
-    reduction; drift: what K changes by a radian of a circle; rules: nodes and weights.
+    reduction; turn: arc of a full circle, inf on other orbits; drift: what K changes by a radian of it;
+    rules: nodes and weights.
     """
     nodes, nearby, weights, levels = rules
     cuts, roots, arcs, points = np.empty((2, 8)), np.empty(8), np.empty(POINTS), np.empty((POINTS, 4))
     stops, t = np.empty((POINTS + 3, STOP_COLUMNS)), np.empty(MAX_COEFFICIENTS + 8)
     e = fine[E, 0]
     n = np.sqrt(abs(e))
-    turn = 2 * np.pi / n if e < 0 else INFINITY
     for row in open_rows:
         request, state = int(left_open[row]), states[row]
         origin = base_of(state, axes, fine)
