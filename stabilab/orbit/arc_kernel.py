@@ -164,6 +164,24 @@ def kinetic(y: float, series: Sequence[float]):
             abs(k) + abs(first) + abs(second) + abs(third) + abs(fourth) + abs(fifth))
 
 
+def stationary(speed: float, bend: float, n: float, e: float, left: float):
+    """(the first arc beyond left where speed (1 + e S2) + bend S1 vanishes; how far the next is from there);
+    inf where there is none."""
+    if e < 0:
+        first, half = -np.arctan(n * speed / bend) / n if bend != 0 else 0.5 * np.pi / n, np.pi / n
+        return first + half * np.ceil((left - first) / half), half
+    if e > 0:
+        return -np.arctanh(n * speed / bend) / n if abs(n * speed) < abs(bend) else INFINITY, INFINITY
+    return -speed / bend if bend != 0 else INFINITY, INFINITY
+
+
+def component(at: float, speed: float, bend: float, e: float, y: float):
+    """(value, size of its terms, slope) of at + speed S1 + bend S2 at an arc."""
+    s1, s2, _ = entire(e, y)
+    first, second = speed * s1, bend * s2
+    return at + (first + second), abs(at) + abs(first) + abs(second), speed * (1 + e * s2) + bend * s1
+
+
 # --- The period
 def converged(now: float, last: float, middle: float, first: float):
     """Whether a sum over nodes is its integral, given what it changed by as its nodes were doubled: the last,
@@ -295,9 +313,10 @@ def series_of(stop: np.ndarray):
 
 
 def period_in_pieces(stops: np.ndarray, count: int, nearby: np.ndarray, weights: np.ndarray,
-                     levels: np.ndarray):
-    """(period, its relative error) by the double-exponential rule from stop to stop, K from the nearer one;
-    NaN, inf where a sum does not settle."""
+                     levels: np.ndarray, turning: bool):
+    """(time from the first stop to the last and back, its relative error) by the double-exponential rule from
+    stop to stop, K from the nearer one; NaN, inf where a sum does not settle. turning: whether the motion
+    turns at the first and at the last."""
     period, worst = 0.0, 1.0
     for n in range(count - 1):
         here, there = series_of(stops[n]), series_of(stops[n + 1])
@@ -311,7 +330,7 @@ def period_in_pieces(stops: np.ndarray, count: int, nearby: np.ndarray, weights:
             for node in range(levels[level], levels[level + 1]):
                 part, far, scale = abs(nearby[node]), nearby[node] < 0, 1.0
                 # the arc from a turning point is L x^2, which takes its root away; not so between two of them
-                if count > 2 and (n == 0 or n == count - 2):
+                if turning and count > 2 and (n == 0 or n == count - 2):
                     at_turn = far == (n > 0)
                     part, scale = ((part * part, 2 * part) if at_turn
                                    else (part * (2 - part), 2 * (1 - part)))

@@ -8,7 +8,6 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, NamedTuple
@@ -127,14 +126,6 @@ class Landscape:
         """(n,) size of the energy's terms, canonical."""
         raise NotImplementedError
 
-    def unrolled(self, place: Sequence[np.ndarray], offset: np.ndarray, spot: np.ndarray):
-        """Offsets of equilibria as near to the state as a turn allows; (n, m)."""
-        return offset
-
-    def repeated(self, offset: np.ndarray, spot: np.ndarray, energy: np.ndarray, barrier: np.ndarray):
-        """Equilibria along the orbit, on a circle those of one turn behind and of one ahead."""
-        return offset, spot, energy, barrier
-
     def may_have_barriers(self) -> bool:
         """False where no orbit has a barrier."""
         return True
@@ -174,36 +165,6 @@ class Landscape:
         with np.errstate(all="ignore"):
             step = -self.potential.force(point) / self.potential.slope(point)
             return np.where(np.abs(step) < 0.5, step, 0.0)  # false for nan too
-
-
-@dataclass(frozen=True)
-class Spots:
-    """Equilibria along the orbit, ascending in offset (n, m): places (2, n, m), energy above each (n, m) =
-    E - V(spot), barrier or well; `there` marks the real ones (the rest are padding at +inf)."""
-
-    offset: np.ndarray
-    place: np.ndarray
-    energy: np.ndarray
-    barrier: np.ndarray
-    there: np.ndarray
-
-
-def spots_along(land: Landscape, location: Sequence[np.ndarray], w: np.ndarray) -> Spots:
-    """All equilibria near the state along its orbit, on a circle those of one turn behind and one ahead."""
-    offset, point, barrier = land.critical(location)
-    energy = np.full(offset.shape, np.nan)
-    kinetic = 0.5 * w * w
-    with np.errstate(all="ignore"):
-        offset = land.unrolled(location, offset, point)
-        for column in range(offset.shape[1]):
-            energy[:, column] = kinetic + land.potential.rise(-offset[:, column], point[:, :, column])
-        offset, point, energy, barrier = land.repeated(offset, point, energy, barrier)
-    order = np.argsort(np.where(np.isnan(offset), np.inf, offset), axis=1, kind="stable")
-    take = lambda a: np.take_along_axis(a, order, axis=1)
-    offset = take(offset)
-    there = ~np.isnan(offset)
-    return Spots(np.where(there, offset, np.inf), np.stack([take(point[0]), take(point[1])]), take(energy),
-                 take(barrier) & there, there)
 
 
 class ConicLandscape(Landscape):
@@ -373,18 +334,6 @@ class CircleLandscape(ConicLandscape):
     def way(self, spot: Sequence[np.ndarray], place: Sequence[np.ndarray], near: np.ndarray):
         angle = angle_between(spot, place)
         return angle + TURN * np.round((near - angle) / TURN)
-
-    def unrolled(self, place: Sequence[np.ndarray], offset: np.ndarray, spot: np.ndarray):
-        # a turn more would cost the energy over a well just behind its digits
-        return np.where(offset > np.pi, angle_between((place[0][:, None], place[1][:, None]), spot), offset)
-
-    def repeated(self, offset: np.ndarray, spot: np.ndarray, energy: np.ndarray, barrier: np.ndarray):
-        # one turn earlier the tilt has lifted the potential by 2 pi mu
-        behind, fall = offset <= 0, TURN * self.potential.mu
-        offset = np.concatenate([offset - TURN * ~behind, offset + TURN * behind], axis=1)
-        energy = np.concatenate([energy - fall * ~behind, energy + fall * behind], axis=1)
-        return offset, np.concatenate([spot, spot],
-                                      axis=2), energy, np.concatenate([barrier, barrier], axis=1)
 
 
 class HyperbolaLandscape(ConicLandscape):

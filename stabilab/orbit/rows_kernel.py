@@ -34,12 +34,13 @@ from .arc_kernel import (
     U,
     V,
     base_of,
-    entire,
+    component,
     kinetic,
     moved,
     period_about,
     period_in_pieces,
     rounded,
+    stationary,
     stop_at,
 )
 from .equilibria_kernel import (
@@ -218,24 +219,6 @@ def ends_about_middle(base: Sequence[Pair], left: float, right: float, e: float,
 
 
 # --- Extremes
-def stationary(speed: float, bend: float, n: float, e: float, left: float):
-    """(the first arc beyond left where speed (1 + e S2) + bend S1 vanishes; how far the next is from there);
-    inf where there is none."""
-    if e < 0:
-        first, half = -np.arctan(n * speed / bend) / n if bend != 0 else 0.5 * np.pi / n, np.pi / n
-        return first + half * np.ceil((left - first) / half), half
-    if e > 0:
-        return -np.arctanh(n * speed / bend) / n if abs(n * speed) < abs(bend) else INFINITY, INFINITY
-    return -speed / bend if bend != 0 else INFINITY, INFINITY
-
-
-def component(at: float, speed: float, bend: float, e: float, y: float):
-    """(value, size of its terms, slope) of at + speed S1 + bend S2 at an arc."""
-    s1, s2, _ = entire(e, y)
-    first, second = speed * s1, bend * s2
-    return at + (first + second), abs(at) + abs(first) + abs(second), speed * (1 + e * s2) + bend * s1
-
-
 def range_of(at: float, speed: float, bend: float, n: float, e: float, left: Sequence[float],
              right: Sequence[float]):
     """(least, most, error) of such a component between the two ends of a motion."""
@@ -358,7 +341,7 @@ def rows(states: np.ndarray, open_rows: np.ndarray, axes: Sequence[int], fine: n
                 break
         if request & PERIOD:
             total = stops_between(left, right, start != 0, base, count, points, fine, stops)
-            period, error = period_in_pieces(stops, total, nearby, weights, levels)
+            period, error = period_in_pieces(stops, total, nearby, weights, levels, True)
             if error <= PERIOD_DIGITS:
                 periods[row] = period
                 request -= PERIOD
