@@ -42,18 +42,10 @@ def proofs():
     motion(case.scene, case.state, proof=True)
 
 
-def rows(name):
-    """Of extremes and periods of many states, on one geometry."""
-    scene = load(CASES / f"{name}.toml").scene
+def rows():
+    """Of extremes and periods of many states."""
+    scene = load(CASES / "minor-axis-100.toml").scene
     extremes_and_periods(scene, np.random.default_rng(6).normal(size=(40, 3)), by_numba=True)
-
-
-def circles():
-    rows("minor-axis-100")
-
-
-def hyperbolas():
-    rows("middle-axis-100")
 
 
 def rewritten():
@@ -62,7 +54,7 @@ def rewritten():
         pytest.main(["--collect-only", "-qq"])
 
 
-COMPILED = circles, hyperbolas, searches, proofs
+COMPILED = rows, searches, proofs
 
 if __name__ == "__main__":
     with ProcessPoolExecutor(2) as pool:

@@ -45,16 +45,24 @@ def compiled(module: ModuleType, inlined: Container[str] = (), variant: str = ""
 
 def twins(module: ModuleType, make: Callable[[str, FunctionType], Any], variant: str = "",
           **instead: Any) -> dict[str, Any]:
-    """The names of a module with `make` of a twin of each of its functions, and of sums of twofold numbers,
-    which sees these names; instead, variant: as of `compiled`."""
-    names: dict[str, Any] = vars(error_free) | vars(module) | instead
+    """The names of a module and of those below it (`_below`) with `make` of a twin of each of their
+    functions, which sees these names; instead, variant: as of `compiled`."""
+    modules, names = (*_below(module), module), {}
+    for each in modules:
+        names |= vars(each)
+    names |= instead
+    files = {each.__name__ for each in modules}
     for name, function in list(names.items()):
-        if isinstance(function, FunctionType) and function.__module__ in (module.__name__,
-                                                                          error_free.__name__):
+        if isinstance(function, FunctionType) and function.__module__ in files:
             twin = FunctionType(function.__code__, names, name)
             twin.__qualname__ += variant
             names[name] = make(name, twin)
     return names
+
+
+def _below(module: ModuleType) -> tuple[ModuleType, ...]:
+    """The modules whose functions a module's call: sums of twofold numbers, and what its `BELOW` names."""
+    return error_free, *getattr(module, "BELOW", ())
 
 
 def _kept(make: Callable[[bool], Any]) -> Any:
@@ -70,7 +78,7 @@ def _compiled(module: ModuleType, inlined: Container[str], cache: bool, variant:
               instead: dict[str, Any]) -> dict[str, Any]:
     from numba import njit
     # numba's cache on disk watches the file of a function alone, not what is inlined from another
-    stamp = crc32(Path(error_free.__file__).read_bytes())
+    stamp = crc32(b"".join(Path(str(each.__file__)).read_bytes() for each in _below(module)))
 
     def make(name: str, twin: FunctionType) -> Any:
         inline = name in inlined or hasattr(error_free, name)

@@ -1,39 +1,23 @@
-"""Extremes and periods of many states: fates first, then librations row by row, the rest by NumPy, and
-balls for what these leave open.
-
-NumPy answers the rows that no two turning points bound: at rest, round a circle without torque, spinning
-up. Librations go to the kernels (`rows_kernel`, `parabola_kernel`), which numba compiles.
-
-Balls take what doubles would lose, next to a separatrix or far from the centre of the orbits."""
+"""Extremes and periods of many states: fates first, then row by row what swings between two turning points
+(`rows_kernel`) or goes round a circle (`turns_kernel`), which numba compiles, the rest by NumPy, and balls
+for what these leave open."""
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from fractions import Fraction
-from functools import lru_cache, partial
+from collections.abc import Callable
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..errors import InputError
-from ..numbers.double_double import TURN, Twofold
-from ..numbers.numba_door import compiled, installed, twins
+from ..numbers.numba_door import compiled, installed
 from ..physics.coefficients import effective
 from ..physics.states import checked_states
-from . import parabola_kernel, rows_kernel
+from . import rows_kernel, turns_kernel
+from .arc_kernel import INLINED
 from .extremes import precise_extremes, precise_period
-from .fate_arrays import CHUNK, FateResult, fate_on_orbit, fates, rows_beyond_doubles
-from .landscape import (
-    CENTRE,
-    CircleLandscape,
-    ConicLandscape,
-    HyperbolaLandscape,
-    Landscape,
-    ParabolaLandscape,
-    Spots,
-    landscape,
-    spots_along,
-    twofold_constant,
-)
+from .fate_arrays import CHUNK, COLD, WARM, FateResult, fate_on_orbit, fates, rows_beyond_doubles
+from .landscape import HyperbolaLandscape, Landscape, ParabolaLandscape, landscape
 from .one_orbit import Orbit
 from .one_state import far_numbers
 from .reduction import reduce
@@ -43,19 +27,13 @@ from .rows_kernel import BOX, PERIOD
 if TYPE_CHECKING:
     from ..physics.scene import AnyScene
 
-# --- Rows by NumPy: at rest, round a circle without torque, spinning up
-# closer to the separatrix than this share of the energy terms, rounding costs extremes 1e-12
-EXTREMES_SHARE = 1e-7
-# the same for the least rate of a motion that just passes a barrier: the root of a difference
+# --- Rows by NumPy: at rest, on an invariant plane, along a parabola without a force that changes
+# closer to the separatrix than this share of the energy terms, rounding costs the least rate of a motion that
+# just passes a barrier 1e-12: the root of a difference
 SPIN_UP_SHARE = 1e-4
-PERIOD_SHARE = 1e-5  # the same for a period, 1e-11
 ON_TOP = 1e-13  # of the terms of the force, some hundreds of roundings
-# canonical variables lose this factor of accuracy to the shift before the precise path takes over
+# canonical variables lose this factor of accuracy to the shift before balls serve
 SHIFT_LIMIT = 1e4
-# relative, of the sums over so many nodes and twice as many: the error left is its square; rounding leaves
-# some 1e-13
-AGREE = 1e-12
-MOST_NODES = 1 << 15  # more than the peaks of the integrand ask for at `PERIOD_SHARE`
 
 
 def trapped_rows(land: Landscape, decided: FateResult):
@@ -64,178 +42,61 @@ def trapped_rows(land: Landscape, decided: FateResult):
     return trapped & (decided.margins >= 0) if land.may_rotate else trapped
 
 
-def needs_digits(land: Landscape, states: np.ndarray):
-    """(n,) True where the canonical shift is so large that doubles would lose digits (nearly equal moments,
-    or a wheel on the axis of symmetry of a body that hardly turns about it)."""
-    r = land.reduction
-    shift, along = r.parabolic_shift_size, abs(float(r.s))
-    lost = np.zeros(len(states), bool)
-    if shift:
-        lost |= shift > SHIFT_LIMIT * np.maximum(np.abs(states).max(axis=1), 1e-300)
-    return lost | (along > SHIFT_LIMIT * np.abs(states[:, r.axis])) if along else lost
-
-
-def on_top(land: Landscape, location: Sequence[np.ndarray]):
-    """(n,) True where the state is at the place of a barrier to rounding: before it or behind, doubles do not
-    tell."""
-    pot = land.potential
-    return (np.abs(pot.force(location)) <= ON_TOP * pot.terms(location)) & (pot.slope(location) > 0)
-
-
-def near_separatrix(land: Landscape, location: Sequence[np.ndarray], w: np.ndarray, margins: np.ndarray,
-                    fraction: float | np.ndarray):
-    """(n,) True where the margin is below `fraction` of the energy's terms: turning points and periods
-    magnify its rounding there."""
-    return np.abs(margins) <= fraction * land.reduction.energy_unit * land.energy_terms(location, w)
-
-
 def open_extremes(land: Landscape, states, labels, margins):
-    """Extremes (n, 3, 2) of rows that are not `trapped_rows`; NaN where these are left to balls."""
+    """Extremes (n, 3, 2) of rows that neither two turning points bound nor a circle; NaN where these are left
+    to balls."""
     out = np.repeat(states[:, :, None], 2, axis=2)
-    moving = np.nonzero((labels != Fate.EQUILIBRIUM) & (labels != Fate.UNDECIDED))[0]
-    if not moving.size:
-        return out
-    states, labels, margins = states[moving], labels[moving], margins[moving]
-    location, w, _ = land.start(states)
-    fraction = np.where(labels == Fate.SPIN_UP, SPIN_UP_SHARE, EXTREMES_SHARE)
-    doubtful = (needs_digits(land, states) | land.beside_centre(location)
-                | near_separatrix(land, location, w, margins, fraction))
-    doubtful |= on_top(land, location)
-    values = np.full((len(states), 3, 2), np.nan)
-    ranges: tuple[tuple[Fate, Callable[..., np.ndarray]], ...] = (
-        (Fate.BOUNDED, _rotating), (Fate.SPIN_UP, SPINNING[land.e]))
-    for label, extremes in ranges:
-        rows = (labels == label) & ~doubtful
-        if rows.any():
-            values[rows] = extremes(land, tuple(v[rows] for v in location), w[rows])
-    out[moving] = values
+    out[(labels != Fate.EQUILIBRIUM) & (labels != Fate.UNDECIDED)] = np.nan
+    rows = np.nonzero(labels == Fate.SPIN_UP)[0]
+    if rows.size:
+        out[rows] = SPINNING[land.e](land, states[rows], margins[rows])
     return out
 
 
-def rotation_periods(land: Landscape, states: np.ndarray, margins: np.ndarray):
-    """Periods (n,) of motions without torque over all barriers of a circle; NaN where these are left to
-    balls."""
-    location, w, _ = land.start(states)
-    values = np.full(len(states), np.nan)
-    doubtful = needs_digits(land, states) | near_separatrix(land, location, w, margins, PERIOD_SHARE)
-    live, before, nodes = np.nonzero(~doubtful)[0], np.full(np.count_nonzero(~doubtful), np.nan), 16
-    force = land.potential.force(location)
-    # the integrand is periodic: the plain sum converges geometrically
-    while live.size and nodes <= MOST_NODES:
-        now, item = np.zeros(len(live)), tuple(v[live] for v in location)
-        for angle in np.arange(nodes) * (TURN / nodes):
-            with np.errstate(all="ignore"):
-                rise = land.potential.rise(np.full(len(live), angle), item, force[live])
-                now += 1 / np.sqrt(np.maximum(w[live] ** 2 - 2 * rise, 0))
-        now *= TURN / nodes
-        done = np.abs(now - before) <= AGREE * now
-        values[live[done]] = now[done]
-        live, before, nodes = live[~done], now[~done], 2 * nodes
-    return values
-
-
-def _components(land: ConicLandscape, low: Sequence[np.ndarray], high: Sequence[np.ndarray],
-                w_low: np.ndarray, w_high: np.ndarray):
-    """(n, 3, 2) from canonical ranges, whatever signs the change of variables has."""
-    a, b = land.components(low, w_low), land.components(high, w_high)
-    return np.stack([np.minimum(a, b), np.maximum(a, b)], axis=2)
-
-
-def _rotating(land: CircleLandscape, location: Sequence[np.ndarray], w: np.ndarray):
-    """Torque-free motions over all barriers of the circle: the whole circle, one sign of W."""
-    spots = spots_along(land, location, w)
-    energy = np.where(spots.there, spots.energy, np.nan)
+def _spinning_on_plane(land: HyperbolaLandscape, states: np.ndarray, margins: np.ndarray):
+    """On the decaying plane xi = 0: eta shrinks to 0, and the least rate is here or over a barrier ahead.
+    NaN for the excursion back to a turning point behind, next to a separatrix, at a barrier's location to
+    rounding, and where the centre of the orbits stands far off."""
+    (xi, eta), w, _ = land.start(states)
+    r, pot, zero = land.reduction, land.potential, np.zeros(len(w))
+    point = xi, eta
+    offset, spots, barrier = land.critical(point)
+    slowest = np.array(w)
     with np.errstate(all="ignore"):
-        energies = np.concatenate([energy, 0.5 * w[:, None] ** 2], axis=1)
-        slow, fast = np.sqrt(2 * np.nanmin(energies, axis=1)), np.sqrt(2 * np.nanmax(energies, axis=1))
-    radius = np.hypot(*location)
-    sign = np.sign(w)
-    return _components(land, (-radius, -radius), (radius, radius), sign * slow, sign * fast)
+        for column in range(offset.shape[1]):
+            over = 0.5 * w * w + pot.rise(-offset[:, column], spots[:, :, column])
+            ahead = barrier[:, column] & (offset[:, column] > 0)
+            slowest = np.where(ahead, np.minimum(slowest, np.sqrt(2 * np.maximum(over, 0))), slowest)
+    doubtful = r.parabolic_shift_size > SHIFT_LIMIT * np.maximum(np.abs(states).max(axis=1), 1e-300)
+    doubtful |= np.abs(margins) <= SPIN_UP_SHARE * r.energy_unit * land.energy_terms(point, w)
+    doubtful |= (np.abs(pot.force(point)) <= ON_TOP * pot.terms(point)) & (pot.slope(point) > 0)
+    slowest[((w < 0) & (eta != 0)) | doubtful | land.beside_centre(point)] = np.nan
+    one = land.components((zero, np.minimum(eta, 0)), slowest)
+    other = land.components((zero, np.maximum(eta, 0)), np.where(np.isnan(slowest), np.nan, np.inf))
+    return np.stack([np.minimum(one, other), np.maximum(one, other)], axis=2)
 
 
-def _spinning_round(land: CircleLandscape, location: Sequence[np.ndarray], w: np.ndarray):
-    """Over the future of a spin-up, W -> +inf, on a circle: all of it, from the slowest rate on."""
-    radius = np.hypot(*location)
-    return _components(land, (-radius, -radius), (radius, radius), _slowest_ahead(land, location, w),
-                       np.full(len(w), np.inf))
-
-
-def _slowest_ahead(land: CircleLandscape, location: Sequence[np.ndarray], w: np.ndarray):
-    """The least W over the future: over the barriers ahead, or on the way to the turning point behind if W <
-    0."""
-    spots = spots_along(land, location, w)
-    slowest = _over_barriers_ahead(spots, w)
-    back = w < 0
-    if back.any():
-        # the wells between the turning point on the left and the state
-        fastest = _fastest_behind(land, tuple(v[back] for v in location), w[back])
-        slowest[back] = -np.sqrt(2 * fastest)
-    return slowest
-
-
-def _over_barriers_ahead(spots: Spots, w: np.ndarray):
-    ahead = np.where(spots.there & (spots.offset > 0), spots.energy, np.inf)
-    with np.errstate(all="ignore"):
-        return np.minimum(w, np.sqrt(2 * np.maximum(ahead.min(axis=1, initial=np.inf), 0)))
-
-
-def _fastest_behind(land: CircleLandscape, location: Sequence[np.ndarray], w: np.ndarray):
-    """Largest W^2/2 between the turning point behind and the state, for W < 0 on a tilted circle.
-
-    Wells further back than one turn are higher by 2 pi mu, so the first turn behind decides.
-    """
-    best, blocked = 0.5 * w * w, np.zeros(len(w), bool)
-    spots = spots_along(land, location, w)
-    for column in range(spots.offset.shape[1] - 1, -1, -1):
-        here = spots.there[:, column] & (spots.offset[:, column] < 0)
-        blocked |= here & spots.barrier[:, column] & (spots.energy[:, column] < 0)
-        well = here & ~blocked & ~spots.barrier[:, column]
-        best = np.where(well, np.maximum(best, spots.energy[:, column]), best)
-    return best
-
-
-def _spinning_on_plane(land: HyperbolaLandscape, location: Sequence[np.ndarray], w: np.ndarray):
-    """On the decaying plane xi = 0: eta shrinks to 0. Balls tell the excursion back to a turning point
-    behind."""
-    eta, zero = location[1], np.zeros(len(w))
-    slowest = _over_barriers_ahead(spots_along(land, location, w), w)
-    slowest[(w < 0) & (eta != 0)] = np.nan
-    return _components(land, (zero, np.minimum(eta, 0)), (zero, np.maximum(eta, 0)), slowest,
-                       np.full(len(w), np.inf))
-
-
-def _spinning_purely(land: ParabolaLandscape, location: Sequence[np.ndarray], w: np.ndarray):
+def _spinning_purely(land: ParabolaLandscape, states: np.ndarray, margins: np.ndarray):
     """Along a parabola whose force does not change: both other rates stay."""
-    sense, start = land.sense, land.components(location, w)
-    spun = np.arange(3) == land.reduction.axis
-    low, high = (-np.inf, start) if sense < 0 else (start, np.inf)
-    return np.stack([np.where(spun, low, start), np.where(spun, high, start)], axis=2)
+    out = np.repeat(states[:, :, None], 2, axis=2)
+    out[:, land.reduction.axis, 1 if land.sense > 0 else 0] = land.sense * np.inf
+    return out
 
 
-SPINNING: dict[int, Callable[..., np.ndarray]] = {
-    -1: _spinning_round, 1: _spinning_on_plane, 0: _spinning_purely}
+SPINNING: dict[int, Callable[..., np.ndarray]] = {1: _spinning_on_plane, 0: _spinning_purely}
 
 
-# --- Librations row by row, by the kernels
-# Functions without which loops call instead of adding
-INLINED = {"swing", "lag", "sinc_cos", "sinc_minus_cos", "sinhc_and_rest", "way_of_cosine", "converged",
-           "rounding_of"}
-INLINED_ON_PARABOLAS = {"quartic", "cubic", "bend", "terms_of", "blur_of_force", "place_at"}
-# Loading the code from disk costs some 0.3 s of a processor, compiling it once per machine some ten for each
-# geometry;
-# a row of plain Python costs two milliseconds.
-COLD, WARM = 1000, 20
-STRAIGHT = 1e-6  # of the slopes, as in `conic`: a circle so small hardly sees the bend of its equilibria
-PARABOLA = "p", "p0", "q", "q0", "kappa", "rho", "sigma", "m", "s"
+# --- Row by row, by the kernels
 REACH = 3.45  # of t: beyond, the weights of double-exponential nodes are 1e-20
 LAST_LEVEL = 8  # of these nodes, whose steps are 2^-level
 HALVED = 8, 16, 32, 64  # intervals whose midpoints are added to the trapezoidal nodes of eight
+KERNELS = {"rows": rows_kernel, "turns": turns_kernel}
 
 
 def settle_rows(land: Landscape, states: np.ndarray, boxes: np.ndarray, periods: np.ndarray,
-                left_open: np.ndarray, by_numba: bool | None = None):
-    """Fill boxes (n, 3, 2) and periods (n,), each unless it is empty, of the librations of states (n, 3) that
-    are open.
+                left_open: np.ndarray, by_numba: bool | None = None, kernel: str = "rows"):
+    """Fill boxes (n, 3, 2) and periods (n,), each unless it is empty, of the open ones of states (n, 3):
+    librations, or by the kernel of turns motions all round a circle.
 
     left_open: (n,) bits, `BOX` and `PERIOD`, of which those that are settled are cleared. by_numba: whether
     compiled code serves, where numba is installed; None: where so many rows repay loading it.
@@ -244,68 +105,20 @@ def settle_rows(land: Landscape, states: np.ndarray, boxes: np.ndarray, periods:
     if not rows.size:
         return
     if by_numba is None:
-        by_numba = rows.size >= (WARM if COMPILED[land.base].cache_info().currsize else COLD)
-    kernel = COMPILED[land.base]() if by_numba and installed() else plain(land.base)
+        by_numba = rows.size >= (WARM if compiled_kernel.cache_info().currsize else COLD)
+    function = (compiled_kernel if by_numba and installed() else _plain)(kernel)
     with np.errstate(all="ignore"):
-        kernel(states, rows, *kernel_input(land), boxes, periods, left_open)
+        function(states, rows, *land.kernel_input, rules(), boxes, periods, left_open)
 
 
-@lru_cache(maxsize=3)
-def plain(base: str):
-    """`rows` on a geometry, named as landscapes name it, in plain Python."""
-    module, _, names = _module(base)
-    return twins(module, lambda name, twin: twin, **names)["rows"]
+def _plain(name: str):
+    return getattr(KERNELS[name], name)
 
 
-def _module(base: str):
-    """(module with the kernel of a geometry, its functions to inline, the names that are the geometry's own).
-    """
-    if base == "parabola":
-        return parabola_kernel, INLINED_ON_PARABOLAS, {}
-    return rows_kernel, INLINED, rows_kernel.functions_of(rows_kernel.GEOMETRIES[base])
-
-
-def _compiled(base: str):
-    module, inlined, names = _module(base)
-    return compiled(module, inlined, base, **names)["rows"]
-
-
-COMPILED = {base: lru_cache(maxsize=1)(partial(_compiled, base))
-            for base in ("circle", "hyperbola", "parabola")}
-
-
-@lru_cache(maxsize=64)
-def kernel_input(land: Landscape):
-    """The numbers of a landscape as its kernel takes them, between the rows and what these fill."""
-    r = land.reduction
-    shift = float(r.s)
-    rest = float(r.s - Fraction(shift))
-    axes = r.j, r.k, r.axis
-    if land.conic is None:
-        return axes, _parts([twofold_constant(getattr(r, name)) for name in PARABOLA]), *np.empty((3, 3))
-    conic, g = land.conic, r.constants
-    # of conics
-    fine = *land.twofold, twofold_constant(r.exact_constants["n"] ** 2 / 2)  # type: ignore[attr-defined]
-    lines, straight, beside = conic.lines, np.inf, 0.0
-    if conic.pieces:
-        centre = CENTRE * (abs(conic.c) + abs(conic.d)) / abs(conic.G)
-        beside = centre if conic.mu <= (abs(conic.c) + abs(conic.d)) * centre else 0.0
-        lines, straight = (), -np.inf
-        if land.e < 0 and conic.limit is not None:
-            lines, straight = (conic.limit,), float(STRAIGHT * np.hypot(conic.c, conic.d) / conic.G) ** 2
-    form = g["flip"] * g["rx"], g["rz"], g["flip"] / g["n"], shift, rest, straight
-    numbers = tuple(map(float, (conic.c, conic.d, conic.G, conic.mu, conic.K, conic.shift, beside)))
-    pieces = np.array([(p.sign, p.inner, p.outer, p.rising, p.barrier, *conic.reach(p))
-                       for p in conic.pieces], float)
-    points = np.array([(*line, side) for line in lines for side in (-1, 1)], float)
-    folds = np.array(conic.fold_invariants + conic.tangents, float)
-    return (_parts(fine).ravel(), form, axes, numbers, pieces.reshape(-1, 7), points.reshape(-1, 5), folds,
-            rules())
-
-
-def _parts(numbers: Sequence[Twofold]):
-    """(n, 2) high and low parts of twofold numbers."""
-    return np.array([(float(number.high), float(number.low)) for number in numbers])
+@lru_cache(maxsize=2)
+def compiled_kernel(name: str):
+    """The function of that name compiled."""
+    return compiled(KERNELS[name], INLINED)[name]
 
 
 @lru_cache(maxsize=1)
@@ -369,22 +182,23 @@ def _of_chunk(scene: AnyScene, states: np.ndarray, box: bool, period: bool, by_n
     land = landscape(scene)
     decided = fate_on_orbit(scene, land, states)
     boxes, periods = np.empty((len(states) if box else 0, 3, 2)), np.empty(len(states) if period else 0)
-    trapped = trapped_rows(land, decided)
+    bounded, trapped = decided.labels == Fate.BOUNDED, trapped_rows(land, decided)
+    spinning = (decided.labels == Fate.SPIN_UP) & (land.turn < np.inf)
     left_open = np.where(trapped, BOX * box + PERIOD * period, 0).astype(np.uint8)
     settle_rows(land, states, boxes, periods, left_open, by_numba)
+    turning = np.where(bounded & ~trapped, BOX * box + PERIOD * period, BOX * box * spinning).astype(np.uint8)
+    settle_rows(land, states, boxes, periods, turning, by_numba, "turns")
+    left_open |= turning
     if box:
-        boxes[~trapped] = open_extremes(land, states[~trapped], decided.labels[~trapped],
-                                        decided.margins[~trapped])
-        for index in np.nonzero((left_open & BOX > 0) | (~trapped & np.isnan(boxes).any(axis=(1, 2))))[0]:
+        others = ~bounded & ~spinning
+        boxes[others] = open_extremes(land, states[others], decided.labels[others], decided.margins[others])
+        for index in np.nonzero((left_open & BOX > 0) | (others & np.isnan(boxes).any(axis=(1, 2))))[0]:
             boxes[index] = precise_extremes(Orbit(land.reduction, states[index]), int(decided.labels[index]))
         boxes[:, :, 0] = np.minimum(boxes[:, :, 0], states)  # rounding must not exclude the state itself
         boxes[:, :, 1] = np.maximum(boxes[:, :, 1], states)
     if period:
-        rotating = (decided.labels == Fate.BOUNDED) & ~trapped
-        other = decided.labels != Fate.BOUNDED
-        periods[other] = [without_return(label) for label in decided.labels[other]]
-        periods[rotating] = rotation_periods(land, states[rotating], decided.margins[rotating])
-        for index in np.nonzero((left_open & PERIOD > 0) | (rotating & np.isnan(periods)))[0]:
+        periods[~bounded] = [without_return(label) for label in decided.labels[~bounded]]
+        for index in np.nonzero(left_open & PERIOD)[0]:
             periods[index] = precise_period(Orbit(land.reduction, states[index]), Fate.BOUNDED)
     return boxes, periods
 

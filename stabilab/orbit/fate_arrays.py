@@ -26,15 +26,18 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..numbers.double_double import EPS, TURN
+from ..numbers.numba_door import compiled, installed
 from ..numbers.polynomial import bracketed_newton
 from ..physics.coefficients import limits_of
 from ..physics.own_unit import far_exponent
 from ..physics.scene import AnyScene, Scene
 from ..physics.states import equilibrium_mask
 from ..representation import Compared, Shown
+from . import margins_kernel
+from .arc_kernel import INLINED
 from .fate import REASONS, Basis, decide, fate_of, free_middle, is_free, margin_at_rest
 from .landscape import ROUNDINGS, ConicLandscape, Landscape, in_doubles, landscape
-from .margins import MARGIN_SHARE, valley_margins
+from .margins_kernel import MARGIN_SHARE
 from .one_orbit import Orbit
 from .one_state import LOST, far_fate, far_rows
 from .potential import Hyperbola, Parabola, derivatives_on_parabola
@@ -43,6 +46,9 @@ from .result import Fate, spins_about
 from .separatrix.distance import separatrix_distance
 
 # --- The answer
+# Loading the kernels' code from disk costs some 0.6 s of a processor, compiling it once per machine some ten;
+# a row of plain Python costs a third of a millisecond at most.
+COLD, WARM = 1000, 20
 CHUNK = 32768  # states at a time: some thirty arrays of so many doubles stay in the processor's caches
 
 
@@ -377,8 +383,13 @@ def _label(scene: AnyScene, states: np.ndarray, out: Mapping[str, np.ndarray]) -
     for part in chunks(len(states)):
         doubtful[part] = _label_chunk(scene, land, states[part], _rows_of(out, part))
     rows = np.nonzero(doubtful)[0]
-    if land is not None:
-        rows = _settled(land, states, out["margins"], rows, land.reduction.energy_unit)
+    if land is not None and rows.size:
+        some = _rows_of(out, rows)  # copies
+        left = _settled(land, states[rows], some["margins"])
+        _mark_spins(land, some)
+        for name, column in some.items():
+            out[name][rows] = column
+        rows = rows[left]
     for index in rows:
         write_row(out, index, *fate_of(scene, Orbit(reduce(scene), states[index].tolist())))
     for part in chunks(len(states)):
@@ -402,17 +413,22 @@ def _label_chunk(scene: AnyScene, land: Landscape | None, states: np.ndarray, ou
     margins, doubtful = _margins(land, location, w, size)
     np.multiply(margins, land.reduction.energy_unit, out=out["margins"])
     out["reasons"][:] = Basis.WALLS if land.potential.walled else Basis.TORQUE_FREE
-    if land.sense and not land.potential.walled:
-        spins = (margins <= 0).view(np.int8)
-        out["labels"][:] = spins  # `Fate.BOUNDED` or `SPIN_UP`
-        # `Basis.BELOW_BARRIER`, `ABOVE_BARRIER` or `NO_BARRIER`
-        out["reasons"][:] = spins + np.isneginf(margins)
-        out["axis"][:] = spins * np.int8(land.reduction.axis + 1)
-        out["sense"][:] = spins * np.int8(land.sense)
+    _mark_spins(land, out)
     for index in np.nonzero(flat_mask(land, states, location))[0]:
         write_row(out, index, Fate.SPIN_UP, Basis.PURE_SPIN, -np.inf, land.reduction.axis + 1, land.sense)
         doubtful[index] = False
     return doubtful
+
+
+def _mark_spins(land: Landscape, out: Mapping[str, np.ndarray]):
+    """Label motions on circles under a torque by their margins; elsewhere walls bound them."""
+    if land.sense and not land.potential.walled:
+        spins = (out["margins"] <= 0).view(np.int8)
+        out["labels"][:] = spins  # `Fate.BOUNDED` or `SPIN_UP`
+        # `Basis.BELOW_BARRIER`, `ABOVE_BARRIER` or `NO_BARRIER`
+        out["reasons"][:] = spins + np.isneginf(out["margins"])
+        out["axis"][:] = spins * np.int8(land.reduction.axis + 1)
+        out["sense"][:] = spins * np.int8(land.sense)
 
 
 def _margins(land, location, w, size):
@@ -426,19 +442,23 @@ def _margins(land, location, w, size):
     return margins, doubtful
 
 
-def _settled(land: Landscape, states: np.ndarray, margins: np.ndarray, rows: np.ndarray, unit: float = 1.0):
-    """Settle the margins (n,), in this unit, of those of the rows that twofold numbers are enough for; the
-    rows that are left."""
-    if not land.potential.walled or not len(rows):
-        return rows
-    left = np.isnan(margins[rows])  # on a plane
-    for part in chunks(len(rows)):
-        some = rows[part]
-        result, sure = valley_margins(land, states[some])
-        sure &= ~left[part]
-        margins[some[sure]] = result[sure] * unit
-        left[part] = ~sure
-    return rows[left]
+def _settled(land: Landscape, states: np.ndarray, margins: np.ndarray, unit: float = 1.0):
+    """Settle the margins (n,) of doubtful states (n, 3), in the scene's energy over this unit, where twofold
+    numbers are enough; which are left, (n,)."""
+    rows = np.nonzero(~np.isnan(margins))[0]  # not on a plane
+    results, settled = np.empty(len(states)), np.zeros(len(states), bool)
+    by_numba = rows.size >= (WARM if compiled_margins.cache_info().currsize else COLD) and installed()
+    function = compiled_margins() if by_numba else margins_kernel.margins
+    with np.errstate(all="ignore"):
+        function(states, rows, *land.kernel_input, results, settled)
+    margins[settled] = results[settled] * (float(land.reduction.weight) / unit)
+    return ~settled
+
+
+@lru_cache(maxsize=1)
+def compiled_margins():
+    """`margins_kernel.margins` compiled."""
+    return compiled(margins_kernel, INLINED)["margins"]
 
 
 def at_rest(scene: AnyScene, states: np.ndarray, out: Mapping[str, np.ndarray]):
@@ -461,7 +481,11 @@ def fate_on_orbit(scene: AnyScene, land: Landscape, states: np.ndarray) -> FateR
     if land.sense or not len(states):
         return result
     margins, doubtful = _margins(land, *land.start(states))
-    for index in _settled(land, states, margins, np.nonzero(doubtful)[0]):
+    rows = np.nonzero(doubtful)[0]
+    some = margins[rows]
+    left = _settled(land, states[rows], some, land.reduction.energy_unit)
+    margins[rows] = some
+    for index in rows[left]:
         if np.isnan(margins[index]):
             margins[index] = 0.0
         else:

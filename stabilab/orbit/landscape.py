@@ -8,7 +8,6 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, NamedTuple
@@ -28,24 +27,19 @@ if TYPE_CHECKING:
 SURE = 1e-20  # of the terms: a sum that is smaller may be zero, which exact arithmetic decides
 
 
-class TwofoldConstants(NamedTuple):
-    """The constants of a reduction as numbers of 32 digits."""
+class TwofoldCentre(NamedTuple):
+    """The centre of a reduction's orbits, and the factors of its canonical variables, to 32 digits."""
 
-    G: Twofold
-    c: Twofold
-    d: Twofold
-    mu: Twofold
     sj: Twofold
     sk: Twofold
     over_x: Twofold  # flip over rx
     over_z: Twofold
 
 
-def twofold_constants(reduction: Reduction) -> TwofoldConstants:
-    """Those of a reduction to circles or hyperbolas."""
+def twofold_centre(reduction: Reduction) -> TwofoldCentre:
+    """That of a reduction to circles or hyperbolas."""
     g = reduction.exact_constants
-    exact = *(g[name] for name in ("G", "c", "d", "mu", "sj", "sk")), g["flip"] / g["rx"], 1 / g["rz"]
-    return TwofoldConstants(*map(twofold_constant, exact))
+    return TwofoldCentre(*map(twofold_constant, (g["sj"], g["sk"], g["flip"] / g["rx"], 1 / g["rz"])))
 
 
 def twofold_constant(value: Fraction) -> Twofold:
@@ -53,12 +47,6 @@ def twofold_constant(value: Fraction) -> Twofold:
     high = float(value)
     # a double broadcasts as an array does
     return Twofold(np.float64(high), np.float64(float(value - Fraction(high))))  # type: ignore[arg-type]
-
-
-def twofold_places(constants: TwofoldConstants, j: int, k: int,
-                   states: np.ndarray) -> tuple[Twofold, Twofold]:
-    """(X, Z) of states (n, 3), whose components across the axis are j and k."""
-    return (constants.sj + states[:, j]) * constants.over_x, (constants.sk + states[:, k]) * constants.over_z
 
 
 # --- Barriers and wells along the orbits of many states at once: what the three geometries have in common,
@@ -92,6 +80,15 @@ class Landscape:
     def may_rotate(self) -> bool:
         """Whether a motion may pass over all barriers and stay bounded."""
         return False
+
+    @cached_property
+    def kernel_input(self):
+        """(axes, high and low parts (10, 2) of the constants as `arc_kernel` names them, arc of a full circle
+        or inf, what K changes by a radian of it)."""
+        r = self.reduction
+        exact = r.p, r.p0, r.q, r.q0, r.kappa, r.rho, r.sigma, r.m, r.p * r.q, r.s
+        fine = np.array([(float(number), float(number - Fraction(float(number)))) for number in exact])
+        return (r.j, r.k, r.axis), fine, self.turn * abs(self.unit), float(r.torque)
 
     def start(self, states: np.ndarray):
         """(place, W, size): place a pair of arrays, size a pair with the magnitudes whose rounding limits the
@@ -128,14 +125,6 @@ class Landscape:
     def energy_terms(self, place: Sequence[np.ndarray], w: np.ndarray):
         """(n,) size of the energy's terms, canonical."""
         raise NotImplementedError
-
-    def unrolled(self, place: Sequence[np.ndarray], offset: np.ndarray, spot: np.ndarray):
-        """Offsets of equilibria as near to the state as a turn allows; (n, m)."""
-        return offset
-
-    def repeated(self, offset: np.ndarray, spot: np.ndarray, energy: np.ndarray, barrier: np.ndarray):
-        """Equilibria along the orbit, on a circle those of one turn behind and of one ahead."""
-        return offset, spot, energy, barrier
 
     def may_have_barriers(self) -> bool:
         """False where no orbit has a barrier."""
@@ -178,36 +167,6 @@ class Landscape:
             return np.where(np.abs(step) < 0.5, step, 0.0)  # false for nan too
 
 
-@dataclass(frozen=True)
-class Spots:
-    """Equilibria along the orbit, ascending in offset (n, m): places (2, n, m), energy above each (n, m) =
-    E - V(spot), barrier or well; `there` marks the real ones (the rest are padding at +inf)."""
-
-    offset: np.ndarray
-    place: np.ndarray
-    energy: np.ndarray
-    barrier: np.ndarray
-    there: np.ndarray
-
-
-def spots_along(land: Landscape, location: Sequence[np.ndarray], w: np.ndarray) -> Spots:
-    """All equilibria near the state along its orbit, on a circle those of one turn behind and one ahead."""
-    offset, point, barrier = land.critical(location)
-    energy = np.full(offset.shape, np.nan)
-    kinetic = 0.5 * w * w
-    with np.errstate(all="ignore"):
-        offset = land.unrolled(location, offset, point)
-        for column in range(offset.shape[1]):
-            energy[:, column] = kinetic + land.potential.rise(-offset[:, column], point[:, :, column])
-        offset, point, energy, barrier = land.repeated(offset, point, energy, barrier)
-    order = np.argsort(np.where(np.isnan(offset), np.inf, offset), axis=1, kind="stable")
-    take = lambda a: np.take_along_axis(a, order, axis=1)
-    offset = take(offset)
-    there = ~np.isnan(offset)
-    return Spots(np.where(there, offset, np.inf), np.stack([take(point[0]), take(point[1])]), take(energy),
-                 take(barrier) & there, there)
-
-
 class ConicLandscape(Landscape):
     """Circle or hyperbola: orbits of the canonical plane, and a conic of equilibria in it."""
 
@@ -228,9 +187,9 @@ class ConicLandscape(Landscape):
         raise NotImplementedError
 
     @cached_property
-    def twofold(self) -> TwofoldConstants:
-        """The constants in 32 digits."""
-        return twofold_constants(self.reduction)
+    def twofold(self) -> TwofoldCentre:
+        """What a place is formed with in 32 digits."""
+        return twofold_centre(self.reduction)
 
     def _exactly(self, close: np.ndarray, states: np.ndarray, location: Sequence[float | np.ndarray],
                  of: Callable[[Number, Number], tuple[Number, Number]]):
@@ -240,7 +199,9 @@ class ConicLandscape(Landscape):
             return location
         first, second = (np.array(v) for v in location)
         some = states[close]
-        x, z = twofold_places(self.twofold, self.reduction.j, self.reduction.k, some)
+        k = self.twofold
+        x = (k.sj + some[:, self.reduction.j]) * k.over_x
+        z = (k.sk + some[:, self.reduction.k]) * k.over_z
         with np.errstate(all="ignore"):
             rows = [v.value() if isinstance(v, Twofold) else v for v in of(x, z)]
             sure = (np.minimum(*np.abs(rows)) > SURE
@@ -373,18 +334,6 @@ class CircleLandscape(ConicLandscape):
     def way(self, spot: Sequence[np.ndarray], place: Sequence[np.ndarray], near: np.ndarray):
         angle = angle_between(spot, place)
         return angle + TURN * np.round((near - angle) / TURN)
-
-    def unrolled(self, place: Sequence[np.ndarray], offset: np.ndarray, spot: np.ndarray):
-        # a turn more would cost the energy over a well just behind its digits
-        return np.where(offset > np.pi, angle_between((place[0][:, None], place[1][:, None]), spot), offset)
-
-    def repeated(self, offset: np.ndarray, spot: np.ndarray, energy: np.ndarray, barrier: np.ndarray):
-        # one turn earlier the tilt has lifted the potential by 2 pi mu
-        behind, fall = offset <= 0, TURN * self.potential.mu
-        offset = np.concatenate([offset - TURN * ~behind, offset + TURN * behind], axis=1)
-        energy = np.concatenate([energy - fall * ~behind, energy + fall * behind], axis=1)
-        return offset, np.concatenate([spot, spot],
-                                      axis=2), energy, np.concatenate([barrier, barrier], axis=1)
 
 
 class HyperbolaLandscape(ConicLandscape):

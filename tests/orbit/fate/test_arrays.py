@@ -58,7 +58,7 @@ def test_long_arrays_are_answered_in_chunks_and_any_chunk_gives_the_same_bytes(n
         brink(problem, pair, 1e-15) for pair in ((3.0, 1.0), (-3.0, 1.0))]
     states[[7, 31]] = near
     whole = stabilab.fate(scene, states)
-    assert whole.precise == 2
+    assert whole.precise == 0  # twofold numbers settle both
     monkeypatch.setattr("stabilab.orbit.fate_arrays.CHUNK", 7)
     same(stabilab.fate(scene, states), whole)
 
@@ -240,7 +240,8 @@ def test_labels_next_to_the_separatrix_equal_the_oracle(name):
     states, expected = hard_states(name)
     result = stabilab.fate(FAMILIES[name][0], states)
     np.testing.assert_array_equal(result.labels, expected)
-    assert result.precise >= 2  # 1e-15 of the speed is less than the rounding of the energy's terms
+    # 1e-15 of the speed is less than the rounding of the energy's terms, but not of twofold ones
+    assert result.precise == 0
 
 
 def test_equilibria_and_centres_in_a_large_array_are_recognised():
@@ -277,11 +278,17 @@ def test_margins_on_wide_hyperbolas_keep_twelve_digits(body):
         assert_margin(problem, tuple(state.tolist()), stabilab.fate(scene, np.array([state] * 5)).margins[0])
 
 
-def test_random_states_need_no_ball_arithmetic_and_ties_do():
+def test_states_need_no_ball_arithmetic_but_where_a_barrier_stands():
+    """Nor do those whose double is the nearest to the separatrix. X1 = 0, X2 = -1/b is a saddle of the scaled
+    minor-axis system (rates by hand): a motion that passes it may have it ahead or behind."""
     scene, problem = FAMILIES["minor scaled +"]
     assert stabilab.fate(scene, sample("minor scaled +", 20000)).precise == 0
     ties = near_the_separatrix(problem, np.random.default_rng(8), [0.0] * 3)
-    assert stabilab.fate(scene, ties).precise == 3
+    result = stabilab.fate(scene, ties)
+    assert result.precise == 0
+    np.testing.assert_array_equal(result.labels, [WORDS[energy.label(problem, s)] for s in ties.tolist()])
+    scene = scaled(0.25, 0.5, (0, 0, 1))[0]
+    assert stabilab.fate(scene, np.array([(0.0, -2.0, 0.3), (1.0, 2.0, 3.0)])).precise == 1
 
 
 def test_a_fate_map_takes_less_memory_than_three_times_its_input():

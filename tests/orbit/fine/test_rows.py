@@ -6,6 +6,7 @@ Nothing looks at the clock.
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 import pytest
@@ -140,7 +141,7 @@ def test_without_numba_plain_python_serves(monkeypatch):
     monkeypatch.setattr(numba_door, "find_spec", lambda name: None)
     numba_door.installed.cache_clear()
     monkeypatch.setattr(extremes_arrays, "COLD", 1)
-    monkeypatch.setattr(extremes_arrays, "_compiled", lambda base: pytest.fail("compiled without numba"))
+    monkeypatch.setattr(extremes_arrays, "compiled_kernel", lru_cache(lambda name: pytest.fail("compiled without numba")))
     one, states = FAMILIES["minor scaled +"][0], sample("minor scaled +", 5)
     try:
         assert np.isfinite(stabilab.extremes(one, states, fast=True)).any()

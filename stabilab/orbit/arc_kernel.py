@@ -1,0 +1,348 @@
+"""A motion about any location of its orbit, be that a circle, a hyperbola or a parabola, one at a time, as
+straight lines of floats that numba compiles.
+
+From a location (u, v) = (omega_j, omega_k) of the orbit, with y the arc of alpha from there, a = p v + p0,
+b = q u + q0 and e = p q = n^2 (n real, imaginary or 0),
+
+    u(y) = u + a S1 + p b S2,   v(y) = v + b S1 + q a S2,                                               (1)
+    K(y) = k + f0 y + f1 S2 + F S3 + c S1 S2 + g S2^2/2,                                                (2)
+    S1 = sinh(n y)/n,   S2 = (cosh(n y) - 1)/n^2,   S3 = (S1 - y)/n^2,
+
+where K = (omega_i + s)^2/2 = E - V. All are entire in e: no centre, no radius, no root of p or q, so nothing
+is lost where moments are nearly equal and the centre of the orbits stands far off. Proof:
+docs/mathematics/arcs.md. Twofold numbers form the coefficients and move the base, the location that arcs
+start from; doubles do the rest. Every function is plain Python too.
+"""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from math import factorial
+
+import numpy as np
+
+from ..numbers.error_free import Pair, add, exact_product, exact_sum, less, scaled, times, value
+
+# functions without which loops call instead of adding
+INLINED = {"entire", "constant", "quartic", "converged", "component", "parts_of", "rounded"}
+ULP = 2.220446049250313e-16
+INFINITY = float("inf")
+ROUNDINGS = 8.0  # units of rounding of a sum, by the size of its terms
+# rows of the twofold constants of a reduction: d omega_j/d alpha = p omega_k + p0, d omega_k/d alpha =
+# q omega_j + q0, the rate of omega_i is kappa u v + rho v + sigma u + m, e = p q, s the shift of omega_i
+P, P0, Q, Q0, KAPPA, RHO, SIGMA, M, E, SHIFT = range(10)
+# of a base, all twofold: its location, K there, and the coefficients of (1) and (2)
+U, V, OVER, ALONG_U, ALONG_V, BEND_U, BEND_V, F0, F1, F2, C, G = range(12)
+LARGEST_SQUARE = 1e6  # of n y: beyond a thousand, hyperbolic functions leave the range of doubles
+# relative, of sums over nodes: the last change, the error by estimate, a change that is nothing but rounding
+ALIKE, CONVERGED, FLOOR = 1e-9, 1e-13, 1e-15
+MAX_COEFFICIENTS = 64  # of Taylor's series about the middle; a full turn takes some forty
+NEGLIGIBLE = 1e-18  # of the first coefficients: what is left out of that series
+PIECE_DIGITS = 3e-12  # relative, of K half-way between two stops, from the one and from the other
+# columns of a stop, an end or an equilibrium that a motion passes: K, f0, f1, F, c, g, e; its arc, and what
+# the double of it leaves
+STOP_ARC, STOP_REST, STOP_COLUMNS = 7, 8, 9
+
+
+def _inverse_factorials(first: int):
+    """(13, 2) high and low parts of 1/first!, 1/(first + 2)!, ..."""
+    exact = [Fraction(1, factorial(first + 2 * n)) for n in range(13)]
+    return np.array([(float(term), float(term - Fraction(float(term)))) for term in exact])
+
+
+TWO, THREE = _inverse_factorials(2), _inverse_factorials(3)
+
+
+# --- The three entire functions
+def entire(e: float, y: float):
+    """(S1, S2, S3) of an arc; NaN where they may be no doubles.
+
+    Series for an arc so short that |e y^2| <= 1, then S1(2 y) = 2 S1 (1 + e S2), S2(2 y) = 2 S1^2,
+    S3(2 y) = 2 (S3 + S1 S2).
+    """
+    z, h = e * y * y, 1.0
+    if not abs(z) < LARGEST_SQUARE:
+        return np.nan, np.nan, np.nan
+    while abs(z) > 1.0:
+        z *= 0.25
+        h *= 0.5
+    x = y * h
+    t = x * x
+    s2 = t * (1 / 2 + z * (1 / 24 + z * (1 / 720 + z * (1 / 40320 + z * (1 / 3628800 + z * (
+        1 / 479001600 + z * (1 / 87178291200 + z * (1 / 20922789888000 + z / 6402373705728000))))))))
+    s3 = t * x * (1 / 6 + z * (1 / 120 + z * (1 / 5040 + z * (1 / 362880 + z * (1 / 39916800 + z * (
+        1 / 6227020800 + z * (1 / 1307674368000 + z * (1 / 355687428096000 + z / 121645100408832000))))))))
+    s1 = x + e * s3
+    while h < 1.0:
+        s3 = 2 * (s3 + s1 * s2)
+        s1, s2 = 2 * s1 * (1 + e * s2), 2 * s1 * s1
+        h *= 2
+    return s1, s2, s3
+
+
+def twofold_entire(e: Pair, y: float):
+    """The same, twofold, of a twofold e and a double y."""
+    h, square = 1.0, abs(e[0] * y * y)
+    if not square < LARGEST_SQUARE:
+        nothing = np.nan * y, np.nan * y
+        return nothing, nothing, nothing
+    while square * h * h > 0.25:
+        h *= 0.5
+    x = y * h
+    t = exact_product(x, x)
+    z = times(e, t)
+    last = 7 if abs(z[0]) > 1e-3 else 4 if abs(z[0]) > 1e-9 else 2 if z[0] != 0 else 0
+    two, three = 0.0 * y, 0.0 * y  # tails in doubles: z^7/16! is 3e-18
+    for n in range(min(12, 2 * last), last, -1):
+        two, three = two * z[0] + TWO[n, 0], three * z[0] + THREE[n, 0]
+    s2 = exact_sum(TWO[last, 0], TWO[last, 1] + z[0] * two)
+    s3 = exact_sum(THREE[last, 0], THREE[last, 1] + z[0] * three)
+    for n in range(last - 1, -1, -1):
+        s2 = add(times(s2, z), (TWO[n, 0], TWO[n, 1]))
+        s3 = add(times(s3, z), (THREE[n, 0], THREE[n, 1]))
+    s2, s3 = times(s2, t), scaled(times(s3, t), x)
+    s1 = add((x, 0.0 * x), times(e, s3))
+    while h < 1.0:
+        s3 = scaled(add(s3, times(s1, s2)), 2.0)
+        s2, s1 = scaled(times(s1, s1), 2.0), scaled(add(s1, times(s1, times(e, s2))), 2.0)
+        h *= 2
+    return s1, s2, s3
+
+
+# --- The motion about a base
+def constant(fine: np.ndarray, row: int):
+    """A twofold constant of the reduction, by its row."""
+    return fine[row, 0], fine[row, 1]
+
+
+def base_at(u: Pair, v: Pair, k: Pair, fine: np.ndarray):
+    """The base at a location (u, v) with K = k there."""
+    p, q, kappa, rho = constant(fine, P), constant(fine, Q), constant(fine, KAPPA), constant(fine, RHO)
+    a, b = add(times(p, v), constant(fine, P0)), add(times(q, u), constant(fine, Q0))
+    A, B = add(times(kappa, v), constant(fine, SIGMA)), add(times(kappa, u), rho)
+    pb, qa, c = times(p, b), times(q, a), times(kappa, times(a, b))
+    f0 = add(add(times(A, u), times(rho, v)), constant(fine, M))
+    f1 = add(times(A, a), times(B, b))
+    f2 = less(add(times(A, pb), times(B, qa)), c)
+    g = times(kappa, add(times(qa, a), times(pb, b)))
+    return u, v, k, a, b, pb, qa, f0, f1, f2, c, g
+
+
+def base_of(state: np.ndarray, axes: Sequence[int], fine: np.ndarray):
+    """The base at a state (3,), its components across the axis and about it in the order of axes."""
+    j, k, i = axes
+    turn, rest = exact_sum(state[i], fine[SHIFT, 0])
+    w = exact_sum(turn, rest + fine[SHIFT, 1])
+    u, v = state[j], state[k]
+    return base_at((u, 0.0 * u), (v, 0.0 * v), scaled(times(w, w), 0.5), fine)
+
+
+def moved(base: Sequence[Pair], y: float, fine: np.ndarray):
+    """The base an arc y further on, by (1) and (2)."""
+    s1, s2, s3 = twofold_entire(constant(fine, E), y)
+    u = add(base[U], add(times(base[ALONG_U], s1), times(base[BEND_U], s2)))
+    v = add(base[V], add(times(base[ALONG_V], s1), times(base[BEND_V], s2)))
+    k = add(add(base[OVER], scaled(base[F0], y)), add(times(base[F1], s2), times(base[F2], s3)))
+    k = add(k, times(s2, add(times(base[C], s1), scaled(times(base[G], s2), 0.5))))
+    return base_at(u, v, k, fine)
+
+
+def rounded(base: Sequence[Pair], e: float):
+    """(k, f0, f1, F, c, g, e) in doubles: the coefficients that `kinetic` takes."""
+    return (value(base[OVER]), value(base[F0]), value(base[F1]), value(base[F2]), value(base[C]),
+            value(base[G]), e)
+
+
+def kinetic(y: float, series: Sequence[float]):
+    """(K, K', K'', size of the terms of K) an arc y from a base."""
+    k, f0, f1, f2, c, g, e = series
+    s1, s2, s3 = entire(e, y)
+    first, second, third, fourth, fifth = f0 * y, f1 * s2, f2 * s3, c * s1 * s2, 0.5 * g * s2 * s2
+    force = f0 + f1 * s1 + s2 * (f2 + 3 * c + g * s1 + 2 * e * c * s2)
+    slope = f1 * (1 + e * s2) + s1 * (f2 + 3 * c + 4 * e * c * s2) + g * s2 * (3 + 2 * e * s2)
+    return (k + (first + second + third + fourth + fifth), force, slope,
+            abs(k) + abs(first) + abs(second) + abs(third) + abs(fourth) + abs(fifth))
+
+
+def stationary(speed: float, bend: float, n: float, e: float, left: float):
+    """(the first arc beyond left where speed (1 + e S2) + bend S1 vanishes; how far the next is from there);
+    inf where there is none."""
+    if e < 0:
+        first, half = -np.arctan(n * speed / bend) / n if bend != 0 else 0.5 * np.pi / n, np.pi / n
+        return first + half * np.ceil((left - first) / half), half
+    if e > 0:
+        return -np.arctanh(n * speed / bend) / n if abs(n * speed) < abs(bend) else INFINITY, INFINITY
+    return -speed / bend if bend != 0 else INFINITY, INFINITY
+
+
+def component(at: float, speed: float, bend: float, e: float, y: float):
+    """(value, size of its terms, slope) of at + speed S1 + bend S2 at an arc."""
+    s1, s2, _ = entire(e, y)
+    first, second = speed * s1, bend * s2
+    return at + (first + second), abs(at) + abs(first) + abs(second), speed * (1 + e * s2) + bend * s1
+
+
+# --- The period
+def converged(now: float, last: float, middle: float, first: float):
+    """Whether a sum over nodes is its integral, given what it changed by as its nodes were doubled: the last,
+    the middle and the first of three such changes; any numbers.
+
+    Doubling squares the error of the trapezoidal rule, C r^n for n nodes, and of the double-exponential one,
+    so a last change of `ALIKE` leaves nothing. But the sign of an error goes round, and it may be next to
+    nothing by chance. So the rate r^n follows from either ratio of changes too, and a size from its own
+    change or from the one before; the larger counts each time, and what these leave must be `CONVERGED`:
+    four products, without a division.
+    """
+    c, b, a = last / now, middle / now + FLOOR, first / now + FLOOR
+    a2, b2 = a * a, b * b
+    return (c <= ALIKE) & (c * c * c <= CONVERGED
+                           * b2) & (c * b2 * b2 <= CONVERGED * a2 * a2) & (b * c * c <= CONVERGED * a2) & (
+        b2 * b2 * b2 * b <= CONVERGED * a2 * a2 * a2)
+
+
+def taylor(series: Sequence[float], rho: float, t: np.ndarray):
+    """Fill t with the coefficients of K in x = y/rho, lowest first; the index of the last one, 0 where these
+    are too many.
+
+    Those of y^(2 n + 2) and y^(2 n + 3) are, entire in e as all else,
+
+        (e^n f1 + g e^(n-1) (4^(n+1)/4 - 1))/(2 n + 2)!,   e^n (F + c (4^(n+1) - 1))/(2 n + 3)!.
+    """
+    k, f0, f1, f2, c, g, e = series
+    t[0], t[1] = k, f0 * rho
+    even, bent, four, n = 0.5 * rho * rho, 0.0 * rho, 4.0, 0  # e^n rho^(2 n + 2)/(2 n + 2)!, and that over e
+    while True:
+        t[2 * n + 2] = f1 * even + (0.25 * four - 1.0) * g * bent
+        t[2 * n + 3] = (f2 + c * (four - 1)) * even * rho / (2 * n + 3)
+        n += 1
+        if four * abs(even) < NEGLIGIBLE * rho * rho:
+            return 2 * n + 1
+        if 2 * n + 3 >= MAX_COEFFICIENTS:
+            return 0
+        scale = rho * rho / ((2 * n + 1) * (2 * n + 2))
+        bent, even, four = even * scale, even * scale * e, 4 * four
+
+
+def divided(t: np.ndarray, last: int, root: float):
+    """Divide a polynomial by x - root, the rest left out; the index of its last coefficient."""
+    carry = t[last]
+    for n in range(last, 0, -1):
+        t[n - 1], carry = carry, t[n - 1] + root * carry
+    return last - 1
+
+
+def parts_of(t: np.ndarray, last: int, x: float):
+    """(even, odd) part of a polynomial at x."""
+    z, even, odd = x * x, 0.0 * x, 0.0 * x
+    for n in range(last // 2, -1, -1):
+        even, odd = even * z + t[2 * n], odd * z + (t[2 * n + 1] if 2 * n + 1 <= last else 0.0)
+    return even, odd * x
+
+
+def period_about(series: Sequence[float], rho: float, left: float, right: float, t: np.ndarray,
+                 nodes: np.ndarray):
+    """(period, its relative error) by series about the middle, from which the ends are at left and right, rho
+    half of their distance; NaN, inf where the sum does not settle.
+
+    T = 2 rho int_0^pi dphi/sqrt(2 H), where K = (x - l)(r - x) H in x = y/rho = -cos phi: two divisions of
+    Taylor's polynomial, the trapezoidal rule over mirrored pairs of nodes.
+    """
+    last = taylor(series, rho, t)
+    if not last:
+        return np.nan, INFINITY
+    size = 0.0  # rounding of the divisions goes by the coefficients before them
+    for n in range(last + 1):
+        size += abs(t[n])
+    last = divided(t, divided(t, last, left / rho), right / rho)
+    total, coarse, half, before, change, earlier = 0.0, 0.0, 0.0, np.nan, np.nan, np.nan
+    count, first, smallest, now, settled = 8, 0, INFINITY, np.nan, False
+    while first < len(nodes) and not settled:
+        stop = first + count // 2 if first else 5
+        for n in range(first, stop):
+            even, odd = parts_of(t, last, 1 - 2 * nodes[n])
+            low = -even - abs(odd)
+            smallest = min(smallest, low)
+            weight = 0.5 if n == 0 or n == 4 else 1.0
+            term = np.nan
+            if low > 0:
+                term = weight * (1 / np.sqrt(2 * (-even - odd)) + 1 / np.sqrt(2 * (odd - even)))
+            total += term
+            if n == 0 or n == 4:
+                half += term
+            elif n == 2:
+                coarse = term
+        if not first:
+            before = (coarse + half) * (np.pi / 4)
+            change = abs(before - half * (np.pi / 2))
+        count, first = count * 2 if first else count, stop
+        now = total * (np.pi / count)
+        new = abs(now - before)
+        settled = converged(now, new, change, earlier)
+        before, change, earlier = now, new, change
+    return 2 * rho * now, 4 * ULP * size / smallest if settled else INFINITY
+
+
+def stop_at(stop: np.ndarray, base: Sequence[Pair], y: float, end: bool, fine: np.ndarray):
+    """Fill a stop next to an arc y from a base: there by Newton's method in twofold numbers, where K vanishes
+    (an end) or its slope does.
+
+    A double leaves a rest of the arc. Of an equilibrium it costs K nothing; at an end it leaves a force,
+    which next to a barrier is much of the small one there.
+    """
+    there, rest = base, 0.0 * y
+    for _ in range(3):
+        there = moved(base, y, fine)
+        rest = (-value(there[OVER]) / value(there[F0]) if end
+                else -value(there[F0]) / value(there[F1]))
+        if abs(rest) <= 1e-9 * ULP * abs(y):
+            break
+        y += rest
+    series = rounded(there, fine[E, 0])
+    for column in range(STOP_ARC):
+        stop[column] = series[column]
+    stop[STOP_ARC], stop[STOP_REST] = y, rest
+    if end:
+        stop[0], stop[1] = 0.0, stop[1] + stop[2] * rest
+    else:
+        stop[0], stop[1] = stop[0] + 0.5 * stop[1] * rest, 0.0
+
+
+def series_of(stop: np.ndarray):
+    """What `kinetic` takes, of a stop."""
+    return stop[0], stop[1], stop[2], stop[3], stop[4], stop[5], stop[6]
+
+
+def period_in_pieces(stops: np.ndarray, count: int, nearby: np.ndarray, weights: np.ndarray,
+                     levels: np.ndarray, turning: bool):
+    """(time from the first stop to the last and back, its relative error) by the double-exponential rule from
+    stop to stop, K from the nearer one; NaN, inf where a sum does not settle. turning: whether the motion
+    turns at the first and at the last."""
+    period, worst = 0.0, 1.0
+    for n in range(count - 1):
+        here, there = series_of(stops[n]), series_of(stops[n + 1])
+        length = ((stops[n + 1, STOP_ARC] - stops[n, STOP_ARC])
+                  + (stops[n + 1, STOP_REST] - stops[n, STOP_REST]))
+        one, other = kinetic(0.5 * length, here)[0], kinetic(-0.5 * length, there)[0]
+        if not (length > 0 and abs(one - other) <= PIECE_DIGITS * one):
+            return np.nan, INFINITY
+        total, before, change, earlier, settled = 0.0, np.nan, np.nan, np.nan, False
+        for level in range(len(levels) - 1):
+            for node in range(levels[level], levels[level + 1]):
+                part, far, scale = abs(nearby[node]), nearby[node] < 0, 1.0
+                # the arc from a turning point is L x^2, which takes its root away; not so between two of them
+                if turning and count > 2 and (n == 0 or n == count - 2):
+                    at_turn = far == (n > 0)
+                    part, scale = ((part * part, 2 * part) if at_turn
+                                   else (part * (2 - part), 2 * (1 - part)))
+                over, _, _, terms = kinetic(-length * part, there) if far else kinetic(length * part, here)
+                worst = max(worst, terms / over)
+                total += weights[node] * scale / np.sqrt(2 * over)
+            now = length * total * 2.0**-level
+            new = abs(now - before)
+            if converged(now, new, change, earlier):
+                period, settled = period + 2 * now, True
+                break
+            before, change, earlier = now, new, change
+        if not settled:
+            return np.nan, INFINITY
+    return period, ROUNDINGS * ULP * worst

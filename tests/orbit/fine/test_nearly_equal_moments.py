@@ -1,0 +1,202 @@
+"""Extremes and periods of rows by one formula on all orbits: moments that differ by any amount, from one
+rounding to a half, equal ones, spheres; at rest, anywhere, and next to a barrier.
+
+Nothing looks at the clock.
+"""
+from __future__ import annotations
+
+import math
+import random
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene, fate
+from stabilab.numbers.numba_door import installed
+from stabilab.orbit import arc_kernel
+from stabilab.orbit.extremes import precise_extremes, precise_period
+from stabilab.orbit.extremes_arrays import settle_rows, trapped_rows
+from stabilab.orbit.fate_arrays import fate_on_orbit
+from stabilab.orbit.landscape import landscape
+from stabilab.orbit.one_orbit import Orbit
+from stabilab.orbit.reduction import reduce
+from tests.shared import later
+
+KINDS = "pair", "next double", "parabola", "sphere", "nearly a sphere", "ordinary"
+
+
+def random_scene(rng):
+    """A body of which two moments are equal up to 1e-16 ... 0.5 of them (or to rounding, or exactly, or all
+    three), the torque along any axis."""
+    axis, kind = rng.randrange(3), rng.choice(KINDS)
+    j, k = (axis + 1) % 3, (axis + 2) % 3
+    second = [rng.uniform(0.05, 1) for _ in range(3)]
+    size = 10 ** rng.uniform(-1, 3)
+    D = [size * (sum(second) - second[n]) for n in range(3)]
+    off = rng.choice((-1, 1)) * 10 ** rng.uniform(-16, -0.3)
+    pair = rng.sample((axis, rng.choice((j, k))), 2)
+    if kind == "pair":
+        D[pair[0]] = D[pair[1]] * (1 + off)
+    if kind == "next double":
+        D[pair[0]] = math.nextafter(D[pair[1]], rng.choice((-1, 1)) * math.inf)
+    if kind == "parabola":
+        D[pair[0]] = D[pair[1]]
+    if kind == "sphere":
+        D = [D[0]] * 3
+    if kind == "nearly a sphere":
+        D = [D[0] * (1 + off * rng.uniform(-1, 1) / 3) for _ in range(3)]
+    mean, rate = sum(D) / 3, 10 ** rng.uniform(-2, 0.5)
+    wheel, torque = [0.0] * 3, [0.0] * 3
+    for across in (j, k):
+        wheel[across] = rng.choice((-1, 1)) * 10 ** rng.uniform(-2, 0.7) * mean * rate
+    if rng.random() < 0.4:
+        wheel[rng.choice((j, k))] = 0.0
+    torque[axis] = rng.choice((-1, 1)) * 10 ** rng.uniform(-2.5, 0.3) * mean * rate**2
+    return D, wheel, torque, axis
+
+
+def scenes(seed):
+    """(scene, axis, a generator of numbers for its states) without end; bodies that exist alone."""
+    rng = random.Random(seed)
+    while True:
+        D, wheel, torque, axis = random_scene(rng)
+        if 2 * max(D) < sum(D):
+            yield Scene(Body(D), Gyrostat(wheel), ConstantTorque(torque)), axis, np.random.default_rng(
+                rng.randrange(1 << 30))
+
+
+def random_states(scene, axis, rng, count):
+    """A fifth at rest about the torque's axis, a fifth with the rate that just passes a barrier, off by 1e-13
+    ... 0.1 of its square, where there is one."""
+    D = np.array([float(v) for v in scene.body.exact])
+    wheel, torque = (np.array([float(v) for v in scene.vector(name)]) for name in ("gyrostat", "torque"))
+    size = np.linalg.norm(wheel) / D.mean() + math.sqrt(np.linalg.norm(torque) / D.mean())
+    states = rng.normal(size=(count, 3))
+    states *= (size * 10 ** rng.uniform(-1, 1.3, count) / np.linalg.norm(states, axis=1))[:, None]
+    states[::5, axis] = 0.0
+    still = np.array(states[1::5])
+    still[:, axis] = 0.0
+    height = fate(scene, still).margins
+    beside = np.isfinite(height) & (height > 0)
+    off = 1 + rng.choice((-1, 1), len(still)) * 10 ** rng.uniform(-13, -1, len(still))
+    still[:, axis] = np.sqrt(2 * np.where(beside, height, 0) / D[axis] * off)
+    states[1::5][beside] = still[beside]
+    return states
+
+
+@pytest.mark.parametrize("by_numba", [False, pytest.param(True, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("seed", [3, *later(range(4, 36))])
+def test_rows_have_the_digits_of_balls_whatever_the_difference_of_two_moments(seed, by_numba):
+    if by_numba and not installed():
+        pytest.skip("needs numba")
+    full, open_rows, draw = 0, 0, scenes(seed)
+    for _ in range(25):
+        scene, axis, rng = next(draw)
+        states, land = random_states(scene, axis, rng, 10), landscape(scene)
+        states = states[trapped_rows(land, fate_on_orbit(scene, land, states))]
+        boxes, periods = np.full((len(states), 3, 2), np.nan), np.full(len(states), np.nan)
+        left = np.full(len(states), 3, np.uint8)
+        settle_rows(land, states, boxes, periods, left, by_numba)
+        full, open_rows = full + len(states), open_rows + np.count_nonzero(left)
+        for state, box, time, bits in zip(states.tolist(), boxes, periods, left):
+            orbit = Orbit(land.reduction, state)
+            if not bits & 1:
+                exact = np.array(precise_extremes(orbit, Fate.BOUNDED), float)
+                error = np.abs(box - exact).max(axis=1) / np.abs(exact).max(axis=1)
+                assert (error <= 1e-12).all(), (scene, state)
+            if not bits & 2:
+                assert time == pytest.approx(precise_period(orbit, Fate.BOUNDED), rel=1e-11), (scene, state)
+    assert full > 150 and open_rows <= full / 50
+
+
+@pytest.mark.parametrize("by_numba", [False, pytest.param(True, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("seed", [2, *later(range(40, 60))])
+def test_spin_ups_and_rotations_have_the_digits_of_balls_whatever_the_difference_of_two_moments(seed, by_numba):
+    if by_numba and not installed():
+        pytest.skip("needs numba")
+    draw, rows, open_rows = scenes(seed), {Fate.SPIN_UP: 0, Fate.BOUNDED: 0}, 0
+    for number in range(90):
+        scene, axis, rng = next(draw)
+        if number % 3 == 0:  # without a torque, about the axis across which the wheel stands
+            scene = Scene(scene.body, Gyrostat([float(v) for v in scene.vector("gyrostat")]))
+        land = landscape(scene)
+        if land is None or land.e >= 0:
+            continue
+        states = random_states(scene, land.reduction.axis, rng, 10) if land.sense else rng.normal(
+            size=(10, 3)) * 10 ** rng.uniform(-1, 1, (10, 1))
+        labels = fate_on_orbit(scene, land, states)
+        turning = (labels.labels == Fate.SPIN_UP) | (~trapped_rows(land, labels) & (labels.labels == Fate.BOUNDED))
+        states, labels = states[turning], labels.labels[turning]
+        boxes, periods = np.full((len(states), 3, 2), np.nan), np.full(len(states), np.nan)
+        left = np.where(labels == Fate.BOUNDED, 3, 1).astype(np.uint8)
+        settle_rows(land, states, boxes, periods, left, by_numba, "turns")
+        open_rows += np.count_nonzero(left)
+        for state, label, box, time, bits in zip(states.tolist(), labels, boxes, periods, left):
+            orbit, rows[Fate(label)] = Orbit(land.reduction, state), rows[Fate(label)] + 1
+            if not bits & 1:
+                exact = np.array(precise_extremes(orbit, label), float)
+                np.testing.assert_array_equal(np.isinf(box), np.isinf(exact))
+                box, exact = np.nan_to_num(box, posinf=0.0, neginf=0.0), np.nan_to_num(exact, posinf=0.0, neginf=0.0)
+                error = np.abs(box - exact).max(axis=1)
+                assert (error <= 1e-12 * np.abs(exact).max(axis=1)).all(), (scene, state)
+            if label == Fate.BOUNDED and not bits & 2:
+                assert time == pytest.approx(precise_period(orbit, label), rel=1e-11), (scene, state)
+    assert min(rows.values()) > 20 and open_rows <= sum(rows.values()) / 50
+
+
+class ClosedForm:
+    """u, v and K of an arc by sines about the centre of the orbit, or powers on a parabola: what the entire
+    functions stand for, in the digits of mpmath."""
+
+    def __init__(self, D, wheel, torque, axis, state):
+        exact = lambda values: [mp.mpf(float(v)) for v in values]
+        D, wheel, torque, state = map(exact, (D, wheel, torque, state))
+        j, k = (axis + 1) % 3, (axis + 2) % 3
+        self.moments, self.torque = (D[axis], D[j], D[k]), torque[axis]
+        self.u, self.v, self.w = state[j], state[k], state[axis]
+        self.p, self.q = (D[k] - D[axis]) / D[j], (D[axis] - D[j]) / D[k]
+        self.p0, self.q0 = wheel[k] / D[j], -wheel[j] / D[k]
+
+    def at(self, y):
+        """(u, v, K) by the linear pair's solution and the energy."""
+        e = self.p * self.q
+        if e:
+            n = mp.sqrt(abs(e))
+            cosine, sine = (mp.cosh(n * y), mp.sinh(n * y) / n) if e > 0 else (mp.cos(n * y), mp.sin(n * y) / n)
+            sj, sk = self.q0 / self.q, self.p0 / self.p
+            u = (self.u + sj) * cosine + self.p * (self.v + sk) * sine - sj
+            v = (self.v + sk) * cosine + self.q * (self.u + sj) * sine - sk
+        else:
+            a, b = self.p * self.v + self.p0, self.q * self.u + self.q0
+            u, v = self.u + a * y + self.p * b * y * y / 2, self.v + b * y + self.q * a * y * y / 2
+        Di, Dj, Dk = self.moments
+        fall = self.torque * y - Dj * (u * u - self.u**2) / 2 - Dk * (v * v - self.v**2) / 2
+        return u, v, self.w**2 / 2 + fall / Di
+
+
+def test_a_base_that_moves_obeys_the_closed_forms_to_thirty_digits():
+    """Location and energy after an arc of up to three radians of the orbit, twofold and in doubles, with 90
+    digits of mpmath from sines about the centre."""
+    rng = random.Random(8)
+    for _ in range(60):
+        D, wheel, torque, axis = random_scene(rng)
+        scene = Scene(Body(D), Gyrostat(wheel), ConstantTorque(torque))
+        if reduce(scene) is None:
+            continue
+        axes, fine, *_ = landscape(scene).kernel_input
+        state = np.array([rng.gauss(0, 1) for _ in range(3)])
+        e = fine[arc_kernel.E, 0]
+        y = rng.uniform(-1, 1) * min(3 / math.sqrt(abs(e)) if e else math.inf, 10 ** rng.uniform(-1, 3))
+        base = arc_kernel.base_of(state, axes, fine)
+        there = arc_kernel.moved(base, y, fine)
+        over, force, _, terms = arc_kernel.kinetic(y, arc_kernel.rounded(base, e))
+        with mp.workdps(90):
+            closed = ClosedForm(D, wheel, torque, axis, state)
+            exact, step = closed.at(mp.mpf(y)), mp.mpf(10) ** -30
+            sizes = abs(state[axes[0]]) + abs(exact[0]), abs(state[axes[1]]) + abs(exact[1]), mp.mpf(terms)
+            for pair, number, size in zip(there[:3], exact, sizes):
+                assert abs(mp.mpf(float(pair[0])) + mp.mpf(float(pair[1])) - number) < 1e-26 * size
+            slope = (closed.at(y + step)[2] - closed.at(y - step)[2]) / (2 * step)
+            assert abs(over - exact[2]) < 1e-14 * terms
+            assert force == pytest.approx(float(slope), rel=1e-12, abs=1e-13 * terms)
