@@ -76,15 +76,15 @@ if TYPE_CHECKING:
 
 
 # --- The kernels, compiled or as written
-def functions(kernel: ModuleType, fast: bool) -> dict[str, Any]:
-    """A kernel's functions by name: compiled, or as they are written."""
-    return compiled_functions(kernel) if fast else vars(kernel)
+def functions(kernel: ModuleType, fast: bool, lanes: int = 1) -> dict[str, Any]:
+    """A kernel's functions by name, for so many lanes: compiled, or as they are written, for one."""
+    return compiled_functions(kernel, lanes) if fast else vars(kernel)
 
 
 @lru_cache(maxsize=4)
-def compiled_functions(kernel: ModuleType) -> dict[str, Any]:
+def compiled_functions(kernel: ModuleType, lanes: int = 1) -> dict[str, Any]:
     """A kernel's functions by name, compiled; stored on disk where there is a place for it."""
-    return compiled(kernel)
+    return compiled(kernel, variant=f"{lanes}_", LANES=lanes) if lanes > 1 else compiled(kernel)
 
 
 def loaded() -> bool:
@@ -95,7 +95,7 @@ def loaded() -> bool:
 def stored() -> bool:
     """Whether an earlier process left compiled steps beside the sources, where numba puts them unless told
     otherwise."""
-    return any(Path(__file__).with_name("__pycache__").glob("steps.advance*.nbi"))
+    return any(Path(__file__).with_name("__pycache__").glob("steps.run*.nbi"))
 
 
 # --- Equal moments

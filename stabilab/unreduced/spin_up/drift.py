@@ -34,7 +34,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from math import factorial
+from math import factorial, prod
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -48,6 +48,22 @@ if TYPE_CHECKING:
 # --- Motions and a small change of each, step by step
 STEP_ERROR = 2.0**-52  # units of rounding by which a step may move a motion: a Taylor polynomial of 20 terms
 NO_GROWTH = 2.0**-6    # changes beyond this share of the size, or delays of so many radians, tell no growth
+
+
+def work(lanes: int) -> kernel.Work:
+    """Arrays for runs in so many lanes, each from the start of a line of the processor's memory on."""
+    def empty(*shape: int):
+        size = prod(shape)
+        memory = np.zeros(size + 8)
+        start = -memory.ctypes.data // 8 % 8
+        return memory[start:start + size].reshape(shape)
+
+    logs, whole, scale = (empty(count * lanes) for count in (7, 7, 1))
+    return kernel.Work(empty(kernel.ZEROS + kernel.ORDER + 1, 5 * lanes),
+                       empty(kernel.ZEROS + kernel.SIDE + 1, 5 * lanes),
+                       *(empty(4, 3 * lanes) for _ in range(2)), *(empty(3 * lanes) for _ in range(2)),
+                       logs, logs.view(np.int64), whole, whole.view(np.int64), scale, scale.view(np.int64),
+                       *(empty(lanes) for _ in range(7)), *np.zeros((2, lanes), np.int64))
 
 
 class Runs:
@@ -64,6 +80,7 @@ class Runs:
         self.states, self.times, self.fast = np.array(states, float), np.zeros(len(states)), fast
         self.twins = Twins(len(states), self.rates)
         self.steps_done = 0  # of a row that never leapt
+        self._work: dict[int, kernel.Work] = {}
         # computed, and passed, of each row
         self.steps, self.rounded = np.zeros(len(states), int), np.zeros(len(states))
         self.met = np.repeat([[0.0], [np.inf]], len(states), axis=1)  # sizes since the last look
@@ -72,25 +89,36 @@ class Runs:
         with np.errstate(all="ignore"):
             functions(kernel, self.fast)[name](*arguments)
 
-    def _work(self):
-        """Arrays to work in."""
-        return [np.empty(shape) for shape in ((kernel.ORDER + 1, 3), (kernel.ORDER + 1, 3), (4, 3), 2)]
+    def _run(self, states: np.ndarray, *arguments):
+        """`steps.run`, in as many lanes as pay."""
+        lanes = kernel.SIDE_BY_SIDE if self.fast and len(states) >= kernel.FROM else 1
+        if lanes not in self._work:
+            made = work(lanes)  # loops as they are written read plain numbers out of memory twice as fast
+            self._work[lanes] = made if self.fast else kernel.Work(*map(memoryview, made))
+        with np.errstate(all="ignore"):
+            functions(kernel, self.fast, lanes)["run"](self.coefficients, states, *arguments,
+                                                       *self._work[lanes])
 
-    def advance(self, rows: np.ndarray, steps: int, t_max: float, pause: float = 0.0):
+    def advance(self, rows: np.ndarray, steps: int, t_max: float, pause: float = 0.0,
+                budget: int = 2**62):
         """Carry the given rows (indices) on by so many steps, or to t_max; a row that has not passed the time
-        `pause` stops there."""
+        `pause` stops there, and none takes more than `budget` steps in all."""
         self.steps_done += steps
-        twins = self.twins
-        changes = twins.growth, twins.most, twins.ahead, twins.blur
-        self._call("advance", self.coefficients, rows, steps, t_max, pause, STEP_ERROR, self.states,
-                   self.times, *changes, self.met, self.steps, self.rounded, *self._work(),
-                   *np.empty((3, 3)))
+        twins, m = self.twins, len(rows)
+        counts = np.clip(budget - self.steps[rows], 1, steps)
+        (ends, changes), (spans, reached), met = np.empty((2, m, 3)), np.empty((2, m)), np.empty((2, m))
+        self._call("begin", self.coefficients, rows, t_max, pause, self.states, self.times, twins.ahead, ends,
+                   changes, spans, *np.empty((2, 3)))
+        self._run(ends, changes, spans, counts, True, reached, met)
+        self._call("end", self.coefficients, rows, counts, t_max, pause, STEP_ERROR, ends, changes, spans,
+                   reached, met, self.states, self.times, twins.growth, twins.most, twins.ahead, twins.blur,
+                   self.met, self.steps, self.rounded, *np.empty((3, 3)))
 
     def carried(self, states: np.ndarray, spans: np.ndarray, most: int):
         """(states, times) of motions from states (m, 3) after spans (m,) of time, forth or back, or after the
         most steps."""
-        out, times = np.empty_like(states), np.empty_like(spans)
-        self._call("carry", self.coefficients, states, spans, most, out, times, *self._work())
+        out, times = np.array(states, order="C"), np.empty_like(spans)
+        self._run(out, out, spans, np.full(len(spans), most), False, times, np.empty((2, len(spans))))
         return out, times
 
     def measure(self, rows, out):

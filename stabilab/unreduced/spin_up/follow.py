@@ -130,7 +130,7 @@ def chase(scene: AnyScene, tests: Tests, starts: np.ndarray, t_max: float, budge
                 fraction = SHARES[runs.steps_done >= EARLY]
                 runs.advance(rows,
                              int(min(max(FIRST, runs.steps_done * fraction), MOST,
-                                     max(1, budget - runs.steps[rows].min()))), t_max, after)
+                                     max(1, budget - runs.steps[rows].min()))), t_max, after, budget)
             if tell:
                 tell(float(out.t[open_].min()), runs.steps_done, open_.size)
         stage += 1

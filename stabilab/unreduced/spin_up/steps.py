@@ -1,8 +1,18 @@
-"""Taylor steps of a motion, and of a small change of it, in straight loops that numba compiles.
+"""Taylor steps of motions side by side, and of a small change of each, in straight loops that numba compiles.
 
-w_i' = kappa_i w_j w_k + rho_i w_k + sigma_i w_j + m_i (cyclic). The coefficient of s^n of w_i stands in a[n,
-i]; s is the time over `scale`, a power of two near the fastest rate, so that no coefficient overflows. The
-change v of a motion obeys the equation made linear. It is known to a few per cent, so its series ends at
+w_i' = kappa_i w_j w_k + rho_i w_k + sigma_i w_j + m_i (cyclic). The motions go in LANES: one where the loops
+run as they are written, several where they are compiled: a processor then works on the lanes of a row
+together. A lane whose motion is at its end takes the next one. No lane reads another, and all do the same
+operations in the same order: the bits of a motion depend neither on its neighbours nor on how many lanes
+there are.
+
+The coefficient of s^n of w_i stands in row ZEROS + n of a, at i LANES + lane; s is the time over `scale`, a
+power of two near the fastest rate, so that no coefficient overflows. A row goes on with w_1 and w_2 once
+more, so that w_(i+1) and w_(i+2) stand LANES and 2 LANES farther on for every i. The rows before hold zeros:
+products of series are summed BLOCK terms at a time, and those that the last block has too many are zero (what
+stands above degree n is finite, from the step before).
+
+The change v of a motion obeys the equation made linear. It is known to a few per cent, so its series ends at
 degree SIDE: over a step, a seventh of the radius of convergence, that leaves out 3e-7 of it.
 
 Coefficients of a motion that hardly leaves a steady one say nothing of how fast a change there grows: beside
@@ -12,12 +22,15 @@ change's own last coefficients allow, nor than a few times what the slopes of th
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import NamedTuple
 
-if TYPE_CHECKING:
-    import numpy as np
+import numpy as np
 
 ORDER, SIDE = 20, 8
+BLOCK, ZEROS = 4, 3  # both orders are multiples of BLOCK; ZEROS is one less
+LANES = 1
+# of compiled loops, from so many motions on: lanes that nobody fills take as long as others
+SIDE_BY_SIDE, FROM = 32, 6
 # base 2: what the last coefficients may add to a state, relative to it or to a natural unit: a sixteenth of a
 # unit of rounding
 TAIL = -56.0
@@ -29,129 +42,282 @@ START_EXPONENT = -5.0
 STEEP = 3.0
 STILL = 2.0**-8  # rates per size (or per natural unit) below which no delay is told from a change
 LOST = 2.0**-30  # what lies across a motion is taken to be no less, relative to the change
+# bits of a double's exponent and fraction, and of 1.0 and 2^52, to which a whole number is added in last bits
+EXPONENT, FRACTION = 0x7FF0000000000000, 0x000FFFFFFFFFFFFF
+ONE, WHOLE, BIAS = 0x3FF0000000000000, 0x4330000000000000, 2.0**52 + 1023.0
 
 
-def logarithm(x: float):
-    """Of positive x to the base 2: exact at powers of 2, linear between them, so at most 0.09 below; 1024
-    where x is beyond doubles."""
-    if not x < math.inf:
-        return 1024.0
-    fraction, power = math.frexp(x)
-    return power - 2.0 + 2.0 * fraction
+class Work(NamedTuple):
+    """Arrays of a run, zeros at first: coefficients a and v of the motions and of their changes (ZEROS +
+    degree + 1, 5 LANES), those of the equations, spread over the lanes and in the time of each, c (4, 3
+    LANES), a sum and the step ahead (3 LANES,), numbers and their exponents (7 LANES,), as bits too; of
+    each lane the scale, as bits too, the step, what is left of its span and what has passed, the sign of
+    both, the greatest, the least and the last |omega|^2, the row whose motion it holds (-1: none) and the
+    steps due to it."""
+
+    a: np.ndarray
+    v: np.ndarray
+    spread: np.ndarray
+    c: np.ndarray
+    total: np.ndarray
+    ahead: np.ndarray
+    logs: np.ndarray
+    log_bits: np.ndarray
+    whole: np.ndarray
+    whole_bits: np.ndarray
+    scale: np.ndarray
+    scale_bits: np.ndarray
+    step: np.ndarray
+    left: np.ndarray
+    passed: np.ndarray
+    sign: np.ndarray
+    most: np.ndarray
+    least: np.ndarray
+    now: np.ndarray
+    held: np.ndarray
+    due: np.ndarray
 
 
-def two_to(y: float):
-    """2^y for |y| < 1000, within 0.3 per cent; exact for whole y."""
-    full = math.floor(y)
-    part = y - full
-    return math.ldexp(1.0 + part * (0.6565 + 0.3435 * part), int(full))
+def complete(table: np.ndarray, row: int):
+    """The first two rates of a row once more, behind the third."""
+    for j in range(2 * LANES):
+        table[row, 3 * LANES + j] = table[row, j]
 
 
-def series(c: np.ndarray, a: np.ndarray):
-    """The coefficients of a from those of degree 0. c (4, 3): kappa, rho, sigma, m, times the scale."""
+def series(c: np.ndarray, a: np.ndarray, total: np.ndarray):
+    """The coefficients of a from those of degree 0. c (4, 3 LANES): kappa, rho, sigma, m, times the scale."""
     for n in range(ORDER):
-        s0 = s1 = s2 = 0.0
-        for m in range(n + 1):
-            s0 += a[m, 1] * a[n - m, 2]
-            s1 += a[m, 2] * a[n - m, 0]
-            s2 += a[m, 0] * a[n - m, 1]
-        s0 = c[0, 0] * s0 + c[1, 0] * a[n, 2] + c[2, 0] * a[n, 1]
-        s1 = c[0, 1] * s1 + c[1, 1] * a[n, 0] + c[2, 1] * a[n, 2]
-        s2 = c[0, 2] * s2 + c[1, 2] * a[n, 1] + c[2, 2] * a[n, 0]
-        if n == 0:
-            s0, s1, s2 = s0 + c[3, 0], s1 + c[3, 1], s2 + c[3, 2]
-        over = 1.0 / (n + 1.0)
-        a[n + 1, 0], a[n + 1, 1], a[n + 1, 2] = s0 * over, s1 * over, s2 * over
+        for j in range(3 * LANES):
+            total[j] = 0.0
+        for m in range(0, n + 1, BLOCK):
+            up, down = ZEROS + m, ZEROS + n - m
+            for j in range(3 * LANES):
+                y, z = j + LANES, j + 2 * LANES
+                total[j] = (total[j] + a[up, y] * a[down, z] + a[up + 1, y] * a[down - 1, z]
+                            + a[up + 2, y] * a[down - 2, z] + a[up + 3, y] * a[down - 3, z])
+        row, over, first = ZEROS + n, 1.0 / (n + 1.0), 1.0 if n == 0 else 0.0
+        for j in range(3 * LANES):
+            a[row + 1, j] = (c[0, j] * total[j] + c[1, j] * a[row, j + 2 * LANES]
+                             + c[2, j] * a[row, j + LANES] + first * c[3, j]) * over
+        complete(a, row + 1)
 
 
-def series_beside(c: np.ndarray, a: np.ndarray, v: np.ndarray):
+def series_beside(c: np.ndarray, a: np.ndarray, v: np.ndarray, total: np.ndarray):
     """The coefficients of a change v beside those of the motion a."""
     for n in range(SIDE):
-        s0 = s1 = s2 = 0.0
-        for m in range(n + 1):
-            s0 += a[m, 1] * v[n - m, 2] + v[n - m, 1] * a[m, 2]
-            s1 += a[m, 2] * v[n - m, 0] + v[n - m, 2] * a[m, 0]
-            s2 += a[m, 0] * v[n - m, 1] + v[n - m, 0] * a[m, 1]
-        over = 1.0 / (n + 1.0)
-        v[n + 1, 0] = (c[0, 0] * s0 + c[1, 0] * v[n, 2] + c[2, 0] * v[n, 1]) * over
-        v[n + 1, 1] = (c[0, 1] * s1 + c[1, 1] * v[n, 0] + c[2, 1] * v[n, 2]) * over
-        v[n + 1, 2] = (c[0, 2] * s2 + c[1, 2] * v[n, 1] + c[2, 2] * v[n, 0]) * over
+        for j in range(3 * LANES):
+            total[j] = 0.0
+        for m in range(0, n + 1, BLOCK):
+            up, down = ZEROS + m, ZEROS + n - m
+            for j in range(3 * LANES):
+                y, z = j + LANES, j + 2 * LANES
+                total[j] = (total[j] + (a[up, y] * v[down, z] + v[down, y] * a[up, z])
+                            + (a[up + 1, y] * v[down - 1, z] + v[down - 1, y] * a[up + 1, z])
+                            + (a[up + 2, y] * v[down - 2, z] + v[down - 2, y] * a[up + 2, z])
+                            + (a[up + 3, y] * v[down - 3, z] + v[down - 3, y] * a[up + 3, z]))
+        row, over = ZEROS + n, 1.0 / (n + 1.0)
+        for j in range(3 * LANES):
+            v[row + 1, j] = (c[0, j] * total[j] + c[1, j] * v[row, j + 2 * LANES]
+                             + c[2, j] * v[row, j + LANES]) * over
+        complete(v, row + 1)
 
 
-def largest_of(table: np.ndarray, n: int, smallest: float):
-    """The greatest size in row n of a table, at least `smallest`."""
-    return max(abs(table[n, 0]), abs(table[n, 1]), abs(table[n, 2]), smallest)
+def ahead_by(table: np.ndarray, order: int, ahead: np.ndarray, total: np.ndarray):
+    """The values of the polynomials at `ahead`, to the row of degree 0."""
+    for j in range(3 * LANES):
+        total[j] = table[ZEROS + order, j]
+    for row in range(ZEROS + order - BLOCK, ZEROS - 1, -BLOCK):
+        for j in range(3 * LANES):
+            total[j] = (((total[j] * ahead[j] + table[row + 3, j]) * ahead[j] + table[row + 2, j]) * ahead[j]
+                        + table[row + 1, j]) * ahead[j] + table[row, j]
+    for j in range(3 * LANES):
+        table[ZEROS, j] = total[j]
+    complete(table, ZEROS)
 
 
-def allowed(table: np.ndarray, order: int, smallest: float, fraction: float):
-    """The logarithm of the step over which each of the last two coefficients adds to the state, or to
-    `smallest`, at most its share (a logarithm)."""
-    largest = logarithm(largest_of(table, 0, smallest)) + fraction
-    return min((largest - logarithm(largest_of(table, order, 1e-290))) / order,
-               (largest - logarithm(largest_of(table, order - 1, 1e-290))) / (order - 1))
+def sizes(table: np.ndarray, smallest: float, logs: np.ndarray, first: int):
+    """The greatest size in the rows of degree 0, the last and the last but one, of each lane, at least
+    `smallest` and 1e-290, to logs from `first` on."""
+    for n in range(3):
+        row, bound = (table.shape[0] - n, 1e-290) if n else (ZEROS, smallest)
+        for k in range(LANES):
+            logs[first + n * LANES + k] = max(abs(table[row, k]), abs(table[row, LANES + k]),
+                                              abs(table[row, 2 * LANES + k]), bound)
 
 
-def steepest(c: np.ndarray, a: np.ndarray):
-    """The greatest sum of sizes in a row of the rates' derivative."""
-    x, y, z = a[0, 0], a[0, 1], a[0, 2]
-    return max(abs(c[0, 0] * z + c[2, 0]) + abs(c[0, 0] * y + c[1, 0]),
-               abs(c[0, 1] * x + c[2, 1]) + abs(c[0, 1] * z + c[1, 1]),
-               abs(c[0, 2] * y + c[2, 2]) + abs(c[0, 2] * x + c[1, 2]), 1e-290)
+def steepest(c: np.ndarray, a: np.ndarray, total: np.ndarray, logs: np.ndarray):
+    """The greatest sum of sizes in a row of the rates' derivative, or 1e-290, to logs from 3 LANES on."""
+    for j in range(3 * LANES):
+        total[j] = (abs(c[0, j] * a[ZEROS, j + 2 * LANES] + c[2, j])
+                    + abs(c[0, j] * a[ZEROS, j + LANES] + c[1, j]))
+    for k in range(LANES):
+        logs[3 * LANES + k] = max(total[k], total[LANES + k], total[2 * LANES + k], 1e-290)
 
 
-def ahead_by(table: np.ndarray, order: int, h: float):
-    """The values of three polynomials at h, to row 0."""
+def logarithms(logs: np.ndarray, bits: np.ndarray, whole: np.ndarray, whole_bits: np.ndarray):
+    """Of positive numbers (7 LANES,) to the base 2, in their place: exact at powers of 2, linear between
+    them, so at most 0.09 below; 1024 of infinity."""
+    for k in range(7 * LANES):
+        whole_bits[k] = bits[k] >> 52 | WHOLE
+    for k in range(7 * LANES):
+        bits[k] = bits[k] & FRACTION | ONE
+    for k in range(7 * LANES):
+        logs[k] += whole[k] - (BIAS + 1.0)
+
+
+def allowed(step: np.ndarray, logs: np.ndarray, first: int, order: int, fraction: float):
+    """Cut the logarithms of steps to those over which each of the last two coefficients adds to the state, or
+    to what stands for it, at most its share (a logarithm); logs: of `sizes`, from `first` on."""
+    for k in range(LANES):
+        room = logs[first + k] + fraction
+        step[k] = min(step[k], (room - logs[first + LANES + k]) / order,
+                      (room - logs[first + 2 * LANES + k]) / (order - 1))
+
+
+def two_to(step: np.ndarray, whole: np.ndarray, whole_bits: np.ndarray):
+    """2^y for |y| < 1000, within 0.3 per cent, in its place; exact for whole y."""
+    for k in range(LANES):
+        whole[k] = np.floor(step[k])
+    for k in range(LANES):
+        part = step[k] - whole[k]
+        step[k] = 1.0 + part * (0.6565 + 0.3435 * part)
+    for k in range(LANES):
+        whole[k] += BIAS
+    for k in range(LANES):
+        whole_bits[k] = (whole_bits[k] & 0x7FF) << 52
+    for k in range(LANES):
+        step[k] *= whole[k]
+
+
+def in_their_time(a: np.ndarray, spread: np.ndarray, c: np.ndarray, ahead: np.ndarray, scale: np.ndarray,
+                  scale_bits: np.ndarray):
+    """The scale of each lane, and the coefficients of its equations for it; ahead: to work in."""
+    for k in range(LANES):
+        fastest = max(abs(a[ZEROS, k]), abs(a[ZEROS, LANES + k]), abs(a[ZEROS, 2 * LANES + k]), 1.0)
+        scale[k] = fastest if fastest < 1e300 else 1e300
+    for k in range(LANES):
+        scale_bits[k] &= EXPONENT
     for i in range(3):
-        total = table[order, i]
-        for n in range(order - 1, -1, -1):
-            total = total * h + table[n, i]
-        table[0, i] = total
+        for k in range(LANES):
+            ahead[i * LANES + k] = 1.0 / scale[k]
+    for n in range(4):
+        for j in range(3 * LANES):
+            c[n, j] = spread[n, j] * ahead[j]
 
 
-def square(a: np.ndarray):
-    """|omega|^2."""
-    return a[0, 0] * a[0, 0] + a[0, 1] * a[0, 1] + a[0, 2] * a[0, 2]
+def step_ahead(beside: bool, a: np.ndarray, v: np.ndarray, spread: np.ndarray, c: np.ndarray,
+               total: np.ndarray, ahead: np.ndarray, logs: np.ndarray, log_bits: np.ndarray,
+               whole: np.ndarray, whole_bits: np.ndarray, scale: np.ndarray, scale_bits: np.ndarray,
+               step: np.ndarray, left: np.ndarray, passed: np.ndarray, sign: np.ndarray, most: np.ndarray,
+               least: np.ndarray, now: np.ndarray, due: np.ndarray):
+    """One step of every lane; returns how many are at their end."""
+    in_their_time(a, spread, c, ahead, scale, scale_bits)
+    series(c, a, total)
+    sizes(a, 1.0, logs, 0)
+    steepest(c, a, total, logs)
+    if beside:
+        series_beside(c, a, v, total)
+        sizes(v, 1e-200, logs, 4 * LANES)
+    logarithms(logs, log_bits, whole, whole_bits)
+    for k in range(LANES):
+        step[k] = min(STEEP - logs[3 * LANES + k], 100.0)
+    allowed(step, logs, 0, ORDER, TAIL)
+    if beside:
+        allowed(step, logs, 4 * LANES, SIDE, START_EXPONENT)
+    two_to(step, whole, whole_bits)
+    for k in range(LANES):
+        step[k] = min(step[k] / scale[k], LONGEST, left[k])
+    for k in range(LANES):
+        passed[k] += step[k]
+    for k in range(LANES):
+        left[k] -= step[k]
+    for i in range(3):
+        for k in range(LANES):
+            ahead[i * LANES + k] = step[k] * scale[k] * sign[k]
+    if beside:
+        ahead_by(v, SIDE, ahead, total)
+    ahead_by(a, ORDER, ahead, total)
+    squares(a, now)
+    for k in range(LANES):
+        most[k] = now[k] if now[k] > most[k] else most[k]
+    for k in range(LANES):
+        least[k] = now[k] if now[k] < least[k] else least[k]
+    for k in range(LANES):
+        due[k] -= 1
+    ended = 0
+    for k in range(LANES):
+        ended += 0 if left[k] > 0.0 and now[k] < math.inf and due[k] > 0 else 1
+    return ended
 
 
-def run(coefficients: np.ndarray, a: np.ndarray, v: np.ndarray, span: float, steps: int, beside: bool,
-        scaled: np.ndarray, met: np.ndarray):
-    """Up to so many steps, over a span of time (back where it is negative), of the motion in row 0 of a and,
-    if `beside`, of the change in v; returns the time that has passed. The greatest and the least |omega|^2
-    that was met goes to met (2,); scaled (4, 3): for work."""
-    met[0] = met[1] = square(a)
-    left, passed = abs(span), 0.0
-    for _ in range(steps):
-        fastest = largest_of(a, 0, 1.0)
-        scale = math.ldexp(1.0, math.frexp(fastest if fastest < 1e300 else 1e300)[1] - 1)
+def squares(a: np.ndarray, now: np.ndarray):
+    """|omega|^2 of each lane."""
+    for k in range(LANES):
+        x, y, z = a[ZEROS, k], a[ZEROS, LANES + k], a[ZEROS, 2 * LANES + k]
+        now[k] = x * x + y * y + z * z
+
+
+def load(lane: int, row: int, states: np.ndarray, table: np.ndarray):
+    """A row of states (n, 3) into a lane, at degree 0."""
+    for i in range(5):
+        table[ZEROS, i * LANES + lane] = states[row, i % 3]
+
+
+def unload(lane: int, row: int, states: np.ndarray, table: np.ndarray):
+    """A lane at degree 0 to a row of states (n, 3). Zeros take the place of coefficients that are beyond
+    doubles, so that the lane's next motion meets none of them."""
+    size = 0.0
+    for i in range(3):
+        states[row, i] = table[ZEROS, i * LANES + lane]
+        size += abs(states[row, i])
+    if not size < math.inf:
+        for n in range(table.shape[0]):
+            for i in range(5):
+                table[n, i * LANES + lane] = 0.0
+
+
+def run(coefficients: np.ndarray, states: np.ndarray, changes: np.ndarray, spans: np.ndarray,
+        steps: np.ndarray, beside: bool, reached: np.ndarray, met: np.ndarray, a: np.ndarray, v: np.ndarray,
+        spread: np.ndarray, c: np.ndarray, total: np.ndarray, ahead: np.ndarray, logs: np.ndarray,
+        log_bits: np.ndarray, whole: np.ndarray, whole_bits: np.ndarray, scale: np.ndarray,
+        scale_bits: np.ndarray, step: np.ndarray, left: np.ndarray, passed: np.ndarray, sign: np.ndarray,
+        most: np.ndarray, least: np.ndarray, now: np.ndarray, held: np.ndarray, due: np.ndarray):
+    """Up to so many steps (n,), over spans (n,) of time (back where negative), of motions from states (n, 3)
+    and, if `beside`, of changes (n, 3) of them, all in their place; the times that have passed to reached
+    (n,), the greatest and the least |omega|^2 that was met to met (2, n). a and what follows: `Work`."""
+    for lane in range(LANES):
+        held[lane], left[lane] = -1, 0.0
         for n in range(4):
             for i in range(3):
-                scaled[n, i] = coefficients[n, i] / scale
-        series(scaled, a)
-        h = min(allowed(a, ORDER, 1.0, TAIL), STEEP - logarithm(steepest(scaled, a)))
-        if beside:
-            series_beside(scaled, a, v)
-            h = min(h, allowed(v, SIDE, 1e-200, START_EXPONENT))
-        h = min(two_to(min(h, 100.0)) / scale, LONGEST, left)
-        passed, left = passed + h, left - h
-        ahead = math.copysign(h * scale, span)
-        if beside:
-            ahead_by(v, SIDE, ahead)
-        ahead_by(a, ORDER, ahead)
-        now = square(a)
-        met[0], met[1] = max(met[0], now), min(met[1], now)
-        if left <= 0.0 or not now < math.inf:
+                spread[n, i * LANES + lane] = coefficients[n, i]
+    following, busy, ended = 0, 0, LANES
+    while True:
+        for lane in range(LANES if ended else 0):
+            if left[lane] > 0.0 and now[lane] < math.inf and due[lane] > 0:
+                continue
+            row = held[lane]
+            if row >= 0:
+                reached[row] = spans[row] if left[lane] <= 0.0 else sign[lane] * passed[lane]
+                met[0, row], met[1, row] = most[lane], least[lane]
+                unload(lane, row, states, a)
+                if beside:
+                    unload(lane, row, changes, v)
+                busy -= 1
+            if following < spans.size:
+                row, following, busy = following, following + 1, busy + 1
+                load(lane, row, states, a)
+                if beside:
+                    load(lane, row, changes, v)
+                held[lane], due[lane], left[lane] = row, steps[row], abs(spans[row])
+                passed[lane], sign[lane] = 0.0, math.copysign(1.0, spans[row])
+                most[lane] = least[lane] = (states[row, 0] * states[row, 0] + states[row, 1] * states[row, 1]
+                                            + states[row, 2] * states[row, 2])
+            else:  # it stays as it is, and is never at its end
+                held[lane], due[lane], left[lane], sign[lane] = -1, 2**62, math.inf, 0.0
+        if busy == 0:
             break
-    return span if left <= 0.0 else math.copysign(passed, span)
-
-
-def carry(coefficients: np.ndarray, states: np.ndarray, spans: np.ndarray, steps: int, out: np.ndarray,
-          reached: np.ndarray, a: np.ndarray, v: np.ndarray, scaled: np.ndarray, met: np.ndarray):
-    """Motions from states (n, 3) over spans (n,) of time, forth or back, in at most so many steps: states to
-    out, times to reached."""
-    for row in range(spans.size):
-        a[0] = states[row]
-        reached[row] = run(coefficients, a, v, spans[row], steps, False, scaled, met)
-        out[row] = a[0]
+        ended = step_ahead(beside, a, v, spread, c, total, ahead, logs, log_bits, whole, whole_bits, scale,
+                           scale_bits, step, left, passed, sign, most, least, now, due)
 
 
 def rates_at(c: np.ndarray, x: float, y: float, z: float, out: np.ndarray):
@@ -201,28 +367,40 @@ def note(c: np.ndarray, start: np.ndarray, states: np.ndarray, row: int, change:
             ahead[row, i] = change[i] / far
 
 
-def advance(coefficients: np.ndarray, rows: np.ndarray, steps: int, t_max: float, pause: float,
-            step_error: float, states: np.ndarray, clock: np.ndarray, growth: np.ndarray, largest: np.ndarray,
-            ahead: np.ndarray, blur: np.ndarray, sizes: np.ndarray, done: np.ndarray, rounded: np.ndarray,
-            a: np.ndarray, v: np.ndarray, scaled: np.ndarray, met: np.ndarray, start: np.ndarray,
-            rate: np.ndarray, change: np.ndarray):
-    """Carry rows on by so many steps, or to t_max (to `pause` those before it), and note how a small change
-    of each has grown. done, rounded (n,): steps computed and passed; sizes (2, n): greatest and least |omega|
-    on the way. a, v, scaled, met, start, rate, change: for work."""
-    for row in rows:
-        done[row] += steps
-        rounded[row] += steps
-        end = min(pause, t_max) if clock[row] < pause else t_max
-        left = max(0.0, end - clock[row])
+def begin(coefficients: np.ndarray, rows: np.ndarray, t_max: float, pause: float, states: np.ndarray,
+          clock: np.ndarray, ahead: np.ndarray, starts: np.ndarray, changes: np.ndarray, spans: np.ndarray,
+          rate: np.ndarray, change: np.ndarray):
+    """What rows (m,) are carried on from: starts, changes across them (m, 3), spans (m,) to t_max (to `pause`
+    of those before it). rate, change (3,): to work in."""
+    for n in range(rows.size):
+        row = rows[n]
         across(coefficients, states, ahead, row, rate, change)
         for i in range(3):
-            start[i] = a[0, i] = states[row, i]
-            v[0, i] = change[i]
-        passed = run(coefficients, a, v, left, steps, True, scaled, met)
+            starts[n, i], changes[n, i] = states[row, i], change[i]
+        spans[n] = max(0.0, end_of(clock[row], t_max, pause) - clock[row])
+
+
+def end_of(now: float, t_max: float, pause: float):
+    """Where a motion stops that has come to a time."""
+    return min(pause, t_max) if now < pause else t_max
+
+
+def end(coefficients: np.ndarray, rows: np.ndarray, steps: np.ndarray, t_max: float, pause: float,
+        step_error: float, ends: np.ndarray, changes: np.ndarray, spans: np.ndarray, reached: np.ndarray,
+        met: np.ndarray, states: np.ndarray, clock: np.ndarray, growth: np.ndarray, largest: np.ndarray,
+        ahead: np.ndarray, blur: np.ndarray, lengths: np.ndarray, done: np.ndarray, rounded: np.ndarray,
+        rate: np.ndarray, start: np.ndarray, change: np.ndarray):
+    """What has become of rows (m,) after so many steps (m,): ends, changes (m, 3), times reached (m,) and met
+    (2, m) of `run`; and how a small change of each has grown. done, rounded (n,): steps computed and passed;
+    lengths (2, n): greatest and least |omega| on the way. rate, start, change (3,): to work in."""
+    for n in range(rows.size):
+        row = rows[n]
+        done[row] += steps[n]
+        rounded[row] += steps[n]
         for i in range(3):
-            states[row, i], change[i] = a[0, i], v[0, i]
-        clock[row] = end if passed >= left else clock[row] + passed
-        sizes[0, row], sizes[1, row] = math.sqrt(met[0]), math.sqrt(met[1])
+            start[i], states[row, i], change[i] = states[row, i], ends[n, i], changes[n, i]
+        clock[row] = end_of(clock[row], t_max, pause) if reached[n] >= spans[n] else clock[row] + reached[n]
+        lengths[0, row], lengths[1, row] = math.sqrt(met[0, n]), math.sqrt(met[1, n])
         error = step_error * rounded[row] * math.sqrt(start[0] ** 2 + start[1] ** 2 + start[2] ** 2)
         note(coefficients, start, states, row, change, error, rate, growth, largest, ahead, blur)
 

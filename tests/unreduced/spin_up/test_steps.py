@@ -43,3 +43,25 @@ def test_steps_beside_a_saddle_stay_short_though_the_state_hardly_leaves_it(smal
     assert runs.times[0] == 4.0 and np.allclose(runs.states[0, [0, 2]], small * growing(4.0), rtol=1e-3,
                                                 atol=0)
     assert runs.twins.growth[0] == pytest.approx(np.abs(growing(4.0)).max(), rel=0.05)
+
+
+@numba
+def test_lanes_know_nothing_of_each_other():
+    """Bits of each of many motions, of different lengths, one of them beyond doubles: those of the motion
+    alone, by the loops as they are written."""
+    starts = states(7, 70)
+    starts[5] = 1e200, -1e200, 1e200
+    spans = np.random.default_rng(8).uniform(-1, 1, 70)
+    many, one = Runs(EXAMPLE, starts, True), Runs(EXAMPLE, starts)
+    out, times = many.carried(starts, spans, 12)
+    assert (times == spans).any() and (times != spans).any() and not np.isfinite(out[5]).all()
+    for n in (*range(4, 8), 37, 38, 69):
+        alone, time = one.carried(starts[n:n + 1], spans[n:n + 1], 12)
+        assert np.array_equal(alone[0], out[n], equal_nan=True) and time[0] == times[n]
+
+
+def test_no_row_takes_more_steps_than_its_budget_whatever_the_others_take():
+    runs = Runs(EXAMPLE, states(3, 2))
+    runs.steps[:] = 0, 17
+    runs.advance(np.arange(2), 6, 100.0, budget=20)
+    assert runs.steps.tolist() == [6, 20] and (runs.times > 0).all()
