@@ -185,9 +185,9 @@ def _off_axis(holds: Reason, result: Any) -> Caveat:
     return Caveat(Kind.TILT, holds.then(TILTED_NOT_FOUND(**settled, time=Time(result.followed).lower)))
 
 
-def varied(angle: float, within: str) -> Reason:
-    """What a torque is varied by: a tilt, the tolerance of its forces ("" without one), or both."""
-    if not within:
+def varied(angle: float, within: Reason | None) -> Reason:
+    """What a torque is varied by: a tilt, the tolerance of its forces (None without one), or both."""
+    if within is None:
         return TILTED(angle=Angle(angle))
     return TILTED_AND_WITHIN(angle=Angle(angle), within=within) if angle else WITHIN(within=within)
 

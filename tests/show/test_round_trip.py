@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from fractions import Fraction
 
 import pytest
 
@@ -28,9 +29,9 @@ def numbers(value):
     if isinstance(value, (int, float)):
         yield float(value)
     elif isinstance(value, str):
-        try:  # decimals that are asked for, and infinities
-            yield float(value)
-        except ValueError:
+        try:  # decimals that are asked for, exact ratios, and infinities
+            yield float(value) if "/" not in value else float(Fraction(value))
+        except (ValueError, ZeroDivisionError):
             return
     else:
         if isinstance(value, list):

@@ -224,6 +224,7 @@ def json(result: Swept) -> str:
                            "keys": [key.name for key in plan.sampled.keys],
                            "values": plan.sampled.values(0, plan.sampled.count).tolist()}
     told |= limiting.key(plan.case, limits_of(_case_of(plan), result.records))
+    told |= headline.key(headline.of_case(plan.case))
     return as_json(told | {"no_case": {"points": result.broken, "because": result.fault}, "columns": columns})
 
 

@@ -334,7 +334,8 @@ def circular_orbit_dict(case, out) -> dict:
     return {"schema": "stabilab.orbit/1", "case": case.name, **values_of(out, "rate period moments"),
             "momentum": in_file(case, out.momentum), "kind": result.kind, "reason": result.because,
             "why": result.reason.as_dict(),
-            "equilibria": [_object(case, out, point) for point in result.points],
+            "equilibria": [{"number": n} | _object(case, out, point)
+                           for n, point in enumerate(result.points, 1)],
             "families": [_object(case, out, item)
                          | {"family": item.family, "consists": item.consists.as_dict(),
                             "axis": item.axis and in_file(case, item.axis)} for item in result.families],
@@ -348,7 +349,14 @@ def _object(case, result, item) -> dict:
     return {**dict(zip(("velocity", "normal", "vertical"), frame)), "yaw_pitch_roll": yaw_pitch_roll(*frame),
             **values_of(item, "linear verdict because minimum eigenvalues frequencies"),
             "reason": item.reason.as_dict(),
-            "per_orbit": [f / result.rate for f in item.frequencies], "potential": item.potential}
+            "growth_time": _growth_time(item), "per_orbit": [f / result.rate for f in item.frequencies],
+            "potential": item.potential}
+
+
+def _growth_time(item) -> float | None:
+    """In which time a disturbance grows by the factor e, s; None where none does exponentially."""
+    rate = max((complex(z).real for z in item.eigenvalues), default=0.0)
+    return 1 / rate if item.verdict == "unstable" and rate > 0 else None
 
 
 def _frame(case, item):
@@ -398,9 +406,8 @@ def _lines(case, result, item, units: Units, name: str, other=None):
                           for each in sorted(pair, key=lambda angles: sum(map(abs, angles))))
     word = item.verdict if item.linear != "degenerate" else f"{item.verdict}, degenerate"
     yield row(name, f"{word}: yaw, pitch, roll {angles}")
-    if item.verdict == "unstable":
-        grows = max(z.real for z in item.eigenvalues)
-        yield row("", f"a disturbance grows e-fold in {units.time(1 / grows, SHORT)}")
+    if (grows := _growth_time(item)) is not None:
+        yield row("", f"a disturbance grows e-fold in {units.time(grows, SHORT)}")
         return
     _, normal, vertical = map(vector, _frame(case, item))
     yield row("", f"orbit normal {normal}, up {'+-' if other else ''}{vertical} in the body")

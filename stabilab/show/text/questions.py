@@ -134,14 +134,20 @@ def tilt_dict(result) -> dict | None:
     if result is None:
         return None
     if result.ranges:
-        return values_of(result, "angle of directions limit earliest latest level within") | {
+        return values_of(result, "angle of directions limit earliest latest level") | _within_dict(result) | {
             "fates": dict(result.fates), "because": result.because}
     return values_of(result, "angle of limit") | {
         "limit_stated": result.stated, "not_before": result.not_before,
         "time": [result.low, result.high] if result.ends else None,
         "level": result.level if result.ends else None
-        } | values_of(result, "azimuth torque azimuths times untilted within") | {
+        } | values_of(result, "azimuth torque azimuths times untilted") | _within_dict(result) | {
             "forces": tilt_dict(result.forces)}
+
+
+def _within_dict(result) -> dict:
+    """Which forces have which tolerance: in words, and with the numbers."""
+    return {"within": "" if result.within is None else result.within.text(),
+            "tolerances": result.within and result.within.as_dict()}
 
 
 # --- `fate`, `extremes` and `period`

@@ -335,7 +335,8 @@ def _closed(case, item) -> dict | None:
         return None
     turn = item.attitude
     return {"time": item.time, "rates": in_file(case, item.rates), "error": item.error,
-            "momentum": in_file(case, item.momentum), "energy": item.energy,
+            "momentum": in_file(case, item.momentum), "momentum_size": math.hypot(*item.momentum),
+            "energy": item.energy,
             "largest_rate": item.largest_rate, "largest_rate_before": item.largest_before,
             "fate": item.motion.fate.word, "because": item.motion.because,
             "reason": item.motion.reason.as_dict(),
