@@ -311,7 +311,7 @@ def csv(atlas: Atlas) -> str:
                 zip(ends.level.tolist(), ends.number.tolist(), atlas.share.tolist()))
     momenta = atlas.asked.momenta
     case = atlas.asked.case
-    every = limiting.cell(case, of_every_point(case))
+    every = limiting.cell(case, of_every_point(case, atlas.records))
     rows = [[name, momenta[wheel] if momenta else "", *about, *direction, *of_file,
              *_with(every, columns, _cells(columns, answered))]
             for first, directions, records in ((points, atlas.named_directions, atlas.named_records),

@@ -59,8 +59,7 @@ def text(result: Basins) -> str:
     lines.append(
         f"  {len(mesh.keys):,} states computed, of {full[0] * full[1]:,} of the grid of finest cells "
         f"({full[0]:,} x {full[1]:,})")
-    lines += (limiting.lines(limits_of(result.plan.case, result.records), units_of(result.plan.case))
-              + headline.beside(result.plan.case))
+    lines += limiting.lines(limits_of(result.plan.case, result.records), units_of(result.plan.case))
     if mesh.full:
         lines.append(
             "  refinement ended before the depth asked for: more than the largest number of states would be "

@@ -72,13 +72,6 @@ def until(case, result, end: float):
     return of_case(case, (0.0, end) if 0 < end < math.inf else None) if law_is_open(case, result) else result
 
 
-def beside(case: Case) -> list[str]:
-    """A line beside answers at many points, where a law is not judged; none where all are exact."""
-    result = of_case(case)
-    return [] if result is None else [f"  laws are not judged at every point; of the case as it stands: "
-                                     f"{_told(result, units_of(case))}"]
-
-
 def of_cases(cases) -> str:
     """A line for every law among cases that one of them leaves; empty where there is none."""
     beyond = [(case, result) for case in cases if (result := of_case(case)) is not None and not result.held]
