@@ -135,13 +135,14 @@ def answer(atlas: Atlas, units: Units, rows: np.ndarray | None = None) -> str:
             else "directions and wheel momenta")
     parts = []
     for n, ((fate, axis), fraction) in enumerate(shares):
-        about = axes_of(atlas.asked.case).whole(axis) if axis else other_axis(atlas)
+        about = axes_of(atlas.asked.case).head(axis) if axis else other_axis(atlas)
         verb = (f"about {about}" if n and shares[n - 1][0][0] == fate == Fate.SPIN_UP
                 else f"spin up about {about}" if fate == Fate.SPIN_UP else DOES[Fate(fate)][0])
         parts.append(f"{per_cent(fraction)} of {what} {verb}" if not n else f"{per_cent(fraction)} {verb}")
     if len(shares) == 1:
         parts = [parts[0].replace("100 % of", "all", 1)]
-    return ", ".join(parts) + _shortest(atlas, units, rows)
+    where = [axes_of(atlas.asked.case).direction_clause(axis) for (_, axis), _ in shares if rows is None]
+    return "; ".join([*parts, *filter(None, (_shortest(atlas, units, rows), *where))])
 
 
 def _by_axis(atlas: Atlas, rows: np.ndarray | None) -> list[tuple[tuple[int, int], float]]:
@@ -161,12 +162,12 @@ def _shortest(atlas: Atlas, units: Units, rows: np.ndarray | None = None) -> str
     low, high = (atlas.records[name][chosen] for name in ("when_low", "when_high"))
     resolved = np.isfinite(low) & np.isfinite(high)
     if not resolved.any():
-        return f"; {limit_words(atlas, units)} is not known to be reached"
+        return f"{limit_words(atlas, units)} is not known to be reached"
     at = int(chosen[resolved][np.argmin(low[resolved])])
     beside = (f", wheel {wheel_words(atlas, int(atlas.leaves.wheel[at]))}" if atlas.asked.momenta
               and rows is None else "")
     where = direction_words(atlas.in_file(atlas.directions[at:at + 1])[0])
-    return (f"; shortest time to {limit_words(atlas, units)}: "
+    return (f"shortest time to {limit_words(atlas, units)}: "
             f"{units.time(float(atlas.records['when_low'][at]), SHORT)} at direction {where}{beside}")
 
 

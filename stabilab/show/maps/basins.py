@@ -78,8 +78,8 @@ def _answer(result: Basins) -> str:
     if len(parts) == 1:
         return f"one basin in this plane: all of it {basin_name(result, next(iter(result.shares)))}"
     return (
-        f"{len(parts)} kinds of motion in this plane: {', '.join(parts)} (± {_digits(100 * result.blur)} %: "
-        f"the cells on the boundaries)")
+        f"{len(parts)} kinds of motion in this plane: {'; '.join(parts)}; ± {_digits(100 * result.blur)} %, "
+        f"the cells on the boundaries")
 
 
 def _percent(fraction: float, blur: float) -> str:

@@ -381,8 +381,10 @@ def _of_file(units: Units, unit: str) -> tuple[str, float]:
 
 
 # Behind the outcome on a first line that has no room for all that uncertain numbers do to it
-IN_SHORT = {"holds": "", "depends": ", BUT not over all uncertainties", "sampled": ", uncertainties sampled",
-            "undecided": ", uncertainties undecided"}
+# behind an outcome, in full and where a line has no room for that
+IN_SHORT = {"holds": ("", ""), "depends": (", BUT not over all uncertainties", ", BUT not always"),
+            "sampled": (", uncertainties sampled", ", box sampled"),
+            "undecided": (", uncertainties undecided", ", box undecided")}
 
 
 def first(result, printed: str, units: Units) -> str:
@@ -398,7 +400,9 @@ def in_short(result, text: str, outcome: str) -> str:
     answer, *rest = text.split("\n")
     if not over or len(answer) <= LINE:
         return text
-    return "\n".join([answer.replace(outcome, outcome + IN_SHORT[over.answer], 1), *rest])
+    full, short = IN_SHORT[over.answer]
+    shown = full if answer.index(outcome) + len(outcome + full) <= LINE else short
+    return "\n".join([answer.replace(outcome, outcome + shown, 1), *rest])
 
 
 def what_changes(result, units: Units) -> str:

@@ -269,10 +269,10 @@ def in_file(case: Case, along: Sequence[float]):
 
 def attitude_text(case, result, units: Units) -> str:
     """The answer first, then the numbers and why."""
-    condition = limiting.condition(result.caveats, units)
-    departs = limiting.unstable(result.caveats, units)
-    printed = f"{case.name}: {', '.join(_answer(result, units))}{',' * bool(condition)}{condition}"
-    lines = ["; ".join(filter(None, (printed, departs, limiting.tilted(result.caveats, units))))]
+    head, *rest = _answer(result, units)
+    rest += [limiting.unstable(result.caveats, units), limiting.tilted(result.caveats, units)]
+    lines = [f"{case.name}: " + limiting.fitted(lambda short: "; ".join(filter(None, [
+        head + limiting.condition(result.caveats, units, short=short), *rest])), len(case.name) + 2)]
     if result.momentum_direction is not None:
         lines.append(row("angular momentum", f"{number(result.momentum, DIGITS)} N m s along "
                                              f"{_vector(case, result.momentum_direction)}"))
@@ -304,12 +304,13 @@ def attitude_rows(result: Attitude | None, units: Units) -> list[tuple[str, str]
 
 
 def _answer(result, units):
-    yield MODES.get(result.mode, "ROTATION PERIOD KNOWN" if result.rotation_period else "NO ROTATION PERIOD")
+    time = "" if result.rotation_period is None else f" {units.time(result.rotation_period)}"
+    yield MODES.get(result.mode, f"ROTATION PERIOD{time}" if time else "NO ROTATION PERIOD")
     if result.lean is not None:
         low, high = (units.angle(angle, SHORT) for angle in result.lean)
         yield f"leaning by {low} to {high}" if low != high else f"leaning by {low}"
-    if result.rotation_period is not None:
-        yield f"rotation period {units.time(result.rotation_period)}"
+    if time and result.mode in MODES:
+        yield f"rotation period{time}"
     if result.nutation_period is not None:
         yield f"nutation period {units.time(result.nutation_period)}"
     if result.precession_period is not None:
