@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
-from .reasons import Reason
+from .reasons import Reason, as_reason
 
 
 class Kind(StrEnum):
@@ -79,6 +79,22 @@ class InputError(StabilabError, ValueError):
     """What the user gave cannot be used: the message says what came, what was expected and what to do."""
 
     exit_code = BAD_INPUT
+
+
+class Refused(InputError):
+    """What cannot be answered of what the user gave, as a reason with its quantities."""
+
+    def __init__(self, reason: Reason):
+        super().__init__(reason)
+        self.reason = reason
+
+    def __str__(self) -> str:
+        return self.reason.text()
+
+
+def reason_of(error: Exception) -> Reason:
+    """Why: with its quantities where it has them, else in words."""
+    return error.reason if isinstance(error, Refused) else as_reason(str(error))
 
 
 def printable(text: str) -> str:

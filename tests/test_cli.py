@@ -366,7 +366,7 @@ def test_a_sweep_is_one_table_with_a_column_for_each_swept_key(stabilab, swept, 
     expected = [[str(value[i]) for key, value in zip(keys, one) for i in moving[key]]
                 for one in itertools.product(*keys.values())]
     assert code == 0 and not err and len(lines) == 9 and lines[0].startswith(
-        "six: 6 combinations: each BOUNDED for ever")
+        "six: each of 6 BOUNDED for ever")
     assert [line.split()[:len(expected[0])] for line in lines[3:]] == expected
     assert lines[1].split()[:3] == ["ω[1]", "ω[3]", "momentum[3]"]
     assert command == "extremes" or max(map(len, lines[1:])) <= 80

@@ -106,11 +106,12 @@ def _looked_up(result: Equilibria, at: Sequence[float]) -> Verdict:
     nearby = _nearest(samples, at)
     if nearby is not None:
         return Verdict(nearby.verdict, nearby.reason)
-    pieces = [(_beside(curve, piece.t, at), n, piece) for curve in result.curves
-              for n, piece in enumerate(curve.segments)]
-    apart, _, piece = min(pieces, default=(math.inf, 0, None))
-    if piece is not None and apart <= ON_CURVE:
-        return Verdict(piece.verdict, piece.reason)
+    pieces = [(_beside(curve, piece.t, at), piece) for curve in result.curves for piece in curve.segments]
+    apart = min((distance for distance, _ in pieces), default=math.inf)
+    if apart <= ON_CURVE:  # where curves meet, of all that do
+        touching = {piece.verdict: piece for distance, piece in pieces if distance == apart}
+        (_, piece), *others = touching.items()
+        return NOT_FOUND if others else Verdict(piece.verdict, piece.reason)
     return Verdict("undecided", result.reason) if result.kind == "undecided" else NOT_FOUND
 
 

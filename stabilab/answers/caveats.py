@@ -28,6 +28,11 @@ CONDITIONS = (None, *(ALONG(axis=Axis(n)) for n in (1, 2, 3)),
               Sentence("torque-in-plane",
                        "only while the torque is exactly in the plane of the equal moments")(),
               Sentence("torque-as-given", "only while the torque is exactly this one")())
+# the same where a line has no room for it
+IN_SHORT = {ALONG.code: Sentence("only-along-axis", "only with torque exactly along {axis}"),
+            CONDITIONS[IN_PLANE].code: Sentence("only-in-plane",
+                                                "only with torque in the plane of equal moments"),
+            CONDITIONS[THIS].code: Sentence("only-this-torque", "only with exactly this torque")}
 NO_SUCH_BODY = Sentence("no-such-body", "no rigid body has these moments of inertia")()
 UNSTABLE = Sentence("unstable-equilibrium", "unstable: a disturbance grows by the factor e in {time}")
 UNSTABLE_SLOWLY = Sentence("unstable-not-exponential",
@@ -141,6 +146,11 @@ def condition(scene: AnyScene) -> int:
     return 0 if not acting else torque_axis(twin) if acting == 1 else IN_PLANE if aligned(twin) else THIS
 
 
+def in_short(condition: Reason) -> Reason:
+    """The condition of a steady motion in fewer words."""
+    return replace(condition, sentence=IN_SHORT.get(condition.code, condition.sentence))
+
+
 def stated(limits: Any) -> Quantity | Reason:
     """The limit of a case."""
     if limits.rate is not None:
@@ -185,9 +195,9 @@ def _off_axis(holds: Reason, result: Any) -> Caveat:
     return Caveat(Kind.TILT, holds.then(TILTED_NOT_FOUND(**settled, time=Time(result.followed).lower)))
 
 
-def varied(angle: float, within: str) -> Reason:
-    """What a torque is varied by: a tilt, the tolerance of its forces ("" without one), or both."""
-    if not within:
+def varied(angle: float, within: Reason | None) -> Reason:
+    """What a torque is varied by: a tilt, the tolerance of its forces (None without one), or both."""
+    if within is None:
         return TILTED(angle=Angle(angle))
     return TILTED_AND_WITHIN(angle=Angle(angle), within=within) if angle else WITHIN(within=within)
 

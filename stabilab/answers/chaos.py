@@ -31,8 +31,7 @@ STEEP = 4.0       # of a chaotic one has come so far at least ...
 DOUBLES = 1.5     # ... and goes on growing, by so much at least while the time doubles
 
 NEVER_BACK = Sentence(
-    "chaos-of-spin-up", "its fate is spin-up: it does not come back, and chaos is a property of motions that "
-    "do")()
+    "chaos-of-spin-up", "it does not come back; chaos is a property of motions that do")()
 TOO_STIFF = Sentence(
     "chaos-too-stiff", "stopped, because the motion is too stiff: something in it changes so fast beside its "
     "turn that it would be followed in too short steps")()
@@ -47,7 +46,7 @@ STAYS = Sentence(
     "megno-stays", "after {turns} turns MEGNO is {megno} ({half} at half that time); it tends to 2 on tori, "
     "to less where neighbours stay or come together")
 AT_REST = Sentence(
-    "megno-of-equilibrium", "it is an equilibrium (every rate stays as it is), whatever becomes of its "
+    "megno-of-equilibrium", "it is an equilibrium (every rate stays as it is); whatever becomes of its "
     "neighbours, which MEGNO measures: {megno} after {turns} turns")
 
 

@@ -26,7 +26,7 @@ from ..numbers.vectors import Exact3
 from ..orbit.result import OUTCOMES, Motion, Needs
 from ..physics.coefficients import three_floats
 from ..physics.scene import AnyScene, Scene, torque_axis
-from ..reasons import Filling, Rate, Reason, Sentence, Time
+from ..reasons import Filling, Quantity, Rate, Reason, Sentence, Time
 from ..validation import checked_scene
 from .caveats import STEADY, varied
 from .kinds import kind_of
@@ -65,6 +65,9 @@ SOME_REACH = Sentence("cone-some-reach", "{varied} it reaches {limit} after {fir
                       "of {looked} (times: {level}), in some of them not within {time}")
 ALL_REACH = Sentence("cone-all-reach", "{varied} it reaches {limit} after {first} at the earliest "
                      "and after {last} at the latest of {looked} (times: {level})")
+FORCE_WITHIN = Sentence("tolerance-of-a-force", "{thruster} within {percent} %")
+FORCES_WITHIN = Sentence("tolerance-of-forces", "the force of {forces}")
+PERCENT_DIGITS = 4
 Tried: TypeAlias = list[tuple[float, float]]  # a value and its azimuth
 
 
@@ -91,13 +94,13 @@ class Cone:
     """torque: as stated, N m, principal axes; parts: of what may be other: at azimuth phi the change is
     (cos - 1) whole + sin (cos phi first + sin phi second), and at a size s, from -1 to 1, s share times the
     whole and that besides. subject: what is tilted; angle: the largest half-angle; within: which forces have
-    which tolerance, in words, empty where none has."""
+    which tolerance, None where none has."""
 
     torque: np.ndarray
     parts: tuple[Part, ...]
     subject: str
     angle: float
-    within: str = ""
+    within: Reason | None = None
 
     def at(self, azimuth: float | None, sizes: Sequence[float] = ()) -> np.ndarray:
         """The torque (3,) at the edge of the cone, None: without a tilt; sizes: of every part, as stated
@@ -185,11 +188,13 @@ def cone_of_forces(case: Case, torque: np.ndarray, firing: Sequence[Any], tilts:
     where `tilts`; a part for each that states any, in their order."""
     sized = [t for t in firing if t.force_tolerance]
     named = [t.name for t in firing if tilts and t.misalignment] or [t.name for t in sized]
-    within = " and ".join(f"{t.name} within {float(100 * t.force_tolerance / t.force):.4g} %" for t in sized)
+    within = tuple(FORCE_WITHIN(thruster=t.name, percent=Quantity(float(100 * t.force_tolerance / t.force),
+                                                                  digits=PERCENT_DIGITS)) for t in sized)
     parts = tuple(_of_force(case, t, tilts and bool(t.misalignment)) for t in firing
                   if t.force_tolerance or (tilts and t.misalignment))
     return Cone(torque, parts, "the force of " + " and ".join(named),
-                max((part.angle for part in parts), default=0.0), f"the force of {within}" if sized else "")
+                max((part.angle for part in parts), default=0.0),
+                FORCES_WITHIN(forces=within) if sized else None)
 
 
 def _of_force(case: Any, thruster: Any, tilts: bool) -> Part:
@@ -241,7 +246,7 @@ class Tilt:
     azimuths: np.ndarray
     times: np.ndarray
     untilted: tuple[float, float] | None = None
-    within: str = ""
+    within: Reason | None = None
     forces: Spread | None = None
 
     @property
@@ -278,7 +283,7 @@ class Spread:
     fates: tuple[tuple[str, int], ...] = ()
     omitted: str = ""
     untilted: tuple[float, float] | None = None
-    within: str = ""
+    within: Reason | None = None
 
     @property
     def varies(self) -> bool:
@@ -438,7 +443,7 @@ class ByAngle:
     not_before: np.ndarray
     limit: Limit
     of: str
-    within: str = ""
+    within: Reason | None = None
 
 
 def by_angle(scene: Scene, state: Any, angles: np.ndarray, case: Any = None,

@@ -74,8 +74,8 @@ class Axes:
         return f"the {self.ranks[number - 1]} axis is {self.direction(number)}{IN_FILE}"
 
     def brief(self, number: int) -> str:
-        """After another axis of the same line: "x", or what `whole` says where there is no letter."""
-        return self.letters[number - 1] or self.whole(number)
+        """After another axis of the same line: "x", or what `short` says where there is no letter."""
+        return self.letters[number - 1] or self.short(number)
 
     def short(self, number: int) -> str:
         """Within a sentence: "the z axis", "the minor axis"; of two axes with one word also the direction."""

@@ -16,16 +16,25 @@ ENDING_HEADS = {"flat spin": "FLAT SPIN", "nutation dies out": "NUTATION DIES OU
          "steady rotation": "TENDS TO STEADY ROTATION"}
 
 
-def words(x: Ending | None, units: Units) -> tuple[str, str] | None:
+def words(x: Ending | None, units: Units, short: bool = False) -> tuple[str, str] | None:
     """(how it ends; about which axis and how fast, and how well that is known); None where nothing is lost,
-    or no end is known."""
+    or no end is known. short: without how fast."""
     if x is None or x.kind == "undecided":
         return None
-    rate = "" if not x.rate else f" at {units.rate(x.rate, SHORT)}"
+    speed = "" if short else rate(x, units)
+    speed = f"{',' * bool(speed and about(x, units))}{' ' * bool(speed)}{speed}"
     resolved = " (by a run)" * (x.level == "run" and x.kind in ("steady rotation", "rest"))
+    return ENDING_HEADS[x.kind], f"{about(x, units)}{speed}{resolved}"
+
+
+def rate(x: Ending | None, units: Units) -> str:
+    """How fast it turns in the end: "at 5 deg/s", or "at (1, 2, 3) deg/s"; empty where it has no end that
+    turns."""
+    if x is None or x.kind == "undecided":
+        return ""
     if x.kind == "steady rotation" and x.rates:
-        rate = f" at {units.vector(units.axes.in_file(x.rates), units.rates, SHORT)}"
-    return ENDING_HEADS[x.kind], f"{about(x, units)}{',' * bool(rate and about(x, units))}{rate}{resolved}"
+        return f"at {units.vector(units.axes.in_file(x.rates), units.rates, SHORT)}"
+    return f"at {units.rate(x.rate, SHORT)}" if x.rate else ""
 
 
 def about(item: Ending, units: Units) -> str:

@@ -8,12 +8,13 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .. import errors
-from ..answers.caveats import HOLDS
+from ..answers.caveats import HOLDS, in_short
 from ..errors import Caveat, Kind
 from ..reasons import Reason, in_si
 from . import ending
 from .axes import axes_of
 from .data import csv_lines
+from .terminal import LINE, clauses_of
 from .units import SHORT, Units
 
 if TYPE_CHECKING:
@@ -27,19 +28,39 @@ def reached(caveats: Iterable[Caveat], units: Units) -> str:
     return "; ".join(words(caveat, units) for caveat in caveats if caveat.kind is Kind.LIMIT)
 
 
-def condition(caveats: Iterable[Caveat], units: Units, alone: bool = False) -> str:
-    """" only while ...", empty where a verdict rests on no condition. alone: without what a tilt does."""
+def condition(caveats: Iterable[Caveat], units: Units, alone: bool = False, short: bool = False) -> str:
+    """" only while ...", empty where a verdict rests on no condition. alone: without what a tilt does; short:
+    in fewer words."""
     rows = [item.reason for item in caveats if item.kind is Kind.TILT and item.reason.sentence is HOLDS]
-    return "; ".join(" " + units.said(reason.quantities["condition"]
-                                      if alone else _unheld(reason), SHORT, whole=True) for reason in rows)
+    return "; ".join(" " + units.said(_unheld(reason.alone if alone else reason, short), SHORT,
+                                      whole=None if short else True) for reason in rows)
 
 
-def _unheld(reason: Reason):
-    """What follows "holds", with its clauses."""
+def _unheld(reason: Reason, short: bool = False) -> Reason:
+    """What follows "holds", with its clauses. short: as of `condition`."""
     held = reason.quantities["condition"]
+    held = in_short(held) if short else held
     for joint, clause in reason.rest:
         held = held.then(clause, joint)
     return held
+
+
+def tilts(caveats: Iterable[Caveat], units: Units) -> list[str]:
+    """What a tilt does to a verdict that rests on a condition: the clauses behind that."""
+    rows = [item.reason for item in caveats if item.kind is Kind.TILT and item.reason.sentence is HOLDS]
+    return [units.said(clause, SHORT) for reason in rows for _, clause in reason.rest]
+
+
+def fitted(build: Callable[[bool], str], before: int = 0, together: int = 1) -> str:
+    """A line with its condition in full, or in fewer words where there is no room for that. build: the line,
+    in short or not; before: letters that stand before it; together: how many of its clauses belong into the
+    first line."""
+    lines = build(False), build(True)
+    for many in range(together, 0, -1):
+        for line in lines:
+            if before + len("; ".join(clauses_of(line)[:many])) <= LINE:
+                return line
+    return lines[-1]
 
 
 def tilted(caveats: Iterable[Caveat], units: Units) -> str:
@@ -50,7 +71,7 @@ def tilted(caveats: Iterable[Caveat], units: Units) -> str:
 
 def shared(answers: Sequence[Iterable[Caveat]], units: Units) -> str:
     """" only while ...", or of how many it is said, for several answers in one line, without tilts."""
-    result = Counter(condition(caveats, units, alone=True) for caveats in answers)
+    result = Counter(condition(caveats, units, alone=True, short=True) for caveats in answers)
     return "".join(f"{item}" if count == len(answers) else f" ({count} of them{item})"
                    for item, count in result.items() if item)
 
@@ -88,8 +109,10 @@ def unsaid(caveats: Iterable[Caveat], text: str, units: Units) -> list[Caveat]:
 
 def _forms(item: Caveat, units: Units) -> list[str]:
     """How a first line may have it: with long or short names of axes, with what a tilt does or without."""
-    return [form for full in (True, False) for reason in (item.reason, item.reason.alone)
-            for form in [units.said(reason, SHORT, full)]]
+    short = [_unheld(reason, True) for reason in (item.reason, item.reason.alone)
+             if item.reason.sentence is HOLDS]
+    return [units.said(reason, SHORT, full) for full in (True, False, None)
+            for reason in (item.reason, item.reason.alone, *short)]
 
 
 def lines(caveats: Iterable[Caveat], units: Units) -> list[str]:

@@ -220,7 +220,10 @@ def _fates(result):
     rate, energy = ("1", "1") if result.scene.variables == "scaled" else ("rad/s", "J")
     text = np.array([Fate(int(label)).word for label in labels.reshape(-1)],
                      dtype=object).reshape(labels.shape)
-    values = {"start": ((*dims, "axis"), result.states, {"units": rate, "long_name": "rates at t = 0"}),
+    rates = result.states.shape[-1] == 3
+    start = ("axis", {"units": rate, "long_name": "rates at t = 0"}) if rates else (
+        "component", {"long_name": "state at t = 0, its parts in a row"})
+    values = {"start": ((*dims, start[0]), result.states, start[1]),
               "fate": (dims, text, {}),
               "margin": (dims, result.margins,
                          {"units": energy, "long_name": "height of the barrier ahead less the energy"}),
@@ -229,7 +232,7 @@ def _fates(result):
               "level": (dims, np.asarray(result.levels, dtype=object),
                         {"long_name": "how well the fate is known"}),
               "because": (dims, np.asarray(result.because, dtype=object), {})}
-    return Variables(dims, values, AXIS)
+    return Variables(dims, values, AXIS if rates else {})
 
 
 def _motions_words(result):

@@ -88,18 +88,19 @@ class Units:
         name, item = unit
         return f"{number(as_bound(value, item, digits, side), digits)} {name}".rstrip()
 
-    def said(self, reason: Reason, digits: int = DIGITS - 1, whole: bool = False) -> str:
+    def said(self, reason: Reason, digits: int = DIGITS - 1, whole: bool | None = False) -> str:
         """A sentence in these units, with letters. digits: of angles, rates and times. whole: whether axes
-        have their long names."""
+        have their long names; None: letters alone where they have them."""
         fill = partial(self.filled, digits=digits, whole=whole)
         return "".join(joint + (item.text(fill, letters=True) if item.code
                                 else lettered(self.axes.sentence(printable(item.text()))))
                        for joint, item in reason.clauses())
 
-    def filled(self, value: Any, digits: int = SHORT, whole: bool = False) -> str:
+    def filled(self, value: Any, digits: int = SHORT, whole: bool | None = False) -> str:
         """What fills a hole of a sentence, as text. digits, whole: as of `said`."""
         if isinstance(value, Axis):
-            return (self.axes.whole if whole else self.axes.short)(value.number)
+            name = self.axes.brief if whole is None else self.axes.whole if whole else self.axes.short
+            return name(value.number)
         if isinstance(value, Reason):
             return self.said(value, digits, whole)
         if isinstance(value, Symbolic):

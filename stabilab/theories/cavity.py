@@ -46,12 +46,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..answers.simulate import Simulation
-from ..errors import InputError
+from ..errors import InputError, Refused
 from ..integrate.trajectory import ALL_REACHED, FALLBACK_RTOL
 from ..physics.equations import derive
 from ..physics.states import numbers_in_a_row, three_numbers
 from ..physics.to_numpy import lambdified, to_numpy
-from ..reasons import Moment, Quantity, Reason, Reasoned, Sentence, Time, old
+from ..reasons import Moment, Quantity, Rate, Reason, Reasoned, Sentence, Time, old
 from .cavity_normal_form import NAMES, NormalForm, check, constants, normal_form
 from .printed.evaluate import printed_formulas
 
@@ -141,6 +141,15 @@ def omega_of(state) -> np.ndarray:
     return three_numbers(state["omega"] if isinstance(state, dict) and "omega" in state else state)
 
 
+NOT_SMALL = Sentence(
+    "averaging-not-small", "averaging needs small disturbances: {ratio} is {value}, expected it below 1 "
+    "(much below 1 for a close answer); use the exact motion (`trajectory`) here")
+NO_CONVERGENCE = Sentence(
+    "averaging-not-converging", "averaging to second order needs smaller disturbances: the change of the "
+    "initial values to averaged variables does not converge (off by {off}); use order 1 or the exact motion")
+NOT_OSCILLATING = Sentence(
+    "printed-averaging-needs-oscillation", "the printed solution does not exist here: it needs "
+    "(D1'r - g)(D2'r - g) > 0 at the start, got {product}")
 ERRORS_UP_TO = Sentence(
     "averaging-errors-up-to", "errors of order ε^{order} (ε = {small}) in amplitude and spin up to about t = "
     "{time} (the time of the slow change), in the phase they grow with time")
@@ -191,9 +200,7 @@ class Smallness:
         """InputError for the first ratio that is not below 1."""
         for key, ratio in self.ratios.items():
             if not ratio < 1:
-                raise InputError(f"averaging needs small disturbances: {key} is {ratio:.3g}, expected it "
-                                 f"below 1 (much "
-                                 "below 1 for a close answer); use the exact motion (`trajectory`) here")
+                raise Refused(NOT_SMALL(ratio=key, value=Quantity(ratio, digits=3)))
 
     def horizon(self, order) -> Reason:
         """How far the answer may be trusted."""
@@ -263,9 +270,7 @@ class _Model:
                 return y
         if np.abs(miss).max() < 1e-13 * scale:
             return y
-        raise InputError("averaging to second order needs smaller disturbances: the change of the initial "
-                         f"values to averaged variables does not converge (off by {np.abs(miss).max():.2g} "
-                         "rad/s); use order 1 or the exact motion")
+        raise Refused(NO_CONVERGENCE(off=Rate(float(np.abs(miss).max()), digits=2)))
 
     def rates(self, t: float, y: np.ndarray):
         """Rates of (Re W, Im W, r, psi), or of (log |W|, arg W, r, psi); none where an amplitude leaves the
@@ -396,8 +401,7 @@ class Polynomials:
         d1, d2 = float(exact[0] - exact[2]), float(exact[1] - exact[2])
         x1, x2 = d1 * r - n["Gamma"], d2 * r - n["Gamma"]
         if not x1 * x2 > 0:
-            raise InputError("the printed solution does not exist here: it needs (D1'r - g)(D2'r - g) > 0 at "
-                             f"the start, got {x1 * x2:.3g}")
+            raise Refused(NOT_OSCILLATING(product=Quantity(x1 * x2, "(N m s)^2", 3)))
         formula, om = formulas(), math.sqrt(x1 * x2) / n["J0"]
         # eps = 1, so that d1, d2 are the differences themselves; lambda of (24) and B' of (25) read as zeta
         # and D2'

@@ -26,11 +26,11 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from ..errors import InputError
+from ..errors import InputError, Refused
 from ..numbers.vectors import Number
 from ..physics.effects.base import effect_words
 from ..physics.equations import derive
-from ..reasons import Axis, Quantity, Rate, Reason, Reasoned, Sentence
+from ..reasons import Axis, Momentum, Quantity, Rate, Reason, Reasoned, Sentence
 
 if TYPE_CHECKING:
     from sympy import Expr
@@ -88,7 +88,7 @@ def check(scene: Scene):
                          '"attitude": give the angle in rad')
     lam = scene.vector("gyrostat")
     if lam[0] or lam[1]:
-        raise InputError(f"averaging needs a gyrostatic moment along axis 3, got {tuple(map(float, lam))}")
+        raise Refused(NEEDS_AXIS_3(momentum=Momentum(tuple(map(float, lam)))))
 
 
 def normal_form(scene: Scene) -> NormalForm:
@@ -230,6 +230,8 @@ def _harmonics(f: Expr, Z: Expr, Zc: Expr, shift: int, m: Expr, K: Expr, S: Expr
     return mean, retained, nearby
 
 
+NEEDS_AXIS_3 = Sentence(
+    "averaging-needs-axis-3", "averaging needs a gyrostatic moment along axis 3, got {momentum}")
 SPIN_ALONE = Sentence(
     "averaged-spin-alone", "spin about {axis}: amplitude and spin change each at their own rate")
 PRECESSION = Sentence(

@@ -48,14 +48,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..answers.simulate import Simulation
-from ..errors import InputError
+from ..errors import InputError, Refused
 from ..numbers.double_double import divided_differences
-from ..reasons import Angle, Reason, Reasoned, Sentence, Time
+from ..reasons import Angle, Inertia, Reason, Reasoned, Sentence, Time
 from .charged_modes import SMALL_ANGLE, ChargedBody, Modes, horizon, modes, spin_reason
 from .printed.evaluate import printed_formulas
 
 if TYPE_CHECKING:
     from ..physics.scene import Scene
+
+NEED_AN_EXTREME = Sentence(
+    "charged-needs-extreme",
+    "the paper's formulas need D3 above both D1 and D2, or below both; got {moments}")
+TAKE_ROOTS = Sentence(
+    "charged-takes-roots",
+    "the printed formulas take roots of ζ1 and ζ2: D3 must exceed D1 and D2; got {moments}")
 
 # --- Closed forms
 LOPSIDED = 4.0  # a/b beyond which the even split loses less: w - a cancels against 1 by sqrt(a/b)
@@ -222,8 +229,7 @@ def one_frequency(body: ChargedBody) -> Modes:
     m, (D1, D2, D3) = modes(body), map(Fraction, body.inertia)
     zeta1, zeta2 = (D3 - D2) / D1, (D3 - D1) / D2
     if zeta1 * zeta2 <= 0:
-        raise InputError(
-            f"the paper's formulas need D3 above both D1 and D2, or below both; got {body.inertia}")
+        raise Refused(NEED_AN_EXTREME(moments=Inertia(tuple(map(float, body.inertia)))))
     return replace(m, b=m.a * zeta2 / zeta1)
 
 
@@ -351,8 +357,7 @@ def numbers(body: ChargedBody, t: np.ndarray) -> dict:
     D1, D2, D3 = body.inertia
     zeta1, zeta2, r0 = (D3 - D2) / D1, (D3 - D1) / D2, body.spin
     if zeta1 <= 0 or zeta2 <= 0:
-        raise InputError("the printed formulas take roots of zeta1 and zeta2: D3 must exceed D1 and D2; got "
-                         f"{body.inertia.tolist()}")
+        raise Refused(TAKE_ROOTS(moments=Inertia(tuple(map(float, body.inertia)))))
     root1, root2, Lam = np.sqrt(zeta1), np.sqrt(zeta2), body.gyrostat - body.charge_moment
     if root1 * root2 * (r0 + Lam / (zeta1 * D1)) == 0:
         raise InputError("W = 0: the printed formulas divide by their frequency (8), which is zero here")

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..answers.caveats import answered
 from ..case.given import Given, Span, Start, as_case, time_in, with_start
-from ..errors import InputError
+from ..errors import InputError, reason_of
 from ..integrate.events import roots_of_rates
 from ..physics.states import checked_times
 from ..reasons import Angle, Filling, PerSecond, Quantity, Rate, Reason, Sentence, Time, as_reason
@@ -103,7 +103,7 @@ def theory(case: Given, order: int | None = None, model: str | None = None,
         rows = printed[module.__name__.split(".")[-1]](case, order, end)
         return rows + (_misprints() if model == "printed" and module.MODELS[0] == "linear" else [])
     except InputError as error:
-        return [_row("theory", NO_ANSWER(why=str(error)))]
+        return [_row("theory", NO_ANSWER(why=reason_of(error)))]
 
 
 def _row(about: str, reason: Reason, **values: object) -> dict:
@@ -190,7 +190,7 @@ def _periodic(motion):
         values["precession"] = mean_precession(motion)
         precession = PRECESSES(rate=Rate(values["precession"]))
     except InputError as error:
-        precession = NO_PRECESSION(why=str(error))
+        precession = NO_PRECESSION(why=reason_of(error))
     reason = PERIODIC(order=motion.order, period=Time(motion.period), precession=precession,
                       departure=Rate(tuple(values["departure"])), square=Quantity(motion.Omega2))
     return _row("periodic motion", reason, **values)
@@ -242,14 +242,19 @@ class Departure(Compared):
 @dataclass(frozen=True, repr=False, eq=False)
 class Comparison(Answer, Compared):
     """t: (n,) times; runs: model -> Simulation, the exact one first; departures: one per model and part of
-    the state; refused: model -> why it has no answer for this motion; theory: what else the theory says
-    (`theory.theory`)."""
+    the state; refusals: model -> the reason why it has no answer for this motion, refused: the same in words;
+    theory: what else the theory says (`theory.theory`)."""
 
     t: np.ndarray
     runs: dict
     departures: tuple[Departure, ...]
-    refused: dict
+    refusals: dict
     theory: tuple = ()
+
+    @property
+    def refused(self) -> dict[str, str]:
+        """Model -> why it has no answer, in words and SI units."""
+        return {model: reason.text() for model, reason in self.refusals.items()}
 
     @property
     def validity(self):
@@ -292,7 +297,7 @@ def side_by_side(case, times, order: int | None = None) -> tuple[dict, dict]:
         except InputError as error:
             if name == "exact":
                 raise
-            refused[name] = str(error)
+            refused[name] = reason_of(error)
     return runs, refused
 
 

@@ -33,9 +33,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..answers.simulate import Simulation
-from ..errors import InputError
+from ..errors import InputError, Refused
 from ..physics.states import numbers_in_a_row
-from ..reasons import Reasoned, Sentence
+from ..reasons import Quantity, Reasoned, Sentence
 from .printed.evaluate import printed_formulas
 from .top_lindstedt import LindstedtMotion, fast_top, lindstedt
 
@@ -45,6 +45,9 @@ if TYPE_CHECKING:
     from ..physics.scene import AnyScene, Scene
 
 
+NEEDS_GRAVITY = Sentence(
+    "printed-top-needs-gravity", "the printed solution divides by √(M g L γ0''): it needs gravity and a "
+    "third component of γ above 0, got M g L/(C r0²) = {weight} and γ0'' = {third}")
 AS_PRINTED = Sentence(
     "top-as-printed", "eqs. (10), (41) and (43) as they stand in print, misprints and all")()
 DIVIDES_BY_ZERO = Sentence(
@@ -76,9 +79,8 @@ def paper_numbers(scene: AnyScene, state: Mapping[str, Float3]) -> dict[str, flo
     top = fast_top(scene, state)
     gamma0 = float(top.gamma[2])
     if not any(top.force) or gamma0 <= 0:
-        raise InputError("the printed solution divides by sqrt(M g L gamma0''): it needs gravity and a third "
-                         "component of gamma above 0, got M g L/(C r0^2) = "
-                         f"{math.hypot(*map(float, top.force)):g} and gamma0'' = {gamma0:g}")
+        raise Refused(NEEDS_GRAVITY(weight=Quantity(math.hypot(*map(float, top.force))),
+                                    third=Quantity(gamma0)))
     if top.tilt[1]:
         raise InputError("the printed solution has the gyrostatic moment (l_x, 0, l_z); the scene's has a "
                          "second component")

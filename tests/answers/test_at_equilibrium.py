@@ -112,7 +112,8 @@ def test_a_sleeping_top_is_unstable_below_its_critical_spin_and_says_how_fast(th
 
 
 @pytest.mark.parametrize("effect", [LiquidCavity(1250, 1000, "1.9"), ViscousDamper("0.1", "0.2")])
-@pytest.mark.parametrize("state, stable", [((1, 0, 0), True), ((0, 1, 0), False), ((0, 0, 1), False)])
+@pytest.mark.parametrize("state, stable", [((1, 0, 0), True), ((0, 1, 0), False), ((0, 0, 1), False),
+                                           ((0, 0, -0.163), False), ((0.7, 0, 0), True)])  # no samples of curves
 def test_with_a_loss_of_energy_only_rotation_about_the_major_axis_is_stable(effect, state, stable):
     scale = 40 if isinstance(effect, LiquidCavity) else 1
     scene = Scene(Body([d * scale for d in (3, 2, 1)]), effect)

@@ -267,7 +267,7 @@ def test_a_page_of_a_sweep_begins_with_the_answer_of_the_commands_and_tells_the_
     first = in_one_line(stabilab("fate", path)[1])
     assert first.startswith(f"BEYOND THE LAW; by that law: charged-sweep: {found['headline']}")
     assert found["headline"].startswith(
-        "27 combinations: each BOUNDED only while the torque is exactly along x ")
+        "each of 27 BOUNDED only with torque exactly along x")
     assert headline.of_cases(load_all(path)) == found["law"] and "27 of 27 combinations" in found["law"]
 
 

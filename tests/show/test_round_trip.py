@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from fractions import Fraction
 
 import pytest
 
@@ -14,8 +15,15 @@ from tests.recorded.cases import ROOT, written
 # of a text: not part of a name (omega1, x3, cubesat-3u), a formula's power or index, a list's place
 NUMBER = re.compile(r"(?<![\w.^/])[-−+]?\d[\d,]*(?:\.\d+)?(?:e[-+]?\d+)?(?![\w]|\.\d|/\d)(?!\s*(?:\^|D\b))")
 TURN = 180 / math.pi
-SIZES = (1.0, 1 / TURN, 1 / TURN / 86400, math.pi / 30, math.tau, 60.0, 3600.0, 86400.0, 0.01, 1 / TURN**2,
-         (1 / TURN / 86400)**2)
+RATES = {"rad/s": 1.0, "deg/s": 1 / TURN, "deg/day": 1 / TURN / 86400, "rpm": math.pi / 30, "rev/s": math.tau}
+UNITS = RATES | {f"({name})²": size**2 for name, size in RATES.items()} | {
+    "rad": 1.0, "deg": 1 / TURN, "deg/s²": 1 / TURN, "s": 1.0, "min": 60.0, "h": 3600.0, "day": 86400.0, "%": 0.01}
+ANY = sorted({*UNITS.values()})  # of a number whose unit stands elsewhere, such as at the head of a column
+# the unit of a number: behind it, behind others of a list, or behind the vector that it is in
+ONE = r"[-−+]?[\d,.]+(?:e[-+]?\d+)?"
+NAMES = "|".join(map(re.escape, sorted(UNITS, key=len, reverse=True)))
+UNIT = re.compile(rf"(?:\s*(?:to|and|or|,|±|x)\s{ONE})*\s*({NAMES})(?![\w/²])")
+OF_VECTOR = re.compile(rf"(?:,\s{ONE})*\)\s?({NAMES})?(?![\w/²])")
 COMMANDS = {"fate": ("--why",), "extremes": ("--why",), "period": ("--why",), "classify": ("--why",),
             "stuck": ("--why",), "attitude": (), "flat-spin": (), "when": ("--rate", "30 deg/s")}
 QUICK = ("minor-axis-100", "phone", "t-handle", "upper-stage", "rahn-barba", "symmetric-spin-up", "toy-top")
@@ -28,9 +36,9 @@ def numbers(value):
     if isinstance(value, (int, float)):
         yield float(value)
     elif isinstance(value, str):
-        try:  # decimals that are asked for, and infinities
-            yield float(value)
-        except ValueError:
+        try:  # decimals that are asked for, exact ratios, and infinities
+            yield float(value) if "/" not in value else float(Fraction(value))
+        except (ValueError, ZeroDivisionError):
             return
     else:
         if isinstance(value, list):
@@ -39,23 +47,32 @@ def numbers(value):
             yield from numbers(one)
 
 
-def known(text: str, values) -> bool:
-    """Whether a printed number is one of the values in some unit, to its last digit (bounds are rounded outward)."""
+def unit_of(before: str, behind: str) -> str:
+    """The unit of the number that stands between these parts of a line; empty where none follows it."""
+    inside = before.count("(") > before.count(")")
+    out = UNIT.match(behind) or (OF_VECTOR.match(behind) if inside else None)
+    return (out and out[1]) or ""
+
+
+def known(text: str, unit: str, values) -> bool:
+    """Whether a printed number is one of the values in SI, to its last digit (bounds are rounded outward)."""
     words = text.replace(",", "").replace("−", "-")
     value, (digits, _, power) = float(words), words.partition("e")
     last = 10.0 ** (int(power or 0) - len(digits.partition(".")[2]))
-    if "." not in digits and not power:  # three or four significant digits
+    if "." not in digits and not power and unit != "%":  # three or four significant digits
         whole = digits.strip("+-")
-        last = 10.0 ** (len(whole) - (3 if whole.endswith("0") or len(whole) < 4 else 4))
+        last = max(0.5 * bool(unit), 10.0 ** (len(whole) - (3 if whole.endswith("0") or len(whole) < 4 else 4)))
+    sizes = ANY if not unit or not value else (0.01, 1.0) if unit == "%" else (UNITS[unit],)
     return any(abs(abs(one) - abs(value) * size) <= (1.01 * last + 1e-9 * abs(value)) * size
-               for size in SIZES for one in values)
+               for size in sizes for one in values)
 
 
 def missing(text: str, given, case: str):
-    """Lines of a text with a number that the JSON has under no key."""
+    """Lines of a text with a number that the JSON has under no key; what stands between quotes is to be typed."""
     values, lines = [*numbers(given)], []
-    for line in text.replace(case, "CASE").splitlines():
-        lost = [found[0] for found in NUMBER.finditer(line) if not known(found[0], values)]
+    for line in re.sub(r'"[^"]*"', "", text.replace(case, "CASE")).splitlines():
+        lost = [out[0] for out in NUMBER.finditer(line)
+                if not known(out[0], unit_of(line[:out.start()], line[out.end():]), values)]
         lines += [(lost, line)] if lost else []
     return lines
 
@@ -72,7 +89,8 @@ def own(path, text):
     lines = text.splitlines()
     letters = len(title[1]) if title else -1
     kept = "\n".join(line for line in lines if len(line) != letters or line.startswith(" "))
-    for words in ("along axes 1, 2, 3", "with 95 % confidence", "5, 50 and 95 % quantiles"):  # no quantities
+    # no quantities of the answer
+    for words in ("along axes 1, 2, 3", "with 95 % confidence", "5, 50 and 95 % quantiles", "tends to 2 on tori"):
         kept = kept.replace(words, "")
     return kept
 

@@ -167,7 +167,7 @@ def _entries(lines, text, mark_words) -> list:
 
 def _refused(column: Column, text: Mapping[str, str]) -> str:
     """Which models have no curve in a column, and why, as lines of its heading."""
-    why = {reason.split(": ")[0]: [text[m] for m, other in column.refused.items() if other == reason]
+    why = {reason.text().split(": ")[0]: [text[m] for m, other in column.refused.items() if other == reason]
            for reason in column.refused.values()}
     return "".join("\n" + fill(f"{', '.join(f'no “{model}”' for model in models)}: {reason}", 48)
                    for reason, models in why.items())

@@ -135,13 +135,14 @@ def answer(atlas: Atlas, units: Units, rows: np.ndarray | None = None) -> str:
             else "directions and wheel momenta")
     parts = []
     for n, ((fate, axis), fraction) in enumerate(shares):
-        about = axes_of(atlas.asked.case).whole(axis) if axis else other_axis(atlas)
+        about = axes_of(atlas.asked.case).head(axis) if axis else other_axis(atlas)
         verb = (f"about {about}" if n and shares[n - 1][0][0] == fate == Fate.SPIN_UP
                 else f"spin up about {about}" if fate == Fate.SPIN_UP else DOES[Fate(fate)][0])
         parts.append(f"{per_cent(fraction)} of {what} {verb}" if not n else f"{per_cent(fraction)} {verb}")
     if len(shares) == 1:
         parts = [parts[0].replace("100 % of", "all", 1)]
-    return ", ".join(parts) + _shortest(atlas, units, rows)
+    where = [axes_of(atlas.asked.case).direction_clause(axis) for (_, axis), _ in shares if rows is None]
+    return "; ".join([*parts, *filter(None, (_shortest(atlas, units, rows), *where))])
 
 
 def _by_axis(atlas: Atlas, rows: np.ndarray | None) -> list[tuple[tuple[int, int], float]]:
@@ -161,12 +162,12 @@ def _shortest(atlas: Atlas, units: Units, rows: np.ndarray | None = None) -> str
     low, high = (atlas.records[name][chosen] for name in ("when_low", "when_high"))
     resolved = np.isfinite(low) & np.isfinite(high)
     if not resolved.any():
-        return f"; {limit_words(atlas, units)} is not known to be reached"
+        return f"{limit_words(atlas, units)} is not known to be reached"
     at = int(chosen[resolved][np.argmin(low[resolved])])
     beside = (f", wheel {wheel_words(atlas, int(atlas.leaves.wheel[at]))}" if atlas.asked.momenta
               and rows is None else "")
     where = direction_words(atlas.in_file(atlas.directions[at:at + 1])[0])
-    return (f"; shortest time to {limit_words(atlas, units)}: "
+    return (f"shortest time to {limit_words(atlas, units)}: "
             f"{units.time(float(atlas.records['when_low'][at]), SHORT)} at direction {where}{beside}")
 
 
@@ -199,8 +200,7 @@ def _wheels(atlas: Atlas, units: Units) -> list[str]:
 
 def _details(atlas: Atlas, units: Units) -> list[str]:
     records, full = atlas.records, atlas.share.sum()
-    levels = np.unique(atlas.leaves.level)
-    size = math.degrees(math.sqrt(float(area(int(levels[-1])))))
+    levels, size = np.unique(atlas.leaves.level), math.degrees(_smallest(atlas))
     lines = [f"  torque {units.torque(float(atlas.asked.torque))}; {len(records):,} cells of equal area at "
              f"each of {len(levels)} depths, the smallest some "
              f"{size:.2g} deg wide" if len(levels) > 1 else
@@ -208,28 +208,36 @@ def _details(atlas: Atlas, units: Units) -> list[str]:
              f"some {size:.2g} deg wide"]
     spun = records["fate"] == Fate.SPIN_UP
     if spun.any():
-        lines.append("  spin-up about " + _listed(atlas, records["spin_axis"], spun, full,
+        lines.append("  spin-up about " + _listed(_shares(atlas, "spin_axis", spun),
                                                   lambda axis: _signed(atlas, axis)))
-    lines.append("  the fate is known as " + _listed(atlas, records["level"], records["level"] >= 0, full,
-                                                     lambda level: LEVELS[level]))
+    lines.append("  the fate is known as " + _listed(_shares(atlas, "level"), lambda level: LEVELS[level]))
     if atlas.asked.stated_limit is not None:
         lines.append(_times(atlas, units, full))
     lines.append("  number of equilibria: "
-                 + _listed(atlas, records["equilibria"], records["equilibria"] > -9, full,
-                                                      lambda n: COUNTS.get(n) or str(n)))
+                 + _listed(_shares(atlas, "equilibria"), lambda n: COUNTS.get(n) or str(n)))
     suspected = records["island"] > 0
     if suspected.any():
-        lines.append("  bounded islands: " + _listed(atlas, records["island"], suspected, full,
+        lines.append("  bounded islands: " + _listed(_shares(atlas, "island", suspected),
                                                      lambda n: ("", "may exist", "one is seen")[n]))
     return lines
 
 
-def _listed(atlas: Atlas, values: np.ndarray, rows: np.ndarray, full: float,
-            phrase: Callable[[int], str]) -> str:
+def _smallest(atlas: Atlas) -> float:
+    """How wide the smallest cells are, rad: the root of their area."""
+    return math.sqrt(float(area(int(atlas.leaves.level.max()))))
+
+
+def _shares(atlas: Atlas, name: str, rows: np.ndarray | bool = True) -> dict[int, float]:
+    """{value of a column: share of the sphere and of the wheels} of all values in these rows, the most first.
+    """
+    values, full = atlas.records[name], atlas.share.sum()
     shares = {int(value): float(atlas.share[rows & (values == value)].sum() / full)
-              for value in np.unique(values[rows])}
-    return ", ".join(f"{phrase(value)} ({per_cent(fraction)})"
-                     for value, fraction in sorted(shares.items(), key=lambda item: -item[1]))
+              for value in np.unique(values[rows & (values == values)])}
+    return dict(sorted(shares.items(), key=lambda item: -item[1]))
+
+
+def _listed(shares: dict[int, float], phrase: Callable[[int], str]) -> str:
+    return ", ".join(f"{phrase(value)} ({per_cent(fraction)})" for value, fraction in shares.items())
 
 
 def _times(atlas: Atlas, units: Units, full: float) -> str:
@@ -238,7 +246,7 @@ def _times(atlas: Atlas, units: Units, full: float) -> str:
     printed = f"  time to {limit_words(atlas, units)}: "
     if settled.any():
         smallest, largest = float(low[settled].min()), float(high[settled].max())
-        levels = _listed(atlas, atlas.records["when_level"], settled, full, lambda level: LIMIT_LEVELS[level])
+        levels = _listed(_shares(atlas, "when_level", settled), lambda level: LIMIT_LEVELS[level])
         printed += f"{units.time(smallest, SHORT)} to {units.time(largest, SHORT)}, {levels}"
     rest = [(phrase, float(atlas.share[rows].sum() / full)) for phrase, rows in
             (("never", np.isinf(low)), ("not known", ~settled & ~np.isinf(low))) if rows.any()]
@@ -304,7 +312,7 @@ def csv(atlas: Atlas) -> str:
                 zip(ends.level.tolist(), ends.number.tolist(), atlas.share.tolist()))
     momenta = atlas.asked.momenta
     case = atlas.asked.case
-    every = limiting.cell(case, of_every_point(case))
+    every = limiting.cell(case, of_every_point(case, atlas.records))
     rows = [[name, momenta[wheel] if momenta else "", *about, *direction, *of_file,
              *_with(every, columns, _cells(columns, answered))]
             for first, directions, records in ((points, atlas.named_directions, atlas.named_records),
@@ -335,6 +343,10 @@ def json(atlas: Atlas, units: Units) -> str:
     shares = [{"fate": Fate(fate).word, **axes.key(abs(axis)),
                "sense": (axis > 0) - (axis < 0) or None, "island": ISLANDS[island], "share": fraction}
               for (fate, axis, island), _, fraction in kinds(atlas)]
+    by_axis = [{"fate": Fate(fate).word, **axes.key(axis), "share": fraction}
+               for (fate, axis), fraction in _by_axis(atlas, None)]
+    counts = [{"equilibria": COUNTS.get(count) or count, "share": fraction}
+              for count, fraction in _shares(atlas, "equilibria").items()]
     limit = query.stated_limit
     cells = {"wheel": atlas.leaves.wheel, "level": atlas.leaves.level, "number": atlas.leaves.number,
              "share": atlas.share,
@@ -353,9 +365,10 @@ def json(atlas: Atlas, units: Units) -> str:
         "torque": float(query.torque),
         "moments": list(map(float, query.case.scene.body.exact)),  # type: ignore[union-attr]
         "axes": [[float(v) for v in row] for row in frame.axes] if frame is not None else None,
-        "wheels": wheels,
+        "wheels": wheels, "smallest_cell": _smallest(atlas),
         "limit": None if limit is None else {"kind": limit.kind, "names": list(limit.names),
-                                             "values": list(limit.limits)}, "shares": shares, "named": named,
+                                             "values": list(limit.limits)},
+        "shares": shares, "shares_by_axis": by_axis, "equilibria": counts, "named": named,
         "flags": {column.name: list(column.flags) for column in columns if column.flags},
         "units": {column.name: unit(plan, column) for column in columns if column.kind == "f8"},
         "cells": cells | {column.name: endless(atlas.records[column.name].tolist()) for column in columns}}

@@ -32,7 +32,7 @@ from .. import limiting
 from ..axes import axes_of
 from ..data import as_json, csv_lines
 from ..text import headline
-from ..units import units_of, with_unit
+from ..units import number, units_of, with_unit
 from .shades import limits_of
 from .sweep import checked, column_in, finished, origin, write
 
@@ -55,17 +55,21 @@ def text(result: Basins) -> str:
     mesh = result.mesh
     lines = [f"{printable(result.plan.case.name)}: {_answer(result)}"]
     lines += [f"  {line}" for line in (*_boundary(result), _known(result))]
-    full = (mesh.cells[0] << mesh.depth) + 1, (mesh.cells[1] << mesh.depth) + 1
+    full = _grid(mesh)
     lines.append(
         f"  {len(mesh.keys):,} states computed, of {full[0] * full[1]:,} of the grid of finest cells "
         f"({full[0]:,} x {full[1]:,})")
-    lines += (limiting.lines(limits_of(result.plan.case, result.records), units_of(result.plan.case))
-              + headline.beside(result.plan.case))
+    lines += limiting.lines(limits_of(result.plan.case, result.records), units_of(result.plan.case))
     if mesh.full:
         lines.append(
             "  refinement ended before the depth asked for: more than the largest number of states would be "
             "needed; take a smaller depth or plane")
     return limiting.ahead(of_case(result.plan.case), "\n".join(lines))
+
+
+def _grid(mesh: Mesh) -> tuple[int, int]:
+    """How many states along each axis a grid of finest cells has."""
+    return (mesh.cells[0] << mesh.depth) + 1, (mesh.cells[1] << mesh.depth) + 1
 
 
 def _answer(result: Basins) -> str:
@@ -74,8 +78,8 @@ def _answer(result: Basins) -> str:
     if len(parts) == 1:
         return f"one basin in this plane: all of it {basin_name(result, next(iter(result.shares)))}"
     return (
-        f"{len(parts)} kinds of motion in this plane: {', '.join(parts)} (± {_digits(100 * result.blur)} %: "
-        f"the cells on the boundaries)")
+        f"{len(parts)} kinds of motion in this plane: {'; '.join(parts)}; ± {_digits(100 * result.blur)} %, "
+        f"the cells on the boundaries")
 
 
 def _percent(fraction: float, blur: float) -> str:
@@ -84,7 +88,7 @@ def _percent(fraction: float, blur: float) -> str:
 
 
 def _digits(value: float) -> str:
-    return f"{value:.2g}"
+    return number(value, 2)
 
 
 def _boundary(result: Basins) -> list[str]:
@@ -160,10 +164,13 @@ def json(result: Basins) -> str:
     axes = [{"key": axis.key.name, "unit": axis.shown_unit, "from": axis.values[0], "to": axis.values[-1],
              "cells": cells, "finest_cell": step}
             for axis, cells, step in zip(result.plan.axes, mesh.cells, result.steps)]
-    return as_json(limiting.key(result.plan.case, limits_of(result.plan.case, result.records)) | {
+    case = result.plan.case
+    limits = limiting.key(case, limits_of(case, result.records)) | headline.key(headline.of_case(case))
+    return as_json(limits | {
         "schema": BASIN_SCHEMA, "case": result.plan.case.name, "variables": result.plan.case.variables,
         "command": command(result), "axes": axes,
         "depth": mesh.depth, "complete": not mesh.full, "states_asked": len(mesh.keys),
+        "finest_grid": list(_grid(mesh)),
         "basins": [{"basin": basin_name(result, label), "share": fraction}
                    for label, fraction in result.shares.items()], "share_uncertainty": result.blur,
         "boundary": {"cells": len(result.boundary), "unclear_cells": result.unclear, "exact": result.exact,

@@ -98,7 +98,7 @@ def _of_line(result: Diagram) -> str:
                      else f"for {_range(result, piece, span.label)}")
             parts.append(f"{piece.count or 'none'} {where}")
     printed = _events_told(result)
-    return ", ".join(parts) + (f": {printed}" if printed else "")
+    return "; ".join([*parts, *([printed] if printed else [])])
 
 
 def _uniform(result: Diagram, count: int) -> str:
@@ -109,7 +109,7 @@ def _uniform(result: Diagram, count: int) -> str:
     other = [f"{_things(result, event.count)} at {_number(event.value, digits)}{unit(span)}"
              for event in result.events if event.count != count]
     events = "" if other and result.kind == CURVES else _events_told(result)
-    return printed + (f", but {listed(other)}" if other else "") + (f": {events}" if events else "")
+    return "; ".join(filter(None, [printed, other and f"but {listed(other)}", events]))
 
 
 def unit(span: Span) -> str:

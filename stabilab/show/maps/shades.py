@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...answers.caveats import CONDITIONS, HOLDS, NO_SUCH_BODY, UNSTABLE_POINT, of_case, stated
+from ...answers.motions.of_case import law_of
 from ...case.lines import KeyLines
 from ...case.table import Faults, Table
 from ...errors import Caveat, Kind, without
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
 
 OF_POINTS = Sentence("of-points", "({count} of {points} points)")
 LIMIT_UNSEEN = Sentence("limit-not-looked-at", "the limit of the file, {limit}, is not looked at here")
+LAW_OF_THE_CASE = Sentence("law-of-the-case-alone",
+                           "laws are not judged at every point; of the case as it stands: {law}")
 
 
 # --- What the dimensions and columns of a sweep are called, and their units
@@ -83,9 +86,9 @@ def unit(plan: Plan, column: Column) -> str:
             if plan.case.variables == "physical" else "1")
 
 
-def of_every_point(case: Case) -> list[Caveat]:
+def of_every_point(case: Case, records: np.ndarray) -> list[Caveat]:
     """What limits the answer of every point of a map alike."""
-    return [*without(of_case(case), Kind.UNPHYSICAL)]  # which is of a point
+    return [*without(of_case(case), Kind.UNPHYSICAL), *_of_the_case(case, records)]  # that is of a point
 
 
 def limits_of(case: Case, records: np.ndarray) -> list[Caveat]:
@@ -102,9 +105,16 @@ def limits_of(case: Case, records: np.ndarray) -> list[Caveat]:
     for kind, reason, count in parts:
         part = None if count == len(numbers) else OF_POINTS(count=count, points=len(numbers))
         rows += [Caveat(kind, reason.then(part, " "))] if count else []
+    return [*rows, *_of_the_case(case, records)]
+
+
+def _of_the_case(case: Case, records: np.ndarray) -> list[Caveat]:
+    """That the limit of the case was not looked at, where it has one and no times are asked; and how far an
+    approximate law holds of the case as it stands, as that is not judged at every point."""
+    rows, law = [], law_of(case)
     if case.limits is not None and "when_low" not in records.dtype.names:
         rows.append(Caveat(Kind.LIMIT, LIMIT_UNSEEN(limit=stated(case.limits))))
-    return rows
+    return [*rows, *([] if law is None else [Caveat(Kind.LAW, LAW_OF_THE_CASE(law=law.reason))])]
 
 
 # --- How fates and axes of a sweep look: colours by meaning, labels with units, straight or logarithmic

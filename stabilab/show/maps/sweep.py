@@ -56,7 +56,6 @@ def text(result: Swept) -> str:
     plan = result.plan
     lines = [f"{plan.case.name}: {_answer(result)}", *_details(result)]
     lines += limiting.lines(limits_of(_case_of(plan), result.records), units_of(plan.case))
-    lines += headline.beside(plan.case)
     if result.broken:
         printed = (f"{result.broken:,} points are no case; the first" if result.broken > 1
                 else "one point is no case")
@@ -199,12 +198,13 @@ def _case_of(plan: Plan) -> Any:
 
 def csv(result: Swept) -> str:
     """Every point as a line, with what limits the answers of all points beside what limits its own."""
-    case = _case_of(result.plan)
-    every = limiting.cell(case, of_every_point(case))
-    lines = rows(result)
-    if every and CAVEATS in columns_of(result.plan.answers):
-        lines = ([*row, "; ".join(filter(None, (every, own)))] for *row, own in lines)
-    return csv_lines([heads(result), *lines])
+    case, records = _case_of(result.plan), result.records
+    if CAVEATS not in columns_of(result.plan.answers):
+        full = limiting.cell(case, limits_of(case, records))
+        return csv_lines([[*heads(result), CAVEATS.name], *([*row, full] for row in rows(result))])
+    every = limiting.cell(case, of_every_point(case, records))
+    return csv_lines([heads(result),
+                      *([*row, "; ".join(filter(None, (every, own)))] for *row, own in rows(result))])
 
 
 def json(result: Swept) -> str:
@@ -224,6 +224,7 @@ def json(result: Swept) -> str:
                            "keys": [key.name for key in plan.sampled.keys],
                            "values": plan.sampled.values(0, plan.sampled.count).tolist()}
     told |= limiting.key(plan.case, limits_of(_case_of(plan), result.records))
+    told |= headline.key(headline.of_case(plan.case))
     return as_json(told | {"no_case": {"points": result.broken, "because": result.fault}, "columns": columns})
 
 

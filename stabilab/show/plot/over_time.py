@@ -262,7 +262,8 @@ def stuck(case: Case, found: Stuck, units: Units, plt: Any) -> Any:
             when = sum(row.time_to_limit) / 2 if row.time_to_limit else None
             drawn += _limit(ax, row.limit, when, t, omega, time_unit, scale.rate)
         ax.set_ylabel(with_unit("rate, axes of the file", scale.rate[0]))
-        became = answer_line(row, units).partition("; ")[0].rsplit(" (", 1)[0]
+        clauses = answer_line(row, units).split("; ")[:1 + (row.time_to_limit is not None)]
+        became = "; ".join(clauses).rsplit(" (", 1)[0]  # without how well that is known
         canvas.title(ax, "", f"{row_name(row)}: {became}")
         printed |= {text.partition(" after ")[0]: look for text, look in drawn}
     figure.suptitle(style.literal(case.heading), fontsize=10.5, wrap=True)

@@ -35,7 +35,7 @@ from ..terminal import printed, some
 from ..text.classification import open_fate, uncertain_text, what_changes
 from ..text.headline import exceeded, headline, judged, lines_of, look
 from ..text.motion import constants, margins, shown, state
-from ..text.scene import fates, key_columns, latex, of_motions
+from ..text.scene import fates, key_columns, latex, of_all_combinations, of_motions
 from ..units import DIGITS, but_for_rounding, number, parameter_unit, units_of, with_unit
 from . import formulas, html
 from .html import picture
@@ -261,7 +261,8 @@ def sections_of_sweep(cases, folder: Path, stem: str) -> dict:
             "keys": [with_unit(label.replace("_", " "), unit) for key in keys for label, unit, _ in key],
             "equations": _equations(first),
             "picture": _picture(moved, keys, cases, units, folder / f"{stem}-sweep.png") if moved else None,
-            "headline": f"{some(len(rows), 'combination')}: {'; '.join(answers)}",
+            "headline": of_all_combinations(len(motions), answers[0]) if motions and not without
+            else f"{some(len(rows), 'combination')}: {'; '.join(answers)}",
             "look": visited.pop() if len(visited) == 1 else "",
             "law": "; ".join(lines_of(beyond, units)), "exceeded": exceeded(beyond, units)}
 

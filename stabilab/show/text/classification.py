@@ -66,9 +66,7 @@ def resting(equilibria: Equilibria, units: Units) -> str:
              if equilibria.points else [])
     told = [(curve.description.name, _along(curve)) for curve in equilibria.curves]
     if len(told) > FEW:
-        counts = Counter(phrase for _, phrase in told)
-        return "; ".join([*parts,
-                          f"{len(told)} curves ({', '.join(f'{n} {label}' for label, n in counts.items())})"])
+        return "; ".join([*parts, f"{len(told)} curves ({_listed(Counter(phrase for _, phrase in told))})"])
     return "; ".join([*parts, *(f"{called(name, units)} ({phrase})" for name, phrase in told)])
 
 
@@ -80,8 +78,17 @@ def _along(curve: EquilibriumCurve) -> str:
 
 
 def _count(verdicts) -> str:
+    return _listed(_counts(verdicts))
+
+
+def _listed(counts) -> str:
+    return ", ".join(f"{count} {phrase}" for phrase, count in counts.items())
+
+
+def _counts(verdicts) -> dict[str, int]:
+    """How many points have each verdict, the best first."""
     counts = Counter(verdicts)
-    return ", ".join(f"{counts[word]} {word}" for word in _ordered(counts))
+    return {word: counts[word] for word in _ordered(counts)}
 
 
 def _ordered(verdicts: set[str] | Counter[Any]):
@@ -108,12 +115,18 @@ def _equilibria(case, equilibria, units, proofs):
 
 def _jacobian(case: Case, units: Units) -> str:
     """The Jacobian of the rates with the numbers of the case, row by row; the matrix (11) of the paper."""
-    form, rows = case.scene.quadratic(), [["0"] * 3 for _ in range(3)]
-    kappa, rho, sigma, _ = form.coefficients
-    for i, (j, k) in enumerate(CYCLE):
-        rows[i][j] = _linear(kappa[i], case.scene.components[k], sigma[i])
-        rows[i][k] = _linear(kappa[i], case.scene.components[j], rho[i])
+    rows = [[_linear(*entry) if entry else "0" for entry in row] for row in _jacobian_entries(case)]
     return lettered(f"  Jacobian: ({'), ('.join(', '.join(row) for row in rows)}){per_second(units)}")
+
+
+def _jacobian_entries(case: Case) -> list[list[tuple[float, str, float] | None]]:
+    """Of each entry (factor, component, constant), None where it is zero; in SI."""
+    kappa, rho, sigma, _ = case.scene.quadratic().coefficients
+    rows: list[list[tuple[float, str, float] | None]] = [[None] * 3 for _ in range(3)]
+    for i, (j, k) in enumerate(CYCLE):
+        rows[i][j] = kappa[i], case.scene.components[k], sigma[i]
+        rows[i][k] = kappa[i], case.scene.components[j], rho[i]
+    return rows
 
 
 def _linear(slope, name, constant) -> str:
@@ -209,11 +222,25 @@ def as_dict(case: Case, equilibria: Equilibria, motion: Motion | None) -> dict:
     """One object of `stabilab classify --json`."""
     return {"schema": "stabilab.classify/1", "case": case.name, "variables": case.variables,
             "equilibria": {"kind": equilibria.kind, "reason": equilibria.because,
-                           "why": equilibria.reason.as_dict(),
+                           "why": equilibria.reason.as_dict(), "counts": _counts_dict(equilibria),
+                           "jacobian": _jacobian_dict(case) if case.scene.plain else None,
                            "points": [_point_dict(case, p) | _input(case, p.at) for p in equilibria.points],
                            "curves": [_curve_dict(case, c) for c in equilibria.curves]},
             "motion": None if motion is None else _motion_dict(case, motion) | _input(case, motion.at)
             }
+
+
+def _counts_dict(equilibria: Equilibria) -> dict:
+    """How many there are, and how many of them with each verdict."""
+    points, curves = equilibria.points, equilibria.curves
+    return {"points": {"all": len(points)} | _counts(point.verdict for point in points),
+            "curves": {"all": len(curves)} | Counter(map(_along, curves))}
+
+
+def _jacobian_dict(case: Case) -> list[list[dict | None]]:
+    """Row by row; an entry is factor times component plus constant."""
+    return [[entry and dict(zip(("factor", "component", "constant"), entry)) for entry in row]
+            for row in _jacobian_entries(case)]
 
 
 def _input(case: Case, at: Sequence[float]) -> dict:
@@ -354,8 +381,10 @@ def _of_file(units: Units, unit: str) -> tuple[str, float]:
 
 
 # Behind the outcome on a first line that has no room for all that uncertain numbers do to it
-IN_SHORT = {"holds": "", "depends": ", BUT not over all uncertainties", "sampled": ", uncertainties sampled",
-            "undecided": ", uncertainties undecided"}
+# behind an outcome, in full and where a line has no room for that
+IN_SHORT = {"holds": ("", ""), "depends": (", BUT not over all uncertainties", ", BUT not always"),
+            "sampled": (", uncertainties sampled", ", box sampled"),
+            "undecided": (", uncertainties undecided", ", box undecided")}
 
 
 def first(result, printed: str, units: Units) -> str:
@@ -371,7 +400,9 @@ def in_short(result, text: str, outcome: str) -> str:
     answer, *rest = text.split("\n")
     if not over or len(answer) <= LINE:
         return text
-    return "\n".join([answer.replace(outcome, outcome + IN_SHORT[over.answer], 1), *rest])
+    full, short = IN_SHORT[over.answer]
+    shown = full if answer.index(outcome) + len(outcome + full) <= LINE else short
+    return "\n".join([answer.replace(outcome, outcome + shown, 1), *rest])
 
 
 def what_changes(result, units: Units) -> str:

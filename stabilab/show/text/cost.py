@@ -238,8 +238,9 @@ def as_dict(case, result) -> dict:
     return {"schema": "stabilab.compare/1", "case": case.name, "time": case.scene.time_unit, "t": result.t,
             "models": {name: {"status": run.status, "reason": run.because, "why": run.reason.as_dict()}
                        for name, run in result.runs.items()}
-            | {name: {"status": "refused", "reason": why} for name, why in result.refused.items()},
-            "departures": [{**values_of(d, "model part error scale largest"),
+            | {name: {"status": "refused", "reason": why.text(), "why": why.as_dict()}
+               for name, why in result.refusals.items()},
+            "departures": [{**values_of(d, "model part error scale largest"), "relative": _relative(d),
                             "first": {f"{level:g}": time for level, time in d.first.items()}}
                            for d in result.departures],
             "theory": list(result.theory)}
@@ -268,7 +269,7 @@ def _notes(result, units) -> list[str]:
     for name, run in result.runs.items():
         if run.reason != ALL_REACHED:
             models.setdefault(run.reason, []).append(name)
-    for name, why in result.refused.items():
+    for name, why in result.refusals.items():
         models.setdefault(NO_ANSWER(why=why), []).append(name)
     return [*(f"{', '.join(names)}: {lettered(units.said(reason))}" for reason, names in models.items()),
             *theory_lines([row for row in result.theory if row["reason"] not in models], units)]
@@ -276,13 +277,18 @@ def _notes(result, units) -> list[str]:
 
 def _closest(result) -> str:
     """The model that departs least from the exact rates, and by how much."""
-    rates = [d for d in result.departures if d.part == result.departures[0].part]
+    rates = [(off, d) for d in result.departures if d.part == result.departures[0].part
+             if (off := _relative(d)) is not None]
     if not rates:
         return "no model has an answer"
-    best = min(rates, key=lambda d: d.largest / d.scale)
-    off = best.largest / best.scale
+    off, best = min(rates, key=lambda row: row[0])
     by = f"{100 * off:.3g} %" if off < TIMES else f"{off:.3g} times its size"
     return f"{best.model} is closest, its {written(best.part)} off by {by} at most"
+
+
+def _relative(departure) -> float | None:
+    """The largest error over the size of the exact motion; None where that is at rest."""
+    return departure.largest / departure.scale if departure.scale else None
 
 
 def write(case, result, path) -> Path:

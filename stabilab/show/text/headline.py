@@ -72,13 +72,6 @@ def until(case, result, end: float):
     return of_case(case, (0.0, end) if 0 < end < math.inf else None) if law_is_open(case, result) else result
 
 
-def beside(case: Case) -> list[str]:
-    """A line beside answers at many points, where a law is not judged; none where all are exact."""
-    result = of_case(case)
-    return [] if result is None else [f"  laws are not judged at every point; of the case as it stands: "
-                                     f"{_told(result, units_of(case))}"]
-
-
 def of_cases(cases) -> str:
     """A line for every law among cases that one of them leaves; empty where there is none."""
     beyond = [(case, result) for case in cases if (result := of_case(case)) is not None and not result.held]
@@ -146,26 +139,46 @@ def headline(case: Case, motion: Motion, units: Units | None = None, placed: boo
     """The line of every page, picture and explorer, without the name of the case: the verdict, behind a
     warning where it is that of an approximate law that does not hold. units: of the case where None; their
     names of axes, where they have any, go before those of the case. placed: as of `verdict`."""
-    return warned(motion.validity, limiting.ahead(motion.caveats, verdict(case, motion, units, placed),
-                                                  named=False))
+    line = verdict(case, motion, units, placed, named=False)
+    return warned(motion.validity, limiting.ahead(motion.caveats, line, named=False))
 
 
-def verdict(case: Case, motion: Motion, units: Units | None = None, placed: bool = True) -> str:
+def verdict(case: Case, motion: Motion, units: Units | None = None, placed: bool = True,
+            named: bool = True) -> str:
     """The outcome, its axis and the condition that it rests on; when the limit of the case is reached; what a
-    tilt does; then its numbers. placed: with where an axis without a letter lies."""
+    tilt does; then its numbers. placed: with where an axis without a letter lies; named: behind the name of
+    the case."""
     units = (units_of(case) if units is None else replace(units, axes=axes_of(case)) if units.axes == PLAIN
              else units)
-    parts = [*outcome(motion, units), cause(motion, units), largest(motion, units), margin(motion, units),
-             period(motion, units), units.axes.direction_clause(motion.axis) if placed else ""]
-    return "; ".join(part for part in parts if part)
+    rest = [cause(motion, units), largest(motion, units), margin(motion, units), period(motion, units),
+            *(directions(motion, units) if placed else ())]
+
+    def line(short: bool) -> str:
+        return "; ".join(filter(None, [*outcome(motion, units, short), *rest]))
+    return limiting.fitted(line, before(case, motion) if named else 0)
 
 
-def outcome(motion: Motion, units: Units) -> list[str]:
-    """What becomes of the motion, when its limit is reached, what a tilt does; each may be empty."""
+def before(case: Case, answer) -> int:
+    """How many letters stand before the answer of a first line: the name of the case and its warnings."""
+    return len(warned(answer.validity, limiting.ahead(answer.caveats, f"{case.name}: ")))
+
+
+def directions(motion: Motion, units: Units) -> list[str]:
+    """Where the axes without a letter lie that the line names."""
+    flipped = 0 if motion.flips is None or motion.flips.free else motion.flips.axis
+    return [*filter(None, (units.axes.direction_clause(axis)
+                           for axis in dict.fromkeys((motion.axis, flipped, largest_axis(motion, units)))))]
+
+
+def outcome(motion: Motion, units: Units, short: bool = False) -> list[str]:
+    """What becomes of the motion, when its limit is reached, what a tilt does; each may be empty. short: with
+    the condition that it rests on in fewer words."""
     departs = limiting.unstable(motion.caveats, units)
-    departs = departs and (departs.removeprefix("unstable") if departs.startswith("unstable")
+    joint = "; " if short else ": "
+    departs = departs and (f"{joint}{departs.removeprefix('unstable: ')}" if departs.startswith("unstable: ")
                            else f"; {departs}")
-    became = "".join(fate_parts(motion, units)) + departs, ending.when(motion.ending, units)
+    became = ("".join(fate_parts(motion, units, short=short)) + departs,
+              ending.rate(motion.ending, units) if short else "", ending.when(motion.ending, units))
     return ["; ".join(filter(None, became)), limiting.reached(motion.caveats, units),
             limiting.tilted(motion.caveats, units)]
 
@@ -184,16 +197,16 @@ def look(motion: Motion) -> str:
     return "conditional" if Kind.TILT in kinds else "bounded"
 
 
-def fate_parts(motion: Motion, units: Units, tilt: bool = True) -> tuple[str, str, str]:
+def fate_parts(motion: Motion, units: Units, tilt: bool = True, short: bool = False) -> tuple[str, str, str]:
     """(the fate; its axis and how well it is known; the condition that it rests on). tilt: with what a tilt
-    of the torque does to that."""
+    of the torque does to that; short: as of `outcome`."""
     fate = motion.fate.word
-    text, where = HEADS[fate], limiting.condition(motion.caveats, units, alone=not tilt)
+    text, where = HEADS[fate], limiting.condition(motion.caveats, units, not tilt, short)
     if where:
         text = text.removesuffix(" for ever")
     if fate == "equilibrium":
         text = f"{text if any(motion.at[:3]) else REST}{stable_word(motion)}"
-    if ended := ending.words(motion.ending, units):
+    if ended := ending.words(motion.ending, units, short):
         return *ended, where
     about = f" about {units.axes.head(motion.axis)}, {direction(motion.sense)}" if motion.axis else ""
     return text, about + known_as(motion), where
@@ -239,8 +252,9 @@ def flips(motion: Motion, units: Units) -> str:
     return f"{text} every {told[0]}" if len(times) == 1 else f"{text} after {told[0]} and {told[1]} in turn"
 
 
-def largest(motion: Motion, units: Units) -> str:
-    """The largest rate that is reached; of a spin-up, of the components that stay bounded."""
+def largest(motion: Motion, units: Units, short: bool = False) -> str:
+    """The largest rate that is reached; of a spin-up, of the components that stay bounded. short: with the
+    largest component as a clause of its own."""
     if motion.fate.word == "equilibrium":
         return f"rates {units.vector(units.axes.in_file(motion.at[:3]), units.rates, SHORT)}"
     sizes, over = _sizes(motion, units)
@@ -256,13 +270,13 @@ def largest(motion: Motion, units: Units) -> str:
         end = ("" if late is None or late >= bound else f", {units.rate(late, SHORT, 1)} in the end" if late
                else ", tends to rest")
         return f"{'|x|' if units.scaled else '|ω|'} at most {units.rate(bound, SHORT, 1)}{end}"
-    result = greatest(motion, units)
-    return f"largest rate {result}" if result else ""
+    result = greatest(motion, units, short)
+    return f"{'' if short else 'largest rate '}{result}" if result else ""
 
 
-def greatest(motion: Motion, units: Units) -> str:
+def greatest(motion: Motion, units: Units, short: bool = False) -> str:
     """The largest |omega|, or a bound of it, with the largest component and its axis, and over which time
-    where that is not all; empty where a rate has no end or is not known."""
+    where that is not all; empty where a rate has no end or is not known. short: as of `largest`."""
     sizes, over = _sizes(motion, units)
     if len(sizes) < 3 or not all(map(math.isfinite, sizes.values())):
         return ""
@@ -272,7 +286,15 @@ def greatest(motion: Motion, units: Units) -> str:
     printed = (f"{name} = {units.rate(motion.largest, SHORT)}" if sharp
             else f"{name} at most {units.rate(bound, SHORT, 1)}")
     upper = units.rate(sizes[axis], SHORT, 0 if sharp else 1)
-    return f"{printed} ({upper} about {units.axes.brief(axis)}){over}"
+    component = f"{upper} about {units.axes.brief(axis)}"
+    return f"{printed}{over}; {component}" if short else f"{printed} ({component}){over}"
+
+
+def largest_axis(motion: Motion, units: Units) -> int:
+    """The axis of the largest component, where `largest` names it; else 0."""
+    sizes, _ = _sizes(motion, units)
+    text = greatest(motion, units)
+    return max(sizes, key=sizes.__getitem__) if text and text in largest(motion, units) else 0
 
 
 def _sizes(motion: Motion, units: Units):

@@ -269,10 +269,10 @@ def in_file(case: Case, along: Sequence[float]):
 
 def attitude_text(case, result, units: Units) -> str:
     """The answer first, then the numbers and why."""
-    condition = limiting.condition(result.caveats, units)
-    departs = limiting.unstable(result.caveats, units)
-    printed = f"{case.name}: {', '.join(_answer(result, units))}{',' * bool(condition)}{condition}"
-    lines = ["; ".join(filter(None, (printed, departs, limiting.tilted(result.caveats, units))))]
+    head, *rest = _answer(result, units)
+    rest += [limiting.unstable(result.caveats, units), limiting.tilted(result.caveats, units)]
+    lines = [f"{case.name}: " + limiting.fitted(lambda short: "; ".join(filter(None, [
+        head + limiting.condition(result.caveats, units, short=short), *rest])), len(case.name) + 2)]
     if result.momentum_direction is not None:
         lines.append(row("angular momentum", f"{number(result.momentum, DIGITS)} N m s along "
                                              f"{_vector(case, result.momentum_direction)}"))
@@ -304,12 +304,13 @@ def attitude_rows(result: Attitude | None, units: Units) -> list[tuple[str, str]
 
 
 def _answer(result, units):
-    yield MODES.get(result.mode, "ROTATION PERIOD KNOWN" if result.rotation_period else "NO ROTATION PERIOD")
+    time = "" if result.rotation_period is None else f" {units.time(result.rotation_period)}"
+    yield MODES.get(result.mode, f"ROTATION PERIOD{time}" if time else "NO ROTATION PERIOD")
     if result.lean is not None:
         low, high = (units.angle(angle, SHORT) for angle in result.lean)
         yield f"leaning by {low} to {high}" if low != high else f"leaning by {low}"
-    if result.rotation_period is not None:
-        yield f"rotation period {units.time(result.rotation_period)}"
+    if time and result.mode in MODES:
+        yield f"rotation period{time}"
     if result.nutation_period is not None:
         yield f"nutation period {units.time(result.nutation_period)}"
     if result.precession_period is not None:
@@ -334,7 +335,8 @@ def circular_orbit_dict(case, out) -> dict:
     return {"schema": "stabilab.orbit/1", "case": case.name, **values_of(out, "rate period moments"),
             "momentum": in_file(case, out.momentum), "kind": result.kind, "reason": result.because,
             "why": result.reason.as_dict(),
-            "equilibria": [_object(case, out, point) for point in result.points],
+            "equilibria": [{"number": n} | _object(case, out, point)
+                           for n, point in enumerate(result.points, 1)],
             "families": [_object(case, out, item)
                          | {"family": item.family, "consists": item.consists.as_dict(),
                             "axis": item.axis and in_file(case, item.axis)} for item in result.families],
@@ -348,7 +350,14 @@ def _object(case, result, item) -> dict:
     return {**dict(zip(("velocity", "normal", "vertical"), frame)), "yaw_pitch_roll": yaw_pitch_roll(*frame),
             **values_of(item, "linear verdict because minimum eigenvalues frequencies"),
             "reason": item.reason.as_dict(),
-            "per_orbit": [f / result.rate for f in item.frequencies], "potential": item.potential}
+            "growth_time": _growth_time(item), "per_orbit": [f / result.rate for f in item.frequencies],
+            "potential": item.potential}
+
+
+def _growth_time(item) -> float | None:
+    """In which time a disturbance grows by the factor e, s; None where none does exponentially."""
+    rate = max((complex(z).real for z in item.eigenvalues), default=0.0)
+    return 1 / rate if item.verdict == "unstable" and rate > 0 else None
 
 
 def _frame(case, item):
@@ -398,9 +407,8 @@ def _lines(case, result, item, units: Units, name: str, other=None):
                           for each in sorted(pair, key=lambda angles: sum(map(abs, angles))))
     word = item.verdict if item.linear != "degenerate" else f"{item.verdict}, degenerate"
     yield row(name, f"{word}: yaw, pitch, roll {angles}")
-    if item.verdict == "unstable":
-        grows = max(z.real for z in item.eigenvalues)
-        yield row("", f"a disturbance grows e-fold in {units.time(1 / grows, SHORT)}")
+    if (grows := _growth_time(item)) is not None:
+        yield row("", f"a disturbance grows e-fold in {units.time(grows, SHORT)}")
         return
     _, normal, vertical = map(vector, _frame(case, item))
     yield row("", f"orbit normal {normal}, up {'+-' if other else ''}{vertical} in the body")

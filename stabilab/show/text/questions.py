@@ -14,7 +14,7 @@ from .. import ending, frame, limiting
 from ..axes import axes_of
 from ..terminal import lettered, listed
 from ..units import DIGITS, Units, bracket, number
-from .headline import cause, flips, largest, outcome, rate_margin, verdict
+from .headline import before, cause, directions, flips, largest, outcome, rate_margin, verdict
 from .motion import (
     bound_lines,
     energy_margin,
@@ -64,9 +64,10 @@ CSV = COLUMNS, lines
 def text(case, limit, result, units: Units) -> str:
     """The answer in one line with its two ends, and the reason; `as_dict` has all digits of the ends."""
     low, high = float(result.low), float(result.high)
-    parts = [_answer(limit, result, low, high, units),
-             "BUT " * varies(result) + limiting.tilted(result.caveats, units)]
-    printed = f"{printable(case.name)}: {'; '.join(filter(None, parts))}\n  {units.said(result.reason)}"
+    tilted = "BUT " * varies(result) + limiting.tilted(result.caveats, units)
+    answer = limiting.fitted(lambda short: "; ".join(filter(None, [
+        _answer(limit, result, low, high, units, short), tilted])), before(case, result))
+    printed = f"{printable(case.name)}: {answer}\n  {units.said(result.reason)}"
     end = ending.line(result.ending, units)
     return f"{printed}\n  in the end: {lettered(end)}" if end else printed
 
@@ -101,15 +102,16 @@ def reached(low: float, high: float):
     return "yes" if math.isfinite(high) else "never" if math.isinf(low) else "unknown"
 
 
-def _answer(limit: StatedLimit, result: TimeTo, low: float, high: float, units: Units):
+def _answer(limit: StatedLimit, result: TimeTo, low: float, high: float, units: Units, short: bool):
     aim = asked(limit, units)
     if math.isinf(low):
-        holds, departs = limiting.condition(result.caveats, units), limiting.unstable(result.caveats, units)
+        holds = limiting.condition(result.caveats, units, short=short)
+        departs = limiting.unstable(result.caveats, units)
         declared = " with the force as stated" * varies(result)
         return f"{departs}; undisturbed it " * bool(departs) + (
             f"NEVER reaches {aim}{declared} ({result.level}){',' * bool(holds)}{holds}")
     if math.isnan(high):
-        return f"NOT KNOWN when it reaches {aim}: not before {units.time(low, side=-1)} ({result.level})"
+        return f"NOT KNOWN when it reaches {aim}; not before {units.time(low, side=-1)} ({result.level})"
     if high == 0:
         return f"starts at or beyond {aim}"
     name, item = units.times(high)
@@ -134,14 +136,20 @@ def tilt_dict(result) -> dict | None:
     if result is None:
         return None
     if result.ranges:
-        return values_of(result, "angle of directions limit earliest latest level within") | {
+        return values_of(result, "angle of directions limit earliest latest level") | _within_dict(result) | {
             "fates": dict(result.fates), "because": result.because}
     return values_of(result, "angle of limit") | {
         "limit_stated": result.stated, "not_before": result.not_before,
         "time": [result.low, result.high] if result.ends else None,
         "level": result.level if result.ends else None
-        } | values_of(result, "azimuth torque azimuths times untilted within") | {
+        } | values_of(result, "azimuth torque azimuths times untilted") | _within_dict(result) | {
             "forces": tilt_dict(result.forces)}
+
+
+def _within_dict(result) -> dict:
+    """Which forces have which tolerance: in words, and with the numbers."""
+    return {"within": "" if result.within is None else result.within.text(),
+            "tolerances": result.within and result.within.as_dict()}
 
 
 # --- `fate`, `extremes` and `period`
@@ -170,12 +178,15 @@ def extremes(case: Case, motion: Motion, told: Told, units: Units, all_digits: b
              proofs: bool = False) -> str:
     """The largest rate and the fate, a line a component, and bounds for all times."""
     shown = _with(motion, told)
-    parts, upper = [*outcome(shown, units), cause(shown, units)], [largest(shown, units)]
-    parts = [*parts, *upper] if motion.fate.word in ("spin-up", "equilibrium") else [*upper, *parts]
+    def line(short: bool) -> str:
+        upper = [largest(shown, units, short)]
+        parts = [*outcome(shown, units, short), cause(shown, units)]
+        parts = [*parts, *upper] if motion.fate.word in ("spin-up", "equilibrium") else [*upper, *parts]
+        return "; ".join(filter(None, [*parts, *directions(shown, units)]))
     rows = [f"  extremes: {units.said(shown.over)}"]
     if shown.extremes is not None:
         rows = _all_digits(case, shown, told) if all_digits else extreme_lines(case, shown, units)
-    return "\n".join([f"{case.name}: {'; '.join(filter(None, parts))}", *rows,
+    return "\n".join([f"{case.name}: {limiting.fitted(line, before(case, motion))}", *rows,
                       *bound_lines(case, motion, units),
                       *(why(case, motion, units, proofs) if proofs else ()), *frame.note(case),
                       *([_said(told, units)] * (say and told.reason != shown.over))])
@@ -213,11 +224,13 @@ def period(case: Case, motion: Motion, told: Told, units: Units, all_digits: boo
             f"{lettered(case.scene.time_unit)}")
     else:
         value = f"period {units.time(told.values)}"
-    holds = limiting.condition(motion.caveats, units)
-    parts = [value + (holds and f",{holds}"), flips(motion, units),
-             limiting.unstable(motion.caveats, units), limiting.reached(motion.caveats, units),
-             limiting.tilted(motion.caveats, units)]
-    lines = [f"{case.name}: {'; '.join(filter(None, parts))}",
+    rest = [flips(motion, units), limiting.unstable(motion.caveats, units),
+            limiting.reached(motion.caveats, units), limiting.tilted(motion.caveats, units)]
+
+    def line(short: bool) -> str:
+        holds = limiting.condition(motion.caveats, units, short=short)
+        return "; ".join(filter(None, [value + (holds and f",{holds}"), *rest]))
+    lines = [f"{case.name}: {limiting.fitted(line, before(case, motion))}",
              *(why(case, motion, units, proofs) if proofs else ())]
     return "\n".join([*lines, *([_said(told, units)] * (say and told.values is not None))])
 

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
     from ...case.read import Case
 
+EACH = "each "  # before what all of several cases do
 LETTERS = {"angular_velocity": "ω", "mu": "μ"}  # keys with a shorter name
 Column = tuple[str, str, Callable]  # its head, its unit, and what it says of a motion
 
@@ -53,7 +54,13 @@ def text(cases: Sequence, answer: str, columns: Sequence[tuple[str, str]],
     cells = [[values[n] for *_, values in keys] + list(row) for n, row in enumerate(rows)]
     lines = terminal.table([heads, units, *cells], len(keys), terminal.width())
     name = cases[0].name.removesuffix(cases[0].variant)
-    return "\n".join([f"{name}: {some(len(cases), 'combination')}: {answer}", *lines])
+    return "\n".join([f"{name}: {of_all_combinations(len(cases), answer)}", *lines])
+
+
+def of_all_combinations(count: int, answer: str) -> str:
+    """The answer of so many combinations: "each of 27 ...", or "27 combinations: ..." where they differ."""
+    return (f"each of {count} {answer.removeprefix(EACH)}" if answer.startswith(EACH)
+            else f"{some(count, 'combination')}: {answer}")
 
 
 def swept_columns(cases: Sequence) -> list[tuple[str, str, list[str]]]:
@@ -102,7 +109,7 @@ def counted(answers: Sequence[tuple], phrase: Mapping[str, str], units: Units, b
     for fate, count in counts.most_common():
         where = limiting.shared([caveats for item, caveats in answers if item == fate], units)
         name = (phrase[fate].removesuffix(" for ever") if where else phrase[fate]) + where
-        printed.append(f"{name}: {count}" if len(counts) > 1 else f"each {name}")
+        printed.append(f"{name}: {count}" if len(counts) > 1 else f"{EACH}{name}")
     return between.join(printed)
 
 

@@ -76,16 +76,26 @@ def headline(case: Case, run: Simulation, units: Units) -> str:
 
 
 def _sizes(run: Simulation, units: Units):
-    part = next((name for name in ("omega", "x") if name in run.state), None)
-    if part is None:
+    part = _rates(run)
+    if not part:
         return ""
     error = max((float(v) for v in np.ravel(run.error.get(part, 0.0))), default=0.0)
     unit, item = units.rates
-    sizes = [(float(run.t[n]), math.hypot(*map(float, run.state[part][n]))) for n in (0, -1)]
+    sizes = [(float(run.t[n]), size(run.state[part][n])) for n in (0, -1)]
     first, last = (f"{zero_within(error * item)} {unit}".rstrip() if lost(t, size, error)
                    else units.rate(size, SHORT) for t, size in sizes)
     name = "|x|" if units.scaled else "|ω|"
     return f"; {name} = {last} there" if len(run.t) == 1 else f"; {name} = {first} first, {last} last"
+
+
+def _rates(run: Simulation) -> str:
+    """The name of the part of the state that is its three rates; empty where it has none."""
+    return next((name for name in ("omega", "x") if name in run.state), "")
+
+
+def size(vector) -> float:
+    """Of a vector: its length."""
+    return math.hypot(*map(float, vector))
 
 
 def _columns(head, cells, width, wide):
@@ -104,8 +114,10 @@ def _columns(head, cells, width, wide):
 # --- As JSON
 def as_dict(case: Case, run: Simulation) -> dict:
     """The object of `stabilab simulate --json`."""
+    rates = _rates(run)
     return {"schema": "stabilab.simulate/1", "case": case.name, "model": run.model,
             "time": case.scene.time_unit,
+            "size": [size(row) for row in run.state[rates]] if rates else None,
             **values_of(run, "t state error invariant_drift counters method rtol status"),
             "reason": run.because, "why": run.reason.as_dict(),
             **{name: PARTS[name].description for name in ATTITUDES if name in run.state}

@@ -76,11 +76,13 @@ def _margin_sizes(row) -> dict:
 def text(case, result, units: Units) -> str:
     """The answer in five lines at most, then the details."""
     if result.ranked:  # a line a thruster, the worst first
-        head = [f"{printable(row_name(row))} {answer_line(row, units)}" for row in result.rows]
+        names = [printable(row_name(row)) for row in result.rows]
+        head = [f"{name} {answer_line(row, units, len(case.name) + len(name) + 3)}"
+                for name, row in zip(names, result.rows)]
         if len(head) > FIRST:
             head[FIRST - 1:] = [f"and {len(head) - FIRST + 1} more below, none of them sooner"]
     else:
-        head = _first(result.rows[0], units)
+        head = _first(result.rows[0], units, len(case.name) + 2)
     lines = [f"{printable(case.name)}: {head[0]}", *head[1:FIRST]]
     for row in result.rows:
         lines += ["", *_details(row, units)]
@@ -104,7 +106,7 @@ def swept(answers, units: Units):
                      else ""), [("fate", ""), ("axis", ""), ("limit in", name)], cells
 
 
-def _first(row, units):
+def _first(row, units, before):
     torque = f"torque {number(math.hypot(*row.torque))} N m, {vector(row.torque)} in the frame of the file"
     if row.largest_rate is not None and row.fate == "spin-up":
         torque += f"; largest rate until then {units.rate(row.largest_rate, SHORT)}"
@@ -112,7 +114,7 @@ def _first(row, units):
                  next((w for w in row.wheels if w.best is not None), None))
     more = (_margins(row, units), wheel and _wheel(wheel, units),
             row.helpers and _helper(row.helpers[0], units))
-    return [answer_line(row, units), f"  {torque}", *(f"  {line}" for line in more if line)]
+    return [answer_line(row, units, before), f"  {torque}", *(f"  {line}" for line in more if line)]
 
 
 def row_name(row) -> str:
@@ -120,24 +122,25 @@ def row_name(row) -> str:
     return " and ".join(row.thrusters) or "torque"
 
 
-def answer_line(row, units) -> str:
-    """What becomes of the motion, in one line."""
-    return "; ".join(filter(None, [_answer(row, units), limiting.tilted(row.caveats, units),
-                                   what_changes(row.box, units)]))
+def answer_line(row, units, before: int = 0) -> str:
+    """What becomes of the motion, in one line. before: as of `limiting.fitted`."""
+    return limiting.fitted(lambda short: "; ".join(filter(None, [
+        _answer(row, units, short), limiting.tilted(row.caveats, units), what_changes(row.box, units),
+        units.axes.direction_clause(row.axis)])), before, 1 + (row.time_to_limit is not None))
 
 
-def _answer(row, units):
-    when, resolved = _when(row, units), f" ({row.level})" if row.time_to_limit is None else ""
+def _answer(row, units, short: bool = False):
+    when, resolved = _when(row, units, short), f" ({row.level})" if row.time_to_limit is None else ""
     if row.fate == "spin-up":
         about = "without bound"
         if row.axis:
-            about = f"about {units.axes.whole(row.axis)}, {direction(row.sense)}"
+            about = f"about {units.axes.head(row.axis)}, {direction(row.sense)}"
         elif row.direction:
             about = f"about the direction {vector(row.direction)} of the file's frame"
-        return f"{FATES[row.fate]} {about}{', ' + when if when else ''}{resolved}"
+        return f"{FATES[row.fate]} {about}{resolved}{'; ' + when if when else ''}"
     if row.fate == "undecided":
         if when:
-            return f"UNDECIDED, but {when}"
+            return f"UNDECIDED; BUT {when}"
         until = units.time(row.followed, SHORT, -1)
         return (f"UNDECIDED: followed for {until}" if row.limit is None
                 else f"UNDECIDED: not at {_limit(row.limit, units)} before {until} ({row.time_level})")
@@ -145,16 +148,17 @@ def _answer(row, units):
     if row.fate == "equilibrium":
         departs = limiting.unstable(row.caveats, units)
         phrase = f"{phrase if row.largest_rate else REST}: {departs or 'every rate stays as it is'}"
-    while_ = limiting.condition(row.caveats, units)
+    phrase += limiting.condition(row.caveats, units, alone=True, short=short)
     if when:
-        return f"{phrase}{while_}, but {when}{resolved}"
-    largest = "" if row.largest_rate is None else f", |ω| at most {units.rate(row.largest_rate, SHORT, 1)}"
-    below = ", never at its limit" if row.never and row.limit is not None else ""
-    return (f"{phrase}{while_}{largest}{below}{resolved}" if row.tilt is None
-            else f"{phrase}{largest}{below}{resolved},{while_}")
+        return f"{phrase}{resolved}; BUT {when}"
+    largest = "" if row.largest_rate is None else f"|ω| at most {units.rate(row.largest_rate, SHORT, 1)}"
+    below = "never at its limit" if row.never and row.limit is not None else ""
+    return "; ".join(filter(None, [f"{phrase}{resolved}", ", ".join(filter(None, (largest, below))),
+                                   *limiting.tilts(row.caveats, units)]))
 
 
-def _when(row, units) -> str:
+def _when(row, units, short: bool = False) -> str:
+    """When it reaches its limit. short: with both ends of the time as a clause of their own."""
     if row.time_to_limit is None:
         return ""
     name, item = units.times(row.time_to_limit[1])
@@ -162,9 +166,9 @@ def _when(row, units) -> str:
     if high == 0:
         return f"starts at its limit, {_limit(row.limit, units)}"
     a, b = bracket(low, high, item)
-    return (f"reaches {_limit(row.limit, units)} in {number((low + high) / 2 * item)} {name} "
-            f"({row.time_level} {a} "
-            f"to {b})")
+    time = f"{number((low + high) / 2 * item)} {name}"
+    reached = f"reaches {_limit(row.limit, units)} in {time} ({row.time_level}"
+    return f"{reached}); that is {a} to {b} {name}" if short else f"{reached} {a} to {b})"
 
 
 def _limit(limit, units) -> str:
@@ -335,7 +339,8 @@ def _closed(case, item) -> dict | None:
         return None
     turn = item.attitude
     return {"time": item.time, "rates": in_file(case, item.rates), "error": item.error,
-            "momentum": in_file(case, item.momentum), "energy": item.energy,
+            "momentum": in_file(case, item.momentum), "momentum_size": math.hypot(*item.momentum),
+            "energy": item.energy,
             "largest_rate": item.largest_rate, "largest_rate_before": item.largest_before,
             "fate": item.motion.fate.word, "because": item.motion.because,
             "reason": item.motion.reason.as_dict(),
