@@ -48,3 +48,26 @@ def test_words_name_quantity_value_size_and_time():
     (r"$\omega_1/\omega_3$", "ω1/ω3")])
 def test_labels_are_told_in_plain_text(label, text):
     assert plain(label) == text
+
+
+def test_the_largest_distance_of_printed_separatrices_is_that_of_roots_not_of_samples():
+    """By mpmath: the true x where the printed one ends in a vertical tangent, from heights written anew."""
+    mp = pytest.importorskip("mpmath")
+    from stabilab.papers.figures.minor_axis import departure
+
+    a, b, x1, x2 = mp.mpf(1) / 5, mp.mpf(2) / 5, mp.mpf(5) / 2, 4
+    def height(radius, wheel):
+        return lambda alpha: radius**2 * mp.cos(alpha) - 4 * radius * wheel * mp.sin(alpha / 2) - 2 * alpha
+    printed, true = height(mp.hypot(x1, x2), b), height(mp.hypot(x1 + a, x2), b - a)
+    parts = []
+    for near in (0, 2 * mp.pi):
+        levels = [h(mp.findroot(lambda t, h=h: mp.diff(h, t), near))
+                  for h in (printed, true)]
+        for h, level, other, peak in ((printed, levels[0], true, levels[1]), (true, levels[1], printed, levels[0])):
+            grid = [mp.mpf(n) / 50 - 7 for n in range(771)]
+            ends = [mp.findroot(lambda t: level - h(t), pair, solver="anderson") for pair in zip(grid, grid[1:])
+                    if (level - h(pair[0])) * (level - h(pair[1])) < 0 and pair[0] > near - 2 * mp.pi]
+            parts += [(near, mp.sqrt(2 * (peak - other(t))), t) for t in ends if peak > other(t)]
+    for near, name in ((0, "left"), (2 * mp.pi, "right")):
+        size, at = max((size, t) for where, size, t in parts if where == near)
+        assert f"{float(size):.2f} at α = {float(at):.2f} on the {name} one" in departure()

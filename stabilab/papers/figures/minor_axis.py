@@ -3,9 +3,12 @@
 Figure 6 has the separatrix surfaces from above, with the equilibria and the curves between these."""
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
+from scipy.optimize import brentq, minimize_scalar
 
 from ...answers.simulate import trajectory
 from ...orbit.phase_plane import motion_curve, phase_plane
@@ -21,6 +24,7 @@ REACH = 5.0           # largest circle drawn in Fig. 5, in radii of the outer fo
 CIRCLES, FOLD_RADIUS = (2.0, 4.0, 6.0), np.sqrt(2)  # printed ones of Fig. 5, about the origin
 FOLDS = np.array([(1.0, -1.0, 0.0), (-1.0, 1.0, 0.0)])  # where the text has saddle and centre merge
 ENLARGED = 2.0            # largest circle of the enlargement of Fig. 5, in the same radii
+REST = 1e-9  # of x^2: what rounding leaves where x ends
 FINE = (400, 801)     # of the branches, to which distances are taken
 LEFT, RIGHT = style.MEANING["separatrix 2"], style.MEANING["separatrix"]
 COPY = RIGHT | {"linestyle": (0, (5, 2)), "linewidth": 1.1}
@@ -102,13 +106,39 @@ def _as_printed(ax):
 
 def departure() -> str:
     """How far x of a printed separatrix is from the true one at equal alpha, in words."""
-    alpha = np.linspace(*WINDOW, 4001)
     rows = []
-    for name, printed, true in zip(("left", "right"), *(_separatrix_by(h, alpha) for h in _heights())):
-        apart = np.abs(printed - true)
-        at = int(np.nanargmax(apart))
-        rows.append(f"{apart[at]:.2f} at α = {alpha[at]:.2f} on the {name} one")
+    for name, nearby in (("left", 0.0), ("right", 2 * np.pi)):
+        size, alpha = farthest_apart(*(_square_by(h, nearby) for h in _heights()),
+                                     (max(WINDOW[0], nearby - 2 * np.pi), WINDOW[1]))
+        rows.append(f"{size:.2f} at α = {alpha:.2f} on the {name} one")
     return "Printed separatrices, by (26) and (27): their x is off by up to " + " and ".join(rows) + "."
+
+
+def _square_by(level, nearby):
+    """alpha -> x^2 on the separatrix through the saddle near an angle, negative where there is none."""
+    top = minimize_scalar(lambda alpha: -level(alpha), bounds=(nearby - 1.5, nearby + 1.5), method="bounded",
+                          options={"xatol": 1e-13})
+    return lambda alpha: 2 * (-top.fun - level(alpha))
+
+
+def farthest_apart(first: Callable[[float], float], second: Callable[[float], float],
+                   span: tuple[float, float], count: int = 4001) -> tuple[float, float]:
+    """(largest distance of sqrt(first) and sqrt(second), its alpha) where both are real: at the ends of their
+    parts, where a root has a vertical tangent, or where it is stationary."""
+    alpha = np.linspace(span[0], span[1], count)
+    ends = [brentq(square, low, high, xtol=1e-14) for square in (first, second)
+            for low, high in zip(alpha, alpha[1:]) if square(low) * square(high) < 0]
+
+    def apart(alpha):
+        squares = first(alpha), second(alpha)
+        one, other = (math.sqrt(max(square, 0)) for square in squares)
+        return abs(one - other) if min(squares) > -REST else -1.0
+
+    sizes = [apart(x) for x in alpha]
+    tops = [minimize_scalar(lambda x: -apart(x), bounds=(alpha[n - 1], alpha[n + 1]), method="bounded",
+                            options={"xatol": 1e-12}).x
+            for n in range(1, count - 1) if sizes[n] >= max(sizes[n - 1], sizes[n + 1]) and sizes[n] >= 0]
+    return max((apart(x), x) for x in (*ends, *tops, *span))
 
 
 def _loops(ax, plane, start, span):
