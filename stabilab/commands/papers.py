@@ -44,8 +44,11 @@ def validate(source, json, out):
 
 def papers(paper, json):
     """Where every equation, figure, table and claim of a paper, or of all, is, and what is said of it."""
-    with counted() as tell:
-        findings = audited(paper, None, tell)
+    if paper is not None and paper.endswith(".toml"):
+        with counted() as tell:
+            findings = [audited(paper, None, tell)[0]]
+    else:
+        findings = index.recorded(paper)
     either(json, lambda: index.as_dict(findings), lambda: index.text(findings))
 
 

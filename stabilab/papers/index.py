@@ -2,6 +2,7 @@
 JSON and a page of the report; claims and data of the papers' own pages, and the table of hard cases."""
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -10,6 +11,9 @@ from typing import TYPE_CHECKING, Any
 from ..physics.coefficients import shape_factors
 from ..show.report import html
 from ..show.terminal import written
+from ..theories.printed.claims import Paper, Row, key
+from ..theories.printed.claims import paper as paper_named
+from ..theories.printed.claims import papers as all_papers
 from . import table
 from .audit.page import anchor, counted
 from .figures.catalogue import FIRST, of_paper
@@ -18,9 +22,8 @@ from .table import EXTREMES
 if TYPE_CHECKING:
     from types import SimpleNamespace
 
-    from ..theories.printed.claims import Paper
-
 SCHEMA = "stabilab.papers/1"
+VERDICTS = Path(__file__).with_name("verdicts.toml")
 MODEL = "a sketch, drawn from a case of the paper"
 
 
@@ -40,6 +43,25 @@ NAMED = ("data", "figure", "table")  # items whose verdict is in words
 # paper -> the case file that its data begin with
 DATA = {"constant-torque": "minor-axis-100", "charged": "charged-sweep", "cavity": "liquid-base",
         "top": "top-lx30-lz30"}
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """A row with the verdict that the audit gives it, from the record that comes with the program."""
+
+    row: Row
+    verdict: str
+
+
+def recorded(name: str | None = None) -> list[tuple[Paper, list[Recorded]]]:
+    """(paper, its rows in order) of one paper, by any of its names, or of all, without an audit. InputError
+    for an unknown name."""
+    verdicts = tomllib.loads(VERDICTS.read_text(encoding="utf-8"))
+    out = []
+    for item in map(paper_named, all_papers() if name is None else (name,)):
+        rows = sorted(item.rows, key=lambda row: key(row.equation))
+        out.append((item, [Recorded(row, verdicts[item.name][row.equation]) for row in rows]))
+    return out
 
 
 def items(findings: Sequence[tuple[Any, Sequence[Any]]]) -> list[Item]:

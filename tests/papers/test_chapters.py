@@ -40,7 +40,7 @@ def test_a_figure_number_without_a_paper_belongs_to_the_constant_torque_paper():
     assert figures.figure(3).paper == "" and figures.figure(3, "top").file == "top-03.png"
     with pytest.raises(InputError, match="figure 8: expected one of 1 to 7"):
         figures.figure(8, "top")
-    with pytest.raises(InputError, match="constant-torque, charged, cavity, top"):
+    with pytest.raises(InputError, match="there is none of this name; known are 1 constant-torque-gyrostat or constant-torque; 2 "):
         figures.of_paper("tops")
 
 

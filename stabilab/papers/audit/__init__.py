@@ -13,8 +13,8 @@ from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 
 from ...errors import InputError
-from ...theories.printed.claims import Paper, paper, papers
-from .findings import Finding, audit, key
+from ...theories.printed.claims import Paper, key, paper, papers
+from .findings import Finding, audit
 
 Tell = Callable[[int, int, str], None]  # done, count, words: told before each step
 

@@ -321,9 +321,14 @@ class Finding:
 
 def audit(paper: Paper, equation: str | None = None,
           tell: Callable[[int, int, str], None] | None = None) -> tuple[Finding, ...]:
-    """Findings of a paper's rows, or of one equation. tell(done, count, words): before each row."""
+    """Findings of a paper's rows, or of one equation, with or without its brackets; else of the rows that
+    speak of it, as "G1". tell(done, count, words): before each row."""
     prove_systems(paper)
-    rows = [row for row in paper.rows if equation in (None, row.equation)]
+    rows = list(paper.rows)
+    if equation is not None:
+        label = equation.strip().strip("()")
+        rows = ([row for row in rows if row.equation == label]
+                or [row for row in rows if re.search(rf"(?<!\w){re.escape(label)}(?!\w)", row.says)])
     if not rows:
         raise InputError(
             f"{paper.name} has no row for equation {equation!r}; it has "
@@ -451,9 +456,3 @@ def _fixes(paper, row, printed, pairs, setting, condition):
 def _decided(paper: Paper, row: Row, pairs: Sequence[tuple[Expr, Expr]], setting: Setting) -> checks.Decision:
     return (checks.order(paper, row, pairs, setting) if row.kind == "order"
             else checks.decide(pairs, setting, row.equation))
-
-
-def key(equation: str):
-    """Order of equations: by number, then by what follows it."""
-    result = re.match(r"(\d+)", equation)
-    return (0, int(result[1]), equation) if result else (1, 0, equation)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ...errors import InputError
 from ...show import style
+from ...theories.printed.claims import figures_of
 from ...version import __version__
 from .. import table
 from . import cavity, charged, top
@@ -108,11 +109,13 @@ PAPERS = {FIRST: table.PAPER, "charged": charged.PAPER, "cavity": cavity.PAPER,
 
 
 def of_paper(name: str) -> tuple[Figure, ...]:
-    """All figures of a paper by its short name. Raises InputError for other names."""
-    if name not in PAPERS:
-        raise InputError(f"paper: there is no {name!r}; choose one of {', '.join(PAPERS)}")
+    """All figures of a paper by any of its names (`claims.named`). Raises InputError for others, and for one
+    without figures."""
+    short = name if name in PAPERS else figures_of(name)
+    if not short:
+        raise InputError(f"paper: {name!r} has no figures; these have: {', '.join(PAPERS)}")
     others = {"charged": charged, "cavity": cavity, "top": top}
-    return others[name].FIGURES if name in others else FIGURES
+    return others[short].FIGURES if short in others else FIGURES
 
 
 def figure(number: int, paper_name: str = FIRST) -> Figure:

@@ -8,7 +8,6 @@ from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
-from scipy.optimize import brentq, minimize_scalar
 
 from ...answers.simulate import trajectory
 from ...orbit.phase_plane import motion_curve, phase_plane
@@ -116,6 +115,7 @@ def departure() -> str:
 
 def _square_by(level, nearby):
     """alpha -> x^2 on the separatrix through the saddle near an angle, negative where there is none."""
+    from scipy.optimize import minimize_scalar
     top = minimize_scalar(lambda alpha: -level(alpha), bounds=(nearby - 1.5, nearby + 1.5), method="bounded",
                           options={"xatol": 1e-13})
     return lambda alpha: 2 * (-top.fun - level(alpha))
@@ -125,6 +125,7 @@ def farthest_apart(first: Callable[[float], float], second: Callable[[float], fl
                    span: tuple[float, float], count: int = 4001) -> tuple[float, float]:
     """(largest distance of sqrt(first) and sqrt(second), its alpha) where both are real: at the ends of their
     parts, where a root has a vertical tangent, or where it is stationary."""
+    from scipy.optimize import brentq, minimize_scalar
     alpha = np.linspace(span[0], span[1], count)
     ends = [brentq(square, low, high, xtol=1e-14) for square in (first, second)
             for low, high in zip(alpha, alpha[1:]) if square(low) * square(high) < 0]

@@ -302,16 +302,43 @@ def _located(location, read_it, text, symbols):
         raise FormulaError(f"{location}: {error}") from None
 
 
+def key(equation: str) -> tuple:
+    """Order of equations: by number, then by what follows it."""
+    result = re.match(r"(\d+)", equation)
+    return (0, int(result[1]), equation) if result else (1, 0, equation)
+
+
 def papers() -> tuple[str, ...]:
     """Names of the papers on record, the main one first."""
     return tuple(sorted((path.stem for path in FOLDER.glob("*.toml")), key=lambda name: (name != MAIN, name)))
 
 
+def named(text: str) -> str:
+    """The name of a paper on record by that name, by the name of its figures, by its number among `papers`,
+    or by words of its title. InputError lists what is known."""
+    headers = {name: _data(FOLDER / f"{name}.toml") for name in papers()}
+    wanted = text.strip().lower()
+    exact = [name for number, (name, data) in enumerate(headers.items(), 1)
+             if wanted in (name, data.get("figures"), str(number))]
+    result = exact or [name for name, data in headers.items() if wanted and all(
+        word in re.split(r"[^a-z0-9]+", f"{name} {data['title']}".lower())
+        for word in re.split(r"[^a-z0-9]+", wanted) if word)]
+    if len(result) == 1:
+        return result[0]
+    known = "; ".join(f"{number} {name}" + (f" or {data['figures']}" if data.get("figures") else "")
+                      for number, (name, data) in enumerate(headers.items(), 1))
+    several = f" fits {', '.join(result)}: name one" if result else ": there is none of this name"
+    raise InputError(f"paper {text!r}{several}; known are {known}; a file of claims of your own ends in "
+                     ".toml (docs/audit.md)")
+
+
 def paper(name: str) -> Paper:
-    """A paper on record by its name, or one in a file of that path. InputError names the known ones."""
-    if name.endswith(".toml"):
-        return read(Path(name))
-    if name not in papers():
-        raise InputError(f"unknown paper {name!r}: known are {', '.join(papers())}; a file of claims of your "
-                         "own ends in .toml (docs/audit.md)")
-    return read(FOLDER / f"{name}.toml")
+    """A paper on record, named as for `named`, or one in a file of that path. InputError names the known
+    ones."""
+    return read(Path(name)) if name.endswith(".toml") else read(FOLDER / f"{named(name)}.toml")
+
+
+def figures_of(name: str) -> str:
+    """The short name under which the figures of a paper are drawn; "" where it has none. Errors as of
+    `named`."""
+    return _data(FOLDER / f"{named(name)}.toml").get("figures", "")
