@@ -3,20 +3,34 @@ differ in one number. The papers' figures draw them, and the audit tries on them
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
-from ..case.read import load_all
+from ..case.read import Case, load_all
+from ..physics.effects.gyrostat import Gyrostat
+from ..physics.scene import Scene
 from ..theories.theory import side_by_side
 from .table import cases_folder
+
+WAVES = "waves"  # a variant of the liquid's files: with the wheel that the waves of the text need
+WHEEL = 20  # kg m^2/s, the middle one of the 15 to 25 of Fig. 3
 
 
 @lru_cache(maxsize=32)
 def sweep(name: str) -> dict:
-    """Variant -> case of a case file ("" for a file without a sweep)."""
-    return {case.variant: case for case in load_all(cases_folder() / f"{name}.toml")}
+    """Variant -> case of a case file ("" for a file without a sweep); of the liquid's also `WAVES`."""
+    cases = {case.variant: case for case in load_all(cases_folder() / f"{name}.toml")}
+    return cases | ({WAVES: with_wheel(cases[""], WHEEL)} if name.startswith("liquid-") else {})
+
+
+def with_wheel(case: Case, momentum: float) -> Case:
+    """The case with another gyrostatic moment about axis 3, N m s."""
+    scene: Any = case.scene
+    others = (effect for effect in scene.effects if effect.name != "gyrostat")
+    return replace(case, scene=Scene(scene.body, Gyrostat((0, 0, momentum)), *others))
 
 
 @dataclass(frozen=True)
@@ -76,6 +90,12 @@ def _liquid(symbol, unit, files, rest, name):
                   f": {', '.join(rest)}, $M_1=M_2=0$", name)
 
 
+def _waves(family):
+    """The same with the wheel that waves need."""
+    return replace(family, cases={value: (file, WAVES) for value, (file, _) in family.cases.items()},
+                   rest=family.rest.replace(LAMBDA, rf"$\lambda_3={WHEEL}$ kg m$^2$/s"))
+
+
 def _top(axis, pairs, rest):
     cases = {lx if axis == "x" else lz: (f"top-lx{lx}-lz{lz}", "") for lx, lz in pairs}
     return Family(rf"\ell_{axis}", KILOGRAM, cases, f", {rest} {KILOGRAM}", f"l{axis} = 30, 60, 90 kg m²/s")
@@ -107,6 +127,7 @@ FAMILIES: dict[str, dict[str, Family]] = {  # short name of the paper -> name of
                      "family of e")},
     "top": {"lx": _top("x", ((30, 30), (60, 30), (90, 30)), r"$\ell_z=30$"),
             "lz": _top("z", ((30, 30), (30, 60), (30, 90)), r"$\ell_x=30$")}}
+FAMILIES["cavity"] |= {f"{name} waves": _waves(FAMILIES["cavity"][name]) for name in ("zeta", "M3", "e")}
 # of the figures of each paper, and of the motions that the audit tries
 SPANS = {"constant-torque": Span(15.0, 15001), "charged": Span(50.0, 2001),
          "cavity": Span(20.0, 2001, crowd=2), "top": Span(1.3, 2601, order=2)}

@@ -261,7 +261,7 @@ def test_a_sweep_is_one_table_with_a_column_for_its_key(several):
     text = (several[0].parent / "cases/torques.html").read_text(encoding="utf-8")
     rows = re.findall(r"(?s)<tr>(.*?)</tr>", text)
     assert "<th>torque[1] (N m)</th><th>torque[3] (N m)</th><th>fate</th>" in rows[0] and len(rows) == 4
-    assert "3 combinations: " in text and text.count("<img") == 1
+    assert "each of 3 " in text and text.count("<img") == 1
     shown = [re.findall(r'<td class="nowrap">(.*?)</td>', row) for row in rows[1:]]
     # the components that the file varies, of its three torques
     assert shown == [["0", "0.1"], ["0", "0.2"], ["0.1", "0"]]

@@ -21,7 +21,7 @@ from ...theories.cavity_normal_form import constants
 from ...theories.charged import body_of, circle, one_frequency, solution
 from ...theories.follow import follow
 from .. import table as paper
-from ..families import FAMILIES, SPANS, sweep
+from ..families import FAMILIES, SPANS, sweep, with_wheel
 from ..figures import cavity
 
 # --- How a quantity goes as a number grows, and on which side of zero it is
@@ -56,8 +56,7 @@ def missed(values: Sequence[float], goes: str, within: float = ROUNDING) -> int:
 def _run(paper_name, file, variant, model, wheel):
     case, times = sweep(file)[variant], SPANS[paper_name].times
     if wheel is not None:
-        others = (effect for effect in case.scene.effects if effect.name != "gyrostat")
-        case = replace(case, scene=Scene(case.scene.body, Gyrostat((0, 0, wheel)), *others))
+        case = with_wheel(case, wheel)
     run = follow(case, times, model)
     if paper_name != "cavity" or model != "exact":
         return run

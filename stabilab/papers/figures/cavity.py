@@ -92,9 +92,7 @@ def _real(family):
 
 
 def _liquid(family, more=""):
-    return _done(f"{more}The printed liquid torque is that of a body without rotor; with this one the true "
-                 f"motion dies out within {listed([gone(r) for r in runs_of(family)], '{:.2g}')} s (1 %), "
-                 "the printed wave hardly decays. ")
+    return _done(f"{more}{_dying(family)}")
 
 
 def _short(family):
@@ -103,14 +101,20 @@ def _short(family):
                  f"{SPAN.end:g} s. ")
 
 
-def _arcs(family):
-    return _done("The text has spirals; over 20 s with these data the curves are arcs. ")
+def _waves(family, more=""):
+    return _done(f"{COMPLETED}In {SPAN.end:g} s the vector (p, q) turns by "
+                 f"{listed([turn(r) for r in runs_of(family)], '{:.3g}')} rad. {_dying(family)}{more}")
 
 
-def _few(family):
-    return _done(f"In {SPAN.end:g} s the vector (p, q) turns by "
-                 f"{listed([turn(r) for r in runs_of(family)], '{:.2g}')} rad, not a tenth of a turn: with "
-                 "lambda3 = 0.1 there are no waves. The print must have taken a lambda3 it does not state. ")
+def _spirals(family):
+    return _waves(family, "Curves spiral in. ")
+
+
+def _dying(family):
+    """How the exact motion dies out beside the printed wave."""
+    return ("The printed liquid torque is that of a body without rotor; with this one the true motion dies "
+            f"out within {listed([gone(r) for r in runs_of(family)], '{:.2g}')} s (1 %), the printed wave "
+            "hardly decays. ")
 
 
 def _charge(family, more="", own=False):
@@ -119,16 +123,18 @@ def _charge(family, more="", own=False):
                  f"averaging refuses, and the law of the liquid torque itself no longer holds. {more}", own)
 
 
+COMPLETED = (f"No figure states its wheel. The waves with nodes that the text describes need one of Fig. 3: "
+             f"lambda3 = {families.WHEEL}; with the 0.1 of Fig. 2 (p, q) does not make a tenth of a turn. ")
 OWN = (11, 13)  # figures whose panels have limits of their own
 FIGURES = (model_figure("liquid-base", "cavity"), *family_figures(
     "cavity", PANELS, _lines, f"averaged: relative tolerance {RTOL:g}; printed: its polynomials",
     ((2, "small", "slow", _real), (3, "large", "rates", _liquid),
      (4, "large", "planes", _liquid,
       "The text has closed curves; the true motion spirals in within one turn. "),
-     (5, "zeta", "slow", _short), (6, "zeta", "rates", _few), (7, "zeta", "planes", _arcs),
-     (8, "M3", "slow", _short), (9, "M3", "rates", _few), (10, "M3", "planes", _arcs),
+     (5, "zeta", "slow", _short), (6, "zeta waves", "rates", _waves), (7, "zeta waves", "planes", _spirals),
+     (8, "M3", "slow", _short), (9, "M3 waves", "rates", _waves), (10, "M3 waves", "planes", _spirals),
      (11, "e", "slow", _charge, "", True),
-     (12, "e", "rates", _charge,
-      "The text says that the charge acts slightly: the printed liquid torque does not know of it. "),
-     (13, "e", "planes", _charge, "", True)),
+     (12, "e waves", "rates", _charge, f"{COMPLETED}The text says that the charge acts slightly: the printed "
+      "liquid torque does not know of it. "),
+     (13, "e waves", "planes", _charge, COMPLETED, True)),
     lambda number, kind: {"own": number in OWN}))
