@@ -63,6 +63,7 @@ SAMPLE = 16  # states of an array that are checked one by one; where all agree t
 LAW_BITS = 200  # of the numbers of a law that holds for all time: more than MOST_DECIMALS
 
 
+NO_MARGIN = Sentence("no-margin-in-energy", "there is no margin in energy to be judged")()
 IN_EQUILIBRIUM = Sentence("digits-of-equilibrium", "the state is an equilibrium")()
 BARRIER_BY_ALGEBRA = Sentence("barrier-by-algebra", "the energy equals the barrier's, by algebra")()
 SAMPLED = Sentence("states-checked", "{checked} of {states} states checked")
@@ -101,8 +102,7 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
     if resolved is None:  # by a reduction none of the three questions needs the distance from the separatrix
         resolved = motion(scene, state, span, needs=Needs.ALL if land is None else Needs.RETURN, exact=exact)
     if question != "extremes" and number_of(question, resolved) is None:
-        return nothing(question, digits, no_period(resolved.fate) if question == "period"
-                       else "there is no margin in energy to be judged")
+        return nothing(question, digits, no_period(resolved.fate) if question == "period" else NO_MARGIN)
     if question == "fate" and is_free(twin):
         return _margin_without_reduction(twin, resolved, digits, exact or resolved.at[:3])
     if land is not None:

@@ -158,7 +158,7 @@ def period(scene: Given, state: Start | None = None, *, states: Starts | None = 
     else:
         resolved = result.motions(Needs.PERIOD)
         values = np.array([period_of(item) for item in resolved]).reshape(result.shape)
-        why = no_period(resolved[0].fate) if result.one and resolved[0].period is None else ""
+        why = no_period(resolved[0].fate).text() if result.one and resolved[0].period is None else ""
     printed = None if digits is None else _with_digits("period", result, digits, values)
     if printed is not None and printed.values is not None:
         values = np.asarray(printed.values, float)

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...equilibrium.dissipative import GLOBAL, decay, resisted_equilibria
-from ...errors import InputError, Kind
+from ...errors import InputError, Kind, refusal_of
 from ...integrate.trajectory import root_between
 from ...numbers.vectors import Float3, dot
 from ...orbit.result import Fate, Motion
@@ -30,7 +30,7 @@ from ...physics.coefficients import Content, content, loses
 from ...physics.scene import AnyScene, later, slices
 from ...physics.states import equations_and_start, moved_row, start_of
 from ...physics.to_numpy import System, to_numpy
-from ...reasons import Axis, Momentum, Rate, Reasoned, Sentence, as_reason
+from ...reasons import Axis, Momentum, Rate, Reasoned, Sentence
 from ...representation import Compared, Shown
 from ...unreduced.bounds import OPEN_DIRECTION
 from ..passage import MOVED, WIDER
@@ -155,7 +155,7 @@ def _inside(case: Any) -> Ending:
     try:
         return of_spin(of_case(case, WITHIN, spans=False))
     except InputError as error:  # a liquid in moments that no rigid body has
-        return Ending("undecided", "undecided", reason=as_reason(str(error)))
+        return Ending("undecided", "undecided", reason=refusal_of(error))
 
 
 def of_spin(result: FlatSpin) -> Ending:

@@ -215,7 +215,7 @@ def period(case: Case, motion: Motion, told: Told, units: Units, all_digits: boo
            proofs: bool = False) -> str:
     """The period with its unit."""
     if told.values is None:
-        value = (no_period(motion.fate)
+        value = (units.said(no_period(motion.fate))
                  + (f" ({motion.fate.word})" if motion.fate in (Fate.SPIN_UP, Fate.SEPARATRIX, Fate.BOUNDED)
                     else ""))
     elif all_digits:
