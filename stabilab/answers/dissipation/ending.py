@@ -35,8 +35,9 @@ from ...representation import Compared, Shown
 from ...unreduced.bounds import OPEN_DIRECTION
 from ..passage import MOVED, WIDER
 from ..simulate import trajectory
-from .flat_spin import ACROSS, POSITIVE, SECOND_RTOL, UNDECIDED, FlatSpin, Time, of_case
+from .flat_spin import ACROSS, POSITIVE, SECOND_RTOL, UNDECIDED, FlatSpin, of_case
 from .spinner import Spinner
+from .times import Time
 
 if TYPE_CHECKING:
     from ...case.read import Case
