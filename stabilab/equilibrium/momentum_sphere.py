@@ -327,3 +327,16 @@ def _nature(signs: Sequence[int], fold: bool) -> str:
     if fold or 0 in signs:
         return INFLECTION
     return MINIMUM if min(signs) > 0 else MAXIMUM if max(signs) < 0 else SADDLE
+
+
+def nature_at(D: Exact3, wheel: Exact3, omega: Sequence[Fraction]) -> str:
+    """The nature of the energy at a rotation that is none of a fold or a crossing: exact, where omega is."""
+    H = [d * w + l for d, w, l in zip(D, omega, wheel)]
+    square = dot(H, H)
+    if not square:
+        return MINIMUM
+    A = [square / d - dot(omega, H) for d in D]  # times |H|^2
+    across = sum(H[i] * H[i] * A[(i + 1) % 3] * A[(i + 2) % 3] for i in range(3))
+    if across < 0:
+        return SADDLE
+    return _nature([sign_of(sum((a * (square - h * h) for a, h in zip(A, H)), Fraction(0)))], not across)

@@ -29,7 +29,8 @@ from ...numbers.exact import floats
 from ...numbers.vectors import Float3, cross, dot
 from ...physics.scene import Scene, slices
 from ...physics.states import body_momentum, moved_row
-from ...reasons import Energy, Quantity, Reason, Sentence
+from ...physics.to_numpy import to_numpy
+from ...reasons import Energy, Quantity, Rate, Reason, Sentence
 from ..caveats import caveats_of
 from ..passage import MOVED, WIDER
 from .rotations import Rotations, described, sphere_of, threshold_of, why
@@ -52,20 +53,24 @@ ONE_CIRCLE = Sentence(
     "rotations, to which every motion tends but for a set of measure zero; which one of them hangs on the "
     "phase alone")()
 BELOW_PASS = Sentence(
-    "below-the-pass", "T = {energy} is not above the {barrier} of the pass between the two minima of the energy "
+    "below-the-pass", "T = {energy} is not above the {barrier} of the pass between the two minima of the "
+    "energy "
     "on the sphere of H: it stays on its side, whatever takes energy inside, and tends to the minimum there")
 ABOVE_TRAP = Sentence(
-    "above-an-inflection", "the energy has one minimum on the sphere of H and an inflection below T, to which "
+    "above-an-inflection", "the energy has one minimum on the sphere of H and an inflection below T, to "
+    "which "
     "an open set of motions tends: exactly at the size of the wheels' momentum at which two minima become "
     "one")()
 PASS_FALLS = Sentence(
     "falls-below-the-pass", "two rotations attract, and T = {energy} is above the {barrier} of the pass "
-    "between them: the phase decides; T falls below it on the side of this one, where it stays; a second "
+    "between them: the phase decides; T falls below it on the side of {rates}, where it stays; a second "
     "run, from a start moved by {moved} in its last place with tolerance {tolerance}, agrees")
-PASS_NOT_REACHED = Sentence("pass-not-reached", "two rotations attract, and T does not fall to the {barrier} of "
+PASS_NOT_REACHED = Sentence("pass-not-reached", "two rotations attract, and T does not fall to the "
+                            "{barrier} of "
                             "the pass between them by the end of the run: {why}")
 BETWEEN_MINIMA = Sentence(
-    "between-two-minima", "the start is within rounding of the boundary between two rotations that attract: a "
+    "between-two-minima", "the start is within rounding of the boundary between two rotations that attract: "
+    "a "
     "run and a second one, from a start moved by {moved} in its last place with tolerance {tolerance}, end "
     "at different ones")
 LIQUID_PHASE = Sentence(
@@ -83,6 +88,7 @@ SECOND_RTOL = 1e-13  # tolerance of the second run
 RUN_STEPS = 5_000_000  # of a run: some ten seconds
 DRAWN = 32  # motions from the box of uncertain numbers
 DRAWN_STEPS = 6_000_000  # of all of them
+SMALLEST = 1e-11  # of T, what is above that of the end: less is lost in the rounding of T
 AROUND = 3600  # directions on the circle about an end
 
 
@@ -96,7 +102,9 @@ class GyrostatSpin(Rotations):
     axes, in the end, None where undecided or on a circle. energy, final_energy: J, now and in the end;
     barrier: of the pass between two minima, None where there is one. within: rad, and settles: when H is
     within that angle of where it ends in the body, and stays; crosses: when T is that of the pass; each None
-    where it is past at the start, or not reached. steps: of the first run."""
+    where it is past at the start, or not reached; tenth: where it starts within the angle, when what it has
+    above the energy of its end is a hundredth, and so its departure a tenth, of that at the start. steps: of
+    the first run."""
 
     outcome: str = UNDECIDED
     level: str = "undecided"
@@ -109,6 +117,7 @@ class GyrostatSpin(Rotations):
     within: float = 0.0
     crosses: Time | None = None
     settles: Time | None = None
+    tenth: Time | None = None
     steps: int = 0
 
     @property
@@ -144,6 +153,10 @@ class Gyrostat(Spinner):
         """The slowest decay at a rotation that attracts, s; 0 where there is none."""
         decays = (item.decay for item in described(self.scene, self.sphere))
         return max((decay for decay in decays if decay), default=0.0)
+
+    def ratios(self, states: np.ndarray) -> np.ndarray:
+        """2 T/|H|^2 of states (..., N), |H| that of the start: in doubles it may be lost beside the wheels'."""
+        return 2 * to_numpy(self.scene).invariants(states)["energy"] / float(self.sphere.square)
 
     def ahead(self, ratio: float, level: float) -> float:
         """As of `Spinner`, at the pace of the decay towards the least energy."""
@@ -251,10 +264,10 @@ def _timed(spinner: Gyrostat, result: GyrostatSpin) -> GyrostatSpin:
         result, crossed = _passed(spinner, result, runs)
     elif result.barrier is not None:
         result = replace(result, reachable=(result.end,))
-    settled = None if result.end is None else _settled(spinner, result, runs)
-    validity = runs[0].validity
-    return replace(result, crosses=_agreed(crossed), settles=_agreed(settled), steps=runs[0].steps,
-                   caveats=caveats_of(spinner.scene, validity=validity))
+    name, times = ("settles", None) if result.end is None else _settled(spinner, result, runs)
+    found = {"crosses": _agreed(crossed), name: _agreed(times)}
+    return replace(result, steps=runs[0].steps, **found,
+                   caveats=caveats_of(spinner.scene, validity=runs[0].validity))
 
 
 def _agreed(times: list[float] | None) -> Time | None:
@@ -274,17 +287,24 @@ def _passed(spinner: Gyrostat, result: GyrostatSpin,
     sides = [spinner.side_of(run.state, barrier) for run in runs]
     if sides[0] != sides[1]:
         return replace(result, reason=BETWEEN_MINIMA(**second)), reached
-    reason = PASS_FALLS(energy=Energy(result.energy), barrier=Energy(height), **second)
-    return _ending(result, _on_side(spinner.sphere, sides[0]), "run", reason), reached
+    end = _on_side(spinner.sphere, sides[0])
+    reason = PASS_FALLS(energy=Energy(result.energy), barrier=Energy(height),
+                        rates=Rate(result.rotations[end].rates), **second)
+    return _ending(result, end, "run", reason), reached
 
 
-def _settled(spinner: Gyrostat, result: GyrostatSpin, runs: list[Run]) -> list[float] | None:
-    """When both are within the angle of the end; None where they are at the start, or are not."""
-    level = spinner.ratio_of(near(spinner.sphere, spinner.sphere.rotations[result.end or 0], result.within))
-    if float(spinner.ratio) < level:
-        return None
+def _settled(spinner: Gyrostat, result: GyrostatSpin, runs: list[Run]) -> tuple[str, list[float] | None]:
+    """("settles", when both are within the angle of the end), or, where they are at the start, ("tenth", when
+    their departure is a tenth of it); None where they are not."""
+    end = spinner.sphere.rotations[result.end or 0]
+    name, height = "settles", near(spinner.sphere, end, result.within)
+    if spinner.energy < height:
+        name, height = "tenth", float(end.energy + (spinner.energy - end.energy) / 100)
+    if height - end.energy < SMALLEST * spinner.energy:
+        return name, None
+    level = spinner.ratio_of(height)
     times = [run.falls(level) if run.why is None else None for run in runs]
-    return [t for t in times if t is not None] if None not in times else None
+    return name, [t for t in times if t is not None] if None not in times else None
 
 
 def near(sphere: MomentumSphere, end: Rotation, angle: float) -> float:

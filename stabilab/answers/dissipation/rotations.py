@@ -38,12 +38,12 @@ EVERY_ROTATION = Sentence(
 class SteadyRotation:
     """One rotation at this |H|, or a circle of them.
 
-    nature: of the energy on the sphere of H, "minimum", "maximum", "saddle" or "inflection". rates: rad/s, and
-    momentum: N m s, along the principal axes; of a circle one of its points. energy: J, of body and wheels
-    without the wheels' own. with_losses, without_losses: "stable" or "unstable", of a circle with losses as a
-    set. axis: 1 to 3, about which a circle lies, else 0; everywhere: whether every direction of H is one.
-    growth, decay: s, time constants of the fastest growing, or of the slowest fading departure at this |H|,
-    of all parts of the scene; None where it has none.
+    nature: of the energy on the sphere of H, "minimum", "maximum", "saddle" or "inflection". rates: rad/s,
+    and momentum: N m s, along the principal axes; of a circle one of its points. energy: J, of body and
+    wheels without the wheels' own. with_losses, without_losses: "stable" or "unstable", of a circle with
+    losses as a set. axis: 1 to 3, about which a circle lies, else 0; everywhere: whether every direction of H
+    is one. growth, decay: s, time constants of the fastest growing, or of the slowest fading departure at
+    this |H|, of all parts of the scene; None where it has none.
     """
 
     nature: str
@@ -66,8 +66,8 @@ class WheelThreshold:
     factor: of the moment as it is; moment: N m s; rates: rad/s, of that rotation, there; wheels: (name, speed
     in rad/s there) of those whose inertia the case states. at_rate: the moment, N m s, from which on a
     rotation about the wheels' own principal axis attracts alone at the rate that the start has about it,
-    rate, rad/s; None where the moment is along no principal axis, there is no start, or it turns the other
-    way; at_rate_factor: of the moment as it is; at_rate_wheels: as wheels."""
+    rate, rad/s; None where the moment is along no principal axis, there is no start, it turns the other way,
+    or no moment does; at_rate_factor: of the moment as it is; at_rate_wheels: as wheels."""
 
     factor: float
     moment: float
@@ -137,7 +137,8 @@ def described(scene: Scene, sphere: MomentumSphere) -> tuple[SteadyRotation, ...
 
 def _described(scene: Scene, rotation: Rotation) -> SteadyRotation:
     rates = floats(rotation.omega)
-    growth, decay = (None, None) if rotation.everywhere else constants(scene, rates, 2 if rotation.axis else 1)
+    still = 2 if rotation.axis else 1
+    growth, decay = (None, None) if rotation.everywhere else constants(scene, rates, still)
     return SteadyRotation(
         rotation.nature, rates, floats(rotation.momentum), float(rotation.energy), rotation.with_losses,
         rotation.without_losses, rotation.axis, rotation.everywhere,
@@ -172,10 +173,22 @@ def threshold_of(case: Case, sphere: MomentumSphere) -> WheelThreshold | None:
     rate, moment = _exact_state(case)[i], abs(sphere.wheel[i])
     if rate * sphere.wheel[i] <= 0:
         return built
-    # H = D_i w + l along the axis: m = w/(D_i w + l) < 1/D1
-    least = max(Fraction(0), (max(sphere.D) - sphere.D[i]) * abs(rate))
+    least = _least_at(sphere.D, i, abs(rate))
+    if least is None:
+        return built
     return WheelThreshold(built.factor, built.moment, built.rates, built.wheels, float(rate), float(least),
                           float(least / moment), speeds(least / moment))
+
+
+def _least_at(D: Exact3, i: int, rate: Fraction) -> Fraction | None:
+    """From which moment on a wheel along axis i leaves one minimum, where the body turns about it at a rate, H
+    = D_i w + l along it; None where no moment does."""
+    first, second, _ = sorted(D, reverse=True)
+    if D[i] < first:  # until m = w/H < 1/D1
+        return (first - D[i]) * rate
+    # the turn against the wheel, H = -(D_i w + l), is one as long as m = (D_i w + 2 l)/(D1 (D_i w + l)) < 1/D2
+    ratio = first / second - 1
+    return ratio * first * rate / (1 - ratio) if ratio < 1 else None
 
 
 def _exact_state(case: Case) -> Exact3:

@@ -56,8 +56,8 @@ class Spinner:
             raise InputError(
                 f"flat-spin: it is known of a free body; this one has {', '.join(others)} besides" if others
                 else "flat-spin: nothing takes energy here, and a rigid body turns about its minor axis for "
-                     "ever: give [effects.viscous_damper], with inertia and coefficient; its rotations at one "
-                     'angular momentum: --momentum "100 N m s"')
+                     "ever: give [effects.viscous_damper], with inertia and coefficient; its rotations at "
+                     'one angular momentum: --momentum "100 N m s"')
         D = scene.body.exact
         if D[0] == D[1] == D[2] and not wheel:
             raise InputError("flat-spin: all moments are equal: every axis is a major axis")
