@@ -370,8 +370,8 @@ def _flat_spin(result):
 
 
 def _rotations_words(result):
-    return (f"{some(len(result.rotations), 'rotation')} at |H| = {result.momentum:.6g}; {result.stable} stable "
-            "with losses")
+    count = some(len(result.rotations), "rotation")
+    return f"{count} at |H| = {result.momentum:.6g}; {result.stable} stable with losses"
 
 
 def _gyrostat_spin_words(result):
@@ -383,7 +383,8 @@ def _gyrostat_spin_words(result):
 
 def _rotations(result):
     dims, rows = ("rotation",), result.rotations
-    along = lambda name, **notes: (("rotation", "axis"), np.array([getattr(row, name) for row in rows]), notes)
+    along = lambda name, **notes: (
+        ("rotation", "axis"), np.array([getattr(row, name) for row in rows]), notes)
     values = {"rates": along("rates", units="rad/s", long_name="rates of a rotation"),
               "momentum": along("momentum", units="N m s", long_name="angular momentum in the body"),
               "energy": _numbers(dims, (row.energy for row in rows), units="J"),

@@ -155,7 +155,8 @@ class Gyrostat(Spinner):
         return max((decay for decay in decays if decay), default=0.0)
 
     def ratios(self, states: np.ndarray) -> np.ndarray:
-        """2 T/|H|^2 of states (..., N), |H| that of the start: in doubles it may be lost beside the wheels'."""
+        """2 T/|H|^2 of states (..., N), |H| that of the start: in doubles that of a run may be lost beside
+        the wheels'."""
         return 2 * to_numpy(self.scene).invariants(states)["energy"] / float(self.sphere.square)
 
     def ahead(self, ratio: float, level: float) -> float:

@@ -181,12 +181,13 @@ def threshold_of(case: Case, sphere: MomentumSphere) -> WheelThreshold | None:
 
 
 def _least_at(D: Exact3, i: int, rate: Fraction) -> Fraction | None:
-    """From which moment on a wheel along axis i leaves one minimum, where the body turns about it at a rate, H
-    = D_i w + l along it; None where no moment does."""
+    """From which moment on a wheel along axis i leaves one minimum, where the body turns about it at a rate,
+    H = D_i w + l along it; None where no moment does."""
     first, second, _ = sorted(D, reverse=True)
     if D[i] < first:  # until m = w/H < 1/D1
         return (first - D[i]) * rate
-    # the turn against the wheel, H = -(D_i w + l), is one as long as m = (D_i w + 2 l)/(D1 (D_i w + l)) < 1/D2
+    # the turn against the wheel, H = -(D_i w + l), is a minimum as long as
+    # m = (D_i w + 2 l)/(D1 (D_i w + l)) < 1/D2
     ratio = first / second - 1
     return ratio * first * rate / (1 - ratio) if ratio < 1 else None
 
