@@ -175,7 +175,8 @@ def flat_spin(case: Given, within: Amount = "5 deg", *, momentum: Amount | None 
 
 def any_of_case(case: Case, angle: float) -> FlatSpin | GyrostatSpin:
     """The same of a case and an angle in rad, with wheels or without."""
-    wheels = case.variables == "physical" and any(case.scene.vector("gyrostat"))
+    scene: Any = case.scene
+    wheels = case.variables == "physical" and any(scene.vector("gyrostat"))
     return gyrostat.of_case(case, angle) if wheels else of_case(case, angle)
 
 

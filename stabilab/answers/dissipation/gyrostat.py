@@ -266,7 +266,7 @@ def _timed(spinner: Gyrostat, result: GyrostatSpin) -> GyrostatSpin:
     elif result.barrier is not None:
         result = replace(result, reachable=(result.end,))
     name, times = ("settles", None) if result.end is None else _settled(spinner, result, runs)
-    found = {"crosses": _agreed(crossed), name: _agreed(times)}
+    found: dict[str, Any] = {"crosses": _agreed(crossed), name: _agreed(times)}
     return replace(result, steps=runs[0].steps, **found,
                    caveats=caveats_of(spinner.scene, validity=runs[0].validity))
 

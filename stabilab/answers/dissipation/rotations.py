@@ -107,8 +107,9 @@ def rotations_at(case: Case, size: Fraction) -> Rotations:
     if size < 0:
         raise InputError(f"momentum: expected a size of at least 0, got {float(size):g} N m s")
     free_only(case)
-    sphere = sphere_of(case.scene, size * size)
-    return Rotations(float(size), described(case.scene, sphere), threshold_of(case, sphere),
+    scene: Any = case.scene  # a body: the others were refused
+    sphere = sphere_of(scene, size * size)
+    return Rotations(float(size), described(scene, sphere), threshold_of(case, sphere),
                      reason=why(sphere), caveats=caveats_of_case(case))
 
 

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -41,7 +41,7 @@ class Spinner:
     order: tuple[int, int, int]
 
     @classmethod
-    def of(cls, case: Any) -> Spinner:
+    def of(cls, case: Any) -> Self:
         scene = case.scene
         if case.state is None or case.variables != "physical":
             raise InputError("flat-spin: give the start as [motion] angular_velocity, in rad/s")
@@ -71,7 +71,7 @@ class Spinner:
         return result
 
     @classmethod
-    def made(cls, case: Any) -> Spinner:
+    def made(cls, case: Any) -> Self:
         """Of a case that is known to be asked for."""
         scene = case.scene
         D = scene.body.exact

@@ -285,8 +285,9 @@ def _section(item: Subject) -> str:
 
 def _turns(item: Subject) -> bool:
     """Whether a body with a damper inside has an angular momentum."""
-    return any(body_momentum(item.scene, {name: np.asarray(item.start[name], float)
-                                          for name in ("omega", "damper")}))
+    scene: Any = item.scene
+    return any(body_momentum(scene, {name: np.asarray(item.start[name], float)
+                                     for name in ("omega", "damper")}))
 
 
 def free(item: Subject) -> bool:

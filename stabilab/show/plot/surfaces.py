@@ -174,7 +174,7 @@ def _ball(size: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, Callable[...
 # --- The same of a body that loses energy inside: H goes over the levels of the energy to a minimum
 ROUTE = style.MEANING["this motion"] | {"linewidth": 1.1}
 MANY_TURNS = 60  # of a component: a line of more is drawn finer
-NATURES = {  # of a rotation -> (words, its look as a point, as a circle)
+NATURES: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {  # of a rotation -> (words, its look as a point, as a circle)
     MINIMUM: ("least energy: attracts", style.MARKER["centre"], style.MEANING["stable"]),
     MAXIMUM: ("most energy: unstable with losses", style.MARKER["turning"], style.MEANING["unstable"]),
     SADDLE: ("saddle", style.MARKER["saddle"], style.MEANING["unstable"]),
@@ -210,17 +210,17 @@ def losing_sphere(item: Subject) -> SurfaceLines:
             result.add(LIFT * points, look, points)
     look = ROUTE if turning(route[:, 0]) < MANY_TURNS else ROUTE | {"linewidth": 0.45}
     result.add(LIFT * route, look, route)
-    shown = []
+    shown: list[tuple[str, dict[str, Any]]] = []
     for rotation in () if flat else sphere.rotations:
-        H, (name, look, line) = np.array(floats(rotation.momentum)), NATURES[rotation.nature]
+        H, (name, mark, circle) = np.array(floats(rotation.momentum)), NATURES[rotation.nature]
         if rotation.axis:
-            points = _circle(H, rotation.axis - 1)
-            result.add(LIFT * points, line, points)
-            shown.append((f"{name}, a circle", line))
-        elif (name, look) not in shown:
-            shown.append((name, look))
+            around = _circle(H, rotation.axis - 1)
+            result.add(LIFT * around, circle, around)
+            shown.append((f"{name}, a circle", circle))
+        elif (name, mark) not in shown:
+            shown.append((name, mark))
         if not rotation.axis and H @ sight(view) >= 0:
-            result.marks.append((LIFT * H[None], look))
+            result.marks.append((LIFT * H[None], mark))
     result.marks.append((LIFT * route[:1], style.MARKER["start"]))
     result.rows = [("this motion", ROUTE), ("start", style.MARKER["start"]),
                    *([("level of a saddle", style.MEANING["separatrix"])] if passes else []),
