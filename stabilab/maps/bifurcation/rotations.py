@@ -10,8 +10,8 @@ changes where m = w/(D_k w + lambda_k(v)) is 1/D_i, and where H = 0."""
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, NamedTuple
 
@@ -38,6 +38,7 @@ AT_MOMENTUM = Sentence(
 AT_RATE = Sentence(
     "rotation-at-rate", "the rotation about the axis of the wheels at {rate}: it attracts with losses where "
     "the energy at its |H| is least there")
+SAMPLES = 160  # values of a picture or a table of points
 CHECKED = (Fraction(1, 3), Fraction(5, 7))  # of the range, where the wheels must be linear in what varies
 
 
@@ -66,7 +67,7 @@ class RotationDiagram(Answer, Compared, Reasoned):
 
     case, span: of what varies; momentum: |H|, N m s, or rate: rad/s, whichever is held, the other one None.
     pieces: rising; changes: the values between them, exact (a Fraction) where they are rational, else a
-    double, in the unit of the span."""
+    double, in the unit of the span. rotations: those at any value of it."""
 
     case: Case
     span: Span
@@ -74,6 +75,8 @@ class RotationDiagram(Answer, Compared, Reasoned):
     changes: tuple[Fraction | float, ...]
     momentum: float | None = None
     rate: float | None = None
+    rotations: Callable[[Fraction], tuple[SteadyRotation, ...]] = field(
+        default=lambda value: (), repr=False, compare=False)
 
 
 @dataclass(frozen=True)
@@ -90,9 +93,10 @@ class _Line:
     def wheel(self, value: Fraction) -> Exact3:
         return tuple(a + value * b for a, b in zip(self.start, self.slope))
 
-    def at(self, value: Fraction) -> Case:
+    def at(self, value: Fraction) -> Any:
+        """The scene, a body, at a value."""
         return with_data(self.case.path, self.case.text, with_values(
-            self.data, [(self.span.key, self.span.written(value))]))
+            self.data, [(self.span.key, self.span.written(value))])).scene
 
 
 def rotation_diagram(case: Any, vary: Mapping[str, Any] | Sequence[tuple[str, Any]],
@@ -113,23 +117,35 @@ def rotation_diagram(case: Any, vary: Mapping[str, Any] | Sequence[tuple[str, An
     pieces, changes = _pieces(line.span, values, make)
     return RotationDiagram(line.case, line.span, pieces, changes,
                            None if momentum is None else float(momentum),
-                           float(rate) if momentum is None and rate is not None else None, reason=reason,
+                           float(rate) if momentum is None and rate is not None else None,
+                           lambda value: make(value)[1](), reason=reason,
                            caveats=of_case(line.case))
+
+
+def sampled(result: RotationDiagram) -> list[tuple[float, tuple[SteadyRotation, ...]]]:
+    """(value, the rotations there) at values spread over the range, some of them beside each change."""
+    low, width = result.span.low, result.span.high - result.span.low
+    values = {low + width * Fraction(n, SAMPLES) for n in range(SAMPLES + 1)}
+    for change in map(Fraction, result.changes):
+        values |= {change + sign * width / 10**power for sign in (-1, 1) for power in (3, 4)}
+    inside = sorted(value for value in values if low <= value <= result.span.high)
+    return [(float(value), result.rotations(value)) for value in inside]
 
 
 def _line(given: Any, vary: Mapping[str, Any] | Sequence[tuple[str, Any]]) -> _Line:
     path, text = place_and_text("bifurcation", given)
     read = read_text(path, text)
     free_only(read)
+    body: Any = read.scene
     data = {key: value for key, value in parsed(path, text)[0].items() if key not in ("sweep", "expect")}
     spans = spans_of(data, list(vary.items() if isinstance(vary, Mapping) else vary))
     if len(spans) > 1:
         raise InputError("vary: at one angular momentum or rate one number may vary, got two")
     span, = spans
     name = printable(span.key.name)
-    line = _Line(read, span, data, read.scene.body.exact, (Fraction(0),) * 3, (Fraction(0),) * 3)
+    line = _Line(read, span, data, body.body.exact, (Fraction(0),) * 3, (Fraction(0),) * 3)
     width = span.high - span.low
-    first, last = line.at(span.low).scene, line.at(span.high).scene
+    first, last = line.at(span.low), line.at(span.high)
     low, high = first.vector("gyrostat"), last.vector("gyrostat")
     slope = tuple((b - a) / width for a, b in zip(low, high))
     start = tuple(a - span.low * b for a, b in zip(low, slope))
@@ -137,7 +153,7 @@ def _line(given: Any, vary: Mapping[str, Any] | Sequence[tuple[str, Any]]) -> _L
     if not any(slope):
         raise InputError(f"vary {name}: the wheels do not depend on it; at one angular momentum or rate a "
                          "wheel's speed or momentum may vary")
-    for scene, wheel in ((last, high), *((line.at(v).scene, line.wheel(v)) for v in (
+    for scene, wheel in ((last, high), *((line.at(v), line.wheel(v)) for v in (
             span.low + part * width for part in CHECKED))):
         if scene.body.exact != line.D or scene.vector("gyrostat") != wheel:
             raise InputError(f"vary {name}: it changes more than the wheels, or these not linearly; at one "
@@ -180,7 +196,7 @@ def _roots_inside(span: Span, polynomials: Sequence[Poly]) -> list[tuple[Fractio
 def _at_momentum(line: _Line, momentum: Fraction) -> Any:
     def rotations(value: Fraction) -> tuple[tuple[Rotation, ...], Any]:
         sphere = MomentumSphere(line.D, line.wheel(value), momentum * momentum)
-        scene = line.at(value).scene
+        scene = line.at(value)
         return sphere.rotations, lambda: described(scene, sphere_of(scene, momentum * momentum))
     return rotations
 
@@ -210,7 +226,7 @@ def _at_rate(line: _Line, rate: Fraction) -> Any:
         multiplier = rate / H[k] if H[k] else None
         energy = line.D[k] * rate * rate / 2
         rotation = Rotation(nature_at(line.D, wheel, omega), H, omega, energy, multiplier)
-        scene = line.at(value).scene
+        scene = line.at(value)
 
         def one() -> tuple[SteadyRotation, ...]:
             near = described(scene, sphere_of(scene, H[k] * H[k]))

@@ -174,7 +174,8 @@ def _ball(size: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, Callable[...
 # --- The same of a body that loses energy inside: H goes over the levels of the energy to a minimum
 ROUTE = style.MEANING["this motion"] | {"linewidth": 1.1}
 MANY_TURNS = 60  # of a component: a line of more is drawn finer
-NATURES: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {  # of a rotation -> (words, its look as a point, as a circle)
+# of a rotation -> (words, its look as a point, as a circle)
+NATURES: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
     MINIMUM: ("least energy: attracts", style.MARKER["centre"], style.MEANING["stable"]),
     MAXIMUM: ("most energy: unstable with losses", style.MARKER["turning"], style.MEANING["unstable"]),
     SADDLE: ("saddle", style.MARKER["saddle"], style.MEANING["unstable"]),
