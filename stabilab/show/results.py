@@ -403,6 +403,21 @@ def _rotations(result):
     return Variables(dims, values, AXIS, _known(notes))
 
 
+def _rotation_diagram_words(result):
+    counts = ", ".join(str(piece.stable) for piece in result.pieces)
+    return f"{some(len(result.pieces), 'piece')} over {result.span.key.name}; that attract: {counts}"
+
+
+def _rotation_diagram(result):
+    dims, rows = ("piece",), result.pieces
+    values = {name: _numbers(dims, (getattr(row, name) for row in rows)) for name in ("low", "high")}
+    values |= {name: _numbers(dims, (row.natures.get(name, 0) for row in rows))
+               for name in ("minimum", "saddle", "maximum")}
+    return Variables(dims, values, {}, _known({
+        "key": result.span.key.name, "size": result.momentum, "rate": result.rate,
+        "changes": [float(value) for value in result.changes], "because": result.because}))
+
+
 def _separatrix_words(result):
     return ("; ".join(f"{s.name}, {s.points.shape[0]} x {s.points.shape[1]} points" for s in result.branches)
             or f"no branches: {result.because}")
@@ -601,7 +616,8 @@ KINDS: dict[str, tuple[Callable[[Any], str], Callable[[Any], Variables]]] = {
     "Separatrix": (_separatrix_words, _separatrix), "Comparison": (_comparison_words, _comparison),
     "Stuck": (_stuck_words, _stuck), "SpinUp": (_spin_up_words, _spin_up),
     "FlatSpin": (_flat_spin_words, _flat_spin), "Ending": (_ending_words, _ending),
-    "Rotations": (_rotations_words, _rotations), "GyrostatSpin": (_gyrostat_spin_words, _rotations)}
+    "Rotations": (_rotations_words, _rotations), "GyrostatSpin": (_gyrostat_spin_words, _rotations),
+    "RotationDiagram": (_rotation_diagram_words, _rotation_diagram)}
 
 
 # --- Any kind: as a data set, a table, a page

@@ -41,6 +41,8 @@ RESULTS = {
     "FlatSpin": lambda: stabilab.flat_spin(DAMPED), "Ending": lambda: stabilab.motion(DAMPED).ending,
     "GyrostatSpin": lambda: stabilab.flat_spin(GYROSTAT),
     "Rotations": lambda: stabilab.flat_spin(GYROSTAT, momentum="2.8 N m s"),
+    "RotationDiagram": lambda: stabilab.bifurcation(
+        stabilab.load(CASES / "dual-spin-damper.toml"), {"wheels.flywheel.speed": "0:500 rpm"}, spin="60 rpm"),
     "Ensemble": lambda: stabilab.ensemble(SCENE, STATES, TIMES)}
 
 
