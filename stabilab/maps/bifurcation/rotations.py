@@ -126,7 +126,7 @@ def sampled(result: RotationDiagram) -> list[tuple[float, tuple[SteadyRotation, 
     """(value, the rotations there) at values spread over the range, some of them beside each change."""
     low, width = result.span.low, result.span.high - result.span.low
     values = {low + width * Fraction(n, SAMPLES) for n in range(SAMPLES + 1)}
-    for change in map(Fraction, result.changes):
+    for change in (Fraction(value) for value in result.changes):
         values |= {change + sign * width / 10**power for sign in (-1, 1) for power in (3, 4)}
     inside = sorted(value for value in values if low <= value <= result.span.high)
     return [(float(value), result.rotations(value)) for value in inside]

@@ -60,6 +60,7 @@ def _table(result: RotationDiagram, units: Units) -> list[str]:
     name = with_unit(result.span.label, result.span.shown_unit)
     kinds = [kind for kind in HEADS if any(kind in piece.natures for piece in result.pieces)]
     spans = [f"{_value(piece.low)} to {_value(piece.high)}" for piece in result.pieces]
+    rows: list[tuple[str, ...]]
     if result.rate is not None:
         rows = [(name, "energy", "with losses", "without")]
         rows += [(span, HEADS[piece.rotations[0].nature].rstrip("s"), piece.rotations[0].with_losses,
@@ -127,8 +128,8 @@ def _drawn(result: RotationDiagram, plt: Any) -> Any:
     looks = {nature: LOOKS[nature] | dots for nature in points}
     for nature, (x, y) in points.items():
         ax.plot(x, y, **looks[nature])
-    for value in result.changes:
-        ax.axvline(float(value), color=style.GREY, linewidth=0.7, linestyle=":", zorder=0)
+    for change in result.changes:
+        ax.axvline(float(change), color=style.GREY, linewidth=0.7, linestyle=":", zorder=0)
     ends = float(result.span.low), float(result.span.high)
     ax.set_xlim(*ends)
     ax.set_xlabel(with_unit(result.span.key.name, result.span.shown_unit))
