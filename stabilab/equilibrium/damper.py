@@ -39,19 +39,16 @@ DAMPER_FREE_ALONE = Sentence(
     "undecided: with a damper the stability of equilibria is known of a free body, with wheels or without")()
 DAMPED_PARALLEL = Sentence(
     "damped-momentum-along-rotation", "the damper's sphere is at rest in the body at every equilibrium, so "
-    "that "
-    "these are those of the body alone")()
+    "that these are those of the body alone")()
 LEAST = Verdict("stable", Sentence(
     "damped-gyrostat-least",
     "asymptotically stable at its |H|: the damper keeps |H|, and on the sphere of constant |H|, wheels "
-    "included, "
-    "the energy has a strict minimum here and falls at every other state nearby (LaSalle)")())
+    "included, the energy has a strict minimum here and falls at every other state nearby (LaSalle)")())
 NOT_LEAST = Verdict("unstable", Sentence(
     "damped-gyrostat-not-least",
     "the energy on the sphere of constant |H|, wheels included, has no minimum here, and the damper makes it "
     "fall wherever the motion is no permanent rotation: states of less energy next to this one leave and do "
-    "not "
-    "come back")())
+    "not come back")())
 NO_MOMENTUM = Verdict("stable", Sentence(
     "damped-gyrostat-no-momentum",
     "the angular momentum is zero: |H| stays and the energy does not grow, and both together are least "
@@ -59,8 +56,7 @@ NO_MOMENTUM = Verdict("stable", Sentence(
 CIRCLE = Verdict("stable", Sentence(
     "damped-gyrostat-circle",
     "the energy on the sphere of constant |H| is least on a circle of these rotations, which attracts, so "
-    "each "
-    "of them is stable and motions from nearby tend to one of the circle")())
+    "each of them is stable and motions from nearby tend to one of the circle")())
 
 
 def damped_equilibria(parts: Content) -> Equilibria:

@@ -54,24 +54,21 @@ ONE_CIRCLE = Sentence(
     "phase alone")()
 BELOW_PASS = Sentence(
     "below-the-pass", "T = {energy} is not above the {barrier} of the pass between the two minima of the "
-    "energy "
-    "on the sphere of H: it stays on its side, whatever takes energy inside, and tends to the minimum there")
+    "energy on the sphere of H: it stays on its side, whatever takes energy inside, and tends to the minimum "
+    "there")
 ABOVE_TRAP = Sentence(
     "above-an-inflection", "the energy has one minimum on the sphere of H and an inflection below T, to "
-    "which "
-    "an open set of motions tends: exactly at the size of the wheels' momentum at which two minima become "
-    "one")()
+    "which an open set of motions tends: exactly at the size of the wheels' momentum at which two minima "
+    "become one")()
 PASS_FALLS = Sentence(
     "falls-below-the-pass", "two rotations attract, and T = {energy} is above the {barrier} of the pass "
     "between them: the phase decides; T falls below it on the side of {rates}, where it stays; a second "
     "run, from a start moved by {moved} in its last place with tolerance {tolerance}, agrees")
 PASS_NOT_REACHED = Sentence("pass-not-reached", "two rotations attract, and T does not fall to the "
-                            "{barrier} of "
-                            "the pass between them by the end of the run: {why}")
+                            "{barrier} of the pass between them by the end of the run: {why}")
 BETWEEN_MINIMA = Sentence(
     "between-two-minima", "the start is within rounding of the boundary between two rotations that attract: "
-    "a "
-    "run and a second one, from a start moved by {moved} in its last place with tolerance {tolerance}, end "
+    "a run and a second one, from a start moved by {moved} in its last place with tolerance {tolerance}, end "
     "at different ones")
 LIQUID_PHASE = Sentence(
     "liquid-phase-open", "two rotations attract, and T = {energy} is above the {barrier} of the pass between "

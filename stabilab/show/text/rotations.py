@@ -18,10 +18,9 @@ STABILITIES = {("stable", "stable"): "stable", ("unstable", "unstable"): "unstab
 
 
 def rotations_dict(case, result: Rotations) -> dict:
-    """The object of `stabilab flat-spin --json` of a case with wheels, and with --momentum: SI units, "
-    "vectors in
-    the frame of the file. Times: [s, error in s], null where past at the start or not reached; end,
-    reachable: numbers of `rotations` from 0; outcome null of a momentum alone."""
+    """The object of `stabilab flat-spin --json` of a case with wheels, and with --momentum: SI units,
+    vectors in the frame of the file. Times: [s, error in s], null where past at the start or not reached;
+    end, reachable: places in `rotations`, from 0; outcome null of a momentum alone."""
     spin = result if isinstance(result, GyrostatSpin) else None
     own = values_of(spin, "outcome level end reachable") if spin else dict.fromkeys(
         ("outcome", "level", "end", "reachable"))
@@ -33,7 +32,8 @@ def rotations_dict(case, result: Rotations) -> dict:
             "reason": result.reason.as_dict(), "momentum": result.momentum,
             "final_rates": in_file(case, spin.rates) if spin and spin.rates else None, **numbers, **times,
             "stable_with_losses": result.stable,
-            "rotations": [_rotation(case, item) for item in result.rotations],
+            "rotations": [{"number": n} | _rotation(case, item)
+                          for n, item in enumerate(result.rotations, 1)],
             "threshold": None if result.threshold is None else _threshold(case, result.threshold)}
 
 
