@@ -263,6 +263,12 @@ def test_a_liquid_beside_a_wheel_is_answered_as_far_as_any_loss_is():
     assert found.outcome == "undecided" and found.stable == 2
 
 
+def test_a_case_answers_as_the_function_does():
+    case = craft()
+    assert case.flat_spin().rates == flat_spin(case).rates
+    assert case.flat_spin(momentum="2 N m s") == flat_spin(case, momentum=2)
+
+
 def test_a_run_that_is_too_long_leaves_it_open(monkeypatch):
     monkeypatch.setattr(gyrostat, "RUN_STEPS", 50)
     found = flat_spin(craft())
