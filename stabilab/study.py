@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from .answers.attitude_result import Attitude
+    from .answers.dissipation.flat_spin import FlatSpin
+    from .answers.dissipation.gyrostat import GyrostatSpin
+    from .answers.dissipation.rotations import Rotations
     from .answers.motions.result import Motions, Values
     from .answers.passage import TimeTo
     from .answers.simulate import Simulation
@@ -122,6 +125,15 @@ class Case(read.Case):
         """What the stuck thrusters leave when they close, and by when they must: see `stabilab.burn`."""
         from .answers.stuck.burn import burn
         return burn(self, stop, below)
+
+    @_in_doubles
+    def flat_spin(self, within: Amount = "5 deg", *, momentum: Amount | None = None,
+                  state: Start | None = None,
+                  span: Span | None = None) -> FlatSpin | GyrostatSpin | Rotations:
+        """Where it ends if something inside takes energy, or all rotations at a momentum: see
+        `stabilab.flat_spin`."""
+        from .answers.dissipation.flat_spin import flat_spin
+        return flat_spin(self, within, momentum=momentum, state=state, span=span)
 
     def simulate(self, times: ArrayLike | None = None, state: Start | None = None, blocks: Any = None,
                  method: str | None = None, rtol: float | None = None, attitude: str | None = None, *,

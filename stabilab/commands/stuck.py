@@ -27,7 +27,7 @@ from ..show.maps import bifurcation_picture
 from ..show.progress import told
 from ..show.text import headline, questions
 from ..show.text import stuck as shown
-from ..show.text.flat_spin import flat_spin_dict, flat_spin_text
+from ..show.text.flat_spin import any_dict, any_text
 from ..show.text.motion import circular_orbit_dict, circular_orbit_text
 from .common import load_cases
 from .runner import View, every, run
@@ -45,7 +45,8 @@ WHEN = View(text=questions.text, data=questions.as_dict, csv=questions.CSV, swep
             between="\n", axes=True, packed=every,
             law=lambda case, limit, result: headline.until(case, result.validity, float(result.high)),
             open=lambda limit, result: questions.unknown(result) or questions.varies(result))
-FLAT_SPIN = View(text=flat_spin_text, data=flat_spin_dict, open=lambda result: result.outcome == "undecided")
+FLAT_SPIN = View(text=any_text, data=any_dict,
+                 open=lambda result: getattr(result, "outcome", "") == "undecided")
 ORBIT = View(text=circular_orbit_text, data=circular_orbit_dict,
              open=lambda result: any(item.verdict == "undecided"
                                     for item in (*result.equilibria.points, *result.equilibria.families)),
@@ -92,11 +93,16 @@ def when(cases, units, json, csv, strict, **limits):
         **{name: limits[name] for name in ("rate", "component", "tilt")})
 
 
-def flat_spin(case, within, units, json, strict):
+def flat_spin(case, within, momentum, units, json, strict):
     """Answer a case, every combination where it has a [sweep]."""
     angle = in_si(within.strip(), ANGLE, "--within")
-    run(FLAT_SPIN, load_cases([case], motion=True), lambda item: ask_flat_spin(item, angle), units=units,
-        json=json, strict=strict, within=within)
+    size = None if momentum is None else in_si(momentum.strip(), MOMENTUM, "--momentum")
+    if size is not None and size < 0:
+        raise InputError('--momentum: expected a size of at least 0, such as "100 N m s", got '
+                         f"{momentum!r:.40}")
+    run(FLAT_SPIN, load_cases([case], motion=size is None),
+        lambda item: ask_flat_spin(item, angle, momentum=size), units=units, json=json, strict=strict,
+        within=within)
 
 
 def orbit(case, up_to, out, units, json, strict):
