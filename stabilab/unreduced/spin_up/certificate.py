@@ -318,13 +318,17 @@ def _quantity(terms: Terms, parts: int):
     return exponents, sums, largest, values, degrees
 
 
+PAIR = 1 << 20  # two whole numbers of less than half of it are one
+
+
 def _distinct(a: np.ndarray, b: np.ndarray):
     """The distinct pairs of whole numbers (2, m), ordered, and which of them each pair is, (n,); (0, 0) where
     there are none."""
     if not a.size:
         return np.zeros((2, 1), np.int64), np.zeros(0, np.int64)
-    pairs, which = np.unique(np.stack([a, b]), axis=1, return_inverse=True)
-    return np.ascontiguousarray(pairs), which.ravel()
+    one, which = np.unique(a * PAIR + b, return_inverse=True)
+    first = (one + PAIR // 2) // PAIR
+    return np.stack([first, one - first * PAIR]), which
 
 
 class Tests:
