@@ -76,6 +76,9 @@ if TYPE_CHECKING:
 
 
 # --- The kernels, compiled or as written
+ENTRIES = {"begin", "run", "end", "measure", "over", "decide"}
+
+
 def functions(kernel: ModuleType, fast: bool, lanes: int = 1) -> dict[str, Any]:
     """A kernel's functions by name, for so many lanes: compiled, or as they are written, for one."""
     return compiled_functions(kernel, lanes) if fast else vars(kernel)
@@ -85,8 +88,8 @@ def functions(kernel: ModuleType, fast: bool, lanes: int = 1) -> dict[str, Any]:
 def compiled_functions(kernel: ModuleType, lanes: int = 1) -> dict[str, Any]:
     """A kernel's functions by name, compiled; stored on disk where there is a place for it."""
     if lanes > 1:
-        return compiled(kernel, variant=f"{lanes}_", allocating=False, LANES=lanes)
-    return compiled(kernel, allocating=False)
+        return compiled(kernel, variant=f"{lanes}_", allocating=False, entries=ENTRIES, LANES=lanes)
+    return compiled(kernel, allocating=False, entries=ENTRIES)
 
 
 def loaded() -> bool:
