@@ -84,7 +84,8 @@ def _compiled(module: ModuleType, inlined: Container[str], cache: bool, variant:
 
     def make(name: str, twin: FunctionType) -> Any:
         inline = name in inlined or hasattr(error_free, name)
-        called = entries is None or name in entries
-        return njit(cache=cache, error_model="numpy", forceinline=inline, _nrt=allocating,
-                    no_cpython_wrapper=not called, no_cfunc_wrapper=True)(twin)
+        options: dict[str, Any] = {  # of which numba's types know nothing
+            "_nrt": allocating, "no_cfunc_wrapper": True,
+            "no_cpython_wrapper": entries is not None and name not in entries}
+        return njit(cache=cache, error_model="numpy", forceinline=inline, **options)(twin)
     return twins(module, make, f"{variant}_{stamp:x}_", **instead)

@@ -317,7 +317,8 @@ def _quantity(terms: Terms, parts: int):
     degrees, place = _distinct(j[half], k[half])
     values = np.zeros((2, exponents.shape[1], degrees.shape[1]))
     c = np.where(j == k, 1, 2)[half] * terms.c[half]
-    np.add.at(values, (slice(None), column[half], place), np.stack([c.real, c.imag]))
+    for part, numbers in zip(values, (c.real, c.imag)):
+        np.add.at(part, (column[half], place), numbers)
     return exponents, sums, largest, values, degrees
 
 
