@@ -39,9 +39,10 @@ ALIKE, CONVERGED, FLOOR = 1e-9, 1e-13, 1e-15
 MAX_COEFFICIENTS = 64  # of Taylor's series about the middle; a full turn takes some forty
 NEGLIGIBLE = 1e-18  # of the first coefficients: what is left out of that series
 PIECE_DIGITS = 3e-12  # relative, of K half-way between two stops, from the one and from the other
+LONG = 1.0  # of e y^2: beyond, on hyperbolas, terms that grow are summed before they do
 # columns of a stop, an end or an equilibrium that a motion passes: K, f0, f1, F, c, g, e; its arc, and what
-# the double of it leaves
-STOP_ARC, STOP_REST, STOP_COLUMNS = 7, 8, 9
+# the double of it leaves; what grows like exp(n y) and exp(2 n y), in both directions
+STOP_ARC, STOP_REST, GROWING, STOP_COLUMNS = 7, 8, 9, 13
 
 
 def _inverse_factorials(first: int):
@@ -282,6 +283,34 @@ def period_about(series: Sequence[float], rho: float, left: float, right: float,
     return 2 * rho * now, 4 * ULP * size / smallest if settled else INFINITY
 
 
+def fill_stop(stop: np.ndarray, base: Sequence[Pair], y: float, rest: float, fine: np.ndarray):
+    """The columns of a stop at a base, an arc y and its rest from where arcs begin."""
+    series = rounded(base, fine[E, 0])
+    for column in range(STOP_ARC):
+        stop[column] = series[column]
+    stop[STOP_ARC], stop[STOP_REST] = y, rest
+    stop[GROWING:] = 0.0
+    if series[6] > 0:
+        growing(stop, base, fine)
+
+
+def growing(stop: np.ndarray, base: Sequence[Pair], fine: np.ndarray):
+    """Fill what grows along a hyperbola, in either direction: the coefficients L of S2 and N of S2^2 in
+    `kinetic_from`, formed in twofold numbers because they nearly vanish where a motion comes from afar."""
+    e, kappa, q = constant(fine, E), constant(fine, KAPPA), constant(fine, Q)
+    n = np.sqrt(e[0])
+    square = exact_product(n, n)
+    root = exact_sum(n, (((e[0] - square[0]) - square[1]) + e[1]) / (2 * n))
+    A = add(times(kappa, base[V]), constant(fine, SIGMA))
+    B = add(times(kappa, base[U]), constant(fine, RHO))
+    for column in range(2):
+        side = 1.0 - 2 * column
+        speed = value(add(times(root, base[ALONG_U]), scaled(base[BEND_U], side))) / n
+        force = value(add(times(root, A), scaled(times(q, B), side))) / n
+        stop[GROWING + 2 * column] = speed * force
+        stop[GROWING + 2 * column + 1] = 0.5 * kappa[0] * q[0] * speed * speed
+
+
 def stop_at(stop: np.ndarray, base: Sequence[Pair], y: float, end: bool, fine: np.ndarray):
     """Fill a stop next to an arc y from a base: there by Newton's method in twofold numbers, where K vanishes
     (an end) or its slope does.
@@ -297,10 +326,7 @@ def stop_at(stop: np.ndarray, base: Sequence[Pair], y: float, end: bool, fine: n
         if abs(rest) <= 1e-9 * ULP * abs(y):
             break
         y += rest
-    series = rounded(there, fine[E, 0])
-    for column in range(STOP_ARC):
-        stop[column] = series[column]
-    stop[STOP_ARC], stop[STOP_REST] = y, rest
+    fill_stop(stop, there, y, rest, fine)
     if end:
         stop[0], stop[1] = 0.0, stop[1] + stop[2] * rest
     else:
@@ -312,6 +338,30 @@ def series_of(stop: np.ndarray):
     return stop[0], stop[1], stop[2], stop[3], stop[4], stop[5], stop[6]
 
 
+def kinetic_from(y: float, stop: np.ndarray):
+    """(K, size of its terms) an arc y from a stop.
+
+    On a hyperbola, with m = |y|, D = (1 - exp(-n m))/n and S1 = +-(D + n S2), the sign that of y, (2) is
+
+        k + f0 y + L S2 + F (+-D - y)/e -+ c D^2/(2 n) + N S2^2,   S2 = exp(n m) D^2/2,
+        L = P (A +- q B/n),   N = kappa q P^2/2,   P = a +- p b/n,
+
+    where nothing grows but S2.
+    """
+    k, f0, f1, f2, c, g, e = series_of(stop)
+    if not e * y * y > LONG:
+        over, _, _, terms = kinetic(y, (k, f0, f1, f2, c, g, e))
+        return over, terms
+    n, side, column = np.sqrt(e), (1.0 if y > 0 else -1.0), (GROWING if y > 0 else GROWING + 2)
+    d = -np.expm1(-n * abs(y)) / n
+    s2 = 0.5 * d * d * np.exp(n * abs(y))
+    first, second, third = f0 * y, stop[column] * s2, f2 * (side * d - y) / e
+    fourth, fifth = -0.5 * side * c * d * d / n, stop[column + 1] * s2 * s2
+    terms = abs(k) + abs(first) + abs(second) + abs(third) + abs(fourth) + abs(fifth)
+    # a rounding of n y is one of so many in the exponential
+    return k + (first + second + third + fourth + fifth), terms * (1 + n * abs(y) / ROUNDINGS)
+
+
 def period_in_pieces(stops: np.ndarray, count: int, nearby: np.ndarray, weights: np.ndarray,
                      levels: np.ndarray, turning: bool):
     """(time from the first stop to the last and back, its relative error) by the double-exponential rule from
@@ -319,10 +369,9 @@ def period_in_pieces(stops: np.ndarray, count: int, nearby: np.ndarray, weights:
     turns at the first and at the last."""
     period, worst = 0.0, 1.0
     for n in range(count - 1):
-        here, there = series_of(stops[n]), series_of(stops[n + 1])
-        length = ((stops[n + 1, STOP_ARC] - stops[n, STOP_ARC])
-                  + (stops[n + 1, STOP_REST] - stops[n, STOP_REST]))
-        one, other = kinetic(0.5 * length, here)[0], kinetic(-0.5 * length, there)[0]
+        here, there = stops[n], stops[n + 1]
+        length = (there[STOP_ARC] - here[STOP_ARC]) + (there[STOP_REST] - here[STOP_REST])
+        one, other = kinetic_from(0.5 * length, here)[0], kinetic_from(-0.5 * length, there)[0]
         if not (length > 0 and abs(one - other) <= PIECE_DIGITS * one):
             return np.nan, INFINITY
         total, before, change, earlier, settled = 0.0, np.nan, np.nan, np.nan, False
@@ -334,7 +383,8 @@ def period_in_pieces(stops: np.ndarray, count: int, nearby: np.ndarray, weights:
                     at_turn = far == (n > 0)
                     part, scale = ((part * part, 2 * part) if at_turn
                                    else (part * (2 - part), 2 * (1 - part)))
-                over, _, _, terms = kinetic(-length * part, there) if far else kinetic(length * part, here)
+                over, terms = (kinetic_from(-length * part, there) if far
+                               else kinetic_from(length * part, here))
                 worst = max(worst, terms / over)
                 total += weights[node] * scale / np.sqrt(2 * over)
             now = length * total * 2.0**-level

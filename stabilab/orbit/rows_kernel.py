@@ -27,7 +27,6 @@ from .arc_kernel import (
     OVER,
     ROUNDINGS,
     SHIFT,
-    STOP_ARC,
     STOP_COLUMNS,
     ULP,
     E,
@@ -35,6 +34,7 @@ from .arc_kernel import (
     V,
     base_of,
     component,
+    fill_stop,
     kinetic,
     moved,
     period_about,
@@ -280,10 +280,7 @@ def stops_between(left: float, right: float, throat: bool, base: Sequence[Pair],
         if not end and not left < y < right:
             continue
         if throat and before < 0 < y:
-            series = rounded(base, fine[E, 0])
-            for column in range(STOP_ARC):
-                stops[total, column] = series[column]
-            stops[total, STOP_ARC], stops[total, STOP_ARC + 1] = 0.0, 0.0
+            fill_stop(stops[total], base, 0.0, 0.0, fine)
             total += 1
         stop_at(stops[total], base, y, end, fine)
         before = y

@@ -145,6 +145,37 @@ def test_spin_ups_and_rotations_have_the_digits_of_balls_whatever_the_difference
     assert min(rows.values()) > 20 and open_rows <= sum(rows.values()) / 50
 
 
+@pytest.mark.parametrize("seed", [1, *later(range(60, 80))])
+def test_rows_beside_the_planes_and_the_centre_of_a_hyperbola_have_the_digits_of_balls(seed):
+    """From a tenth down to 1e-12 of a rate beside an invariant plane, or the centre: such motions go out and
+    come back by some thirty times the size of the throat's arc."""
+    rng, full, open_rows = np.random.default_rng(seed), 0, 0
+    for _ in range(12):
+        second = rng.uniform(0.05, 1, 3)
+        low, middle, high = np.sort(second.sum() - second)
+        scene = Scene(Body((low, high, middle)), Gyrostat((*rng.normal(size=2) * 10 ** rng.uniform(-1, 1), 0)),
+                      ConstantTorque((0, 0, rng.choice((-1, 1)) * 10 ** rng.uniform(-2, 1))))
+        land = landscape(scene)
+        (sj, sk), slope = map(float, land.reduction.centre), math.sqrt(abs(land.reduction.p / land.reduction.q))
+        off = 10 ** rng.uniform(-12, -1, (12, 1)) * rng.normal(size=(12, 2))
+        along = np.where(np.arange(12) % 2, 0, rng.normal(size=12)) * 10 ** rng.uniform(-1, 1, 12)
+        sign = rng.choice((-1, 1), 12)
+        states = np.stack([-sj + slope * along + off[:, 0], -sk + sign * along + off[:, 1],
+                           rng.normal(size=12)], axis=1)
+        states = states[trapped_rows(land, fate_on_orbit(scene, land, states))]
+        boxes, periods = np.full((len(states), 3, 2), np.nan), np.full(len(states), np.nan)
+        left = np.full(len(states), 3, np.uint8)
+        settle_rows(land, states, boxes, periods, left, False)
+        full, open_rows = full + len(states), open_rows + np.count_nonzero(left)
+        for state, box, time, bits in zip(states.tolist(), boxes, periods, left):
+            orbit = Orbit(land.reduction, state)
+            exact = np.array(precise_extremes(orbit, Fate.BOUNDED), float)
+            error = np.abs(box - exact).max(axis=1) / np.abs(exact).max(axis=1)
+            assert bits & 1 or (error <= 1e-12).all(), (scene, state)
+            assert bits & 2 or time == pytest.approx(precise_period(orbit, Fate.BOUNDED), rel=1e-11), (scene, state)
+    assert full > 100 and open_rows <= full / 10
+
+
 class ClosedForm:
     """u, v and K of an arc by sines about the centre of the orbit, or powers on a parabola: what the entire
     functions stand for, in the digits of mpmath."""
