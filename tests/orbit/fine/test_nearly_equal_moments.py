@@ -12,6 +12,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
+import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene, fate
 from stabilab.numbers.numba_door import installed
 from stabilab.orbit import arc_kernel, equilibria_kernel, margins_kernel
@@ -216,6 +217,34 @@ def test_rows_beside_the_planes_and_the_centre_of_a_hyperbola_have_the_digits_of
             assert bits & 1 or (error <= 1e-12).all(), (scene, state)
             assert bits & 2 or time == pytest.approx(precise_period(orbit, Fate.BOUNDED), rel=1e-11), (scene, state)
     assert full > 50 and open_rows <= full / 10
+
+
+@pytest.mark.parametrize("seed", [5, *later(range(100, 120))])
+def test_rows_that_rest_beside_a_saddle_have_the_digits_of_balls_or_stay_open(seed):
+    """At the double nearest to an equilibrium, or 1e-15 ... 1e-5 beside it: one end of the motion is the state, and
+    only 32 digits know it from an end beyond the barrier."""
+    draw, full, open_rows = scenes(seed), 0, 0
+    for _ in range(12):
+        scene, axis, rng = next(draw)
+        land = landscape(scene)
+        places = [sample.at for curve in stabilab.equilibria(scene).curves for sample in curve.samples]
+        if not places:
+            continue
+        states = np.array([places[n] for n in rng.integers(len(places), size=10)], float)
+        states[::2] *= 1 + 10.0 ** rng.uniform(-15, -5, (5, 1)) * rng.normal(size=(5, 3))
+        states[:, axis] = 0.0
+        states = states[trapped_rows(land, fate_on_orbit(scene, land, states))]
+        boxes, periods = np.full((len(states), 3, 2), np.nan), np.full(len(states), np.nan)
+        left = np.full(len(states), 3, np.uint8)
+        settle_rows(land, states, boxes, periods, left, False)
+        full, open_rows = full + len(states), open_rows + np.count_nonzero(left)
+        for state, box, time, bits in zip(states.tolist(), boxes, periods, left):
+            orbit = Orbit(land.reduction, state)
+            if not bits & 1:
+                exact = np.array(precise_extremes(orbit, Fate.BOUNDED), float)
+                assert (np.abs(box - exact).max(axis=1) <= 1e-12 * np.abs(exact).max(axis=1)).all(), (scene, state)
+            assert bits & 2 or time == pytest.approx(precise_period(orbit, Fate.BOUNDED), rel=1e-11), (scene, state)
+    assert full > 40 and open_rows <= full / 2
 
 
 class ClosedForm:
