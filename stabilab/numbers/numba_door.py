@@ -49,7 +49,7 @@ def twins(module: ModuleType, make: Callable[[str, FunctionType], Any], variant:
           **instead: Any) -> dict[str, Any]:
     """The names of a module and of those below it (`_below`) with `make` of a twin of each of their
     functions, which sees these names; instead, variant: as of `compiled`."""
-    modules, names = (*_below(module), module), {}
+    modules, names = (*_below(module), module), dict[str, Any]()
     for each in modules:
         names |= vars(each)
     names |= instead

@@ -127,7 +127,7 @@ class BallOrbit:
         """An offset on one side of all equilibria, from `inner` on, where the potential is higher than the
         energy; None on a circle."""
         step, outer = 1, inner + side
-        while not sign(self.height(outer) - self.energy) > 0:
+        while not self.height(outer) - self.energy > 0:  # nor where it may be the energy itself
             step *= 2
             outer = inner + side * step
         return outer
