@@ -4,7 +4,7 @@ At an equilibrium the damper's sphere is at rest in the body: sigma' + omega' = 
 sigma, whose product with sigma is c |sigma|^2/k = 0. So the equilibria are those of the body alone. The
 damper keeps |H|, wheels included, and takes energy at every rotation that is not permanent, so that exactly
 the strict minima of the energy on the spheres of constant |H| attract (`momentum_sphere`); without wheels
-they are those that a liquid leaves. The eigenvalues are the damper's own."""
+they are the same as with a liquid. The eigenvalues are the damper's own."""
 from __future__ import annotations
 
 from collections.abc import Sequence

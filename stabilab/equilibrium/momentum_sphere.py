@@ -22,7 +22,7 @@ along that axis begins with a fourth power, of the sign of f'.
 Passes. Let D1 > D2 >= D3, K a critical point with 1/D1 < m <= 1/D2. Then A has one negative entry, that of
 axis 1, and E(H) <= E(K) is a double cone (for m = 1/D2 two wedges) with its apex in K, of which one half has
 H_1 > K_1 and one H_1 < K_1. Each half is convex, and a ray from K meets the sphere at most once more, so that
-each meets it in one piece. So below E(K) the sphere falls into two parts, told apart by the sign of
+each meets it in one piece. So below E(K) the sphere falls into two parts, by the sign of
 H_1 - K_1, and what has T <= E(K) stays in its own. For m <= 1/D1 A is not negative and K is the least; for
 1/D2 < m < 1/D3 two entries are negative, and what is below E(K) is one piece, for what is above it, a double
 cone as before, is two discs. So there are two minima where there is a pass, and one elsewhere.
@@ -284,7 +284,7 @@ class MomentumSphere:
         least = [rotation for rotation in self.rotations if rotation.nature == MINIMUM]
         return tuple(sorted(least, key=lambda rotation: -rotation.momentum[self.top]))
 
-    # --- Which size of the gyrostatic moment leaves one
+    # --- From which size of the gyrostatic moment on there is one
     @cached_property
     def threshold(self) -> Threshold | None:
         """None without a wheel, and at |H| = 0."""

@@ -95,7 +95,7 @@ class GyrostatSpin(Rotations):
 
     outcome: "steady rotation", "circle of rotations" (which one hangs on the phase) or "undecided"; level:
     "exact", "run" or "undecided"; reason: how it is known. end: which of `rotations` it is, None where
-    undecided; reachable: all that its energy leaves open at the start. rates: rad/s, along the principal
+    undecided; reachable: all that its energy allows at the start. rates: rad/s, along the principal
     axes, in the end, None where undecided or on a circle. energy, final_energy: J, now and in the end;
     barrier: of the pass between two minima, None where there is one. within: rad, and settles: when H is
     within that angle of where it ends in the body, and stays; crosses: when T is that of the pass; each None

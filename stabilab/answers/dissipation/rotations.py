@@ -66,7 +66,7 @@ class WheelThreshold:
     factor: of the moment as it is; moment: N m s; rates: rad/s, of that rotation, there; wheels: (name, speed
     in rad/s there) of those whose inertia the case states. at_rate: the moment, N m s, from which on a
     rotation about the wheels' own principal axis attracts alone at the rate that the start has about it,
-    rate, rad/s; None where the moment is along no principal axis, there is no start, it turns the other way,
+    rate, rad/s; None where the moment is along no principal axis, there is no start, it turns against it,
     or no moment does; at_rate_factor: of the moment as it is; at_rate_wheels: as wheels."""
 
     factor: float
@@ -182,8 +182,8 @@ def threshold_of(case: Case, sphere: MomentumSphere) -> WheelThreshold | None:
 
 
 def _least_at(D: Exact3, i: int, rate: Fraction) -> Fraction | None:
-    """From which moment on a wheel along axis i leaves one minimum, where the body turns about it at a rate,
-    H = D_i w + l along it; None where no moment does."""
+    """From which moment on a wheel along axis i has one minimum left, where the body turns about it at a
+    rate, H = D_i w + l along it; None where no moment does."""
     first, second, _ = sorted(D, reverse=True)
     if D[i] < first:  # until m = w/H < 1/D1
         return (first - D[i]) * rate

@@ -285,9 +285,9 @@ def test_a_momentum_that_is_none_is_an_error(momentum, words):
 def test_the_rotations_at_a_momentum_need_no_start_and_no_losses(stabilab, tmp_path):
     path = tmp_path / "free.toml"
     path.write_text("[body]\ninertia = [3, 2, 1]\n[effects.gyrostat]\nmomentum = [0, 0, 1]\n")
-    told = json.loads(stabilab("flat-spin", path, "--momentum", "2.8 N m s", "--json")[1])
-    natures = [item["nature"] for item in told["rotations"]]
+    printed = json.loads(stabilab("flat-spin", path, "--momentum", "2.8 N m s", "--json")[1])
+    natures = [item["nature"] for item in printed["rotations"]]
     assert natures == ["minimum", "minimum", "saddle", "saddle", "maximum", "maximum"]
-    assert all(item["growth_time"] is None for item in told["rotations"] if item["nature"] == "maximum")
+    assert all(item["growth_time"] is None for item in printed["rotations"] if item["nature"] == "maximum")
     code, _, said = stabilab("flat-spin", path, "--momentum", "-1 N m s")
     assert code == 2 and "--momentum" in said
