@@ -24,6 +24,8 @@ FIRST_BITS = 64  # of a first try, which settles ordinary motions
 START_BITS = 128
 PARTED_BITS = 1 << 14  # of a place between two roots: for any of numbers that are doubles
 NARROWINGS = 60  # of a ball about a root, at most
+GUARD_BITS = 32  # beyond what a question is known to lose
+MOST_OF_DOUBLES = 1 << 17  # of a question of doubles
 APART_BITS = 256  # roots that so many bits do not tell apart would cost flint's iteration a long time
 
 
@@ -100,7 +102,8 @@ class Digits:
         return real_roots_of(polynomial(*coefficients))
 
 
-def settled(question: Callable[[Digits], T], bits: int = START_BITS, most: int = 1 << 17) -> T:
+def settled(question: Callable[[Digits], T], bits: int = START_BITS,
+            most: int = MOST_OF_DOUBLES) -> T:
     """question(numbers), with twice the bits as long as it is `Unclear`; the last Unclear when `most` are not
     enough.
 
@@ -282,3 +285,26 @@ def shares_root(first: fmpq_poly, second: fmpq_poly, root: arb) -> bool:
     polynomials."""
     common = first.gcd(second)
     return any(z.overlaps(root) for z, _ in real_roots_of(common))
+
+
+def sharpened(settled_as: Callable[..., Any], question: Callable[..., Any], digits: int) -> Any:
+    """The ball of a question, 10^-digits of it wide at most. settled_as: `settled`, or what asks as it does.
+
+    A first answer in few bits shows how many of them the question loses, so that many bits are spent once.
+    """
+    from flint import ctx
+    needed, lost = int(digits * 3.3220) + 2, [GUARD_BITS]
+
+    def with_accuracy(bits: int) -> Callable[[Any], Any]:
+        def asked(source: Any) -> Any:
+            ball = question(source)
+            accuracy = ball.rel_accuracy_bits() if ball.is_finite() else 0
+            if accuracy < bits:
+                raise Unclear
+            lost[0] = max(GUARD_BITS, ctx.prec - accuracy + GUARD_BITS // 2)
+            return ball
+        return asked
+    if needed > MANY_BITS:
+        settled_as(with_accuracy(START_BITS // 4), START_BITS)
+    most = max(MOST_OF_DOUBLES, 4 * (needed + lost[0]))
+    return settled_as(with_accuracy(needed), needed + lost[0], most)

@@ -22,10 +22,11 @@ from ..cost.accuracy import precision
 from ..integrate.reference import WORK, Recursion, one_run, pairs, relative_errors
 from ..numbers.balls import Unclear, sign, working
 from ..numbers.numba_door import installed
-from ..orbit.extremes import extreme_balls, period_ball, precise_period, turning_points
+from ..orbit.extremes import extreme_balls, turning_points
 from ..orbit.fate import precise_margin
 from ..orbit.landscape import landscape
 from ..orbit.one_orbit import Orbit, ball_orbit
+from ..orbit.period import period_ball, precise_period
 from ..orbit.result import Fate
 from ..show import style
 from ..show.data import csv_lines
