@@ -88,7 +88,7 @@ def period(
 def attitude(
         cases: CaseFiles, json: Json = False,
         digits: Annotated[int | None, option(
-            "N", "Write the periods with N digits (1 to 50); exit with 5 where not reached.")] = None,
+            "N", "Write the periods with N digits (1 to 10000); exit with 5 where not reached.")] = None,
         strict: StrictFate = False, units: UnitsOption = None):
     """Find rotation and precession periods, and the turn after one.
 

@@ -1,7 +1,6 @@
 """Extremes of one motion, in balls: every digit returned is certain."""
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -40,8 +39,8 @@ def extreme_balls(orbit: Orbit, label: int, certain: int = CERTAIN_BITS):
 
     def question(orbit):
         return _ranges(orbit, *how(orbit), certain)
-    start = TIE_BITS if label == Fate.SEPARATRIX else FIRST_BITS if certain <= CERTAIN_BITS else 2 * certain
-    return orbit.settled(question, start)
+    start = FIRST_BITS if certain <= CERTAIN_BITS else certain + START_BITS
+    return orbit.settled(question, max(start, TIE_BITS) if label == Fate.SEPARATRIX else start)
 
 
 def turning_points(orbit: BallOrbit):
@@ -245,9 +244,9 @@ def _range(values: Sequence[arb], certain: int, bits: int):
     low = high = values[0]
     for value in values[1:]:
         low, high = low.min(value), high.max(value)
-    size = max(float(abs(low).mid()), float(abs(high).mid()))
-    width = max(float(low.rad()), float(high.rad()))
-    if not width <= size * 2.0**-certain and bits < MOST_BITS:  # nor is a root of both signs a number
+    size, width = abs(low).mid().max(abs(high).mid()), low.rad().max(high.rad())
+    # nor is a root of both signs a number
+    if not width <= size * (size * 0 + 2) ** -certain and bits < max(MOST_BITS, 2 * certain):
         raise Unclear
     return low, high
 

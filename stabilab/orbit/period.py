@@ -12,6 +12,8 @@ that its remainder is small enough (Johansson, Numerical integration in arbitrar
 2018)."""
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..numbers.balls import Unclear, sharpened, sign
@@ -36,25 +38,26 @@ def precise_period(orbit: Orbit, label: int) -> float:
     return without_return(label) if label != Fate.BOUNDED else float(period_ball(orbit, DOUBLE_PERIOD).mid())
 
 
-def period_ball(orbit: Orbit, digits: int = DIGITS) -> arb:
-    """Period of a bounded motion as a ball that is 10^-digits of it wide at most."""
+def period_ball(orbit: Orbit, digits: int = DIGITS, tell: Callable[[float], None] | None = None) -> arb:
+    """Period of a bounded motion as a ball that is 10^-digits of it wide at most. tell: is given the seconds
+    that it will take, before a long sum."""
     r = orbit.reduction
     if not r.geometry.centred:
         taylor = orbit.settled(lambda result: result.taylor)
         return real_period(quartic_on_parabola(r, orbit.state, taylor), digits)
     if not r.sense:
         return real_period(quartic_without_torque(r, orbit.state), digits)
-    return sharpened(orbit.settled, _libration, digits)
+    return sharpened(orbit.settled, partial(_libration, tell=tell), digits)
 
 
-def _libration(orbit: BallOrbit) -> arb:
+def _libration(orbit: BallOrbit, tell: Callable[[float], None] | None = None) -> arb:
     """Once to and fro between the turning points, which is all that a torque leaves: by a sum (`period_sum`)
     where few terms serve, else twice the integral between them."""
     from flint import ctx
     left, right = turning_points(orbit)
     by = plan(orbit, left, right, ctx.prec)
     if by is not None and (nodes := by.nodes(ctx.prec)) <= MAX_NODES:
-        return summed(orbit, left, right, by, nodes)
+        return summed(orbit, left, right, by, nodes, tell)
     middle = ((left + right) / 2).mid()
     return 2 * (time_from_turn(orbit, left, middle) + time_from_turn(orbit, right, middle))
 

@@ -21,8 +21,9 @@ y'^2/W^2, which has neither zeros nor poles inside, is largest on it."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from time import perf_counter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..numbers.balls import Unclear, working
@@ -43,6 +44,7 @@ FEW_BITS = 400
 PLAN_BITS = 192, 1024  # of the choice and the proof
 CONSTANT_BITS = 160  # of a substitution
 MAX_NODES = 1 << 20
+TIMED = range(4, 12)  # terms whose time says that of all
 SPARE_BITS = 8  # by which the remainder is smaller than what is asked for
 
 
@@ -188,11 +190,18 @@ def _plan(motion: _Motion, bits: int) -> Plan | None:
     return None
 
 
-def summed(orbit: BallConic, left: arb, right: arb, by: Plan, nodes: int) -> arb:
-    """The period by so many terms on half a period."""
+def summed(orbit: BallConic, left: arb, right: arb, by: Plan, nodes: int,
+           tell: Callable[[float], None] | None = None) -> arb:
+    """The period by so many terms on half a period. tell: is given the seconds that they take, by the first
+    ones."""
     from flint import arb
     motion, total = _Motion(orbit, left, right), arb(0)
-    for at in _nodes(by.by, nodes):
+    begun = 0.0
+    for n, at in enumerate(_nodes(by.by, nodes)):
+        if n == TIMED.start:  # the first ones compute constants that the library keeps
+            begun = perf_counter()
+        elif n == TIMED.stop and tell is not None:
+            tell((perf_counter() - begun) * nodes / (2 * len(TIMED)))
         x, slope = by.by.inside(at)
         total += motion.time(by.by, x, slope) + motion.time(by.by, -x, slope)
     quarter, _ = by.by.quarter()
@@ -328,8 +337,8 @@ class _Strip:
             orbit = motion.orbit
             bend, _ = orbit.bends(place)
             _, last = orbit.bends(place + route)
-            speed = motion.speed(place) + route * (
-                2 * orbit.force(place) + route * (orbit.slope(place) + route * (bend / 3 + route * last / 12)))
+            curved = orbit.slope(place) + route * (bend / 3 + route * last / 12)
+            speed = motion.speed(place) + route * (2 * orbit.force(place) + route * curved)
             if not speed.is_finite() or speed.contains(0):
                 return None
             largest = largest.max(arb(((slope * rate) ** 2 / speed).abs_upper()))

@@ -208,7 +208,7 @@ def _said(printed: Told, units: Units, of: str = "") -> str:
     if digits is None:
         return f"  {because}"
     return f"  exact: {because}" if math.isinf(digits) else (
-        f"  {f'{min(digits, 99.0):.1f}'.removesuffix('.0')} digits{of}: {because}")
+        f"  {f'{digits:.1f}'.removesuffix('.0')} digits{of}: {because}")
 
 
 def period(case: Case, motion: Motion, told: Told, units: Units, all_digits: bool, say: bool,
@@ -238,7 +238,8 @@ def period(case: Case, motion: Motion, told: Told, units: Units, all_digits: boo
 # --- As JSON and CSV
 def _object(question, case, motion, printed, result) -> dict:
     """What all objects have, and what was found; digits.reached: null where there is no number to judge."""
-    shown = None if printed.digits is None else min(printed.digits, 99.0)
+    exact = printed.digits is not None and math.isinf(printed.digits)
+    shown = max(99.0, printed.asked) if exact else printed.digits
     return ({"schema": f"stabilab.{question}/1", "case": case.name, "variables": case.variables,
              "at": motion.at, "fate": motion.fate.word} | result
             | {"digits": {"asked": printed.asked, "reached": shown}
