@@ -40,7 +40,7 @@ HALVINGS = 2, 7  # of its height, where few terms are wanted and where many are
 # wanted, high ones where many are
 QUICK, CLOSE = ((0.75, 24), (0.6, 96), (0.4, 192)), ((0.95, 192), (0.85, 192), (0.7, 384), (0.4, 384))
 ENOUGH = 0.4  # height in quarter periods of a strip that serves few digits
-FEW_BITS = 400
+FEW_BITS = 1200
 PLAN_BITS = 192, 1024  # of the choice and the proof
 CONSTANT_BITS = 160  # of a substitution
 MAX_NODES = 1 << 20
