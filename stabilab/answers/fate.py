@@ -46,8 +46,8 @@ def fate(scene: Given, state: Start | None = None, *, states: Starts | None = No
     for 600,000 steps, some seconds (10,000 of SciPy without heyoka). proof: enclose the way of each of these
     motions, one after another, some milliseconds each: `level` then says "proved" where that succeeds. fast:
     of many starts under such a torque, whether they are followed by compiled loops (None: where that is
-    quicker; the numbers are the same). tell(time, steps, motions left) is called meanwhile. Raises InputError for what is no case
-    and no start, and for scenes with effects that this analysis does not cover.
+    quicker; the numbers are the same). tell(time, steps, motions left) is called meanwhile. Raises InputError
+    for what is no case and no start, and for scenes with effects that this analysis does not cover.
     """
     case, array = asked_of(scene, state, states, span, "fate", frame)
     long: Any = time_in(case.scene, follow, "follow")
