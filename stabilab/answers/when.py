@@ -35,6 +35,7 @@ from .passage import MOVED, WIDER, TimeTo, by_run, times_of
 from .simulate import denser, trajectory
 from .tilt import Spread, Tilt, cone_of, spread, tilt
 from .time_to import time_of_case, time_to
+from .when_digits import with_digits
 
 # --- Zeros of functions along a motion
 SAMPLES = 16     # of a step of the run: between them a function is looked at for a change of its sign
@@ -173,7 +174,7 @@ def when(case: Given, state: Start | None = None, rate: Amount | None = None,
          component: str | tuple[str, Amount] | None = None, energy: Amount | None = None,
          tilt: str | tuple[str, Amount] | None = None, until: Amount | None = None,
          events: Any = None, *, states: Starts | None = None, span: Span | None = None,
-         frame: str = "principal") -> TimeTo | Crossings:
+         digits: int | None = None, frame: str = "principal") -> TimeTo | Crossings:
     """The first time at which the motion of a case reaches a limit, or that it never does.
 
     case: a case in any form, or a scene; state, states, span, frame: as of `fate`.
@@ -183,10 +184,13 @@ def when(case: Given, state: Start | None = None, rate: Amount | None = None,
     of the angle between a body axis and its direction at the start; where none is given, that of [limits].
     Numbers are in SI units. until: the time at which the search ends. events: in place of a limit, the name
     of a component ("omega3"), a function of the time and the state, or several of these, whose zeros up to
-    `until` (or the end of the case's span) are found: see `stabilab.answers.when`. Raises InputError for a
-    limit that is none, and as `time_to` does.
+    `until` (or the end of the case's span) are found: see `stabilab.answers.when`. digits: 1 to 10,000, of
+    the time of one motion to a limit, written out as `decimals`; InputError where no formula gives so many.
+    Raises InputError for a limit that is none, and as `time_to` does.
     """
     case, array = asked_of(case, state, states, span, "when", frame)
+    if digits is not None and (events is not None or array.ndim > 1):
+        raise InputError("digits: those of the time of one motion to a limit: give one state, and no events")
     if events is not None:
         if array.ndim > 1:
             raise InputError("when: events are those of one motion: give one state")
@@ -194,7 +198,7 @@ def when(case: Given, state: Start | None = None, rate: Amount | None = None,
         return _crossings(case, events, until, supplied)
     limit = limit_stated(case, rate, component, energy, tilt, until)
     if array.ndim == 1:
-        return limited_time(case, limit.ask, limit.until)
+        return limited_time(case, limit.ask, limit.until, digits)
     result = time_to(case.scene, whole_rows(case, array), **limit.ask, t_max=limit.until)
     return replace(result, caveats=(*case.caveats, *result.caveats))
 
@@ -225,9 +229,11 @@ def _text(supplied: Any) -> str | None:
     return " = ".join(map(str, supplied)) if isinstance(supplied, (tuple, list)) else str(supplied)
 
 
-def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None = None) -> TimeTo:
+def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None = None,
+                 digits: int | None = None, tell: Callable[[float], None] | None = None) -> TimeTo:
     """As `time_of_case`; where it is never, with what a tilt of the torque does, by what the case states as
-    misalignment, else by one degree; and with what the tolerances of its forces do."""
+    misalignment, else by one degree; and with what the tolerances of its forces do. digits, tell: as of
+    `when_digits.with_digits`."""
     result = time_of_case(case, ask, t_max)
     moved = motion(case, needs=Needs.FATE) if math.isinf(result.low) or loses(case.scene) else None
     end = None if moved is None or not loses(case.scene) else ending(case, moved)
@@ -236,6 +242,8 @@ def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None 
     never = math.isinf(result.low)
     stability = None if moved is None or not never else moved.stability
     off = of_tilt(case, None, ask, never)
+    if digits is not None:
+        result = with_digits(case, result, ask, digits, tell)
     return replace(result, ending=end, tilt=off,
                    caveats=caveats_of(case.scene, never, off, file=seen(case.caveats, off),
                                       stability=stability))

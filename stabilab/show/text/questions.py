@@ -47,7 +47,8 @@ def as_dict(case, limit, result) -> dict:
             "quantities": limit.names, "limits": limit.limits, "reached": reached(low, high),
             "time": [low, high] if math.isfinite(high) else None, "not_before": low,
             "level": str(result.level), "because": str(result.words),
-            "reason": result.reason.as_dict(), "tilt": tilt_dict(result.tilt)
+            "reason": result.reason.as_dict(), "tilt": tilt_dict(result.tilt),
+            **({} if result.decimals is None else {"decimals": result.decimals})
             } | ending.key(case, result.ending)
 
 
@@ -114,6 +115,8 @@ def _answer(limit: StatedLimit, result: TimeTo, low: float, high: float, units: 
         return f"NOT KNOWN when it reaches {aim}; not before {units.time(low, side=-1)} ({result.level})"
     if high == 0:
         return f"starts at or beyond {aim}"
+    if result.decimals is not None:
+        return f"reaches {aim} in {result.decimals} {lettered(result.scene.time_unit)} (each digit proved)"
     name, item = units.times(high)
     a, b = bracket(low, high, item)
     return f"reaches {aim} in {number((low + high) / 2 * item)} {name} ({result.level} {a} to {b})"
