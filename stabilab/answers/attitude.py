@@ -47,6 +47,9 @@ from ..case.given import Given, Span, Start, as_case, with_start
 from ..errors import InputError, ToleranceNotMet
 from ..numbers.balls import Digits, Unclear, settled
 from ..numbers.vectors import CYCLE, dot
+from ..orbit.one_orbit import Orbit
+from ..orbit.period import period_ball
+from ..orbit.reduction import reduce
 from ..orbit.result import Fate, Motion, Needs
 from ..physics.scene import AnyScene, Scene
 from ..reasons import Sentence, as_reason
@@ -219,6 +222,9 @@ def of_motion(scene: Scene, omega: Sequence[float | Fraction], result: Motion, d
         return _of_free_body(scene.body.exact, exact, base, digits)
     from .attitude_followed import followed
     answer = followed(scene, base, result, result.period)
+    if digits is not None and any(scene.vector("constant_torque")) and (reduction := reduce(scene)):
+        ball = period_ball(Orbit(reduction, exact), digits + 1)
+        return replace(answer, decimals={"rotation_period": ball.mid().str(digits + 1, radius=False)})
     if digits is not None and answer.error is not None and answer.error > 0.1**digits:
         raise ToleranceNotMet(f"attitude: {digits} digits asked for, {digits_of(answer.error):.1f} reached "
                               "(with wheels or a torque the motion is followed); ask for fewer")

@@ -15,17 +15,21 @@ import numpy as np
 from ..case.given import Amount, Given, Span, Start, Starts
 from ..case.limit_options import StatedLimit, stated_limit
 from ..case.read import Case
-from ..errors import InputError
+from ..errors import InputError, ToleranceNotMet
 from ..integrate.trajectory import Trajectory
 from ..numbers.double_double import EPS
 from ..numbers.units import NONE, TIME, in_si
+from ..orbit.landscape import landscape
+from ..orbit.one_orbit import Orbit
+from ..orbit.passage_time import crossing_time
 from ..orbit.result import Motion, Needs
-from ..physics.coefficients import loses
+from ..physics.coefficients import effective, loses
 from ..physics.scene import BLOCKS, AnyScene, later, slices, torque_axis
 from ..physics.states import equations_and_start, moved_row, start_of
 from ..reasons import Reasoned, Sentence
 from ..representation import Answer
 from .caveats import STEADY, answered, caveats_of, limited, loose_forces, misaligned, seen, stated
+from .digits_asked import MOST_DIGITS, checked_digits
 from .dissipation.ending import ending
 from .kinds import kind_of
 from .limit import WORK, asked
@@ -35,7 +39,6 @@ from .passage import MOVED, WIDER, TimeTo, by_run, times_of
 from .simulate import denser, trajectory
 from .tilt import Spread, Tilt, cone_of, spread, tilt
 from .time_to import time_of_case, time_to
-from .when_digits import with_digits
 
 # --- Zeros of functions along a motion
 SAMPLES = 16     # of a step of the run: between them a function is looked at for a change of its sign
@@ -233,7 +236,7 @@ def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None 
                  digits: int | None = None, tell: Callable[[float], None] | None = None) -> TimeTo:
     """As `time_of_case`; where it is never, with what a tilt of the torque does, by what the case states as
     misalignment, else by one degree; and with what the tolerances of its forces do. digits, tell: as of
-    `when_digits.with_digits`."""
+    `_with_digits`."""
     result = time_of_case(case, ask, t_max)
     moved = motion(case, needs=Needs.FATE) if math.isinf(result.low) or loses(case.scene) else None
     end = None if moved is None or not loses(case.scene) else ending(case, moved)
@@ -243,10 +246,36 @@ def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None 
     stability = None if moved is None or not never else moved.stability
     off = of_tilt(case, None, ask, never)
     if digits is not None:
-        result = with_digits(case, result, ask, digits, tell)
+        result = _with_digits(case, result, ask, digits, tell)
     return replace(result, ending=end, tilt=off,
                    caveats=caveats_of(case.scene, never, off, file=seen(case.caveats, off),
                                       stability=stability))
+
+
+def _with_digits(case: Any, result: TimeTo, ask: dict[str, Any], digits: int,
+                 tell: Callable[[float], None] | None) -> TimeTo:
+    """The answer for one motion of a case with its time to 1 to 10,000 digits, every one proved, as
+    `decimals`; as it is where the limit is not known to be reached, or is at the start. tell: is given the
+    seconds that a long answer will take. InputError where no formula gives the time, ToleranceNotMet where
+    the first crossing is known by a run alone, or its place is not told from others."""
+    checked_digits(digits, MOST_DIGITS)
+    low, high = float(result.low), float(result.high)
+    if not 0 < high < math.inf:
+        return result
+    scene, limit = effective(case.scene), asked(case.scene, **ask)
+    land = landscape(scene) if scene.plain else None
+    if land is None or limit.kind == "tilt":
+        raise InputError("digits: the time to this limit has no formula, the motion is followed (a formula "
+                         "gives that to a rate or an energy, without a torque or with one on a principal "
+                         "axis); leave the digits out: the two times of the answer have up to 15")
+    why, ball = f"which crossing is the first is not proved ({result.reason})", None
+    if result.level == "proved":
+        why = "the crossing lies where the motion turns, or touches the limit, or beyond a period"
+        orbit = Orbit(land.reduction, case.exact_state or case.state)
+        ball = crossing_time(orbit, scene.quadratic(), limit.parts, low, high, digits, tell)
+    if ball is None:
+        raise ToleranceNotMet(f"when: {digits} digits asked for: {why}; leave the digits out")
+    return replace(result, decimals=ball.mid().str(digits + 1, radius=False))
 
 
 def _to_the_end(case: Any, ask: dict[str, Any], result: TimeTo, until: float,

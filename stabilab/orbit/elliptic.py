@@ -5,7 +5,7 @@ the differential of their curve, whose periods are those of
 
     dz/sqrt(det(z A - B)),    a quartic g(z) with rational coefficients,
 
-over c (docs/mathematics/period.md). On a parabola W^2 is itself a quartic of the offset. With the invariants
+over c (docs/mathematics/periods.md). On a parabola W^2 is itself a quartic of the offset. With the invariants
 of g = a z^4 + 4 b z^3 + 6 c z^2 + 4 d z + e,
 
     g2 = a e - 4 b d + 3 c^2,    g3 = a c e + 2 b c d - a d^2 - b^2 e - c^3,

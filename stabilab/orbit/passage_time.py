@@ -6,15 +6,25 @@ tanh(y/2), y from a place between, times (1 - e t^2)^2. The integral between two
 
     2 R_F(U12^2, U13^2, U14^2),  U_ij = (X_i X_j Y_k Y_l + Y_i Y_j X_k X_l)/(x - y),
 
-X_i and Y_i the roots of the linear factors at both ends (Carlson; DLMF 19.29.4)."""
+X_i and Y_i the roots of the linear factors at both ends (Carlson; DLMF 19.29.4).
+
+A first crossing of a limit that a proof has put between two times (`crossing_time`): its place y is a root of
+the quantity less the limit along the orbit, on the stretch between two turning points on which that time
+lies. It is the crossing that was enclosed if its time lies within those two, and the quantity has one slope
+all along them."""
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
-from ..numbers.balls import Unclear, sign
+from ..numbers.balls import Unclear, sharpened, sign
+from ..numbers.vectors import CYCLE
+from ..physics.scene import QuadraticForm
 from .extremes import solve, turning_point
-from .one_orbit import BallConic, BallOrbit
+from .one_orbit import BallConic, BallOrbit, Orbit
 from .period import time_between, time_from_turn
 
 if TYPE_CHECKING:
@@ -22,6 +32,12 @@ if TYPE_CHECKING:
 
 
 MAX_TURNS = 1000  # of a circle that are climbed against the torque
+PLACE_BITS = 192  # of the search for the place of the crossing
+# when the time of an integral is said, from that of fewer bits
+LONG_DIGITS, TRIAL_BITS, GROWTH = 300, 512, 2.2
+TURNS = 2  # stretches between turning points after the first, within one period
+STEPS, CLOSE = 100, 2.0**-70  # of the search for the place at a time, and where it ends
+WIDER = 4, 64, 4096  # times a root's own width in which a change of sign is looked for
 LOST_BITS = 16  # of the coefficients' accuracy, in the roots of a quartic
 
 
@@ -162,3 +178,127 @@ def _conjugate_next(roots: Sequence[acb]) -> list[acb]:
     if len(real) + 2 * len(upper) != len(roots):
         raise Unclear
     return [*(v for root in upper for v in (root, root.conjugate())), *real]
+
+
+# --- The first crossing of a limit
+@dataclass(frozen=True)
+class Along:
+    """A quantity less its limit along the orbit of one motion: sum c (a . omega)^2 - most."""
+
+    form: QuadraticForm
+    terms: Any
+    largest: Fraction
+
+    def value(self, orbit: BallOrbit, y: arb, sense: int) -> tuple[arb, arb]:
+        """(it, its rate) at a place passed in this sense."""
+        ball, r = orbit.numbers.ball, orbit.r
+        omega: list[Any] = [None] * 3
+        omega[r.j], omega[r.k] = orbit.components(y)
+        omega[r.axis] = orbit.component_i(sense * squared_rate(orbit, y).nonnegative_part().sqrt())
+        f = self.form
+        rates = [ball(f.kappa[i]) * omega[j] * omega[k] + ball(f.rho[i]) * omega[k]
+                 + ball(f.sigma[i]) * omega[j] + ball(f.m[i]) for i, (j, k) in enumerate(CYCLE)]
+        total, slope = -ball(self.largest), ball(0)
+        for c, vector in self.terms:
+            along = sum((ball(a) * w for a, w in zip(vector, omega)), ball(0))
+            change = sum((ball(a) * w for a, w in zip(vector, rates)), ball(0))
+            total, slope = total + ball(c) * along * along, slope + 2 * ball(c) * along * change
+        return total, slope
+
+
+def crossing_time(orbit: Orbit, form: QuadraticForm, parts: Iterable[tuple[Any, Fraction]], low: float,
+                  high: float, digits: int, tell: Callable[[float], None] | None = None) -> arb | None:
+    """The time of the first crossing, which lies between low and high by a proof, as a ball 10^-digits of it
+    wide at most; None where its place is not told from others: where the motion turns, or touches the limit.
+
+    form: of the orbit's scene; parts: (((weight, vector), ...), limit), as of `answers.limit`; tell: is given
+    the seconds that a long answer will take.
+    """
+    wanted = [Along(form, terms, largest) for terms, largest in parts]
+    try:
+        index = orbit.settled(lambda item: _place(item, wanted, low, high), PLACE_BITS, 16 * PLACE_BITS)
+    except Unclear:
+        return None
+    if index is None:
+        return None
+    part, rough, turns = index
+
+    def question(item: BallOrbit) -> Any:
+        sense = heading(item) * (-1) ** turns
+        return time_at(item, _root(item, part, rough, sense), turns)
+    if tell is not None and digits > LONG_DIGITS and orbit.reduction.sense:
+        begun = perf_counter()
+        orbit.settled(question, TRIAL_BITS)
+        tell((perf_counter() - begun) * (3.33 * digits / TRIAL_BITS) ** GROWTH)
+    return sharpened(orbit.settled, question, digits)
+
+
+def _place(orbit: BallOrbit, parts: list[Along], low: float, high: float) -> tuple[Along, Any, int] | None:
+    """(the part that reaches its limit, its place, turning points before) of the crossing between two times;
+    None where it is not told from others."""
+    from flint import arb
+    for turns in range(TURNS + 1):
+        end = turn_ahead(orbit, turns)
+        if end is not None and turns < TURNS and time_of_turn(orbit, turns).upper() < arb(low):
+            continue
+        sense = heading(orbit) * (-1) ** turns
+        rough = _at_time(orbit, arb(low) / 2 + arb(high) / 2, turns, end, sense)
+        rate = squared_rate(orbit, rough).nonnegative_part().sqrt()
+        near = arb(0, (2 * rate * (arb(high) - arb(low))).abs_upper())
+        for part in parts:
+            if not part.value(orbit, rough + near, sense)[0].contains(0):
+                continue
+            place = _root(orbit, part, rough, sense)
+            time = time_at(orbit, place, turns)
+            within = time.upper() >= arb(low) and time.lower() <= arb(high)
+            rises = part.value(orbit, place + near, sense)[1] > 0
+            return (part, place.mid(), turns) if within and rises else None
+        return None
+    return None
+
+
+def _at_time(orbit: BallOrbit, time: Any, turns: int, end: Any, sense: int) -> Any:
+    """The place at a time, to doubles, on the stretch after so many turning points: Newton's method in a
+    bracket."""
+    start = turn_ahead(orbit, turns - 1).mid() if turns else orbit.energy.mid() * 0
+    far = end.mid() if end is not None else start + sense
+    while end is None and time_at(orbit, far, turns) < time:
+        far = (start + 2 * (far - start)).mid()
+    a, b, y = start, far, ((start + far) / 2).mid()
+    for _ in range(STEPS):
+        late = time_at(orbit, y, turns) - time
+        if late.contains(0):
+            break
+        a, b = (a, y) if late > 0 else (y, b)
+        new = (y - sense * late * squared_rate(orbit, y).nonnegative_part().sqrt()).mid()
+        if not min(a, b) < new < max(a, b):
+            new = ((a + b) / 2).mid()
+        done, y = abs(new - y) <= abs(b - a) * CLOSE or abs(new - y) <= abs(y) * CLOSE, new
+        if done:
+            break
+    return y
+
+
+def _root(orbit: BallOrbit, part: Along, rough: Any, sense: int) -> arb:
+    """The place of the crossing by Newton's method in the rate, as a ball with a change of sign."""
+    from flint import arb, ctx
+    y = arb(rough).mid()
+    for _ in range(64):
+        value, slope = part.value(orbit, y, sense)
+        rate = sense * squared_rate(orbit, y).sqrt()
+        if value.contains(0) or not abs(slope) > 0 or not abs(rate) > 0:
+            break
+        new = (y - value * rate / slope).mid()
+        if new == y or abs(new - y) < abs(y) * arb(2) ** (2 - ctx.prec):
+            break
+        y = new
+    value, slope = part.value(orbit, y, sense)
+    if not slope > 0 or not squared_rate(orbit, y) > 0:
+        raise Unclear
+    reach = (abs(value) + arb(value.rad())) * squared_rate(orbit, y).sqrt() / slope
+    for times in WIDER:
+        width = arb((times * reach).abs_upper())
+        before, after = (part.value(orbit, y + side * width, sense)[0] for side in (-sense, sense))
+        if before < 0 < after:
+            return arb(y, width)
+    raise Unclear
