@@ -303,8 +303,10 @@ def shares_root(first: fmpq_poly, second: fmpq_poly, root: arb) -> bool:
     return any(z.overlaps(root) for z, _ in real_roots_of(common))
 
 
-def sharpened(settled_as: Callable[..., Any], question: Callable[..., Any], digits: int) -> Any:
-    """The ball of a question, 10^-digits of it wide at most. settled_as: `settled`, or what asks as it does.
+def sharpened(settled_as: Callable[..., Any], question: Callable[..., Any], digits: int,
+              most: int = MOST_OF_DOUBLES) -> Any:
+    """The ball of a question, 10^-digits of it wide at most. settled_as: `settled`, or what asks as it does;
+    most: bits that are tried, at least.
 
     A first answer in few bits shows how many of them the question loses, so that many bits are spent once.
     """
@@ -321,6 +323,5 @@ def sharpened(settled_as: Callable[..., Any], question: Callable[..., Any], digi
             return ball
         return asked
     if needed > MANY_BITS:
-        settled_as(with_accuracy(START_BITS // 4), START_BITS)
-    most = max(MOST_OF_DOUBLES, 4 * (needed + lost[0]))
-    return settled_as(with_accuracy(needed), needed + lost[0], most)
+        settled_as(with_accuracy(START_BITS // 4), START_BITS, most)
+    return settled_as(with_accuracy(needed), needed + lost[0], max(most, 4 * (needed + lost[0])))

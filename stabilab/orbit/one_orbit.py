@@ -207,17 +207,22 @@ class BallConic(BallOrbit):
         """The mean of F over a way from `start`, -(V(start + way) - V(start))/way, without cancellation; a
         way may be complex. With h half of it and X, Z at its middle, differences of X, Z and X^2 are 2 sin h
         times Z, e X and 2 cos h X Z."""
-        if float(abs(way).rad()) > WIDE:
-            return self._wide_mean(start, way)
         half = way / 2
         sine, cosine = self._sine(half)
         x, z = self.place(start + half)
-        return self.mu + sine * (z * (self.G * cosine * x + self.c) + self.d * x)
+        mean = self.mu + sine * (z * (self.G * cosine * x + self.c) + self.d * x)
+        if float(abs(way).rad()) < WIDE:
+            return mean
+        other = self._wide_mean(start, way)  # either may be the narrower one
+        if not mean.is_finite() or not other.is_finite():
+            return other if other.is_finite() else mean
+        return type(other)(mean.real.intersection(other.real), mean.imag.intersection(other.imag))
 
     def _wide_mean(self, start: arb, way: acb):
         """The same of a wide ball of ways, by two terms of Taylor's series about its middle w: the mean's
         derivative there is (F(start + w) - mean)/w, and half the slope at the start where w = 0."""
         from flint import acb
+        way = acb(way)
         middle = acb(way.real.mid(), way.imag.mid())
         if way.contains(0):
             middle = middle * 0

@@ -29,7 +29,8 @@ if TYPE_CHECKING:
 DIGITS = 14
 DOUBLE_PERIOD = 17  # digits that a double is rounded from
 SPARE_BITS = 8  # by which the remainder of an integral is larger than the rounding of its function
-EVALUATIONS = 400  # of an integral, for each bit
+EVALUATIONS = 100  # of an integral, for each bit
+MOST_BITS = 1 << 14  # at least, in which a period is tried
 
 
 def precise_period(orbit: Orbit, label: int) -> float:
@@ -47,7 +48,7 @@ def period_ball(orbit: Orbit, digits: int = DIGITS, tell: Callable[[float], None
         return real_period(quartic_on_parabola(r, orbit.state, taylor), digits)
     if not r.sense:
         return real_period(quartic_without_torque(r, orbit.state), digits)
-    return sharpened(orbit.settled, partial(_libration, tell=tell), digits)
+    return sharpened(orbit.settled, partial(_libration, tell=tell), digits, MOST_BITS)
 
 
 def _libration(orbit: BallOrbit, tell: Callable[[float], None] | None = None) -> arb:

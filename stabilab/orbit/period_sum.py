@@ -34,11 +34,11 @@ if TYPE_CHECKING:
 
 WIDEST = 3.0  # half-width of a strip in quarter periods, where no pair of zeros limits it
 PARTS = 0.99, 0.5, 0.2, 0.05, 0.01, 0.001, 2.0**-14  # of it, that are tried first
-POINTS = 16  # of the boundary, in the search for the widest strip
+POINTS = 16, 96  # of the boundary, in the search for the widest strip; more where the first find none
 HALVINGS = 2, 7  # of its height, where few terms are wanted and where many are
 # (part of that height, pieces of the boundary) that are tried for a proof: few pieces where few terms are
 # wanted, high ones where many are
-QUICK, CLOSE = ((0.75, 24), (0.6, 96), (0.4, 192)), ((0.95, 192), (0.85, 192), (0.7, 384), (0.4, 384))
+QUICK, CLOSE = ((0.75, 24), (0.6, 96), (0.5, 384)), ((0.95, 192), (0.85, 192), (0.7, 384), (0.4, 384))
 ENOUGH = 0.4  # height in quarter periods of a strip that serves few digits
 FEW_BITS = 1200
 PLAN_BITS = 192, 1024  # of the choice and the proof
@@ -304,11 +304,14 @@ class _Strip:
         """
         limit = WIDEST * self.quarter
         high = self.across.min(limit) if self.across.is_finite() else limit
-        points, low, beyond = list(self._along(POINTS)), PARTS[0], 1.0
+        points, low, beyond = list(self._along(POINTS[0])), PARTS[0], 1.0
         while not self._turns(points, (low * high).mid()):
-            if low == PARTS[-1]:
+            if low > PARTS[-1]:
+                low, beyond = next(part for part in PARTS if part < low), low
+            elif len(points) > POINTS[0] + 1:
                 return None
-            low, beyond = next(part for part in PARTS if part < low), low
+            else:
+                points, low, beyond = list(self._along(POINTS[1])), PARTS[0], 1.0
         for _ in range(halvings if beyond < 1 else 0):
             middle = (low + beyond) / 2
             low, beyond = (middle, beyond) if self._turns(points, (middle * high).mid()) else (low, middle)
