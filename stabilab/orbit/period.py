@@ -17,6 +17,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..numbers.balls import Unclear, sharpened, sign
+from .double_exponential import by_double_exponential
 from .elliptic import quartic_on_parabola, quartic_without_torque, real_period
 from .extremes import turning_points
 from .one_orbit import BallConic, BallOrbit, Orbit
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
 
 DIGITS = 14
 DOUBLE_PERIOD = 17  # digits that a double is rounded from
+TRIED_BITS = 1024  # of that rule, before it is left
+FEW_DIGITS = 20  # up to which the double-exponential rule serves
 SPARE_BITS = 8  # by which the remainder of an integral is larger than the rounding of its function
 EVALUATIONS = 100  # of an integral, for each bit
 MOST_BITS = 1 << 14  # at least, in which a period is tried
@@ -48,17 +51,24 @@ def period_ball(orbit: Orbit, digits: int = DIGITS, tell: Callable[[float], None
         return real_period(quartic_on_parabola(r, orbit.state, taylor), digits)
     if not r.sense:
         return real_period(quartic_without_torque(r, orbit.state), digits)
-    return sharpened(orbit.settled, partial(_libration, tell=tell), digits, MOST_BITS)
+    return sharpened(orbit.settled, partial(_libration, digits=digits, tell=tell), digits, MOST_BITS)
 
 
-def _libration(orbit: BallOrbit, tell: Callable[[float], None] | None = None) -> arb:
+def _libration(orbit: BallOrbit, digits: int, tell: Callable[[float], None] | None = None) -> arb:
     """Once to and fro between the turning points, which is all that a torque leaves: by a sum (`period_sum`)
-    where few terms serve, else twice the integral between them."""
+    where few terms serve, else by the double-exponential rule, or, to many digits, twice the integral between
+    them."""
     from flint import ctx
     left, right = turning_points(orbit)
     by = plan(orbit, left, right, ctx.prec)
     if by is not None and (nodes := by.nodes(ctx.prec)) <= MAX_NODES:
         return summed(orbit, left, right, by, nodes, tell)
+    if digits <= FEW_DIGITS:
+        try:
+            return by_double_exponential(orbit, left, right, digits)
+        except Unclear:
+            if ctx.prec < TRIED_BITS + 8 * digits:
+                raise  # more bits may serve, beyond these its steps do not
     middle = ((left + right) / 2).mid()
     return 2 * (time_from_turn(orbit, left, middle) + time_from_turn(orbit, right, middle))
 

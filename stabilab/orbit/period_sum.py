@@ -38,7 +38,8 @@ POINTS = 16, 96  # of the boundary, in the search for the widest strip; more whe
 HALVINGS = 2, 7  # of its height, where few terms are wanted and where many are
 # (part of that height, pieces of the boundary) that are tried for a proof: few pieces where few terms are
 # wanted, high ones where many are
-QUICK, CLOSE = ((0.75, 24), (0.6, 96), (0.5, 384)), ((0.95, 192), (0.85, 192), (0.7, 384), (0.4, 384))
+QUICK = (0.75, 24), (0.6, 96), (0.5, 384), (0.4, 1024)
+CLOSE = (0.95, 192), (0.85, 192), (0.7, 384), (0.4, 1024)
 ENOUGH = 0.4  # height in quarter periods of a strip that serves few digits
 FEW_BITS = 1200
 PLAN_BITS = 192, 1024  # of the choice and the proof
@@ -322,15 +323,18 @@ class _Strip:
         from flint import acb, arb
         motion, by, up = self.motion, self.by, self._high(height)
         reach = self.quarter / pieces  # half a piece
-        wide = arb(0, reach.abs_upper())
+        wide, growth = arb(0, reach.abs_upper()), reach.exp() - 1
         points, turned, largest = list(self._along(2 * pieces)), arb(0), arb(0)
         ends = [motion.speed(motion.offset(by, by.inside(by.above(at, up))[0])[0]) for at in points[::2]]
         for middle, before, after in zip(points[1::2], ends, ends[1:]):
             if before.contains(0) or after.contains(0):
                 return None
             turned += (after / before).arg()
-            # sn, cn and dn have slopes of size one at most
-            _, slope = by.inside(by.above(Jacobi(*(v + wide for v in middle)), up))
+            # the slopes of sn and cn are dn in size at most, that of dn's logarithm one
+            off = arb(0, (middle.d * (1 + growth) * reach).abs_upper())
+            around = Jacobi(middle.s + off, middle.c + off,
+                            middle.d + arb(0, (middle.d * growth).abs_upper()))
+            _, slope = by.inside(by.above(around, up))
             x, _ = by.inside(by.above(middle, up))
             way = slope * acb(wide)
             place, _ = motion.offset(by, x)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import stabilab
+from stabilab.orbit.double_exponential import power_of_error
 from stabilab.orbit.extremes_arrays import extremes_and_periods
 from tests.oracles import energy
 from tests.oracles.pairs import physical
@@ -47,3 +48,11 @@ def test_a_well_that_rounding_leaves_no_depth_is_settled_in_balls():
     periods = extremes_and_periods(scene, states)[1]
     ones = [stabilab.motion(scene, state).period or np.inf for state in states.tolist()]
     assert periods == pytest.approx(ones, rel=PERIOD_SHOWN)
+
+
+def test_the_error_by_rate_is_the_power_that_squares_with_every_doubling():
+    """A geometric rule: changes of 1e-1, 1e-2, 1e-4 leave 1e-8; by chance the last is nothing, and the change
+    before tells."""
+    assert power_of_error(-1.0, -2.0, -4.0) == pytest.approx(-8.0)
+    assert power_of_error(-1.0, -2.0, -30.0) == pytest.approx(-8.0)
+    assert power_of_error(-1.0, -15.0, -4.0) > 0
