@@ -98,7 +98,7 @@ def power_of_error(first: float, middle: float, last: float) -> float:
 
     The error is C r^n for n nodes, but its sign goes round, and two sums may agree by chance. So the rate is
     given by either ratio of changes, the size by its own change or by the one before, and the largest error
-    counts; as `converged` in `rows_kernel`, which needs NumPy.
+    counts; as `converged` in `arc_kernel`, which needs NumPy.
     """
     a, b, c = first, middle, last
     return max(3 * c - 2 * b, c + 4 * (b - a), b + 2 * (c - a), 7 * b - 6 * a)
