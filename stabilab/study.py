@@ -105,12 +105,12 @@ class Case(read.Case):
     def when(self, state: Start | None = None, rate: Amount | None = None,
              component: str | tuple[str, Amount] | None = None, energy: Amount | None = None,
              tilt: str | tuple[str, Amount] | None = None, until: Amount | None = None, events: Any = None, *,
-             states: Starts | None = None, span: Span | None = None,
+             states: Starts | None = None, span: Span | None = None, digits: int | None = None,
              frame: str = "principal") -> TimeTo | Crossings:
         """When the motion first reaches a limit: see `stabilab.when`."""
         from .answers.when import when
         return when(self, state, rate, component, energy, tilt, until, events, states=states, span=span,
-                    frame=frame)
+                    digits=digits, frame=frame)
 
     @_in_doubles
     def stuck(self, all_thrusters: bool = False, progress: Callable[[str], Any] | None = None, *,

@@ -88,7 +88,7 @@ def period(
 def attitude(
         cases: CaseFiles, json: Json = False,
         digits: Annotated[int | None, option(
-            "N", "Write the periods with N digits (1 to 50); exit with 5 where not reached.")] = None,
+            "N", "Write the periods with N digits (1 to 10000); exit with 5 where not reached.")] = None,
         strict: StrictFate = False, units: UnitsOption = None):
     """Find rotation and precession periods, and the turn after one.
 
@@ -109,6 +109,8 @@ def when(
         tilt: Annotated[str | None, option("AXIS=ANGLE",
             'Limit of the angle between a body axis and its direction at the start: "z = 20 deg".')] = None,
         until: Annotated[str | None, option("TIME", 'Search up to this time only: "10 min".')] = None,
+        digits: Annotated[int | None, option(
+            "N", "Write the time with N digits (1 to 10000), where a formula gives them.")] = None,
         units: UnitsOption = None, si: Si = False, json: Json = False, csv: Csv = False,
         strict: Annotated[bool, flag("--strict",
             "Exit with 3 where the time is not known or an approximate law does not hold.")] = False):

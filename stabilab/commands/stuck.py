@@ -11,6 +11,7 @@ fire on a schedule leave, and by when they must close.
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 from ..answers.circular_orbit import circular_orbit
 from ..answers.dissipation.flat_spin import flat_spin as ask_flat_spin
@@ -29,7 +30,7 @@ from ..show.text import headline, questions
 from ..show.text import stuck as shown
 from ..show.text.flat_spin import any_dict, any_text
 from ..show.text.motion import circular_orbit_dict, circular_orbit_text
-from .common import load_cases
+from .common import expected, load_cases
 from .runner import View, every, run
 
 
@@ -74,7 +75,7 @@ def burn(case, stop, below, units, json, strict):
         below=below)
 
 
-def when(cases, units, json, csv, strict, **limits):
+def when(cases, units, json, csv, strict, digits, **limits):
     """Answer every case. limits: what is to be reached and by when, by the names of the options."""
     paths = list(map(str, cases))
     burns = {path: load_burning(path) for path in paths if fires_on_schedule(path)}
@@ -86,9 +87,11 @@ def when(cases, units, json, csv, strict, **limits):
 
     def asked(case):
         limit = declared[case.place]
-        result = (time_of_burn(burns[case.path], limit.ask, limit.until) if case.path in burns
-                 else limited_time(case, limit.ask, limit.until))
-        return limit, result
+        if case.path not in burns:
+            return limit, limited_time(case, limit.ask, limit.until, digits, partial(expected, case))
+        if digits is not None:
+            raise InputError(f"{case.path}: digits: a burn is followed in time: leave them out")
+        return limit, time_of_burn(burns[case.path], limit.ask, limit.until)
     run(WHEN, loaded, asked, units=units, json=json, csv=csv, strict=strict,
         **{name: limits[name] for name in ("rate", "component", "tilt")})
 

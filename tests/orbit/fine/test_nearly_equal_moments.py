@@ -16,12 +16,13 @@ import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene, fate
 from stabilab.numbers.numba_door import installed
 from stabilab.orbit import arc_kernel, equilibria_kernel, margins_kernel
-from stabilab.orbit.extremes import precise_extremes, precise_period
+from stabilab.orbit.extremes import precise_extremes
 from stabilab.orbit.extremes_arrays import settle_rows, trapped_rows
 from stabilab.orbit.fate import decide
 from stabilab.orbit.fate_arrays import fate_on_orbit
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.one_orbit import Orbit
+from stabilab.orbit.period import precise_period
 from stabilab.orbit.reduction import reduce
 from tests.shared import later
 
