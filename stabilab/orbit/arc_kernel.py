@@ -33,7 +33,7 @@ ROUNDINGS = 8.0  # units of rounding of a sum, by the size of its terms
 # q omega_j + q0, the rate of omega_i is kappa u v + rho v + sigma u + m, e = p q, s the shift of omega_i
 P, P0, Q, Q0, KAPPA, RHO, SIGMA, M, E, SHIFT = range(10)
 # of a base, all twofold: its location, K there, and the coefficients of (1) and (2)
-U, V, OVER, ALONG_U, ALONG_V, BEND_U, BEND_V, F0, F1, F2, C, G = range(12)
+U, V, OVER, ALONG_U, ALONG_V, BEND_U, BEND_V, F0, F1, F2, C, G, PULL_U, PULL_V = range(14)
 LARGEST_SQUARE = 1e6  # of n y: beyond a thousand, hyperbolic functions leave the range of doubles
 # relative, of sums over nodes: the last change, the error by estimate, a change that is nothing but rounding
 ALIKE, CONVERGED, FLOOR = 1e-9, 1e-13, 1e-15
@@ -119,17 +119,13 @@ def constant(fine: np.ndarray, row: int):
     return fine[row, 0], fine[row, 1]
 
 
-def base_at(u: Pair, v: Pair, k: Pair, fine: np.ndarray):
-    """The base at a location (u, v) with K = k there."""
-    p, q, kappa, rho = constant(fine, P), constant(fine, Q), constant(fine, KAPPA), constant(fine, RHO)
-    a, b = add(times(p, v), constant(fine, P0)), add(times(q, u), constant(fine, Q0))
-    A, B = add(times(kappa, v), constant(fine, SIGMA)), add(times(kappa, u), rho)
-    pb, qa, c = times(p, b), times(q, a), times(kappa, times(a, b))
-    f0 = add(add(times(A, u), times(rho, v)), constant(fine, M))
-    f1 = add(times(A, a), times(B, b))
-    f2 = less(add(times(A, pb), times(B, qa)), c)
-    g = times(kappa, add(times(qa, a), times(pb, b)))
-    return u, v, k, a, b, pb, qa, f0, f1, f2, c, g
+def base_at(u: Pair, v: Pair, k: Pair, a: Pair, b: Pair, A: Pair, B: Pair, f0: Pair, fine: np.ndarray):
+    """The base at a location (u, v) with K = k there, given what moves along with it."""
+    pb, qa = times(constant(fine, P), b), times(constant(fine, Q), a)
+    kappa = constant(fine, KAPPA)
+    c, g = times(kappa, times(a, b)), times(kappa, add(times(qa, a), times(pb, b)))
+    f1, f2 = add(times(A, a), times(B, b)), less(add(times(A, pb), times(B, qa)), c)
+    return u, v, k, a, b, pb, qa, f0, f1, f2, c, g, A, B
 
 
 def base_of(state: np.ndarray, axes: Sequence[int], fine: np.ndarray):
@@ -137,18 +133,31 @@ def base_of(state: np.ndarray, axes: Sequence[int], fine: np.ndarray):
     j, k, i = axes
     turn, rest = exact_sum(state[i], fine[SHIFT, 0])
     w = exact_sum(turn, rest + fine[SHIFT, 1])
-    u, v = state[j], state[k]
-    return base_at((u, 0.0 * u), (v, 0.0 * v), scaled(times(w, w), 0.5), fine)
+    u, v = (state[j], 0.0 * state[j]), (state[k], 0.0 * state[k])
+    kappa, rho = constant(fine, KAPPA), constant(fine, RHO)
+    a = add(times(constant(fine, P), v), constant(fine, P0))
+    b = add(times(constant(fine, Q), u), constant(fine, Q0))
+    A, B = add(times(kappa, v), constant(fine, SIGMA)), add(times(kappa, u), rho)
+    f0 = add(add(times(A, u), times(rho, v)), constant(fine, M))
+    return base_at(u, v, scaled(times(w, w), 0.5), a, b, A, B, f0, fine)
 
 
 def moved(base: Sequence[Pair], y: float, fine: np.ndarray):
-    """The base an arc y further on, by (1) and (2)."""
-    s1, s2, s3 = twofold_entire(constant(fine, E), y)
-    u = add(base[U], add(times(base[ALONG_U], s1), times(base[BEND_U], s2)))
-    v = add(base[V], add(times(base[ALONG_V], s1), times(base[BEND_V], s2)))
+    """The base an arc y further on, by (1), (2) and (3); the speeds a and b move as well, because formed anew
+    they would be small differences of large terms."""
+    e, kappa = constant(fine, E), constant(fine, KAPPA)
+    s1, s2, s3 = twofold_entire(e, y)
+    es2, a, b, c, g = times(e, s2), base[ALONG_U], base[ALONG_V], base[C], base[G]
+    du = add(times(a, s1), times(base[BEND_U], s2))
+    dv = add(times(b, s1), times(base[BEND_V], s2))
+    a = add(a, add(times(a, es2), times(base[BEND_U], s1)))
+    b = add(b, add(times(b, es2), times(base[BEND_V], s1)))
     k = add(add(base[OVER], scaled(base[F0], y)), add(times(base[F1], s2), times(base[F2], s3)))
-    k = add(k, times(s2, add(times(base[C], s1), scaled(times(base[G], s2), 0.5))))
-    return base_at(u, v, k, fine)
+    k = add(k, times(s2, add(times(c, s1), scaled(times(g, s2), 0.5))))
+    inner = add(add(base[F2], scaled(c, 3.0)), add(times(g, s1), scaled(times(c, es2), 2.0)))
+    f0 = add(base[F0], add(times(base[F1], s1), times(s2, inner)))
+    return base_at(add(base[U], du), add(base[V], dv), k, a, b, add(base[PULL_U], times(kappa, dv)),
+                   add(base[PULL_V], times(kappa, du)), f0, fine)
 
 
 def rounded(base: Sequence[Pair], e: float):
@@ -311,12 +320,10 @@ def growing(stop: np.ndarray, base: Sequence[Pair], fine: np.ndarray):
     n = np.sqrt(e[0])
     square = exact_product(n, n)
     root = exact_sum(n, (((e[0] - square[0]) - square[1]) + e[1]) / (2 * n))
-    A = add(times(kappa, base[V]), constant(fine, SIGMA))
-    B = add(times(kappa, base[U]), constant(fine, RHO))
     for column in range(2):
         side = 1.0 - 2 * column
         speed = value(add(times(root, base[ALONG_U]), scaled(base[BEND_U], side))) / n
-        force = value(add(times(root, A), scaled(times(q, B), side))) / n
+        force = value(add(times(root, base[PULL_U]), scaled(times(q, base[PULL_V]), side))) / n
         stop[GROWING + 2 * column] = speed * force
         stop[GROWING + 2 * column + 1] = 0.5 * kappa[0] * q[0] * speed * speed
 
