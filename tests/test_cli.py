@@ -635,6 +635,11 @@ def test_doctor_names_versions_renderer_and_processor(stabilab):
                            "NOT INSTALLED")) and "be drawn\nstabilab " in out
 
 
+def test_doctor_compiles_all_loops_and_says_where_they_are(stabilab, monkeypatch):
+    monkeypatch.setattr("stabilab.answers.motions.compiling.compile_all", lambda: "/a/folder")
+    assert stabilab("doctor", "--compile") == (0, "all loops are compiled, in /a/folder\n", "")
+
+
 def test_doctor_misses_no_package_that_is_for_other_machines(stabilab, monkeypatch):
     asked = ["numpy>=2.0", 'for-others; sys_platform == "nowhere"', 'for-all; python_version >= "3"',
              'of-an-extra; extra == "docs"']

@@ -79,7 +79,8 @@ def import_(
 
 @commands.command()
 @opens("doctor.doctor")
-def doctor():
+def doctor(compiling: Annotated[bool, flag(
+        "--compile", "Compile all loops now, once per computer: half a minute.")] = False):
     """Say what is installed and whether pictures can be drawn.
 
     Example: stabilab doctor

@@ -12,8 +12,15 @@ from ..show.render_probe import probe
 from ..show.terminal import tell
 
 
-def doctor():
-    """Print it, and load no more than that: the program may be asked because something is missing."""
+def doctor(compiling=False):
+    """Print it, and load no more than that: the program may be asked because something is missing.
+
+    compiling: compile all loops first."""
+    if compiling:
+        from ..answers.motions.compiling import compile_all
+
+        tell(f"all loops are compiled, in {compile_all()}")
+        return
     tell(text())
 
 

@@ -1,16 +1,44 @@
-"""When numba is to answer: asked for, or so many states that loading it pays."""
+"""Loops of floats as they are written or compiled by numba: whichever the work of this process repays.
+
+Compiled code has to be loaded, and compiled before where nothing of it is on disk: both cost seconds that a
+row or a step in plain Python does not. Nobody knows what a process will be asked for next, so it is the
+question whether to rent or to buy: a `Kernel` counts the work that plain Python has done, and loads what is
+compiled when this and what is to come now would cost as much as loading, or compiling, costs. Whatever comes
+afterwards, a process takes at most twice the time of the better choice, and more calls never cost much more
+than fewer. Work is counted in rows and steps, by what each costs; no clock is read.
+
+Both give the same bytes: neither numba nor the interpreter fuses or rearranges operations, and sines,
+exponentials and their like come from the C library for both (`FROM_C`)."""
 from __future__ import annotations
 
-from collections.abc import Callable, Container
+import math
+import os
+import sys
+from collections.abc import Callable, Container, Mapping
+from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib.util import find_spec
 from pathlib import Path
-from types import FunctionType, ModuleType
+from threading import RLock
+from types import FunctionType, ModuleType, SimpleNamespace
 from typing import Any
 from zlib import crc32
 
+import numpy as np
+
 from ..errors import InputError
 from . import error_free
+
+# s of a processor: importing numba with the first kernel, and another kernel from disk
+IMPORT, LOAD = 0.45, 0.05
+# NumPy's functions that have digits of their own, beside those of the C library that numba calls
+FROM_C = {"sin": math.sin, "cos": math.cos, "tan": math.tan, "arcsin": math.asin, "arccos": math.acos,
+          "arctan": math.atan, "arctan2": math.atan2, "sinh": math.sinh, "cosh": math.cosh,
+          "tanh": math.tanh, "arcsinh": math.asinh, "arccosh": math.acosh, "arctanh": math.atanh,
+          "exp": math.exp, "expm1": math.expm1, "log": math.log, "log1p": math.log1p, "log2": math.log2}
+COMPILING = ("stabilab: compiling loops that this computer runs for the first time, some {seconds:.0f} s; "
+             "`stabilab doctor --compile` does so beforehand")
+_announced: list[bool] = []  # once is enough, of several kernels
 
 
 @lru_cache(maxsize=1)
@@ -19,18 +47,116 @@ def installed() -> bool:
     return find_spec("numba") is not None
 
 
-def wanted(n: int, fast: bool | None, loaded: bool, cold: int, warm: int) -> bool:
-    """fast: True always, False never, None from `cold` states on (from `warm` once the code is loaded) where
-    numba is installed.
+@dataclass(eq=False)
+class Kernel:
+    """Straight-line functions of a module, as they are written or compiled.
 
-    Raises InputError for fast=True without numba.
+    entry: the function that others call; inlined, variant, instead, options: as of `compiled`; seconds: what
+    compiling all costs once per computer. spent: s of plain work since the process began.
     """
-    if fast is None:
-        return n >= (warm if loaded else cold) and installed()
-    if fast and not installed():
-        raise InputError(
-            "fast=True needs numba, which is not installed: pip install numba, or leave fast out")
-    return bool(fast)
+
+    module: ModuleType
+    entry: str
+    seconds: float
+    inlined: Container[str] = ()
+    variant: str = ""
+    instead: Mapping[str, Any] = field(default_factory=dict)
+    options: Mapping[str, Any] = field(default_factory=dict)
+    spent: float = 0.0
+    ready: bool = False  # compiled code is loaded, or compiled at its first call
+    _lock: Any = field(default_factory=RLock, repr=False)
+    _functions: dict[str, Any] = field(default_factory=dict, repr=False)
+    _plain: dict[str, Any] = field(default_factory=dict, repr=False)
+
+    def pays(self, work: float, fast: bool | None = None) -> bool:
+        """Whether compiled code serves for work that would take so many seconds in plain Python; else this is
+        counted as done. fast: True or False where the user has chosen.
+
+        Raises InputError for fast=True without numba.
+        """
+        if fast is not None or not installed():
+            if fast and not installed():
+                raise InputError(
+                    "fast=True needs numba, which is not installed: pip install numba, or leave fast out")
+            return bool(fast)
+        with self._lock:
+            if not self.ready and self.spent + work >= self._price():
+                self._look()
+                if self.spent + work >= self.seconds:
+                    self._announce()
+            self.spent += 0.0 if self.ready else work
+            return self.ready
+
+    def left(self) -> float:
+        """s of plain work after which `pays` says yes, or looks whether compiled code is on disk."""
+        return 0.0 if self.ready else max(0.0, self._price() - self.spent) if installed() else math.inf
+
+    def functions(self, fast: bool) -> dict[str, Any]:
+        """The module's names: compiled, or as they are written."""
+        with self._lock:
+            if fast:
+                self._look()
+                self._announce()
+                return self._functions
+            if not self._plain:
+                self._plain = twins(self.module, lambda name, twin: twin, np=by_the_c_library(),
+                                    **self.instead)
+            return self._plain
+
+    def _price(self) -> float:
+        if self._functions:  # it was looked for, and is not on disk
+            return self.seconds
+        return LOAD if "numba" in sys.modules else IMPORT
+
+    def on_disk(self) -> bool:
+        """Whether compiled code of it is on disk now; numba is imported."""
+        return stored(self.functions(True)[self.entry])
+
+    def folder(self) -> str:
+        """Where numba puts compiled code; empty where it has no folder to write to."""
+        return getattr(self.functions(True)[self.entry].stats, "cache_path", None) or ""
+
+    def _look(self) -> None:
+        """Import numba, and see whether this code is on disk."""
+        if not self._functions:
+            self._functions = compiled(self.module, self.inlined, self.variant, **self.options,
+                                        **self.instead)
+            self.ready = stored(self._functions[self.entry])
+
+    def _announce(self) -> None:
+        """Say on stderr that compiling takes its time, unless nothing is to be compiled."""
+        quiet = self.ready or _announced or sys.stderr is None or os.environ.get("STABILAB_QUIET")
+        if not quiet:
+            _announced.append(True)
+            print(COMPILING.format(seconds=self.seconds), file=sys.stderr, flush=True)
+        self.ready = True
+
+
+def stored(function: Any) -> bool:
+    """Whether numba has compiled code of a function of its own on disk, for this computer and as the source
+    stands; False where this version of numba does not say so."""
+    cache = getattr(function, "_cache", None)
+    try:
+        computer = cache._index_key(None, function.targetctx.codegen())[1:]
+        return any(key[1:] == computer for key in cache._cache_file._load_index())
+    except (AttributeError, TypeError, OSError):
+        return False
+
+
+@lru_cache(maxsize=1)
+def by_the_c_library() -> SimpleNamespace:
+    """NumPy with the functions of one number that are the C library's, as compiled code has them."""
+    return SimpleNamespace(**vars(np) | {name: _from_c(function, getattr(np, name))
+                                         for name, function in FROM_C.items()})
+
+
+def _from_c(function: Callable[..., float], as_numpy: Callable[..., Any]) -> Callable[..., Any]:
+    def value(*numbers: float) -> Any:
+        try:
+            return np.float64(function(*numbers))
+        except (ValueError, OverflowError):  # NaN or infinite, which `math` refuses
+            return as_numpy(*numbers)
+    return value
 
 
 def compiled(module: ModuleType, inlined: Container[str] = (), variant: str = "", allocating: bool = True,

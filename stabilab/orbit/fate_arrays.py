@@ -26,7 +26,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..numbers.double_double import EPS, TURN
-from ..numbers.numba_door import compiled, installed
+from ..numbers.numba_door import Kernel
 from ..numbers.polynomial import bracketed_newton
 from ..physics.coefficients import limits_of
 from ..physics.own_unit import far_exponent
@@ -46,9 +46,7 @@ from .result import Fate, spins_about
 from .separatrix.distance import separatrix_distance
 
 # --- The answer
-# Loading the kernels' code from disk costs some 0.6 s of a processor, compiling it once per machine some ten;
-# a row of plain Python costs a third of a millisecond at most.
-COLD, WARM = 1000, 20
+MARGIN = 1.5e-4  # s of a processor: the margin of a row in plain Python
 CHUNK = 32768  # states at a time: some thirty arrays of so many doubles stay in the processor's caches
 
 
@@ -447,18 +445,14 @@ def _settled(land: Landscape, states: np.ndarray, margins: np.ndarray, unit: flo
     numbers are enough; which are left, (n,)."""
     rows = np.nonzero(~np.isnan(margins))[0]  # not on a plane
     results, settled = np.empty(len(states)), np.zeros(len(states), bool)
-    by_numba = rows.size >= (WARM if compiled_margins.cache_info().currsize else COLD) and installed()
-    function = compiled_margins() if by_numba else margins_kernel.margins
+    function = MARGINS.functions(MARGINS.pays(MARGIN * rows.size))["margins"]
     with np.errstate(all="ignore"):
         function(states, rows, *land.kernel_input, results, settled)
     margins[settled] = results[settled] * (float(land.reduction.weight) / unit)
     return ~settled
 
 
-@lru_cache(maxsize=1)
-def compiled_margins():
-    """`margins_kernel.margins` compiled."""
-    return compiled(margins_kernel, INLINED)["margins"]
+MARGINS = Kernel(margins_kernel, "margins", 3.0, INLINED)
 
 
 def at_rest(scene: AnyScene, states: np.ndarray, out: Mapping[str, np.ndarray]):

@@ -21,7 +21,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -29,7 +28,7 @@ import numpy as np
 from ..errors import InputError
 from ..integrate.crossing import Piece
 from ..numbers.exact import exact_vector
-from ..numbers.numba_door import compiled, installed
+from ..numbers.numba_door import Kernel, installed
 from ..physics.coefficients import effective
 from ..physics.own_unit import natural
 from ..reasons import Quantity, Reasoned, Sentence
@@ -54,6 +53,8 @@ WHY = {enclosure_kernel.DONE: Sentence("enclosure-done", "enclosed")(),
            "enclosure-too-wide", "lost: the set has grown too wide to follow")(),
        enclosure_kernel.ENDLESS: Sentence(
            "enclosure-step-below-grain", "lost: a step would be below the grain of time")()}
+STEP = 1.5e-2  # s of a processor: a step in plain Python
+ADVANCE = Kernel(enclosure_kernel, "advance", 6.0)
 TOO_LONG = Sentence("enclosure-too-long", "too long to enclose")()
 
 
@@ -136,18 +137,18 @@ class Course:
     (a double at its word, a Fraction, a decimal in a string). t_end: the end of what will be asked for; its
     last binary digit is the grain of time, and every step ends at a whole number of grains, so that times are
     exact. direction: a vector of length 1 at rest in space, as it is in the body at t = 0, which is followed,
-    too. plain: so many first steps are taken by the interpreter unless the compiled code is loaded, to the
-    same bits (powers are those of one library): a motion may be at its end before that is.
+    too. The interpreter takes the first steps of a process, to the same bits, until compiled code pays
+    (`Kernel`): a motion may be at its end before.
     """
 
-    def __init__(self, scene, state, t_end: float, plain: int = 0, direction=None):
+    def __init__(self, scene, state, t_end: float, direction=None):
         scene = effective(checked_scene(scene))
         scene.quadratic()  # says which effect of the scene is not covered
         start = exact_vector(state, "state")
         if not (math.isfinite(t_end) and t_end > 0):
             raise InputError(f"t: expected a time above 0, got {t_end!r}")
         own, self.unit = natural(scene)
-        self.t, self.steps, self.status, self.plain = 0.0, 0, enclosure_kernel.GOING, plain
+        self.t, self.steps, self.status = 0.0, 0, enclosure_kernel.GOING
         self._end = t_end * self.unit
         self._grain = math.ulp(self._end)
         form = own.quadratic()
@@ -181,23 +182,27 @@ class Course:
 
     def _carried(self, t: float, t_end: float, steps: int, retained: Sequence[np.ndarray]):
         """(time, steps made) of the set carried on; what is told of each step goes to arrays `retained`."""
-        built, plainly = 0, not installed() or self.plain > 0 and not loaded()
-        if plainly:
-            before, largest = [v.copy() for v in self._set], min(steps, self.plain) if installed() else steps
+        built, fast = 0, ADVANCE.pays(0.0)
+        while True:
+            rest, before = [rows[built:] for rows in retained], [v.copy() for v in self._set]
+            size = steps - built if fast else int(min(steps - built, 1 + ADVANCE.left() / STEP))
             try:
-                t, built = self._run(_plainly, t, t_end, largest, retained)
-                self.plain -= built
-            except (ArithmeticError, ValueError):  # what is no number has no whole part for the interpreter
-                self._set, self.plain = before, 0
-                self.status = enclosure_kernel.GOING if installed() else enclosure_kernel.LOST
-        if installed() and (not plainly or self.status == enclosure_kernel.GOING and built < steps):
-            rest = [rows[built:] for rows in retained]
-            t, more = self._run(functions()["advance"], t, t_end, steps - built, rest)
+                t, more = self._run(fast, t, t_end, size, rest)
+            except (ArithmeticError, ValueError):  # what is no number has no integer part for the interpreter
+                self._set, fast = before, installed()
+                if fast:
+                    continue
+                self.status = enclosure_kernel.LOST
+                return t, built
             built += more
-        return t, built
+            fast = ADVANCE.pays(STEP * more) or fast
+            if built >= steps or self.status != enclosure_kernel.GOING:
+                return t, built
 
-    def _run(self, by, t, t_end, steps, retained):
-        self.status, t, built = by(*self._numbers, t, t_end, self._grain, steps, *self._set, *retained)
+    def _run(self, fast, t, t_end, steps, retained):
+        with np.errstate(all="ignore"):  # as compiled code
+            self.status, t, built = ADVANCE.functions(fast)["advance"](
+                *self._numbers, t, t_end, self._grain, steps, *self._set, *retained)
         return t, built
 
     @property
@@ -233,23 +238,6 @@ def energy_of(own: AnyScene):
     return np.append(np.sqrt(D), math.sqrt(float((M * M / D).sum())))
 
 
-@lru_cache(maxsize=1)
-def functions() -> dict:
-    """The kernel's functions by name, compiled."""
-    return compiled(enclosure_kernel)
-
-
-def loaded() -> bool:
-    """Whether these are at hand, without loading them."""
-    return bool(functions.cache_info().currsize)
-
-
-def _plainly(*arguments):
-    """`enclosure_kernel.advance` as it is written."""
-    with np.errstate(all="ignore"):  # as compiled code
-        return enclosure_kernel.advance(*arguments)
-
-
 # --- A spin-up proved along it
 TRIED, HOPELESS = 512, 16  # steps after which a way that would take so many times what is allowed is given up
 # times, over that of the certified run, at which the inequality is asked again
@@ -273,13 +261,11 @@ AS_PROVED = {
         "inequality that the motion meets holds for ever")}
 
 
-def proved(scene, state, result: SpinUp, steps: int | None = None, fast: bool = False,
-           plain: int = 0) -> SpinUp:
+def proved(scene, state, result: SpinUp, steps: int | None = None, fast: bool = False) -> SpinUp:
     """The answer of `spin_up` for the motion from a state (three exact numbers: floats at their word,
     Fractions, decimals in strings), with level "proved" where its way can be enclosed in so many validated
     steps and the inequality holds for the whole set there; else as it was found, its cause told what
-    hindered. plain: as of `Course`. fast: ask the inequality by compiled loops, for which the first of an
-    installation waits some seconds: where those that found it have loaded them."""
+    hindered. fast: the inequality is evaluated by compiled loops, where those that certified it are."""
     if result.level != "certified":
         return result
     before: Any = result.trap  # of a motion off the axes of symmetry
@@ -287,7 +273,7 @@ def proved(scene, state, result: SpinUp, steps: int | None = None, fast: bool = 
     own, unit = natural(scene)
     rates = "" if scene.variables == "scaled" else "rad/s"
     test = tests_of(own).certifier(before.field, before.orders)
-    arc = _Way(scene, state, result.t * LATER[-1], plain)
+    arc = _Way(scene, state, result.t * LATER[-1])
     for later in LATER:
         reached = arc.to(result.t * later, steps)
         if reached is None:
@@ -312,9 +298,9 @@ def proved(scene, state, result: SpinUp, steps: int | None = None, fast: bool = 
 class _Way:
     """The motion at rising times, as the centre and radius of a ball."""
 
-    def __init__(self, scene: Scene, state: Sequence[float | Fraction], t_end: float, plain: int):
+    def __init__(self, scene: Scene, state: Sequence[float | Fraction], t_end: float):
         self.start = exact_vector(state, "state")
-        self.course = Course(scene, state, t_end, plain) if t_end else None
+        self.course = Course(scene, state, t_end) if t_end else None
         self.t, self.steps, self.why = 0.0, 0, WHY[enclosure_kernel.GOING]
 
     def to(self, t, steps):

@@ -159,9 +159,6 @@ def scenario_of(case: Any) -> Scenario:
 # steps of a run that looks for the largest rate, and of each of many that are compared
 BUDGET, SEARCHED = 100_000, 20_000
 LITTLE, FEW = 2_000_000, 3_000  # multiplications and compiled steps: some tenths of a second
-# validated steps without the compiler, fifteen milliseconds each: as long as loading what is compiled takes;
-# compiling it takes ten seconds
-PLAIN = 32
 NEVER_AFTER = 100  # times the time without a change: a limit that is not reached by then counts as never
 TURN = 1.001  # of a period: a motion that repeats is followed for so long
 EXACT = ("axis", "law")  # certificates of growth that are closed solutions
@@ -230,7 +227,7 @@ def first_time(scenario: Scenario, torque: Sequence[Fraction], wheel: Sequence[F
 
 def _off_axis(scenario: Scenario, scene: Scene) -> Outcome:
     certified = spin_up(scene, scenario.start)
-    noted = proved(scene, scenario.state, certified, plain=PLAIN)
+    noted = proved(scene, scenario.state, certified)
     spins = noted.fate == Fate.SPIN_UP
     when = _when(scenario, scene, None if spins or noted.fate == Fate.BOUNDED else noted.t, spun=certified)
     axis, sense, direction = (noted.axis, noted.sense, noted.direction) if spins else (0, 0, None)

@@ -13,15 +13,12 @@ from ...answers.motions import rows
 from ...case.read import Case
 from ...equilibrium.stability import coefficients as invariants_of
 from ...errors import InputError
-from ...numbers.numba_door import installed
 from ...orbit.extremes_arrays import extremes_and_periods
 from ...orbit.fate_arrays import FateResult
 from ...orbit.result import Motion
 from ...physics.coefficients import effective
 from ...validation import reach_of
 from ..plan import Plan
-
-COMPILED = 200  # states for which loading numba's code pays: half a second, of librations in plain Python
 
 
 @dataclass(frozen=True)
@@ -38,8 +35,7 @@ class Rows:
         many: dict[str, Any] = {}
         pointed = self.plan.pointed
         if pointed is not None and KINDS[kind_of(effective(self.case.scene))].follows:
-            # each motion of an atlas is alone in its scene, and all of them together are worth the compiler
-            many = {"fast": installed() or None, "proof": pointed.certify}
+            many = {"proof": pointed.certify}
         return rows.fates(self.case.scene, self.states, follow=self.plan.longest, **many)
 
     @property
@@ -59,12 +55,9 @@ class Rows:
         return self.known[box, times]
 
     def _worked_out(self, box: bool, times: bool) -> tuple[Any, Any]:
-        """Whether numba serves depends on the number of states alone, not on what this process did before:
-        its last digits are not those of plain Python."""
         scene, kind = self.case.scene, kind_of(effective(self.case.scene))
         if kind == "orbit":
-            return extremes_and_periods(scene, self.states, box=box, period=times,
-                                        by_numba=len(self.states) >= COMPILED)
+            return extremes_and_periods(scene, self.states, box=box, period=times)
         try:
             result = rows.extremes(scene, self.states, reach_of(self.case.span)) if box else None
         except InputError:

@@ -55,18 +55,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from pathlib import Path
-from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...numbers.exact import sqrt_fraction
-from ...numbers.numba_door import compiled
+from ...numbers.numba_door import Kernel
 from ...numbers.vectors import dot
 from ...orbit.result import Fate
 from ...reasons import Reasoned, Sentence
-from . import kernel
+from . import kernel, steps
 from .centres import FixedCentre, MovingCentre, Terms, moving_centre, sizes
 from .form import forms_of
 from .result import WIDER, SpinUp, SteadyTrap
@@ -76,31 +74,12 @@ if TYPE_CHECKING:
 
 
 # --- The kernels, compiled or as written
-ENTRIES = {"begin", "run", "end", "measure", "over", "decide"}
-
-
-def functions(kernel: ModuleType, fast: bool, lanes: int = 1) -> dict[str, Any]:
-    """A kernel's functions by name, for so many lanes: compiled, or as they are written, for one."""
-    return compiled_functions(kernel, lanes) if fast else vars(kernel)
-
-
-@lru_cache(maxsize=4)
-def compiled_functions(kernel: ModuleType, lanes: int = 1) -> dict[str, Any]:
-    """A kernel's functions by name, compiled; stored on disk where there is a place for it."""
-    if lanes > 1:
-        return compiled(kernel, variant=f"{lanes}_", allocating=False, entries=ENTRIES, LANES=lanes)
-    return compiled(kernel, allocating=False, entries=ENTRIES)
-
-
-def loaded() -> bool:
-    """Whether compiled functions are at hand, without loading them."""
-    return bool(compiled_functions.cache_info().currsize)
-
-
-def stored() -> bool:
-    """Whether an earlier process left compiled steps beside the sources, where numba puts them unless told
-    otherwise."""
-    return any(Path(__file__).with_name("__pycache__").glob("steps.run*.nbi"))
+# of tests; of steps, by whose number all are loaded; of steps side by side. s of a processor that compiling
+# each takes
+BARE = {"allocating": False, "entries": {"begin", "run", "end", "measure", "over", "decide"}}
+DECIDE, ADVANCE = Kernel(kernel, "decide", 3.0, options=BARE), Kernel(steps, "run", 8.0, options=BARE)
+SIDE_BY_SIDE = Kernel(steps, "run", 7.5, variant=f"{steps.SIDE_BY_SIDE}_",
+                      instead={"LANES": steps.SIDE_BY_SIDE}, options=BARE)
 
 
 # --- Equal moments
@@ -285,8 +264,8 @@ class Certifier:
         work = (np.ones((4, 2 * kernel.MIDDLE + 1)), np.zeros(self.degrees, complex),
                 np.zeros((2, self.terms)), *np.zeros((2, self.columns)), np.zeros(6))
         with np.errstate(all="ignore"):
-            decide = functions(kernel, fast)["decide"]
-            decide(rows, states, reach, fired, number, found, *self.numbers, *work)
+            DECIDE.functions(fast)["decide"](
+                rows, states, reach, fired, number, found, *self.numbers, *work)
 
     def constants(self, state: np.ndarray, near: float = 0.0, fast: bool = False) -> tuple[float, ...] | None:
         """The six constants for all states of the ball of radius `near` about one (3,); None where the

@@ -40,13 +40,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import steps as kernel
-from .certificate import functions
+from .certificate import ADVANCE, SIDE_BY_SIDE
 
 if TYPE_CHECKING:
     from ...physics.scene import AnyScene
 
 # --- Motions and a small change of each, step by step
 STEP_ERROR = 2.0**-52  # units of rounding by which a step may move a motion: a Taylor polynomial of 20 terms
+REVOLUTION = 40  # steps that a return takes, about
 NO_GROWTH = 2.0**-6    # changes beyond this share of the size, or delays of so many radians, tell no growth
 
 
@@ -72,39 +73,40 @@ class Runs:
 
     The rows advance by steps, not to common times: no step is cut short, and no row depends on another. steps
     (n,): computed; rounded (n,): those that running all the way would have taken, each of which rounds. fast:
-    compiled steps.
+    compiled steps. counted: steps of all rows, computed here or on the way to a return.
     """
 
     def __init__(self, scene: AnyScene, states: np.ndarray, fast: bool = False):
         self.coefficients = np.array([np.array(row, float) for row in scene.quadratic().coefficients])
         self.states, self.times, self.fast = np.array(states, float), np.zeros(len(states)), fast
         self.twins = Twins(len(states), self.rates)
-        self.steps_done = 0  # of a row that never leapt
-        self._work: dict[int, kernel.Work] = {}
+        self.steps_done, self.counted = 0, 0  # of a row that never leapt; of all
+        self._work: dict[tuple[int, bool], kernel.Work] = {}
         # computed, and passed, of each row
         self.steps, self.rounded = np.zeros(len(states), int), np.zeros(len(states))
         self.met = np.repeat([[0.0], [np.inf]], len(states), axis=1)  # sizes since the last look
 
     def _call(self, name: str, *arguments):
         with np.errstate(all="ignore"):
-            functions(kernel, self.fast)[name](*arguments)
+            ADVANCE.functions(self.fast)[name](*arguments)
 
     def _run(self, states: np.ndarray, *arguments):
         """`steps.run`, in as many lanes as pay."""
         lanes = kernel.SIDE_BY_SIDE if self.fast and len(states) >= kernel.FROM else 1
-        if lanes not in self._work:
+        if (lanes, self.fast) not in self._work:
             made = work(lanes)  # loops as they are written read plain numbers out of memory twice as fast
-            self._work[lanes] = made if self.fast else kernel.Work(
+            self._work[lanes, self.fast] = made if self.fast else kernel.Work(
                 *map(memoryview, made))  # type: ignore[arg-type]  # read and written alike
         with np.errstate(all="ignore"):
-            functions(kernel, self.fast, lanes)["run"](self.coefficients, states, *arguments,
-                                                       *self._work[lanes])
+            (ADVANCE if lanes == 1 else SIDE_BY_SIDE).functions(self.fast)["run"](
+                self.coefficients, states, *arguments, *self._work[lanes, self.fast])
 
     def advance(self, rows: np.ndarray, steps: int, t_max: float, pause: float = 0.0,
                 budget: int = 2**62):
         """Carry the given rows (indices) on by so many steps, or to t_max; a row that has not passed the time
         `pause` stops there, and none takes more than `budget` steps in all."""
         self.steps_done += steps
+        self.counted += steps * len(rows)
         twins, m = self.twins, len(rows)
         counts = np.clip(budget - self.steps[rows], 1, steps)
         (ends, changes), (spans, reached), met = np.empty((2, m, 3)), np.empty((2, m)), np.empty((2, m))
@@ -119,6 +121,7 @@ class Runs:
         """(states, times) of motions from states (m, 3) after spans (m,) of time, forth or back, or after the
         most steps."""
         out, times = np.array(states, order="C"), np.empty_like(spans)
+        self.counted += min(most, REVOLUTION) * len(states)
         self._run(out, out, spans, np.full(len(spans), most), False, times, np.empty((2, len(spans))))
         return out, times
 

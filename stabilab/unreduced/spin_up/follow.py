@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...integrate.guard import too_far, why_given_up
-from ...numbers.numba_door import installed, wanted
 from ...orbit import one_state
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate, Needs
@@ -27,7 +26,7 @@ from ...physics.states import checked_states
 from ...reasons import Axis, Quantity, Reason, Sentence
 from ...validation import checked_scene
 from ..enclosure import proved
-from .certificate import Tests, exactly, loaded, stored, tests_of
+from .certificate import ADVANCE, Tests, exactly, tests_of
 from .drift import Leaps, Runs
 from .form import island, recurs, seen
 from .result import SpinUp, Trap
@@ -39,9 +38,7 @@ NATURAL_TIMES, BUDGET = 1e9, 600_000
 # steps that show the pace of a motion, where it is followed to a time that somebody names
 SETTLED = 1_000_000
 FARTHEST = 1e150  # natural units: a run in doubles holds no squares of larger rates
-# Steps, states and questions of a process that take as long as loading compiled code; compiling takes so many
-# times as long
-PLAIN, STATES, QUESTIONS, COMPILING = 100, 8, 8, 10
+STEP = 3e-4  # s of a processor: a step of one motion in plain Python, with its part in the tests
 LEVELS = ("undecided", "certified", "exact", "proved")
 # steps between tests: a share of those before (early, later), at least and at most so many
 FIRST, EARLY, SHARES, MOST = 4, 600, (0.25, 0.1), 2000
@@ -96,19 +93,19 @@ class Chased:
 
 
 def chase(scene: AnyScene, tests: Tests, starts: np.ndarray, t_max: float, budget: int, after: float = 0.0,
-          tell: Callable[..., Any] | None = None, plain: float = 0) -> Chased:
+          tell: Callable[..., Any] | None = None, fast: bool | None = None) -> Chased:
     """Follow the motions from starts (n, 3) of a scene in natural units, each until a test fires at a time no
     earlier than `after`, t_max, or `budget` steps. tell(least time, steps, motions left): called after every
-    stage. plain: so many steps are taken and judged by loops as they are written, before others are
-    compiled."""
+    stage. fast: steps are taken and judged by compiled loops; None: from where these pay (`Kernel`)."""
     n = len(starts)
     runs = Runs(scene, starts)
     out = Chased(tests, np.full(n, -1), runs.times, runs.steps, np.ones(n), runs.states,
                  np.full((6, n), np.nan), np.zeros((n, 48)), np.full((n, 48), np.inf),
                  runs.rounded, runs.twins.blur, np.zeros(n))
-    open_, stage, leaps, leapt = np.arange(n), 0, Leaps(runs), np.arange(0)
+    open_, stage, leaps, leapt, counted = np.arange(n), 0, Leaps(runs), np.arange(0), 0
     while open_.size:
-        runs.fast = runs.steps_done >= plain
+        runs.fast = ADVANCE.pays(STEP * (runs.counted - counted + open_.size), fast)
+        counted = runs.counted
         runs.measure(open_, out)
         ready = open_ if after <= 0 else open_[out.t[open_] >= after]
         which = [name for every, since, name in PLAN if stage % every == 0 and runs.steps_done >= since][-1]
@@ -173,10 +170,9 @@ def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int
     of a later trap are narrower. proof: enclose the way to the inequality, so that nothing rests on a run in
     machine precision: level "proved" where that succeeds. A state of Fractions or of decimals in strings is
     then taken exactly. tell(time, steps, motions left): called on the way. fast: True for loops compiled by
-    numba, False for the same loops as they are written, None for whichever is sooner: numba is loaded for
-    many states, a long motion, a proof, and where the process has asked before. The motions are the same to
-    the last bit. Raises InputError for scenes with other effects than turn the body as wheel and torque do,
-    and for states that are none.
+    numba, False for the same loops as they are written, None for these until the steps of this process
+    repay loading what is compiled. The motions are the same to the last bit. Raises InputError for scenes
+    with other effects than turn the body as wheel and torque do, and for states that are none.
     """
     supplied, scene, state = state, effective(checked_scene(scene)), three_floats(state)
     scene.quadratic()  # says which effect of the scene is not covered
@@ -190,25 +186,12 @@ def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int
     if not follows(state, unit):
         reason = RATE_TOO_LARGE(most=Quantity(FARTHEST), unit=Quantity(unit, f"1/{scene.time_unit}", 3))
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, 1.0, reason=reason)
-    plain = _plain_steps(1, fast, proof)
     result = chase(own, tests, np.array([state]) / unit, NATURAL_TIMES if t_max is None else t_max * unit,
                   BUDGET if budget is None else budget, after * unit,
-                  tell and (lambda t, steps, left: tell(t / unit, steps, left)), plain)
+                  tell and (lambda t, steps, left: tell(t / unit, steps, left)), fast)
     answer = kept_by_law(scene, state, answer_of(scene, unit, result, 0))
     start = supplied if isinstance(supplied, (list, tuple)) else state
-    return proved(scene, start, answer, fast=not plain) if proof else answer
-
-
-def _plain_steps(n: int, fast: bool | None, proof: bool = False) -> float:
-    """How many steps of n motions are taken by loops as they are written: as long as compiled ones are not to
-    be had sooner, so that an answer takes at most twice the time of the quicker. proof: loads numba
-    anyway."""
-    patience = 1 if loaded() or stored() else COMPILING
-    request = tests_of.cache_info()
-    soon = loaded() or proof or request.hits + request.misses > QUESTIONS * patience
-    if wanted(n, fast, soon, STATES * patience + 1, 1):
-        return 0
-    return PLAIN * patience if fast is None and installed() else math.inf
+    return proved(scene, start, answer, fast=ADVANCE.pays(0.0, fast)) if proof else answer
 
 
 def kept_by_law(scene: AnyScene, state: tuple[float, ...], answer: SpinUp) -> SpinUp:
@@ -297,10 +280,9 @@ def spin_up_many(scene, states, t_max: float | None = None, budget: int | None =
     if closed or not tests or not (np.abs(states) / FARTHEST < unit).all():
         return _of_rows(scene, (spin_up(scene, state, t_max, budget, fast=fast, proof=proof)
                                 for state in states.tolist()))
-    plain = _plain_steps(len(states), fast)
     result = chase(own, tests, states / unit, NATURAL_TIMES if t_max is None else t_max * unit,
                   BUDGET if budget is None else budget,
-                  tell=tell and (lambda t, steps, left: tell(t / unit, steps, left)), plain=plain)
+                  tell=tell and (lambda t, steps, left: tell(t / unit, steps, left)), fast=fast)
     good = result.fired >= 0
     axes = np.array([0 if field.axis is None else field.axis + 1 for field, _ in tests.asked] + [0])
     senses = np.array([field.sense for field, _ in tests.asked] + [0])
@@ -312,7 +294,7 @@ def spin_up_many(scene, states, t_max: float | None = None, budget: int | None =
     if not by_law and not proof:
         return out
     return _of_rows(scene, (kept_by_law(covered, state, out.row(number)) if by_law
-                            else proved(scene, state, out.row(number), fast=not plain)
+                            else proved(scene, state, out.row(number), fast=ADVANCE.pays(0.0, fast))
                             for number, state in enumerate(states.tolist())))
 
 

@@ -6,7 +6,8 @@ Nothing looks at the clock.
 from __future__ import annotations
 
 import math
-from functools import lru_cache
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -16,7 +17,6 @@ from stabilab import Fate, fate
 from stabilab.answers.motion import Needs
 from stabilab.answers.motion import motion as motion_of
 from stabilab.numbers import numba_door
-from stabilab.orbit import extremes_arrays
 from stabilab.orbit.extremes import precise_extremes
 from stabilab.orbit.extremes_arrays import settle_rows, trapped_rows
 from stabilab.orbit.fate_arrays import fate_on_orbit
@@ -138,11 +138,39 @@ def test_any_split_of_the_rows_gives_the_same_bytes_and_either_question_those_of
     np.testing.assert_array_equal(settled(one, states, asked=2)[1], whole[1])
 
 
+@pytest.mark.skipif(not numba_door.installed(), reason="nothing is compiled without numba")
+@each
+def test_compiled_rows_and_rows_in_plain_python_have_the_same_bytes(name):
+    """The library's sines and exponentials for both, and IEEE arithmetic in the order that the source has."""
+    states = states_of(name, 60)
+    for plain, fast in zip(*(settled(SCENES[name], states, by_numba) for by_numba in (False, True))):
+        assert plain.tobytes() == fast.tobytes()
+
+
+def test_a_process_loads_compiled_rows_once_its_rows_cost_as_much_as_loading():
+    """Counted in a process of its own: librations of 0.4 ms each, and 0.45 s."""
+    program = """
+import sys
+import numpy as np
+from stabilab import Body, ConstantTorque, Gyrostat, Scene
+from stabilab.orbit.extremes_arrays import KERNELS, extremes_and_periods
+scene = Scene(Body((12, 9, 5)), Gyrostat((0.8, 0, 0)), ConstantTorque((0, 0.02, 0)))
+states = np.random.default_rng(6).normal(size=(100, 3)) / 1000  # all of them librate
+loaded = []
+for _ in range(20):
+    extremes_and_periods(scene, states)
+    loaded.append("numba" in sys.modules)
+print(loaded.index(True), round(KERNELS["rows"].spent, 3))
+"""
+    got = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
+    assert got.split()[0] == "11"  # so many calls cost 0.44 s, the next would pass 0.45
+
+
 def test_without_numba_plain_python_serves(monkeypatch):
     monkeypatch.setattr(numba_door, "find_spec", lambda name: None)
     numba_door.installed.cache_clear()
-    monkeypatch.setattr(extremes_arrays, "COLD", 1)
-    monkeypatch.setattr(extremes_arrays, "compiled_kernel", lru_cache(lambda name: pytest.fail("compiled without numba")))
+    monkeypatch.setattr(numba_door, "IMPORT", 0.0)
+    monkeypatch.setattr(numba_door, "compiled", lambda *module, **names: pytest.fail("compiled without numba"))
     one, states = FAMILIES["minor scaled +"][0], sample("minor scaled +", 5)
     try:
         assert np.isfinite(stabilab.extremes(one, states, fast=True)).any()

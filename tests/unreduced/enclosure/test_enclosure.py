@@ -1,5 +1,6 @@
 """Enclosures hold the motions: judged by runs in 50 digits of another code, over bodies, sizes and kinds of
 numbers."""
+import math
 import random
 import subprocess
 import sys
@@ -11,9 +12,9 @@ import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 from stabilab.errors import InputError
-from stabilab.numbers.numba_door import installed
+from stabilab.numbers.numba_door import IMPORT, Kernel, installed
 from stabilab.unreduced import enclosure_kernel
-from stabilab.unreduced.enclosure import Course
+from stabilab.unreduced.enclosure import ADVANCE, STEP, Course
 from tests.oracles import taylor
 from tests.oracles.pairs import model_of
 from tests.oracles.taylor import integrate
@@ -232,10 +233,11 @@ def test_steps_without_the_compiler_give_the_same_bits(plain, monkeypatch):
     for _ in range(3):
         scene, state = random_scene(rng, rng.choice((0, 1, 5))), sphere(rng, rng.choice((.1, 3, 30)))
         told, direction = [], rng.choice((None, (0, 1, 0)))
-        for first, compiler in ((0, True), (plain, True), (0, False)):
-            monkeypatch.setattr("stabilab.unreduced.enclosure.loaded", lambda first=first: not first)
-            monkeypatch.setattr("stabilab.unreduced.enclosure.installed", lambda there=compiler: there)
-            course = Course(scene, state, 40.0, plain=first, direction=direction)
+        for spent in (math.inf, IMPORT - (plain + 0.5) * STEP, -math.inf):
+            kernel = Kernel(ADVANCE.module, ADVANCE.entry, ADVANCE.seconds, spent=spent)
+            kernel._price = lambda: IMPORT
+            monkeypatch.setattr("stabilab.unreduced.enclosure.ADVANCE", kernel)
+            course = Course(scene, state, 40.0, direction=direction)
             bands = [course.advance(40.0, 12, band=True), course.advance(40.0, 3, band=True)]
             told.append([course.t, course.steps, course.status,
                          *(v.tobytes() for v in (course.now.middle, course.now.rest, course.now.radius)),
@@ -252,7 +254,7 @@ from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.unreduced.enclosure import proved
 from stabilab.unreduced.spin_up.follow import spin_up
 scene = Scene(Body((1.4, 1, .6)), Gyrostat((.2, .1, -.3)), ConstantTorque((.5, .6, .62)))
-print(proved(scene, (.1, 1, 2), spin_up(scene, (.1, 1, 2)), plain=64).level, "numba" in sys.modules)
+print(proved(scene, (.1, 1, 2), spin_up(scene, (.1, 1, 2)), fast=False).level, "numba" in sys.modules)
 """
     assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
                           check=True).stdout.split() == ["proved", "False"]

@@ -10,9 +10,11 @@ import stabilab
 from benchmarks.spin_up import random_scene as benchmark_scene
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.errors import InputError
+from stabilab.numbers.numba_door import LOAD, Kernel
 from stabilab.physics.coefficients import to_scaled
-from stabilab.unreduced.spin_up import certificate, follow
-from stabilab.unreduced.spin_up.follow import spin_up, spin_up_many
+from stabilab.unreduced.spin_up import certificate, drift, follow
+from stabilab.unreduced.spin_up.certificate import ADVANCE
+from stabilab.unreduced.spin_up.follow import STEP, spin_up, spin_up_many
 from stabilab.unreduced.spin_up.form import seen
 
 from .scenes import EXAMPLE, numba, random_scene, rates_of, run, sphere
@@ -59,9 +61,11 @@ def test_motions_are_decided_alike_with_and_without_numba(wheel):
 def test_a_long_motion_is_compiled_on_its_way(monkeypatch):
     scene, start = random_scene(random.Random(31), 1), (3.0, -1.0, 2.0)
     whole = spin_up(scene, start, budget=400, fast=True)
-    monkeypatch.setattr(follow, "loaded", lambda: False)
-    monkeypatch.setattr(follow, "QUESTIONS", math.inf)
-    assert spin_up(scene, start, budget=400).t == pytest.approx(whole.t, rel=1e-9)
+    kernel = Kernel(ADVANCE.module, ADVANCE.entry, ADVANCE.seconds, spent=LOAD - 20 * STEP)
+    for module in (follow, drift):
+        monkeypatch.setattr(module, "ADVANCE", kernel)
+    assert spin_up(scene, start, budget=400).t == whole.t and kernel.ready
+    assert -20 * STEP <= kernel.spent - LOAD < 0  # plain steps came first, and ended there
 
 
 def test_scaled_twin_has_the_fate_of_its_body():

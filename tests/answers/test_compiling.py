@@ -1,0 +1,51 @@
+"""Everything that is compiled, compiled once: afterwards no process compiles."""
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from stabilab.answers.motions import compiling
+from stabilab.errors import InputError
+from stabilab.numbers.numba_door import installed
+
+TASKS_ONCE_MORE = """
+from stabilab.answers.motions.compiling import TASKS, compile_all, kernels
+for kernel in kernels():
+    kernel._look()
+print(all(kernel.ready for kernel in kernels()))
+for task in TASKS:
+    task()
+stats = [function.stats for kernel in kernels() for function in kernel.functions(True).values()
+         if hasattr(function, "stats")]
+print(sum(sum(one.cache_misses.values()) for one in stats))
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not installed(), reason="nothing is compiled without numba")
+def test_what_is_compiled_once_is_on_disk_for_all_processes(tmp_path):
+    """numba counts what it loads and what it misses; a minute of compiling."""
+    surroundings = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}
+    surroundings.pop("STABILAB_QUIET", None)
+
+    def run(program):
+        return subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True,
+                              env=surroundings)
+    first = run("from stabilab.answers.motions.compiling import compile_all\nprint(compile_all())")
+    assert first.stdout.strip() == str(tmp_path) and first.stderr.count("compiling loops") == 1
+    again = run(TASKS_ONCE_MORE)
+    assert again.stdout.split() == ["True", "0"] and not again.stderr
+
+
+def test_without_numba_or_a_folder_to_write_to_an_error_says_what_to_do(monkeypatch):
+    monkeypatch.setattr(compiling, "TASKS", ())
+    monkeypatch.setattr("stabilab.numbers.numba_door.Kernel.on_disk", lambda kernel: False)
+    monkeypatch.setattr(compiling, "installed", lambda: True)
+    with pytest.raises(InputError, match="NUMBA_CACHE_DIR"):
+        compiling.compile_all()
+    monkeypatch.setattr(compiling, "installed", lambda: False)
+    with pytest.raises(InputError, match="pip install numba"):
+        compiling.compile_all()
