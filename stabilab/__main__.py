@@ -3,7 +3,7 @@ import gc
 import os
 import sys
 
-from . import interrupt, streams
+from . import interrupt, streams, threads
 
 # Reading modules makes many objects and no rubbish: with the interpreter's 700 the collector would look
 # through them some
@@ -16,6 +16,7 @@ def main() -> None:
     is imported."""
     gc.set_threshold(OBJECTS_BETWEEN_COLLECTIONS)
     streams.occupy()
+    threads.limit()
     interrupt.arm()
     try:
         _commands()(None if os.environ.get("STABILAB_QUIET") else streams.SILENCE)

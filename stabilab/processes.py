@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from .interrupt import undoing
+from .threads import of_worker
 from .version import __version__
 
 
@@ -56,11 +57,11 @@ def helpers(module: str, index: Path, number: int, **streams: Any) -> Iterator[l
     They are killed at its end, however it ends.
 
     A fresh interpreter each, so that neither threads nor the caller's own script are copied into it. Each has
-    a pipe as its standard input: by its end it learns that the one who started it was killed. streams: what
-    `subprocess.Popen` shall do with the others.
+    a pipe as its standard input: by its end it learns that the one who started it was killed. Each has one
+    thread (`threads`). streams: what `subprocess.Popen` shall do with the others.
     """
-    started = [subprocess.Popen([sys.executable, "-m", module, str(index)], stdin=subprocess.PIPE, **streams)
-               for _ in range(number)]
+    started = [subprocess.Popen([sys.executable, "-m", module, str(index)], stdin=subprocess.PIPE,
+                                env=of_worker(), **streams) for _ in range(number)]
 
     def stop_all() -> None:
         for item in started:

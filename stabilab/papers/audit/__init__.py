@@ -14,6 +14,7 @@ from concurrent.futures import ProcessPoolExecutor
 
 from ...errors import InputError
 from ...theories.printed.claims import Paper, key, paper, papers
+from ...threads import limit_worker
 from .findings import Finding, audit
 
 Tell = Callable[[int, int, str], None]  # done, count, words: told before each step
@@ -28,7 +29,7 @@ def audited(name: str | None = None, equation: str | None = None,
     if name is not None:
         return (findings_of(name, equation, tell),)
     with ProcessPoolExecutor(min(len(papers()), os.cpu_count() or 1),
-                             multiprocessing.get_context("spawn")) as pool:
+                             multiprocessing.get_context("spawn"), limit_worker) as pool:
         rows = []
         for done, built in enumerate(pool.map(findings_of, papers())):
             rows.append(built)
