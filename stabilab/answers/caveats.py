@@ -87,7 +87,8 @@ def of_case(case: Case, validity: Validity | None = None, steady: bool = False) 
 def answered(result: Limited, case: Case, validity: Validity | None = None) -> Limited:
     """What was found of a case, and is no motion, with all that limits it. validity: of its approximate laws.
     """
-    return replace(result, caveats=of_case(case, validity))
+    caveats = of_case(case, validity)
+    return result if caveats == result.caveats else replace(result, caveats=caveats)
 
 
 def of_file(resolved: Known) -> tuple[Caveat, ...]:

@@ -45,6 +45,8 @@ class Units:
 
     def times(self, times: np.ndarray | float) -> np.ndarray:
         """Times in the own unit. Raises InputError where these are no doubles."""
+        if self.pace == 1:
+            return np.asarray(times)
         with np.errstate(all="ignore"):
             own = np.asarray(times) * self.pace
         if not np.isfinite(own).all():
@@ -53,13 +55,15 @@ class Units:
         return own
 
 
+_PLAIN, _WITH_LAWS = Units(), Units(laws=True)
+
+
 def units_of(equations: Equations, state: np.ndarray) -> Units:
     """The units of the motion from a state (n,), 1 where its rates are ordinary."""
-    laws = any(not LIGHT <= value <= HEAVY
-               for name, value in equations.parameters.items() if name in ("D1", "D2", "D3"))
-    now, quick, size = (float(siz[0]) for siz in _sizes(equations, state[None]))
-    if not 0 < size < math.inf or are_ordinary(equations, state[None])[0]:
-        return Units(laws=laws)
+    now, quick, size = _sizes_of_one(equations, state)
+    laws = _heavy_or_light(equations)
+    if not 0 < size < math.inf or _ordinary(equations, now, quick, size):
+        return _WITH_LAWS if laws else _PLAIN
     pace = pace_of(equations, state)
     if 0 < pace < math.inf and not 1 / APART <= pace / size <= APART:
         return _power(max(now, quick / pace), pace, True)
@@ -75,6 +79,42 @@ def are_ordinary(equations: Equations, states: np.ndarray) -> np.ndarray:
         fraction = quick / np.where(now > 0, now, size)
     similar = (quick == 0) | ((fraction >= 1 / UNLIKE) & (fraction <= UNLIKE))
     return (size >= _slow(equations)) & (size <= 2.0**FAST) & similar
+
+
+def _ordinary(equations: Equations, now: float, quick: float, size: float) -> bool:
+    """`are_ordinary` of one motion, by the sizes of its rates; size is neither 0 nor infinite."""
+    if not set(equations.blocks) <= RATES | PLAIN:
+        return True
+    similar = quick == 0 or 1 / UNLIKE <= quick / (now if now > 0 else size) <= UNLIKE
+    return _slow(equations) <= size <= 2.0**FAST and similar
+
+
+def _sizes_of_one(equations: Equations, state: np.ndarray) -> tuple[float, float, float]:
+    """`_sizes` of one state (n,): a glance by plain floats, which cost a short run less than arrays; these
+    where a number leaves their range, which floats refuse."""
+    turning, rates = _turning_indices(equations), state.tolist()
+    try:
+        changes = to_numpy(equations).rate(rates)
+        now, quick = (max([abs(row[i]) for i in turning]) for row in (rates, changes))
+        if math.isfinite(sum(changes)):
+            return now, quick, max(now, math.sqrt(quick))
+    except ArithmeticError:
+        pass
+    now, quick, size = (float(column[0]) for column in _sizes(equations, state[None]))
+    return now, quick, size
+
+
+@lru_cache(maxsize=64)
+def _heavy_or_light(equations: Equations) -> bool:
+    """Whether a moment is so large or small that the laws need units of their own."""
+    return any(not LIGHT <= value <= HEAVY
+               for name, value in equations.parameters.items() if name in ("D1", "D2", "D3"))
+
+
+@lru_cache(maxsize=64)
+def _turning_indices(equations: Equations) -> list[int]:
+    """Which components of the state are rates."""
+    return np.nonzero(_turning(equations))[0].tolist()
 
 
 def _sizes(equations: Equations, states: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -119,11 +159,13 @@ def scale_of(equations: Equations, units: Units) -> np.ndarray:
     return np.where(_turning(equations), units.rate, 1.0)
 
 
-@lru_cache(maxsize=32)  # what is made of equations is kept by identity
 def in_units(equations: Equations, units: Units) -> Equations:
     """The equations of y(s), with the laws over their own units."""
-    if units.plain:
-        return equations
+    return equations if units.plain else _in_units(equations, units)
+
+
+@lru_cache(maxsize=32)  # what is made of equations is kept by identity
+def _in_units(equations: Equations, units: Units) -> Equations:
     from sympy import Integer, Symbol
     parameters, symbols = dict(equations.parameters), dict(equations.symbols)
 

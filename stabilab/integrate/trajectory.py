@@ -155,7 +155,8 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
         method, rtol, landing = "DOP853", max(rtol or 0.0, FALLBACK_RTOL), True
         reason = STAND_IN
     units = units_of(equations, state) if method == "taylor" else Units()
-    scale, system = scale_of(equations, units), to_numpy(in_units(equations, units))
+    scale = 1.0 if units.rate == 1 else scale_of(equations, units)
+    system = to_numpy(in_units(equations, units))
     if method == "taylor":
         rtol = TAYLOR_TOLERANCE if rtol is None else max(rtol, TAYLOR_TOLERANCE)
         run: _Taylor | _SciPy = _Taylor(system, rtol, laws, units.pace)
@@ -164,7 +165,7 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
         run = _SciPy(system, method, rtol, landing)
     watch = watcher(scene, equations, state)
     note = watch and (lambda rows: watch.note(rows * scale))
-    start, passed = state / scale, None if steps is None else list[float]()
+    start, passed = state if units.rate == 1 else state / scale, None if steps is None else list[float]()
     before, still, after = parted(units.times(times))
     drift: dict[str, float] = {}
     failure, result = None, [(np.zeros(still), start[None][:still])]
@@ -182,7 +183,9 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
         steps += [t / units.pace for t in passed or ()]
     route = 1 if times.size < 2 or times[1] > times[0] else -1
     reached, states = (np.concatenate(parts)[::route] for parts in zip(*result))
-    return Trajectory(reached / units.pace, states * scale, method, rtol, drift,
+    if not units.plain:
+        reached, states = reached / units.pace, states * scale
+    return Trajectory(reached, states, method, rtol, drift,
                       run.counters, "stopped" if failure else "reached", slices(equations.blocks),
                       watch and watch.result(), reason=failure or reason)
 
@@ -265,7 +268,10 @@ class _Taylor:
         """(why a run over the grid is given up or None, how many of its times are worth REPORT steps all the
         same): where the first step is too short by far, a trial run shows the motion's pace."""
         begin()
-        ta.propagate_until(grid[-1], max_steps=1)
+        if grid[-1] < 0:
+            ta.step_backward()
+        else:
+            ta.step()
         end, limit = abs(grid[-1]), PATIENCE * STEP_LIMIT
         if not np.isfinite(ta.state).all() or end <= limit * abs(ta.time):
             return None, len(grid)

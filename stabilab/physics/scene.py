@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
@@ -127,7 +127,7 @@ class Body(metaclass=Asked):
         distribution."""
         return 2 * max(self.exact) - sum(self.exact)
 
-    @property
+    @cached_property
     def caveats(self) -> tuple[Caveat, ...]:
         """That no rigid body has these moments, where their digits do not allow for one, and that its mass
         and its moments do not belong together."""
@@ -299,8 +299,26 @@ def along_principal_axes(effects: Sequence[Effect], frame: PrincipalAxes) -> lis
             if effect and torque and effect.name == "gyrostat" else effect for effect in turned]
 
 
+class HashedOnce:
+    """A frozen dataclass that computes its hash once: what is made of a scene is looked up by it, and a hash
+    of fractions or of expressions costs a tenth of a short run. It stays in this process: hashes of names
+    differ in others."""
+
+    __dict__: dict[str, Any]
+
+    def __hash__(self) -> int:
+        result = self.__dict__.get("_hash")
+        if result is None:
+            result = hash(tuple(getattr(self, item.name) for item in fields(self) if item.compare))  # type: ignore[arg-type]
+            object.__setattr__(self, "_hash", result)
+        return result
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in self.__dict__.items() if name != "_hash"}
+
+
 @dataclass(frozen=True)
-class Scene(metaclass=Asked):
+class Scene(HashedOnce, metaclass=Asked):
     """A body and its effects, each at most once. Effects not named here do not exist for any later step, and
     one of zero strength is not kept: it equals an absent one in every answer because it is absent.
 
@@ -317,6 +335,8 @@ class Scene(metaclass=Asked):
     time_unit = "s"
     # where these axes lie in the frame of the tensor; None where that is diagonal, or is not known
     frame: ClassVar[PrincipalAxes | None] = None
+
+    __hash__ = HashedOnce.__hash__
 
     def __init__(self, body: Body | None = None, *effects: Effect):
         flat = (tuple(effects[0]) if len(effects) == 1 and isinstance(effects[0], (tuple, list))

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..errors import InputError
 from .equations import Equations, Symbolic, derive, values
-from .scene import AnyScene
+from .scene import AnyScene, HashedOnce
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -27,12 +27,14 @@ Known: TypeAlias = tuple[tuple[Symbolic, Symbolic], ...]  # parameters and their
 
 
 @dataclass(frozen=True)
-class Structure:
+class Structure(HashedOnce):
     """What a form has beside its numbers: code is compiled once for all scenes of one structure."""
 
     state: tuple[Symbolic, ...]
     symbols: tuple[Symbolic, ...]
     expressions: tuple[Symbolic, ...]
+
+    __hash__ = HashedOnce.__hash__
 
 
 @dataclass(frozen=True)
@@ -211,7 +213,7 @@ class System:
         """(quantities as of `invariants`, the sums of their absolute terms, which a relative departure is
         measured against), in the order of the equations' balances: (..., 3) -> two of (laws, ...)."""
         terms, ends = self._law_terms
-        each = np.ascontiguousarray(np.moveaxis(evaluate(terms, x), -1, 0))
+        each = _values(terms, x, first=True)
         quantities, sizes = np.empty((2, len(ends), *each.shape[1:]), each.dtype)
         for law, (first, last) in enumerate(ends):
             np.add.reduce(each[first:last], axis=0, out=quantities[law])
@@ -269,9 +271,17 @@ def _call(form: Form, x: Sequence[float]) -> list[float]:
 def evaluate(form: Form, x: ArrayLike) -> np.ndarray:
     """Values of the form at x (..., 3), one per expression in the last place; constants are spread over the
     batch."""
+    return _values(form, x)
+
+
+def _values(form: Form, x: ArrayLike, first: bool = False) -> np.ndarray:
+    """`evaluate`; first: one per expression in the first place."""
     x = np.asarray(x)
     x = x if x.dtype.kind in "fc" else x.astype(float)
-    out = np.empty(x.shape[:-1] + (len(form.expressions),), x.dtype)
-    for i, value in enumerate(form.function(*np.moveaxis(x, -1, 0), *form.numbers)):
-        out[..., i] = value
+    count, batch = len(form.expressions), x.shape[:-1]
+    out = np.empty((count, *batch) if first else (*batch, count), x.dtype)
+    # NumPy's moveaxis takes as long as the sums of a short run
+    columns = x.T if x.ndim < 3 else np.moveaxis(x, -1, 0)
+    for i, value in enumerate(form.function(*columns, *form.numbers)):
+        out[i if first else (..., i)] = value
     return out

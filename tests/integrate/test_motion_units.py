@@ -6,9 +6,11 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
+from stabilab.integrate import own_units
 from stabilab.physics.effects.rate_damper import RateDamper
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.own_unit import in_unit
+from stabilab.physics.to_numpy import equations_of
 
 
 def test_steps_of_slow_rates_are_told_in_the_scenes_time():
@@ -77,3 +79,17 @@ def test_a_run_that_stops_says_so_in_the_time_of_the_scene():
     scene = Scene(Body((3, 2, 1.5)))
     run = stabilab.trajectory(scene, (1e30, 2e30, 1e30), [1e-30, 1e30])
     assert run.status == "stopped" and "t = 1e-30" in run.because.replace("1.0000000000000001e-30", "1e-30")
+
+
+@pytest.mark.parametrize("size", [1e-300, 1e-160, 1e-12, 1.0, 1e12, 1e160, 1e300])
+def test_the_glance_at_one_motion_sees_what_that_at_many_sees(size):
+    """By arrays, which the other one leaves to where floats overflow."""
+    rng = np.random.default_rng(4)
+    for effects in ((), (Gyrostat((0.3, -0.2, 0.5)), ConstantTorque((0.1, 0.2, 0.1))), (Resistance("0.01"),)):
+        equations = equations_of(Scene(Body((3, 2, "1.5")), *effects))
+        for state in rng.normal(size=(20, 3)) * size:
+            many = [float(column[0]) for column in own_units._sizes(equations, state[None])]
+            assert np.allclose(own_units._sizes_of_one(equations, state), many, rtol=1e-15, atol=0)
+            ordinary = own_units.are_ordinary(equations, state[None])[0]
+            if 0 < many[2] < np.inf:
+                assert own_units._ordinary(equations, *many) == ordinary

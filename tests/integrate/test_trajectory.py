@@ -277,3 +277,20 @@ def test_a_run_beyond_its_steps_stops_and_says_so(monkeypatch):
     monkeypatch.setattr(trajectories, "STEP_LIMIT", 7)
     run = trajectory(SCALED_MINOR, (2.5, 4.0, 0.1), [100.0], method="DOP853")
     assert run.status == "stopped" and "7 steps" in run.because
+
+
+def test_a_second_short_run_reads_no_fractions_and_calls_few_functions():
+    """Counted: what a run costs beside its steps. It was 480 calls, a quarter of them within fractions."""
+    scene, times, counts = Scene(BODY, Gyrostat((100, 20, 0)), ConstantTorque((1, 0, "204.1"))), [0.0, 1.0, 2.0], {}
+
+    def noted(frame, event, argument):
+        if event == "call":
+            file = frame.f_code.co_filename.rpartition("/")[2]
+            counts[file] = counts.get(file, 0) + 1
+    trajectory(scene, (0.5, 2.6, 0.06), times)
+    sys.setprofile(noted)
+    try:
+        trajectory(scene, (0.5, 2.6, 0.06), times)
+    finally:
+        sys.setprofile(None)
+    assert "fractions.py" not in counts and sum(counts.values()) < 200

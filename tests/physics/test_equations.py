@@ -1,4 +1,6 @@
 """The derived equations and the gate to numbers."""
+import copy
+import pickle
 import subprocess
 import sys
 from fractions import Fraction
@@ -191,3 +193,20 @@ def test_numbers_that_are_equal_as_doubles_alone_have_equations_of_their_own():
                       LiquidCavity(1000, 1e-4, 1e-9))
         parameters = derive(scene).parameters
         assert parameters["D1"] == parameters["M1"] == moment
+
+
+def test_a_scene_is_hashed_once_and_as_an_equal_one_in_any_process():
+    """Counted by the hashes of its effect; hashes of names differ between processes, so none is sent along."""
+    class Counted(Gyrostat):
+        hashed = 0
+
+        def __hash__(self):
+            Counted.hashed += 1
+            return 1
+    scene = Scene(Body((3, 2, 1)), Counted((0.1, 0, 0)))
+    assert hash(scene) == hash(scene) and Counted.hashed == 1
+    plain, twin = (Scene(Body((3, 2, 1)), Gyrostat((0.1, 0, 0))) for _ in range(2))
+    assert hash(plain) == hash(twin) and plain == twin
+    sent = pickle.loads(pickle.dumps(plain))
+    assert "_hash" not in vars(sent) and sent == plain and hash(sent) == hash(plain)
+    assert copy.copy(plain) == plain
