@@ -270,7 +270,10 @@ def missing(plan: Plan, folder: Path) -> list[int]:
 
 def whole(plan: Plan, folder: Path) -> np.ndarray:
     """All records in the user's order, of the shape of the sweep; in one row where places are listed."""
-    rows = np.concatenate([read(plan, folder, number) for number in range(len(plan.chunks))])
+    rows, end = np.empty(plan.points, record(plan.answers)), 0
+    for number, chunk in enumerate(plan.chunks):  # one at a time: two copies of a large sweep are too many
+        rows[end:end + chunk.points] = read(plan, folder, number)
+        end += chunk.points
     if plan.listed:
         return rows
     order = (*plan.outer, *plan.inner)

@@ -111,7 +111,8 @@ def per_cent(fraction: float) -> str:
 
 def _details(result: Swept) -> list[str]:
     lines, names = [], result.records.dtype.names
-    cases = result.records[result.records["valid"] == 1]
+    valid = result.records["valid"] == 1
+    cases = result.records if valid.all() else result.records[valid]
     if "spin_axis" in names and (result.records["fate"] == Fate.SPIN_UP).any():
         about = result.records["spin_axis"][result.records["fate"] == Fate.SPIN_UP]
         signed = axes_of(result.plan.case).signed
@@ -144,13 +145,15 @@ def _unit(plan: Plan, column: Column) -> Unit:
 
 
 def _range(values: np.ndarray, column: Column, of: str, item: float) -> str:
-    finite, name = values[np.isfinite(values)], column.name.replace("_", " ")
+    finite, name = np.isfinite(values), column.name.replace("_", " ")
     (below, *_), (above, *_) = INFINITE.get(column.name, (("-∞",), ("∞",)))
     rest = [f"{phrase} at {count:,}" for phrase, count in (
         (below, np.isneginf(values).sum()), (above, np.isposinf(values).sum()),
         ("not known", np.isnan(values).sum())) if count]
     ends = (list(dict.fromkeys(_in_unit(float(end), item, column.name)
-                               for end in (finite.min(), finite.max()))) if finite.size else [])
+                               for end in (values.min(where=finite, initial=np.inf),
+                                           values.max(where=finite, initial=-np.inf))))
+            if finite.any() else [])
     printed = " to ".join(ends) + (f" {of}" if of else "") if ends else "no finite value"
     return f"  {name}: {printed}" + (f" ({', '.join(rest)})" if rest else "")
 
@@ -315,10 +318,8 @@ def checked(path: str | os.PathLike[str]) -> Path:
 def write(built: xarray.Dataset, path: Path) -> Path:
     """Write a data set as NetCDF 3: every reader knows it, and it holds neither time nor machine. Whole or
     not at all."""
-    # in memory first: a full disk then says so in plain words
-    content = bytes(built.to_netcdf(engine="scipy"))
     with whole_file(path) as waiting:
-        waiting.write_bytes(content)
+        built.to_netcdf(waiting, engine="scipy")
     return path
 
 
@@ -359,7 +360,7 @@ def column_in(dims: str | Sequence[str], column: Column, records: np.ndarray,
                   "flag_meanings": " ".join(flag.replace(" ", "_") or "none" for flag in column.flags)}
     if column.note:
         label |= {"comment": column.note}
-    return dims, np.ascontiguousarray(records[column.name]).astype(column.kind), label
+    return dims, records[column.name].astype(column.kind, copy=False), label  # no copy of a large sweep
 
 
 def _sampled(plan: Plan) -> dict[str, Any]:
