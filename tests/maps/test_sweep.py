@@ -5,6 +5,7 @@ import itertools
 import os
 import subprocess
 import sys
+import tracemalloc
 from dataclasses import replace
 from pathlib import Path
 
@@ -301,3 +302,20 @@ def test_a_new_column_is_one_row_of_the_table(monkeypatch, name, key):
     found = swept(name, {key: "0:3:2"}, answer="turns,fate")
     assert found.records["turns"].tolist() == [0, 1]  # as the axis is written above
     assert "turns" in words.heads(found) and '"turns"' in words.json(found)
+
+
+def test_records_are_put_together_in_one_copy(tmp_path, monkeypatch):
+    """Counted by Python's allocator: the records of all parts, beside one part."""
+    plan = planned(CASES / "minor-axis-100.toml", {"x[1]": "-3:3:1500", "x[2]": "-3:3:1000"})
+    for number in range(len(plan.chunks)):
+        rows = np.zeros(plan.chunks[number].points, parts.record(plan.answers))
+        parts.write(plan, tmp_path, number, rows.tobytes())
+    size = plan.points * parts.record(plan.answers).itemsize
+    tracemalloc.start()
+    try:
+        whole = parts.whole(plan, tmp_path)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    largest = max(chunk.points for chunk in plan.chunks) / plan.points
+    assert whole.nbytes == size and peak < size * (1.05 + 3 * largest)

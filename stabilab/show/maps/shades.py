@@ -95,15 +95,21 @@ def limits_of(case: Case, records: np.ndarray) -> list[Caveat]:
     """What limits the answers of a map: what the file says itself, on what its points rest, a limit that was
     not looked at."""
     rows = [*of_case(case)]
-    numbers = records["caveats"].ravel().tolist() if "caveats" in records.dtype.names else []
-    counts = Counter(number % len(CONDITIONS) for number in numbers)
+    counts: Counter[int] = Counter()
+    unphysical = unstable = points = 0
+    for number, count in (zip(*np.unique(records["caveats"], return_counts=True))
+                          if "caveats" in records.dtype.names else ()):
+        full, condition = divmod(int(number), len(CONDITIONS))
+        counts[condition] += int(count)
+        unphysical += int(count) * (full % 2)
+        unstable += int(count) * (full >= 2)
+        points += int(count)
     parts = [(Kind.TILT, HOLDS(condition=CONDITIONS[n]), count) for n, count in sorted(counts.items()) if n]
-    full = [number // len(CONDITIONS) for number in numbers]
     if all(item.kind is not Kind.UNPHYSICAL for item in rows):
-        parts += [(Kind.UNPHYSICAL, NO_SUCH_BODY, sum(number % 2 for number in full))]
-    parts += [(Kind.UNSTABLE, UNSTABLE_POINT, sum(number >= 2 for number in full))]
+        parts += [(Kind.UNPHYSICAL, NO_SUCH_BODY, unphysical)]
+    parts += [(Kind.UNSTABLE, UNSTABLE_POINT, unstable)]
     for kind, reason, count in parts:
-        part = None if count == len(numbers) else OF_POINTS(count=count, points=len(numbers))
+        part = None if count == points else OF_POINTS(count=count, points=points)
         rows += [Caveat(kind, reason.then(part, " "))] if count else []
     return [*rows, *_of_the_case(case, records)]
 

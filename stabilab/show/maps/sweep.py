@@ -28,6 +28,7 @@ from ..data import as_json, csv_lines, endless
 from ..terminal import lettered
 from ..text import headline
 from ..units import Unit, as_bound, units_of, with_unit
+from . import netcdf
 from .shades import SAMPLE, dimensions, limits_of, names, of_every_point, said, unit
 
 if TYPE_CHECKING:
@@ -319,7 +320,10 @@ def write(built: xarray.Dataset, path: Path) -> Path:
     """Write a data set as NetCDF 3: every reader knows it, and it holds neither time nor machine. Whole or
     not at all."""
     with whole_file(path) as waiting:
-        built.to_netcdf(waiting, engine="scipy")
+        if netcdf.fits(built):
+            netcdf.write(built, waiting)
+        else:
+            built.to_netcdf(waiting, engine="scipy")
     return path
 
 
