@@ -80,7 +80,7 @@ def import_(
 @commands.command()
 @opens("doctor.doctor")
 def doctor(compiling: Annotated[bool, flag(
-        "--compile", "Compile all loops now, once per computer: half a minute.")] = False):
+        "--compile", "Compile all loops now, once per computer: 40 s.")] = False):
     """Say what is installed and whether pictures can be drawn.
 
     Example: stabilab doctor

@@ -32,10 +32,11 @@ from . import error_free
 # s of a processor: importing numba with the first kernel, and another kernel from disk
 IMPORT, LOAD = 0.45, 0.05
 # NumPy's functions that have digits of their own, beside those of the C library that numba calls
-FROM_C = {"sin": math.sin, "cos": math.cos, "tan": math.tan, "arcsin": math.asin, "arccos": math.acos,
-          "arctan": math.atan, "arctan2": math.atan2, "sinh": math.sinh, "cosh": math.cosh,
-          "tanh": math.tanh, "arcsinh": math.asinh, "arccosh": math.acosh, "arctanh": math.atanh,
-          "exp": math.exp, "expm1": math.expm1, "log": math.log, "log1p": math.log1p, "log2": math.log2}
+FROM_C: dict[str, Callable[..., float]] = {
+    "sin": math.sin, "cos": math.cos, "tan": math.tan, "arcsin": math.asin, "arccos": math.acos,
+    "arctan": math.atan, "arctan2": math.atan2, "sinh": math.sinh, "cosh": math.cosh, "tanh": math.tanh,
+    "arcsinh": math.asinh, "arccosh": math.acosh, "arctanh": math.atanh, "exp": math.exp,
+    "expm1": math.expm1, "log": math.log, "log1p": math.log1p, "log2": math.log2}
 COMPILING = ("stabilab: compiling loops that this computer runs for the first time, some {seconds:.0f} s; "
              "`stabilab doctor --compile` does so beforehand")
 _announced: list[bool] = []  # once is enough, of several kernels
@@ -135,7 +136,7 @@ class Kernel:
 def stored(function: Any) -> bool:
     """Whether numba has compiled code of a function of its own on disk, for this computer and as the source
     stands; False where this version of numba does not say so."""
-    cache = getattr(function, "_cache", None)
+    cache: Any = getattr(function, "_cache", None)
     try:
         computer = cache._index_key(None, function.targetctx.codegen())[1:]
         return any(key[1:] == computer for key in cache._cache_file._load_index())

@@ -91,7 +91,7 @@ SPINNING: dict[int, Callable[..., np.ndarray]] = {1: _spinning_on_plane, 0: _spi
 REACH = 3.45  # of t: beyond, the weights of double-exponential nodes are 1e-20
 LAST_LEVEL = 8  # of these nodes, whose steps are 2^-level
 HALVED = 8, 16, 32, 64  # intervals whose midpoints are added to the trapezoidal nodes of eight
-KERNELS = {"rows": Kernel(rows_kernel, "rows", 8.0, INLINED),
+KERNELS = {"rows": Kernel(rows_kernel, "rows", 10.0, INLINED),
            "turns": Kernel(turns_kernel, "turns", 4.0, INLINED)}
 # s of a processor: a row in plain Python, and what the period of one all round a circle takes beside
 ROW, PERIOD_OF_TURN = {"rows": 4e-4, "turns": 1.5e-4}, 3e-3
