@@ -17,7 +17,7 @@ test: $(STAMP) $(COMPILED)
 	$(BIN)/python -m pytest -n 2 --dist loadfile -m "not slow" $(if $(ROOM),tests/$(ROOM))
 
 # Once for both workers, which would each do it: loops are compiled, which numba keeps beside the sources, and tests read, which pytest does
-$(COMPILED): $(STAMP) $(wildcard stabilab/unreduced/enclosure_kernel.py stabilab/unreduced/spin_up/*.py)
+$(COMPILED): $(STAMP) $(wildcard stabilab/*/*_kernel.py stabilab/unreduced/spin_up/*.py)
 	$(BIN)/python -m tests.compiled
 	touch $@
 
