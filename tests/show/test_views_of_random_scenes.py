@@ -9,6 +9,7 @@ import re
 import pytest
 
 import stabilab as package
+from stabilab.answers.caveats import IN_SHORT
 from stabilab.cli import whole
 from stabilab.errors import Kind
 from stabilab.packages import present
@@ -57,10 +58,13 @@ def even(text: str) -> str:
 
 
 def says(text: str, code: str) -> bool:
-    """Whether an even text has a sentence, whatever fills it: a first line leaves out "holds" and "unstable"."""
-    template = even(TEMPLATES[code]).removeprefix("holds ").removeprefix("unstable ")
-    parts = [re.escape(part.strip()) for part in re.split(r"\{\w+\}", template)]
-    return re.search(".+?".join(parts), text) is not None
+    """Whether an even text has a sentence, whatever fills it, or its form in fewer words: a first line leaves out
+    "holds" and "unstable"."""
+    for template in (TEMPLATES[code], *([IN_SHORT[code].template] if code in IN_SHORT else [])):
+        bare = even(template).removeprefix("holds ").removeprefix("unstable ")
+        if re.search(".+?".join(re.escape(part.strip()) for part in re.split(r"\{\w+\}", bare)), text):
+            return True
+    return False
 
 
 def codes(value):
