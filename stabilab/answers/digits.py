@@ -31,12 +31,11 @@ from ..integrate.reference import (
 from ..integrate.to_heyoka import TAYLOR_TOLERANCE
 from ..numbers.balls import DOUBLE_BITS, Digits, working
 from ..numbers.vectors import Exact3, Number
-from ..orbit.elliptic import free_quartic, real_period
 from ..orbit.extremes import extreme_balls
 from ..orbit.fate import free_margin, is_free, precise_margin
 from ..orbit.landscape import landscape
 from ..orbit.one_orbit import Orbit
-from ..orbit.period import period_ball
+from ..orbit.period import free_quartic, period_ball, real_period
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate, Motion, Needs, no_period
 from ..physics.coefficients import effective
