@@ -121,7 +121,8 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
     if question == "fate":
         return _margin_without_reduction(twin, resolved, digits, exact or resolved.at[:3])
     if question == "period" and resolved.period and is_free(twin):
-        quartic = free_quartic(twin.body.exact, twin.vector("gyrostat"), exact or resolved.at[:3])
+        body: Any = twin  # that is free is no scene in scaled variables
+        quartic = free_quartic(body.body.exact, body.vector("gyrostat"), exact or resolved.at[:3])
         return _proved(question, real_period(quartic, max(digits, DOUBLE_DIGITS) + 1), digits)
     bits = max(LAW_BITS, int(3.33 * digits) + LAW_BITS // 4)
     if question == "extremes" and (balls := law_extremes(twin, exact or resolved.at[:3],

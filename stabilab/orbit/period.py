@@ -63,7 +63,8 @@ def period_ball(orbit: Orbit, digits: int = DIGITS, tell: Callable[[float], None
     that it will take, before a long sum."""
     r = orbit.reduction
     if not r.geometry.centred:
-        taylor = orbit.settled(lambda result: result.taylor)
+        parabola: Callable[[Any], Any] = lambda result: result.taylor
+        taylor = orbit.settled(parabola)
         return real_period(quartic_on_parabola(r, orbit.state, taylor), max(digits, DOUBLE_DIGITS))
     if not r.sense:
         return real_period(quartic_without_torque(r, orbit.state), max(digits, DOUBLE_DIGITS))
@@ -79,7 +80,7 @@ def _in_doubles(orbit: BallOrbit, digits: int) -> arb:
     return result
 
 
-def _libration(orbit: BallOrbit, digits: int, tell: Callable[[float], None] | None = None) -> arb:
+def _libration(orbit: Any, digits: int, tell: Callable[[float], None] | None = None) -> arb:
     """Once to and fro between the turning points, which is all that a torque leaves: by a sum (`period_sum`)
     where few terms serve, else by the double-exponential rule, or, to many digits, twice the integral between
     them."""
@@ -179,7 +180,7 @@ def real_period(quartic: Poly, digits: int) -> arb:
     and e1 > e2 > e3 the roots of 4 t^3 - g2 t - g3 it is pi/agm(sqrt(e1 - e3), sqrt(e1 - e2)); where e1
     alone is real, 2 pi/agm(2 sqrt(h), sqrt(2 h + 3 e1)), h = sqrt(3 e1^2 - g2/4).
     """
-    e, d, c, b, a = (Fraction(v) for v in (*quartic.c, *(0,) * (5 - len(quartic.c))))
+    e, d, c, b, a = (*quartic.c, *(Fraction(0),) * (5 - len(quartic.c)))
     b, c, d = b / 4, c / 6, d / 4
     g2, g3 = a * e - 4 * b * d + 3 * c * c, a * c * e + 2 * b * c * d - a * d * d - b * b * e - c**3
     cubic = polynomial(-g3, -g2, 0, 4)
