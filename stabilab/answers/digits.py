@@ -128,7 +128,7 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
     if question == "extremes" and (balls := law_extremes(twin, exact or resolved.at[:3],
                                                          resolved.evidence.get("certificate"), bits)):
         return _judged(question, resolved.extremes, [list(pair) for pair in balls], digits)
-    followed_digits(digits, f"the {question} of this motion")
+    followed_digits(digits, "this motion")
     if resolved.period:
         return _by_return(question, twin, resolved, digits, exact or resolved.at[:3])
     return _over_span(scene, state, span, resolved, digits, exact, DIGITS_MISSED * aim)
