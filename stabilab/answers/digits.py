@@ -31,12 +31,11 @@ from ..integrate.reference import (
 from ..integrate.to_heyoka import TAYLOR_TOLERANCE
 from ..numbers.balls import DOUBLE_BITS, Digits, working
 from ..numbers.vectors import Exact3, Number
-from ..orbit.elliptic import free_quartic, real_period
 from ..orbit.extremes import extreme_balls
 from ..orbit.fate import free_margin, is_free, precise_margin
 from ..orbit.landscape import landscape
 from ..orbit.one_orbit import Orbit
-from ..orbit.period import period_ball
+from ..orbit.period import free_quartic, period_ball, real_period
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate, Motion, Needs, no_period
 from ..physics.coefficients import effective
@@ -122,13 +121,14 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
     if question == "fate":
         return _margin_without_reduction(twin, resolved, digits, exact or resolved.at[:3])
     if question == "period" and resolved.period and is_free(twin):
-        quartic = free_quartic(twin.body.exact, twin.vector("gyrostat"), exact or resolved.at[:3])
+        body: Any = twin  # that is free is no scene in scaled variables
+        quartic = free_quartic(body.body.exact, body.vector("gyrostat"), exact or resolved.at[:3])
         return _proved(question, real_period(quartic, max(digits, DOUBLE_DIGITS) + 1), digits)
     bits = max(LAW_BITS, int(3.33 * digits) + LAW_BITS // 4)
     if question == "extremes" and (balls := law_extremes(twin, exact or resolved.at[:3],
                                                          resolved.evidence.get("certificate"), bits)):
         return _judged(question, resolved.extremes, [list(pair) for pair in balls], digits)
-    followed_digits(digits, f"the {question} of this motion")
+    followed_digits(digits, "this motion")
     if resolved.period:
         return _by_return(question, twin, resolved, digits, exact or resolved.at[:3])
     return _over_span(scene, state, span, resolved, digits, exact, DIGITS_MISSED * aim)

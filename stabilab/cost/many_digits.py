@@ -33,10 +33,10 @@ def with_many_digits(task: Problem, allowed: float) -> tuple[Digits, ...]:
     land = landscape(task.scene) if task.equations.blocks == ("omega",) else None
     if land is None:
         return ()
-    reduction, rows = land.reduction, []
+    reduction, start, rows = land.reduction, task.start.tolist(), []
     questions: dict[str, Callable[[int], object]] = {
-        "period": lambda digits: period_ball(Orbit(reduction, task.start), digits),
-        "extremes": lambda digits: extreme_balls(Orbit(reduction, task.start), Fate.BOUNDED,
+        "period": lambda digits: period_ball(Orbit(reduction, start), digits),
+        "extremes": lambda digits: extreme_balls(Orbit(reduction, start), Fate.BOUNDED,
                                                  math.ceil(digits * math.log2(10)))}
     for question, call in questions.items():
         call(LADDER[0])  # warms up

@@ -218,7 +218,7 @@ class BallConic(BallOrbit):
             return other if other.is_finite() else mean
         return type(other)(mean.real.intersection(other.real), mean.imag.intersection(other.imag))
 
-    def _wide_mean(self, start: arb, way: acb):
+    def _wide_mean(self, start: arb, way: arb | acb):
         """The same of a wide ball of ways, by two terms of Taylor's series about its middle w: the mean's
         derivative there is (F(start + w) - mean)/w, and half the slope at the start where w = 0."""
         from flint import acb
@@ -233,7 +233,7 @@ class BallConic(BallOrbit):
         bend, _ = self.bends(start + way.union(acb(0)))
         return first + off * (change + off * bend / 6)
 
-    def force(self, y: arb):
+    def force(self, y: arb | acb):
         return force_at(self.G, self.c, self.d, self.mu, *self.place(y))
 
     def slope(self, y: arb):

@@ -41,7 +41,7 @@ WIDER = 4, 64, 4096  # times a root's own width in which a change of sign is loo
 LOST_BITS = 16  # of the coefficients' accuracy, in the roots of a quartic
 
 
-def heading(orbit: BallOrbit) -> int:
+def heading(orbit: Any) -> int:
     """In which sense of the offset the motion sets out."""
     return sign(orbit.w) or (1 if orbit.force_here * orbit.flip > 0 else -1)
 
@@ -106,7 +106,7 @@ def _whole(orbit: BallConic, one: arb, two: arb) -> arb:
     return time_from_turn(orbit, one, middle) + time_from_turn(orbit, two, middle)
 
 
-def _by_quartic(orbit: BallOrbit, a: arb, b: arb) -> arb:
+def _by_quartic(orbit: Any, a: arb, b: arb) -> arb:
     """Time between two places, W not zero between them."""
     from flint import acb_poly, arb
     low, high = sorted((a, b), key=lambda y: y.mid())
@@ -145,7 +145,7 @@ def carlson(roots: Sequence[acb], leading: arb, low: arb, high: arb) -> arb:
     """Integral of dt/sqrt of a polynomial of degree four or less that is positive between two places, from
     its roots and the size of its leading coefficient."""
     from flint import acb
-    pairs: list[tuple[Any, Any]] = []  # square roots of a factor at both ends
+    pairs: list[tuple[Any, ...]] = []  # square roots of a factor at both ends
     for root in _conjugate_next(roots):
         if root.imag.is_zero():
             side = _side(root.real, low, high)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.orbit.double_exponential import power_of_error
 from stabilab.orbit.extremes_arrays import extremes_and_periods
+from stabilab.orbit.period import power_of_error
 from tests.oracles import energy
 from tests.oracles.pairs import physical
 from tests.shared import PARABOLIC

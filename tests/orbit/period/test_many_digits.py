@@ -11,11 +11,10 @@ from flint import arb, ctx
 
 from stabilab import load
 from stabilab.numbers.balls import working
-from stabilab.orbit.elliptic import free_quartic, real_period
 from stabilab.orbit.extremes import extreme_balls, turning_points
 from stabilab.orbit.fate import fate_of
 from stabilab.orbit.one_orbit import Orbit
-from stabilab.orbit.period import period_ball, time_from_turn
+from stabilab.orbit.period import free_quartic, period_ball, real_period, time_from_turn
 from stabilab.orbit.period_sum import plan, summed
 from stabilab.orbit.reduction import reduce
 from stabilab.orbit.result import Fate
