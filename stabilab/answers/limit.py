@@ -1,7 +1,7 @@
 """A limit of a motion, and the time at which an enclosed motion first reaches it.
 
-A limit is one of the rate, of a component, of the kinetic energy, or of the angle by which a body axis has
-turned.
+A limit is one of the rate, from below or from above, of a component, of the kinetic energy, or of the angle
+by which a body axis has turned.
 
 The motion is enclosed in integers, of as many bits as are needed, as far as the work allowed reaches;
 beyond that by compiled steps. One search finds the crossing in either (`integrate.crossing`)."""
@@ -31,10 +31,10 @@ SIGN = " (it is a size: give it without a sign)"
 
 @dataclass(frozen=True)
 class Limit:
-    """kind: "rate", "component", "energy" or "tilt". parts: ((weights and vectors, limit), ...): sum c (a .
-    omega)^2 reaches the limit's value `most`, the first of the parts counts; for a tilt vector and angle,
-    rad. label: for the reader, in SI. origin: of a tilt, the direction in space that it counts from; None:
-    that of its body axis at the start."""
+    """kind: "rate", "component", "energy", "tilt" or "below", of |omega| that falls to it. parts: ((weights
+    and vectors, limit), ...): sum c (a . omega)^2 reaches the limit's value, the first of the parts counts;
+    for a tilt vector and angle, rad. label: for the reader, in SI. origin: of a tilt, the direction in space
+    that it counts from; None: that of its body axis at the start."""
 
     kind: str
     parts: tuple[Any, ...]
@@ -46,8 +46,14 @@ class Limit:
         if self.kind == "tilt":
             ((_, vector),), angle = self.parts[0]
             zero = (Fraction(0),) * 3
-            return [Threshold(((Fraction(1), zero + vector),), precise("cos", angle, bits=COSINE_BITS), True)]
-        return [Threshold(terms, largest / (unit * unit)) for terms, largest in self.parts]
+            cosine = precise("cos", angle, bits=COSINE_BITS)
+            return [Threshold(((Fraction(1), zero + vector),), cosine, falls=True, linear=True)]
+        return [Threshold(terms, largest / (unit * unit), self.falls) for terms, largest in self.parts]
+
+    @property
+    def falls(self) -> bool:
+        """Whether a size falls to it."""
+        return self.kind == "below"
 
     @property
     def direction(self) -> Exact3 | None:
@@ -60,9 +66,13 @@ class Limit:
 
     def beyond(self, extremes: Iterable[Iterable[float]], slack: float) -> bool:
         """Whether rates within their extremes, ((least, greatest),) * 3, each wider by the share `slack`,
-        stay below it."""
+        stay below it, or above it where it `falls`."""
         if self.kind == "tilt":
             return False
+        if self.falls:
+            smallest = [Fraction(max(0.0, low, -high) * (1 - slack)) for low, high in extremes]
+            return all(sum(c * sum(abs(a) * v for a, v in zip(vector, smallest)) ** 2 for c, vector in terms)
+                       > limit for terms, limit in self.parts)
         sizes = [max(abs(low), abs(high)) * (1 + slack) for low, high in extremes]
 
         def below(terms: Sequence[tuple[Fraction, tuple[Fraction, ...]]], largest: Fraction) -> bool:
@@ -89,16 +99,17 @@ def along_axes(terms: Iterable[Any]) -> list[float] | None:
     return weights
 
 
-def asked(scene: AnyScene, rate: Any = None, component: Any = None, energy: Any = None,
-          tilt: Any = None) -> Limit:
+def asked(scene: AnyScene, rate: Any = None, component: Any = None, energy: Any = None, tilt: Any = None,
+          below: Any = None) -> Limit:
     """The one limit that is given; InputError for none, several, and for numbers that are none."""
     supplied = {name: value for name, value in (("rate", rate), ("component", component), ("energy", energy),
-                                             ("tilt", tilt)) if value is not None}
+                                             ("tilt", tilt), ("below", below)) if value is not None}
     if len(supplied) != 1:
-        raise InputError(
-            f"time_to: expected one of rate, component, energy and tilt, got {', '.join(supplied) or 'none'}")
+        raise InputError("time_to: expected one of rate, component, energy, tilt and below, got "
+                         f"{', '.join(supplied) or 'none'}")
     (name, value), = supplied.items()
-    return {"rate": _rate, "component": _component, "energy": _energy, "tilt": _tilt}[name](scene, value)
+    return {"rate": _rate, "component": _component, "energy": _energy, "tilt": _tilt,
+            "below": _below}[name](scene, value)
 
 
 def _rate(scene: AnyScene, value: Any) -> Limit:
@@ -113,6 +124,13 @@ def _rate(scene: AnyScene, value: Any) -> Limit:
     letter = "x" if scene.variables == "scaled" else "omega"
     return Limit("rate", ((tuple((Fraction(1), axis) for axis in AXES), largest**2),),
                  f"|{letter}| = {float(largest):.10g} {unit}".rstrip())
+
+
+def _below(scene: AnyScene, value: Any) -> Limit:
+    limit = _positive(value, "below")
+    letter = "x" if scene.variables == "scaled" else "omega"
+    return Limit("below", ((tuple((Fraction(1), axis) for axis in AXES), limit**2),),
+                 f"|{letter}| below {float(limit):.10g} {_unit(scene)}".rstrip())
 
 
 def _component(scene: AnyScene, value: Any) -> Limit:
@@ -147,6 +165,18 @@ def _tilt(scene: AnyScene, value: Any) -> Limit:
 
 def _unit(scene: AnyScene) -> str:
     return "" if scene.variables == "scaled" else "rad/s"
+
+
+def starts_above(limit: Limit, case: Any) -> None:
+    """Raises InputError where |omega| is to fall to a limit that the motion of a case starts below."""
+    start = case.exact_state or case.state
+    if not limit.falls or not limit.reached_by(start[:3]):
+        return
+    in_words = lambda rate: (f"{rate:.6g}" if case.variables == "scaled"
+                             else f"{rate:.6g} rad/s ({math.degrees(rate):.6g} deg/s)")
+    size, rate = math.hypot(*map(float, start[:3])), limit.least_rate()
+    raise InputError(f"state: the motion starts at {in_words(size)}, which is not above {in_words(rate)}, "
+                     "the rate to fall below: give one that is less than that of the start")
 
 
 def _pair(value: Any, name: str) -> tuple[Any, Any]:

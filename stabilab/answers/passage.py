@@ -106,7 +106,7 @@ SECOND_DOES_NOT = Sentence(
     "second-run-does-not", "roots along a run in machine precision find it after {time}, a second run from a "
     "start moved in its last place does not: rounding errors decide it")
 ONLY_NEAR = Sentence(
-    "comes-near-only", "roots along a run in machine precision find it after {time}, but not a limit greater "
+    "comes-near-only", "roots along a run in machine precision find it after {time}, but not a limit farther "
     "by {share} of it: the motion may come near it and no farther")
 
 
@@ -255,7 +255,8 @@ def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, s
         return Found(0.0, math.nan, "undecided", item.steps, reason=SECOND_DOES_NOT(time=at))
     blur = WIDER * abs(item.first - two.first) + ROUNDING * item.first
     if blur > VAGUE * item.first:
-        raised = tuple((terms, largest * (1 + HIGHER)) for terms, largest in limit.parts)
+        further = 1 - HIGHER if limit.falls else 1 + HIGHER
+        raised = tuple((terms, largest * further) for terms, largest in limit.parts)
         higher = _search(scene, start, replace(limit, parts=raised))[0]
         end = min(end, item.first + 2 * blur)
         if zeros_passed(higher, state, rates, end, 2 * steps, first=True).first is None:

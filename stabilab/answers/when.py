@@ -28,7 +28,7 @@ from ..representation import Answer
 from .caveats import STEADY, answered, caveats_of, limited, loose_forces, misaligned, seen, stated
 from .dissipation.ending import ending
 from .kinds import kind_of
-from .limit import WORK, asked
+from .limit import WORK, asked, starts_above
 from .motion import motion
 from .motions.starts import asked_of, whole_rows
 from .passage import MOVED, WIDER, TimeTo, by_run, times_of
@@ -172,15 +172,17 @@ FASTEST = 1e150  # rad/s: beyond it squares come near the end of doubles, and no
 def when(case: Given, state: Start | None = None, rate: Amount | None = None,
          component: str | tuple[str, Amount] | None = None, energy: Amount | None = None,
          tilt: str | tuple[str, Amount] | None = None, until: Amount | None = None,
-         events: Any = None, *, states: Starts | None = None, span: Span | None = None,
-         frame: str = "principal") -> TimeTo | Crossings:
+         events: Any = None, *, below: Amount | None = None, states: Starts | None = None,
+         span: Span | None = None, frame: str = "principal") -> TimeTo | Crossings:
     """The first time at which the motion of a case reaches a limit, or that it never does.
 
     case: a case in any form, or a scene; state, states, span, frame: as of `fate`.
 
     One limit: rate="30 deg/s", of |omega|; component="z = 30 deg/s", or ("z", "30 deg/s"), of the size of the
     rate about x, y, z of the file or 1, 2, 3, the principal axes; energy="5 J", kinetic; tilt="z = 20 deg",
-    of the angle between a body axis and its direction at the start; where none is given, that of [limits].
+    of the angle between a body axis and its direction at the start; below="5 deg/s", to which |omega| falls,
+    less than that of the start (of many `states` the time is 0 where it is not); where none is given, that of
+    [limits].
     Numbers are in SI units. until: the time at which the search ends. events: in place of a limit, the name
     of a component ("omega3"), a function of the time and the state, or several of these, whose zeros up to
     `until` (or the end of the case's span) are found: see `stabilab.answers.when`. Raises InputError for a
@@ -190,9 +192,9 @@ def when(case: Given, state: Start | None = None, rate: Amount | None = None,
     if events is not None:
         if array.ndim > 1:
             raise InputError("when: events are those of one motion: give one state")
-        supplied = any(item is not None for item in (rate, component, energy, tilt))
+        supplied = any(item is not None for item in (rate, component, energy, tilt, below))
         return _crossings(case, events, until, supplied)
-    limit = limit_stated(case, rate, component, energy, tilt, until)
+    limit = limit_stated(case, rate, component, energy, tilt, until, below)
     if array.ndim == 1:
         return limited_time(case, limit.ask, limit.until)
     result = time_to(case.scene, whole_rows(case, array), **limit.ask, t_max=limit.until)
@@ -200,9 +202,9 @@ def when(case: Given, state: Start | None = None, rate: Amount | None = None,
 
 
 def limit_stated(case: Any, rate: Any = None, component: Any = None, energy: Any = None, tilt: Any = None,
-                 until: Any = None) -> StatedLimit:
+                 until: Any = None, below: Any = None) -> StatedLimit:
     """The limit that these arguments of `when` state."""
-    return stated_limit(case, *map(_text, (rate, component, energy, tilt, until)))
+    return stated_limit(case, *map(_text, (rate, component, energy, tilt, until, below)))
 
 
 def _crossings(case: Case, events: Any, until: Any, limited: bool) -> Crossings:
@@ -228,6 +230,7 @@ def _text(supplied: Any) -> str | None:
 def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None = None) -> TimeTo:
     """As `time_of_case`; where it is never, with what a tilt of the torque does, by what the case states as
     misalignment, else by one degree; and with what the tolerances of its forces do."""
+    starts_above(asked(case.scene, **ask), case)
     result = time_of_case(case, ask, t_max)
     moved = motion(case, needs=Needs.FATE) if math.isinf(result.low) or loses(case.scene) else None
     end = None if moved is None or not loses(case.scene) else ending(case, moved)
@@ -293,10 +296,11 @@ def of_tilt(case: Any, angle: float | None, ask: dict[str, Any] | None, steady: 
     plain = case.variables != "scaled" and case.scene.plain
     why = ("in scaled variables" if case.variables == "scaled"
            else "with other effects than wheel and torque" if not plain else
-           "with rates whose squares are no doubles" if _too_fast(case, ask) else "" if on_axis else
+           "with rates whose squares are no doubles" if _too_fast(case, ask) else
+           "for a rate that is to fall" if ask and "below" in ask else "" if on_axis else
            "for the angle of an axis" if ask and "tilt" in ask
            else "" if any(case.scene.vector("constant_torque")) else "without a torque")
-    if why:
+    if why or ask and "below" in ask:
         return Spread(angle or 0.0, "the torque", 0, omitted=why) if tilts else None
     if on_axis and (tilts or ask is not None or not sized):
         return tilt(case.scene, case.state, angle, None, case, case.exact_state, ask)

@@ -102,6 +102,8 @@ def when(
         cases: CaseFiles,
         rate: Annotated[str | None, option(
             "RATE", 'Limit of |ω|: "30 deg/s". Default: that of [limits].')] = None,
+        below: Annotated[str | None, option(
+            "RATE", 'Rate to which |ω| falls: "5 deg/s", less than that of the start.')] = None,
         component: Annotated[str | None, option("AXIS=RATE",
             "Limit of the absolute value of one rate: \"z = 30 deg/s\"; x, y, z are axes of the file, "
             "1, 2, 3 principal axes.")] = None,

@@ -89,7 +89,7 @@ def when(cases, units, json, csv, strict, **limits):
                  else limited_time(case, limit.ask, limit.until))
         return limit, result
     run(WHEN, loaded, asked, units=units, json=json, csv=csv, strict=strict,
-        **{name: limits[name] for name in ("rate", "component", "tilt")})
+        **{name: limits[name] for name in ("rate", "component", "tilt", "below")})
 
 
 def flat_spin(case, within, units, json, strict):

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...equilibrium.dissipative import GLOBAL, decay, resisted_equilibria
+from ...equilibrium.dissipative import decay, drawn_to
 from ...errors import InputError, Kind
 from ...integrate.trajectory import root_between
 from ...numbers.vectors import Float3, dot
@@ -189,23 +189,14 @@ def _outside(scene: AnyScene, parts: Content, start: np.ndarray, motion: Motion)
         return _timed(replace(result, at_the_latest=latest), scene, start, lambda y: energy(y) / first)[0]
     if _field_alone(parts):
         return _about_the_field(scene, parts, start, energy, first)
-    drawn = _drawn(parts)
-    if drawn is not None:
-        end = np.array(drawn)
-        apart = lambda y: (y[:, :3] - end) ** 2 @ np.array(D) / 2
+    end = drawn_to(parts)
+    if end is not None:
+        apart = lambda y: (y[:, :3] - np.array(end)) ** 2 @ np.array(D) / 2
         begun = float(apart(start[None])[0])
         result = Ending("steady rotation", "exact", reason=ONE_EQUILIBRIUM,
-                       rate=math.hypot(*drawn), rates=drawn)
+                       rate=math.hypot(*end), rates=end)
         return _timed(result, scene, start, lambda y: apart(y) / begun)[0] if begun > 0 else result
     return _settled(scene, start, rests)
-
-
-def _drawn(parts: Content) -> Float3 | None:
-    """The equilibrium that draws every motion under resistance and a torque; None where none is proved to."""
-    if parts.inside or parts.kappa or parts.directed or any(parts.u) or not decay(parts):
-        return None
-    points = [point for point in resisted_equilibria(parts).points if point.reason.says(GLOBAL.sentence)]
-    return tuple(map(float, points[0].at[:3])) if points else None
 
 
 def _field_alone(parts: Content) -> bool:

@@ -48,7 +48,7 @@ from ...reasons import Mass, Quantity, Rate, Reason, Reasoned, Sentence, Time, c
 from ..attitude import of_motion
 from ..attitude_result import Attitude
 from ..caveats import of_case
-from ..limit import Limit, asked
+from ..limit import Limit, asked, starts_above
 from ..motion import motion
 from ..motions.rows import periods
 from ..passage import ROUNDING, WIDER, Found, TimeTo, largest_rate, times_of
@@ -449,6 +449,7 @@ def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = Non
     """
     chain = Chain(burning)
     limit = asked(chain.base, **ask)
+    starts_above(limit, chain.case)
     result = _first_crossing(chain, limit, ask, until)
     case = chain.case
     end = until if until is not None else max(chain.closed, Fraction(case.span[1]) if case.span else 0)

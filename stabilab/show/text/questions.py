@@ -104,19 +104,21 @@ def reached(low: float, high: float):
 
 def _answer(limit: StatedLimit, result: TimeTo, low: float, high: float, units: Units, short: bool):
     aim = asked(limit, units)
+    reaches = "has" if limit.kind == "below" else "reaches"
     if math.isinf(low):
         holds = limiting.condition(result.caveats, units, short=short)
         departs = limiting.unstable(result.caveats, units)
         declared = " with the force as stated" * varies(result)
         return f"{departs}; undisturbed it " * bool(departs) + (
-            f"NEVER reaches {aim}{declared} ({result.level}){',' * bool(holds)}{holds}")
+            f"NEVER {reaches} {aim}{declared} ({result.level}){',' * bool(holds)}{holds}")
     if math.isnan(high):
-        return f"NOT KNOWN when it reaches {aim}; not before {units.time(low, side=-1)} ({result.level})"
+        return f"NOT KNOWN when it {reaches} {aim}; not before {units.time(low, side=-1)} ({result.level})"
     if high == 0:
         return f"starts at or beyond {aim}"
     name, item = units.times(high)
     a, b = bracket(low, high, item)
-    return f"reaches {aim} in {number((low + high) / 2 * item)} {name} ({result.level} {a} to {b})"
+    after = "after" if limit.kind == "below" else "in"
+    return f"{reaches} {aim} {after} {number((low + high) / 2 * item)} {name} ({result.level} {a} to {b})"
 
 
 def asked(limit, units):
@@ -127,7 +129,7 @@ def asked(limit, units):
              else lettered(units.axes.sentence(name)) for name in limit.names]
     printed = [units.told(upper, unit, DIGITS) for upper in limit.limits]
     if len(set(printed)) == 1:
-        return f"{listed(names, 'or')} = {printed[0]}"
+        return f"{listed(names, 'or')} {'<' if limit.kind == 'below' else '='} {printed[0]}"
     return " or ".join(f"{name} = {upper}" for name, upper in zip(names, printed))
 
 
