@@ -102,12 +102,13 @@ class Case(read.Case):
     def when(self, state: Start | None = None, rate: Amount | None = None,
              component: str | tuple[str, Amount] | None = None, energy: Amount | None = None,
              tilt: str | tuple[str, Amount] | None = None, until: Amount | None = None, events: Any = None, *,
-             below: Amount | None = None, states: Starts | None = None, span: Span | None = None,
-             frame: str = "principal") -> TimeTo | Crossings:
+             below: Amount | None = None, nutation: str | tuple[str, Amount] | None = None,
+             nutation_below: str | tuple[str, Amount] | None = None, states: Starts | None = None,
+             span: Span | None = None, frame: str = "principal") -> TimeTo | Crossings:
         """When the motion first reaches a limit: see `stabilab.when`."""
         from .answers.when import when
-        return when(self, state, rate, component, energy, tilt, until, events, below=below, states=states,
-                    span=span, frame=frame)
+        return when(self, state, rate, component, energy, tilt, until, events, below=below,
+                    nutation=nutation, nutation_below=nutation_below, states=states, span=span, frame=frame)
 
     @_in_doubles
     def stuck(self, all_thrusters: bool = False, progress: Callable[[str], Any] | None = None, *,
@@ -160,11 +161,14 @@ class Burning(read.Burning):
 
     def when(self, rate: Amount | None = None, component: str | tuple[str, Amount] | None = None,
              energy: Amount | None = None, tilt: str | tuple[str, Amount] | None = None,
-             until: Amount | None = None, below: Amount | None = None) -> TimeTo:
+             until: Amount | None = None, below: Amount | None = None,
+             nutation: str | tuple[str, Amount] | None = None,
+             nutation_below: str | tuple[str, Amount] | None = None) -> TimeTo:
         """When the motion first reaches a limit, over all switches: see `stabilab.when`."""
         from .answers.stuck.burn import time_of_burn
         from .answers.when import limit_stated
-        limit = limit_stated(self.craft, rate, component, energy, tilt, until, below)
+        limit = limit_stated(self.craft, rate, component, energy, tilt, until, below, nutation,
+                             nutation_below)
         return time_of_burn(self, limit.ask, limit.until)
 
 

@@ -43,14 +43,14 @@ from ..physics.states import (
     start_of,
     to_space,
 )
-from ..reasons import Axis, Level, Quantity, Rate, Reason, Sentence, Time
+from ..reasons import Angle, Axis, Level, Quantity, Rate, Reason, Sentence, Time
 from ..unreduced.slowest import below_by, least_rate
 from ..unreduced.spin_up.follow import spin_up
 from ..validation import checked_scene
 from .caveats import caveats_of
 from .kinds import kind_of
 from .limit import ENCLOSED_STEPS as BAND_STEPS
-from .limit import SHORT_WORK, WORK, Limit, along_axes, asked, banded, enclosed
+from .limit import SHORT_WORK, WORK, Limit, along_axes, asked, banded, enclosed, pointing_bound
 from .motion import motion
 from .motions.rows import extremes, fates, periods
 from .passage import BY_ROOTS, MOVED, ROUNDING, Found, TimeTo, by_run, run_once, times_of
@@ -74,7 +74,7 @@ def by_clock(scene: AnyScene, state: Float3, limit: Limit, followed: float, reac
     own time on; where that is later than `followed` the lower end stays there. reached: how far a run came.
     result: what `spin_up` says of the motion, where it was asked already.
     """
-    if limit.kind == "tilt" or limit.falls or None in [along_axes(terms) for terms, _ in limit.parts]:
+    if limit.angular or limit.falls or None in [along_axes(terms) for terms, _ in limit.parts]:
         return None
     result = result or spin_up(scene, state)
     if result.fate != Fate.SPIN_UP or not result.axis or result.trap is None:
@@ -130,15 +130,18 @@ NEVER_BY_EXTREMES = Sentence("never-by-extremes", "never, the extremes over all 
 NEVER_BY_PERIOD = Sentence("never-by-period", "never, the motion repeats and a whole period stays below it")()
 NEVER_BY_BOUND = Sentence("never-by-bound", "never, |ω| ≤ {bound} always")
 NEVER_SO_SLOW_BY_EXTREMES = Sentence(
-    "never-so-slow-by-extremes", "never, the least rates over all time stay above it")()
+    "never-below-by-extremes", "never, the extremes over all time stay above it")()
 NEVER_SO_SLOW_BY_PERIOD = Sentence(
-    "never-so-slow-by-period", "never, the motion repeats and a whole period stays above it")()
+    "never-below-by-period", "never, the motion repeats and a whole period stays above it")()
 NEVER_SO_SLOW_BY_SPIN = Sentence(
     "never-so-slow-by-spin", "never: above it until {time}, and from then on by the bounds of the growing "
     "spin about {axis}, {level}")
 NEVER_SO_SLOW_BY_END = Sentence(
     "never-so-slow-by-end", "never: above it along a run of {time}, and from then on too near the "
     "equilibrium that draws every motion, which turns at {rate}")
+NEVER_BY_CONE = Sentence(
+    "never-by-cone", "never: the angular momentum stays, and by its cone about it the axis is never farther "
+    "than {angle} from its direction at the start")
 NEVER_SO_SLOW_BY_LAW = Sentence("never-so-slow-by-law", "never: {law}")
 SLACK = 1e-9  # relative: extremes and periods are known to 1e-11
 REDUCED = ("orbit", "aligned", "free")
@@ -159,7 +162,7 @@ def never(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> tuple[
     """(the answer where extremes over all time stay on this side of the limit, a time by which it is reached
     if ever or None). exact: three rationals."""
     if limit.kind == "tilt":
-        return None, None
+        return never_tilts(scene, state, exact, limit), None
     if rests(scene.quadratic(), exact):
         return Found(math.inf, math.inf, "exact", reason=NEVER_AT_REST), None
     kind = kind_of(scene)
@@ -171,10 +174,12 @@ def never(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> tuple[
     bounded = lambda: fates(scene, row).labels == Fate.BOUNDED
     if kind == "aligned" and not (bounded() and math.isfinite(float(periods(scene, row)))):
         return None, None  # its extremes over all time are not known
-    if limit.beyond(extremes(scene, row).tolist(), SLACK):
+    if limit.momentum is not None and not limit.momentum.stays:
+        return None, after_a_period(limit, float(periods(scene, row)) if bounded() else math.inf)
+    if _beyond(limit, extremes(scene, row).tolist(), exact):
         return Found(math.inf, math.inf, "exact", reason=_by_extremes(limit)), None
-    repeats = (float(periods(scene, row)) if kind == "orbit" and bounded() or kind == "free" and limit.falls
-               else math.inf)
+    free = kind == "free" and (limit.falls or limit.momentum is not None)
+    repeats = float(periods(scene, row)) if free or kind == "orbit" and bounded() else math.inf
     return None, after_a_period(limit, repeats)
 
 
@@ -183,11 +188,38 @@ def _never_of_rationals(scene: AnyScene, state: Float3, exact: Exact3, limit: Li
     """`never` of a start that is no double: next to a separatrix its rounding is another motion."""
     resolved = motion(scene, state, needs=Needs.RETURN, exact=exact)
     pairs = resolved.extremes if resolved.for_all_time else None
-    if pairs is not None and limit.beyond(pairs, SLACK):
+    stays = limit.momentum is None or limit.momentum.stays
+    if pairs is not None and stays and _beyond(limit, pairs, exact):
         return Found(math.inf, math.inf, "exact", reason=_by_extremes(limit)), None
-    closed = ("orbit", "free") if limit.falls else ("orbit",)
+    closed = ("orbit", "free") if limit.falls or limit.momentum else ("orbit",)
     repeats = resolved.period if kind_of(scene) in closed and resolved.fate == Fate.BOUNDED else None
     return None, after_a_period(limit, repeats or math.inf)
+
+
+def never_tilts(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> Found | None:
+    """The answer where a body axis keeps to a cone about an angular momentum that stays, within the limit of
+    its tilt; None where that does not show it."""
+    if scene.variables == "scaled" or any(scene.quadratic().m):
+        return None
+    ((_, vector),), angle = limit.parts[0]
+    cone = asked(scene, nutation=(vector, angle))
+    if rests(scene.quadratic(), exact):
+        pairs: Any = [(w, w) for w in map(float, exact)]
+    elif tuple(map(Fraction, state)) == tuple(exact):
+        pairs = extremes(scene, np.array(state, float)).tolist()
+    else:
+        resolved = motion(scene, state, needs=Needs.RETURN, exact=exact)
+        pairs = resolved.extremes if resolved.for_all_time else None
+    bound = 0.0 if not any(exact) else None if pairs is None else pointing_bound(cone, pairs, exact)
+    if bound is None or not bound + SLACK < float(angle):
+        return None
+    return Found(math.inf, math.inf, "exact", reason=NEVER_BY_CONE(angle=Angle(bound).upper))
+
+
+def _beyond(limit: Limit, pairs: Any, start: Exact3) -> bool:
+    """Whether extremes over all time stay on this side of the limit."""
+    return (limit.beyond(pairs, SLACK) if limit.momentum is None
+            else limit.nutates_beyond(pairs, start, SLACK))
 
 
 def _by_extremes(limit: Limit) -> Reason:
@@ -218,7 +250,7 @@ def after_spin_up(scene: AnyScene, state: Float3, limit: Limit, spun: Any = None
 def never_bounded(scene: AnyScene, state: Any, limit: Limit) -> Found | None:
     """The answer for a scene of other effects, where energy or momentum bound the rate below the limit, or
     above one that it falls to; None where they do not."""
-    if limit.kind == "tilt":
+    if limit.angular:
         return None
     result = motion(scene, state, needs=Needs.FATE)
     bound = result.invariants.get("rate_bound", math.inf)
@@ -263,7 +295,7 @@ def after_settling(scene: AnyScene, state: Any, limit: Limit) -> Beyond | None:
 def earliest(scene: AnyScene, start: Sequence[Number], limit: Limit) -> Fraction:
     """The time in the scene's unit, exact; 0 where nothing is known (scaled variables, tilts). scene: wheel
     and torque; start: three exact rates."""
-    if scene.variables == "scaled" or limit.kind == "tilt":
+    if scene.variables == "scaled" or limit.angular:
         return Fraction(0)
     D = scene.body.exact
     torque = scene.vector("constant_torque")
@@ -334,7 +366,7 @@ BEYOND = 1e-6  # of the time that a run finds: the enclosure goes on for so long
 
 def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = None, energy: Any = None,
             tilt: Any = None, t_max: float | Fraction | None = None, exact: Sequence[Fraction] | None = None,
-            work: int = WORK, below: Any = None) -> TimeTo:
+            work: int = WORK, below: Any = None, nutation: Any = None, nutation_below: Any = None) -> TimeTo:
     """The first time t >= 0 at which each motion reaches a limit, between a lower and an upper bound.
 
     scene: Scene or ScaledGyrostat. states: (..., 3) at t = 0 in the scene's variables, taken at their word;
@@ -343,7 +375,8 @@ def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = Non
     size of each component, whichever comes first; component=(axis, limit), of the size of the rate about an
     axis: 1, 2, 3 or three numbers along it, or a list of such pairs, whichever comes first; energy, J,
     kinetic, of the body; tilt=(axis, angle), rad below pi, of the angle between a body axis and its own
-    direction in space at t = 0; below, of |omega|, the first time at which it is no larger. t_max: the time
+    direction in space at t = 0; nutation=(axis, angle), likewise, of that between a body axis and the angular
+    momentum; below, of |omega|, and nutation_below, the first time at which it is no larger. t_max: the time
     at which the search ends; None: when its work is done. exact: three exact numbers of which a single state
     is the rounding. work: multiplications that the proof for a motion may take; 0: no proof.
 
@@ -352,7 +385,7 @@ def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = Non
     Other effects: roots along a run. Raises InputError for scenes, states and limits that are none.
     """
     supplied, scene = scene, effective(checked_scene(scene))
-    limit, end = asked(scene, rate, component, energy, tilt, below), _end(t_max)
+    limit, end = asked(scene, rate, component, energy, tilt, below, nutation, nutation_below), _end(t_max)
     if isinstance(work, bool) or not isinstance(work, (int, np.integer)) or work < 0:
         raise InputError(
             f"work: expected a whole number of multiplications, 0 for no proof, got {work!r:.80}")
@@ -428,10 +461,12 @@ def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction 
     result, beyond = never(scene, state, start, limit)
     if result:
         return result
-    if limit.falls and beyond is None and not math.isfinite(
+    if limit.kind == "below" and beyond is None and not math.isfinite(
             run_once(scene, state, limit, float(end or math.inf), QUICK)[0]):
         beyond = after_spin_up(scene, state, limit, spun)
     last = end if beyond is None or (end is not None and end < beyond.time) else Fraction(beyond.time)
+    if limit.momentum is not None and not limit.momentum.stays:  # its size changes: no linear limit
+        return _by_run_to(scene, state, limit, beyond, end)
     before = earliest(scene, start, limit)
     if last is not None and before > last:
         return beyond.never if beyond and last is not end else Found(
@@ -451,9 +486,20 @@ def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction 
             down(proof.until), math.nan, "proved",
             reason=ENCLOSED_TO_END)
     resolved = max(down(proof.until), down(before))
-    if beyond and limit.falls and last is not end:
+    if beyond and (limit.falls or limit.momentum is not None) and last is not end:
         return _until(scene, state, start, limit, beyond, resolved, bands if work else 0)
     return _beyond_integers(scene, state, start, limit, end, resolved, bands if work else 0, spun)
+
+
+def _by_run_to(scene: AnyScene, state: Any, limit: Limit, beyond: Beyond | None,
+               end: Fraction | None) -> Found:
+    """The answer by a run alone, of a limit that is reached by `beyond.time` or never."""
+    last = math.inf if end is None else float(end)
+    full = beyond is not None and beyond.time < last
+    result = by_run(scene, state, limit, beyond.time if beyond is not None and full else last)
+    if beyond is None or not full or not math.isnan(result.high) or result.low < beyond.time * (1 - BEYOND):
+        return result
+    return replace(beyond.never, level="run", steps=result.steps)
 
 
 def _until(scene: AnyScene, state: Any, start: Any, limit: Limit, beyond: Beyond, resolved: float,
@@ -494,12 +540,12 @@ def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end:
 def _of_any(scene: AnyScene, state: Any, limit: Limit, end: Fraction | None) -> Found:
     """The answer for one motion of any scene."""
     start = equations_and_start(scene, state)[1]
-    if limit.reached_by([Fraction(v) for v in start[:3].tolist()]):
+    if limit.reached_by([Fraction(v) for v in start.tolist()]):
         return Found(0.0, 0.0, "exact", reason=AT_THE_START)
     last = math.inf if end is None else float(end)
     if result := never_bounded(scene, state, limit):
         return result
-    beyond = after_settling(scene, state, limit) if limit.falls and end is None else None
+    beyond = after_settling(scene, state, limit) if limit.kind == "below" and end is None else None
     if beyond is not None:
         result = by_run(scene, state, limit, beyond.time)
         done = math.isnan(result.high) and result.low >= beyond.time * (1 - BEYOND)
@@ -512,7 +558,7 @@ def _of_any(scene: AnyScene, state: Any, limit: Limit, end: Fraction | None) -> 
 def _by_law_too(scene: AnyScene, state: Any, limit: Limit, end: Fraction | None, result: Found) -> Found:
     """What a run finds, with the time by which a law brings |omega| below the limit where the run came to no
     crossing."""
-    if not limit.falls or not math.isnan(result.high) or result.level == "undecided":
+    if limit.kind != "below" or not math.isnan(result.high) or result.level == "undecided":
         return result
     law = below_by(scene, state, limit.least_rate())
     if law is None or (end is not None and law.time > end):

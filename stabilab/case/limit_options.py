@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .read import Case
 
 FILE_AXES = "xyz"
-OPTIONS = ("rate", "component", "energy", "tilt", "below")
+OPTIONS = ("rate", "component", "energy", "tilt", "below", "nutation", "nutation_below")
 
 
 @dataclass(frozen=True)
@@ -35,22 +35,24 @@ class StatedLimit:
 
 def stated_limit(case: Case, rate: str | None = None, component: str | None = None, energy: str | None = None,
                  tilt: str | None = None, until: str | None = None,
-                 below: str | None = None) -> StatedLimit:
+                 below: str | None = None, nutation: str | None = None,
+                 nutation_below: str | None = None) -> StatedLimit:
     """The limit that one of the options states, or [limits] of the case where none is given. Raises
     InputError that names the option."""
-    source = {name: text for name, text in zip(OPTIONS, (rate, component, energy, tilt, below))
-              if text is not None}
+    source = {name: text for name, text in zip(OPTIONS, (rate, component, energy, tilt, below, nutation,
+                                                        nutation_below)) if text is not None}
     if len(source) > 1:
         raise InputError(
-            f"expected one limit, got {' and '.join(f'--{name}' for name in source)}: ask for each by itself")
+            f"expected one limit, got {' and '.join(map(_option, source))}: ask for each by itself")
     scaled = case.variables == "scaled"
     end = None if until is None else _number(until, NONE if scaled else TIME, "until")
     if not source:
         result = _of_case(case)
     else:
         (name, text), = source.items()
-        result = {"rate": _rate, "component": _component, "energy": _energy, "tilt": _tilt,
-                  "below": _below}[name](case, text, NONE if scaled else RATE)
+        result = {"rate": _rate, "component": _component, "energy": _energy, "tilt": _tilt, "below": _below,
+                  "nutation": _nutation, "nutation_below": _nutation_below,
+                  }[name](case, text, NONE if scaled else RATE)
     return StatedLimit(*result, until=end)  # type: ignore[misc]  # all but the last
 
 
@@ -96,6 +98,20 @@ def _component(case: Case, text: str, dimension: Sequence[int]):
     return {"component": (along(case, axis), largest)}, "component", (name,), (float(largest),)
 
 
+def _option(name: str) -> str:
+    """As a command line has it."""
+    return f"--{name.replace('_', '-')}"
+
+
+def _nutation(case: Case, text: str, _: object, kind: str = "nutation"):
+    axis, angle = _pair(text, ANGLE, kind)
+    return {kind: (along(case, axis), angle)}, kind, (f"the nutation of axis {axis}",), (float(angle),)
+
+
+def _nutation_below(case: Case, text: str, _: object):
+    return _nutation(case, text, _, "nutation_below")
+
+
 def _energy(case, text, _):
     largest = _number(text, ENERGY, "energy")
     return {"energy": largest}, "energy", ("the kinetic energy",), (float(largest),)
@@ -112,8 +128,8 @@ def _pair(text: str, dimension: Sequence[int], option: str):
     axis = axis.strip().lower()
     if not equals or axis not in (*FILE_AXES, "1", "2", "3"):
         example = "30 deg/s" if option == "component" else "20 deg"
-        raise InputError(f'--{option}: expected an axis and its limit, as in "z = {example}" (x, y, z of the '
-                         f'file, or 1, 2, 3, the principal axes), '
+        raise InputError(f'{_option(option)}: expected an axis and its limit, as in "z = {example}" (x, y, z '
+                         f'of the file, or 1, 2, 3, the principal axes), '
                          f'got "{text[:60]}"{_meant(text)}')
     return axis, _number(rest, dimension, option, axis)
 
@@ -156,8 +172,8 @@ def _number(text, dimension, option, axis="") -> Fraction:
     try:
         value, _ = quantity(text.strip(), dimension)
     except InputError as error:
-        raise InputError(f"--{option}: {error}") from None
+        raise InputError(f"{_option(option)}: {error}") from None
     if value <= 0:
-        raise InputError(f"--{option}: expected a positive number, got {text.strip()[:60]}"
+        raise InputError(f"{_option(option)}: expected a positive number, got {text.strip()[:60]}"
                          f"{_no_limit(value, text.strip(), option, axis)}")
     return value

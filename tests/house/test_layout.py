@@ -144,7 +144,7 @@ def test_a_command_names_a_function_that_takes_its_options(command):
     options = dict.fromkeys(inspect.signature(command.callback).parameters)
     options.pop("si", None)
     bound = inspect.signature(function).bind(**options, **fixed).arguments
-    assert set(bound.get("limits", ())) <= {"rate", "component", "energy", "tilt", "below", "until"}
+    assert set(bound.get("limits", ())) <= {"rate", "component", "energy", "tilt", "below", "nutation", "nutation_below", "until"}
 
 
 def test_no_private_name_crosses_a_module():

@@ -53,7 +53,8 @@ if TYPE_CHECKING:
 def time_to(scene: Given, state: Start | None = None, rate: Any = None, component: Any = None,
             energy: Amount | None = None, tilt: Any = None, t_max: Amount | None = None,
             exact: Sequence[Fraction] | None = None, work: int = WORK, *,
-            below: Amount | None = None, states: Starts | None = None,
+            below: Amount | None = None, nutation: Any = None, nutation_below: Any = None,
+            states: Starts | None = None,
             frame: str = "principal") -> TimeTo:
     """The first time t >= 0 at which each motion reaches a limit, between a lower and an upper bound.
 
@@ -62,7 +63,8 @@ def time_to(scene: Given, state: Start | None = None, rate: Any = None, componen
     the size of each component, whichever comes first; component=(axis, limit), of the size of the rate about
     an axis: 1, 2, 3 or three numbers along it, or a list of such pairs, whichever comes first; energy,
     kinetic, of the body; tilt=(axis, angle), below pi, of the angle between a body axis and its own direction
-    in space at t = 0; below, of |omega|, the first time at which it is no larger. t_max: the time at which
+    in space at t = 0; nutation=(axis, angle), likewise, of that between a body axis and the angular momentum;
+    below, of |omega|, and nutation_below, the first time at which it is no larger. t_max: the time at which
     the search ends; None: when its work is done. exact: a former argument; a start is exact where it is text
     or rational. work: multiplications that the proof for a motion may take; 0: no proof.
 
@@ -74,7 +76,8 @@ def time_to(scene: Given, state: Start | None = None, rate: Any = None, componen
     plain = NONE if case.variables == "scaled" else RATE
     ask = {"rate": _of(rate, plain, "rate"), "energy": _of(energy, ENERGY, "energy"),
            "below": _of(below, plain, "below"), "component": _pairs(case, component, plain, "component"),
-           "tilt": _pairs(case, tilt, ANGLE, "tilt")}
+           "tilt": _pairs(case, tilt, ANGLE, "tilt"), "nutation": _pairs(case, nutation, ANGLE, "nutation"),
+           "nutation_below": _pairs(case, nutation_below, ANGLE, "nutation_below")}
     end = time_in(case.scene, t_max, "t_max")
     if array.ndim == 1:
         result = times.time_of_case(case, ask, end, work)

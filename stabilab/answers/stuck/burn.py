@@ -472,7 +472,7 @@ def _first_crossing(chain: Chain, limit: Limit, ask: dict[str, Any], until: Frac
         if after.never:
             return replace(after, reason=NEVER_WITH_THRUSTERS)
     end = until if until is not None else max(closed, Fraction(case.span[1]) if case.span else closed)
-    result = crossing_of(chain, limit, end)
+    result = crossing_of(chain, limit, end) if limit.momentum is None else None
     if result is None and limit.kind != "tilt":
         rest = [Piece(closed, end - closed, (), chain.base)] if end > closed else []
         result = first_along(list(links_of(chain, [*chain.pieces(), *rest])), limit, every=True)

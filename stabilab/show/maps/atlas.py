@@ -180,7 +180,7 @@ def limit_words(atlas: Atlas, units: Units) -> str:
         return units.energy(limit.limits[0], SHORT)
     if limit.kind == "below":
         return f"|ω| < {units.rate(limit.limits[0], SHORT)}"
-    if limit.kind == "tilt":
+    if limit.kind in ("tilt", "nutation", "nutation_below"):
         return f"{limit.names[0]} by {units.angle(limit.limits[0], SHORT)}"
     printed = " or ".join(dict.fromkeys(units.rate(item, SHORT) for item in limit.limits))
     return printed if limit.kind == "rate" else f"{' or '.join(map(lettered, limit.names))} = {printed}"

@@ -192,5 +192,5 @@ def test_a_burn_slows_a_body_at_a_time_of_its_own(stabilab, case_file):
 
 
 def test_both_a_limit_and_another_are_refused():
-    with pytest.raises(InputError, match="tilt and below, got rate, below"):
+    with pytest.raises(InputError, match="nutation_below, got rate, below"):
         package.time_to(package.load(DAMPED), rate=1, below=1)
