@@ -2,7 +2,7 @@
 all rooms, and loads a question when it is asked."""
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from functools import wraps
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from .answers.attitude_result import Attitude
+    from .answers.motions.angles import Angles
     from .answers.motions.result import Motions, Values
     from .answers.passage import TimeTo
     from .answers.simulate import Simulation
@@ -97,6 +98,13 @@ class Case(read.Case):
         """How the motion turns in space: see `stabilab.attitude`."""
         from .answers.attitude import attitude
         return attitude(self, state, digits, span=span, frame=frame)
+
+    @_in_doubles
+    def angles(self, state: Start | None = None, axes: Sequence[str] = "xyz", *, span: Span | None = None,
+               frame: str = "principal") -> Angles:
+        """How far body axes lean from the momentum and from their start: see `stabilab.angles`."""
+        from .answers.motions.angles import angles
+        return angles(self, state, axes, span=span, frame=frame)
 
     @_in_doubles
     def when(self, state: Start | None = None, rate: Amount | None = None,

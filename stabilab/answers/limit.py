@@ -120,36 +120,27 @@ class Limit:
                        ) -> bool:
         """Whether the nutation stays on this side of it while rates are within their extremes and the angular
         momentum is that of the start: three exact rates."""
-        ((_, vector),), angle = self.parts[0]
+        low, high = self.cosines(extremes, start)
+        limit = float(precise("cos", self.parts[0][1]))
+        return high + slack < limit if self.falls else low - slack > limit
+
+    def cosines(self, extremes: Iterable[Iterable[float]], start: Sequence[Number]) -> tuple[float, float]:
+        """(least, greatest) cosine of the nutation while rates are within their extremes and the angular
+        momentum is that of the start, not zero; the two are reached where the axis is a principal one."""
+        ((_, vector),), _ = self.parts[0]
         law: Any = self.momentum
         H = law.of(start)
+        ends = [sorted(float(a * d) * end if a else 0.0 for end in pair)
+                for a, d, pair in zip(vector, law.D, extremes)]
         size = float(sqrt_fraction(dot(H, H)))
-        ends = [sorted(float(a * d) * end for end in pair) for a, d, pair in zip(vector, law.D, extremes)]
-        low, high = (float(dot(vector, law.wheel)) + sum(pair[n] for pair in ends) for n in (0, 1))
-        limit = float(precise("cos", angle)) * size
-        return high + slack * size < limit if self.falls else low - slack * size > limit
+        low, high = ((float(dot(vector, law.wheel)) + sum(pair[n] for pair in ends)) / size for n in (0, 1))
+        return low, high
 
 
-def pointing_bound(limit: Limit, extremes: Iterable[Iterable[float]], start: Sequence[Number]
-                   ) -> float | None:
-    """The angle, rad, beyond which a body axis does not turn from its direction at the start, by the cone
-    that it keeps to about an angular momentum that stays; None where that is zero. limit: a nutation of the
-    axis; extremes: of the rates over all time; start: three exact rates.
-
-    The axis is at theta0 from H at the start, at theta within a range later: at most min(theta0 + theta, 2 pi
-    - theta0 - theta) apart."""
-    ((_, vector),), _ = limit.parts[0]
-    law: Any = limit.momentum
-    H = law.of(start)
-    if not any(H):
-        return None
-    size = float(sqrt_fraction(dot(H, H)))
-    ends = [sorted(float(a * d) * end for end in pair) for a, d, pair in zip(vector, law.D, extremes)]
-    shares = [(float(dot(vector, law.wheel)) + sum(pair[n] for pair in ends)) / size for n in (0, 1)]
-    if not all(map(math.isfinite, shares)):
-        return None
-    greatest, least = (math.acos(max(-1.0, min(1.0, share))) for share in shares)
-    begun = math.acos(max(-1.0, min(1.0, limit.cosine(start))))
+def pointing_bound(begun: float, least: float, greatest: float) -> float:
+    """The angle, rad, beyond which a body axis does not turn from its direction at the start, where it is at
+    `begun` from a direction that stays in space, and between `least` and `greatest` from it at all times:
+    the largest of min(begun + angle, 2 pi - begun - angle)."""
     if least <= math.pi - begun <= greatest:
         return math.pi
     return max(min(begun + angle, 2 * math.pi - begun - angle) for angle in (least, greatest))

@@ -52,6 +52,7 @@ from .kinds import kind_of
 from .limit import ENCLOSED_STEPS as BAND_STEPS
 from .limit import SHORT_WORK, WORK, Limit, along_axes, asked, banded, enclosed, pointing_bound
 from .motion import motion
+from .motions.angles import for_all_time
 from .motions.rows import extremes, fates, periods
 from .passage import BY_ROOTS, MOVED, ROUNDING, Found, TimeTo, by_run, run_once, times_of
 
@@ -142,6 +143,8 @@ NEVER_SO_SLOW_BY_END = Sentence(
 NEVER_BY_CONE = Sentence(
     "never-by-cone", "never: the angular momentum stays, and by its cone about it the axis is never farther "
     "than {angle} from its direction at the start")
+NEVER_BY_TURN = Sentence(
+    "never-by-turn", "never, the axis is never farther than {angle} from its direction at the start: {law}")
 NEVER_SO_SLOW_BY_LAW = Sentence("never-so-slow-by-law", "never: {law}")
 SLACK = 1e-9  # relative: extremes and periods are known to 1e-11
 REDUCED = ("orbit", "aligned", "free")
@@ -210,8 +213,12 @@ def never_tilts(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> 
     else:
         resolved = motion(scene, state, needs=Needs.RETURN, exact=exact)
         pairs = resolved.extremes if resolved.for_all_time else None
-    bound = 0.0 if not any(exact) else None if pairs is None else pointing_bound(cone, pairs, exact)
-    if bound is None or not bound + SLACK < float(angle):
+    law: Any = cone.momentum
+    if pairs is None or not any(law.of(exact)):
+        return Found(math.inf, math.inf, "exact", reason=NEVER_AT_REST) if not any(exact) else None
+    low, high = (math.acos(max(-1.0, min(1.0, cosine))) for cosine in cone.cosines(pairs, exact))
+    bound = pointing_bound(math.acos(max(-1.0, min(1.0, cone.cosine(exact)))), high, low)
+    if not bound + SLACK < float(angle):
         return None
     return Found(math.inf, math.inf, "exact", reason=NEVER_BY_CONE(angle=Angle(bound).upper))
 
@@ -485,6 +492,8 @@ def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction 
         return beyond.never if beyond and last is not end else Found(
             down(proof.until), math.nan, "proved",
             reason=ENCLOSED_TO_END)
+    if limit.kind == "tilt" and end is None and (law := _never_turns(scene, state, start, limit)):
+        return law
     resolved = max(down(proof.until), down(before))
     if beyond and (limit.falls or limit.momentum is not None) and last is not end:
         return _until(scene, state, start, limit, beyond, resolved, bands if work else 0)
@@ -500,6 +509,18 @@ def _by_run_to(scene: AnyScene, state: Any, limit: Limit, beyond: Beyond | None,
     if beyond is None or not full or not math.isnan(result.high) or result.low < beyond.time * (1 - BEYOND):
         return result
     return replace(beyond.never, level="run", steps=result.steps)
+
+
+def _never_turns(scene: AnyScene, state: Float3, start: Exact3, limit: Limit) -> Found | None:
+    """The answer where rates that repeat under a torque keep a body axis within the limit of its tilt."""
+    if scene.variables == "scaled" or not any(scene.quadratic().m):
+        return None
+    ((_, vector),), angle = limit.parts[0]
+    result = for_all_time(scene, state, start, [vector])
+    if result is None or not float(result[1][0]) * (1 + SLACK) < float(angle):
+        return None
+    reason = NEVER_BY_TURN(angle=Angle(float(result[1][0])).upper, law=result[-1])
+    return Found(math.inf, math.inf, result[-2], reason=reason)
 
 
 def _until(scene: AnyScene, state: Any, start: Any, limit: Limit, beyond: Beyond, resolved: float,

@@ -303,10 +303,10 @@ def of_tilt(case: Any, angle: float | None, ask: dict[str, Any] | None, steady: 
     why = ("in scaled variables" if case.variables == "scaled"
            else "with other effects than wheel and torque" if not plain else
            "with rates whose squares are no doubles" if _too_fast(case, ask) else
-           "for a rate that is to fall" if ask and "below" in ask else "" if on_axis else
-           "for the angle of an axis" if ask and not ANGLES.isdisjoint(ask)
-           else "" if any(case.scene.vector("constant_torque")) else "without a torque")
-    if why or ask and not {"below", "nutation", "nutation_below"}.isdisjoint(ask):
+           "for a rate that is to fall" if ask and "below" in ask else
+           "for the angle of an axis" if ask and not ANGLES.isdisjoint(ask) else
+           "" if on_axis or any(case.scene.vector("constant_torque")) else "without a torque")
+    if why:
         return Spread(angle or 0.0, "the torque", 0, omitted=why) if tilts else None
     if on_axis and (tilts or ask is not None or not sized):
         return tilt(case.scene, case.state, angle, None, case, case.exact_state, ask)

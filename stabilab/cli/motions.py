@@ -64,7 +64,11 @@ def fate(
 @commands.command()
 @opens("classify.answer", question="extremes")
 def extremes(
-        cases: CaseFiles, json: Json = False, csv: Csv = False, digits: Digits = None, strict: Strict = False,
+        cases: CaseFiles,
+        angles: Annotated[bool, flag("--angles",
+            "Also find the angles of the axes x, y, z to the angular momentum and to their own directions at "
+            "the start.")] = False,
+        json: Json = False, csv: Csv = False, digits: Digits = None, strict: Strict = False,
         follow: Follow = None, units: UnitsOption = None, why: Why = False):
     """Find the least and greatest rates of each motion.
 

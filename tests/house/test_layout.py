@@ -62,6 +62,7 @@ DOORS = {
     ("stabilab.commands.common", "stabilab.answers.when"): "loads numpy",
     ("stabilab.commands.pictures", "stabilab.show.explore.serve"): "loads what serves or writes a page",
     ("stabilab.commands.classify", "stabilab.answers.digits"): "loads numpy",
+    ("stabilab.commands.classify", "stabilab.answers.motions.angles"): "loads numpy",
     ("stabilab.commands.stuck", "stabilab.show.plot.over_time"): "loads all kinds of plots",
     ("stabilab.equilibrium.liquid", "stabilab.numbers.krawczyk"): "loads numpy",
     ("stabilab.integrate.events", "stabilab.integrate.trajectory"): "loaded for effects that stop alone",
