@@ -13,11 +13,9 @@ from ..numbers.vectors import Exact3
 from ..physics.observed_start import MODES, spinning, tumbling
 from ..physics.scene import Scene
 from ..reasons import Reason, Sentence
-from .table import Table, described
+from .table import OBSERVED, SPINNING, TUMBLING, Table, described
 
-PERIODS = ("rotation_period", "precession_period", "amplitude")
-TUMBLING, SPINNING = (*PERIODS, "mode"), ("spin", "axis", "nutation", "towards")
-OBSERVED = TUMBLING + SPINNING  # keys of [motion]
+PERIODS = TUMBLING[:3]
 AXES = tuple(tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3))
 PHASE = Sentence("observed-phase", "of all starts with these periods the one at which the {axis} axis is "
                  "nearest to the angular momentum")

@@ -40,7 +40,6 @@ from .body import (
 )
 from .far import in_doubles
 from .lines import KeyLines, key_lines
-from .observed import OBSERVED, observed_key, with_observed
 from .sections import (
     BURN_KEYS,
     BURN_ONLY,
@@ -52,7 +51,7 @@ from .sections import (
     vertical_of,
 )
 from .source import combinations, parsed, place, source_text, swept
-from .table import Faults, Table, Uncertain, described, did_you_mean, dotted, expected
+from .table import OBSERVED, Faults, Table, Uncertain, described, did_you_mean, dotted, expected
 from .write import data_of_scene, plain, text_of
 
 # --- A case file: a body, its effects and one motion, read from TOML; every fault with file, line and key
@@ -64,6 +63,7 @@ STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
 # key: block
 BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position",
           "damper": "damper", "wheel": "wheel"}
+OBSERVED_KEYS = frozenset(OBSERVED)
 TURNED_BACK = Fraction(1, 10**15)
 UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector and stays as it is
 SIZES = Sentence("tolerance-not-looked-at", "the tolerance of the force of {thrusters} is not looked at "
@@ -430,7 +430,7 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
     craft = _craft(top)
     motion = _motion(top)
     physical, mu, frame = _physical(top, craft, motion)
-    motion, taken = with_observed(motion, physical, frame)
+    motion, taken = _observed(motion, physical, frame)
     scaled = _scaled(top)
     judge_oblique(top, frame)
     judge_limits(top, craft.limits, None if motion.state_key == "x" else motion.exact)
@@ -621,7 +621,9 @@ def _motion(top: Table) -> _Motion:
                     "the start of the motion first, such as [0, 100]",
                     span_key)
         span = None
-    state_key = observed_key(table, state_key) or state_key
+    if not OBSERVED_KEYS.isdisjoint(table.data):
+        from .observed import observed_key
+        state_key = observed_key(table, state_key) or state_key
     if "scaled" in top:
         for key, other in (("angular_velocity", "x"), ("span", "tau"), *((key, "x") for key in OBSERVED)):
             if key in table:
@@ -632,6 +634,16 @@ def _motion(top: Table) -> _Motion:
     blocks = {block: floats(vector) for block, vector in vectors.items()}
     return _Motion(table, state_key, floats(state) if state else None, span_key, span, blocks, state,
                    vectors.get("gamma"))
+
+
+def _observed(motion: _Motion, scene: Scene | None, frame: PrincipalAxes | None
+              ) -> tuple[_Motion, tuple[Reason, ...]]:
+    """The motion with the rates of a start that is stated as it is observed, and what was taken for granted.
+    """
+    if motion.state_key not in OBSERVED:
+        return motion, ()
+    from .observed import with_observed
+    return with_observed(motion, scene, frame)
 
 
 def _unit(table: Table, vertical: Exact3) -> Exact3:

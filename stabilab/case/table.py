@@ -95,6 +95,12 @@ UNCERTAIN = {("body", "inertia"), ("effects", "gyrostat", "momentum"),
              ("scaled", "a"), ("scaled", "b"), ("scaled", "mu")}  # the keys whose numbers may be uncertain
 
 
+# Keys of [motion] by which a start is stated as it is observed (`observed`): of a tumbling body, of a spin
+TUMBLING = ("rotation_period", "precession_period", "amplitude", "mode")
+SPINNING = ("spin", "axis", "nutation", "towards")
+OBSERVED = TUMBLING + SPINNING
+
+
 HOMES = {word: home for home, value in {
     "[motion]": ("angular_velocity", "omega", "span", "vertical", "attitude", "start", "initial", "state",
                  "x",

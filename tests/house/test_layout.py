@@ -44,6 +44,7 @@ IMPORTS_INSIDE = 33  # of 237 once
 SIGNS = 25  # tests of the sign of p q, of 139 once
 # Imports inside functions: (importing module, imported module) -> why it waits
 DOORS = {
+    ("stabilab.case.read", "stabilab.case.observed"): "loaded where a start is stated as it is observed",
     ("stabilab.physics.effects.wheel_motor",
      "stabilab.physics.effects.gyrostat"): "an effect is loaded where a scene names it, or a motor stops",
     ("stabilab.answers.attitude", "stabilab.answers.attitude_followed"): "loads numpy",
