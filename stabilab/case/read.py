@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 from pathlib import Path
+from types import ModuleType
 from typing import Any, NamedTuple
 
 from ..errors import CaseError, Caveat, InputError, Kind, printable
@@ -430,7 +431,8 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
     craft = _craft(top)
     motion = _motion(top)
     physical, mu, frame = _physical(top, craft, motion)
-    motion, taken = _observed(motion, physical, frame)
+    motion, taken = (_observed().with_observed(motion, physical, frame) if motion.state_key in OBSERVED
+                     else (motion, ()))
     scaled = _scaled(top)
     judge_oblique(top, frame)
     judge_limits(top, craft.limits, None if motion.state_key == "x" else motion.exact)
@@ -622,8 +624,7 @@ def _motion(top: Table) -> _Motion:
                     span_key)
         span = None
     if not OBSERVED_KEYS.isdisjoint(table.data):
-        from .observed import observed_key
-        state_key = observed_key(table, state_key) or state_key
+        state_key = _observed().observed_key(table, state_key) or state_key
     if "scaled" in top:
         for key, other in (("angular_velocity", "x"), ("span", "tau"), *((key, "x") for key in OBSERVED)):
             if key in table:
@@ -636,14 +637,10 @@ def _motion(top: Table) -> _Motion:
                    vectors.get("gamma"))
 
 
-def _observed(motion: _Motion, scene: Scene | None, frame: PrincipalAxes | None
-              ) -> tuple[_Motion, tuple[Reason, ...]]:
-    """The motion with the rates of a start that is stated as it is observed, and what was taken for granted.
-    """
-    if motion.state_key not in OBSERVED:
-        return motion, ()
-    from .observed import with_observed
-    return with_observed(motion, scene, frame)
+def _observed() -> ModuleType:
+    """What reads a start that is stated as it is observed."""
+    from . import observed
+    return observed
 
 
 def _unit(table: Table, vertical: Exact3) -> Exact3:
