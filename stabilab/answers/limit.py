@@ -9,7 +9,7 @@ beyond that by compiled steps. One search finds the crossing in either (`integra
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
@@ -159,7 +159,7 @@ class Momentum:
     stays: bool = True
 
     @classmethod
-    def made(cls, scene: AnyScene) -> Momentum:
+    def made(cls, scene: Any) -> Momentum:
         """Of a scene in SI."""
         parts, at = content(scene), slices(scene.blocks)
         outside = any(effect.takes == "outside" for effect in scene.effects) or (
@@ -174,7 +174,7 @@ class Momentum:
         for factor, at in ((self.inside, self.damper), (Fraction(1), self.motor)):
             if at is not None:
                 result = [v + factor * Fraction(s) for v, s in zip(result, state[at:at + 3])]
-        return tuple(result)  # type: ignore[return-value]
+        return tuple(result)
 
 
 def along_axes(terms: Iterable[Any]) -> list[float] | None:
@@ -198,9 +198,10 @@ def asked(scene: AnyScene, rate: Any = None, component: Any = None, energy: Any 
         raise InputError("time_to: expected one of rate, component, energy, tilt, below, nutation and "
                          f"nutation_below, got {', '.join(supplied) or 'none'}")
     (name, value), = supplied.items()
-    return {"rate": _rate, "component": _component, "energy": _energy, "tilt": _tilt, "below": _below,
-            "nutation": _nutation, "nutation_below": partial(_nutation, kind="nutation_below")
-            }[name](scene, value)
+    kinds: dict[str, Callable[[AnyScene, Any], Limit]] = {
+        "rate": _rate, "component": _component, "energy": _energy, "tilt": _tilt, "below": _below,
+        "nutation": _nutation, "nutation_below": partial(_nutation, kind="nutation_below")}
+    return kinds[name](scene, value)
 
 
 def _rate(scene: AnyScene, value: Any) -> Limit:

@@ -187,7 +187,7 @@ def never(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> tuple[
 
 
 def _never_of_rationals(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit
-                        ) -> tuple[Found | None, float | None]:
+                        ) -> tuple[Found | None, Beyond | None]:
     """`never` of a start that is no double: next to a separatrix its rounding is another motion."""
     resolved = motion(scene, state, needs=Needs.RETURN, exact=exact)
     pairs = resolved.extremes if resolved.for_all_time else None
@@ -254,7 +254,7 @@ def after_spin_up(scene: AnyScene, state: Float3, limit: Limit, spun: Any = None
     return Beyond(time, Found(math.inf, math.inf, level, reason=reason))
 
 
-def never_bounded(scene: AnyScene, state: Any, limit: Limit) -> Found | None:
+def never_bounded(scene: Any, state: Any, limit: Limit) -> Found | None:
     """The answer for a scene of other effects, where energy or momentum bound the rate below the limit, or
     above one that it falls to; None where they do not."""
     if limit.angular:
@@ -576,7 +576,7 @@ def _of_any(scene: AnyScene, state: Any, limit: Limit, end: Fraction | None) -> 
     return past_the_end(scene, state, limit, last)
 
 
-def _by_law_too(scene: AnyScene, state: Any, limit: Limit, end: Fraction | None, result: Found) -> Found:
+def _by_law_too(scene: Any, state: Any, limit: Limit, end: Fraction | None, result: Found) -> Found:
     """What a run finds, with the time by which a law brings |omega| below the limit where the run came to no
     crossing."""
     if limit.kind != "below" or not math.isnan(result.high) or result.level == "undecided":

@@ -103,12 +103,12 @@ def _option(name: str) -> str:
     return f"--{name.replace('_', '-')}"
 
 
-def _nutation(case: Case, text: str, _: object, kind: str = "nutation"):
+def _nutation(case: Case, text: str, _: Sequence[int], kind: str = "nutation"):
     axis, angle = _pair(text, ANGLE, kind)
     return {kind: (along(case, axis), angle)}, kind, (f"the nutation of axis {axis}",), (float(angle),)
 
 
-def _nutation_below(case: Case, text: str, _: object):
+def _nutation_below(case: Case, text: str, _: Sequence[int]):
     return _nutation(case, text, _, "nutation_below")
 
 

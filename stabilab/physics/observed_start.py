@@ -119,7 +119,7 @@ class _Body:
         """Of |H| = 1, where a is nearest to H."""
         result = [Fraction(0)] * 3
         result[self.axes[0]], result[self.axes[2]] = map(sqrt_fraction, self._squares(part))
-        return tuple(result)  # type: ignore[return-value]
+        return tuple(result)
 
     def periods(self, part: Fraction) -> tuple[Fraction, Fraction]:
         """(rotation, precession) of |H| = 1, to some 300 bits."""
@@ -202,7 +202,7 @@ def spinning(D: Exact3, wheel: Exact3, axis: Sequence[Fraction], spin: Fraction,
     if not gained or wanted / gained <= 0:
         return _no_such_spin(D, wheel, axis, across, size, wanted)
     momentum = wanted / gained
-    return tuple((momentum * h - l) / d for h, l, d in zip(direction, wheel, D))  # type: ignore[return-value]
+    return tuple((momentum * h - l) / d for h, l, d in zip(direction, wheel, D))
 
 
 def _no_such_spin(D: Exact3, wheel: Exact3, axis: Sequence[Fraction], across: Sequence[Fraction],

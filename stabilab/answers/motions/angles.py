@@ -83,7 +83,7 @@ def angles(scene: Given, state: Start | None = None, axes: Sequence[str] = "xyz"
     variables, which have no attitude, for a body without angular momentum, where a span is needed and not
     given, and as `fate` does.
     """
-    case = with_start(as_case(scene, state, span, frame), "angles")
+    case: Any = with_start(as_case(scene, state, span, frame), "angles")
     if case.variables == "scaled":
         raise InputError("angles: scaled variables have no attitude: give a body, and the motion as "
                          "angular_velocity, in rad/s")

@@ -25,7 +25,8 @@ def angle_lines(result: Angles, units: Units) -> list[str]:
 
 
 def _values(result: Angles) -> list[tuple[float, float, float]]:
-    return [(*map(float, pair), float(apart)) for pair, apart in zip(result.momentum, result.start)]
+    return [(float(low), float(high), float(apart))
+            for (low, high), apart in zip(result.momentum, result.start)]
 
 
 def angles_dict(result: Angles) -> dict[str, Any]:
