@@ -98,10 +98,11 @@ def brink(part, count):
 def beside_the_separatrix(count) -> Row:
     """Errors at relative distances 1e-3 ... 1e-15 against ball arithmetic, and the time there against
     heyoka's."""
-    from stabilab.orbit.extremes import precise_extremes, precise_period
+    from stabilab.orbit.extremes import precise_extremes
     from stabilab.orbit.extremes_arrays import extremes_and_periods
     from stabilab.orbit.landscape import landscape
     from stabilab.orbit.one_orbit import Orbit
+    from stabilab.orbit.period import precise_period
     r, boxes_off, periods_off, states = landscape(SCENE).reduction, [], [], []
     for decade in (3, 6, 9, 12, 15):
         part = brink(10.0**-decade, count)

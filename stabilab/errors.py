@@ -92,7 +92,7 @@ class Refused(InputError):
         return self.reason.text()
 
 
-def reason_of(error: Exception) -> Reason:
+def refusal_of(error: Exception) -> Reason:
     """Why: with its quantities where it has them, else in words."""
     return error.reason if isinstance(error, Refused) else as_reason(str(error))
 

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from .answers.attitude_result import Attitude
+    from .answers.dissipation.flat_spin import FlatSpin
+    from .answers.dissipation.gyrostat import GyrostatSpin
+    from .answers.dissipation.rotations import Rotations
     from .answers.motions.angles import Angles
     from .answers.motions.result import Motions, Values
     from .answers.passage import TimeTo
@@ -112,11 +115,13 @@ class Case(read.Case):
              tilt: str | tuple[str, Amount] | None = None, until: Amount | None = None, events: Any = None, *,
              below: Amount | None = None, nutation: str | tuple[str, Amount] | None = None,
              nutation_below: str | tuple[str, Amount] | None = None, states: Starts | None = None,
-             span: Span | None = None, frame: str = "principal") -> TimeTo | Crossings:
+             span: Span | None = None, digits: int | None = None,
+             frame: str = "principal") -> TimeTo | Crossings:
         """When the motion first reaches a limit: see `stabilab.when`."""
         from .answers.when import when
         return when(self, state, rate, component, energy, tilt, until, events, below=below,
-                    nutation=nutation, nutation_below=nutation_below, states=states, span=span, frame=frame)
+                    nutation=nutation, nutation_below=nutation_below, states=states, span=span,
+                    digits=digits, frame=frame)
 
     @_in_doubles
     def stuck(self, all_thrusters: bool = False, progress: Callable[[str], Any] | None = None, *,
@@ -131,6 +136,15 @@ class Case(read.Case):
         """What the stuck thrusters leave when they close, and by when they must: see `stabilab.burn`."""
         from .answers.stuck.burn import burn
         return burn(self, stop, below)
+
+    @_in_doubles
+    def flat_spin(self, within: Amount = "5 deg", *, momentum: Amount | None = None,
+                  state: Start | None = None,
+                  span: Span | None = None) -> FlatSpin | GyrostatSpin | Rotations:
+        """Where it ends if something inside takes energy, or all rotations at a momentum: see
+        `stabilab.flat_spin`."""
+        from .answers.dissipation.flat_spin import flat_spin
+        return flat_spin(self, within, momentum=momentum, state=state, span=span)
 
     def simulate(self, times: ArrayLike | None = None, state: Start | None = None, blocks: Any = None,
                  method: str | None = None, rtol: float | None = None, attitude: str | None = None, *,

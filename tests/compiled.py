@@ -18,6 +18,8 @@ from stabilab import load
 from stabilab.answers.motion import motion
 from stabilab.numbers.numba_door import installed
 from stabilab.orbit.extremes_arrays import extremes_and_periods
+from stabilab.orbit.fate_arrays import compiled_margins
+from stabilab.orbit.landscape import landscape
 from stabilab.unreduced.spin_up.certificate import tests_of
 from stabilab.unreduced.spin_up.follow import spin_up_many
 from tests.shared import CASES
@@ -31,6 +33,7 @@ def searches():
     for wheel in (0, 0.3):
         scene = random_scene(random.Random(31), wheel)
         spin_up_many(scene, starts, 100, 3000, fast=True)
+        spin_up_many(scene, starts[:1], 100, 300, fast=True)  # in one lane
         tests = tests_of(scene)
         for field in tests.fixed + tests.moving:
             tests.certifier(field, (2, 4)).constants(starts[0], 1e-9, fast=True)
@@ -43,9 +46,12 @@ def proofs():
 
 
 def rows():
-    """Of extremes and periods of many states."""
+    """Of extremes and periods of many states, and of margins that doubles leave open."""
     scene = load(CASES / "minor-axis-100.toml").scene
-    extremes_and_periods(scene, np.random.default_rng(6).normal(size=(40, 3)), by_numba=True)
+    states = np.random.default_rng(6).normal(size=(40, 3))
+    extremes_and_periods(scene, states, by_numba=True)
+    extremes_and_periods(scene, 10 * states, by_numba=True)  # spin-ups
+    compiled_margins()(states, np.arange(40), *landscape(scene).kernel_input, np.empty(40), np.zeros(40, bool))
 
 
 def rewritten():

@@ -47,6 +47,9 @@ from ..case.given import Given, Span, Start, as_case, with_start
 from ..errors import InputError, ToleranceNotMet
 from ..numbers.balls import Digits, Unclear, settled
 from ..numbers.vectors import CYCLE, dot
+from ..orbit.one_orbit import Orbit
+from ..orbit.period import period_ball
+from ..orbit.reduction import reduce
 from ..orbit.result import Fate, Motion, Needs
 from ..physics.scene import AnyScene, Scene
 from ..reasons import Sentence, as_reason
@@ -57,13 +60,14 @@ from .attitude_result import (
     SHORT,
     TOP,
     Attitude,
+    bits_of,
     narrow,
     steady,
     turned,
     with_periods,
 )
 from .caveats import limited
-from .digits_asked import MOST_DECIMALS, checked_digits, digits_of
+from .digits_asked import MOST_DIGITS, checked_digits, digits_of
 from .motion import motion
 
 # --- A heavy symmetric top
@@ -97,7 +101,8 @@ def of_top(scene: Scene, axis: int, start: Sequence[Fraction], base: Attitude, d
     if top.vertical:
         return replace(steady(base, start[:3], digits), reason=ON_VERTICAL)
     balls: list[Any] = settled(
-        lambda numbers: [None if item is None else narrow(item, digits) for item in top.answer(numbers)])
+        lambda numbers: [None if item is None else narrow(item, digits) for item in top.answer(numbers)],
+        bits_of(digits))
     smallest, greatest, nutation, precession = balls
     if smallest is None and not top.steady:
         return replace(base, mode=SEPARATRIX, reason=TO_VERTICAL)
@@ -174,12 +179,12 @@ def attitude(scene: Given, state: Start | None = None, digits: int | None = None
     """How the motion of a case turns in space.
 
     scene: a case in any form, or a scene, of a body with wheels and a constant torque, or of a heavy
-    symmetric top; state, span, frame: in place of its own, as of `fate`. digits: 1 to 50, of the periods,
+    symmetric top; state, span, frame: in place of its own, as of `fate`. digits: 1 to 10,000, of the periods,
     which are then written out too. Raises InputError for scaled variables, which have no attitude, for other
     effects, and as `motion` does; ToleranceNotMet where the periods of a motion that is followed have fewer
     digits.
     """
-    digits = None if digits is None else checked_digits(digits, MOST_DECIMALS)
+    digits = None if digits is None else checked_digits(digits, MOST_DIGITS)
     case = with_start(as_case(scene, state, span, frame), "attitude")
     of, start, exact = _physical(case)
     if of.variables == "scaled":
@@ -217,6 +222,9 @@ def of_motion(scene: Scene, omega: Sequence[float | Fraction], result: Motion, d
         return _of_free_body(scene.body.exact, exact, base, digits)
     from .attitude_followed import followed
     answer = followed(scene, base, result, result.period)
+    if digits is not None and any(scene.vector("constant_torque")) and (reduction := reduce(scene)):
+        ball = period_ball(Orbit(reduction, exact), digits + 1)
+        return replace(answer, decimals={"rotation_period": ball.mid().str(digits + 1, radius=False)})
     if digits is not None and answer.error is not None and answer.error > 0.1**digits:
         raise ToleranceNotMet(f"attitude: {digits} digits asked for, {digits_of(answer.error):.1f} reached "
                               "(with wheels or a torque the motion is followed); ask for fewer")
@@ -266,7 +274,7 @@ def _of_free_body(D: Sequence[Fraction], omega: Sequence[Fraction], base: Attitu
         turns = rate * period / (2 * numbers.pi())
         return [narrow(item, digits) for item in (period, 2 * numbers.pi() / rate, turns - int(float(turns)))]
 
-    period, precession, turn = settled(periods)
+    period, precession, turn = settled(periods, bits_of(digits))
     shares = [D[a] ** 2 * square / H2 for square in (A2, A2 * (1 - m))]  # cos^2 of the angle, greatest first
     least_angle, greatest_angle = (math.atan2(math.sqrt(1 - part), math.sqrt(part)) for part in shares)
     result = replace(base, mode=LONG if long else SHORT, cone=(least_angle, greatest_angle),

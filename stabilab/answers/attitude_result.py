@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from ..numbers.balls import Unclear, settled
+from ..numbers.balls import START_BITS, Unclear, settled
 from ..numbers.vectors import Float3, dot
 from ..orbit.result import Fate
 from ..reasons import Reasoned, Sentence
@@ -65,9 +65,14 @@ ROUND_AXIS = Sentence(
 
 def narrow(ball: arb, digits: int | None = None) -> Any:
     """The ball; raises Unclear where it is too wide for a double, or for so many digits."""
-    if not (ball.rad() <= abs(ball.mid()) * min(2.0**-54, 0.1 ** ((digits or 0) + 2))):
+    if not ball.is_finite() or ball.rel_accuracy_bits() < max(54, int(3.33 * ((digits or 0) + 2))):
         raise Unclear
     return ball
+
+
+def bits_of(digits: int | None) -> int:
+    """Bits in which a formula for so many digits is tried first."""
+    return START_BITS + int(3.33 * (digits or 0))
 
 
 def with_periods(result: Attitude, periods: Mapping[str, Any], digits: int | None) -> Attitude:
@@ -84,7 +89,8 @@ def steady(base: Attitude, omega: Sequence[Fraction], digits: int | None) -> Att
     """Of rates that stay as they are."""
     if not any(omega):
         return replace(base, mode=STEADY, reason=BODY_AT_REST)
-    turn = settled(lambda numbers: narrow(2 * numbers.pi() / numbers.ball(dot(omega, omega)).sqrt(), digits))
+    turn = settled(lambda numbers: narrow(2 * numbers.pi() / numbers.ball(dot(omega, omega)).sqrt(), digits),
+                   bits_of(digits))
     return with_periods(replace(base, mode=STEADY, reason=TURNS_STEADILY),
                         {"rotation_period": turn}, digits)
 

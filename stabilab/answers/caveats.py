@@ -24,15 +24,14 @@ STEADY = (Fate.BOUNDED, Fate.EQUILIBRIUM)
 IN_PLANE, THIS = 4, 5
 HOLDS = Sentence("holds-only", "holds {condition}")
 ALONG = Sentence("torque-along-axis", "only while the torque is exactly along {axis}")
-CONDITIONS = (None, *(ALONG(axis=Axis(n)) for n in (1, 2, 3)),
-              Sentence("torque-in-plane",
-                       "only while the torque is exactly in the plane of the equal moments")(),
-              Sentence("torque-as-given", "only while the torque is exactly this one")())
+IN_THE_PLANE = Sentence("torque-in-plane",
+                        "only while the torque is exactly in the plane of the equal moments")
+AS_GIVEN = Sentence("torque-as-given", "only while the torque is exactly this one")
+CONDITIONS = (None, *(ALONG(axis=Axis(n)) for n in (1, 2, 3)), IN_THE_PLANE(), AS_GIVEN())
 # the same where a line has no room for it
 IN_SHORT = {ALONG.code: Sentence("only-along-axis", "only with torque exactly along {axis}"),
-            CONDITIONS[IN_PLANE].code: Sentence("only-in-plane",
-                                                "only with torque in the plane of equal moments"),
-            CONDITIONS[THIS].code: Sentence("only-this-torque", "only with exactly this torque")}
+            IN_THE_PLANE.code: Sentence("only-in-plane", "only with torque in the plane of equal moments"),
+            AS_GIVEN.code: Sentence("only-this-torque", "only with exactly this torque")}
 NO_SUCH_BODY = Sentence("no-such-body", "no rigid body has these moments of inertia")()
 UNSTABLE = Sentence("unstable-equilibrium", "unstable: a disturbance grows by the factor e in {time}")
 UNSTABLE_SLOWLY = Sentence("unstable-not-exponential",

@@ -20,9 +20,10 @@ from ..equilibrium.torque_free import (
     torque_free_curves,
 )
 from ..numbers.balls import fraction
-from ..orbit.extremes import extreme_balls, period_ball
+from ..orbit.extremes import extreme_balls
 from ..orbit.fate import fate_of
 from ..orbit.one_orbit import Orbit
+from ..orbit.period import period_ball
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate
 from ..physics.scene import AnyScene, QuadraticForm

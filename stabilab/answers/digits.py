@@ -31,10 +31,12 @@ from ..integrate.reference import (
 from ..integrate.to_heyoka import TAYLOR_TOLERANCE
 from ..numbers.balls import DOUBLE_BITS, Digits, working
 from ..numbers.vectors import Exact3, Number
-from ..orbit.extremes import extreme_balls, period_ball
+from ..orbit.elliptic import free_quartic, real_period
+from ..orbit.extremes import extreme_balls
 from ..orbit.fate import free_margin, is_free, precise_margin
 from ..orbit.landscape import landscape
 from ..orbit.one_orbit import Orbit
+from ..orbit.period import period_ball
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate, Motion, Needs, no_period
 from ..physics.coefficients import effective
@@ -50,9 +52,11 @@ from .digits_asked import (
     DIGITS_MISSED,
     DOUBLE_DIGITS,
     MOST_DECIMALS,
+    MOST_DIGITS,
     Told,
     checked_digits,
     digits_of,
+    followed_digits,
     nothing,
     number_of,
 )
@@ -60,14 +64,16 @@ from .motion import motion
 
 FORMULA_DIGITS = 11  # the formulas hand over to balls where they hold less
 SAMPLE = 16  # states of an array that are checked one by one; where all agree the formulas serve for the rest
-LAW_BITS = 200  # of the numbers of a law that holds for all time: more than MOST_DECIMALS
+LAW_BITS = 200  # at least, of the numbers of a law that holds for all time
 
 
+NO_MARGIN = Sentence("no-margin-in-energy", "there is no margin in energy to be judged")()
 IN_EQUILIBRIUM = Sentence("digits-of-equilibrium", "the state is an equilibrium")()
 BARRIER_BY_ALGEBRA = Sentence("barrier-by-algebra", "the energy equals the barrier's, by algebra")()
 SAMPLED = Sentence("states-checked", "{checked} of {states} states checked")
 BESIDE_BALLS = Sentence("formulas-and-balls", "formulas in doubles, {error} from ball arithmetic")
 BY_BALLS = Sentence("by-balls", "ball arithmetic: the number is within {width}")
+BY_MANY_BALLS = Sentence("by-many-balls", "ball arithmetic: {digits} digits of the number are proved")
 NO_RETURN_IN_DIGITS = Sentence(
     "no-return-in-digits", "no return was found in many digits within the work allowed")()
 RETURN_OF_RUN = Sentence(
@@ -86,28 +92,28 @@ MOVED_RUN = Sentence(
 
 
 def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = None,
-        resolved: Motion | None = None, exact: Exact3 | None = None, aim: bool = False) -> Told:
-    """The extremes, the period, or the margin of the "fate" of one state, to `digits` decimal digits (1 to
-    50).
+        resolved: Motion | None = None, exact: Exact3 | None = None, aim: bool = False,
+        tell: Callable[[float], None] | None = None) -> Told:
+    """The extremes, the period, or the margin of the "fate" of one state, to `digits` decimal digits: 1 to
+    10,000 where a formula gives them, to 50 where the motion is followed in time.
 
     state, span, exact: as of `motion`; resolved: what `motion` found, where that is at hand. Digits of
     extremes are relative to the size of their component. aim: nobody asked for the digits, so a run that
-    misses them by `DIGITS_MISSED` is not done again. Told.digits may be below what was asked: see
-    Told.required.
+    misses them by `DIGITS_MISSED` is not done again. tell: is given the seconds that a long answer will take.
+    Told.digits may be below what was asked: see Told.required.
     """
-    digits = checked_digits(digits, MOST_DECIMALS)
+    digits = checked_digits(digits, MOST_DIGITS)
     twin = effective(scene)  # it turns alike and has nothing but a wheel and a torque, if `plain`
     land = landscape(twin) if twin.plain else None
     if resolved is None:  # by a reduction none of the three questions needs the distance from the separatrix
         resolved = motion(scene, state, span, needs=Needs.ALL if land is None else Needs.RETURN, exact=exact)
     if question != "extremes" and number_of(question, resolved) is None:
-        return nothing(question, digits, no_period(resolved.fate) if question == "period"
-                       else "there is no margin in energy to be judged")
+        return nothing(question, digits, no_period(resolved.fate) if question == "period" else NO_MARGIN)
     if question == "fate" and is_free(twin):
         return _margin_without_reduction(twin, resolved, digits, exact or resolved.at[:3])
     if land is not None:
         orbit = Orbit(land.reduction, exact or resolved.at[:3])
-        balls = _balls(question, orbit, resolved.fate, max(digits, DOUBLE_DIGITS) + 1)
+        balls = _balls(question, orbit, resolved.fate, max(digits, DOUBLE_DIGITS) + 1, tell)
         return (_tie(question, digits) if balls is None  # on the separatrix
                 else _judged(question, number_of(question, resolved), balls, digits))
     if resolved.fate == Fate.EQUILIBRIUM:
@@ -115,9 +121,14 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
                     reason=IN_EQUILIBRIUM)
     if question == "fate":
         return _margin_without_reduction(twin, resolved, digits, exact or resolved.at[:3])
+    if question == "period" and resolved.period and is_free(twin):
+        quartic = free_quartic(twin.body.exact, twin.vector("gyrostat"), exact or resolved.at[:3])
+        return _proved(question, real_period(quartic, max(digits, DOUBLE_DIGITS) + 1), digits)
+    bits = max(LAW_BITS, int(3.33 * digits) + LAW_BITS // 4)
     if question == "extremes" and (balls := law_extremes(twin, exact or resolved.at[:3],
-                                                         resolved.evidence.get("certificate"), LAW_BITS)):
+                                                         resolved.evidence.get("certificate"), bits)):
         return _judged(question, resolved.extremes, [list(pair) for pair in balls], digits)
+    followed_digits(digits, f"the {question} of this motion")
     if resolved.period:
         return _by_return(question, twin, resolved, digits, exact or resolved.at[:3])
     return _over_span(scene, state, span, resolved, digits, exact, DIGITS_MISSED * aim)
@@ -158,15 +169,20 @@ def _tie(question: str, digits: int) -> Told:
 def _judged(question: str, values: Any, balls: Any, digits: int) -> Told:
     """The formulas' values where the balls (to max(digits, MOST) + 1 digits) confirm so many digits, else the
     balls'."""
-    wanted = max(digits, DOUBLE_DIGITS) + 1
     with working(DOUBLE_BITS):
         error = _gap(values, balls)
     if digits <= FORMULA_DIGITS and error <= 10.0**-digits:
         return Told(question, values, digits, digits_of(error), "formulas",
                     reason=BESIDE_BALLS(error=Quantity(error, digits=2)))
-    width = max(_width(balls), 10.0**-wanted)  # the balls of a period are narrower than its two rules agree
-    return _of_balls(question, balls, digits, digits_of(width, wanted), "balls",
-                     BY_BALLS(width=Quantity(width, digits=1).upper))
+    return _proved(question, balls, digits)
+
+
+def _proved(question: str, balls: Any, digits: int) -> Told:
+    """What balls (to max(digits, DOUBLE_DIGITS) + 1 digits) prove."""
+    wanted = max(digits, DOUBLE_DIGITS) + 1
+    held = _digits_held(balls, wanted)
+    return _of_balls(question, balls, digits, held, "balls", BY_BALLS(width=Quantity(
+        10.0**-held, digits=1).upper) if digits <= MOST_DECIMALS else BY_MANY_BALLS(digits=int(held)))
 
 
 def _of_balls(question: str, balls: Any, digits: int, held: float, method: str, reason: Reason) -> Told:
@@ -176,12 +192,13 @@ def _of_balls(question: str, balls: Any, digits: int, held: float, method: str, 
                 _decimals(balls, digits) if more else None, reason=reason)
 
 
-def _balls(question: str, orbit: Orbit, label: Fate, digits: int) -> Any:
+def _balls(question: str, orbit: Orbit, label: Fate, digits: int,
+           tell: Callable[[float], None] | None) -> Any:
     """The answer in balls, nested as its floats are."""
     if question == "extremes":
         return extreme_balls(orbit, int(label), math.ceil(digits * math.log2(10)))
     if question == "period":
-        return period_ball(orbit, digits) if label == Fate.BOUNDED else Digits(DOUBLE_BITS).ball(0)
+        return period_ball(orbit, digits, tell) if label == Fate.BOUNDED else Digits(DOUBLE_BITS).ball(0)
     return precise_margin(orbit, digits)
 
 
@@ -205,10 +222,16 @@ def _gap(values: Any, balls: Any) -> float:
     return worst
 
 
-def _width(balls: Any) -> float:
+def _digits_held(balls: Any, largest: float) -> float:
+    """Digits that the radii of balls leave, relative to their component's size, at most `largest`."""
     from flint import arb
-    return max(float(arb(v).rad()) / abs(float(size)) if float(size) else float(arb(v).rad())
-               for v, size in _each(balls) if math.isfinite(float(v)))
+    result = largest
+    with working(DOUBLE_BITS):
+        for value, size in _each(balls):
+            width = arb(value).rad() / (abs(arb(size).mid()) or 1)
+            if width.is_finite() and width > 0:
+                result = min(result, float(-width.log() / arb(10).log()))
+    return max(0.0, result)
 
 
 def _floats(balls: Any) -> Any:

@@ -13,7 +13,8 @@ DEFAULT = 10  # digits, where nothing else is asked for
 # a digit by which an aim that nobody asked for may be missed, rather than pay for many digits
 DIGITS_MISSED = 1.0
 DOUBLE_DIGITS = 15  # decimal digits that every double holds
-MOST_DECIMALS = 50  # digits that are given as decimals
+MOST_DECIMALS = 50  # digits of what is followed in time
+MOST_DIGITS = 10_000  # digits of what a formula gives
 CAUTION = 4  # differences between runs are samples of the error, not bounds: several times their size counts
 
 
@@ -58,11 +59,17 @@ def too_few(checked: Any) -> Reason:
                    why=checked.reason)
 
 
-def checked_digits(digits: int, largest: int) -> int:
-    """The number of digits, if it can be asked for."""
+def checked_digits(digits: int, largest: int, why: str = "") -> int:
+    """The number of digits, if it can be asked for. why: there are no more."""
     if not (isinstance(digits, int) and not isinstance(digits, bool) and 1 <= digits <= largest):
-        raise InputError(f"digits: expected a whole number from 1 to {largest}, got {digits!r}")
+        raise InputError(f"digits: expected a whole number from 1 to {largest}, got {digits!r:.60}"
+                         + (why and f" ({why})"))
     return digits
+
+
+def followed_digits(digits: int, what: str) -> int:
+    """The number of digits, if what is followed in time can have so many."""
+    return checked_digits(digits, MOST_DECIMALS, f"{what} is followed in time; only formulas give more")
 
 
 def digits_of(error: float, largest: float = DOUBLE_DIGITS + 0.95) -> float:

@@ -40,14 +40,14 @@ def fate(scene: Given, state: Start | None = None, *, states: Starts | None = No
     text or rational. states: many starts instead, (..., 3) or rows of whole states. frame: in which the
     vectors of these are, "principal", along the principal axes as `case.state` and all results are, or
     "file", of a full tensor. span: of the case, in its time. tilt: of one start, the half-angle of a cone of
-    torques ("1 deg", or rad); without it what the case states. digits (1 to 50): give the margins so many,
-    checked; ToleranceNotMet otherwise. follow: how long motions are followed that only a run with a
-    certificate decides (a torque off the principal axes), in the scene's time; None for 600,000 steps, some
-    seconds (10,000 of SciPy without heyoka). proof: enclose the way of each of these motions, one after
-    another, some milliseconds each: `level` then says "proved" where that succeeds. fast: of many starts
-    under such a torque, whether they are followed by compiled loops (None: where that is quicker; the numbers
-    are the same). tell(time, steps, motions left) is called meanwhile. Raises InputError for what is no case
-    and no start, and for scenes with effects that this analysis does not cover.
+    torques ("1 deg", or rad); without it what the case states. digits (1 to 10,000, 50 of what is followed in
+    time): give the margins so many, checked; ToleranceNotMet otherwise. follow: how long motions are followed
+    that only a run with a certificate decides (a torque off the principal axes), in the scene's time; None
+    for 600,000 steps, some seconds (10,000 of SciPy without heyoka). proof: enclose the way of each of these
+    motions, one after another, some milliseconds each: `level` then says "proved" where that succeeds. fast:
+    of many starts under such a torque, whether they are followed by compiled loops (None: where that is
+    quicker; the numbers are the same). tell(time, steps, motions left) is called meanwhile. Raises InputError
+    for what is no case and no start, and for scenes with effects that this analysis does not cover.
     """
     case, array = asked_of(scene, state, states, span, "fate", frame)
     long: Any = time_in(case.scene, follow, "follow")
@@ -118,8 +118,8 @@ def extremes(scene: Given, state: Start | None = None, span: Span | None = None,
     component grows without bound; at an equilibrium both are the state. Scenes without a reduction need
     `span`: their extremes hold from the start, at time 0, to its end. Without it they have bounds for all t
     >= 0 where spin-up is certified and NaN elsewhere, of which `reason` says why; of many starts InputError
-    where none has any. digits (1 to 50): reach so many and check them (ToleranceNotMet otherwise); without it
-    eleven, by the formulas' own bound.
+    where none has any. digits (1 to 10,000, 50 of what is followed in time): reach so many and check them
+    (ToleranceNotMet otherwise); without it eleven, by the formulas' own bound.
     """
     case, array = asked_of(scene, state, states, span, "extremes", frame)
     long: Any = time_in(case.scene, follow, "follow")
@@ -158,7 +158,7 @@ def period(scene: Given, state: Start | None = None, *, states: Starts | None = 
     else:
         resolved = result.motions(Needs.PERIOD)
         values = np.array([period_of(item) for item in resolved]).reshape(result.shape)
-        why = no_period(resolved[0].fate) if result.one and resolved[0].period is None else ""
+        why = no_period(resolved[0].fate).text() if result.one and resolved[0].period is None else ""
     printed = None if digits is None else _with_digits("period", result, digits, values)
     if printed is not None and printed.values is not None:
         values = np.asarray(printed.values, float)

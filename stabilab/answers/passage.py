@@ -67,7 +67,8 @@ class TimeTo(Answer, Compared):
     quantity, in SI units. quantity: what was asked, in words. caveats: what limits the answers
     (`answers.caveats`); ending: how the motion of a case ends that loses energy
     (`answers.dissipation.ending`), where it does; tilt: what other directions and sizes of the torque of a
-    case do, None where that was not looked at.
+    case do, None where that was not looked at; decimals: of one motion, the time written out, where digits
+    were asked for and a formula gives them.
     """
 
     low: np.ndarray
@@ -79,6 +80,7 @@ class TimeTo(Answer, Compared):
     states: np.ndarray | None = field(default=None, repr=False, compare=False)
     ending: Any = field(default=None, compare=False)
     tilt: Any = field(default=None, repr=False, compare=False)
+    decimals: str | None = None
 
     @cached_property
     def words(self) -> np.ndarray:

@@ -114,8 +114,9 @@ def _by_quadrature(scene: AnyScene, equations: Equations, state: np.ndarray, tim
     drift = departures(system, state, np.column_stack([states, *integrals]))
     info = np.abs(times) * ROUNDING <= LOST * (motion.period or np.inf)
     watch = watcher(scene, equations, state)
-    for row in states[info] if watch else ():
-        watch.note(row)
+    if watch:
+        watch.at(states[info])
+        watch.over = "at the times given"
     status, reason = "reached", BY_QUADRATURE
     if not info.all():
         status = "stopped"

@@ -15,17 +15,21 @@ import numpy as np
 from ..case.given import Amount, Given, Span, Start, Starts
 from ..case.limit_options import StatedLimit, stated_limit
 from ..case.read import Case
-from ..errors import InputError
+from ..errors import InputError, ToleranceNotMet
 from ..integrate.trajectory import Trajectory
 from ..numbers.double_double import EPS
 from ..numbers.units import NONE, TIME, in_si
+from ..orbit.landscape import landscape
+from ..orbit.one_orbit import Orbit
+from ..orbit.passage_time import crossing_time
 from ..orbit.result import Motion, Needs
-from ..physics.coefficients import loses
+from ..physics.coefficients import effective, loses
 from ..physics.scene import BLOCKS, AnyScene, later, slices, torque_axis
 from ..physics.states import equations_and_start, moved_row, start_of
 from ..reasons import Reasoned, Sentence
 from ..representation import Answer
 from .caveats import STEADY, answered, caveats_of, limited, loose_forces, misaligned, seen, stated
+from .digits_asked import MOST_DIGITS, checked_digits
 from .dissipation.ending import ending
 from .kinds import kind_of
 from .limit import ANGLES, WORK, asked, starts_above
@@ -175,7 +179,8 @@ def when(case: Given, state: Start | None = None, rate: Amount | None = None,
          events: Any = None, *, below: Amount | None = None,
          nutation: str | tuple[str, Amount] | None = None,
          nutation_below: str | tuple[str, Amount] | None = None, states: Starts | None = None,
-         span: Span | None = None, frame: str = "principal") -> TimeTo | Crossings:
+         span: Span | None = None, digits: int | None = None,
+         frame: str = "principal") -> TimeTo | Crossings:
     """The first time at which the motion of a case reaches a limit, or that it never does.
 
     case: a case in any form, or a scene; state, states, span, frame: as of `fate`.
@@ -188,10 +193,13 @@ def when(case: Given, state: Start | None = None, rate: Amount | None = None,
     that of [limits].
     Numbers are in SI units. until: the time at which the search ends. events: in place of a limit, the name
     of a component ("omega3"), a function of the time and the state, or several of these, whose zeros up to
-    `until` (or the end of the case's span) are found: see `stabilab.answers.when`. Raises InputError for a
-    limit that is none, and as `time_to` does.
+    `until` (or the end of the case's span) are found: see `stabilab.answers.when`. digits: 1 to 10,000, of
+    the time of one motion to a limit, written out as `decimals`; InputError where no formula gives so many.
+    Raises InputError for a limit that is none, and as `time_to` does.
     """
     case, array = asked_of(case, state, states, span, "when", frame)
+    if digits is not None and (events is not None or array.ndim > 1):
+        raise InputError("digits: those of the time of one motion to a limit: give one state, and no events")
     if events is not None:
         if array.ndim > 1:
             raise InputError("when: events are those of one motion: give one state")
@@ -200,7 +208,7 @@ def when(case: Given, state: Start | None = None, rate: Amount | None = None,
         return _crossings(case, events, until, supplied)
     limit = limit_stated(case, rate, component, energy, tilt, until, below, nutation, nutation_below)
     if array.ndim == 1:
-        return limited_time(case, limit.ask, limit.until)
+        return limited_time(case, limit.ask, limit.until, digits)
     result = time_to(case.scene, whole_rows(case, array), **limit.ask, t_max=limit.until)
     return replace(result, caveats=(*case.caveats, *result.caveats))
 
@@ -233,9 +241,11 @@ def _text(supplied: Any) -> str | None:
     return " = ".join(map(str, supplied)) if isinstance(supplied, (tuple, list)) else str(supplied)
 
 
-def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None = None) -> TimeTo:
+def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None = None,
+                 digits: int | None = None, tell: Callable[[float], None] | None = None) -> TimeTo:
     """As `time_of_case`; where it is never, with what a tilt of the torque does, by what the case states as
-    misalignment, else by one degree; and with what the tolerances of its forces do."""
+    misalignment, else by one degree; and with what the tolerances of its forces do. digits, tell: as of
+    `_with_digits`."""
     starts_above(asked(case.scene, **ask), case)
     result = time_of_case(case, ask, t_max)
     moved = motion(case, needs=Needs.FATE) if math.isinf(result.low) or loses(case.scene) else None
@@ -245,9 +255,37 @@ def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None 
     never = math.isinf(result.low)
     stability = None if moved is None or not never else moved.stability
     off = of_tilt(case, None, ask, never)
+    if digits is not None:
+        result = _with_digits(case, result, ask, digits, tell)
     return replace(result, ending=end, tilt=off,
                    caveats=caveats_of(case.scene, never, off, file=seen(case.caveats, off),
                                       stability=stability))
+
+
+def _with_digits(case: Any, result: TimeTo, ask: dict[str, Any], digits: int,
+                 tell: Callable[[float], None] | None) -> TimeTo:
+    """The answer for one motion of a case with its time to 1 to 10,000 digits, every one proved, as
+    `decimals`; as it is where the limit is not known to be reached, or is at the start. tell: is given the
+    seconds that a long answer will take. InputError where no formula gives the time, ToleranceNotMet where
+    the first crossing is known by a run alone, or its place is not told from others."""
+    checked_digits(digits, MOST_DIGITS)
+    low, high = float(result.low), float(result.high)
+    if not 0 < high < math.inf:
+        return result
+    scene, limit = effective(case.scene), asked(case.scene, **ask)
+    land = landscape(scene) if scene.plain else None
+    if land is None or limit.angular:
+        raise InputError("digits: the time to this limit has no formula, the motion is followed (a formula "
+                         "gives that to a rate or an energy, without a torque or with one on a principal "
+                         "axis); leave the digits out: the two times of the answer have up to 15")
+    why, ball = f"which crossing is the first is not proved ({result.reason})", None
+    if result.level == "proved":
+        why = "the crossing lies where the motion turns, or touches the limit, or beyond a period"
+        orbit = Orbit(land.reduction, case.exact_state or case.state)
+        ball = crossing_time(orbit, scene.quadratic(), limit.parts, low, high, digits, tell)
+    if ball is None:
+        raise ToleranceNotMet(f"when: {digits} digits asked for: {why}; leave the digits out")
+    return replace(result, decimals=ball.mid().str(digits + 1, radius=False))
 
 
 def _to_the_end(case: Any, ask: dict[str, Any], result: TimeTo, until: float,

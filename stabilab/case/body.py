@@ -193,12 +193,13 @@ class Thruster(Rounded):
 @dataclass(frozen=True, repr=False)
 class Wheel(Rounded):
     """axis: unit vector, input frame; momentum: along it relative to the body, N m s; vector: both as a
-    vector, input frame."""
+    vector, input frame; inertia: kg m^2, about the axis, None where the file does not say."""
 
     name: str
     axis: Exact3
     momentum: Fraction
     vector: Exact3
+    inertia: Fraction | None = None
 
 
 @dataclass(frozen=True, repr=False)
@@ -406,15 +407,16 @@ def _wheel(table: Table, otherwise: str) -> Wheel | None:
                            otherwise), table.required("axis",
                                                       axis="add the direction of its momentum, three "
                                                            "numbers, frame of the file, any length")
-    axis, momentum = _direction(table, "axis"), _momentum(table)
+    axis, (momentum, inertia) = _direction(table, "axis"), _momentum(table)
     if not complete or axis is None or momentum is None:
         return None
     raw, length = axis
-    return Wheel(name, tuple(v / length for v in raw), momentum, tuple(momentum * v / length for v in raw))
+    return Wheel(name, tuple(v / length for v in raw), momentum, tuple(momentum * v / length for v in raw),
+                 inertia)
 
 
-def _momentum(table: Table) -> Fraction | None:
-    """N m s along the axis: as given, or inertia x speed."""
+def _momentum(table: Table) -> tuple[Fraction | None, Fraction | None]:
+    """(N m s along the axis: as given, or inertia x speed; the inertia, where it is given)."""
     momentum, inertia, speed = table.number("momentum"), table.positive("inertia"), table.number("speed")
     halves = [key for key in ("inertia", "speed") if key in table]
     if "momentum" not in table and len(halves) < 2:
@@ -422,15 +424,15 @@ def _momentum(table: Table) -> Fraction | None:
         table.fault(
             f"{said}expected momentum (N m s), or inertia (kg m^2, about the axis) and speed (rad/s, "
             f"relative to the body)", *halves, instead_of=("momentum", "inertia", "speed"))
-        return None
+        return None, None
     if len(halves) < 2 or inertia is None or speed is None:
-        return momentum
+        return momentum, inertia
     product = inertia * speed
     if momentum is not None and abs(product - momentum) > SAME * abs(momentum):
         table.fault(
             f"{float(momentum):.6g} N m s contradicts inertia x speed, {float(product):.6g} N m s: keep one "
             f"of them", "momentum")
-    return momentum if "momentum" in table else product
+    return (momentum if "momentum" in table else product), inertia
 
 
 # --- From the frame that a case is written in to principal axes: what the parts add up to, effects and

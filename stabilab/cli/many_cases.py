@@ -128,6 +128,11 @@ def bifurcation(
         curve: Annotated[bool, flag("--curve",
             "For a torque on a principal axis: find where stability changes along the whole curve of "
             "equilibria, independent of the motion.")] = False,
+        momentum: Annotated[str | None, option("MOMENTUM",
+            'All rotations of a free body at this angular momentum instead, over a wheel: "100 N m s".'
+            )] = None,
+        spin: Annotated[str | None, option("RATE",
+            'The rotation at this rate about the axis of the wheels instead: "60 rpm".')] = None,
         out: Annotated[Path | None, option("FILE.png", "Draw the diagram: .png, .svg or .pdf.")] = None,
         certify: Annotated[Path | None, option("FILE.json",
             "For one number: write a certificate of all values and counts, which `stabilab verify` "

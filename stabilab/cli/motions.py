@@ -92,7 +92,7 @@ def period(
 def attitude(
         cases: CaseFiles, json: Json = False,
         digits: Annotated[int | None, option(
-            "N", "Write the periods with N digits (1 to 50); exit with 5 where not reached.")] = None,
+            "N", "Write the periods with N digits (1 to 10000); exit with 5 where not reached.")] = None,
         strict: StrictFate = False, units: UnitsOption = None):
     """Find rotation and precession periods, and the turn after one.
 
@@ -119,6 +119,8 @@ def when(
         nutation_below: Annotated[str | None, option("AXIS=ANGLE",
             'Angle to which that falls: "z = 5 deg", less than that of the start.')] = None,
         until: Annotated[str | None, option("TIME", 'Search up to this time only: "10 min".')] = None,
+        digits: Annotated[int | None, option(
+            "N", "Write the time with N digits (1 to 10000), where a formula gives them.")] = None,
         units: UnitsOption = None, si: Si = False, json: Json = False, csv: Csv = False,
         strict: Annotated[bool, flag("--strict",
             "Exit with 3 where the time is not known or an approximate law does not hold.")] = False):
@@ -173,13 +175,17 @@ def flat_spin(
         case: CaseFile,
         within: Annotated[str, option(
             "ANGLE", "Nutation angle about the minor axis at which the passage begins, and about the major "
-            "axis at which it ends.")] = "5 deg",
+            "axis at which it ends; with wheels, from where it ends.")] = "5 deg",
+        momentum: Annotated[str | None, option(
+            "MOMENTUM", 'All rotations at this angular momentum instead, wheels included: "100 N m s"; also '
+            "of a body that loses nothing.")] = None,
         units: UnitsOption = None, json: Json = False,
         strict: Annotated[bool, flag("--strict", "Exit with 3 where the outcome is undecided.")] = False):
     """Say when a spin that loses energy tumbles, and how it ends.
 
     For a free body with a damper or a liquid: the final direction and rate, the time at which the separatrix
-    is crossed, and the changes of the initial state that change the final direction.
+    is crossed, and the changes of the initial state that change the final direction. With wheels: all
+    rotations at its angular momentum, which attract, where it ends, and from which wheel speed one is left.
 
     Example: stabilab flat-spin cases/explorer-1-damped.toml
     """

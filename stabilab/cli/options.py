@@ -34,7 +34,8 @@ CaseFiles = Annotated[list[Path], argument("CASE...", "Case files (TOML).",
 Json = Annotated[bool, flag("--json", "JSON on stdout instead of text.")]
 Csv = Annotated[bool, flag("--csv", "CSV on stdout instead of text.")]
 Digits = Annotated[int | None, option("N",
-    "Reach N digits (1 to 50) by the cheapest method and check them; exit with 5 where they are not reached. "
+    "Reach N digits (1 to 10000; to 50 where no formula gives them) by the cheapest method and check them; "
+    "exit with 5 where they are not reached. "
     "Default: 10 where possible.")]
 Follow = Annotated[str | None, option("T",
     "How long to follow a motion in time where no first integral decides its outcome (torque off the "

@@ -18,7 +18,7 @@ from ..show.text import classification, headline, questions, scene
 from ..show.text.angles import angle_lines, angle_rows, angles_dict
 from ..show.text.motion import attitude_object, attitude_objects, attitude_text, row_of
 from ..show.units import DEG
-from .common import answers_of, load_cases, motion_of, one_by_one, tilted, units_asked
+from .common import answers_of, expected, load_cases, motion_of, one_by_one, tilted, units_asked
 from .runner import View, collected, every, judge, over_boxes, run, show
 
 
@@ -136,7 +136,7 @@ def _told(question, case, motion, digits):
         from ..answers.digits import ask
         with blamed_on(case):
             result = ask(question, case.scene, case.start, DEFAULT if digits is None else digits, case.span,
-                        motion, case.exact_state,
+                        motion, case.exact_state, tell=partial(expected, case),
                         **({"aim": True} if digits is None else {}))
     return result
 

@@ -19,6 +19,8 @@ from ..show.text import headline
 from ..show.units import DEG, DIGITS, SCALED, SI, Units, number, units_of
 from ..streams import Progress
 
+LONG = 1.0  # s from which the time of an answer is said beforehand
+
 
 # --- The cases, times and units that a command line names
 def load_cases(paths: Iterable[Path], motion: bool = False) -> list[Case]:
@@ -41,6 +43,12 @@ def load_cases(paths: Iterable[Path], motion: bool = False) -> list[Case]:
 def one_by_one(cases: Sequence[Case]) -> Iterable[Case]:
     """The cases, told one by one to a terminal where they take their time."""
     return cases if len(cases) < 2 else each(cases, lambda case: printable(case.name))
+
+
+def expected(case: Case, seconds: float) -> None:
+    """Say how long an answer of a case will take, where that is long."""
+    if seconds > LONG:
+        say(f"{printable(case.name)}: so many digits take about {seconds:.2g} s")
 
 
 def answers_of(cases: Sequence[Case], ask: Callable[[Case], Any]) -> list[tuple[Case, Any]]:

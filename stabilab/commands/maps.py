@@ -1,6 +1,7 @@
 """`stabilab bifurcation`, `basin`, `atlas`: one case over ranges of its numbers as a map, and its picture."""
 from __future__ import annotations
 
+from ..errors import InputError
 from ..maps.atlas import asked, drawn
 from ..maps.basins import basins
 from ..maps.bifurcation.ask import bifurcation as ask
@@ -11,20 +12,29 @@ from ..show.maps import atlas as atlas_shown
 from ..show.maps import basins as basins_shown
 from ..show.maps import bifurcation as diagram_shown
 from ..show.maps import bifurcation_picture
+from ..show.maps import rotations as rotations_shown
 from ..show.maps import to_file as map_files
 from ..show.terminal import say
 from ..show.units import units_of
 from .writing import of_map, say_written, write_answer
 
 
-def bifurcation(case, vary, curve, out, certify, csv, json):
+def bifurcation(case, vary, curve, momentum, spin, out, certify, csv, json):
     """Find where equilibria appear and vanish over the range of one number or two."""
     if out:
         endings.file(out, endings.PICTURES)
     spans = split_keys(vary or [], "KEY=FROM:TO")
+    rotations = momentum is not None or spin is not None
+    if certify and rotations:
+        raise InputError("--certify: no certificate is known of rotations at one momentum or spin")
     if certify:
         endings.file(certify, (".json",))
         certifiable(spans)
+    if rotations:
+        result = ask(case, spans, curve, momentum=momentum, spin=spin)
+        write_answer(rotations_shown, result, json, csv)
+        say_written([rotations_shown.write(result, out)] if out else [])
+        return
     result = ask(case, spans, curve)
     made = diagram_certificate(result) if certify else None
     files = [bifurcation_picture.write(result, out)] if out else []

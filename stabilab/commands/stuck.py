@@ -11,6 +11,7 @@ fire on a schedule leave, and by when they must close.
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 from ..answers.circular_orbit import circular_orbit
 from ..answers.dissipation.flat_spin import flat_spin as ask_flat_spin
@@ -27,9 +28,9 @@ from ..show.maps import bifurcation_picture
 from ..show.progress import told
 from ..show.text import headline, questions
 from ..show.text import stuck as shown
-from ..show.text.flat_spin import flat_spin_dict, flat_spin_text
+from ..show.text.flat_spin import any_dict, any_text
 from ..show.text.motion import circular_orbit_dict, circular_orbit_text
-from .common import load_cases
+from .common import expected, load_cases
 from .runner import View, every, run
 
 
@@ -45,7 +46,8 @@ WHEN = View(text=questions.text, data=questions.as_dict, csv=questions.CSV, swep
             between="\n", axes=True, packed=every,
             law=lambda case, limit, result: headline.until(case, result.validity, float(result.high)),
             open=lambda limit, result: questions.unknown(result) or questions.varies(result))
-FLAT_SPIN = View(text=flat_spin_text, data=flat_spin_dict, open=lambda result: result.outcome == "undecided")
+FLAT_SPIN = View(text=any_text, data=any_dict,
+                 open=lambda result: getattr(result, "outcome", "") == "undecided")
 ORBIT = View(text=circular_orbit_text, data=circular_orbit_dict,
              open=lambda result: any(item.verdict == "undecided"
                                     for item in (*result.equilibria.points, *result.equilibria.families)),
@@ -73,7 +75,7 @@ def burn(case, stop, below, units, json, strict):
         below=below)
 
 
-def when(cases, units, json, csv, strict, **limits):
+def when(cases, units, json, csv, strict, digits, **limits):
     """Answer every case. limits: what is to be reached and by when, by the names of the options."""
     paths = list(map(str, cases))
     burns = {path: load_burning(path) for path in paths if fires_on_schedule(path)}
@@ -85,18 +87,25 @@ def when(cases, units, json, csv, strict, **limits):
 
     def asked(case):
         limit = declared[case.place]
-        result = (time_of_burn(burns[case.path], limit.ask, limit.until) if case.path in burns
-                 else limited_time(case, limit.ask, limit.until))
-        return limit, result
+        if case.path not in burns:
+            return limit, limited_time(case, limit.ask, limit.until, digits, partial(expected, case))
+        if digits is not None:
+            raise InputError(f"{case.path}: digits: a burn is followed in time: leave them out")
+        return limit, time_of_burn(burns[case.path], limit.ask, limit.until)
     run(WHEN, loaded, asked, units=units, json=json, csv=csv, strict=strict,
         **{name: limits[name] for name in OPTIONS if name != "energy"})
 
 
-def flat_spin(case, within, units, json, strict):
+def flat_spin(case, within, momentum, units, json, strict):
     """Answer a case, every combination where it has a [sweep]."""
     angle = in_si(within.strip(), ANGLE, "--within")
-    run(FLAT_SPIN, load_cases([case], motion=True), lambda item: ask_flat_spin(item, angle), units=units,
-        json=json, strict=strict, within=within)
+    size = None if momentum is None else in_si(momentum.strip(), MOMENTUM, "--momentum")
+    if size is not None and size < 0:
+        raise InputError('--momentum: expected a size of at least 0, such as "100 N m s", got '
+                         f"{momentum!r:.40}")
+    run(FLAT_SPIN, load_cases([case], motion=size is None),
+        lambda item: ask_flat_spin(item, angle, momentum=size), units=units, json=json, strict=strict,
+        within=within)
 
 
 def orbit(case, up_to, out, units, json, strict):

@@ -20,6 +20,7 @@ from ..errors import InputError
 from ..integrate.reference import WORK, Recursion, Reference, one_run, pairs, reference, relative_errors
 from ..integrate.trajectory import SCIPY_METHODS
 from ..physics.coefficients import limits_of
+from .many_digits import Digits, with_many_digits
 from .methods import Answer, Method, Problem, answer_methods, fate_methods, known_period, methods, problem
 
 TIMES = 16  # states over the span
@@ -34,20 +35,23 @@ WANTED = (3, 6, 9, 12, 15, 30)  # digits whose price is told
 class Effort:
     """How much is measured. work: of the reference, multiplications; evaluations: a rung that would need
     more, by the growth from rung to rung, is left out; every: rungs of a ladder; repeats: runs of a rung, and
-    seconds after which fewer do; ends: whether the state at the end is asked for besides those over the span;
-    without: methods that are left out."""
+    seconds after which fewer do; digits: seconds that a run in very many digits may take; ends: whether the
+    state at the end is asked for besides those over the span; without: methods that are left out.
+    """
 
     work: int
     evaluations: int
     every: int
     repeats: tuple[int, float]
+    digits: float
     ends: bool = True
     without: tuple[str, ...] = ()
 
 
-EFFORTS = {"full": Effort(WORK, 60_000, 1, (7, 0.2)), "quick": Effort(WORK // 4, 12_000, 3, (3, 0.05)),
-           "brief": Effort(WORK // 12, 4_000, 3, (2, 0.01), False),
-           "glance": Effort(WORK // 24, 2_000, 3, (2, 0.005), False,
+EFFORTS = {"full": Effort(WORK, 60_000, 1, (7, 0.2), 90.0),
+           "quick": Effort(WORK // 4, 12_000, 3, (3, 0.05), 2.0),
+           "brief": Effort(WORK // 12, 4_000, 3, (2, 0.01), 1.0, False),
+           "glance": Effort(WORK // 24, 2_000, 3, (2, 0.005), 0.1, False,
                             ("taylor-batch", "RK45", "RK23", "Radau", "BDF"))}
 
 
@@ -98,7 +102,8 @@ class Precision:
     times (n,): where states are compared, as far as the reference agrees with itself; reference: without its
     states in outputs; reference_seconds: of both its runs; sensitivity: relative change of the state over
     the span per relative change of the start, as one random (seeded) change in the last place shows it, None
-    where not known. left_out: (method, value, why).
+    where not known. left_out: (method, value, why). many: what digits
+    beyond doubles cost where formulas give them.
     """
 
     case: Any
@@ -111,6 +116,7 @@ class Precision:
     left_out: tuple[tuple, ...]
     effort: str
     reference_seconds: float = math.nan
+    many: tuple[Digits, ...] = ()
 
     @property
     def quick(self) -> bool:
@@ -203,8 +209,11 @@ def precision(case, effort: str = "full", until: float | None = None, progress=N
         _measured(task, method, exact, largest, [None], points, left_out)
     fates = tuple(FateAnswer(name, word, *timing) for name, call in fate_methods(task) for word,
                   *timing in [_timed(call, largest)])
+    if exact.period:
+        tell("formulas in many digits")
+    many = with_many_digits(task, largest.digits) if exact.period else ()
     return Precision(case, task, exact.t, exact, tuple(points), fates, _sensitivity(task, exact),
-                     tuple(left_out), effort, took)
+                     tuple(left_out), effort, took, many)
 
 
 def _timed(call: Callable[..., Any], effort: Effort):

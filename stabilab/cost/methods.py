@@ -31,11 +31,12 @@ from ..integrate.to_heyoka import (
     to_taylor,
 )
 from ..integrate.trajectory import ATOL_SHARE, SCIPY_METHODS
-from ..orbit.extremes import precise_extremes, precise_period
+from ..orbit.extremes import precise_extremes
 from ..orbit.fate import decide, free_margin, is_free
 from ..orbit.flow import reduced_motion
 from ..orbit.landscape import landscape
 from ..orbit.one_orbit import Orbit
+from ..orbit.period import precise_period
 from ..orbit.result import Fate
 from ..physics.equations import Equations
 from ..physics.scene import slices

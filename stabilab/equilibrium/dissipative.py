@@ -38,10 +38,11 @@ from ..numbers.vectors import CYCLE, Exact3, Float3, Number, cross, cross_matrix
 from ..physics.coefficients import Content
 from ..physics.scene import ZERO3, QuadraticForm, euler_form
 from ..reasons import Axis, Formula, Power, Reason, Sentence, Unit
+from .damper import damped_equilibria
 from .description import ANGLE, RATE, Description
 from .field_balance import Field, blocks, rotations_at
 from .field_states import ANGLE_IN_PLANE, around
-from .liquid import balanced_equilibria, damped_equilibria, liquid_equilibria
+from .liquid import balanced_equilibria, liquid_equilibria
 from .result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint, T, Verdict
 from .stability import eigenvalues, ordered, sign_at
 

@@ -1,5 +1,4 @@
-"""Equilibria of a body with a liquid in a cavity, without torque and resistance and with them, and of a free
-body with a damper inside, which ends as one with a liquid does.
+"""Equilibria of a body with a liquid in a cavity, without torque and resistance and with them.
 
 Without torque and resistance they are permanent rotations. With a = D^-1 (D omega + Lambda) x omega and A =
 da/domega the rates are (D + kappa L) a, L = A + [omega x]. So a = 0, the permanent rotations without liquid,
@@ -25,19 +24,17 @@ All equilibria below x2 lie in the box of x1, where exclusion and Krawczyk's tes
 """
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from math import inf, sqrt
 from types import SimpleNamespace
-from typing import Any
 
 from flint import Ordering, arb, arb_mat, fmpq_mpoly_ctx
 
 from ..numbers.balls import MANY_BITS, evaluated, fraction, rational, working
 from ..numbers.exact import sqrt_fraction
 from ..numbers.polynomial import Poly, real_roots
-from ..numbers.vectors import CYCLE, cross, cross_matrix, dot
+from ..numbers.vectors import cross, cross_matrix, dot
 from ..physics.coefficients import Content, gyrostat_scene, linear_rates, liquid_torque
 from ..reasons import Energy, Quantity, Rate, Reason, Sentence
 from .result import (
@@ -54,7 +51,7 @@ from .result import (
 from .stability import ordered, pencil
 from .torque_free import torque_free_curves
 
-THE_LIQUID, THE_DAMPER = Sentence("the-liquid", "the liquid")(), Sentence("the-damper", "the damper")()
+THE_LIQUID = Sentence("the-liquid", "the liquid")()
 PRINTED_TORQUE = Sentence(
     "printed-torque-of-liquid",
     "the printed torque of the liquid leaves out terms of its own order where a wheel or a charge acts, so "
@@ -275,9 +272,7 @@ BELOW_RATES = Sentence(
     "below-rates",
     "|ωᵢ| < {reach} (where |ω| > {limit} the torque of the liquid may be as large as the body's own: its "
     "derivation does not hold there)")
-DAMPER_FREE_ALONE = Sentence(
-    "damper-free-alone",
-    "undecided: with a damper the stability of equilibria is known of a free body without wheels")()
+
 
 
 def balanced_equilibria(parts: Content) -> Equilibria:
@@ -402,49 +397,3 @@ def _enclosed(torques, x):
     if not all(abs(step) < size * RADIUS for step in steps.entries()):
         raise ArithmeticError("an equilibrium was not enclosed")
     return box
-
-
-# --- A damper inside a free body. At an equilibrium the damper's sphere is at rest in the body: sigma' +
-# omega' = 0 gives c sigma/k = -omega x sigma, whose product with sigma is c |sigma|^2/k = 0. So the
-# equilibria are those of the body alone. The damper keeps |H| and takes energy at every rotation that is not
-# permanent, as a liquid does, so that the same rotations attract; the eigenvalues are the damper's own.
-def damped_equilibria(parts: Content) -> Equilibria:
-    """Every permanent rotation with its stability; undecided beside a torque, a medium, a liquid or a wheel.
-    """
-    if any(parts.M) or parts.c or parts.damped or parts.kappa or any(parts.Lambda):
-        return Equilibria("undecided", reason=DAMPER_FREE_ALONE)
-    out = liquid_equilibria(replace(parts, inside=Fraction(0), kappa=Fraction(1)))  # verdicts of any liquid
-    return Equilibria(out.kind, tuple(_with_damper(parts, point) for point in out.points),
-                      tuple(_curve_with_damper(parts, curve) for curve in out.curves),
-                      reason=_of_damper(out.reason))
-
-
-def _of_damper(reason: Reason) -> Reason:
-    """The same, where the damper takes the energy."""
-    inner = {name: THE_DAMPER if value == THE_LIQUID else value for name, value in reason.filled}
-    return reason.sentence(**inner)
-
-
-def _curve_with_damper(parts: Content, curve: EquilibriumCurve) -> EquilibriumCurve:
-    return replace(curve, samples=tuple(_with_damper(parts, point) for point in curve.samples),
-                   segments=tuple(replace(item, reason=_of_damper(item.reason)) for item in curve.segments))
-
-
-def _with_damper(parts: Content, point: EquilibriumPoint) -> EquilibriumPoint:
-    import numpy as np
-    return replace(point, eigenvalues=ordered(np.linalg.eigvals(damper_jacobian(parts, point.at))),
-                   reason=_of_damper(point.reason))
-
-
-def damper_jacobian(parts: Content, omega: Sequence[float]) -> Any:
-    """(6, 6) array at a permanent rotation, of (omega, sigma)."""
-    import numpy as np
-    w, D, k = omega, [float(d) for d in parts.D], float(parts.inside)
-    c = float(parts.friction)
-    result = np.zeros((6, 6))
-    for i, (j, l) in enumerate(CYCLE):
-        result[i, j], result[i, l] = (D[j] - D[l]) * w[l] / (D[i] - k), (D[j] - D[l]) * w[j] / (D[i] - k)
-        result[i, 3 + i] = c / (D[i] - k)
-        result[3 + i, 3 + i], result[3 + i, 3 + l], result[3 + i, 3 + j] = -c / k, -w[j], w[l]
-    result[3:] -= result[:3]
-    return result

@@ -24,6 +24,8 @@ FIRST_BITS = 64  # of a first try, which settles ordinary motions
 START_BITS = 128
 PARTED_BITS = 1 << 14  # of a place between two roots: for any of numbers that are doubles
 NARROWINGS = 60  # of a ball about a root, at most
+GUARD_BITS = 32  # beyond what a question is known to lose
+MOST_OF_DOUBLES = 1 << 17  # of a question of doubles
 APART_BITS = 256  # roots that so many bits do not tell apart would cost flint's iteration a long time
 
 
@@ -89,9 +91,25 @@ class Digits:
 
     @staticmethod
     def elliptic(n: arb, m: arb) -> tuple[arb, arb]:
-        """The complete elliptic integrals K(m) and Pi(n, m) of a parameter m < 1."""
-        from flint import acb
-        return acb(m).elliptic_k().real, acb.elliptic_pi(acb(n), acb(m)).real
+        """The complete elliptic integrals K(m) and Pi(n, m) of a parameter 0 <= m < 1 and n < 1.
+
+        By Gauss's arithmetic-geometric mean, whose digits double with every step (DLMF 19.8.6, 19.8.7):
+        Pi = pi/(4 agm(1, k')) (2 + n/(1 - n) sum Q), Q_0 = 1, Q_(i+1) = Q_i (p^2 - a g)/(2 (p^2 + a g)). The
+        sum's tail is at most its last term, for every next one is half of it or less.
+        """
+        from flint import arb, ctx
+        if not (m >= 0 and m < 1 and n < 1):
+            raise Unclear
+        a, g, p, term, total = arb(1), (1 - m).sqrt(), (1 - n).sqrt(), arb(1), arb(1)
+        while not abs(term) < arb(2) ** -ctx.prec:
+            square, product = p * p, a * g
+            term = term * (square - product) / (square + product) / 2
+            a, g, p, total = (a + g) / 2, product.sqrt(), (square + product) / (2 * p), total + term
+            if not term.is_finite() or a.rel_accuracy_bits() < 2:
+                raise Unclear
+        full = arb.pi() / (2 * a.agm(g))
+        total += arb(0, term.abs_upper())
+        return full, full / 2 * (2 + n / (1 - n) * total)
 
     @staticmethod
     def real_roots(coefficients: Sequence[Number]) -> list[tuple[arb, int]]:
@@ -100,7 +118,8 @@ class Digits:
         return real_roots_of(polynomial(*coefficients))
 
 
-def settled(question: Callable[[Digits], T], bits: int = START_BITS, most: int = 1 << 17) -> T:
+def settled(question: Callable[[Digits], T], bits: int = START_BITS,
+            most: int = MOST_OF_DOUBLES) -> T:
     """question(numbers), with twice the bits as long as it is `Unclear`; the last Unclear when `most` are not
     enough.
 
@@ -282,3 +301,27 @@ def shares_root(first: fmpq_poly, second: fmpq_poly, root: arb) -> bool:
     polynomials."""
     common = first.gcd(second)
     return any(z.overlaps(root) for z, _ in real_roots_of(common))
+
+
+def sharpened(settled_as: Callable[..., Any], question: Callable[..., Any], digits: int,
+              most: int = MOST_OF_DOUBLES) -> Any:
+    """The ball of a question, 10^-digits of it wide at most. settled_as: `settled`, or what asks as it does;
+    most: bits that are tried, at least.
+
+    A first answer in few bits shows how many of them the question loses, so that many bits are spent once.
+    """
+    from flint import ctx
+    needed, lost = int(digits * 3.3220) + 2, [GUARD_BITS]
+
+    def with_accuracy(bits: int) -> Callable[[Any], Any]:
+        def asked(source: Any) -> Any:
+            ball = question(source)
+            accuracy = ball.rel_accuracy_bits() if ball.is_finite() else 0
+            if accuracy < bits:
+                raise Unclear
+            lost[0] = max(GUARD_BITS, ctx.prec - accuracy + GUARD_BITS // 2)
+            return ball
+        return asked
+    if needed > MANY_BITS:
+        settled_as(with_accuracy(START_BITS // 4), START_BITS, most)
+    return settled_as(with_accuracy(needed), needed + lost[0], max(most, 4 * (needed + lost[0])))

@@ -33,21 +33,23 @@ def wanted(n: int, fast: bool | None, loaded: bool, cold: int, warm: int) -> boo
     return bool(fast)
 
 
-def compiled(module: ModuleType, inlined: Container[str] = (), variant: str = "",
-             **instead: Any) -> dict[str, Any]:
+def compiled(module: ModuleType, inlined: Container[str] = (), variant: str = "", allocating: bool = True,
+             entries: Container[str] | None = None, **instead: Any) -> dict[str, Any]:
     """The names of a module of straight-line kernels with all its functions compiled, those named and sums of
     twofold numbers inlined; kept on disk where there is a place for it.
 
     instead: what stands for names of the module, for compiled code; variant: names the code that has these,
-    which the disk keeps apart."""
-    return _kept(lambda cache: _compiled(module, inlined, cache, variant, instead))
+    which the disk keeps apart; allocating: whether a function makes arrays. Where none does, nothing counts
+    the references to those that they take: in a short function that costs more than what it does; entries:
+    the functions that Python calls (None: any), the others compile in three quarters of the time."""
+    return _kept(lambda cache: _compiled(module, inlined, cache, variant, allocating, entries, instead))
 
 
 def twins(module: ModuleType, make: Callable[[str, FunctionType], Any], variant: str = "",
           **instead: Any) -> dict[str, Any]:
     """The names of a module and of those below it (`_below`) with `make` of a twin of each of their
     functions, which sees these names; instead, variant: as of `compiled`."""
-    modules, names = (*_below(module), module), {}
+    modules, names = (*_below(module), module), dict[str, Any]()
     for each in modules:
         names |= vars(each)
     names |= instead
@@ -75,12 +77,15 @@ def _kept(make: Callable[[bool], Any]) -> Any:
 
 
 def _compiled(module: ModuleType, inlined: Container[str], cache: bool, variant: str,
-              instead: dict[str, Any]) -> dict[str, Any]:
+              allocating: bool, entries: Container[str] | None, instead: dict[str, Any]) -> dict[str, Any]:
     from numba import njit
     # numba's cache on disk watches the file of a function alone, not what is inlined from another
     stamp = crc32(b"".join(Path(str(each.__file__)).read_bytes() for each in _below(module)))
 
     def make(name: str, twin: FunctionType) -> Any:
         inline = name in inlined or hasattr(error_free, name)
-        return njit(cache=cache, error_model="numpy", forceinline=inline)(twin)
+        options: dict[str, Any] = {  # of which numba's types know nothing
+            "_nrt": allocating, "no_cfunc_wrapper": True,
+            "no_cpython_wrapper": entries is not None and name not in entries}
+        return njit(cache=cache, error_model="numpy", forceinline=inline, **options)(twin)
     return twins(module, make, f"{variant}_{stamp:x}_", **instead)

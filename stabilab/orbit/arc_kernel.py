@@ -27,21 +27,25 @@ from ..numbers.error_free import Pair, add, exact_product, exact_sum, less, scal
 INLINED = {"entire", "constant", "quartic", "converged", "component", "parts_of", "rounded"}
 ULP = 2.220446049250313e-16
 INFINITY = float("inf")
+TWOFOLD = 2.0**-94  # of its terms: rounding of a K in twofold numbers
 ROUNDINGS = 8.0  # units of rounding of a sum, by the size of its terms
 # rows of the twofold constants of a reduction: d omega_j/d alpha = p omega_k + p0, d omega_k/d alpha =
 # q omega_j + q0, the rate of omega_i is kappa u v + rho v + sigma u + m, e = p q, s the shift of omega_i
 P, P0, Q, Q0, KAPPA, RHO, SIGMA, M, E, SHIFT = range(10)
 # of a base, all twofold: its location, K there, and the coefficients of (1) and (2)
-U, V, OVER, ALONG_U, ALONG_V, BEND_U, BEND_V, F0, F1, F2, C, G = range(12)
+U, V, OVER, ALONG_U, ALONG_V, BEND_U, BEND_V, F0, F1, F2, C, G, PULL_U, PULL_V = range(14)
 LARGEST_SQUARE = 1e6  # of n y: beyond a thousand, hyperbolic functions leave the range of doubles
 # relative, of sums over nodes: the last change, the error by estimate, a change that is nothing but rounding
 ALIKE, CONVERGED, FLOOR = 1e-9, 1e-13, 1e-15
+STEP_CHANGE = 0.1  # of the force at an end: what a step of Newton's method there may change it by
 MAX_COEFFICIENTS = 64  # of Taylor's series about the middle; a full turn takes some forty
 NEGLIGIBLE = 1e-18  # of the first coefficients: what is left out of that series
+CUT_OFF = 4e-22  # of a piece: nearer to its ends stands no node of the double-exponential rule
 PIECE_DIGITS = 3e-12  # relative, of K half-way between two stops, from the one and from the other
+LONG = 1.0  # of e y^2: beyond, on hyperbolas, terms that grow are summed before they do
 # columns of a stop, an end or an equilibrium that a motion passes: K, f0, f1, F, c, g, e; its arc, and what
-# the double of it leaves
-STOP_ARC, STOP_REST, STOP_COLUMNS = 7, 8, 9
+# the double of it leaves; what grows like exp(n y) and exp(2 n y), in both directions
+STOP_ARC, STOP_REST, GROWING, STOP_COLUMNS = 7, 8, 9, 13
 
 
 def _inverse_factorials(first: int):
@@ -115,17 +119,13 @@ def constant(fine: np.ndarray, row: int):
     return fine[row, 0], fine[row, 1]
 
 
-def base_at(u: Pair, v: Pair, k: Pair, fine: np.ndarray):
-    """The base at a location (u, v) with K = k there."""
-    p, q, kappa, rho = constant(fine, P), constant(fine, Q), constant(fine, KAPPA), constant(fine, RHO)
-    a, b = add(times(p, v), constant(fine, P0)), add(times(q, u), constant(fine, Q0))
-    A, B = add(times(kappa, v), constant(fine, SIGMA)), add(times(kappa, u), rho)
-    pb, qa, c = times(p, b), times(q, a), times(kappa, times(a, b))
-    f0 = add(add(times(A, u), times(rho, v)), constant(fine, M))
-    f1 = add(times(A, a), times(B, b))
-    f2 = less(add(times(A, pb), times(B, qa)), c)
-    g = times(kappa, add(times(qa, a), times(pb, b)))
-    return u, v, k, a, b, pb, qa, f0, f1, f2, c, g
+def base_at(u: Pair, v: Pair, k: Pair, a: Pair, b: Pair, A: Pair, B: Pair, f0: Pair, fine: np.ndarray):
+    """The base at a location (u, v) with K = k there, given what moves along with it."""
+    pb, qa = times(constant(fine, P), b), times(constant(fine, Q), a)
+    kappa = constant(fine, KAPPA)
+    c, g = times(kappa, times(a, b)), times(kappa, add(times(qa, a), times(pb, b)))
+    f1, f2 = add(times(A, a), times(B, b)), less(add(times(A, pb), times(B, qa)), c)
+    return u, v, k, a, b, pb, qa, f0, f1, f2, c, g, A, B
 
 
 def base_of(state: np.ndarray, axes: Sequence[int], fine: np.ndarray):
@@ -133,18 +133,31 @@ def base_of(state: np.ndarray, axes: Sequence[int], fine: np.ndarray):
     j, k, i = axes
     turn, rest = exact_sum(state[i], fine[SHIFT, 0])
     w = exact_sum(turn, rest + fine[SHIFT, 1])
-    u, v = state[j], state[k]
-    return base_at((u, 0.0 * u), (v, 0.0 * v), scaled(times(w, w), 0.5), fine)
+    u, v = (state[j], 0.0 * state[j]), (state[k], 0.0 * state[k])
+    kappa, rho = constant(fine, KAPPA), constant(fine, RHO)
+    a = add(times(constant(fine, P), v), constant(fine, P0))
+    b = add(times(constant(fine, Q), u), constant(fine, Q0))
+    A, B = add(times(kappa, v), constant(fine, SIGMA)), add(times(kappa, u), rho)
+    f0 = add(add(times(A, u), times(rho, v)), constant(fine, M))
+    return base_at(u, v, scaled(times(w, w), 0.5), a, b, A, B, f0, fine)
 
 
 def moved(base: Sequence[Pair], y: float, fine: np.ndarray):
-    """The base an arc y further on, by (1) and (2)."""
-    s1, s2, s3 = twofold_entire(constant(fine, E), y)
-    u = add(base[U], add(times(base[ALONG_U], s1), times(base[BEND_U], s2)))
-    v = add(base[V], add(times(base[ALONG_V], s1), times(base[BEND_V], s2)))
+    """The base an arc y further on, by (1), (2) and (3); the speeds a and b move as well, because formed anew
+    they would be small differences of large terms."""
+    e, kappa = constant(fine, E), constant(fine, KAPPA)
+    s1, s2, s3 = twofold_entire(e, y)
+    es2, a, b, c, g = times(e, s2), base[ALONG_U], base[ALONG_V], base[C], base[G]
+    du = add(times(a, s1), times(base[BEND_U], s2))
+    dv = add(times(b, s1), times(base[BEND_V], s2))
+    a = add(a, add(times(a, es2), times(base[BEND_U], s1)))
+    b = add(b, add(times(b, es2), times(base[BEND_V], s1)))
     k = add(add(base[OVER], scaled(base[F0], y)), add(times(base[F1], s2), times(base[F2], s3)))
-    k = add(k, times(s2, add(times(base[C], s1), scaled(times(base[G], s2), 0.5))))
-    return base_at(u, v, k, fine)
+    k = add(k, times(s2, add(times(c, s1), scaled(times(g, s2), 0.5))))
+    inner = add(add(base[F2], scaled(c, 3.0)), add(times(g, s1), scaled(times(c, es2), 2.0)))
+    f0 = add(base[F0], add(times(base[F1], s1), times(s2, inner)))
+    return base_at(add(base[U], du), add(base[V], dv), k, a, b, add(base[PULL_U], times(kappa, dv)),
+                   add(base[PULL_V], times(kappa, du)), f0, fine)
 
 
 def rounded(base: Sequence[Pair], e: float):
@@ -180,6 +193,13 @@ def component(at: float, speed: float, bend: float, e: float, y: float):
     s1, s2, _ = entire(e, y)
     first, second = speed * s1, bend * s2
     return at + (first + second), abs(at) + abs(first) + abs(second), speed * (1 + e * s2) + bend * s1
+
+
+def twofold_error(y: float, base: Sequence[Pair], fine: np.ndarray):
+    """Of a K an arc y from a base in twofold numbers: after a full turn terms are small again, and their
+    rounding is that of half a turn."""
+    series = rounded(base, fine[E, 0])
+    return TWOFOLD * max(kinetic(y, series)[3], kinetic(0.5 * y, series)[3])
 
 
 # --- The period
@@ -282,29 +302,73 @@ def period_about(series: Sequence[float], rho: float, left: float, right: float,
     return 2 * rho * now, 4 * ULP * size / smallest if settled else INFINITY
 
 
+def fill_stop(stop: np.ndarray, base: Sequence[Pair], y: float, rest: float, fine: np.ndarray):
+    """The columns of a stop at a base, an arc y and its rest from where arcs begin."""
+    series = rounded(base, fine[E, 0])
+    for column in range(STOP_ARC):
+        stop[column] = series[column]
+    stop[STOP_ARC], stop[STOP_REST] = y, rest
+    stop[GROWING:] = 0.0
+    if series[6] > 0:
+        growing(stop, base, fine)
+
+
+def growing(stop: np.ndarray, base: Sequence[Pair], fine: np.ndarray):
+    """Fill what grows along a hyperbola, in either direction: the coefficients L of S2 and N of S2^2 in
+    `kinetic_from`, formed in twofold numbers because they nearly vanish where a motion comes from afar."""
+    e, kappa, q = constant(fine, E), constant(fine, KAPPA), constant(fine, Q)
+    n = np.sqrt(e[0])
+    square = exact_product(n, n)
+    root = exact_sum(n, (((e[0] - square[0]) - square[1]) + e[1]) / (2 * n))
+    for column in range(2):
+        side = 1.0 - 2 * column
+        speed = value(add(times(root, base[ALONG_U]), scaled(base[BEND_U], side))) / n
+        force = value(add(times(root, base[PULL_U]), scaled(times(q, base[PULL_V]), side))) / n
+        stop[GROWING + 2 * column] = speed * force
+        stop[GROWING + 2 * column + 1] = 0.5 * kappa[0] * q[0] * speed * speed
+
+
 def stop_at(stop: np.ndarray, base: Sequence[Pair], y: float, end: bool, fine: np.ndarray):
     """Fill a stop next to an arc y from a base: there by Newton's method in twofold numbers, where K vanishes
-    (an end) or its slope does.
+    (an end) or its slope does. What a period may be off by it, relative.
 
     A double leaves a rest of the arc. Of an equilibrium it costs K nothing; at an end it leaves a force,
-    which next to a barrier is much of the small one there.
+    which next to a barrier is much of the small one there. What rounding moves an end by counts against the
+    arc along which K is linear.
     """
-    there, rest = base, 0.0 * y
+    there, rest, error = base, 0.0 * y, 0.0 * y
     for _ in range(3):
         there = moved(base, y, fine)
         rest = (-value(there[OVER]) / value(there[F0]) if end
                 else -value(there[F0]) / value(there[F1]))
         if abs(rest) <= 1e-9 * ULP * abs(y):
             break
+        if end and not abs(rest * value(there[F1])) < STEP_CHANGE * abs(value(there[F0])):
+            error = INFINITY  # it may be one beyond a barrier
         y += rest
-    series = rounded(there, fine[E, 0])
-    for column in range(STOP_ARC):
-        stop[column] = series[column]
-    stop[STOP_ARC], stop[STOP_REST] = y, rest
+    fill_stop(stop, there, y, rest, fine)
     if end:
+        error += force_error(there, fine)
+        error += twofold_error(y, base, fine) / abs(stop[1]) * linear(stop)
         stop[0], stop[1] = 0.0, stop[1] + stop[2] * rest
     else:
         stop[0], stop[1] = stop[0] + 0.5 * stop[1] * rest, 0.0
+    return error
+
+
+def force_error(base: Sequence[Pair], fine: np.ndarray):
+    """Relative error of the force at a base: next to a barrier its terms cancel."""
+    u, v = base[U][0], base[V][0]
+    size = (abs(fine[KAPPA, 0] * u * v) + abs(fine[RHO, 0] * v) + abs(fine[SIGMA, 0] * u) + abs(fine[M, 0]))
+    return TWOFOLD * size / abs(value(base[F0]))
+
+
+def linear(stop: np.ndarray):
+    """One over the arc from an end along which the force hardly changes."""
+    _, f0, f1, f2, c, g, e = series_of(stop)
+    f0 = abs(f0)
+    return (abs(f1) / f0 + np.sqrt((abs(f2) + 3 * abs(c) + abs(e) * f0) / f0)
+            + np.cbrt((3 * abs(g) + abs(e * f1)) / f0))
 
 
 def series_of(stop: np.ndarray):
@@ -312,17 +376,43 @@ def series_of(stop: np.ndarray):
     return stop[0], stop[1], stop[2], stop[3], stop[4], stop[5], stop[6]
 
 
+def kinetic_from(y: float, stop: np.ndarray):
+    """(K, size of its terms) an arc y from a stop.
+
+    On a hyperbola, with m = |y|, D = (1 - exp(-n m))/n and S1 = +-(D + n S2), the sign that of y, (2) is
+
+        k + f0 y + L S2 + F (+-D - y)/e -+ c D^2/(2 n) + N S2^2,   S2 = exp(n m) D^2/2,
+        L = P (A +- q B/n),   N = kappa q P^2/2,   P = a +- p b/n,
+
+    where nothing grows but S2.
+    """
+    k, f0, f1, f2, c, g, e = series_of(stop)
+    if not e * y * y > LONG:
+        over, _, _, terms = kinetic(y, (k, f0, f1, f2, c, g, e))
+        return over, terms
+    n, side, column = np.sqrt(e), (1.0 if y > 0 else -1.0), (GROWING if y > 0 else GROWING + 2)
+    d = -np.expm1(-n * abs(y)) / n
+    s2 = 0.5 * d * d * np.exp(n * abs(y))
+    first, second, third = f0 * y, stop[column] * s2, f2 * (side * d - y) / e
+    fourth, fifth = -0.5 * side * c * d * d / n, stop[column + 1] * s2 * s2
+    terms = abs(k) + abs(first) + abs(second) + abs(third) + abs(fourth) + abs(fifth)
+    # a rounding of n y is one of so many in the exponential
+    return k + (first + second + third + fourth + fifth), terms * (1 + n * abs(y) / ROUNDINGS)
+
+
 def period_in_pieces(stops: np.ndarray, count: int, nearby: np.ndarray, weights: np.ndarray,
                      levels: np.ndarray, turning: bool):
     """(time from the first stop to the last and back, its relative error) by the double-exponential rule from
     stop to stop, K from the nearer one; NaN, inf where a sum does not settle. turning: whether the motion
     turns at the first and at the last."""
-    period, worst = 0.0, 1.0
+    period, worst, cut = 0.0, 1.0, 0.0
+    if turning and count > 1:  # what the nodes leave out of the arcs at both ends along which K is linear
+        length = stops[count - 1, STOP_ARC] - stops[0, STOP_ARC]
+        cut = CUT_OFF * (np.sqrt(length * linear(stops[0])) + np.sqrt(length * linear(stops[count - 1])))
     for n in range(count - 1):
-        here, there = series_of(stops[n]), series_of(stops[n + 1])
-        length = ((stops[n + 1, STOP_ARC] - stops[n, STOP_ARC])
-                  + (stops[n + 1, STOP_REST] - stops[n, STOP_REST]))
-        one, other = kinetic(0.5 * length, here)[0], kinetic(-0.5 * length, there)[0]
+        here, there = stops[n], stops[n + 1]
+        length = (there[STOP_ARC] - here[STOP_ARC]) + (there[STOP_REST] - here[STOP_REST])
+        one, other = kinetic_from(0.5 * length, here)[0], kinetic_from(-0.5 * length, there)[0]
         if not (length > 0 and abs(one - other) <= PIECE_DIGITS * one):
             return np.nan, INFINITY
         total, before, change, earlier, settled = 0.0, np.nan, np.nan, np.nan, False
@@ -334,7 +424,8 @@ def period_in_pieces(stops: np.ndarray, count: int, nearby: np.ndarray, weights:
                     at_turn = far == (n > 0)
                     part, scale = ((part * part, 2 * part) if at_turn
                                    else (part * (2 - part), 2 * (1 - part)))
-                over, _, _, terms = kinetic(-length * part, there) if far else kinetic(length * part, here)
+                over, terms = (kinetic_from(-length * part, there) if far
+                               else kinetic_from(length * part, here))
                 worst = max(worst, terms / over)
                 total += weights[node] * scale / np.sqrt(2 * over)
             now = length * total * 2.0**-level
@@ -345,4 +436,4 @@ def period_in_pieces(stops: np.ndarray, count: int, nearby: np.ndarray, weights:
             before, change, earlier = now, new, change
         if not settled:
             return np.nan, INFINITY
-    return period, ROUNDINGS * ULP * worst
+    return period, ROUNDINGS * ULP * worst + cut

@@ -17,7 +17,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..numbers.error_free import Pair, value
-from .arc_kernel import ALONG_U, BEND_U, F0, INFINITY, OVER, ROUNDINGS, ULP, kinetic, moved
+from .arc_kernel import ALONG_U, BEND_U, F0, INFINITY, OVER, ROUNDINGS, ULP, kinetic, moved, twofold_error
 
 # columns of a point of equilibrium: its arc from the base, K there and the error of that, dF/d alpha
 ARC, HEIGHT, ERROR, SLOPE = range(4)
@@ -28,7 +28,6 @@ STEP, BRACKET = 1e-6, 1e-14
 NEWTON_STEPS = 3  # from a root to its equilibrium
 LAST_STEP = 1e-7  # of an arc: K at an equilibrium is second order in it
 CLEAR = 64.0  # times its error, so far a height is from the energy where the barrier's side is certain
-TWOFOLD = 2.0**-94  # of its terms: rounding of a K in twofold numbers
 LONG_ARC = 16.0  # of n y: farther from the throat of a hyperbola twofold numbers lose exp(2 n y)
 BESIDE = 1.37  # no root of a sphere's quartic, nor of one with a single term less, stands at that times R
 
@@ -267,7 +266,7 @@ def sharpened(point: np.ndarray, base: Sequence[Pair], fine: np.ndarray):
     there = moved(base, point[ARC], fine)
     force = value(there[F0])
     point[HEIGHT] = value(there[OVER]) - 0.5 * force * force / point[SLOPE]
-    point[ERROR] = TWOFOLD / (ROUNDINGS * ULP) * point[ERROR] + ULP * abs(point[HEIGHT])
+    point[ERROR] = twofold_error(point[ARC], base, fine) + ULP * abs(point[HEIGHT])
 
 
 def to_throat(base: Sequence[Pair], n: float):

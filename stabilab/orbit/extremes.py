@@ -1,19 +1,14 @@
-"""Extremes and period of one motion, in balls: every digit returned is certain.
-
-The period is the integral of dtheta/W by the double-exponential rule, cut at every equilibrium that the
-motion passes, where the rate is least or largest."""
+"""Extremes of one motion, in balls: every digit returned is certain."""
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from ..numbers.balls import FIRST_BITS, START_BITS, Unclear, sign, working
 from .fate import as_double, scaled_double
 from .one_orbit import TIE_BITS, BallCircle, BallOrbit, Orbit
-from .result import Fate, without_return
+from .result import Fate
 
 if TYPE_CHECKING:
     from flint import arb
@@ -44,8 +39,8 @@ def extreme_balls(orbit: Orbit, label: int, certain: int = CERTAIN_BITS):
 
     def question(orbit):
         return _ranges(orbit, *how(orbit), certain)
-    start = TIE_BITS if label == Fate.SEPARATRIX else FIRST_BITS if certain <= CERTAIN_BITS else 2 * certain
-    return orbit.settled(question, start)
+    start = FIRST_BITS if certain <= CERTAIN_BITS else certain + START_BITS
+    return orbit.settled(question, max(start, TIE_BITS) if label == Fate.SEPARATRIX else start)
 
 
 def turning_points(orbit: BallOrbit):
@@ -249,9 +244,9 @@ def _range(values: Sequence[arb], certain: int, bits: int):
     low = high = values[0]
     for value in values[1:]:
         low, high = low.min(value), high.max(value)
-    size = max(float(abs(low).mid()), float(abs(high).mid()))
-    width = max(float(low.rad()), float(high.rad()))
-    if not width <= size * 2.0**-certain and bits < MOST_BITS:  # nor is a root of both signs a number
+    size, width = abs(low).mid().max(abs(high).mid()), low.rad().max(high.rad())
+    # nor is a root of both signs a number
+    if not width <= size * (size * 0 + 2) ** -certain and bits < max(MOST_BITS, 2 * certain):
         raise Unclear
     return low, high
 
@@ -267,144 +262,3 @@ def extremes_of(orbit: Orbit, label: Fate, k: int = 0) -> tuple:
     # rounding must not exclude the state itself
     return tuple((min(scaled_double(low, k), v), max(scaled_double(high, k), v)) for (low, high),
                  v in zip(balls, here))
-
-
-# --- The period
-# two steps agree to so many; the rule doubles its digits with every halving, so the second is exact to a
-# double
-DIGITS = 14
-SPARE = 8  # digits beyond those: terms that are smaller are left out
-AGREED = 9  # the same for a double alone: the next step, twice as many digits, is not taken to see it
-# digits that the last step must have beyond those in which it agrees with the one before, by the rate at
-# which the steps draw together
-LEFT = 5
-WEIGHT = 1.7  # log(pi cosh t)/pi, which the weights of the last nodes have beside an exponential
-FINEST = 9  # halvings of the step; the seventh serves a double
-
-
-def precise_period(orbit: Orbit, label: int) -> float:
-    """Period of one state with the given `Fate` label: inf where the motion does not repeat, 0 at an
-    equilibrium, NaN where it is undecided."""
-    return without_return(label) if label != Fate.BOUNDED else float(period_ball(orbit, AGREED).mid())
-
-
-def period_ball(orbit: Orbit, digits: int = DIGITS):
-    """Period of a bounded motion as a ball that is at most 10^-digits of it wide: two steps of the rule agree
-    to `digits`."""
-    def question(orbit: BallOrbit):
-        ends = turning_points(orbit)
-        result = _rotation(orbit, digits) if ends is None else _libration(orbit, *ends, digits)
-        if not 10 ** digits * result.rad() < result:
-            raise Unclear
-        return result
-    return orbit.settled(question, _bits(digits))
-
-
-def _bits(digits: int) -> int:
-    """Bits for so many digits: of the first two rows of nodes, whole steps from 0 and from a half, the last
-    stands up to a step beyond where terms vanish, and so near a turning point E - V, which goes with the
-    square of the distance, must keep its digits."""
-    vanishing = math.asinh((digits + SPARE) * math.log(10) / math.pi + WEIGHT)
-    last = max(math.ceil(vanishing), math.ceil(vanishing - 0.5) + 0.5)
-    return int(2 * math.pi * math.sinh(last) / math.log(2) + 3.33 * (digits + 2 * SPARE))
-
-
-def _libration(orbit: BallOrbit, left: arb, right: arb, digits: int):
-    """Twice the time between the turning points; y = middle - half cos(phi) removes the roots at both ends.
-    """
-    from flint import arb
-    half, middle = (right - left) / 2, (right + left) / 2
-    inside = [s.y for s in orbit.all_spots if s.y > left and s.y < right]
-    knots = [arb(0), *(((middle - y) / half).acos() for y in inside), arb.pi()]
-
-    def integrand(nearby: arb, a: arb, b: arb):
-        """At phi = a + near (near > 0) or b + near (near < 0), accurate next to both ends of [0, pi]."""
-        phi = ((a if nearby > 0 else b) + nearby).mid()
-        y = middle - half * phi.cos()
-        return half * phi.sin() / _rate(orbit, y)
-    return 2 * _sum_over(integrand, knots, digits)
-
-
-def _rotation(orbit: BallOrbit, digits: int):
-    """Once round the circle without torque."""
-    from flint import arb
-    spots = [s.y for s in orbit.spots]
-    knots = [*spots, spots[0] + 2 * arb.pi()] if spots else [arb(0), 2 * arb.pi()]
-    return _sum_over(lambda nearby, a, b: 1 / _rate(orbit, (a if nearby > 0 else b) + nearby), knots, digits)
-
-
-def _rate(orbit: BallOrbit, y: arb):
-    kinetic = orbit.energy - orbit.height(y)
-    if sign(kinetic) <= 0:
-        raise Unclear
-    return (2 * kinetic).sqrt()
-
-
-def _sum_over(integrand: Callable[[arb, arb, arb], arb], knots: Sequence[arb], digits: int):
-    return sum(_tanh_sinh(integrand, a.mid(), b.mid(), digits) for a, b in zip(knots, knots[1:]))
-
-
-def _tanh_sinh(integrand: Callable[[arb, arb, arb], arb], a: arb, b: arb, digits: int):
-    """Integral over (a, b); the step is halved until two results agree, each row goes on until its terms
-    vanish."""
-    from flint import arb
-    length, rows, before, changes = (b - a).mid(), arb(0), None, []
-    smallest, agree = arb(10) ** -(digits + SPARE), arb(10) ** -digits
-    for level in range(FINEST + 1):
-        for row in _rows(level, digits):
-            for nearby, weight in row:
-                term = weight * integrand((nearby * length).mid(), a, b)
-                rows += term
-                if term < smallest * rows:
-                    break
-            else:
-                raise Unclear
-        now = rows * arb(2) ** -level
-        if before is not None:
-            change = abs(now - before)
-            # less than ten times what the rows leave out says nothing
-            changes.append(_power_of_ten((change / now).mid(), 1 - digits - SPARE))
-            if level > 2 and change <= agree * now and power_of_error(*changes[-3:]) <= -digits - LEFT:
-                return now * length
-        before = now
-    raise Unclear
-
-
-def _power_of_ten(value: arb, smallest: int) -> float:
-    return max(smallest, float(value.log_base(10))) if value > 0 else smallest
-
-
-def power_of_error(first: float, middle: float, last: float) -> float:
-    """Power of ten of the error of a sum over nodes, given the powers of ten of its last three changes as its
-    nodes were doubled.
-
-    The error is C r^n for n nodes, but its sign goes round, and two sums may agree by chance. So the rate is
-    given by either ratio of changes, the size by its own change or by the one before, and the largest error
-    counts; as `converged` in `arc_kernel`, which needs NumPy.
-    """
-    a, b, c = first, middle, last
-    return max(3 * c - 2 * b, c + 4 * (b - a), b + 2 * (c - a), 7 * b - 6 * a)
-
-
-@lru_cache(maxsize=64)
-def _nodes(level: int, side: int, digits: int):
-    """Nodes as (distance from the nearer end / length, signed by the end; weight), outward from the middle.
-    """
-    from flint import arb
-    step, nodes = arb(2) ** -level, []
-    with working(int(3.33 * 2 * (digits + 2 * SPARE)) + 128):
-        for k in range(0 if side > 0 else 1, 12 * 2**level):
-            if level and k % 2 == 0:
-                continue
-            t = k * step
-            e = (arb.pi() * t.sinh()).exp()  # x = 1/(1 + exp(-pi sinh t)): 1 - x = 1/(1 + e)
-            far = 1 / (1 + e)
-            weight = arb.pi() * t.cosh() * far * (1 - far)
-            nodes.append((-side * far.mid(), weight))
-            if far < arb(10) ** -300:
-                break
-    return tuple(nodes)
-
-
-def _rows(level: int, digits: int):
-    return _nodes(level, 1, digits), _nodes(level, -1, digits)

@@ -15,11 +15,12 @@ from ..physics.coefficients import effective
 from ..physics.states import checked_states
 from . import rows_kernel, turns_kernel
 from .arc_kernel import INLINED
-from .extremes import precise_extremes, precise_period
+from .extremes import precise_extremes
 from .fate_arrays import CHUNK, COLD, WARM, FateResult, fate_on_orbit, fates, rows_beyond_doubles
 from .landscape import HyperbolaLandscape, Landscape, ParabolaLandscape, landscape
 from .one_orbit import Orbit
 from .one_state import far_numbers
+from .period import precise_period
 from .reduction import reduce
 from .result import Fate, without_return
 from .rows_kernel import BOX, PERIOD

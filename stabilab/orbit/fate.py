@@ -173,7 +173,8 @@ def precise_margin(orbit: Orbit, digits: int):
         if not 10 ** digits * margin.rad() < abs(margin):
             raise Unclear
         return margin * orbit.numbers.ball(unit)
-    return orbit.settled(question)
+    bits = max(START_BITS, int(3.33 * digits) + FIRST_BITS)
+    return orbit.settled(question, bits)
 
 
 # --- Whether a state is on the separatrix exactly, where no search of the nearest point could end: algebra

@@ -13,9 +13,9 @@ from ..errors import InputError
 from ..physics.coefficients import effective
 from ..physics.own_unit import far_exponent
 from ..physics.states import checked_states
-from .extremes import precise_period
 from .one_orbit import Orbit
 from .one_state import own
+from .period import precise_period
 from .profile import TOO_FINE, ByPanels, InOwnUnit, Motion, Relief, Resting, Spot, relief
 from .reduction import reduce
 from .result import Fate

@@ -19,7 +19,7 @@ from .reduction import Reduction
 
 if TYPE_CHECKING:
     import numpy as np
-    from flint import arb
+    from flint import acb, arb
 
 
 class Spot(NamedTuple):
@@ -127,7 +127,7 @@ class BallOrbit:
         """An offset on one side of all equilibria, from `inner` on, where the potential is higher than the
         energy; None on a circle."""
         step, outer = 1, inner + side
-        while not sign(self.height(outer) - self.energy) > 0:
+        while not self.height(outer) - self.energy > 0:  # nor where it may be the energy itself
             step *= 2
             outer = inner + side * step
         return outer
@@ -140,6 +140,9 @@ class BallOrbit:
     def invariants(self) -> dict[str, float]:
         """Q and the energy, as a motion's `invariants`; nothing on a parabola."""
         return {}
+
+
+WIDE = 1e-30  # radius of a ball of ways from which its terms are not just added
 
 
 # --- What circle and hyperbola have in common: an orbit in balls on a conic, and its equilibria
@@ -196,12 +199,52 @@ class BallConic(BallOrbit):
         """The force at the state."""
         return self.flip * self.n * self.numbers.ball(self.force_here)
 
+    def _sine(self, y: arb | acb):
+        """(sin y/y, cos y) on a circle, (sinh y/y, cosh y) on a hyperbola."""
+        raise NotImplementedError
+
+    def mean_force(self, start: arb, way: arb | acb):
+        """The mean of F over a way from `start`, -(V(start + way) - V(start))/way, without cancellation; a
+        way may be complex. With h half of it and X, Z at its middle, differences of X, Z and X^2 are 2 sin h
+        times Z, e X and 2 cos h X Z."""
+        half = way / 2
+        sine, cosine = self._sine(half)
+        x, z = self.place(start + half)
+        mean = self.mu + sine * (z * (self.G * cosine * x + self.c) + self.d * x)
+        if float(abs(way).rad()) < WIDE:
+            return mean
+        other = self._wide_mean(start, way)  # either may be the narrower one
+        if not mean.is_finite() or not other.is_finite():
+            return other if other.is_finite() else mean
+        return type(other)(mean.real.intersection(other.real), mean.imag.intersection(other.imag))
+
+    def _wide_mean(self, start: arb, way: acb):
+        """The same of a wide ball of ways, by two terms of Taylor's series about its middle w: the mean's
+        derivative there is (F(start + w) - mean)/w, and half the slope at the start where w = 0."""
+        from flint import acb
+        way = acb(way)
+        middle = acb(way.real.mid(), way.imag.mid())
+        if way.contains(0):
+            middle = middle * 0
+        off = way - middle
+        first = self.mean_force(start, middle)
+        change = (self.slope(start) / 2 if middle == 0
+                  else (self.force(start + middle) - first) / middle)
+        bend, _ = self.bends(start + way.union(acb(0)))
+        return first + off * (change + off * bend / 6)
+
     def force(self, y: arb):
         return force_at(self.G, self.c, self.d, self.mu, *self.place(y))
 
     def slope(self, y: arb):
         """dF/dtheta."""
         return slope_at(self.G, self.c, self.d, self.r.e, *self.place(y))
+
+    def bends(self, y: arb | acb):
+        """The second and third derivative of F by theta."""
+        (x, z), e = self.place(y), self.r.e
+        return (e * (4 * self.G * x * z + self.c * z + self.d * x),
+                4 * e * self.G * (z * z + e * x * x) + self.c * x + e * self.d * z)
 
     # --- its equilibria
     def _found(self):
@@ -281,6 +324,9 @@ class BallCircle(BallConic):
     def _swing(self, y: arb):
         half = (y / 2).sin()
         return y.sin(), -2 * half * half
+
+    def _sine(self, y: arb | acb):
+        return y.sinc(), y.cos()
 
     def place(self, y: arb):
         """(X, Z) at offset y."""
@@ -368,6 +414,11 @@ class BallHyperbola(BallConic):
     def _swing(self, y: arb):
         half = (y / 2).sinh()
         return y.sinh(), 2 * half * half
+
+    def _sine(self, y: arb | acb):
+        from flint import acb
+        turned = acb(0, 1) * y
+        return turned.sinc(), turned.cos()
 
     def _at(self, y: arb):
         """(xi, eta) at offset y."""

@@ -19,9 +19,10 @@ from ..errors import InputError
 from ..physics.coefficients import three_floats
 from ..physics.own_unit import ORDINARY, far_exponent, scene_exponent
 from ..reasons import Sentence
-from .extremes import extremes_of, precise_period
+from .extremes import extremes_of
 from .fate import OneFate, fate_of, is_free
 from .one_orbit import Orbit
+from .period import precise_period
 from .reduction import reduce
 from .result import BOX, ROUND, Fate, Motion, Needs, finite, judged, repeats
 from .separatrix.distance import distance_of

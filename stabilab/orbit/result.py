@@ -54,21 +54,24 @@ class Outcome(NamedTuple):
     does: str
     do: str
     legend: str
-    no_period: str
+    no_period: Reason
 
 
-NEVER_AGAIN = "the motion does not repeat"
+NEVER_AGAIN = Sentence("motion-not-repeating", "the motion does not repeat")()
 # every view takes its words from here
 OUTCOMES = {
     Fate.BOUNDED: Outcome("bounded", "BOUNDED for ever", "stays bounded", "stay bounded", "bounded",
-                          "no period is known of this motion"),
+                          Sentence("no-period-known", "no period is known of this motion")()),
     Fate.SPIN_UP: Outcome("spin-up", "SPINS UP", "spins up", "spin up", "spins up", NEVER_AGAIN),
     Fate.SEPARATRIX: Outcome("separatrix", "ON THE SEPARATRIX", "lies on the separatrix",
                              "lie on the separatrix", "on the separatrix", NEVER_AGAIN),
     Fate.EQUILIBRIUM: Outcome("equilibrium", "STEADY ROTATION", "is an equilibrium", "are equilibria",
-                              "equilibrium", "the state is an equilibrium and has no period"),
+                              "equilibrium", Sentence(
+                                  "no-period-of-equilibrium",
+                                  "the state is an equilibrium and has no period")()),
     Fate.UNDECIDED: Outcome("undecided", "UNDECIDED", "is undecided", "are undecided", "undecided",
-                            "the period is not known: the fate is undecided")}
+                            Sentence("period-of-undecided",
+                                     "the period is not known: the fate is undecided")())}
 HEADS = {outcome.word: outcome.head for outcome in OUTCOMES.values()}
 
 
@@ -262,7 +265,7 @@ def without_return(label: int) -> float:
     return {Fate.EQUILIBRIUM: 0.0, Fate.UNDECIDED: math.nan}.get(Fate(int(label)), math.inf)
 
 
-def no_period(fate: Fate) -> str:
+def no_period(fate: Fate) -> Reason:
     """Why a motion with this fate has no period, in words."""
     return OUTCOMES[fate].no_period
 

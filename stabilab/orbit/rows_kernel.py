@@ -27,7 +27,7 @@ from .arc_kernel import (
     OVER,
     ROUNDINGS,
     SHIFT,
-    STOP_ARC,
+    STEP_CHANGE,
     STOP_COLUMNS,
     ULP,
     E,
@@ -35,6 +35,8 @@ from .arc_kernel import (
     V,
     base_of,
     component,
+    fill_stop,
+    force_error,
     kinetic,
     moved,
     period_about,
@@ -42,6 +44,7 @@ from .arc_kernel import (
     rounded,
     stationary,
     stop_at,
+    twofold_error,
 )
 from .equilibria_kernel import (
     ARC,
@@ -52,7 +55,6 @@ from .equilibria_kernel import (
     LONG_ARC,
     POINTS,
     SLOPE,
-    TWOFOLD,
     points_along,
     sharpened,
     to_throat,
@@ -65,7 +67,6 @@ DIGITS, PERIOD_DIGITS = 1e-12, 1e-11  # promised, relative: rounding that leaves
 SHORT_ARC = 3.0  # of n y: up to it terms of K do not outgrow K
 DOUBLINGS, LONGEST = 1100, 1e300  # of an arc towards a wall; without one so far there is none
 STEPS = 100
-STEP_CHANGE = 0.1  # of the force at an end: what a step there may change it by
 
 
 # --- Ends of a motion
@@ -171,7 +172,10 @@ def end_of(y: float, series: Sequence[float]):
     """(arc, force, its slope, error of the arc; whether Newton's method is sure) of an end of a motion, from
     a guess, in doubles."""
     over, force, slope, terms = kinetic(y, series)
-    y -= over / force
+    step = over / force
+    if not abs(slope * step) < STEP_CHANGE * abs(force):  # next to a barrier rounding would lead anywhere
+        return y, force, slope, INFINITY, False
+    y -= step
     over, force, slope, terms = kinetic(y, series)
     step = over / force
     y -= step
@@ -179,10 +183,10 @@ def end_of(y: float, series: Sequence[float]):
     return y, force, slope, error, abs(slope) * (abs(step) + error) < STEP_CHANGE * abs(force)
 
 
-def sharp_end(end: Sequence[float], base: Sequence[Pair], series: Sequence[float], fine: np.ndarray):
+def sharp_end(end: Sequence[float], base: Sequence[Pair], fine: np.ndarray):
     """An end again in twofold numbers."""
     y, force, slope, _, _ = end
-    terms, error = kinetic(y, series)[3], INFINITY
+    noise, error = twofold_error(y, base, fine), INFINITY
     for _ in range(4):
         there = moved(base, y, fine)
         at, bend = value(there[F0]), value(there[F1])
@@ -191,7 +195,7 @@ def sharp_end(end: Sequence[float], base: Sequence[Pair], series: Sequence[float
             return y, force, slope, INFINITY, False
         y += step
         rest = step * step * abs(bend / at)
-        error = TWOFOLD * terms / abs(at) + rest + ULP * abs(y)
+        error = noise / abs(at) + rest + ULP * abs(y)
         if rest <= ULP * abs(y):
             break
     return y, force, slope, error, error < INFINITY
@@ -269,26 +273,28 @@ def boxed(state: np.ndarray, axes: Sequence[int], middle: Sequence[Pair], n: flo
 
 
 # --- The period next to a separatrix
-def stops_between(left: float, right: float, throat: bool, base: Sequence[Pair], count: int,
-                  points: np.ndarray, fine: np.ndarray, stops: np.ndarray):
+def stops_between(left: float, right: float, start: float, origin: Sequence[Pair], base: Sequence[Pair],
+                  count: int, points: np.ndarray, fine: np.ndarray, stops: np.ndarray):
     """Fill the stops of a motion in their order, with the base where it is a throat, from which nothing
-    cancels; how many there are."""
-    total, before = 0, left
+    cancels; (how many there are, what the period may be off by them). start: the arc of the state, which is
+    an end itself where it is at rest; origin: the base there."""
+    total, before, error = 0, left, 0.0
     for n in range(count + 2):
         end = n == 0 or n == count + 1
         y = left if n == 0 else right if end else points[n - 1, ARC]
         if not end and not left < y < right:
             continue
-        if throat and before < 0 < y:
-            series = rounded(base, fine[E, 0])
-            for column in range(STOP_ARC):
-                stops[total, column] = series[column]
-            stops[total, STOP_ARC], stops[total, STOP_ARC + 1] = 0.0, 0.0
+        if start != 0 and before < 0 < y:
+            fill_stop(stops[total], base, 0.0, 0.0, fine)
             total += 1
-        stop_at(stops[total], base, y, end, fine)
+        if end and y == start and value(origin[OVER]) == 0:
+            fill_stop(stops[total], origin, y, 0.0, fine)
+            error += force_error(origin, fine)
+        else:
+            error += stop_at(stops[total], base, y, end, fine)
         before = y
         total += 1
-    return total
+    return total, error
 
 
 # --- Rows
@@ -322,7 +328,7 @@ def rows(states: np.ndarray, open_rows: np.ndarray, axes: Sequence[int], fine: n
             continue
         for sharp in range(2):
             if sharp:
-                first, last = sharp_end(first, middle, series, fine), sharp_end(last, middle, series, fine)
+                first, last = sharp_end(first, middle, fine), sharp_end(last, middle, fine)
                 rho = 0.5 * (last[0] - first[0])
             if not (first[4] and last[4] and first[1] > 0 > last[1]):
                 continue
@@ -340,9 +346,9 @@ def rows(states: np.ndarray, open_rows: np.ndarray, axes: Sequence[int], fine: n
             if not request:
                 break
         if request & PERIOD:
-            total = stops_between(left, right, start != 0, base, count, points, fine, stops)
+            total, off = stops_between(left, right, start, origin, base, count, points, fine, stops)
             period, error = period_in_pieces(stops, total, nearby, weights, levels, True)
-            if error <= PERIOD_DIGITS:
+            if error + off <= PERIOD_DIGITS:
                 periods[row] = period
                 request -= PERIOD
         left_open[row] = request

@@ -22,10 +22,11 @@ from ..cost.accuracy import precision
 from ..integrate.reference import WORK, Recursion, one_run, pairs, relative_errors
 from ..numbers.balls import Unclear, sign, working
 from ..numbers.numba_door import installed
-from ..orbit.extremes import extreme_balls, period_ball, precise_period, turning_points
+from ..orbit.extremes import extreme_balls, turning_points
 from ..orbit.fate import precise_margin
 from ..orbit.landscape import landscape
 from ..orbit.one_orbit import Orbit, ball_orbit
+from ..orbit.period import period_ball, precise_period
 from ..orbit.result import Fate
 from ..show import style
 from ..show.data import csv_lines
@@ -42,6 +43,7 @@ REPORT_DECADE = 6  # the report's quick form stops here
 SPREAD = 1.5  # of random states about the case's own
 # digits of ball arithmetic; of Taylor series those beyond doubles
 MANY = (3, 6, 9, 12, 16, 18, 21, 24, 27, 30)
+VERY_MANY = (100, 1000, 10_000)  # of formulas alone, each proved; the last where all is measured
 DOUBLES = 15
 DISTANCES = tuple(range(1, 16))  # decades of relative distance in energy to the separatrix
 NODE_DIGITS, MOST_NODES = 8, 1 << 15
@@ -119,7 +121,7 @@ def with_digits(case, effort: str = "brief", tell=lambda text: None) -> list[Gro
             for p in result.of("span") if p.method in ("taylor", "DOP853", "reduced") and 0 < p.digits < 16]
     rows += [Growth("digits", q, "formulas", p.digits, p.seconds, p.repeats) for q in ("extremes", "period")
              for p in result.of(q, "reduced")]
-    for digits in MANY:
+    for digits in (*MANY, *(VERY_MANY if effort == "full" else VERY_MANY[:-1])):
         tell(f"cost of {digits} digits")
         rows += _many(result.task, result.reference, digits)
     return rows
@@ -127,7 +129,7 @@ def with_digits(case, effort: str = "brief", tell=lambda text: None) -> list[Gro
 
 def _many(task, exact, digits):
     reduction, bits = landscape(task.scene).reduction, math.ceil(digits * math.log2(10))
-    if digits > DOUBLES:
+    if DOUBLES < digits < VERY_MANY[0]:
         yield _series(task, exact, digits)
     for question, call in (("extremes",
                             lambda: extreme_balls(Orbit(reduction, task.start), Fate.BOUNDED, bits)),
@@ -286,12 +288,12 @@ def picture(plt, rows, about):
         groups.setdefault((row.question, row.method), []).append(row)
     ax = axes[0][0]
     ax.set(yscale="log", xlabel=AXES[about], ylabel="time (s)", title=TITLES[about],
-           xscale="linear" if about == "digits" else "log")
+           xscale="log")
     for key, points in groups.items():
         points = sorted(points, key=lambda r: r.x)
         ax.plot([r.x for r in points], [r.seconds for r in points], markersize=5, linewidth=1.3, **LOOKS[key])
     if about == "digits":
-        ax.axvspan(15.95, max(r.x for r in rows) + 0.5, color="#EEEEEE", zorder=0)
+        ax.axvspan(15.95, max(r.x for r in rows) * 1.1, color="#EEEEEE", zorder=0)
         ax.annotate("more than a double holds", (16.2, 0.985), xycoords=("data", "axes fraction"), va="top",
                     fontsize=8, color=style.GREY)
     if panels == 2:
@@ -328,8 +330,9 @@ def words(rows, about) -> str:
         many, periods = pick("states over the span", "Taylor in many digits"), pick("period", "balls")
         return (f"A Taylor series in many digits takes {duration(many[0].seconds)} for {many[0].x:.0f} "
                 f"digits and {duration(many[-1].seconds)} for {many[-1].x:.0f}: the order grows with the "
-                "digits, a product of two series with its square. The balls of a period take "
-                f"{duration(periods[0].seconds)} and {duration(periods[-1].seconds)}.")
+                "digits, a product of two series with its square. A formula in balls takes for the period "
+                f"{duration(periods[0].seconds)} for {periods[0].x:,.0f} digits and "
+                f"{duration(periods[-1].seconds)} for {periods[-1].x:,.0f}.")
     fates, periods = pick("fate"), pick("period")
     nodes = [r for r in reversed(periods) if r.count is not None]
     lost = ("" if len(nodes) == len(periods)

@@ -13,7 +13,7 @@ from functools import reduce
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from ..numbers.vectors import Number
-from ..reasons import Quantity, Reason, Sentence, as_reason, old
+from ..reasons import Quantity, Reason, Sentence, as_reason
 from ..validation import checked_scene
 from .effects.base import Limit, effect_words
 from .scene import AnyScene, slices
@@ -44,12 +44,12 @@ class Validity:
     """
 
     effect: str
-    number: str
+    number: Reason
     value: float | np.ndarray | None
     limit: float
     holds: bool | np.ndarray | None
     over: Reason
-    follows: str
+    follows: Reason
     source: str
     needs: str = "a part of the state"
     also: tuple[Validity, ...] = ()
@@ -99,9 +99,10 @@ class Validity:
 
     def as_dict(self) -> dict[str, Any]:
         """What JSON says of it."""
-        named = {name: getattr(self, name) for name in ("status", "effect", "number", "value", "limit",
-                                                        "holds", "follows", "source")}
-        return named | {"over": self.over.text(), "also": [v.as_dict() for v in self.also]}
+        named = {name: getattr(self, name) for name in ("status", "effect", "value", "limit", "holds",
+                                                        "source")}
+        text = {name: getattr(self, name).text() for name in ("number", "follows", "over")}
+        return named | text | {"also": [v.as_dict() for v in self.also]}
 
     def _judged(self, follows: bool = False) -> Reason:
         return JUDGED(status=self._head, effect=effect_words(self.effect)).then(self._measured(follows), "")
@@ -109,11 +110,11 @@ class Validity:
     def _measured(self, follows: bool = False) -> Reason:
         """Number, value and limit; follows: also what it means that the limit is exceeded."""
         if self.value is None:
-            return NOT_GIVEN(number=old(self.number), needs=self.needs, limit=Quantity(self.limit))
+            return NOT_GIVEN(number=self.number, needs=self.needs, limit=Quantity(self.limit))
         largest = _largest(self.value)
-        result = MEASURED(number=old(self.number), value="unbounded" if math.isinf(largest) else
+        result = MEASURED(number=self.number, value="unbounded" if math.isinf(largest) else
                          Quantity(float(f"{largest:.3g}")), over=self.over, limit=Quantity(self.limit))
-        return result.then(old(self.follows), ": ") if follows and self.excess > 1 else result
+        return result.then(self.follows, ": ") if follows and self.excess > 1 else result
 
 
 def _largest(value: float | np.ndarray | None) -> float:
@@ -133,9 +134,10 @@ def validity(scene: AnyScene, states: States, over: Reason | str = "at the start
     return _judged(checked_scene(scene), _blocks(scene, states), over, None)
 
 
-def along(scene: AnyScene, states: States, over: Reason | str) -> Validity | None:
-    """The same over one motion, states (n, N) or a dict of them; over several motions, (k, n, N)."""
-    return _judged(scene, _blocks(scene, states), over, -1)
+def along(scene: AnyScene, states: States, over: Reason | str, close: bool = False) -> Validity | None:
+    """The same over one motion, states (n, N) or a dict of them; over several motions, (k, n, N). close: the
+    states of one motion are so close in time that a parabola through three of them has the largest value."""
+    return of_values(scene, lambda limit: _value(limit, _blocks(scene, states), -1, close), over)
 
 
 def of_motion(scene: AnyScene, motion: Any) -> Validity | None:
@@ -162,29 +164,40 @@ def worst(*result: Validity | None) -> Validity | None:
 
 
 class Watch:
-    """The validity of a run that is given its states one by one (`note`), without keeping them."""
+    """The validity of a run that is given its states step by step (`note`), without keeping them. over: where
+    they are, in words."""
 
-    def __init__(self, scene: AnyScene, blocks: Sequence[str]) -> None:
-        self.scene, self.blocks = scene, blocks
-        self.rows: list[Sequence[float]] = []
+    def __init__(self, scene: AnyScene, blocks: Sequence[str], over: str = "along the run") -> None:
+        self.scene, self.blocks, self.over = scene, blocks, over
+        self.rows: list[np.ndarray] = []
+        self.count = 0
         self.found: Validity | None = None
 
-    def note(self, row: Sequence[float]) -> None:
-        """A state of the run, N numbers."""
-        self.rows.append(row)
-        if len(self.rows) >= ROWS:
+    def note(self, rows: np.ndarray) -> None:
+        """States of the run (n, N), close to each other in time and to those before."""
+        self.rows.append(rows)
+        self.count += len(rows)
+        if self.count >= ROWS:
             self._look()
+
+    def at(self, rows: np.ndarray) -> None:
+        """States of the run (n, N), wherever they are."""
+        if len(rows):
+            self._judge(rows, False)
 
     def _look(self) -> None:
         import numpy as np
-        rows = np.array(self.rows)
-        self.rows = []
+        rows = np.concatenate(self.rows)
+        self.rows, self.count = [rows[-2:]], 2  # neighbours of the next ones
+        self._judge(rows, True)
+
+    def _judge(self, rows: np.ndarray, close: bool) -> None:
         visited = {name: rows[:, part] for name, part in slices(self.blocks).items()}
-        self.found = larger(self.found, along(self.scene, visited, "along the run"))
+        self.found = larger(self.found, along(self.scene, visited, self.over, close))
 
     def result(self) -> Validity | None:
         """The largest values of all that was noted."""
-        if self.rows:
+        if self.count:
             self._look()
         return self.found
 
@@ -230,13 +243,13 @@ def of_values(scene: AnyScene, value_of: Callable[[Limit], float | np.ndarray | 
         for limit in effect.limits(scene):
             value = value_of(limit)
             holds = None if value is None else value <= limit.limit
-            result.append(Validity(effect.name, limit.number, value, limit.limit, holds, index, limit.follows,
-                                  limit.source, limit.needs))
+            result.append(Validity(effect.name, as_reason(limit.number), value, limit.limit, holds, index,
+                                   as_reason(limit.follows), limit.source, limit.needs))
     return _together(result)
 
 
-def _value(limit: Limit, blocks: Blocks, axis: int | None) -> float | np.ndarray | None:
-    """A float, or an array without its axis of times."""
+def _value(limit: Limit, blocks: Blocks, axis: int | None, close: bool = False) -> float | np.ndarray | None:
+    """A float, or an array without its axis of times. close: as of `along`."""
     shape = next(iter(blocks.values()))[0]
     if isinstance(shape, float):
         result = limit.value(blocks)
@@ -247,8 +260,21 @@ def _value(limit: Limit, blocks: Blocks, axis: int | None) -> float | np.ndarray
         if result is None:
             return None
         values = np.broadcast_to(np.where(np.isnan(result), np.inf, result), shape.shape)
-        values = values.max(axis=axis) if axis is not None else values
+        if axis is not None:
+            values = _peak(values) if close else values.max(axis=axis)
     return float(values) if values.ndim == 0 else np.array(values)
+
+
+def _peak(values: np.ndarray) -> Any:
+    """The largest of values (n,) at close times, with what a parabola through the largest and both beside it
+    has above: no more than an eighth of the drop to the lower of these."""
+    n = int(values.argmax())
+    top = values[n]
+    if not 0 < n < len(values) - 1:
+        return top
+    before, after = values[n - 1], values[n + 1]
+    bend = 2 * top - before - after
+    return top + (after - before)**2 / (8 * bend) if bend > 0 and bend - bend == 0 else top
 
 
 def _together(result: Sequence[Validity]) -> Validity | None:

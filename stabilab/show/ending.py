@@ -23,6 +23,8 @@ def words(x: Ending | None, units: Units, short: bool = False) -> tuple[str, str
         return None
     speed = "" if short else rate(x, units)
     speed = f"{',' * bool(speed and about(x, units))}{' ' * bool(speed)}{speed}"
+    if x.kind == "steady rotation" and not x.rates and x.axis:
+        return "TENDS TO A CIRCLE OF ROTATIONS", f" about {units.axes.short(x.axis)}{speed.lstrip(',')}"
     resolved = " (by a run)" * (x.level == "run" and x.kind in ("steady rotation", "rest"))
     return ENDING_HEADS[x.kind], f"{about(x, units)}{speed}{resolved}"
 
@@ -60,11 +62,12 @@ def first(item: Ending, units: Units) -> tuple[str, str]:
 
 
 def _times(item: Ending, units: Units) -> list[str]:
-    nearby = units.angle(item.within, SHORT) if item.minor else f"{100 * item.within:g} %"
+    nearby = (units.angle(item.within, SHORT) if item.minor or item.angular else
+              f"{100 * item.within:g} %")
     end = (f"below {nearby}" if item.nutation is not None else
            f"{nearby} of its rate" if item.kind == "rest" else f"within {nearby} of it")
     printed = {"leaves": f"nutation over {nearby}", "crosses": "separatrix crossed", "settles": end,
-            "tenth": "a tenth of that at the start"}
+            "tenth": f"a tenth of {'its departure' if item.angular else 'that'} at the start"}
     parts = [] if item.nutation is None else [f"nutation {units.angle(item.nutation, SHORT)} at the start"]
     parts += [f"{printed[name]} after {units.time(time.at, SHORT)}" for name, time in item.times]
     if not dict(item.times) and item.estimate is not None:
@@ -72,6 +75,8 @@ def _times(item: Ending, units: Units) -> list[str]:
     if not dict(item.times) and item.at_the_latest is not None:
         latest = units.time(item.at_the_latest, SHORT, 1)
         parts.append(f"{printed['settles']} after {latest} at the latest (proved)")
+    if item.angular and not dict(item.times) and item.decay is not None:
+        parts.append(f"a departure decays e-fold in {units.time(item.decay, SHORT)}")
     if item.minor and "settles" not in dict(item.times) and "tenth" not in dict(item.times):
         resolved = item.decay if item.nutation is not None else item.growth
         verb = "falls" if item.nutation is not None else "grows"

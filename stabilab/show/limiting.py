@@ -20,6 +20,7 @@ from .units import SHORT, Units
 if TYPE_CHECKING:
     from ..case.read import Case
 
+LAW_JUDGED = "law-judged"  # of `physics.law_limits`, which is not loaded where all laws are exact
 AHEAD = {Kind.THRUSTERS: "no thruster fires"}  # what a first line says before the answer
 
 
@@ -91,7 +92,7 @@ def noted(caveats: Iterable[Caveat], text: str, units: Units, law: bool = False)
     an approximate law, too, which else has a line of its own."""
     caveats = list(caveats)
     first, *rest = ahead(caveats, text).split("\n")
-    laws = [caveat for caveat in caveats if law and caveat.kind is Kind.LAW]
+    laws = [caveat for caveat in caveats if law and _of_law(caveat)]
     return "\n".join([first, *lines([*unsaid(caveats, text, units), *laws], units), *rest])
 
 
@@ -102,9 +103,14 @@ def beside(caveats: Iterable[Caveat], units: Units, text: str = "") -> list[str]
 
 def unsaid(caveats: Iterable[Caveat], text: str, units: Units) -> list[Caveat]:
     """The caveats that a text does not state; that on an approximate law has a line of its own."""
-    return [caveat for caveat in dict.fromkeys(caveats) if caveat.kind is not Kind.LAW
+    return [caveat for caveat in dict.fromkeys(caveats) if not _of_law(caveat)
             and not any(form.removeprefix("holds ").removeprefix("unstable: ").lower() in text.lower()
                         for form in _forms(caveat, units))]
+
+
+def _of_law(caveat: Caveat) -> bool:
+    """Whether it is the judgement of an approximate law, which a view has in a line of its own."""
+    return caveat.kind is Kind.LAW and caveat.reason.code == LAW_JUDGED
 
 
 def _forms(item: Caveat, units: Units) -> list[str]:

@@ -53,6 +53,7 @@ LOOKS = {  # method -> how its line is drawn; the same in every picture
     "lindstedt": {"color": style.GREEN, "marker": "4", "linestyle": ":"}}
 WORST, LEAST = 10.0, 1e-17  # errors beyond are drawn at the edge
 PANEL = (3.4, 2.6)  # inches that a panel needs at least
+SAID = (50, 1000, 10_000)  # digits whose price in balls is told in text
 NOTED = 1.5  # digits: stretches of the front at least so long have their price written on them
 
 
@@ -63,17 +64,22 @@ def picture(plt, result, size=None, largest=None):
     questions = result.questions[:largest]
     if not questions:
         raise InputError(f"{result.case.name}: nothing to draw: {result.reference.reason}")
-    columns = min(2, len(questions))
+    beyond = bool(result.many) and size is None and largest is None  # a panel for it
+    panels = len(questions) + beyond
+    columns = min(2, panels)
     if size is not None:
         columns = max(1, min(columns, int(size[0] / PANEL[0])))
         questions = questions[:columns * max(1, int(size[1] / PANEL[1]))]
-    rows = -(-len(questions) // columns)
+        panels = len(questions)
+    rows = -(-panels // columns)
     usual = (5.6 * columns, 4.0 * rows + (1.3 if columns == 2 else 2.1))
     figure, axes = plt.subplots(rows, columns, figsize=size or usual, layout="constrained", squeeze=False)
     for ax, question in zip(axes.flat, questions):
         panel(ax, result, question)
-    for ax in axes.flat[len(questions):]:
+    for ax in axes.flat[panels:]:
         ax.set_visible(False)
+    if beyond:
+        many_panel(axes.flat[len(questions)], result)
     looks = meanings(result, questions, largest is None and (size is None or size[0] >= usual[0]))
     style.legend(figure, looks, (3 if columns == 2 else 1) if size is None else None)
     figure.suptitle(f"{result.case.name}: what accuracy costs", fontsize=11 * style.share(), parse_math=False)
@@ -145,6 +151,23 @@ def panel(ax, result, question):
                         ha="center", fontsize=7.5 * style.share())
 
 
+MANY_LOOKS = {"period": {"color": style.ORANGE, "marker": "v"},
+              "extremes": {"color": style.GREEN, "marker": "^"}}
+
+
+def many_panel(ax, result):
+    """Time against digits, a line a question, where formulas in balls give them."""
+    ax.set(xscale="log", yscale="log", xlabel="digits, each proved", ylabel="processor time (s)",
+           title="beyond doubles: formulas in balls")
+    for question, looks in MANY_LOOKS.items():
+        points = [item for item in result.many if item.question == question]
+        ax.plot([item.digits for item in points], [item.seconds for item in points], markersize=5,
+                linewidth=1.3, **looks)
+        if points:
+            ax.annotate(question, (points[-1].digits, points[-1].seconds), (0, 6), ha="right",
+                        textcoords="offset points", fontsize=8 * style.share(), color=looks["color"])
+
+
 def _clipped(error) -> float:
     return min(max(error, LEAST), WORST)
 
@@ -160,7 +183,7 @@ def text(result, all_settings: bool = False) -> str:
     printed = words(result)
     answer = next((line for line in printed if "six digits cost" in line), printed[0])
     lines = [f"{result.case.name}: {answer}", *([written(result.case.title)] if result.case.title else []),
-             *(["", *_by_digits(result)] if by_digits(result) else [])]
+             *(["", *_by_digits(result)] if by_digits(result) else []), *_many(result)]
     if not all_settings:
         return "\n".join([*lines, "", "--all prints every setting of every method."])
     for question in result.questions:
@@ -191,6 +214,14 @@ def _by_digits(result):
     return [*lines, *filter(None, [flat(result)])]
 
 
+def _many(result):
+    """A line a question of what digits beyond doubles cost."""
+    for question in dict.fromkeys(item.question for item in result.many):
+        prices = (f"{item.digits:,} digits {duration(item.seconds)}" for item in result.many
+                  if item.question == question and item.digits in SAID)
+        yield f"  {question} in balls, each digit proved: {', '.join(prices)}"
+
+
 def _line(p, best) -> str:
     error = "none" if math.isinf(p.error) else f"{p.error:.1e}"
     counts = "".join(f"{'' if n is None else n:>{width}}" for n, width in ((p.steps, 8), (p.evaluations, 8)))
@@ -213,7 +244,7 @@ def as_dict(result) -> dict:
             "sensitivity": result.sensitivity, "points": [_row(result, p) for p in result.points],
             "digit_price": {q: {m: digit_price(result.of(q, m)) for m in methods(result, q)}
                             for q in result.questions},
-            "by_digits": by_digits(result),
+            "by_digits": by_digits(result), "many_digits": [vars(item) for item in result.many],
             "fates": [vars(f) for f in result.fates],
             "left_out": [{"method": m, "value": v, "reason": why} for m, v, why in result.left_out],
             "words": words(result)}

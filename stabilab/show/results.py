@@ -369,6 +369,55 @@ def _flat_spin(result):
                "growth decay steps")))
 
 
+def _rotations_words(result):
+    count = some(len(result.rotations), "rotation")
+    return f"{count} at |H| = {result.momentum:.6g}; {result.stable} stable with losses"
+
+
+def _gyrostat_spin_words(result):
+    times = ((name, getattr(result, name)) for name in ("crosses", "settles", "tenth"))
+    printed = [f"{name} at {time.at:.6g}" for name, time in times if time]
+    rates = [] if result.rates is None else [f"at ({', '.join(f'{v:.6g}' for v in result.rates)})"]
+    return "; ".join([" ".join([result.outcome, *rates]), *printed, result.level])
+
+
+def _rotations(result):
+    dims, rows = ("rotation",), result.rotations
+    along = lambda name, **notes: (
+        ("rotation", "axis"), np.array([getattr(row, name) for row in rows]), notes)
+    values = {"rates": along("rates", units="rad/s", long_name="rates of a rotation"),
+              "momentum": along("momentum", units="N m s", long_name="angular momentum in the body"),
+              "energy": _numbers(dims, (row.energy for row in rows), units="J"),
+              **{name: _texts(dims, (getattr(row, name) for row in rows))
+                 for name in ("nature", "with_losses", "without_losses")},
+              **{name: _numbers(dims, (getattr(row, name) for row in rows), units="s")
+                 for name in ("growth", "decay")}}
+    notes = {"size": result.momentum, "because": result.because}
+    if result.threshold is not None:
+        notes |= {f"threshold_{name}": value
+                  for name, value in values_of(result.threshold, "factor moment").items()}
+    if hasattr(result, "outcome"):
+        notes |= values_of(result, "outcome level end energy final_energy barrier within steps")
+        notes |= {name: time.at for name in ("crosses", "settles", "tenth")
+                  if (time := getattr(result, name)) is not None}
+    return Variables(dims, values, AXIS, _known(notes))
+
+
+def _rotation_diagram_words(result):
+    counts = ", ".join(str(piece.stable) for piece in result.pieces)
+    return f"{some(len(result.pieces), 'piece')} over {result.span.key.name}; that attract: {counts}"
+
+
+def _rotation_diagram(result):
+    dims, rows = ("piece",), result.pieces
+    values = {name: _numbers(dims, (getattr(row, name) for row in rows)) for name in ("low", "high")}
+    values |= {name: _numbers(dims, (row.natures.get(name, 0) for row in rows))
+               for name in ("minimum", "saddle", "maximum")}
+    return Variables(dims, values, {}, _known({
+        "key": result.span.key.name, "size": result.momentum, "rate": result.rate,
+        "changes": [float(value) for value in result.changes], "because": result.because}))
+
+
 def _separatrix_words(result):
     return ("; ".join(f"{s.name}, {s.points.shape[0]} x {s.points.shape[1]} points" for s in result.branches)
             or f"no branches: {result.because}")
@@ -583,7 +632,9 @@ KINDS: dict[str, tuple[Callable[[Any], str], Callable[[Any], Variables]]] = {
     "Diagram": (_diagram_words, _diagram), "Plane": (_plane_words, _plane),
     "Separatrix": (_separatrix_words, _separatrix), "Comparison": (_comparison_words, _comparison),
     "Stuck": (_stuck_words, _stuck), "SpinUp": (_spin_up_words, _spin_up),
-    "FlatSpin": (_flat_spin_words, _flat_spin), "Ending": (_ending_words, _ending)}
+    "FlatSpin": (_flat_spin_words, _flat_spin), "Ending": (_ending_words, _ending),
+    "Rotations": (_rotations_words, _rotations), "GyrostatSpin": (_gyrostat_spin_words, _rotations),
+    "RotationDiagram": (_rotation_diagram_words, _rotation_diagram)}
 
 
 # --- Any kind: as a data set, a table, a page

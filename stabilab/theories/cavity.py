@@ -51,7 +51,7 @@ from ..integrate.trajectory import ALL_REACHED, FALLBACK_RTOL
 from ..physics.equations import derive
 from ..physics.states import numbers_in_a_row, three_numbers
 from ..physics.to_numpy import lambdified, to_numpy
-from ..reasons import Moment, Quantity, Rate, Reason, Reasoned, Sentence, Time, old
+from ..reasons import Axis, Moment, Quantity, Rate, Reason, Reasoned, Sentence, Time
 from .cavity_normal_form import NAMES, NormalForm, check, constants, normal_form
 from .printed.evaluate import printed_formulas
 
@@ -141,6 +141,18 @@ def omega_of(state) -> np.ndarray:
     return three_numbers(state["omega"] if isinstance(state, dict) and "omega" in state else state)
 
 
+OF_MOMENTS = Sentence("averaging-ratio-of-moments", "(D1 + D2)/2 - D3 against D3")()
+OF_SPLITTING = Sentence(
+    "averaging-ratio-of-splitting",
+    "the splitting D1 - D2 against the turn it disturbs (|D1 + D2 - 2 D3| |ω|/2 + |Γ|)")()
+OF_LIQUID = Sentence("averaging-ratio-of-liquid", "the liquid (κ (|ω| + |Γ|/J0)/J0)")()
+OF_TORQUE = Sentence(
+    "averaging-ratio-of-torque",
+    "the torque (|M|/(J0 |ω|²), with |Γ|/J0 or the steady spin M3/(ζ J0) where that is larger)")()
+OF_MOMENTUM = Sentence("averaging-ratio-of-momentum", "Γ against J0 |ω|, for first order")()
+ACROSS = Sentence(
+    "averaging-ratio-of-torque-across",
+    "the torque across {axis}, left out in first order, against the turn")(axis=Axis(3))
 NOT_SMALL = Sentence(
     "averaging-not-small", "averaging needs small disturbances: {ratio} is {value}, expected it below 1 "
     "(much below 1 for a close answer); use the exact motion (`trajectory`) here")
@@ -166,7 +178,7 @@ AVERAGED = Sentence("averaged-model", "averaged equations of order {order}, ε =
 
 @dataclass(frozen=True)
 class Smallness:
-    """The numbers whose smallness the averaging assumes; `ratios`: words -> number that must stay below 1;
+    """The numbers whose smallness the averaging assumes; `ratios`: name -> number that must stay below 1;
     `soft`: those that only make the answer doubtful. eps: small parameter; slow: fastest slow rate, 1/s."""
 
     eps: float
@@ -180,19 +192,18 @@ class Smallness:
         moment, size = math.hypot(*M), float(np.linalg.norm(omega))
         turn = (abs(d) * size + abs(g)) / J
         speed = max(size, abs(g) / J)
-        ratios = {"(D1 + D2)/2 - D3 against D3": 2 * abs(d) / J,
-                  "the splitting D1 - D2 against the turn it disturbs (|D1 + D2 - 2 D3| |omega|/2 + |Gamma|)":
+        ratios = {OF_MOMENTS: 2 * abs(d) / J,
+                  OF_SPLITTING:
                       abs(h) * size / (J * turn) if turn else (math.inf if h * size else 0.0),
-                  "the liquid (kappa (|omega| + |Gamma|/J0)/J0)": kappa * speed / J,
-                  "the torque (|M|/(J0 |omega|^2), with |Gamma|/J0 or the steady spin M3/(zeta J0) where "
-                  "that is larger)":
+                  OF_LIQUID: kappa * speed / J,
+                  OF_TORQUE:
                       _over(moment / J, max(speed, abs(M[2]) / (zeta * J) if zeta else 0.0) ** 2)}
         slow = max(zeta, kappa * speed * turn / J, _over(moment, J * speed))
         # The liquid torque is of second degree in Gamma and the turn by Gamma is in nu: a large one spoils
         # first order only.
         # First order leaves M1, M2 out: their share comes round with the turn, if there is one.
-        soft = {"Gamma against J0 |omega|, for first order": _over(abs(g) / J, size) if kappa else 0.0,
-                "the torque across axis 3, left out in first order, against the turn": _over(
+        soft = {OF_MOMENTUM: _over(abs(g) / J, size) if kappa else 0.0,
+                ACROSS: _over(
                     math.hypot(*M[:2]) / J, turn * speed)}
         return cls((abs(d) + abs(h)) / J, ratios, soft, slow)
 
@@ -209,7 +220,7 @@ class Smallness:
         worst, small = ratios[largest], Quantity(self.eps, digits=3)
         result = (ERRORS_UP_TO(order=order, small=small, time=Time(1 / self.slow, digits=3)) if self.slow
                  else ERRORS_ALWAYS(order=order, small=small))
-        return result.then(DOUBTFUL(ratio=old(largest), value=Quantity(float(worst), digits=2))
+        return result.then(DOUBTFUL(ratio=largest, value=Quantity(float(worst), digits=2))
                           if worst > 0.3 else None)
 
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..answers.caveats import answered
 from ..case.given import Given, Span, Start, as_case, time_in, with_start
-from ..errors import InputError, reason_of
+from ..errors import InputError, refusal_of
 from ..integrate.events import roots_of_rates
 from ..physics.states import checked_times
 from ..reasons import Angle, Filling, PerSecond, Quantity, Rate, Reason, Sentence, Time, as_reason
@@ -103,7 +103,7 @@ def theory(case: Given, order: int | None = None, model: str | None = None,
         rows = printed[module.__name__.split(".")[-1]](case, order, end)
         return rows + (_misprints() if model == "printed" and module.MODELS[0] == "linear" else [])
     except InputError as error:
-        return [_row("theory", NO_ANSWER(why=reason_of(error)))]
+        return [_row("theory", NO_ANSWER(why=refusal_of(error)))]
 
 
 def _row(about: str, reason: Reason, **values: object) -> dict:
@@ -190,7 +190,7 @@ def _periodic(motion):
         values["precession"] = mean_precession(motion)
         precession = PRECESSES(rate=Rate(values["precession"]))
     except InputError as error:
-        precession = NO_PRECESSION(why=reason_of(error))
+        precession = NO_PRECESSION(why=refusal_of(error))
     reason = PERIODIC(order=motion.order, period=Time(motion.period), precession=precession,
                       departure=Rate(tuple(values["departure"])), square=Quantity(motion.Omega2))
     return _row("periodic motion", reason, **values)
@@ -297,7 +297,7 @@ def side_by_side(case, times, order: int | None = None) -> tuple[dict, dict]:
         except InputError as error:
             if name == "exact":
                 raise
-            refused[name] = reason_of(error)
+            refused[name] = refusal_of(error)
     return runs, refused
 
 

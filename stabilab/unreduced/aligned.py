@@ -15,7 +15,6 @@ import numpy as np
 from ..errors import InputError
 from ..numbers.double_double import EPS
 from ..orbit import extremes_arrays
-from ..orbit.extremes import precise_period
 from ..orbit.fate import Basis, OneFate, fate_of
 from ..orbit.fate import at_rest as rest_of
 from ..orbit.fate_arrays import FateResult, at_rest, in_chunks, write_row
@@ -23,6 +22,7 @@ from ..orbit.fate_arrays import fates as fates_on_orbit
 from ..orbit.landscape import landscape
 from ..orbit.one_orbit import Orbit
 from ..orbit.one_state import apart_fields
+from ..orbit.period import precise_period
 from ..orbit.reduction import reduce
 from ..orbit.result import NO_EXTREMES, Fate, Motion, Needs, finite, judged, pairs, repeats
 from ..physics.coefficients import three_floats

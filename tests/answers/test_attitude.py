@@ -105,6 +105,6 @@ def test_the_first_line_of_a_top_says_how_it_leans_and_a_caveat_is_printed_once(
     path.write_text(text.replace('["0.0871557", 0, "-0.9961947"]', "[0, 0, -1]").replace(
         '[0, 0, "25 rev/s"]', '["1 rev/s", 0, "25 +- 1 % rev/s"]'))
     first, *rest = stabilab("attitude", path)[1].splitlines()
-    assert first.startswith("top: HEAVY TOP, leaning by 0 deg to 21.82 deg, nutation period 0.18801 s, ")
-    assert first.endswith("no precession, for its axis passes through the vertical")
+    assert first.startswith("top: HEAVY TOP; leaning by 0 deg to 21.82 deg; nutation period 0.18801 s")
+    assert rest[0] == "  no precession, for its axis passes through the vertical"
     assert sum("caveat" in line for line in rest) == 1

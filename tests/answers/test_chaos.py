@@ -39,7 +39,7 @@ def test_a_state_at_rest_is_not_chaotic_however_fast_its_neighbours_part():
     found = stabilab.chaos(fold.scene, [list(fold.state), [0.1, 0.2, 0.3]])
     assert found.labels[0] == Order.REGULAR and found.megno[0] > 100 and found.lyapunov[0] == 0
     assert words.text(fold, stabilab.chaos(fold.scene, fold.state)).startswith(
-        "off-axis-fold: REGULAR: it is an equilibrium")
+        "off-axis-fold: REGULAR; it is an equilibrium")
 
 
 def test_a_chaotic_motion_followed_briefly_is_undecided_or_regular_so_far_and_the_time_is_told():

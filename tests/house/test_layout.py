@@ -179,7 +179,7 @@ def test_no_file_stands_beside_a_folder_of_its_name():
 
 def test_the_words_of_an_outcome_stand_in_one_table():
     """`orbit.result.OUTCOMES`, which every view reads; the short words, which name other things too, left out."""
-    phrases = {text for one in OUTCOMES.values() for text in one if " " in text}
+    phrases = {text for one in OUTCOMES.values() for text in map(str, one) if " " in text}
     heads = tuple(one.head for one in OUTCOMES.values() if " " in one.head)
     found = {(str(path.relative_to(PACKAGE)), node.value) for path in MODULES for node in ast.walk(tree_of(path))
              if isinstance(node, ast.Constant) and isinstance(node.value, str)

@@ -83,6 +83,22 @@ def test_every_command_shows_a_new_caveat_in_every_view(stabilab, probed, usual,
         assert any(one["code"] == "probe" and one["kind"] == "stated" for one in found)
 
 
+@pytest.mark.one_in(3)
+@pytest.mark.parametrize("kind", list(Kind))
+def test_a_caveat_of_every_kind_is_in_every_view(monkeypatch, stabilab, usual, tmp_path, kind):
+    """No view chooses by the kind what it leaves out: kinds that some view treats by itself as well."""
+    monkeypatch.setattr(caveats, "CAVEATS", (*caveats.CAVEATS, lambda known: (Caveat(kind, PROBE()),)))
+    shown = {(name, *form): stabilab(name, usual, *NEEDS.get(name, ()), *form)[1]
+             for name, forms in {"fate": ((), ("--json",)), "classify": ((), ("--json",)), "period": ((),),
+                                 "extremes": ((), ("--csv",)), "when": ((), ("--csv",))}.items() for form in forms}
+    case = package.load(usual)
+    shown |= {question: repr(getattr(case, question)()) for question in ("fate", "extremes", "period", "motion")}
+    page, answer = one_case.sections(case, tmp_path, "case", deep=False), ask(Session(case), moving=False)[0]
+    shown |= {"page": f"{page['caveats']} {page['headline']} {page['tiles']}",
+              "explorer": f"{answer['headline']} {answer['note']}"}
+    assert [view for view, text in shown.items() if WORDS not in text.lower()] == []
+
+
 def test_a_command_whose_views_say_nothing_shows_every_caveat(case_file, capsys):
     """Text, JSON and CSV get them from the runner, that on a law as well, though this command judges none."""
     case = package.load(case_file(USUAL, "usual"))

@@ -10,8 +10,8 @@ import numpy as np
 
 import stabilab
 from stabilab import Fate
-from stabilab.orbit.extremes import period_ball
 from stabilab.orbit.one_orbit import Orbit
+from stabilab.orbit.period import period_ball
 from stabilab.orbit.reduction import reduce
 from tests.hunt.disagreements import BITS, ELEVEN_DIGITS, MOST_TURNS, NO_QUESTION, number_of, series_of, worst
 

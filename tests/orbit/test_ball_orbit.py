@@ -12,10 +12,11 @@ import stabilab
 from stabilab import Body, Fate, Gyrostat, Scene
 from stabilab.answers.motion import motion
 from stabilab.numbers.balls import DOUBLE_BITS, START_BITS
-from stabilab.orbit.extremes import precise_extremes, precise_period
+from stabilab.orbit.extremes import precise_extremes
 from stabilab.orbit.fate import decide
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.one_orbit import Orbit
+from stabilab.orbit.period import precise_period
 from stabilab.orbit.reduction import reduce
 from tests.oracles import energy
 from tests.oracles.pairs import PAPER_BODY, WORDS, assert_extremes, physical

@@ -11,10 +11,11 @@ import stabilab
 from benchmarks.random_scenes import SEED, drawn
 from stabilab import Fate
 from stabilab.numbers.numba_door import installed
-from stabilab.orbit.extremes import precise_extremes, precise_period
+from stabilab.orbit.extremes import precise_extremes
 from stabilab.orbit.extremes_arrays import extremes_and_periods
 from stabilab.orbit.fate import decide, fate_of
 from stabilab.orbit.one_orbit import Orbit
+from stabilab.orbit.period import precise_period
 from stabilab.orbit.reduction import reduce
 from tests.hunt.disagreements import between
 from tests.shared import later

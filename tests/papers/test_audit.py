@@ -393,3 +393,22 @@ def test_an_equation_is_found_with_brackets_and_by_what_its_row_speaks_of():
     main = "constant-torque-gyrostat"
     assert [found.row.equation for found in audit.audit(PAPERS[main], "(30)")] == ["30"]
     assert "text-34c" in [found.row.equation for found in audit.audit(PAPERS[main], "G1")]
+
+
+def test_a_row_on_a_figure_is_linked_to_it_from_its_name():
+    for paper in PAPERS.values():
+        for row in paper.rows:
+            number = re.match(r"text-fig(\d+)", row.equation)
+            assert not number or int(number[1]) in row.options["figures"], row.place
+    assert row_of("constant-torque-gyrostat", "text-fig16").options["figures"] == [16]
+
+
+def test_no_row_says_that_a_thing_is_itself_alone():
+    def same(text):
+        left, right = text.split("=")
+        return left.strip() == right.strip()
+
+    for paper in PAPERS.values():
+        for row in paper.rows:
+            for texts in (row.printed, row.corrected) if row.kind == "holds" else ():
+                assert not texts or not all(map(same, texts)), row.place

@@ -20,7 +20,7 @@ PAGE, EXPLORER, TEXT, PICTURES = map(recorded, ("page", "explorer", "classify-te
 TILTED = re.compile(r"(?:: |; )(?:tilted by |a tilt )[^;]*")  # looked at where that is asked for, or quick
 
 
-SHORT = re.compile("|".join(filter(None, IN_SHORT.values())))
+SHORT = re.compile("|".join(form for forms in IN_SHORT.values() for form in forms if form))
 
 
 def plain(text: str) -> str:

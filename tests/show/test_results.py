@@ -18,6 +18,8 @@ OFF = stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.Gyrostat(("0.8", 0, 0))
                      stabilab.ConstantTorque(("0.01", "0.3", "0.02")))
 DAMPED = stabilab.load(
     stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.ViscousDamper("0.5", 2)), (0.3, 0.1, 2))
+GYROSTAT = stabilab.load(stabilab.Scene(stabilab.Body((3, 2, 1)), stabilab.ViscousDamper("0.1", "0.3"),
+                                        stabilab.Gyrostat((0, 0, 2))), (0.1, 0, 0.5))
 RESULTS = {
     "Motion": lambda: stabilab.motion(SCENE, STATES[0]), "Equilibria": lambda: stabilab.equilibria(SCENE),
     "FateResult": lambda: fates(SCENE, STATES), "Motions": lambda: stabilab.fate(SCENE, STATES),
@@ -38,6 +40,10 @@ RESULTS = {
     "Angles": lambda: stabilab.angles(SCENE, STATES[0], span=10),
     "Crossings": lambda: stabilab.when(SCENE, state=STATES[0], until=40, events=["omega1", lambda t, y: t - 1]),
     "FlatSpin": lambda: stabilab.flat_spin(DAMPED), "Ending": lambda: stabilab.motion(DAMPED).ending,
+    "GyrostatSpin": lambda: stabilab.flat_spin(GYROSTAT),
+    "Rotations": lambda: stabilab.flat_spin(GYROSTAT, momentum="2.8 N m s"),
+    "RotationDiagram": lambda: stabilab.bifurcation(
+        stabilab.load(CASES / "dual-spin-damper.toml"), {"wheels.flywheel.speed": "0:500 rpm"}, spin="60 rpm"),
     "Ensemble": lambda: stabilab.ensemble(SCENE, STATES, TIMES)}
 
 

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...equilibrium.dissipative import decay, drawn_to
-from ...errors import InputError, Kind
+from ...errors import InputError, Kind, refusal_of
 from ...integrate.trajectory import root_between
 from ...numbers.vectors import Float3, dot
 from ...orbit.result import Fate, Motion
@@ -31,14 +31,16 @@ from ...physics.coefficients import Content, content, loses
 from ...physics.scene import AnyScene, later, slices
 from ...physics.states import equations_and_start, moved_row, start_of
 from ...physics.to_numpy import System, to_numpy
-from ...reasons import Axis, Momentum, Rate, Reasoned, Sentence, as_reason
+from ...reasons import Axis, Momentum, Rate, Reasoned, Sentence
 from ...representation import Compared, Shown
 from ...unreduced.bounds import OPEN_DIRECTION
 from ..passage import MOVED, WIDER
 from ..simulate import trajectory
-from .flat_spin import ACROSS, POSITIVE, SECOND_RTOL, UNDECIDED, FlatSpin, Time, of_case
+from . import gyrostat as gyrostats
+from .flat_spin import ACROSS, POSITIVE, SECOND_RTOL, UNDECIDED, FlatSpin, of_case
 from .spinner import Spinner
 from .time_constants import TimeConstant, near_rest_across, time_constants
+from .times import Time
 
 if TYPE_CHECKING:
     from ...case.read import Case
@@ -84,9 +86,10 @@ class Ending(Shown, Compared, Reasoned):
     axis: 1 to 3, about which it ends turning, 0 across all or at rest; minor: the axis of the least moment of
     a free body, else 0; sense: +1 or -1 of the turn, 0 where undecided. rate: |omega| in the end, rad/s;
     rates: along the principal axes, None where undecided. within: how near "settles" is: rad of nutation of a
-    free body, else a share of its rates or of its departure from the end. times: (name, `Time`) in their
-    order, of those that lie ahead: "leaves" (the nutation exceeds `within` from the minor axis), "crosses"
-    (the separatrix), "settles" (it is within `within` of its end, where it stays), "tenth" (the nutation is a
+    free body, of one with wheels of the angle of H to its end in the body (`angular`), else a share of its
+    rates or of its departure from the end. times: (name, `Time`) in their order, of those that lie ahead:
+    "leaves" (the nutation exceeds `within` from the minor axis), "crosses" (the separatrix), "settles" (it
+    is within `within` of its end, where it stays), "tenth" (the nutation is a
     tenth of that at the start, where it stays). nutation: rad, at the start, where it dies out; growth,
     decay: s, time constants of the nutation. at_the_latest: s, proved, by when it has settled; estimate: s,
     where a run to "settles" would take too many steps: at the pace that it goes at first. constants: time
@@ -108,6 +111,7 @@ class Ending(Shown, Compared, Reasoned):
     at_the_latest: float | None = None
     estimate: float | None = None
     constants: tuple[TimeConstant, ...] = ()
+    angular: bool = False
 
     def time(self, name: str) -> float | None:
         """One of its times, s."""
@@ -141,15 +145,15 @@ def ending(case: Any, motion: Motion) -> Ending | None:
     if size and not 1 / HUGE < size < HUGE:
         return Ending("undecided", "undecided", reason=TOO_FAR(rate=Rate(size)))
     if _free(parts):
-        return _inside(case)
+        return _of_gyrostat(case) if any(parts.Lambda) else _inside(case)
     start = equations_and_start(scene, start_of(scene, case.state, case.blocks))[1]
     return _outside(scene, parts, start, motion)
 
 
 def _free(parts: Content) -> bool:
     """Whether a body alone carries what takes its energy, with an angular momentum that it keeps."""
-    outside = (any(parts.M) or any(parts.Lambda) or any(parts.u) or parts.c or parts.damped or parts.directed)
-    return not outside and len(set(parts.D)) > 1
+    outside = any(parts.M) or any(parts.u) or parts.c or parts.damped or parts.directed or parts.charged
+    return not outside and (parts.inside > 0 if any(parts.Lambda) else len(set(parts.D)) > 1)
 
 
 # --- Inside a free body
@@ -160,7 +164,7 @@ def _inside(case: Any) -> Ending:
         result = of_spin(of_case(case, WITHIN, spans=False))
         return replace(result, constants=_about_major(case))
     except InputError as error:  # a liquid in moments that no rigid body has
-        return Ending("undecided", "undecided", reason=as_reason(str(error)))
+        return Ending("undecided", "undecided", reason=refusal_of(error))
 
 
 def _about_major(case: Any) -> tuple[TimeConstant, ...]:
@@ -186,6 +190,22 @@ def of_spin(result: FlatSpin) -> Ending:
                   result.final_rate, result.rates, result.within, times, result.nutation, result.growth,
                   result.decay, reason=reason)
 
+
+def _of_gyrostat(case: Any) -> Ending:
+    """The same of a body with wheels, among the rotations at its angular momentum."""
+    result = gyrostats.of_case(case, WITHIN)
+    reason = result.reason
+    for drawn in (caveat.reason for caveat in result.caveats if caveat.kind is Kind.UNCERTAIN):
+        reason = reason.then(drawn)
+    if result.end is None:
+        return Ending("undecided", "undecided", reason=reason, within=result.within, angular=True)
+    end = result.rotations[result.end]
+    rate = math.hypot(*end.rates)
+    ahead = (("crosses", result.crosses), ("settles", result.settles), ("tenth", result.tenth))
+    times = tuple((name, item) for name, item in ahead if item is not None)
+    return Ending("steady rotation" if rate else "rest", result.level, end.axis, rate=rate,
+                  rates=result.rates, within=result.within, times=times, decay=end.decay, reason=reason,
+                  angular=True)
 
 
 # --- From outside

@@ -38,15 +38,19 @@ from ...case.given import Span as Times
 from ...case.read import Case, with_data
 from ...case.source import parsed
 from ...errors import Caveat, InputError, Kind, without
-from ...numbers.units import ANGLE, in_si
+from ...numbers.units import ANGLE, MOMENTUM, in_si
 from ...numbers.vectors import Float3, cross, dot
 from ...physics.states import moved_row
 from ...reasons import Angle, Axis, Quantity, Reason, Reasoned, Sentence
 from ...representation import Answer, Compared
 from ..caveats import caveats_of
 from ..passage import MOVED, WIDER
+from . import gyrostat
 from .changes import Span, spans_of
+from .gyrostat import GyrostatSpin
+from .rotations import Rotations, rotations_at
 from .spinner import ENDED, Run, Spinner, after_the_separatrix
+from .times import Time
 
 # --- Why
 NOT_KNOWN = Sentence("end-not-known", "how it ends is not known")()
@@ -85,15 +89,6 @@ SAME_OVER_BOX = Sentence("end-over-box-by-samples", "uncertain numbers: {found};
 # --- The answer
 POSITIVE, NEGATIVE = "positive major axis", "negative major axis"
 ACROSS, UNDECIDED = "across the minor axis", "undecided"
-
-
-@dataclass(frozen=True)
-class Time:
-    """A time, s, known to `error`, s: what a second run from a start moved in its last places, with a coarser
-    tolerance, differs by."""
-
-    at: float
-    error: float
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -156,25 +151,37 @@ RUN_STEPS = 5_000_000  # of a run: some ten seconds
 SPAN_STEPS = 6_000_000  # of all runs that look for changes of the outcome by one number
 
 
-def flat_spin(case: Given, within: Amount = "5 deg", *, state: Start | None = None,
-              span: Times | None = None) -> FlatSpin:
+def flat_spin(case: Given, within: Amount = "5 deg", *, momentum: Amount | None = None,
+              state: Start | None = None, span: Times | None = None) -> FlatSpin | GyrostatSpin | Rotations:
     """What becomes of a free body with a damper or a liquid: the direction of the major axis about which it
-    ends, when it tumbles, and by how much its start decides that.
+    ends, when it tumbles, and by how much its start decides that; with wheels, the rotation in which it ends,
+    among all rotations at its angular momentum.
 
-    case: in any form, or a scene with `state`, with a viscous damper or a liquid cavity and nothing else that
-    acts, and a start. within: the nutation angle, rad or text with a unit, from which the tumble is counted
-    and to which it settles. Raises InputError for other scenes, a body at rest, equal moments, and an angle
-    that is none.
+    case: in any form, or a scene with `state`, with a viscous damper or a liquid cavity, wheels or none, and
+    nothing else that acts, and a start. within: the nutation angle, rad or text with a unit, from which the
+    tumble is counted and to which it settles; with wheels the angle of H to where it ends. momentum: |H|, N m
+    s or text with a unit: all rotations at that, of a body with or without losses and wheels, whatever its
+    start. Raises InputError for other scenes, a body without wheels at rest or with equal moments, and an
+    angle that is none.
     """
     angle = float(in_si(within, ANGLE, "within"))
     if not LEAST <= angle < math.pi / 2:
         raise InputError('within: expected an angle from 0.01 deg to below 90 deg, such as "5 deg", got '
                          f"{math.degrees(angle):.6g} deg")
-    return of_case(with_start(as_case(case, state, span), "flat_spin"), angle)
+    if momentum is not None:
+        return rotations_at(as_case(case, state, span), in_si(momentum, MOMENTUM, "momentum"))
+    return any_of_case(with_start(as_case(case, state, span), "flat_spin"), angle)
+
+
+def any_of_case(case: Case, angle: float) -> FlatSpin | GyrostatSpin:
+    """The same of a case and an angle in rad, with wheels or without."""
+    scene: Any = case.scene
+    wheels = case.variables == "physical" and any(scene.vector("gyrostat"))
+    return gyrostat.of_case(case, angle) if wheels else of_case(case, angle)
 
 
 def of_case(case: Case, angle: float, spans: bool = True) -> FlatSpin:
-    """The same of a case and an angle in rad; spans: also look for changes of the outcome."""
+    """The same of a case without wheels; spans: also look for changes of the outcome."""
     out = _answered(Spinner.of(case), angle, spans)
     own = without(case.caveats, Kind.UNCERTAIN)
     out = replace(out, caveats=(*own, *out.caveats))

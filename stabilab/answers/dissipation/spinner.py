@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -41,34 +41,37 @@ class Spinner:
     order: tuple[int, int, int]
 
     @classmethod
-    def of(cls, case: Any) -> Spinner:
+    def of(cls, case: Any) -> Self:
         scene = case.scene
         if case.state is None or case.variables != "physical":
             raise InputError("flat-spin: give the start as [motion] angular_velocity, in rad/s")
-        others = [effect.with_article for effect in scene.effects if effect.takes != "inside"]
+        wheel = any(scene.vector("gyrostat"))
+        others = [effect.with_article for effect in scene.effects
+                  if effect.takes != "inside" and effect.name != "gyrostat"]
         if outside := [effect_words(effect.name) for effect in scene.effects if effect.takes == "outside"]:
             raise InputError(f"flat-spin: {' and '.join(outside)}: a torque from outside, which changes the "
                              "angular momentum, too, so that no flat spin need be the end: `stabilab "
                              "classify` says where the motion tends")
-        if others or not scene.effects:
+        if others or not any(effect.takes for effect in scene.effects):
             raise InputError(
                 f"flat-spin: it is known of a free body; this one has {', '.join(others)} besides" if others
                 else "flat-spin: nothing takes energy here, and a rigid body turns about its minor axis for "
-                     "ever: give [effects.viscous_damper], with inertia and coefficient")
+                     "ever: give [effects.viscous_damper], with inertia and coefficient; its rotations at "
+                     'one angular momentum: --momentum "100 N m s"')
         D = scene.body.exact
-        if D[0] == D[1] == D[2]:
+        if D[0] == D[1] == D[2] and not wheel:
             raise InputError("flat-spin: all moments are equal: every axis is a major axis")
         if 2 * max(D) > sum(D) and scene.effect("liquid_cavity"):
             raise InputError("flat-spin: a liquid takes energy for the moments of a rigid body alone, and no "
                              "rigid body has these")
         result = cls.made(case)
-        if not any(result.momentum):
+        if not wheel and not any(result.momentum):
             raise InputError("state: the angular momentum is zero, so that the body comes to rest; give an "
                              "angular_velocity")
         return result
 
     @classmethod
-    def made(cls, case: Any) -> Spinner:
+    def made(cls, case: Any) -> Self:
         """Of a case that is known to be asked for."""
         scene = case.scene
         D = scene.body.exact
@@ -179,11 +182,11 @@ class Run:
     """A motion followed forward, from one level of 2 T/|H|^2 to the next."""
 
     def __init__(self, spinner: Spinner, state: np.ndarray, rtol: float | None,
-                 most: int = RUN_STEPS) -> None:
+                 most: int = RUN_STEPS, pace: float | None = None) -> None:
         self.spinner, self.state, self.rtol, self.most = spinner, state, rtol, most
         self.t, self.steps, self.validity = 0.0, 0, None
         self.why: Reason | None = None
-        self.length = 100 / float(np.linalg.norm(state[:3]))
+        self.length = 100 / (float(np.linalg.norm(state[:3])) if pace is None else pace)
 
     def over(self, state: np.ndarray, times: np.ndarray) -> Any:
         return trajectory(self.spinner.scene, state, times, rtol=self.rtol, laws=False)

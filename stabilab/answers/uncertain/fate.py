@@ -28,7 +28,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...errors import Caveat, InputError, Kind
+from ...errors import Caveat, InputError, Kind, refusal_of
 from ...numbers.affine import Affine, lifted, sign_over, squared
 from ...numbers.vectors import CYCLE, Number, Triple, cross, dot
 from ...orbit.fate import REASONS, Basis, fate_of
@@ -37,7 +37,7 @@ from ...orbit.potential import derivatives_on_parabola
 from ...orbit.reduction import Reduction, reduce, reduction_about
 from ...orbit.result import Fate
 from ...physics.scene import QuadraticForm
-from ...reasons import Axis, Reason, Sentence, as_reason
+from ...reasons import Axis, Reason, Sentence
 from ..equilibria import equilibria
 from ..kinds import kind_of
 from ..motions.rows import fates
@@ -629,5 +629,5 @@ def uncertain(case: Any, questions: Sequence[str] = ("equilibria", "fate")) -> U
         if case.observed and "fate" in request:
             entries["fate"] = _of_observed(box)
     except InputError as error:
-        entries = {name: Over("undecided", None, reason=as_reason(str(error))) for name in request}
+        entries = {name: Over("undecided", None, reason=refusal_of(error)) for name in request}
     return Uncertainty(case.uncertain, entries.get("equilibria"), entries.get("fate"))

@@ -24,13 +24,14 @@ from typing import Any
 
 from flint import arb, arb_poly, arb_series
 
-from ...case.given import Given, Span, Start, written
+from ...case.given import Amount, Given, Span, Start, written
 from ...case.read import Case, read_text
 from ...case.source import parsed
 from ...errors import InputError
 from ...numbers.algebraic import between, coefficients, univariate
 from ...numbers.balls import Digits, Unclear, evaluated, rational, real_roots_of, settled, working
 from ...numbers.bracket import Bracket, narrowed
+from ...numbers.units import MOMENTUM, RATE, in_si
 from ...numbers.vectors import Float3
 from ...physics.coefficients import effective
 from ...reasons import Sentence
@@ -40,6 +41,7 @@ from .diagram import ball_form, diagram, followed, general_states, parts
 from .eliminated import Eliminated, at_rational
 from .equations import LEAF, Conics, Diagram, Event, Family, OnLine, Piece, State, chosen
 from .plane import Plane, plane
+from .rotations import RotationDiagram, rotation_diagram
 
 # --- Where separatrices connect
 BITS = 160
@@ -349,8 +351,8 @@ def _zero(rise: _Rise, low: Fraction, high: Fraction) -> Fraction:
 
 # --- The question
 def bifurcation(case: Given, vary: Mapping[str, Any] | Sequence[tuple[str, Any]],
-                curve: bool = False, *,
-                state: Start | None = None, span: Span | None = None) -> Diagram | Plane:
+                curve: bool = False, *, momentum: Amount | None = None, spin: Amount | None = None,
+                state: Start | None = None, span: Span | None = None) -> Diagram | Plane | RotationDiagram:
     """All equilibria of a case over the range of one number or of two, exactly: where they appear, vanish or
     go to infinity, and which are stable.
 
@@ -359,10 +361,21 @@ def bifurcation(case: Given, vary: Mapping[str, Any] | Sequence[tuple[str, Any]]
     are counted; of a torque on one, those on the curve that the motion of the case keeps to, or, with `curve`
     or without a motion, the points of the curve of equilibria where stability changes. Critical values are
     roots of discriminants and resultants with rational coefficients, isolated by balls: no step size, and
-    none is missed. Over two numbers these are curves, with their cusps. Raises InputError for what cannot be
+    none is missed. Over two numbers these are curves, with their cusps.
+
+    momentum: |H|, N m s or text with a unit: instead all rotations of a free body at it, with losses inside
+    or without, over the speed or momentum of a wheel; spin: rad/s or text with a unit: the rotation at this
+    rate about the wheels' own principal axis. Raises InputError for what cannot be
     eliminated.
     """
     case = written(case, state, span)
+    if momentum is not None or spin is not None:
+        if curve or (momentum is not None and spin is not None):
+            raise InputError("bifurcation: momentum, spin and curve are different questions: give one of "
+                             "them")
+        return rotation_diagram(case, _pairs(vary), *(
+            None if value is None else in_si(value, dimension, name)
+            for value, dimension, name in ((momentum, MOMENTUM, "momentum"), (spin, RATE, "spin"))))
     family = family_of(case, vary)
     try:
         return with_connections(diagram(family, curve)) if len(family.spans) == 1 else plane(family, curve)

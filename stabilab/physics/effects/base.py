@@ -14,6 +14,7 @@ from typing import Any, ClassVar
 from ...errors import Caveat
 from ...numbers.principal import PrincipalAxes
 from ...numbers.vectors import Number, Triple
+from ...reasons import Reason
 from ...validation import Asked
 
 
@@ -26,15 +27,16 @@ def effect_words(name: str) -> str:
 class Limit:
     """Up to where an approximate law may be used: a dimensionless number that must not exceed `limit`.
 
-    number: its name and formula; value: {block of the state: its components} -> the number, for components of
-    any shape alike, None where the state has no block that it asks for; follows: what follows beyond the
-    limit, in words; source: of law and limit; needs: of the state, in words.
+    number: its name and formula, a reason without quantities or words; value: {block of the state: its
+    components} -> the number, for components of any shape alike, None where the state has no block that it
+    asks for; follows: what follows beyond the limit, as number is given; source: of law and limit; needs: of
+    the state, in words.
     """
 
-    number: str
+    number: Reason | str
     limit: float
     value: Callable[[Mapping[str, tuple[Number, ...]]], Number | None]
-    follows: str
+    follows: Reason | str
     source: str
     needs: str = "a part of the state"
 

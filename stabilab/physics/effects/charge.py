@@ -10,6 +10,7 @@ from ...errors import InputError
 from ...numbers.exact import exact, precise
 from ...numbers.units import ANGLE, CHARGE, FLUX, LENGTH, in_si
 from ...numbers.vectors import Given, Number, Triple, cross
+from ...reasons import Axis, Sentence
 from .base import Effect, Limit
 
 if TYPE_CHECKING:
@@ -19,6 +20,10 @@ if TYPE_CHECKING:
     from ..scene import Scene
 
 ANGLE_SHARE = 0.1  # of the torque, by which a constant angle may be wrong
+ANGLE_CHANGE = Sentence("charge-angle-change", "change of cos σ, held constant, with the attitude")()
+TURNS_AWAY = Sentence(
+    "charge-turns-away", "{axis} turns away from the field, and the charge's torque with it: angle = "
+    "\"attitude\" follows that")(axis=Axis(3))
 
 
 @dataclass(frozen=True)
@@ -92,9 +97,7 @@ class Charge(Effect):
                 a, b, c, d = state["attitude"]
                 return abs((a * a - b * b - c * c + d * d) / constant - 1)
             return abs(state["gamma"][2] / constant - 1) if "gamma" in state else None
-        return (Limit("change of cos sigma, held constant, with the attitude", ANGLE_SHARE, departure,
-                      "axis 3 turns away from the field, and the charge's torque with it: angle = "
-                      "\"attitude\" follows that",
+        return (Limit(ANGLE_CHANGE, ANGLE_SHARE, departure, TURNS_AWAY,
                       "Galal et al., charged body: eq. (3) ff.", "the attitude"),)
 
     @property

@@ -12,6 +12,7 @@ from ...errors import InputError
 from ...numbers.exact import precise
 from ...numbers.units import DENSITY, LENGTH, LENGTH_7, VISCOSITY, in_si
 from ...numbers.vectors import Given, Number, Triple, cross, cross_matrix, dot
+from ...reasons import Quantity, Sentence
 from .base import Effect, Limit
 
 if TYPE_CHECKING:
@@ -66,6 +67,17 @@ def _torque(effect: Effect, D: Sequence[float], state: Mapping[str, Sequence[Num
 TORQUES = ("consistent", "printed")
 # of the Reynolds number: the next term of the series over the one that is kept, for a sphere
 NEXT_TERM = 2 / 45
+REYNOLDS = Sentence("liquid-reynolds-number", "Reynolds number n h²/ν of the liquid")()
+TOO_THIN = Sentence(
+    "liquid-too-thin", "the liquid's torque is the first term of a series in this number (the next is "
+    "{share} of it times as large), so a liquid this thin does not move as computed")(
+        share=Quantity(NEXT_TERM, digits=2))
+TORQUE_RATIO = Sentence("liquid-torque-ratio", "torque of the liquid over the body's own, κ n/D")()
+OUTWEIGHS = Sentence(
+    "liquid-torque-outweighs",
+    "the liquid's torque is taken along the body's motion without liquid, which it would outweigh")()
+MOMENT_RATIO = Sentence("liquid-moment-ratio", "moment of the liquid over the least of the body")()
+NO_SUCH_BODY = Sentence("liquid-without-body", "no body has these moments and holds this liquid")()
 SOURCE = "Chernousko's expansion for small Reynolds numbers; Galal et al., liquid cavity: sections 1 and 2"
 
 
@@ -166,14 +178,7 @@ class LiquidCavity(Effect):
         """
         lower, square, kappa = min(scene.body.inertia), self.radius**2 / self.viscosity, float(self.exact)
         return (
-            Limit("Reynolds number n h^2/nu of the liquid", 1.0,
-                  lambda state: square * pace(scene, state, self),
-                  f"the liquid's torque is the first term of a series in this number (the next is "
-                  f"{NEXT_TERM:.2g} of it times as large), so a "
-                  "liquid this thin does not move as computed", SOURCE),
-            Limit("torque of the liquid over the body's own, kappa n/D", 1.0,
-                  lambda state: kappa / lower * pace(scene, state, self),
-                  "the liquid's torque is taken along the body's motion without liquid, which it would "
-                  "outweigh", SOURCE),
-            Limit("moment of the liquid over the least of the body", 1.0, lambda state: self.moment / lower,
-                  "no body has these moments and holds this liquid", SOURCE))
+            Limit(REYNOLDS, 1.0, lambda state: square * pace(scene, state, self), TOO_THIN, SOURCE),
+            Limit(TORQUE_RATIO, 1.0, lambda state: kappa / lower * pace(scene, state, self), OUTWEIGHS,
+                  SOURCE),
+            Limit(MOMENT_RATIO, 1.0, lambda state: self.moment / lower, NO_SUCH_BODY, SOURCE))

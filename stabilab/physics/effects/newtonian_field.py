@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from ...errors import InputError
 from ...numbers.units import LENGTH, PER_SECOND_2, in_si
 from ...numbers.vectors import Given, Number, Triple, cross
+from ...reasons import Sentence
 from .base import Effect, Limit
 
 if TYPE_CHECKING:
@@ -19,6 +20,10 @@ if TYPE_CHECKING:
 
 # size over distance at which the next term of the field's torque is a tenth or so of the one that is kept
 SMALL = 0.1
+SIZE_RATIO = Sentence("field-size-ratio", "size of the body over the distance of the centre")()
+TOO_NEAR = Sentence(
+    "field-centre-too-near", "the field's torque is the first term of a series in this number, so near a "
+    "centre the body does not move as computed")()
 
 
 @dataclass(frozen=True)
@@ -80,9 +85,7 @@ class NewtonianField(Effect):
         if not mass:
             return ()
         fraction = (max(scene.body.inertia) / abs(mass)) ** 0.5 / self.distance
-        return (Limit("size of the body over the distance of the centre", SMALL, lambda state: fraction,
-                      "the field's torque is the first term of a series in this number, so near a centre the "
-                      "body does not move as computed",
+        return (Limit(SIZE_RATIO, SMALL, lambda state: fraction, TOO_NEAR,
                       "Amer et al. 2023, fast top: eq. (2)"),)
 
     def terms(self) -> dict[str, Any]:

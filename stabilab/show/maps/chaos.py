@@ -16,7 +16,7 @@ from ..limiting import Line
 from ..plot import phase_plane
 from ..plot import subject as subjects
 from ..plot.subject import Measures, Subject, measures, subject
-from ..terminal import LINE, clauses_of, lettered
+from ..terminal import lettered
 from ..units import number
 from .shades import light
 
@@ -116,9 +116,7 @@ def text(case: Any, result: Chaos, _: Any = None) -> str:
     """The answer first; then what it means for a small change, and MEGNO at each doubling of the time."""
     label, unit = Order(int(result.labels)), _unit(case)
     resting = label == Order.REGULAR and not result.megno < FLAT
-    head = f"{printable(case.name)}: {'REGULAR' if resting else FIRST[label]}"
-    answer = f"{head}: {result.because}"
-    lines = [answer if len(clauses_of(answer)[0]) <= LINE else f"{head}; {result.because}"]
+    lines = [f"{printable(case.name)}: {'REGULAR' if resting else FIRST[label]}; {result.because}"]
     if label == Order.CHAOTIC:
         rate, error = float(result.lyapunov), float(result.lyapunov_error)
         lines.append(f"  neighbours part at {rate:.3g} ± {error:.1g} 1/{unit}: a small change doubles in "

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 from ...answers.equilibria import equilibria
 from ...answers.motion import motion
 from ...answers.stuck.ask import stuck
@@ -18,7 +20,7 @@ from ...orbit.result import Fate, Motion
 from ...physics.coefficients import effective
 from ...physics.own_unit import far_exponent
 from ...physics.scene import AnyScene, Scene, torque_axis
-from ...physics.states import checked_states, start_of
+from ...physics.states import body_momentum, checked_states, start_of
 from ...theories.follow import models_of
 from ...unreduced.periodic import LEAST, crossed
 from ...validation import checked_scene, checked_span
@@ -238,7 +240,15 @@ def _phase(item: Subject) -> str:
     return _far(item)
 
 
+def losing(item: Subject) -> bool:
+    """Whether a damper inside a free body, with wheels or without, takes energy, and nothing else acts."""
+    names = {effect.name for effect in item.scene.effects}
+    return item.physical and "viscous_damper" in names and names <= {"viscous_damper", "gyrostat"}
+
+
 def _sphere(item: Subject) -> str:
+    if losing(item):
+        return "" if _turns(item) else "the angular momentum is zero: its sphere is a point"
     if not item.twin.plain:
         return f"with {_beyond(item)} no surface is known on which the motion stays"
     if free(item) and item.physical:
@@ -271,6 +281,13 @@ def _section(item: Subject) -> str:
     return (
         f"spin-up about {item.axes.short(item.motion.axis)} is certain {when}, before the motion has passed "
         f"any plane {LEAST} times")
+
+
+def _turns(item: Subject) -> bool:
+    """Whether a body with a damper inside has an angular momentum."""
+    scene: Any = item.scene
+    return any(body_momentum(scene, {name: np.asarray(item.start[name], float)
+                                     for name in ("omega", "damper")}))
 
 
 def free(item: Subject) -> bool:

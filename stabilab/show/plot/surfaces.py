@@ -1,13 +1,20 @@
 """A motion on the surface that it stays on: cylinder of the reduced motion, sphere of momentum."""
 from __future__ import annotations
 
+from collections.abc import Callable
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...answers.equilibria import equilibria
+from ...answers.simulate import simulated
+from ...equilibrium.momentum_sphere import INFLECTION, MAXIMUM, MINIMUM, SADDLE, MomentumSphere
+from ...numbers.exact import floats, sqrt_fraction
 from ...numbers.polynomial import halved
+from ...numbers.vectors import dot
 from ...orbit.phase_plane import PhasePlane, motion_curve, phase_plane, window
+from ...physics.states import body_momentum
 from .. import style
 from ..space import Box, spread
 from ..units import with_unit
@@ -25,7 +32,7 @@ from .in_space import (
     plane_of,
     sight,
 )
-from .path import path
+from .path import FINE, path, turning
 from .phase_plane import SMALL, curves_of, equilibria_of, highest, rows_of
 from .subject import Subject, measures, subject
 
@@ -127,11 +134,7 @@ def momentum_sphere(item: Subject) -> SurfaceLines:
     route = omega * D + wheel
     size = float(np.linalg.norm(route[0]))
     energy = lambda H: (((H - wheel) ** 2) / (2 * D)).sum(axis=-1)
-    up = np.linspace(-np.pi / 2, np.pi / 2, SPHERE_GRID[0])
-    round_ = np.linspace(-np.pi, np.pi, SPHERE_GRID[1])
-    at = lambda round_, up: size * np.stack(
-        [np.cos(up) * np.cos(round_), np.cos(up) * np.sin(round_), np.sin(up)], axis=-1)
-    ball = at(*np.meshgrid(round_, up))
+    ball, round_, up, at = _ball(size)
     height = energy(ball)
     rest, circles = _rest(item, D, wheel, size)
     view = facing(route.mean(axis=0) if np.linalg.norm(route.mean(axis=0)) > 0.05 * size else route[0])
@@ -156,6 +159,93 @@ def momentum_sphere(item: Subject) -> SurfaceLines:
                   *((f"{kind} equilibrium", EQUILIBRIUM_LOOKS[kind]) for kind in EQUILIBRIUM_LOOKS
                      if kind in dict(rest)),
                   *((f"{kind} equilibria", CURVES[kind]) for kind in CURVES if kind in dict(circles))]
+    return result
+
+
+def _ball(size: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, Callable[..., np.ndarray]]:
+    """(points of a sphere (latitudes, longitudes, 3), its longitudes, its latitudes, both -> points)."""
+    up = np.linspace(-np.pi / 2, np.pi / 2, SPHERE_GRID[0])
+    round_ = np.linspace(-np.pi, np.pi, SPHERE_GRID[1])
+    at = lambda round_, up: size * np.stack(
+        [np.cos(up) * np.cos(round_), np.cos(up) * np.sin(round_), np.sin(up)], axis=-1)
+    return at(*np.meshgrid(round_, up)), round_, up, at
+
+
+# --- The same of a body that loses energy inside: H goes over the levels of the energy to a minimum
+ROUTE = style.MEANING["this motion"] | {"linewidth": 1.1}
+MANY_TURNS = 60  # of a component: a line of more is drawn finer
+# of a rotation -> (words, its look as a point, as a circle)
+NATURES: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
+    MINIMUM: ("least energy: attracts", style.MARKER["centre"], style.MEANING["stable"]),
+    MAXIMUM: ("most energy: unstable with losses", style.MARKER["turning"], style.MEANING["unstable"]),
+    SADDLE: ("saddle", style.MARKER["saddle"], style.MEANING["unstable"]),
+    INFLECTION: ("inflection", style.MARKER["degenerate"], style.MEANING["unstable"])}
+
+
+def losing_sphere(item: Subject) -> SurfaceLines:
+    """All that a plot shows of a free body that something inside takes energy from, in kg m^2/s: its
+    rotations at this |H|, the levels of the energy at rest inside, and the route of H over them."""
+    scene: Any = item.scene
+    sphere = _sphere_of(item)
+    size = float(sqrt_fraction(sphere.square))
+    ball, round_, up, at = _ball(size)
+    D, wheel = (np.array(floats(v)) for v in (sphere.D, sphere.wheel))
+    height = ((ball - wheel) ** 2 / (2 * D)).sum(axis=-1)
+    run = simulated(scene, item.state, np.linspace(0.0, max(item.seen, key=abs), FINE), item.blocks)
+    route = body_momentum(scene, {name: run.state[name] for name in ("omega", "damper")})
+    ending = item.motion.ending
+    end = (np.array(floats(sphere.rotations[0].momentum)) if ending is None or ending.rates is None
+           else D * ending.rates + wheel)
+    towards = (route[0] + end) / size
+    view = facing(towards if np.linalg.norm(towards) > 0.2 else route[0])
+    result = SurfaceLines(grid_triangles(ball[::6, ::8]), Box((0.0,) * 3, (1.08 * size,) * 3), view,
+                          tuple(rf"$H_{n}$ (kg m$^2$/s)" for n in (1, 2, 3)),
+                          "levels of the energy on the sphere of the angular momentum, "
+                          f"|H| = {size:.5g} kg m²/s")
+    flat = sphere.rotations[0].everywhere
+    passes = [] if flat else sorted({float(r.energy) for r in sphere.rotations if r.nature == SADDLE})
+    for values, look in (([] if flat else _others(height, passes), style.MEANING["level"]),
+                         (passes, style.MEANING["separatrix"])):
+        for line in levels(round_, up, height, values):
+            points = at(*line.T)
+            result.add(LIFT * points, look, points)
+    look = ROUTE if turning(route[:, 0]) < MANY_TURNS else ROUTE | {"linewidth": 0.45}
+    result.add(LIFT * route, look, route)
+    shown: list[tuple[str, dict[str, Any]]] = []
+    for rotation in () if flat else sphere.rotations:
+        H, (name, mark, circle) = np.array(floats(rotation.momentum)), NATURES[rotation.nature]
+        if rotation.axis:
+            around = _circle(H, rotation.axis - 1)
+            result.add(LIFT * around, circle, around)
+            shown.append((f"{name}, a circle", circle))
+        elif (name, mark) not in shown:
+            shown.append((name, mark))
+        if not rotation.axis and H @ sight(view) >= 0:
+            result.marks.append((LIFT * H[None], mark))
+    result.marks.append((LIFT * route[:1], style.MARKER["start"]))
+    result.rows = [("this motion", ROUTE), ("start", style.MARKER["start"]),
+                   *([("level of a saddle", style.MEANING["separatrix"])] if passes else []),
+                   *([] if flat else [("other energies", style.MEANING["level"])]), *shown]
+    return result
+
+
+def _sphere_of(item: Subject) -> MomentumSphere:
+    """That of the angular momentum at the start."""
+    scene: Any = item.scene
+    sigma = item.blocks.get("damper", (0.0,) * 3)
+    omega = item.exact_state or item.state
+    inside = scene.effect("viscous_damper").exact[0]
+    H = tuple(d * Fraction(w) + inside * Fraction(s) + l for d, w, s, l in zip(
+        scene.body.exact, omega, sigma, scene.vector("gyrostat")))
+    return MomentumSphere(scene.body.exact, scene.vector("gyrostat"), dot(H, H))
+
+
+def _circle(through: np.ndarray, axis: int) -> np.ndarray:
+    """Points of the circle about an axis through a point."""
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    result, turn = np.tile(through, (361, 1)), np.linspace(0, 2 * np.pi, 361)
+    across = np.hypot(through[i], through[j])
+    result[:, i], result[:, j] = across * np.cos(turn), across * np.sin(turn)
     return result
 
 
@@ -212,7 +302,8 @@ def sphere(case: Any, state: Any = None, ax: Axes | None = None, units: str | No
 
     Without a torque: the sphere of the angular momentum H, wheels included, whose size is constant; its
     components are those in the body. The lines are polhodes, the motions of other energies; the separatrices
-    run through the saddles. Under a torque on a principal axis (or of scaled variables, which know no
+    run through the saddles. Where a damper inside takes energy the motion goes over these levels to a
+    minimum. Under a torque on a principal axis (or of scaled variables, which know no
     momentum): the cylinder whose base is the curve that the two rates across that axis cannot leave (circle,
     hyperbola or parabola); the height is the rate about the axis, and the phase plane is wrapped round it.
     Lines behind the surface are pale. Raises InputError where no such surface is known; it names the kinds of
@@ -220,7 +311,8 @@ def sphere(case: Any, state: Any = None, ax: Axes | None = None, units: str | No
     """
     item = subject(case, state)
     subjects.check("sphere", item)
-    result = momentum_sphere(item) if item.physical and subjects.free(item) else cylinder(item, units)
+    result = (losing_sphere(item) if subjects.losing(item) else
+              momentum_sphere(item) if item.physical and subjects.free(item) else cylinder(item, units))
     with canvas.on(ax, size, space=True) as target:
         in_space.facets(target, [(result.surface, style.GREY)], pale_by=0.22)
         for points, look, front in result.lines:

@@ -125,7 +125,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     answer = headline(case, moved, units) if moved else answer
     held = moved is None or moved.validity is None or moved.validity.held
     law = "" if held else printed(units.said(moved.validity.reason))
-    over = (Kind.UNCERTAIN, Kind.TOLERANCE) if box else (Kind.UNCERTAIN,)
+    over = (Kind.UNCERTAIN, Kind.TOLERANCE) if box else (Kind.UNCERTAIN,) if case.uncertain else ()
     caveats = limiting.beside(without(of_case(case) if moved is None else moved.caveats, *over), units,
                               answer)
     page = {"name": case.name, "title": case.heading, "source": case.source,

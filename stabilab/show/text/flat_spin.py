@@ -4,16 +4,28 @@ from __future__ import annotations
 import math
 
 from ...answers.dissipation.ending import of_spin
+from ...answers.dissipation.rotations import Rotations
 from ...representation import values_of
 from .. import ending
 from ..axes import Axes, axes_of
 from ..units import DIGITS, Units, number
 from .motion import in_file, row
+from .rotations import rotations_dict, rotations_text
 
 NAMES = {"phase": "phase", "nutation": "nutation angle", "coefficient": "the damper's coefficient alone",
          "inertia": "the sphere's moment of inertia alone, the moments of the whole as they are",
          "damping": "the damper's coefficient and its sphere's inertia together",
          "liquid": "the liquid's torque (density P0/viscosity)"}
+
+
+def any_dict(case, result) -> dict:
+    """The object of a body with wheels or without."""
+    return rotations_dict(case, result) if isinstance(result, Rotations) else flat_spin_dict(case, result)
+
+
+def any_text(case, result, units: Units) -> str:
+    """The text of a body with wheels or without."""
+    return (rotations_text if isinstance(result, Rotations) else flat_spin_text)(case, result, units)
 
 
 def flat_spin_dict(case, result) -> dict:

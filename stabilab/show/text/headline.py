@@ -287,7 +287,8 @@ def greatest(motion: Motion, units: Units, short: bool = False) -> str:
             else f"{name} at most {units.rate(bound, SHORT, 1)}")
     upper = units.rate(sizes[axis], SHORT, 0 if sharp else 1)
     component = f"{upper} about {units.axes.brief(axis)}"
-    return f"{printed}{over}; {component}" if short else f"{printed} ({component}){over}"
+    return (f"{printed}{over}; {'' if sharp else 'at most '}{component}" if short
+            else f"{printed} ({component}){over}")
 
 
 def largest_axis(motion: Motion, units: Units) -> int:

@@ -48,7 +48,8 @@ def as_dict(case, limit, result) -> dict:
             "quantities": limit.names, "limits": limit.limits, "reached": reached(low, high),
             "time": [low, high] if math.isfinite(high) else None, "not_before": low,
             "level": str(result.level), "because": str(result.words),
-            "reason": result.reason.as_dict(), "tilt": tilt_dict(result.tilt)
+            "reason": result.reason.as_dict(), "tilt": tilt_dict(result.tilt),
+            **({} if result.decimals is None else {"decimals": result.decimals})
             } | ending.key(case, result.ending)
 
 
@@ -116,6 +117,8 @@ def _answer(limit: StatedLimit, result: TimeTo, low: float, high: float, units: 
         return f"NOT KNOWN when it {reaches} {aim}; not before {units.time(low, side=-1)} ({result.level})"
     if high == 0:
         return f"starts at or beyond {aim}"
+    if result.decimals is not None:
+        return f"reaches {aim} in {result.decimals} {lettered(result.scene.time_unit)} (each digit proved)"
     name, item = units.times(high)
     a, b = bracket(low, high, item)
     after = "after" if limit.kind in FALLING else "in"
@@ -212,14 +215,14 @@ def _said(printed: Told, units: Units, of: str = "") -> str:
     if digits is None:
         return f"  {because}"
     return f"  exact: {because}" if math.isinf(digits) else (
-        f"  {f'{min(digits, 99.0):.1f}'.removesuffix('.0')} digits{of}: {because}")
+        f"  {f'{digits:.1f}'.removesuffix('.0')} digits{of}: {because}")
 
 
 def period(case: Case, motion: Motion, told: Told, units: Units, all_digits: bool, say: bool,
            proofs: bool = False) -> str:
     """The period with its unit."""
     if told.values is None:
-        value = (no_period(motion.fate)
+        value = (units.said(no_period(motion.fate))
                  + (f" ({motion.fate.word})" if motion.fate in (Fate.SPIN_UP, Fate.SEPARATRIX, Fate.BOUNDED)
                     else ""))
     elif all_digits:
@@ -242,7 +245,8 @@ def period(case: Case, motion: Motion, told: Told, units: Units, all_digits: boo
 # --- As JSON and CSV
 def _object(question, case, motion, printed, result) -> dict:
     """What all objects have, and what was found; digits.reached: null where there is no number to judge."""
-    shown = None if printed.digits is None else min(printed.digits, 99.0)
+    exact = printed.digits is not None and math.isinf(printed.digits)
+    shown = max(99.0, printed.asked) if exact else printed.digits
     return ({"schema": f"stabilab.{question}/1", "case": case.name, "variables": case.variables,
              "at": motion.at, "fate": motion.fate.word} | result
             | {"digits": {"asked": printed.asked, "reached": shown}

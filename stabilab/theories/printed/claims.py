@@ -116,6 +116,7 @@ KEYS = "name title source figures symbols formulas definitions systems condition
 CLAIM_WORDS = set("equation kind says note because defines residual test system numbers judged_by "
                   "completed".split())
 NAME = re.compile(r"[A-Za-z_]\w*")
+OF_FIGURE = re.compile(r"text-fig(\d+)")
 FOLDER = Path(__file__).parent / "papers"
 MAIN = "constant-torque-gyrostat"
 
@@ -286,9 +287,11 @@ def _row(data: Mapping[str, Any], number: int, file: str, symbols: dict[str, Exp
             _located(location, sides, text, symbols)
     for text in (*where.values(), *corrected_where.values(), *domain):
         _located(location, parse, text, symbols)
+    options = {key: value for key, value in data.items() if key not in OWN}
+    if named := OF_FIGURE.match(str(data["equation"])):  # a row on a figure is linked to it
+        options["figures"] = sorted({int(named[1]), *options.get("figures", ())})
     return Row(str(data["equation"]), kind, printed, corrected, data.get("says", ""), data.get("system"),
-               where, corrected_where, domain,
-               {key: value for key, value in data.items() if key not in OWN}, location)
+               where, corrected_where, domain, options, location)
 
 
 def _tuple(value: str | Sequence[str]):

@@ -76,6 +76,9 @@ if TYPE_CHECKING:
 
 
 # --- The kernels, compiled or as written
+ENTRIES = {"begin", "run", "end", "measure", "over", "decide"}
+
+
 def functions(kernel: ModuleType, fast: bool, lanes: int = 1) -> dict[str, Any]:
     """A kernel's functions by name, for so many lanes: compiled, or as they are written, for one."""
     return compiled_functions(kernel, lanes) if fast else vars(kernel)
@@ -84,7 +87,9 @@ def functions(kernel: ModuleType, fast: bool, lanes: int = 1) -> dict[str, Any]:
 @lru_cache(maxsize=4)
 def compiled_functions(kernel: ModuleType, lanes: int = 1) -> dict[str, Any]:
     """A kernel's functions by name, compiled; stored on disk where there is a place for it."""
-    return compiled(kernel, variant=f"{lanes}_", LANES=lanes) if lanes > 1 else compiled(kernel)
+    if lanes > 1:
+        return compiled(kernel, variant=f"{lanes}_", allocating=False, entries=ENTRIES, LANES=lanes)
+    return compiled(kernel, allocating=False, entries=ENTRIES)
 
 
 def loaded() -> bool:
@@ -258,17 +263,19 @@ class Certifier:
             energy, amplitude = field.energy(orders[0]), field.amplitude(orders[1])
             (a, b), size, parts = field.algebra.turn, field.turn_size, field.parts
             quantities = _quantity(energy.added, parts), _quantity(amplitude.added, parts)
-            sums = (kernel.Sum(*_sums(amplitude.rate, sizes(amplitude.rate), parts)),
-                    kernel.Sum(*_sums(energy.rate, sizes(energy.rate) / size, parts, (-a, -b))))
-        exponents = [*(quantity.exponents for quantity in quantities), *(item.exponents for item in sums)]
+            sums = (_sums(amplitude.rate, sizes(amplitude.rate), parts),
+                    _sums(energy.rate, sizes(energy.rate) / size, parts, (-a, -b)))
+        exponents = [item[0] for item in quantities + sums]
         reach = 5 + max(int(np.abs(exponent).sum(axis=0).max()) for exponent in exponents)
-        self.degrees = 1 + max(int(quantity.powers.max()) for quantity in quantities)
+        self.degrees = 1 + max(int(degrees.max()) for *_, degrees in quantities)
         self.columns = max(exponent.shape[1] for exponent in exponents)
+        self.terms = max(degrees.shape[1] for *_, degrees in quantities)
         drive = [(m * parts // 4, n * parts // 4) for _, _, m, n in field.G0]
-        form = kernel.Form(field.basis, np.array(field.frame, float), field.D1, field.M1, field.a2, field.a3,
-                           *field.offsets, parts, a * parts // 4, b * parts // 4, size, reach,
-                           np.ascontiguousarray(np.array(drive).T), np.array([*field.G0.values()], float))
-        self.numbers = form, *quantities, *sums
+        form = kernel.Form(field.D1, field.M1, field.a2, field.a3, *field.offsets, parts, a * parts // 4,
+                           b * parts // 4, size, reach)
+        self.numbers = (field.basis, np.array(field.frame, float), form,
+                        np.ascontiguousarray(np.array(drive).T), np.array([*field.G0.values()], float),
+                        *quantities[0], *quantities[1], *sums[0], *sums[1])
 
     def decide(self, rows: np.ndarray, states: np.ndarray, reach: np.ndarray, fired: np.ndarray, number: int,
                found: np.ndarray, fast: bool = False):
@@ -276,7 +283,7 @@ class Certifier:
         3): fired (n,) becomes number, found (6, n) the constants A, z, eta, z_up, eta_up, k of the
         theorem. The arrays to work in are new ones for each question, for threads may share a test."""
         work = (np.ones((4, 2 * kernel.MIDDLE + 1)), np.zeros(self.degrees, complex),
-                *np.zeros((2, self.columns)), np.zeros(6))
+                np.zeros((2, self.terms)), *np.zeros((2, self.columns)), np.zeros(6))
         with np.errstate(all="ignore"):
             decide = functions(kernel, fast)["decide"]
             decide(rows, states, reach, fired, number, found, *self.numbers, *work)
@@ -299,16 +306,23 @@ def _sums(terms: Terms, coefficients: np.ndarray, parts: int, shift: Sequence[in
     return exponents, table
 
 
-def _quantity(terms: Terms, parts: int) -> kernel.Quantity:
-    """What is added to a quantity: its terms come with their conjugates."""
+def _quantity(terms: Terms, parts: int):
+    """What is added to a quantity, as the kernel has it: exponents (2, columns), sums of sizes, of majorants
+    (degrees, columns), real and imaginary parts of the terms with j >= k (2, columns, powers), j and k (2,
+    powers). Terms come with their conjugates."""
     j, k, a, b = terms.powers
     exponents, sums = _sums(terms, sizes(terms), parts)
     _, largest = _sums(terms, terms.m, parts)
     half, (_, column) = j >= k, _distinct(a, b)
-    powers, row = _distinct(j[half], k[half])
-    values = np.zeros((powers.shape[1], exponents.shape[1]), complex)
-    np.add.at(values, (row, column[half]), np.where(j == k, 1, 2)[half] * terms.c[half])
-    return kernel.Quantity(exponents, sums, largest, values, powers)
+    degrees, place = _distinct(j[half], k[half])
+    values = np.zeros((2, exponents.shape[1], degrees.shape[1]))
+    c = np.where(j == k, 1, 2)[half] * terms.c[half]
+    for part, numbers in zip(values, (c.real, c.imag)):
+        np.add.at(part, (column[half], place), numbers)
+    return exponents, sums, largest, values, degrees
+
+
+PAIR = 1 << 20  # two whole numbers of less than half of it are one
 
 
 def _distinct(a: np.ndarray, b: np.ndarray):
@@ -316,8 +330,9 @@ def _distinct(a: np.ndarray, b: np.ndarray):
     there are none."""
     if not a.size:
         return np.zeros((2, 1), np.int64), np.zeros(0, np.int64)
-    pairs, which = np.unique(np.stack([a, b]), axis=1, return_inverse=True)
-    return np.ascontiguousarray(pairs), which.ravel()
+    one, which = np.unique(a * PAIR + b, return_inverse=True)
+    first = (one + PAIR // 2) // PAIR
+    return np.stack([first, one - first * PAIR]), which
 
 
 class Tests:

@@ -94,7 +94,8 @@ class Runs:
         lanes = kernel.SIDE_BY_SIDE if self.fast and len(states) >= kernel.FROM else 1
         if lanes not in self._work:
             made = work(lanes)  # loops as they are written read plain numbers out of memory twice as fast
-            self._work[lanes] = made if self.fast else kernel.Work(*map(memoryview, made))
+            self._work[lanes] = made if self.fast else kernel.Work(
+                *map(memoryview, made))  # type: ignore[arg-type]  # read and written alike
         with np.errstate(all="ignore"):
             functions(kernel, self.fast, lanes)["run"](self.coefficients, states, *arguments,
                                                        *self._work[lanes])

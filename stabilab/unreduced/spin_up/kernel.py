@@ -4,7 +4,7 @@ The theorem and its inequality are those of `certificate`, the forms those of `c
 table[degree, column] with the exponents (2, columns) of p^(-a/parts) q^(-b/parts): quarters about a moving
 centre, whole numbers about the fixed one, where p = X and q = 1. Powers of p, q and of their greatest ratios
 come from four rows of a work table, made by multiplication. All in one file: numba's cache on disk watches no
-other.
+other. Functions take arrays one by one: out of a tuple, compiled code would count who holds each.
 """
 from __future__ import annotations
 
@@ -24,15 +24,9 @@ MIDDLE = 200  # place of the power 0 in a row
 
 
 class Form(NamedTuple):
-    """What a field is to the search: D1 x' = drive + what oscillates, p = a3 x + c3, q = a2 x + c2, Om =
-    turn_size p^(-turn_a/parts) q^(-turn_b/parts).
+    """The numbers of a field: D1 x' = drive + what oscillates, p = a3 x + c3, q = a2 x + c2, Om = turn_size
+    p^(-turn_a/parts) q^(-turn_b/parts); reach: the greatest power in a row."""
 
-    basis: (3, 3) axes in the body, rows; frame: the numbers of `place`; reach: the greatest power in a row;
-    exponents (2, n), drive (n,): terms of the drive.
-    """
-
-    basis: np.ndarray
-    frame: np.ndarray
     D1: float
     M1: float
     a2: float
@@ -44,26 +38,6 @@ class Form(NamedTuple):
     turn_b: int
     turn_size: float
     reach: int
-    exponents: np.ndarray
-    drive: np.ndarray
-
-
-class Sum(NamedTuple):
-    """sums: (degrees, columns) of sizes; exponents: (2, columns)."""
-
-    exponents: np.ndarray
-    sums: np.ndarray
-
-
-class Quantity(NamedTuple):
-    """The same of what is added to a quantity, with its value: most (degrees, columns): of majorants; terms
-    (powers, columns) of zeta^j zeta*^k, j >= k in powers (2, powers), doubled for their conjugates."""
-
-    exponents: np.ndarray
-    sums: np.ndarray
-    most: np.ndarray
-    terms: np.ndarray
-    powers: np.ndarray
 
 
 def fill(row: np.ndarray, base: float, parts: int, reach: int):
@@ -126,10 +100,10 @@ def tail(a: int, b: int, rows: np.ndarray, a2: float, a3: float, parts: int):
 def columns(table: np.ndarray, A: float, row: np.ndarray):
     """Sum of table[d, n] A^d over d, into row[n]."""
     for n in range(table.shape[1]):
-        result = 0.0
-        for d in range(table.shape[0] - 1, -1, -1):
-            result = result * A + table[d, n]
-        row[n] = result
+        row[n] = 0.0
+    for d in range(table.shape[0] - 1, -1, -1):
+        for n in range(table.shape[1]):
+            row[n] = row[n] * A + table[d, n]
 
 
 def summed(row: np.ndarray, exponents: np.ndarray, rows: np.ndarray, form: Form):
@@ -164,65 +138,70 @@ def steepness(a: float, b: float, x: float, form: Form):
     return (abs(a) * form.a3 / p + abs(b) * form.a2 / q) / form.parts
 
 
-def value_of(quantity: Quantity, zeta: complex, rows: np.ndarray, powers: np.ndarray, row: np.ndarray):
-    """The value of a quantity whose terms come with their conjugates."""
+def value_of(exponents: np.ndarray, terms: np.ndarray, degrees: np.ndarray, zeta: complex, rows: np.ndarray,
+             powers: np.ndarray, pair: np.ndarray):
+    """The value of a quantity whose terms come with their conjugates: terms[0] and [1] (columns, powers) are
+    real and imaginary parts of the coefficients of zeta^j zeta*^k, j >= k in degrees (2, powers), doubled for
+    their conjugates. powers, pair (2, at least powers): to work in."""
     powers[0] = 1
     for j in range(1, powers.size):
         powers[j] = powers[j - 1] * zeta
-    exponents, terms = quantity.exponents, quantity.terms
-    count = exponents.shape[1]
-    for n in range(count):
-        row[n] = rows[0, MIDDLE + exponents[0, n]] * rows[1, MIDDLE + exponents[1, n]]
+    for m in range(terms.shape[2]):
+        pair[0, m] = pair[1, m] = 0.0
+    for n in range(exponents.shape[1]):
+        factor = rows[0, MIDDLE + exponents[0, n]] * rows[1, MIDDLE + exponents[1, n]]
+        for m in range(terms.shape[2]):
+            pair[0, m] += terms[0, n, m] * factor
+        for m in range(terms.shape[2]):
+            pair[1, m] += terms[1, n, m] * factor
     result = 0.0
-    for m in range(terms.shape[0]):
-        factor = powers[quantity.powers[0, m]] * powers[quantity.powers[1, m]].conjugate()
-        along = across = 0.0
-        for n in range(count):
-            along += terms[m, n].real * row[n]
-            across += terms[m, n].imag * row[n]
-        result += along * factor.real - across * factor.imag
+    for m in range(terms.shape[2]):
+        power = powers[degrees[0, m]] * powers[degrees[1, m]].conjugate()
+        result += pair[0, m] * power.real - pair[1, m] * power.imag
     return result
 
 
-def blurred(quantity: Quantity, zeta: complex, size: float, x: float, low: float, dx: float, form: Form,
-            rows: np.ndarray, powers: np.ndarray, row: np.ndarray):
-    """(value, blur) of a quantity at a place known within dx and within size - |zeta|."""
+def blurred(exponents: np.ndarray, sums: np.ndarray, largest: np.ndarray, terms: np.ndarray,
+            degrees: np.ndarray, zeta: complex, size: float, x: float, low: float, dx: float, form: Form,
+            rows: np.ndarray, powers: np.ndarray, pair: np.ndarray, row: np.ndarray):
+    """(value, blur) of a quantity at a place known within dx and within size - |zeta|. sums, largest
+    (degrees, columns): of sizes, of majorants."""
     prepare(rows, x, form)
-    value = value_of(quantity, zeta, rows, powers, row)
+    value = value_of(exponents, terms, degrees, zeta, rows, powers, pair)
     prepare(rows, low, form)
-    exponents = quantity.exponents
-    inner = total(quantity.sums, exponents, abs(zeta), rows, form, row)
-    largest = total(quantity.sums, exponents, size, rows, form, row)
+    inner = total(sums, exponents, abs(zeta), rows, form, row)
+    outer = total(sums, exponents, size, rows, form, row)
     for n in range(exponents.shape[1]):
         row[n] *= steepness(exponents[0, n], exponents[1, n], low, form)
     moved = summed(row, exponents, rows, form) * dx
-    return value, ((largest - inner) + moved * (1 + SLACK) + SLACK * largest
-                   + COEFFICIENT * total(quantity.most, exponents, size, rows, form, row))
+    return value, ((outer - inner) + moved * (1 + SLACK) + SLACK * outer
+                   + COEFFICIENT * total(largest, exponents, size, rows, form, row))
 
 
-def drives(form: Form, rows: np.ndarray):
+def drives(exponents: np.ndarray, drive: np.ndarray, rows: np.ndarray):
     """(least, greatest) of the drive from here on: its terms are constant or fall."""
     low = high = 0.0
-    for n in range(form.drive.size):
-        a, b = form.exponents[0, n], form.exponents[1, n]
-        value = form.drive[n] * rows[0, MIDDLE + a] * rows[1, MIDDLE + b]
+    for n in range(drive.size):
+        a, b = exponents[0, n], exponents[1, n]
+        value = drive[n] * rows[0, MIDDLE + a] * rows[1, MIDDLE + b]
         constant = a == 0 and b == 0
         low += value if constant else min(value, 0.0)
         high += value if constant else max(value, 0.0)
     return low, high
 
 
-def weight_within(form: Form, x: float, low: float, dx: float, rows: np.ndarray):
+def weight_within(exponents: np.ndarray, drive: np.ndarray, form: Form, x: float, low: float, dx: float,
+                  rows: np.ndarray):
     """A bound of the weight, the drive over M1, within dx."""
     result = 0.0
     prepare(rows, x, form)
-    for n in range(form.drive.size):
-        a, b = form.exponents[0, n], form.exponents[1, n]
-        result += form.drive[n] * rows[0, MIDDLE + a] * rows[1, MIDDLE + b]
+    for n in range(drive.size):
+        a, b = exponents[0, n], exponents[1, n]
+        result += drive[n] * rows[0, MIDDLE + a] * rows[1, MIDDLE + b]
     prepare(rows, low, form)
-    for n in range(form.drive.size):
-        a, b = form.exponents[0, n], form.exponents[1, n]
-        result += (abs(form.drive[n]) * rows[0, MIDDLE + a] * rows[1, MIDDLE + b]
+    for n in range(drive.size):
+        a, b = exponents[0, n], exponents[1, n]
+        result += (abs(drive[n]) * rows[0, MIDDLE + a] * rows[1, MIDDLE + b]
                    * (steepness(a, b, low, form) * dx + CONDITION))
     return result / form.M1
 
@@ -234,31 +213,36 @@ def valid(x: float, form: Form):
             and q * 256 > form.a2 * x + abs(form.c2))
 
 
-def search(x: float, zeta: complex, dx: float, dz: float, form: Form, energy: Quantity, amplitude: Quantity,
-           r: Sum, k: Sum, rows: np.ndarray, powers: np.ndarray, retained: np.ndarray, row: np.ndarray,
-           out: np.ndarray):
+def search(x: float, zeta: complex, dx: float, dz: float, form: Form, drive_exponents: np.ndarray,
+           drive: np.ndarray, e_exponents: np.ndarray, e_sums: np.ndarray, e_largest: np.ndarray,
+           e_terms: np.ndarray, e_degrees: np.ndarray, b_exponents: np.ndarray, b_sums: np.ndarray,
+           b_largest: np.ndarray, b_terms: np.ndarray, b_degrees: np.ndarray, r_exponents: np.ndarray,
+           r_sums: np.ndarray, k_exponents: np.ndarray, k_sums: np.ndarray, rows: np.ndarray,
+           powers: np.ndarray, pair: np.ndarray, retained: np.ndarray, row: np.ndarray, out: np.ndarray):
     """Whether the inequality holds at one place, and its constants A, z, eta, z_up, eta_up, k in out (6,):
-    see `certificate`. energy, amplitude: Quantity; r, k: Sum. rows, powers, retained, row: for work."""
+    see `certificate`. drive_exponents (2, n), drive (n,): terms of the drive; e_: of the energy, b_: of the
+    amplitude (`blurred`); r_, k_: of what is left of their rates. rows and those after: to work in."""
     low, top, D1, M1 = x - dx, x + dx, form.D1, form.M1
     if not (dx < x / 8 and valid(low, form)):
         return False
     size = abs(zeta) * (1 + SLACK) + dz
     prepare(rows, low, form)
     turn = turning(rows, form)
-    if not total(k.sums, k.exponents, size, rows, form, row) < drives(form, rows)[0]:
+    if not total(k_sums, k_exponents, size, rows, form, row) < drives(drive_exponents, drive, rows)[0]:
         return False  # necessary, for k grows with A and as z falls: nothing else need be looked at
-    value, blur = blurred(energy, zeta, size, x, low, dx, form, rows, powers, row)
+    value, blur = blurred(e_exponents, e_sums, e_largest, e_terms, e_degrees, zeta, size, x, low, dx, form,
+                          rows, powers, pair, row)
     start, start_up = value - blur, value + blur
     A, z, growth, wide = size * GROWTH, low / GROWTH, 1e-6, 0.0
     for number in range(PASSES):
         step = min(1e-2, growth)  # ever faster past a slow approach
         growth *= 4
-        columns(energy.sums, A, retained)
+        columns(e_sums, A, retained)
         for _ in range(2):  # the equation for z is nearly linear
             if not valid(z, form):
                 z = low
             prepare(rows, z, form)
-            need = (max(summed(retained, energy.exponents, rows, form) - start, 0.0) * (GROWTH + step)
+            need = (max(summed(retained, e_exponents, rows, form) - start, 0.0) * (GROWTH + step)
                     + 1e-7 * low * turn)
             z = low - 2 * need / (D1 * (turn + turning(rows, form)))
             if not valid(z, form):
@@ -266,22 +250,23 @@ def search(x: float, zeta: complex, dx: float, dz: float, form: Form, energy: Qu
         if not z < low:
             return False
         prepare(rows, z, form)
-        left = total(k.sums, k.exponents, A, rows, form, row)
-        least_drive, most_drive = drives(form, rows)
+        left = total(k_sums, k_exponents, A, rows, form, row)
+        least_drive, most_drive = drives(drive_exponents, drive, rows)
         eta, smallest = least_drive - left - SLACK * (M1 + left), least_drive / M1 - SLACK
         if not (eta > 0 and smallest > 0):
             return False
         if number == 0:  # its value costs most, and half of the searches end before
-            value, blur = blurred(amplitude, zeta, size, x, low, dx, form, rows, powers, row)
-            weight = weight_within(form, x, low, dx, rows)
+            value, blur = blurred(b_exponents, b_sums, b_largest, b_terms, b_degrees, zeta, size, x, low, dx,
+                                  form, rows, powers, pair, row)
+            weight = weight_within(drive_exponents, drive, form, x, low, dx, rows)
             wide = weight * size * size * (1 + SLACK) + value + blur
             prepare(rows, z, form)
-        F = (wide + total(amplitude.sums, amplitude.exponents, A, rows, form, row)
-             + integrated(r.sums, r.exponents, A, rows, form, row) * D1 / eta) / smallest
+        F = (wide + total(b_sums, b_exponents, A, rows, form, row)
+             + integrated(r_sums, r_exponents, A, rows, form, row) * D1 / eta) / smallest
         if not F < 1e100:
             return False
         if F * (1 + SLACK) < A * A and size < A:
-            e = summed(retained, energy.exponents, rows, form)
+            e = summed(retained, e_exponents, rows, form)
             gained = D1 * (low - z) * (turn + turning(rows, form)) / 2
             if gained * (1 - SLACK) - SLACK * D1 * low * turn * 2.0**-8 > e - start:
                 out[0], out[1], out[2], out[5] = A, z * (1 - SLACK), eta, left
@@ -292,19 +277,18 @@ def search(x: float, zeta: complex, dx: float, dz: float, form: Form, energy: Qu
     return False
 
 
-def place_about_fixed(w1: float, w2: float, w3: float, nearby: float, form: Form):
+def place_about_fixed(w1: float, w2: float, w3: float, nearby: float, frame: np.ndarray):
     """(x, zeta, how far the one and the other may be off); frame: shift, centre, scale of the form."""
-    shift, centre2, centre3 = form.frame[0], form.frame[1], form.frame[2]
-    scale2, scale3 = form.frame[3], form.frame[4]
+    shift, centre2, centre3, scale2, scale3 = frame[0], frame[1], frame[2], frame[3], frame[4]
     size = abs(w1) + abs(w2) + abs(w3) + abs(centre2) + abs(centre3)
     return (w1 + shift, complex(scale2 * (w2 - centre2), scale3 * (w3 - centre3)),
             BLUR * (abs(w1) + abs(shift)) + nearby, max(abs(scale2), abs(scale3)) * (BLUR * size + nearby))
 
 
-def place_about_moving(w1: float, w2: float, w3: float, nearby: float, form: Form):
+def place_about_moving(w1: float, w2: float, w3: float, nearby: float, frame: np.ndarray, form: Form):
     """The same; frame: s, wheel, torque, roots, n2, n3 of the form. x = 0 where there is none."""
-    s, l2, l3, M2, M3 = form.frame[0], form.frame[1], form.frame[2], form.frame[3], form.frame[4]
-    r2, r3, n2, n3 = form.frame[5], form.frame[6], form.frame[7], form.frame[8]
+    s, l2, l3, M2, M3 = frame[0], frame[1], frame[2], frame[3], frame[4]
+    r2, r3, n2, n3 = frame[5], frame[6], frame[7], frame[8]
     size, a2, a3 = abs(w1) + abs(w2) + abs(w3), form.a2, form.a3
     p, q, nearby = a3 * w1 + form.c3, a2 * w1 + form.c2, nearby + BLUR * size
     if not (p > 0 and q > 0 and nearby * max(a3 / p, a2 / q) < 1 / 64):
@@ -318,11 +302,15 @@ def place_about_moving(w1: float, w2: float, w3: float, nearby: float, form: For
 
 
 def decide(chosen: np.ndarray, states: np.ndarray, reach: np.ndarray, fired: np.ndarray, number: int,
-           result: np.ndarray, form: Form, energy: Quantity, amplitude: Quantity, r: Sum, k: Sum,
-           rows: np.ndarray, powers: np.ndarray, retained: np.ndarray, row: np.ndarray, out: np.ndarray):
+           result: np.ndarray, basis: np.ndarray, frame: np.ndarray, form: Form, drive_exponents: np.ndarray,
+           drive: np.ndarray, e_exponents: np.ndarray, e_sums: np.ndarray, e_largest: np.ndarray,
+           e_terms: np.ndarray, e_degrees: np.ndarray, b_exponents: np.ndarray, b_sums: np.ndarray,
+           b_largest: np.ndarray, b_terms: np.ndarray, b_degrees: np.ndarray, r_exponents: np.ndarray,
+           r_sums: np.ndarray, k_exponents: np.ndarray, k_sums: np.ndarray, rows: np.ndarray,
+           powers: np.ndarray, pair: np.ndarray, retained: np.ndarray, row: np.ndarray, out: np.ndarray):
     """Ask for those of chosen rows that no test has fired for: fired (n,) becomes `number`, found (6, n) the
-    constants, where the inequality holds for the whole ball of radius reach (n,) about the state."""
-    basis = form.basis
+    constants, where the inequality holds for the whole ball of radius reach (n,) about the state. basis:
+    (3, 3) axes in the body, rows; frame: the numbers of the place; the others: of `search`."""
     for n in chosen:
         if fired[n] >= 0:
             continue
@@ -331,10 +319,13 @@ def decide(chosen: np.ndarray, states: np.ndarray, reach: np.ndarray, fired: np.
         w2 = basis[1, 0] * v1 + basis[1, 1] * v2 + basis[1, 2] * v3
         w3 = basis[2, 0] * v1 + basis[2, 1] * v2 + basis[2, 2] * v3
         if form.parts == 1:
-            x, zeta, dx, dz = place_about_fixed(w1, w2, w3, reach[n], form)
+            x, zeta, dx, dz = place_about_fixed(w1, w2, w3, reach[n], frame)
         else:
-            x, zeta, dx, dz = place_about_moving(w1, w2, w3, reach[n], form)
-        if x > 0 and search(x, zeta, dx, dz, form, energy, amplitude, r, k, rows, powers, retained, row, out):
+            x, zeta, dx, dz = place_about_moving(w1, w2, w3, reach[n], frame, form)
+        if x > 0 and search(x, zeta, dx, dz, form, drive_exponents, drive, e_exponents, e_sums, e_largest,
+                            e_terms, e_degrees, b_exponents, b_sums, b_largest, b_terms, b_degrees,
+                            r_exponents, r_sums, k_exponents, k_sums, rows, powers, pair, retained, row,
+                            out):
             fired[n] = number
             for i in range(6):
                 result[i, n] = out[i]

@@ -79,7 +79,7 @@ def test_extremes_without_a_reduction_agree_with_many_digits_over_the_span():
     assert apart(told, [[mp.mpf(v) for v in row] for row in many.decimals]) <= 10.0**-told.digits
 
 
-def test_a_closed_motion_without_a_reduction_is_checked_by_its_return_in_many_digits():
+def test_the_period_of_a_closed_motion_without_a_reduction_is_its_return_in_many_digits():
     # a wheel along all three axes; the return of tests/oracles/taylor.py is its own recursion in mpmath
     from stabilab.physics.effects.gyrostat import Gyrostat
     from stabilab.physics.scene import Body, Scene
@@ -90,7 +90,8 @@ def test_a_closed_motion_without_a_reduction_is_checked_by_its_return_in_many_di
         (back,), gap = integrate_checked(physical((2, 3, 4), (0.5, 0.25, 1.0)), start,
                                          [mp.mpf(told.decimals)], 25)
         assert max(abs(a - mp.mpf(b)) for a, b in zip(back, start)) < 1e-18 + gap
-    assert ask("period", scene, start, 10).method == "run" and told.method == "many digits"
+    assert ask("period", scene, start, 10).method == told.method == "balls"
+    assert ask("extremes", scene, start, 20).method == "many digits"
 
 
 def test_arrays_are_checked_on_a_sample_and_redone_where_it_falls_short():
@@ -112,7 +113,7 @@ def test_arrays_are_checked_on_a_sample_and_redone_where_it_falls_short():
 def test_digits_that_are_not_reached_raise():
     with pytest.raises(ToleranceNotMet, match="12 digits asked for, 7 reached"):
         Told("period", 1.0, 12, 7.0, "run", reason="a check").required()
-    for wrong in (0, 51, 2.5):
+    for wrong in (0, 10_001, 2.5, True, "30"):
         with pytest.raises(InputError, match="digits"):
             period(case("minor-axis-100").scene, case("minor-axis-100").state, digits=wrong)
 
@@ -147,7 +148,7 @@ def test_ten_digits_are_the_default_and_cost_nothing_where_formulas_bound_their_
 
 
 def test_too_few_digits_end_with_5_after_the_answer(stabilab, monkeypatch):
-    few = lambda q, scene, state, digits, span, known, exact=None: Told(q, known.period, digits, 4.0, "run",
+    few = lambda q, scene, state, digits, span, known, exact=None, tell=None: Told(q, known.period, digits, 4.0, "run",
                                                                         reason="a check")
     monkeypatch.setattr(precision_questions, "ask", few)
     code, out, err = stabilab("period", CASES / "minor-axis-100.toml", "--digits", "12")

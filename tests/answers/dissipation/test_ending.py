@@ -129,17 +129,19 @@ def test_a_dual_spin_craft_settles_where_scipy_does():
         w, s = y[:3], y[3:]
         turn = (np.cross(D * w + l, w) + c * s) / (D - k)
         return np.concatenate([turn, -c * s / k - np.cross(w, s) - turn])
-    last = 2 * found.time("settles")
-    run = solve_ivp(rates, (0, last), [*w, 0, 0, 0], method="DOP853", rtol=1e-9, atol=1e-12, dense_output=True)
-    end = run.y[:3, -1]
-    assert (found.kind, found.level) == ("steady rotation", "run")
-    assert found.rates == pytest.approx(end.tolist(), abs=1e-3)  # 1 % squared of the start is left
-    late = found.time("settles") + dict(found.times)["settles"].error
-    far = np.linalg.norm(run.sol(np.linspace(late, last, 5001))[:3].T - found.rates, axis=1)
-    assert far.max() < 0.0101 * max(np.linalg.norm(w), np.linalg.norm(end))  # 1 %, to the samples between
-    early = found.time("settles") - dict(found.times)["settles"].error
-    assert np.linalg.norm(run.sol(np.linspace(early * 0.98, early, 2001))[:3].T - found.rates, axis=1).max() > 0.0099 * (
-        max(np.linalg.norm(w), np.linalg.norm(end)))
+    # H is along axis 3 in the end (the moment there is over (3 - 1.5) w); 5 deg from it E is least where its
+    # component across is along axis 1, of the largest moment
+    H = np.linalg.norm(D * w + l)
+    at = np.array([H * math.sin(math.radians(5)), 0, H * math.cos(math.radians(5))])
+    level = ((at - l) ** 2 / D).sum() / 2
+    def energy(t, y):
+        w, s = np.array(y[:3]), np.array(y[3:])
+        return (D * w ** 2).sum() / 2 + k * (w @ s + s @ s / 2) - level
+    energy.terminal = True
+    run = solve_ivp(rates, (0, 1e4), [*w, 0, 0, 0], method="DOP853", rtol=1e-10, atol=1e-13, events=energy)
+    assert (found.kind, found.level, found.angular) == ("steady rotation", "exact", True)
+    assert found.rates == pytest.approx([0, 0, (H - 2) / 1.5], rel=1e-14)
+    assert found.time("settles") == pytest.approx(run.t_events[0][0], rel=1e-6)
 
 
 # --- Inside a free body

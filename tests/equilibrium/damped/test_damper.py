@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, ViscousDamper, derive, equilibria, motion
-from stabilab.equilibrium.liquid import damper_jacobian as jacobian
+from stabilab.equilibrium.damper import damper_jacobian as jacobian
 from stabilab.equilibrium.stability import ordered
 from stabilab.physics.coefficients import content
 from stabilab.physics.to_numpy import to_numpy
@@ -33,9 +33,39 @@ def test_eigenvalues_are_those_of_the_equations_in_symbols():
                 assert (max(v.real for v in largest) < 0) == (point.verdict == "stable")
 
 
-@pytest.mark.parametrize("more", [ConstantTorque((0, 0, 1)), Gyrostat((0, 0, 1))], ids=lambda one: one.name)
-def test_beside_a_torque_or_a_wheel_equilibria_are_undecided(more):
-    assert equilibria(Scene(Body((3, 2, 1)), DAMPER, more)).kind == "undecided"
+def test_beside_a_torque_equilibria_are_undecided():
+    assert equilibria(Scene(Body((3, 2, 1)), DAMPER, ConstantTorque((0, 0, 1)))).kind == "undecided"
+
+
+@pytest.mark.parametrize("wheel", [(0, 0, 1), (0.2, 0.3, 0.7), (1, 0, 0), (0, 0.5, 0.5)], ids=str)
+@pytest.mark.parametrize("D", [(3, 2, 1), (1, 2, 2.5), (2, 2, 1), (1.5, 2, 2)], ids=str)
+def test_beside_a_wheel_verdicts_are_those_of_the_eigenvalues(D, wheel):
+    """By the equations in symbols: a rotation that is stable has all but the eigenvalue of |H| (and that along
+    its circle) on the left, any other one on the right."""
+    scene = Scene(Body(D), DAMPER, Gyrostat(wheel))
+    found, system, seen = equilibria(scene), to_numpy(derive(scene)), set()
+    assert found.kind == "curves"
+    for curve in found.curves:
+        for point in curve.samples:
+            J = system.jacobian(np.array([*point.at, 0, 0, 0]))
+            assert jacobian(content(scene), point.at) == pytest.approx(J, rel=1e-14, abs=1e-14)
+            if point.linear == "degenerate":
+                continue
+            values = sorted(np.linalg.eigvals(J), key=abs)[2 if curve.plane else 1:]
+            largest = max(value.real for value in values)
+            if abs(largest) > 1e-9 * max(map(abs, values)):
+                assert (largest < 0) == (point.verdict == "stable"), (curve.name, point.at, largest)
+                seen.add(point.verdict)
+    assert seen == {"stable", "unstable"}
+
+
+def test_a_gyrostat_whose_wheels_cancel_its_momentum_is_stable():
+    """H = 0 at (0, 0, -1): on one side the rotation has the least energy of its |H|, on the other the most."""
+    found = equilibria(Scene(Body((3, 2, 1)), DAMPER, Gyrostat((0, 0, 1))))
+    line = next(curve for curve in found.curves if "gyrostatic moment" in curve.name)
+    assert {point.at: point.verdict for point in line.samples}[(0.0, 0.0, -1.0)] == "stable"
+    verdicts = [(item.t, item.verdict) for item in line.segments]
+    assert [word for _, word in verdicts] == ["unstable", "stable", "unstable", "unstable"], verdicts
 
 
 def test_a_motion_with_a_damper_stays_below_the_bound_of_its_energy():

@@ -26,14 +26,18 @@ def test_the_turning_point_on_a_large_circle_is_settled_in_some_number_of_bits()
 
 
 @pytest.mark.parametrize("scene, state, extremes, period",
-                         [  # by hand, p, q, r the rates; all three are circles
+                         [  # by hand, p, q, r the rates; the first three are circles
     # r = 1: p' = (1 - q)/2, q' = p/2
     (Scene(Body((2, 2, 3)), ConstantTorque((1, 0, 0))), (0, 0, 1), [(-1, 1), (0, 2), (1, 1)], 4 * np.pi),
     # r = -1/2: p' = (1 - q/2)/2, q' = p/4
     (Scene(Body((2, 2, 3)), Gyrostat((0, 0, 1)), ConstantTorque((1, 0, 0))), (1, 2, -0.5),
      [(-1, 1), (1, 3), (-0.5, -0.5)], 8 * np.pi),
     # three equal moments: omega turns about the wheel's axis at lambda/D = 1/2
-    (Scene(Body((2, 2, 2)), Gyrostat((0, 1, 0))), (1, 1, 0), [(-1, 1), (1, 1), (-1, 1)], 4 * np.pi)])
+    (Scene(Body((2, 2, 2)), Gyrostat((0, 1, 0))), (1, 1, 0), [(-1, 1), (1, 1), (-1, 1)], 4 * np.pi),
+    # and under a torque, y the angle: q = r = 3 y/2, p^2 = 4 + 3 y - 9 y^2/2, zero at -2/3 and 4/3, the first trial
+    # for a wall
+    (Scene(Body((2, 2, 2)), Gyrostat((0, -3, 3)), ConstantTorque((3, 0, 0))), (-2, 0, 0),
+     [(-4.5**0.5, 4.5**0.5), (-1, 2), (-1, 2)], 2 * np.pi / 4.5**0.5)])
 def test_a_turning_point_that_is_a_double_itself_is_settled(scene, state, extremes, period):
     """Its height's ball is zero, so that no width about it had heights of both signs: a motion ended in
     Unclear."""

@@ -17,11 +17,12 @@ from stabilab.answers.motion import Needs
 from stabilab.answers.motion import motion as motion_of
 from stabilab.numbers import numba_door
 from stabilab.orbit import extremes_arrays
-from stabilab.orbit.extremes import precise_extremes, precise_period
+from stabilab.orbit.extremes import precise_extremes
 from stabilab.orbit.extremes_arrays import settle_rows, trapped_rows
 from stabilab.orbit.fate_arrays import fate_on_orbit
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.one_orbit import Orbit
+from stabilab.orbit.period import precise_period
 from tests.oracles import energy
 from tests.oracles.pairs import assert_extremes, physical
 from tests.shared import FAMILIES, sample

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.orbit.extremes import power_of_error
+from stabilab.orbit.double_exponential import power_of_error
 from stabilab.orbit.extremes_arrays import extremes_and_periods
 from tests.oracles import energy
 from tests.oracles.pairs import physical

@@ -64,7 +64,7 @@ def test_pictures_are_the_same_bytes_each_time(line, plane, tmp_path, ending):
 
 def test_where_curves_of_equilibria_are_no_number_of_changes_is_told(case_file):
     told = words.text(stabilab.bifurcation(case_file(SATELLITE), {"torque[3]": "-1:1"})).splitlines()[0]
-    assert told == "case: 2 changes of stability for -1 ≤ torque[3] ≤ 1 N m, but curves of equilibria at 0 N m: on a principal axis at 0 N m"
+    assert told == "case: 2 changes of stability for -1 ≤ torque[3] ≤ 1 N m; but curves of equilibria at 0 N m; on a principal axis at 0 N m"
 
 
 def test_labels_take_the_lowest_row_with_room_and_none_where_no_row_has():
