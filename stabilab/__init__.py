@@ -17,6 +17,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .answers.fate import fate as fate
     from .answers.fate import fate_grid as fate_grid
     from .answers.fate import period as period
+    from .answers.motions.angles import angles as angles
     from .answers.motions.one import motion as motion
     from .answers.motions.scenes import chaos as chaos
     from .answers.motions.scenes import derive as derive
@@ -73,7 +74,8 @@ _HOME = {
     "Fate": "orbit.result",
     "equilibria": "answers.equilibria", "chaos": "answers.motions.scenes",
     "fate": "answers.fate", "fate_grid": "answers.fate", "motion": "answers.motions.one",
-    "attitude": "answers.attitude", "extremes": "answers.fate", "period": "answers.fate",
+    "attitude": "answers.attitude", "angles": "answers.motions.angles",
+    "extremes": "answers.fate", "period": "answers.fate",
     "spin_up": "answers.motions.scenes",
     "separatrix": "answers.motions.scenes", "stuck": "answers.stuck.ask",
     "time_to": "answers.motions.scenes", "TimeTo": "answers.passage",

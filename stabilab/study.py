@@ -2,7 +2,7 @@
 all rooms, and loads a question when it is asked."""
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from functools import wraps
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from .answers.dissipation.flat_spin import FlatSpin
     from .answers.dissipation.gyrostat import GyrostatSpin
     from .answers.dissipation.rotations import Rotations
+    from .answers.motions.angles import Angles
     from .answers.motions.result import Motions, Values
     from .answers.passage import TimeTo
     from .answers.simulate import Simulation
@@ -102,14 +103,24 @@ class Case(read.Case):
         return attitude(self, state, digits, span=span, frame=frame)
 
     @_in_doubles
+    def angles(self, state: Start | None = None, axes: Sequence[str] = "xyz", *, span: Span | None = None,
+               frame: str = "principal") -> Angles:
+        """How far body axes lean from the momentum and from their start: see `stabilab.angles`."""
+        from .answers.motions.angles import angles
+        return angles(self, state, axes, span=span, frame=frame)
+
+    @_in_doubles
     def when(self, state: Start | None = None, rate: Amount | None = None,
              component: str | tuple[str, Amount] | None = None, energy: Amount | None = None,
              tilt: str | tuple[str, Amount] | None = None, until: Amount | None = None, events: Any = None, *,
-             states: Starts | None = None, span: Span | None = None, digits: int | None = None,
+             below: Amount | None = None, nutation: str | tuple[str, Amount] | None = None,
+             nutation_below: str | tuple[str, Amount] | None = None, states: Starts | None = None,
+             span: Span | None = None, digits: int | None = None,
              frame: str = "principal") -> TimeTo | Crossings:
         """When the motion first reaches a limit: see `stabilab.when`."""
         from .answers.when import when
-        return when(self, state, rate, component, energy, tilt, until, events, states=states, span=span,
+        return when(self, state, rate, component, energy, tilt, until, events, below=below,
+                    nutation=nutation, nutation_below=nutation_below, states=states, span=span,
                     digits=digits, frame=frame)
 
     @_in_doubles
@@ -172,11 +183,14 @@ class Burning(read.Burning):
 
     def when(self, rate: Amount | None = None, component: str | tuple[str, Amount] | None = None,
              energy: Amount | None = None, tilt: str | tuple[str, Amount] | None = None,
-             until: Amount | None = None) -> TimeTo:
+             until: Amount | None = None, below: Amount | None = None,
+             nutation: str | tuple[str, Amount] | None = None,
+             nutation_below: str | tuple[str, Amount] | None = None) -> TimeTo:
         """When the motion first reaches a limit, over all switches: see `stabilab.when`."""
         from .answers.stuck.burn import time_of_burn
         from .answers.when import limit_stated
-        limit = limit_stated(self.craft, rate, component, energy, tilt, until)
+        limit = limit_stated(self.craft, rate, component, energy, tilt, until, below, nutation,
+                             nutation_below)
         return time_of_burn(self, limit.ask, limit.until)
 
 

@@ -39,6 +39,7 @@ import numpy as np
 from ..errors import Caveat
 from ..integrate.events import zeros_passed
 from ..integrate.to_heyoka import TAYLOR_TOLERANCE
+from ..numbers.exact import precise
 from ..numbers.vectors import CYCLE, Float3
 from ..physics.coefficients import limits_of
 from ..physics.equations import Equations, derive, rotation
@@ -48,7 +49,7 @@ from ..physics.states import equations_and_start, moved_row, to_space
 from ..physics.to_numpy import Form, form, to_numpy
 from ..reasons import Quantity, Reasoned, Sentence
 from ..representation import Answer, Compared
-from .limit import Limit
+from .limit import Limit, Momentum
 
 if TYPE_CHECKING:
     from ..physics.law_limits import Validity
@@ -108,7 +109,7 @@ SECOND_DOES_NOT = Sentence(
     "second-run-does-not", "roots along a run in machine precision find it after {time}, a second run from a "
     "start moved in its last place does not: rounding errors decide it")
 ONLY_NEAR = Sentence(
-    "comes-near-only", "roots along a run in machine precision find it after {time}, but not a limit greater "
+    "comes-near-only", "roots along a run in machine precision find it after {time}, but not a limit farther "
     "by {share} of it: the motion may come near it and no farther")
 
 
@@ -257,7 +258,8 @@ def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, s
         return Found(0.0, math.nan, "undecided", item.steps, reason=SECOND_DOES_NOT(time=at))
     blur = WIDER * abs(item.first - two.first) + ROUNDING * item.first
     if blur > VAGUE * item.first:
-        raised = tuple((terms, largest * (1 + HIGHER)) for terms, largest in limit.parts)
+        further = 1 - HIGHER if limit.falls else 1 + HIGHER
+        raised = tuple((terms, largest * further) for terms, largest in limit.parts)
         higher = _search(scene, start, replace(limit, parts=raised))[0]
         end = min(end, item.first + 2 * blur)
         if zeros_passed(higher, state, rates, end, 2 * steps, first=True).first is None:
@@ -285,7 +287,7 @@ def run_once(scene: AnyScene, state: Sequence[float], limit: Limit, t_max: float
 def _search(scene: AnyScene, start: Sequence[float], limit: Limit) -> tuple[Form, np.ndarray, Any, float]:
     """(rates followed by what vanishes at the limit, in the motion's own unit of rates; the start and its
     rates in it; that unit)."""
-    if limit.kind == "tilt" or not scene.plain:
+    if limit.angular or not scene.plain:
         equations, state, unit, expressions = _asked(scene, start, limit)
         with np.errstate(all="ignore"):
             rates = to_numpy(equations)(state)
@@ -341,7 +343,9 @@ def _structure(parts: int) -> Any:
 def _asked(scene: AnyScene, start: Any, limit: Limit) -> tuple[Equations, np.ndarray, float, list[Any]]:
     """(equations, state, unit, expressions that vanish at the limit), in units near the motion's own where
     these are known."""
-    tilted = limit.kind == "tilt"
+    tilted = limit.kind == "tilt"  # it alone needs the attitude
+    if limit.momentum is not None and scene.plain and not isinstance(start, dict):
+        start = {"omega": tuple(start)[:3]}
     if tilted and not isinstance(start, dict):
         start = {name: tuple(start)[part] for name, part in slices(scene.blocks).items()}
     if tilted:
@@ -353,10 +357,26 @@ def _asked(scene: AnyScene, start: Any, limit: Limit) -> tuple[Equations, np.nda
             unit = own_unit(scene, state[:3].tolist(), np.asarray(to_numpy(equations)(state))[:3].tolist())
         mass = mass_unit(scene)
         if unit != 1 or mass != 1:
-            changed = in_unit(scene, unit, mass)
-            equations = derive(changed, equations.blocks)
+            scene = in_unit(scene, unit, mass)
+            equations = derive(scene, equations.blocks)
             state = np.concatenate([state[:3] / unit, state[3:]])
+    if limit.momentum is not None:
+        return equations, state, unit, [_nutation(limit, scene, equations)]
     return equations, state, unit, _expressions(limit, equations, state, unit)
+
+
+def _nutation(limit: Limit, scene: AnyScene, equations: Equations) -> Any:
+    """a . H - |H| cos angle, of a scene in the unit of its equations."""
+    from sympy import Rational, sqrt
+    rational = lambda v: Rational(v.numerator, v.denominator)
+    law, at = Momentum.made(scene), slices(equations.blocks)
+    H = [rational(d) * w + rational(l) for d, w, l in zip(law.D, equations.state[:3], law.wheel)]
+    for factor, name in ((law.inside, "damper"), (Fraction(1), "wheel")):
+        if name in at:
+            H = [v + rational(factor) * s for v, s in zip(H, equations.state[at[name]])]
+    ((_, direction),), angle = limit.parts[0]
+    along = sum(rational(a) * v for a, v in zip(direction, H) if a)
+    return along - rational(precise("cos", angle)) * sqrt(sum(v * v for v in H))
 
 
 def _expressions(limit: Limit, equations: Equations, state: Sequence[float] | np.ndarray,

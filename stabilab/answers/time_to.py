@@ -11,17 +11,20 @@ energy. The torque alone does work, so that W W' = M . omega, and with M . omega
     W(t) <= W(0) + |D^(-1/2) M| t.
 
 A quantity sum c (a . omega)^2 is at most q W^2, q the sum of the c a . D^(-1) a, or the greatest of them
-where the a are different principal axes. It reaches its limit no earlier than q W^2 does."""
+where the a are different principal axes. It reaches its limit no earlier than q W^2 does. Likewise |omega|^2
+>= W^2/max(D) falls to a limit no earlier than W(t) >= W(0) - |D^(-1/2) M| t does. What keeps |omega| above a
+limit for ever stands in `unreduced.slowest`; a certified spin-up does so from some time on."""
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
+from ..equilibrium.dissipative import decay, drawn_to
 from ..errors import InputError
 from ..integrate.trajectory import integrated
 from ..numbers.exact import exact_vector, sqrt_fraction
@@ -40,16 +43,18 @@ from ..physics.states import (
     start_of,
     to_space,
 )
-from ..reasons import Axis, Level, Quantity, Rate, Sentence, Time
+from ..reasons import Angle, Axis, Level, Quantity, Rate, Reason, Sentence, Time
+from ..unreduced.slowest import below_by, least_rate
 from ..unreduced.spin_up.follow import spin_up
 from ..validation import checked_scene
 from .caveats import caveats_of
 from .kinds import kind_of
 from .limit import ENCLOSED_STEPS as BAND_STEPS
-from .limit import SHORT_WORK, WORK, Limit, along_axes, asked, banded, enclosed
+from .limit import SHORT_WORK, WORK, Limit, along_axes, asked, banded, enclosed, pointing_bound
 from .motion import motion
+from .motions.angles import for_all_time
 from .motions.rows import extremes, fates, periods
-from .passage import BY_ROOTS, MOVED, ROUNDING, Found, TimeTo, by_run, times_of
+from .passage import BY_ROOTS, MOVED, ROUNDING, Found, TimeTo, by_run, run_once, times_of
 
 # --- When a certified spin-up reaches it
 # the certificate is asked for again at these shares of the earliest time, where it is narrower
@@ -70,7 +75,7 @@ def by_clock(scene: AnyScene, state: Float3, limit: Limit, followed: float, reac
     own time on; where that is later than `followed` the lower end stays there. reached: how far a run came.
     result: what `spin_up` says of the motion, where it was asked already.
     """
-    if limit.kind == "tilt" or None in [along_axes(terms) for terms, _ in limit.parts]:
+    if limit.angular or limit.falls or None in [along_axes(terms) for terms, _ in limit.parts]:
         return None
     result = result or spin_up(scene, state)
     if result.fate != Fate.SPIN_UP or not result.axis or result.trap is None:
@@ -125,16 +130,42 @@ NEVER_AT_REST = Sentence("never-at-equilibrium", "never, the state is an equilib
 NEVER_BY_EXTREMES = Sentence("never-by-extremes", "never, the extremes over all time stay below it")()
 NEVER_BY_PERIOD = Sentence("never-by-period", "never, the motion repeats and a whole period stays below it")()
 NEVER_BY_BOUND = Sentence("never-by-bound", "never, |ω| ≤ {bound} always")
+NEVER_SO_SLOW_BY_EXTREMES = Sentence(
+    "never-below-by-extremes", "never, the extremes over all time stay above it")()
+NEVER_SO_SLOW_BY_PERIOD = Sentence(
+    "never-below-by-period", "never, the motion repeats and a whole period stays above it")()
+NEVER_SO_SLOW_BY_SPIN = Sentence(
+    "never-so-slow-by-spin", "never: above it until {time}, and from then on by the bounds of the growing "
+    "spin about {axis}, {level}")
+NEVER_SO_SLOW_BY_END = Sentence(
+    "never-so-slow-by-end", "never: above it along a run of {time}, and from then on too near the "
+    "equilibrium that draws every motion, which turns at {rate}")
+NEVER_BY_CONE = Sentence(
+    "never-by-cone", "never: the angular momentum stays, and by its cone about it the axis is never farther "
+    "than {angle} from its direction at the start")
+NEVER_BY_TURN = Sentence(
+    "never-by-turn", "never, the axis is never farther than {angle} from its direction at the start: {law}")
+NEVER_SO_SLOW_BY_LAW = Sentence("never-so-slow-by-law", "never: {law}")
 SLACK = 1e-9  # relative: extremes and periods are known to 1e-11
 REDUCED = ("orbit", "aligned", "free")
 LESS = 1 - Fraction(1, 1 << 60)  # the roots are known to 2^-240
+QUICK = 20_000  # steps of a run that looks for the crossing before a spin-up is looked for
+SETTLING = 1 + SLACK  # of the time from which bounds of a spin-up keep it above a limit
 
 
-def never(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> tuple[Found | None, float | None]:
-    """(the answer where extremes over all time stay below the limit, a time by which it is reached if ever or
-    None). exact: three rationals."""
+class Beyond(NamedTuple):
+    """A time, in the scene's, after which a limit is not reached for the first time; the answer where it is
+    not reached before."""
+
+    time: float
+    never: Found
+
+
+def never(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> tuple[Found | None, Beyond | None]:
+    """(the answer where extremes over all time stay on this side of the limit, a time by which it is reached
+    if ever or None). exact: three rationals."""
     if limit.kind == "tilt":
-        return None, None
+        return never_tilts(scene, state, exact, limit), None
     if rests(scene.quadratic(), exact):
         return Found(math.inf, math.inf, "exact", reason=NEVER_AT_REST), None
     kind = kind_of(scene)
@@ -146,37 +177,97 @@ def never(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> tuple[
     bounded = lambda: fates(scene, row).labels == Fate.BOUNDED
     if kind == "aligned" and not (bounded() and math.isfinite(float(periods(scene, row)))):
         return None, None  # its extremes over all time are not known
-    if limit.beyond(extremes(scene, row).tolist(), SLACK):
-        return Found(math.inf, math.inf, "exact", reason=NEVER_BY_EXTREMES), None
-    repeats = float(periods(scene, row)) if kind == "orbit" and bounded() else math.inf
-    return None, repeats * (1 + SLACK) if 0 < repeats < math.inf else None
+    if limit.momentum is not None and not limit.momentum.stays:
+        return None, after_a_period(limit, float(periods(scene, row)) if bounded() else math.inf)
+    if _beyond(limit, extremes(scene, row).tolist(), exact):
+        return Found(math.inf, math.inf, "exact", reason=_by_extremes(limit)), None
+    free = kind == "free" and (limit.falls or limit.momentum is not None)
+    repeats = float(periods(scene, row)) if free or kind == "orbit" and bounded() else math.inf
+    return None, after_a_period(limit, repeats)
 
 
 def _never_of_rationals(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit
-                        ) -> tuple[Found | None, float | None]:
+                        ) -> tuple[Found | None, Beyond | None]:
     """`never` of a start that is no double: next to a separatrix its rounding is another motion."""
     resolved = motion(scene, state, needs=Needs.RETURN, exact=exact)
     pairs = resolved.extremes if resolved.for_all_time else None
-    if pairs is not None and limit.beyond(pairs, SLACK):
-        return Found(math.inf, math.inf, "exact", reason=NEVER_BY_EXTREMES), None
-    repeats = resolved.period if kind_of(scene) == "orbit" and resolved.fate == Fate.BOUNDED else None
-    return None, None if repeats is None else repeats * (1 + SLACK)
+    stays = limit.momentum is None or limit.momentum.stays
+    if pairs is not None and stays and _beyond(limit, pairs, exact):
+        return Found(math.inf, math.inf, "exact", reason=_by_extremes(limit)), None
+    closed = ("orbit", "free") if limit.falls or limit.momentum else ("orbit",)
+    repeats = resolved.period if kind_of(scene) in closed and resolved.fate == Fate.BOUNDED else None
+    return None, after_a_period(limit, repeats or math.inf)
 
 
-def after_a_period() -> Found:
-    """The answer where a whole period, enclosed, stays below the limit."""
-    return Found(math.inf, math.inf, "proved", reason=NEVER_BY_PERIOD)
+def never_tilts(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> Found | None:
+    """The answer where a body axis keeps to a cone about an angular momentum that stays, within the limit of
+    its tilt; None where that does not show it."""
+    if scene.variables == "scaled" or any(scene.quadratic().m):
+        return None
+    ((_, vector),), angle = limit.parts[0]
+    cone = asked(scene, nutation=(vector, angle))
+    if rests(scene.quadratic(), exact):
+        pairs: Any = [(w, w) for w in map(float, exact)]
+    elif tuple(map(Fraction, state)) == tuple(exact):
+        pairs = extremes(scene, np.array(state, float)).tolist()
+    else:
+        resolved = motion(scene, state, needs=Needs.RETURN, exact=exact)
+        pairs = resolved.extremes if resolved.for_all_time else None
+    law: Any = cone.momentum
+    if pairs is None or not any(law.of(exact)):
+        return Found(math.inf, math.inf, "exact", reason=NEVER_AT_REST) if not any(exact) else None
+    low, high = (math.acos(max(-1.0, min(1.0, cosine))) for cosine in cone.cosines(pairs, exact))
+    bound = pointing_bound(math.acos(max(-1.0, min(1.0, cone.cosine(exact)))), high, low)
+    if not bound + SLACK < float(angle):
+        return None
+    return Found(math.inf, math.inf, "exact", reason=NEVER_BY_CONE(angle=Angle(bound).upper))
 
 
-def never_bounded(scene: AnyScene, state: Any, limit: Limit) -> Found | None:
-    """The answer for a scene of other effects, where energy or momentum bound the rate below the limit; None
-    where they do not."""
-    if limit.kind == "tilt":
+def _beyond(limit: Limit, pairs: Any, start: Exact3) -> bool:
+    """Whether extremes over all time stay on this side of the limit."""
+    return (limit.beyond(pairs, SLACK) if limit.momentum is None
+            else limit.nutates_beyond(pairs, start, SLACK))
+
+
+def _by_extremes(limit: Limit) -> Reason:
+    return NEVER_SO_SLOW_BY_EXTREMES if limit.falls else NEVER_BY_EXTREMES
+
+
+def after_a_period(limit: Limit, period: float) -> Beyond | None:
+    """What is known where a whole period, enclosed, stays on this side of the limit; None without one."""
+    if not 0 < period < math.inf:
+        return None
+    reason = NEVER_SO_SLOW_BY_PERIOD if limit.falls else NEVER_BY_PERIOD
+    return Beyond(period * (1 + SLACK), Found(math.inf, math.inf, "proved", reason=reason))
+
+
+def after_spin_up(scene: AnyScene, state: Float3, limit: Limit, spun: Any = None) -> Beyond | None:
+    """What is known where a spin that grows, certified, exceeds from some time on a limit that |omega| falls
+    to; None where none is."""
+    result = spun or spin_up(scene, state)
+    if result.fate != Fate.SPIN_UP or not result.axis or result.trap is None:
+        return None
+    time = max(result.t, result.trap.clock(limit.least_rate() * (1 + SLACK))[1]) * SETTLING
+    level = "proved" if result.level in ("exact", "proved") else "certified"
+    reason = NEVER_SO_SLOW_BY_SPIN(time=Quantity(time, scene.time_unit), axis=Axis(result.axis),
+                                   level=Level(result.level))
+    return Beyond(time, Found(math.inf, math.inf, level, reason=reason))
+
+
+def never_bounded(scene: Any, state: Any, limit: Limit) -> Found | None:
+    """The answer for a scene of other effects, where energy or momentum bound the rate below the limit, or
+    above one that it falls to; None where they do not."""
+    if limit.angular:
         return None
     result = motion(scene, state, needs=Needs.FATE)
     bound = result.invariants.get("rate_bound", math.inf)
     if result.fate == Fate.EQUILIBRIUM:
         reason = NEVER_AT_REST
+    elif limit.falls:
+        least = least_rate(scene, state)
+        if least is None or not least.rate * (1 - SLACK) > limit.least_rate():
+            return None
+        reason = NEVER_SO_SLOW_BY_LAW(law=least.reason)
     elif result.fate == Fate.BOUNDED and bound * (1 + SLACK) < limit.least_rate():
         reason = NEVER_BY_BOUND(bound=Rate(bound).upper)
     else:
@@ -184,10 +275,34 @@ def never_bounded(scene: AnyScene, state: Any, limit: Limit) -> Found | None:
     return Found(math.inf, math.inf, "exact", reason=reason)
 
 
+DOUBLINGS = 12  # of the time in which a departure falls to 1/e, up to which a run follows it
+
+
+def after_settling(scene: AnyScene, state: Any, limit: Limit) -> Beyond | None:
+    """What is known where one equilibrium draws every motion and turns faster than a rate to fall to: V =
+    delta . D delta/2 falls, delta the departure from it, so that |omega| stays above once V is small; None
+    where there is none, or a run does not come so near."""
+    parts = content(scene)
+    end = None if parts is None else drawn_to(parts)
+    if end is None or parts is None or not math.hypot(*end) * (1 - SLACK) > limit.least_rate():
+        return None
+    D, rate = np.array([float(d) for d in parts.D]), math.hypot(*end)
+    small = D.min() * (rate * (1 - SLACK) - limit.least_rate()) ** 2 / 2
+    for n in range(DOUBLINGS):
+        time = 2.0**n / float(decay(parts))
+        run = integrated(scene, state, [time], laws=False)
+        if run.status != "reached":
+            return None
+        if D @ (np.asarray(run.states[-1])[:3] - end) ** 2 / 2 < small:
+            reason = NEVER_SO_SLOW_BY_END(time=Time(time), rate=Rate(rate))
+            return Beyond(time, Found(math.inf, math.inf, "run", reason=reason))
+    return None
+
+
 def earliest(scene: AnyScene, start: Sequence[Number], limit: Limit) -> Fraction:
     """The time in the scene's unit, exact; 0 where nothing is known (scaled variables, tilts). scene: wheel
     and torque; start: three exact rates."""
-    if scene.variables == "scaled" or limit.kind == "tilt":
+    if scene.variables == "scaled" or limit.angular:
         return Fraction(0)
     D = scene.body.exact
     torque = scene.vector("constant_torque")
@@ -195,6 +310,9 @@ def earliest(scene: AnyScene, start: Sequence[Number], limit: Limit) -> Fraction
     if not push:
         return Fraction(0)
     begun = sqrt_fraction(sum((d * Fraction(w) ** 2 for d, w in zip(D, start)), Fraction(0)))
+    if limit.falls:
+        greatest = max(largest for _, largest in limit.parts)
+        return max(Fraction(0), (begun * LESS - sqrt_fraction(max(D) * greatest) / LESS) / push * LESS)
     smallest = min(largest / _share(terms, D) for terms, largest in limit.parts)
     return max(Fraction(0), (sqrt_fraction(smallest) * LESS - begun) / push * LESS)
 
@@ -255,7 +373,7 @@ BEYOND = 1e-6  # of the time that a run finds: the enclosure goes on for so long
 
 def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = None, energy: Any = None,
             tilt: Any = None, t_max: float | Fraction | None = None, exact: Sequence[Fraction] | None = None,
-            work: int = WORK) -> TimeTo:
+            work: int = WORK, below: Any = None, nutation: Any = None, nutation_below: Any = None) -> TimeTo:
     """The first time t >= 0 at which each motion reaches a limit, between a lower and an upper bound.
 
     scene: Scene or ScaledGyrostat. states: (..., 3) at t = 0 in the scene's variables, taken at their word;
@@ -264,16 +382,17 @@ def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = Non
     size of each component, whichever comes first; component=(axis, limit), of the size of the rate about an
     axis: 1, 2, 3 or three numbers along it, or a list of such pairs, whichever comes first; energy, J,
     kinetic, of the body; tilt=(axis, angle), rad below pi, of the angle between a body axis and its own
-    direction in space at t = 0. t_max: the time at which the search ends; None: when its work is done. exact:
-    three exact numbers of which a single state is the rounding. work: multiplications that the proof for a
-    motion may take; 0: no proof.
+    direction in space at t = 0; nutation=(axis, angle), likewise, of that between a body axis and the angular
+    momentum; below, of |omega|, and nutation_below, the first time at which it is no larger. t_max: the time
+    at which the search ends; None: when its work is done. exact: three exact numbers of which a single state
+    is the rounding. work: multiplications that the proof for a motion may take; 0: no proof.
 
     Torque and wheel: the motion is enclosed and its crossing proved where the work reaches (with numba, at
     most a second of it, as compiled steps go on); beyond that by roots along a run, the clock of the spin-up.
     Other effects: roots along a run. Raises InputError for scenes, states and limits that are none.
     """
     supplied, scene = scene, effective(checked_scene(scene))
-    limit, end = asked(scene, rate, component, energy, tilt), _end(t_max)
+    limit, end = asked(scene, rate, component, energy, tilt, below, nutation, nutation_below), _end(t_max)
     if isinstance(work, bool) or not isinstance(work, (int, np.integer)) or work < 0:
         raise InputError(
             f"work: expected a whole number of multiplications, 0 for no proof, got {work!r:.80}")
@@ -327,6 +446,7 @@ def _end(t_max: float | Fraction | None) -> Fraction | None:
 
 
 AT_THE_START = Sentence("reached-at-start", "reached already at the start")()
+BELOW_BY_LAW = Sentence("below-by-law", "by {time} at the latest: {law}")
 TORQUE_TOO_SLOW = Sentence(
     "torque-too-slow", "not reached by the end of the search: the torque could not bring the energy for it "
     "sooner")()
@@ -345,13 +465,18 @@ def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction 
     on longer; spun: what `spin_up` says of the motion, where it was asked already."""
     if limit.reached_by(start):
         return Found(0.0, 0.0, "exact", reason=AT_THE_START)
-    result, repeats = never(scene, state, start, limit)
+    result, beyond = never(scene, state, start, limit)
     if result:
         return result
-    last = end if repeats is None or (end is not None and end < repeats) else Fraction(repeats)
+    if limit.kind == "below" and beyond is None and not math.isfinite(
+            run_once(scene, state, limit, float(end or math.inf), QUICK)[0]):
+        beyond = after_spin_up(scene, state, limit, spun)
+    last = end if beyond is None or (end is not None and end < beyond.time) else Fraction(beyond.time)
+    if limit.momentum is not None and not limit.momentum.stays:  # its size changes: no linear limit
+        return _by_run_to(scene, state, limit, beyond, end)
     before = earliest(scene, start, limit)
     if last is not None and before > last:
-        return after_a_period() if last is not end else Found(
+        return beyond.never if beyond and last is not end else Found(
             down(last), math.nan, "proved",
             reason=TORQUE_TOO_SLOW)
     proof = enclosed(scene, start, limit, last, min(work, SHORT_WORK) if bands and installed() else work,
@@ -364,11 +489,48 @@ def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction 
                      reason=TOUCHED(time=Quantity(float(proof.low), scene.time_unit),
                                     share=Quantity(2.0**-50, digits=1)))
     if proof.done:
-        return after_a_period() if last is not end else Found(
+        return beyond.never if beyond and last is not end else Found(
             down(proof.until), math.nan, "proved",
             reason=ENCLOSED_TO_END)
-    return _beyond_integers(scene, state, start, limit, end, max(down(proof.until), down(before)),
-                            bands if work else 0, spun)
+    if limit.kind == "tilt" and end is None and (law := _never_turns(scene, state, start, limit)):
+        return law
+    resolved = max(down(proof.until), down(before))
+    if beyond and (limit.falls or limit.momentum is not None) and last is not end:
+        return _until(scene, state, start, limit, beyond, resolved, bands if work else 0)
+    return _beyond_integers(scene, state, start, limit, end, resolved, bands if work else 0, spun)
+
+
+def _by_run_to(scene: AnyScene, state: Any, limit: Limit, beyond: Beyond | None,
+               end: Fraction | None) -> Found:
+    """The answer by a run alone, of a limit that is reached by `beyond.time` or never."""
+    last = math.inf if end is None else float(end)
+    full = beyond is not None and beyond.time < last
+    result = by_run(scene, state, limit, beyond.time if beyond is not None and full else last)
+    if beyond is None or not full or not math.isnan(result.high) or result.low < beyond.time * (1 - BEYOND):
+        return result
+    return replace(beyond.never, level="run", steps=result.steps)
+
+
+def _never_turns(scene: AnyScene, state: Float3, start: Exact3, limit: Limit) -> Found | None:
+    """The answer where rates that repeat under a torque keep a body axis within the limit of its tilt."""
+    if scene.variables == "scaled" or not any(scene.quadratic().m):
+        return None
+    ((_, vector),), angle = limit.parts[0]
+    result = for_all_time(scene, state, start, [vector])
+    if result is None or not float(result[1][0]) * (1 + SLACK) < float(angle):
+        return None
+    reason = NEVER_BY_TURN(angle=Angle(float(result[1][0])).upper, law=result[-1])
+    return Found(math.inf, math.inf, result[-2], reason=reason)
+
+
+def _until(scene: AnyScene, state: Any, start: Any, limit: Limit, beyond: Beyond, resolved: float,
+           bands: int) -> Found:
+    """The answer beyond the work in integers, of a limit that is reached by `beyond.time` or never."""
+    result = _beyond_integers(scene, state, start, limit, Fraction(beyond.time), resolved, bands, None)
+    if not math.isnan(result.high) or result.low < beyond.time * (1 - BEYOND):
+        return result
+    level = beyond.never.level if result.level == "proved" else "run"
+    return replace(beyond.never, level=level, steps=result.steps)
 
 
 def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction | None,
@@ -399,14 +561,31 @@ def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end:
 def _of_any(scene: AnyScene, state: Any, limit: Limit, end: Fraction | None) -> Found:
     """The answer for one motion of any scene."""
     start = equations_and_start(scene, state)[1]
-    if limit.reached_by([Fraction(v) for v in start[:3].tolist()]):
+    if limit.reached_by([Fraction(v) for v in start.tolist()]):
         return Found(0.0, 0.0, "exact", reason=AT_THE_START)
     last = math.inf if end is None else float(end)
     if result := never_bounded(scene, state, limit):
         return result
+    beyond = after_settling(scene, state, limit) if limit.kind == "below" and end is None else None
+    if beyond is not None:
+        result = by_run(scene, state, limit, beyond.time)
+        done = math.isnan(result.high) and result.low >= beyond.time * (1 - BEYOND)
+        return replace(beyond.never, steps=result.steps) if done else result
     if not scene.ending:
-        return by_run(scene, state, limit, last)
+        return _by_law_too(scene, state, limit, end, by_run(scene, state, limit, last))
     return past_the_end(scene, state, limit, last)
+
+
+def _by_law_too(scene: Any, state: Any, limit: Limit, end: Fraction | None, result: Found) -> Found:
+    """What a run finds, with the time by which a law brings |omega| below the limit where the run came to no
+    crossing."""
+    if limit.kind != "below" or not math.isnan(result.high) or result.level == "undecided":
+        return result
+    law = below_by(scene, state, limit.least_rate())
+    if law is None or (end is not None and law.time > end):
+        return result
+    return replace(result, high=law.time,
+                   reason=result.reason.then(BELOW_BY_LAW(time=Time(law.time).upper, law=law.reason)))
 
 
 def down(value: Any) -> float:

@@ -32,7 +32,7 @@ from .caveats import STEADY, answered, caveats_of, limited, loose_forces, misali
 from .digits_asked import MOST_DIGITS, checked_digits
 from .dissipation.ending import ending
 from .kinds import kind_of
-from .limit import WORK, asked
+from .limit import ANGLES, WORK, asked, starts_above
 from .motion import motion
 from .motions.starts import asked_of, whole_rows
 from .passage import MOVED, WIDER, TimeTo, by_run, times_of
@@ -176,15 +176,21 @@ FASTEST = 1e150  # rad/s: beyond it squares come near the end of doubles, and no
 def when(case: Given, state: Start | None = None, rate: Amount | None = None,
          component: str | tuple[str, Amount] | None = None, energy: Amount | None = None,
          tilt: str | tuple[str, Amount] | None = None, until: Amount | None = None,
-         events: Any = None, *, states: Starts | None = None, span: Span | None = None,
-         digits: int | None = None, frame: str = "principal") -> TimeTo | Crossings:
+         events: Any = None, *, below: Amount | None = None,
+         nutation: str | tuple[str, Amount] | None = None,
+         nutation_below: str | tuple[str, Amount] | None = None, states: Starts | None = None,
+         span: Span | None = None, digits: int | None = None,
+         frame: str = "principal") -> TimeTo | Crossings:
     """The first time at which the motion of a case reaches a limit, or that it never does.
 
     case: a case in any form, or a scene; state, states, span, frame: as of `fate`.
 
     One limit: rate="30 deg/s", of |omega|; component="z = 30 deg/s", or ("z", "30 deg/s"), of the size of the
     rate about x, y, z of the file or 1, 2, 3, the principal axes; energy="5 J", kinetic; tilt="z = 20 deg",
-    of the angle between a body axis and its direction at the start; where none is given, that of [limits].
+    of the angle between a body axis and its direction at the start; nutation="z = 20 deg", of that between a
+    body axis and the angular momentum; below="5 deg/s", to which |omega| falls, and nutation_below="z = 5
+    deg", less than that of the start (of many `states` the time is 0 where it is not); where none is given,
+    that of [limits].
     Numbers are in SI units. until: the time at which the search ends. events: in place of a limit, the name
     of a component ("omega3"), a function of the time and the state, or several of these, whose zeros up to
     `until` (or the end of the case's span) are found: see `stabilab.answers.when`. digits: 1 to 10,000, of
@@ -197,9 +203,10 @@ def when(case: Given, state: Start | None = None, rate: Amount | None = None,
     if events is not None:
         if array.ndim > 1:
             raise InputError("when: events are those of one motion: give one state")
-        supplied = any(item is not None for item in (rate, component, energy, tilt))
+        supplied = any(item is not None for item in (rate, component, energy, tilt, below, nutation,
+                                                              nutation_below))
         return _crossings(case, events, until, supplied)
-    limit = limit_stated(case, rate, component, energy, tilt, until)
+    limit = limit_stated(case, rate, component, energy, tilt, until, below, nutation, nutation_below)
     if array.ndim == 1:
         return limited_time(case, limit.ask, limit.until, digits)
     result = time_to(case.scene, whole_rows(case, array), **limit.ask, t_max=limit.until)
@@ -207,9 +214,11 @@ def when(case: Given, state: Start | None = None, rate: Amount | None = None,
 
 
 def limit_stated(case: Any, rate: Any = None, component: Any = None, energy: Any = None, tilt: Any = None,
-                 until: Any = None) -> StatedLimit:
+                 until: Any = None, below: Any = None, nutation: Any = None,
+                 nutation_below: Any = None) -> StatedLimit:
     """The limit that these arguments of `when` state."""
-    return stated_limit(case, *map(_text, (rate, component, energy, tilt, until)))
+    return stated_limit(case, *map(_text, (rate, component, energy, tilt, until, below, nutation,
+                                           nutation_below)))
 
 
 def _crossings(case: Case, events: Any, until: Any, limited: bool) -> Crossings:
@@ -237,6 +246,7 @@ def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None 
     """As `time_of_case`; where it is never, with what a tilt of the torque does, by what the case states as
     misalignment, else by one degree; and with what the tolerances of its forces do. digits, tell: as of
     `_with_digits`."""
+    starts_above(asked(case.scene, **ask), case)
     result = time_of_case(case, ask, t_max)
     moved = motion(case, needs=Needs.FATE) if math.isinf(result.low) or loses(case.scene) else None
     end = None if moved is None or not loses(case.scene) else ending(case, moved)
@@ -264,7 +274,7 @@ def _with_digits(case: Any, result: TimeTo, ask: dict[str, Any], digits: int,
         return result
     scene, limit = effective(case.scene), asked(case.scene, **ask)
     land = landscape(scene) if scene.plain else None
-    if land is None or limit.kind == "tilt":
+    if land is None or limit.angular:
         raise InputError("digits: the time to this limit has no formula, the motion is followed (a formula "
                          "gives that to a rate or an energy, without a torque or with one on a principal "
                          "axis); leave the digits out: the two times of the answer have up to 15")
@@ -330,9 +340,10 @@ def of_tilt(case: Any, angle: float | None, ask: dict[str, Any] | None, steady: 
     plain = case.variables != "scaled" and case.scene.plain
     why = ("in scaled variables" if case.variables == "scaled"
            else "with other effects than wheel and torque" if not plain else
-           "with rates whose squares are no doubles" if _too_fast(case, ask) else "" if on_axis else
-           "for the angle of an axis" if ask and "tilt" in ask
-           else "" if any(case.scene.vector("constant_torque")) else "without a torque")
+           "with rates whose squares are no doubles" if _too_fast(case, ask) else
+           "for a rate that is to fall" if ask and "below" in ask else
+           "for the angle of an axis" if ask and not ANGLES.isdisjoint(ask) else
+           "" if on_axis or any(case.scene.vector("constant_torque")) else "without a torque")
     if why:
         return Spread(angle or 0.0, "the torque", 0, omitted=why) if tilts else None
     if on_axis and (tilts or ask is not None or not sized):
@@ -341,5 +352,5 @@ def of_tilt(case: Any, angle: float | None, ask: dict[str, Any] | None, steady: 
 
 
 def _too_fast(case: Any, ask: dict[str, Any] | None) -> bool:
-    limit = None if ask is None or "tilt" in ask else asked(case.scene, **ask).least_rate()
+    limit = None if ask is None or not ANGLES.isdisjoint(ask) else asked(case.scene, **ask).least_rate()
     return max(*map(abs, case.state), limit or 0.0) > FASTEST

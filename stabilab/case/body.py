@@ -280,7 +280,7 @@ def judge_limits(top: Table, limits: Limits | None, state: Exact3 | None):
     """Note a limit that the motion has passed before it starts. state: rad/s, input frame."""
     if limits is None or state is None:
         return
-    supplied = top.data["motion"]["angular_velocity"]
+    supplied = top.data["motion"].get("angular_velocity", ())
     plain = [shown(value) for value in supplied if not isinstance(value, str) or isinstance(value, Written)]
     hint = (f'; a number alone is in rad/s, of degrees write "{plain[0]} deg/s"' if plain else "")
     table, degrees = Table(("limits",), top.data["limits"], top.faults), 180 / pi()

@@ -17,12 +17,12 @@ if TYPE_CHECKING:
     from .read import Case
 
 FILE_AXES = "xyz"
-OPTIONS = ("rate", "component", "energy", "tilt")
+OPTIONS = ("rate", "component", "energy", "tilt", "below", "nutation", "nutation_below")
 
 
 @dataclass(frozen=True)
 class StatedLimit:
-    """ask: the one argument of `time_to`, by name; kind: "rate", "component", "energy" or "tilt"; names: of
+    """ask: the one argument of `time_to`, by name; kind: that name; names: of
     the quantities, as many as limits, for the reader; limits: in SI; until: the time at which the search
     ends, or None."""
 
@@ -34,22 +34,25 @@ class StatedLimit:
 
 
 def stated_limit(case: Case, rate: str | None = None, component: str | None = None, energy: str | None = None,
-                 tilt: str | None = None,
-                 until: str | None = None) -> StatedLimit:
+                 tilt: str | None = None, until: str | None = None,
+                 below: str | None = None, nutation: str | None = None,
+                 nutation_below: str | None = None) -> StatedLimit:
     """The limit that one of the options states, or [limits] of the case where none is given. Raises
     InputError that names the option."""
-    source = {name: text for name, text in zip(OPTIONS, (rate, component, energy, tilt)) if text is not None}
+    source = {name: text for name, text in zip(OPTIONS, (rate, component, energy, tilt, below, nutation,
+                                                        nutation_below)) if text is not None}
     if len(source) > 1:
         raise InputError(
-            f"expected one limit, got {' and '.join(f'--{name}' for name in source)}: ask for each by itself")
+            f"expected one limit, got {' and '.join(map(_option, source))}: ask for each by itself")
     scaled = case.variables == "scaled"
     end = None if until is None else _number(until, NONE if scaled else TIME, "until")
     if not source:
         result = _of_case(case)
     else:
         (name, text), = source.items()
-        result = {"rate": _rate, "component": _component, "energy": _energy,
-                 "tilt": _tilt}[name](case, text, NONE if scaled else RATE)
+        result = {"rate": _rate, "component": _component, "energy": _energy, "tilt": _tilt, "below": _below,
+                  "nutation": _nutation, "nutation_below": _nutation_below,
+                  }[name](case, text, NONE if scaled else RATE)
     return StatedLimit(*result, until=end)  # type: ignore[misc]  # all but the last
 
 
@@ -71,7 +74,7 @@ def _of_case(case: Case):
     """The fields of `StatedLimit` but `until` by [limits] of the case; those of an option below."""
     if case.limits is None:
         raise InputError(f'{case.place}: no limit: give --rate "30 deg/s", --component "z = 30 deg/s", '
-                         f'--energy "5 J" or --tilt "z = 20 deg", or write '
+                         f'--energy "5 J", --tilt "z = 20 deg" or --below "5 deg/s", or write '
                          "[limits] rate")
     if case.limits.rate is not None:
         return {"rate": case.limits.rate}, "rate", ("|omega|",), (float(case.limits.rate),)
@@ -80,15 +83,33 @@ def _of_case(case: Case):
     return {"component": pairs}, "component", names, tuple(map(float, case.limits.rates))
 
 
-def _rate(case: Case, text: str, dimension: Sequence[int]):
-    largest = _number(text, dimension, "rate")
-    return {"rate": largest}, "rate", ("|x|" if dimension is NONE else "|omega|",), (float(largest),)
+def _rate(case: Case, text: str, dimension: Sequence[int], kind: str = "rate"):
+    limit = _number(text, dimension, kind)
+    return {kind: limit}, kind, ("|x|" if dimension is NONE else "|omega|",), (float(limit),)
+
+
+def _below(case: Case, text: str, dimension: Sequence[int]):
+    return _rate(case, text, dimension, "below")
 
 
 def _component(case: Case, text: str, dimension: Sequence[int]):
     axis, largest = _pair(text, dimension, "component")
     name = f"|{'x' if dimension is NONE else 'omega'} {axis}|"
     return {"component": (along(case, axis), largest)}, "component", (name,), (float(largest),)
+
+
+def _option(name: str) -> str:
+    """As a command line has it."""
+    return f"--{name.replace('_', '-')}"
+
+
+def _nutation(case: Case, text: str, _: Sequence[int], kind: str = "nutation"):
+    axis, angle = _pair(text, ANGLE, kind)
+    return {kind: (along(case, axis), angle)}, kind, (f"the nutation of axis {axis}",), (float(angle),)
+
+
+def _nutation_below(case: Case, text: str, _: Sequence[int]):
+    return _nutation(case, text, _, "nutation_below")
 
 
 def _energy(case, text, _):
@@ -107,8 +128,8 @@ def _pair(text: str, dimension: Sequence[int], option: str):
     axis = axis.strip().lower()
     if not equals or axis not in (*FILE_AXES, "1", "2", "3"):
         example = "30 deg/s" if option == "component" else "20 deg"
-        raise InputError(f'--{option}: expected an axis and its limit, as in "z = {example}" (x, y, z of the '
-                         f'file, or 1, 2, 3, the principal axes), '
+        raise InputError(f'{_option(option)}: expected an axis and its limit, as in "z = {example}" (x, y, z '
+                         f'of the file, or 1, 2, 3, the principal axes), '
                          f'got "{text[:60]}"{_meant(text)}')
     return axis, _number(rest, dimension, option, axis)
 
@@ -135,7 +156,7 @@ def along(case: Case, axis: str) -> int | Exact3:
 
 def _no_limit(value: Fraction, text: str, option: str, axis: str) -> str:
     """"; ..." with what to ask in place of a limit that is no size."""
-    if option not in ("rate", "component", "energy", "tilt"):
+    if option not in OPTIONS:
         return ""
     if value:
         pair = f"{axis} = " if axis else ""
@@ -151,8 +172,8 @@ def _number(text, dimension, option, axis="") -> Fraction:
     try:
         value, _ = quantity(text.strip(), dimension)
     except InputError as error:
-        raise InputError(f"--{option}: {error}") from None
+        raise InputError(f"{_option(option)}: {error}") from None
     if value <= 0:
-        raise InputError(f"--{option}: expected a positive number, got {text.strip()[:60]}"
+        raise InputError(f"{_option(option)}: expected a positive number, got {text.strip()[:60]}"
                          f"{_no_limit(value, text.strip(), option, axis)}")
     return value

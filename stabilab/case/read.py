@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 from pathlib import Path
+from types import ModuleType
 from typing import Any, NamedTuple
 
 from ..errors import CaseError, Caveat, InputError, Kind, printable
@@ -51,7 +52,7 @@ from .sections import (
     vertical_of,
 )
 from .source import combinations, parsed, place, source_text, swept
-from .table import Faults, Table, Uncertain, described, did_you_mean, dotted, expected
+from .table import OBSERVED, Faults, Table, Uncertain, described, did_you_mean, dotted, expected
 from .write import data_of_scene, plain, text_of
 
 # --- A case file: a body, its effects and one motion, read from TOML; every fault with file, line and key
@@ -63,6 +64,7 @@ STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
 # key: block
 BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position",
           "damper": "damper", "wheel": "wheel"}
+OBSERVED_KEYS = frozenset(OBSERVED)
 TURNED_BACK = Fraction(1, 10**15)
 UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector and stays as it is
 SIZES = Sentence("tolerance-not-looked-at", "the tolerance of the force of {thrusters} is not looked at "
@@ -101,7 +103,8 @@ class Case:
     240 bits. assumed: what was taken for granted, notes: in words. units: "deg" or "si", in which people want
     to read answers (empty where the file does not say); swept: (key, value as written) of every key of
     [sweep].
-    caveats: what the file itself says that limits every answer.
+    caveats: what the file itself says that limits every answer. observed: whether the start is stated by
+    periods, or by spin and nutation, from which the state was found.
     """
 
     path: str = field(compare=False)
@@ -129,6 +132,7 @@ class Case:
     units: str = ""
     swept: tuple[tuple[str, Any], ...] = ()
     caveats: tuple[Caveat, ...] = ()
+    observed: bool = False
 
     def __eq__(self, other: object) -> bool:
         """By what it holds, whether it has methods or not."""
@@ -427,9 +431,11 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
     craft = _craft(top)
     motion = _motion(top)
     physical, mu, frame = _physical(top, craft, motion)
+    motion, taken = (_observed().with_observed(motion, physical, frame) if motion.state_key in OBSERVED
+                     else (motion, ()))
     scaled = _scaled(top)
     judge_oblique(top, frame)
-    judge_limits(top, craft.limits, motion.exact if motion.state_key == "angular_velocity" else None)
+    judge_limits(top, craft.limits, None if motion.state_key == "x" else motion.exact)
     motion = turned_motion(motion, frame)
     expect = expected(top.table("expect"))
     units = _units(top.table("output"))
@@ -444,7 +450,8 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
                 motion.blocks, text,
                 variant, tuple(faults.uncertain.values()), mu, motion.exact, frame if physical else None,
                 craft.thrusters, craft.wheels, craft.limits,
-                tuple(dict.fromkeys(map(dotted, sorted(faults.inexact, key=str)))), craft.assumed, units,
+                tuple(dict.fromkeys(map(dotted, sorted(faults.inexact, key=str)))),
+                (*craft.assumed, *taken), units, observed=motion.state_key in OBSERVED,
                 caveats=(*(Caveat(Kind.STATED, STATED(statement=item)) for item in declared),
                          *(physical.body.caveats if physical else ()),
                          *(far_off(physical.body, craft.thrusters) if physical else ()),
@@ -607,7 +614,7 @@ def _motion(top: Table) -> _Motion:
     table = top.table("motion")
     if table is None:
         return _Motion(Table(("motion",), {}, top.faults))
-    table.known(STATES + SPANS + tuple(BLOCKS))
+    table.known(STATES + SPANS + tuple(BLOCKS) + OBSERVED)
     state_key, span_key = table.one_of(*STATES), table.one_of(*SPANS)
     states, spans = {k: table.vector(k) for k in STATES}, {k: table.numbers(k, 2) for k in SPANS}
     state, span = states.get(state_key), spans.get(span_key)
@@ -616,8 +623,10 @@ def _motion(top: Table) -> _Motion:
                     "the start of the motion first, such as [0, 100]",
                     span_key)
         span = None
+    if not OBSERVED_KEYS.isdisjoint(table.data):
+        state_key = _observed().observed_key(table, state_key) or state_key
     if "scaled" in top:
-        for key, other in (("angular_velocity", "x"), ("span", "tau")):
+        for key, other in (("angular_velocity", "x"), ("span", "tau"), *((key, "x") for key in OBSERVED)):
             if key in table:
                 table.fault(f"a [scaled] system has no body to convert {key} with: give {other}", key)
     vectors = {block: vector for key, block in BLOCKS.items() if (vector := table.vector(key)) is not None}
@@ -626,6 +635,12 @@ def _motion(top: Table) -> _Motion:
     blocks = {block: floats(vector) for block, vector in vectors.items()}
     return _Motion(table, state_key, floats(state) if state else None, span_key, span, blocks, state,
                    vectors.get("gamma"))
+
+
+def _observed() -> ModuleType:
+    """What reads a start that is stated as it is observed."""
+    from . import observed
+    return observed
 
 
 def _unit(table: Table, vertical: Exact3) -> Exact3:

@@ -90,7 +90,15 @@ UNCERTAIN = {("body", "inertia"), ("effects", "gyrostat", "momentum"),
              ("effects", "viscous_damper", "inertia"), ("effects", "viscous_damper", "coefficient"),
              ("effects", "constant_torque", "torque"),
              ("effects", "constant_torque", "mu"), ("motion", "angular_velocity"), ("motion", "x"),
+             ("motion", "rotation_period"), ("motion", "precession_period"), ("motion", "amplitude"),
+             ("motion", "spin"), ("motion", "nutation"),
              ("scaled", "a"), ("scaled", "b"), ("scaled", "mu")}  # the keys whose numbers may be uncertain
+
+
+# Keys of [motion] by which a start is stated as it is observed (`observed`): of a tumbling body, of a spin
+TUMBLING = ("rotation_period", "precession_period", "amplitude", "mode")
+SPINNING = ("spin", "axis", "nutation", "towards")
+OBSERVED = TUMBLING + SPINNING
 
 
 HOMES = {word: home for home, value in {
@@ -309,8 +317,9 @@ class Table:
         """The middle of an uncertain number, which is noted."""
         if self.path + keys[:1] not in UNCERTAIN or len(keys) > 2:
             raise InputError(f"takes no uncertainty, got {described(text)}; one may stand in inertia, "
-                             "coefficient of a damper, momentum, torque, mu, a, b, angular_velocity, x and "
-                             "force of a thruster")
+                             "coefficient of a damper, momentum, torque, mu, a, b, angular_velocity, x, "
+                             "rotation_period, precession_period, amplitude, spin, nutation and force of a "
+                             "thruster")
         path = self.path + keys
         middle, half, sharp = plus_minus(text, dimension_of(path))
         if half:

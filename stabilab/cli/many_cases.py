@@ -7,12 +7,14 @@ from typing import Annotated  # typer reads the annotations at run time
 import typer
 
 from .options import (
+    Below,
     CaseFile,
     Component,
     CsvOfCells,
     Energy,
     Follow,
     Json,
+    NutationBy,
     Scheduler,
     StrictFate,
     TiltBy,
@@ -46,6 +48,7 @@ def sweep(
         workers: Workers = None, scheduler: Scheduler = None,
         rate: Annotated[str | None, option("RATE", "Limit of the answer when, as of stabilab when.")] = None,
         component: Component = None, energy: Energy = None, tilt: TiltBy = None, until: Until = None,
+        below: Below = None, nutation: NutationBy = None, nutation_below: NutationBy = None,
         follow: Follow = None,
         csv: Annotated[bool, flag("--csv", "CSV on stdout: a line for each point.")] = False,
         json: Json = False, strict: StrictFate = False):
@@ -73,6 +76,7 @@ def atlas(
         rate: Annotated[str | None, option(
             "RATE", "Limit for the time, as for stabilab when; default: that of [limits].")] = None,
         component: Component = None, energy: Energy = None, tilt: TiltBy = None, until: Until = None,
+        below: Below = None, nutation: NutationBy = None, nutation_below: NutationBy = None,
         no_time: Annotated[bool, flag(
             "--no-time", "Leave out the time to a limit, which takes most of the work.")] = False,
         certify: Annotated[bool, flag(

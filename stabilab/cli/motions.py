@@ -64,7 +64,11 @@ def fate(
 @commands.command()
 @opens("classify.answer", question="extremes")
 def extremes(
-        cases: CaseFiles, json: Json = False, csv: Csv = False, digits: Digits = None, strict: Strict = False,
+        cases: CaseFiles,
+        angles: Annotated[bool, flag("--angles",
+            "Also find the angles of the axes x, y, z to the angular momentum and to their own directions at "
+            "the start.")] = False,
+        json: Json = False, csv: Csv = False, digits: Digits = None, strict: Strict = False,
         follow: Follow = None, units: UnitsOption = None, why: Why = False):
     """Find the least and greatest rates of each motion.
 
@@ -102,12 +106,18 @@ def when(
         cases: CaseFiles,
         rate: Annotated[str | None, option(
             "RATE", 'Limit of |ω|: "30 deg/s". Default: that of [limits].')] = None,
+        below: Annotated[str | None, option(
+            "RATE", 'Rate to which |ω| falls: "5 deg/s", less than that of the start.')] = None,
         component: Annotated[str | None, option("AXIS=RATE",
             "Limit of the absolute value of one rate: \"z = 30 deg/s\"; x, y, z are axes of the file, "
             "1, 2, 3 principal axes.")] = None,
         energy: Annotated[str | None, option("ENERGY", 'Limit of the kinetic energy: "5 J".')] = None,
         tilt: Annotated[str | None, option("AXIS=ANGLE",
             'Limit of the angle between a body axis and its direction at the start: "z = 20 deg".')] = None,
+        nutation: Annotated[str | None, option("AXIS=ANGLE",
+            'Limit of the angle between a body axis and the angular momentum: "z = 10 deg".')] = None,
+        nutation_below: Annotated[str | None, option("AXIS=ANGLE",
+            'Angle to which that falls: "z = 5 deg", less than that of the start.')] = None,
         until: Annotated[str | None, option("TIME", 'Search up to this time only: "10 min".')] = None,
         digits: Annotated[int | None, option(
             "N", "Write the time with N digits (1 to 10000), where a formula gives them.")] = None,

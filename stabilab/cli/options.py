@@ -63,6 +63,8 @@ Scheduler = Annotated[str | None, option(
 Component = Annotated[str | None, option("AXIS=RATE", hidden=True)]
 Energy = Annotated[str | None, option("ENERGY", hidden=True)]
 TiltBy = Annotated[str | None, option("AXIS=ANGLE", hidden=True)]
+Below = Annotated[str | None, option("RATE", hidden=True)]
+NutationBy = Annotated[str | None, option("AXIS=ANGLE", hidden=True)]
 Until = Annotated[str | None, option("TIME", hidden=True)]
 CsvOfCells = Annotated[bool, flag("--csv", "CSV on stdout: a line for each cell.")]
 Folder = Annotated[Path, option("DIR", "Folder for the files.")]

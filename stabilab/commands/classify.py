@@ -15,6 +15,7 @@ from ..answers.equilibria import equilibria
 from ..answers.motion import Needs
 from ..case.read import blamed_on
 from ..show.text import classification, headline, questions, scene
+from ..show.text.angles import angle_lines, angle_rows, angles_dict
 from ..show.text.motion import attitude_object, attitude_objects, attitude_text, row_of
 from ..show.units import DEG
 from .common import answers_of, expected, load_cases, motion_of, one_by_one, tilted, units_asked
@@ -73,7 +74,7 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
 
 
 def answer(question, cases, json, digits, strict, units, why, csv=False, follow=None, tilt=None,
-           certify=False):
+           certify=False, angles=False):
     """Answer a question for every case and say how many digits of it are known."""
     loaded = load_cases(cases, motion=True)
     systems = units_asked(loaded, units, tilt=tilt)
@@ -84,9 +85,31 @@ def answer(question, cases, json, digits, strict, units, why, csv=False, follow=
         digits_of.append(_told(question, case, motions[-1], digits))
     view = _view(question, digits, why)
     boxes, motions = over_boxes(view, loaded, motions)
-    rows = collected(view, loaded, systems, list(zip(motions, digits_of)), boxes)
+    result = list(zip(motions, digits_of))
+    if angles:
+        view, result = with_angles(view), list(zip(map(_leaning, loaded), *zip(*result)))
+    rows = collected(view, loaded, systems, result, boxes)
     show(view, rows, json, csv)
     judge(view, rows, strict)
+
+
+def _leaning(case):
+    from ..answers.motions.angles import angles
+    with blamed_on(case):
+        return angles(case)
+
+
+def with_angles(view: View) -> View:
+    """The view of a motion and its digits with the angles of the axes in front of both."""
+    head, lines = view.csv
+    swept = view.swept and (lambda rows, units: view.swept([(row[0], *row[2:]) for row in rows], units))
+    return replace(
+        view, swept=swept,
+        text=lambda case, turned, *rest: "\n".join([view.text(case, *rest), *angle_lines(turned, rest[-1])]),
+        data=lambda case, turned, *rest: view.data(case, *rest) | {"angles": angles_dict(turned)},
+        csv=(head, lambda case, turned, *rest: [*lines(case, *rest), *angle_rows(case, turned)]),
+        law=lambda case, turned, *rest: view.law(case, *rest), open=lambda turned, *rest: view.open(*rest),
+        short=lambda turned, *rest: view.short(*rest))
 
 
 def _needed(question: str, full: bool):

@@ -70,11 +70,12 @@ def units_asked(cases: Sequence[Case], request: str | None, **options: str | Non
         result = split((text or "").rpartition("=")[2].strip())
         if result is None or result[1]:
             continue
-        unit, degrees = ("rad", "deg") if option in ("tilt", "within") else ("rad/s", "deg/s")
+        angular = option in ("tilt", "within", "nutation", "nutation_below")
+        unit, degrees = ("rad", "deg") if angular else ("rad/s", "deg/s")
         with suppress(InputError):  # of a number that none can be: told where it is used
             taken = number(float(quantity(result[0], NONE)[0]) * DEG.rates[1], DIGITS)
-            say(f'--{option}: {result[0]} alone is in {unit}: {taken} {degrees}; for degrees write '
-                f'"{result[0]} {degrees}"')
+            say(f'--{option.replace("_", "-")}: {result[0]} alone is in {unit}: {taken} {degrees}; for '
+                f'degrees write "{result[0]} {degrees}"')
     return systems
 
 

@@ -20,7 +20,7 @@ from ..answers.stuck.ask import stuck as ask
 from ..answers.stuck.burn import burn as left_by
 from ..answers.stuck.burn import time_of_burn
 from ..answers.when import limited_time
-from ..case.limit_options import stated_limit
+from ..case.limit_options import OPTIONS, stated_limit
 from ..case.read import fires_on_schedule, load_burning, load_orbiting
 from ..errors import InputError
 from ..numbers.units import ANGLE, MOMENTUM, RATE, TIME, in_si
@@ -93,7 +93,7 @@ def when(cases, units, json, csv, strict, digits, **limits):
             raise InputError(f"{case.path}: digits: a burn is followed in time: leave them out")
         return limit, time_of_burn(burns[case.path], limit.ask, limit.until)
     run(WHEN, loaded, asked, units=units, json=json, csv=csv, strict=strict,
-        **{name: limits[name] for name in ("rate", "component", "tilt")})
+        **{name: limits[name] for name in OPTIONS if name != "energy"})
 
 
 def flat_spin(case, within, momentum, units, json, strict):

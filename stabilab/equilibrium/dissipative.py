@@ -34,7 +34,7 @@ from typing import Any
 from ..numbers.balls import MANY_BITS, working
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.principal import SLACK, principal_minors
-from ..numbers.vectors import CYCLE, Exact3, Number, cross, cross_matrix, dot
+from ..numbers.vectors import CYCLE, Exact3, Float3, Number, cross, cross_matrix, dot
 from ..physics.coefficients import Content
 from ..physics.scene import ZERO3, QuadraticForm, euler_form
 from ..reasons import Axis, Formula, Power, Reason, Sentence, Unit
@@ -358,6 +358,14 @@ def decay(parts: Content) -> Fraction:
                   for i, row in enumerate(parts.drag)])[2]
     smallest = real_roots(det, BITS)[0]
     return smallest if smallest > SLACK * max(max(row) for row in parts.drag) / min(parts.D) else Fraction(0)
+
+
+def drawn_to(parts: Content) -> Float3 | None:
+    """The equilibrium that draws every motion under resistance and a torque; None where none is proved to."""
+    if parts.inside or parts.kappa or parts.directed or any(parts.u) or not decay(parts):
+        return None
+    points = [point for point in resisted_equilibria(parts).points if point.reason.says(GLOBAL.sentence)]
+    return tuple(map(float, points[0].at[:3])) if points else None
 
 
 MINIMUM = Verdict("asymptotically stable", Sentence(

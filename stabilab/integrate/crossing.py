@@ -46,8 +46,8 @@ class Piece:
 
 @dataclass(frozen=True)
 class Threshold:
-    """A quantity and its limit: sum_r c_r (a_r . y)^2 reaches `limit` from below, or, with `falls`, a . y
-    reaches it from above.
+    """A quantity and its limit: sum_r c_r (a_r . y)^2, or a . y of the one term where it is `linear`, reaches
+    `limit` from below, or from above where it `falls`.
 
     y: the components of a `Piece`, in the motion's own unit; terms: ((c_r, a_r), ...), positive c_r, a_r as
     many rationals as there are components.
@@ -56,11 +56,13 @@ class Threshold:
     terms: tuple[tuple[Fraction, tuple[Fraction, ...]], ...]
     limit: Fraction
     falls: bool = False
+    linear: bool = False
 
     def passed(self, y: Sequence[Number]) -> bool:
         """Whether exact components reach the limit."""
         values = [(c, sum(a * v for a, v in zip(vector, y))) for c, vector in self.terms]
-        return values[0][1] <= self.limit if self.falls else sum(c * v * v for c, v in values) >= self.limit
+        value = values[0][1] if self.linear else sum(c * v * v for c, v in values)
+        return value <= self.limit if self.falls else value >= self.limit
 
 
 @dataclass(frozen=True)
@@ -117,10 +119,12 @@ class Search:
 
 
 class _Excess:
-    """g over one piece: in units of 2^(-2 bits) for squares, 2^-bits for what falls."""
+    """g over one piece: in units of 2^(-2 bits) for squares, 2^-bits for what is linear. Of what falls to its
+    limit g is the limit less the quantity."""
 
     def __init__(self, threshold: Threshold, piece: Piece, exactly: bool) -> None:
-        self.bits, self.falls, self.one, self.looked = piece.bits, threshold.falls, 1 << piece.bits, 0
+        self.bits, self.linear, self.one, self.looked = piece.bits, threshold.linear, 1 << piece.bits, 0
+        self.sign = -1 if threshold.falls else 1
         built = [_combined(vector, piece) for _, vector in threshold.terms]
         self.rows, self.sizes = [row for row, _ in built], [sum(map(abs, row)) for row, _ in built]
         radii = [radius for _, radius in built]
@@ -128,8 +132,8 @@ class _Excess:
         self.limit = round(threshold.limit * self.one)
         slack = 2 * max(map(len, self.rows))  # of Horner's rule, twice
         off = [(radius if exactly else 0) + slack for radius in radii]
-        self.size = self.sizes[0] if self.falls else self._sum([v * v for v in self.sizes])
-        if self.falls:
+        self.size = self.sizes[0] if self.linear else self._sum([v * v for v in self.sizes])
+        if self.linear:
             self.err = off[0] + 1
         else:  # squares, then weights and limit rounded
             self.err = (self._sum([2 * v * r + r * r for v, r in zip(self.sizes, off)])
@@ -142,22 +146,26 @@ class _Excess:
     def _bend(self) -> int:
         first = [sum(n * abs(v) for n, v in enumerate(row)) for row in self.rows]
         second = [sum(n * (n - 1) * abs(v) for n, v in enumerate(row)) for row in self.rows]
-        return (second[0] if self.falls
+        return (second[0] if self.linear
                 else 2 * self._sum([f * f + v * w for f, v, w in zip(first, self.sizes, second)]))
 
     def _rough(self, terms: int) -> int:
         """What rounding may take from the slope."""
         steep = [sum(n * abs(v) for n, v in enumerate(row)) for row in self.rows]
-        return (terms * (terms + 1) if self.falls
+        return (terms * (terms + 1) if self.linear
                 else 2 * self._sum([terms * (terms + 1) * v + terms * w for v, w in zip(self.sizes, steep)])
                 + 2)
 
     def stays_below(self) -> bool:
         """Whether bounds of the components alone keep g below 0."""
-        if self.falls:
+        if self.linear:
             row = self.rows[0]
-            return row[0] - (self.size - abs(row[0])) - self.err > self.limit
-        return self.size + self.err < self.limit << self.bits
+            return (self.sign * row[0] + (self.size - abs(row[0])) + self.err
+                    < self.sign * self.limit)
+        if self.sign > 0:
+            return self.size + self.err < self.limit << self.bits
+        smallest = [max(0, 2 * abs(row[0]) - size) for row, size in zip(self.rows, self.sizes)]
+        return self._sum([v * v for v in smallest]) - 1 - self.err > self.limit << self.bits
 
     def value(self, s: int) -> tuple[int, int]:
         """(g, g') at s, an integer in units of 2^-bits; g' is not too small, and rounding of g is part of
@@ -170,10 +178,10 @@ class _Excess:
                 slope = (slope * s >> self.bits) + v
                 v = (v * s >> self.bits) + c
             rows.append((v, slope))
-        if self.falls:
-            return self.limit - rows[0][0], self.rough - rows[0][1]
+        if self.linear:
+            return self.sign * (rows[0][0] - self.limit), self.sign * rows[0][1] + self.rough
         value = self._sum([v * v for v, _ in rows]) - (self.limit << self.bits)
-        return value, 2 * self._sum([v * slope for v, slope in rows]) + self.rough
+        return self.sign * value, self.sign * 2 * self._sum([v * slope for v, slope in rows]) + self.rough
 
     def reaches(self, sign: int, s: int = 0, allowed: int = PLACES) -> int | None:
         """The last place that the steps reach from s before g + sign err may be 0, or that so many of them

@@ -84,6 +84,16 @@ def _times(item: Ending, units: Units) -> list[str]:
     return parts
 
 
+def constants(item: Ending | None, units: Units) -> str:
+    """The time constants of the end in words, each once; empty where none are known."""
+    printed = []
+    for constant in () if item is None else item.constants:
+        about = (f" about {units.axes.name(constant.axis)} across the field" if constant.axis else
+                 f" turning at {units.rate(constant.turns, SHORT)}" if constant.turns else "")
+        printed.append(f"{units.time(constant.time, SHORT)}{about}")
+    return ", ".join(dict.fromkeys(printed))
+
+
 COLUMNS = ("ending", "ending_time")  # of a CSV
 
 
@@ -120,6 +130,8 @@ def key(case: Case, item: Ending | None) -> dict[str, Any]:
         "sense": item.sense or None, "rate": item.rate,
         "rates": item.rates and (back(case, item.rates) or list(item.rates)), "within": item.within, **info,
         "nutation": item.nutation, "growth_time": item.growth, "decay_time": item.decay,
-        "at_the_latest": item.at_the_latest, "estimate": item.estimate}}
+        "at_the_latest": item.at_the_latest, "estimate": item.estimate,
+        "time_constants": [{"time": constant.time, "turns": constant.turns, "axis": constant.axis or None}
+                           for constant in item.constants]}}
 
 

@@ -530,6 +530,22 @@ def _attitude(result):
     return Variables(("axis",), values, AXIS, _known(notes))
 
 
+def _angles_words(result):
+    largest = ", ".join(f"{axis} {number(np.degrees(value), 6)} deg" for axis, value in zip(
+        result.axes, result.momentum[:, 1]))
+    return f"greatest to the angular momentum: {largest}; over {result.over}, {result.level}"
+
+
+def _angles(result):
+    ends = {"units": "rad", "long_name": "angle to the angular momentum"}
+    values = {"least": (("axis",), result.momentum[:, 0], ends),
+              "greatest": (("axis",), result.momentum[:, 1], ends),
+              "start": (("axis",), result.start, {"units": "rad", "long_name":
+                                                  "largest angle to the direction at the start"})}
+    return Variables(("axis",), values, {"axis": (list(result.axes), {"long_name": "axis of the body"})},
+                     {"over": str(result.over), "level": result.level, "reason": result.because})
+
+
 def _crossings_words(result):
     zeros = ", ".join(some(len(row), "zero") for row in result.t)
     return f"{zeros} up to t = {number(result.until, 6, -1)}, {result.status}; by changes of sign along a run"
@@ -610,7 +626,8 @@ KINDS: dict[str, tuple[Callable[[Any], str], Callable[[Any], Variables]]] = {
     "FateResult": (_fates_words, _fates), "Motions": (_motions_words, _fates),
     "Values": (_values_words, _values), "TimeTo": (_time_to_words, _time_to),
     "Equilibria": (_equilibria_words, _equilibria), "Motion": (_motion_words, _motion),
-    "Attitude": (_attitude_words, _attitude), "Crossings": (_crossings_words, _crossings),
+    "Attitude": (_attitude_words, _attitude), "Angles": (_angles_words, _angles),
+    "Crossings": (_crossings_words, _crossings),
     "Chaos": (_chaos_words, _chaos), "Ensemble": (_ensemble_words, _ensemble),
     "Diagram": (_diagram_words, _diagram), "Plane": (_plane_words, _plane),
     "Separatrix": (_separatrix_words, _separatrix), "Comparison": (_comparison_words, _comparison),

@@ -60,13 +60,14 @@ def _found(searches: Sequence[Search], band: Band, unit: Fraction) -> bool:
 
 def _open(threshold: Threshold, band: Band, unit: float) -> np.ndarray:
     """(n,) whether each step may reach it."""
-    if threshold.falls:
-        rows, radii, _ = band.along(threshold.terms[0][1])
-        rows, largest = -rows, -float(threshold.limit)
+    scale = np.array([unit] * 3 + [1.0] * (band.radii.shape[1] - 3))  # a direction has no unit
+    scaled = Band(band.times, band.polynomials / scale[:, None], band.radii / scale)
+    if threshold.linear:
+        rows, radii, _ = scaled.along(threshold.terms[0][1])
     else:
-        rows, radii = Band(band.times, band.polynomials[:, :3] / unit, band.radii[:, :3] / unit).form(
-            threshold.terms)
-        largest = float(threshold.limit)
+        rows, radii = scaled.form(threshold.terms)
+    sign = -1.0 if threshold.falls else 1.0
+    rows, largest = sign * rows, sign * float(threshold.limit)
     radii = radii + BLUR * np.abs(rows).sum(axis=1) + 2.0**-50 * abs(largest)
     result = np.zeros(len(rows), bool)
     # most steps are surely below at once, the others are divided

@@ -34,6 +34,12 @@ FORMS = {  # cases that together have every key; each is asked with one number u
                   "effects": {"gyrostat": {"momentum": [3, 0, 0]}, "constant_torque": {"mu": [0, 0, 1]}}},
     "scaled": {"scaled": {"a": "0.2", "b": "0.4", "mu": [0, 0, 1]},
                "motion": {"x": ["0.1", "0.2", "0.1"], "tau": [0, 10]}},
+    "tumbling": BODY | {"motion": {"rotation_period": 40, "precession_period": 30, "mode": "long-axis",
+                                   "span": [0, 50]}},
+    "tumbling by its cone": BODY | {"motion": {"precession_period": 30, "amplitude": "0.5",
+                                               "mode": "long-axis", "span": [0, 50]}},
+    "spinning": BODY | {"motion": {"spin": "0.1", "axis": [0, 0, 1], "nutation": "0.2", "span": [0, 50]},
+                        "effects": {"constant_torque": {"torque": [0, 0, "0.05"]}}},
     "damper": BODY | START | {"effects": {"viscous_damper": {"inertia": 3, "coefficient": 1}}},
     "thruster": BODY | START | {"thrusters": [FORCE]},
     "burning": BODY | START | {"thrusters": [{name: value for name, value in FORCE.items() if name != "stuck"}
@@ -59,6 +65,7 @@ QUICK = ("extremes", "show", "orbit")  # run by default: a second each
 # command its other views are for the long tests
 VARIED = {  # of each form, what is varied that stays certain
     "torque": "effects.gyrostat.momentum[2]", "mu": "motion.x[3]", "scaled": "motion.x[3]",
+    "tumbling": "motion.span[1]", "tumbling by its cone": "motion.span[1]", "spinning": "motion.span[1]",
     "damper": "motion.angular_velocity[3]", "thruster": "motion.angular_velocity[3]",
     "burning": "motion.angular_velocity[3]", "orbit": "effects.gyrostat.momentum[2]",
     "top": "motion.angular_velocity[3]"}

@@ -41,7 +41,7 @@ def test_a_hill_that_touches_within_the_error_is_a_lower_end_and_no_crossing():
 
 
 def test_what_falls_is_found_too():
-    search = Search(Threshold(((Fraction(1), (Fraction(1),)),), Fraction(1, 2), True))
+    search = Search(Threshold(((Fraction(1), (Fraction(1),)),), Fraction(1, 2), falls=True, linear=True))
     assert search.take(_Given((1, 0, -1)))
     assert search.low <= Fraction(7071067811865475, 10**16) + Fraction(1, 10**15)
     assert search.high**2 >= Fraction(1, 2)

@@ -37,6 +37,7 @@ RESULTS = {
                                           {"torque[1]": "0.1:0.5", "momentum[2]": "0.1:0.5"}),
     "Chaos": lambda: stabilab.chaos(SCENE, STATES, until=40.0),
     "Attitude": lambda: stabilab.attitude(SCENE, STATES[0]),
+    "Angles": lambda: stabilab.angles(SCENE, STATES[0], span=10),
     "Crossings": lambda: stabilab.when(SCENE, state=STATES[0], until=40, events=["omega1", lambda t, y: t - 1]),
     "FlatSpin": lambda: stabilab.flat_spin(DAMPED), "Ending": lambda: stabilab.motion(DAMPED).ending,
     "GyrostatSpin": lambda: stabilab.flat_spin(GYROSTAT),

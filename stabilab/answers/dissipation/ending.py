@@ -16,12 +16,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...equilibrium.dissipative import GLOBAL, decay, resisted_equilibria
+from ...equilibrium.dissipative import decay, drawn_to
 from ...errors import InputError, Kind, refusal_of
 from ...integrate.trajectory import root_between
 from ...numbers.vectors import Float3, dot
@@ -38,6 +39,7 @@ from ..simulate import trajectory
 from . import gyrostat as gyrostats
 from .flat_spin import ACROSS, POSITIVE, SECOND_RTOL, UNDECIDED, FlatSpin, of_case
 from .spinner import Spinner
+from .time_constants import TimeConstant, near_rest_across, time_constants
 from .times import Time
 
 if TYPE_CHECKING:
@@ -90,7 +92,8 @@ class Ending(Shown, Compared, Reasoned):
     is within `within` of its end, where it stays), "tenth" (the nutation is a
     tenth of that at the start, where it stays). nutation: rad, at the start, where it dies out; growth,
     decay: s, time constants of the nutation. at_the_latest: s, proved, by when it has settled; estimate: s,
-    where a run to "settles" would take too many steps: at the pace that it goes at first.
+    where a run to "settles" would take too many steps: at the pace that it goes at first. constants: time
+    constants of small departures from the end, the longest first; empty where the end is not known.
     """
 
     kind: str
@@ -107,6 +110,7 @@ class Ending(Shown, Compared, Reasoned):
     decay: float | None = None
     at_the_latest: float | None = None
     estimate: float | None = None
+    constants: tuple[TimeConstant, ...] = ()
     angular: bool = False
 
     def time(self, name: str) -> float | None:
@@ -157,9 +161,18 @@ def _inside(case: Any) -> Ending:
     if not any(Spinner.made(case).momentum):
         return Ending("rest", "exact", reason=NO_MOMENTUM, rate=0.0, rates=(0.0,) * 3)
     try:
-        return of_spin(of_case(case, WITHIN, spans=False))
+        result = of_spin(of_case(case, WITHIN, spans=False))
+        return replace(result, constants=_about_major(case))
     except InputError as error:  # a liquid in moments that no rigid body has
         return Ending("undecided", "undecided", reason=refusal_of(error))
+
+
+def _about_major(case: Any) -> tuple[TimeConstant, ...]:
+    """The time constants next to rotation about the axis of the largest moment, or one of two."""
+    spinner = Spinner.made(case)
+    at = [Fraction(0)] * len(spinner.start)
+    at[spinner.order[0]] = Fraction(spinner.size) / spinner.moments[0]
+    return time_constants(case.scene, at)
 
 
 def of_spin(result: FlatSpin) -> Ending:
@@ -206,26 +219,19 @@ def _outside(scene: AnyScene, parts: Content, start: np.ndarray, motion: Motion)
         result = Ending("rest", "exact", reason=ENERGY_FALLS, rate=0.0, rates=(0.0,) * 3)
         slowest = float(decay(parts))
         latest = math.log(1 / END_REACHED) / slowest if slowest and not any(parts.M) else None
+        result = replace(result, constants=time_constants(scene, [0] * len(start)))
         return _timed(replace(result, at_the_latest=latest), scene, start, lambda y: energy(y) / first)[0]
     if _field_alone(parts):
         return _about_the_field(scene, parts, start, energy, first)
-    drawn = _drawn(parts)
-    if drawn is not None:
-        end = np.array(drawn)
-        apart = lambda y: (y[:, :3] - end) ** 2 @ np.array(D) / 2
+    end = drawn_to(parts)
+    if end is not None:
+        apart = lambda y: (y[:, :3] - np.array(end)) ** 2 @ np.array(D) / 2
         begun = float(apart(start[None])[0])
         result = Ending("steady rotation", "exact", reason=ONE_EQUILIBRIUM,
-                       rate=math.hypot(*drawn), rates=drawn)
+                       rate=math.hypot(*end), rates=end,
+                       constants=time_constants(scene, (*end, *[0.0] * (len(start) - 3)), exact=False))
         return _timed(result, scene, start, lambda y: apart(y) / begun)[0] if begun > 0 else result
     return _settled(scene, start, rests)
-
-
-def _drawn(parts: Content) -> Float3 | None:
-    """The equilibrium that draws every motion under resistance and a torque; None where none is proved to."""
-    if parts.inside or parts.kappa or parts.directed or any(parts.u) or not decay(parts):
-        return None
-    points = [point for point in resisted_equilibria(parts).points if point.reason.says(GLOBAL.sentence)]
-    return tuple(map(float, points[0].at[:3])) if points else None
 
 
 def _field_alone(parts: Content) -> bool:
@@ -246,9 +252,13 @@ def _about_the_field(scene: AnyScene, parts: Content, start: np.ndarray, energy:
     lowest, rate = p * p / (2 * largest), abs(p) / largest
     reason = ABOUT_FIELD(momentum=Momentum(p), axis=Axis(axis + 1))
     result = Ending("rotation about the field", "exact", axis + 1, reason=reason, rate=rate)
-    if first <= lowest * (1 + 1e-12) or not p:
-        return replace(result, kind="rotation about the field" if p else "rest",
-                       rates=None if p else (0.0,) * 3)
+    if not p:
+        return replace(result, kind="rest", rates=(0.0,) * 3, constants=near_rest_across(parts))
+    at = [Fraction(0)] * len(start)
+    at[axis], at[slices(scene.blocks)["gamma"].start + axis] = Fraction(rate), Fraction(1)
+    result = replace(result, constants=time_constants(scene, at))
+    if first <= lowest * (1 + 1e-12):
+        return result
     result, late = _timed(result, scene, start, lambda y: (energy(y) - lowest) / (first - lowest))
     if late is None:
         return result
@@ -325,8 +335,9 @@ def _settled(scene: AnyScene, start: np.ndarray, rests: bool) -> Ending:
         t += length
         end = np.zeros(3) if rests else new[-1]
         if float(np.abs(new - end).max()) < STAYS * largest and _attracts(form.jacobian(state), length):
-            end = end if rests else _polished(form, state, STAYS * largest)
-            return _stays(times, rates, end, STAYS * largest, rests)
+            at = _polished(form, state, STAYS * largest)
+            result = _stays(times, rates, end if rests else _rates_of(at), STAYS * largest, rests)
+            return replace(result, constants=time_constants(scene, at.tolist(), exact=False))
         length = t  # as long again
     if rests:
         return Ending("rest", "exact", reason=RESTS_UNSEEN, rate=0.0, rates=(0.0,) * 3)
@@ -350,11 +361,16 @@ def _stays(times: np.ndarray, rates: np.ndarray, end: np.ndarray, small: float, 
 
 
 def _polished(form: System, state: np.ndarray, small: float) -> np.ndarray:
-    """The rates of the equilibrium next to a state, by Newton's method; its own where that goes elsewhere."""
+    """The equilibrium next to a state, by Newton's method; itself where that goes elsewhere."""
     at = state
     for _ in range(POLISHED):
         at = at - np.linalg.lstsq(form.jacobian(at), form(at), rcond=1e-9)[0]
-    end = at[:3] if np.linalg.norm(at[:3] - state[:3]) < 10 * small else state[:3]
+    return at if np.linalg.norm(at[:3] - state[:3]) < 10 * small else state
+
+
+def _rates_of(state: np.ndarray) -> np.ndarray:
+    """Its rates, those that are rounding as zeros."""
+    end = state[:3]
     return np.where(np.abs(end) < 1e-9 * np.linalg.norm(end), 0.0, end)
 
 

@@ -53,6 +53,7 @@ if TYPE_CHECKING:
 def time_to(scene: Given, state: Start | None = None, rate: Any = None, component: Any = None,
             energy: Amount | None = None, tilt: Any = None, t_max: Amount | None = None,
             exact: Sequence[Fraction] | None = None, work: int = WORK, *,
+            below: Amount | None = None, nutation: Any = None, nutation_below: Any = None,
             states: Starts | None = None,
             frame: str = "principal") -> TimeTo:
     """The first time t >= 0 at which each motion reaches a limit, between a lower and an upper bound.
@@ -62,9 +63,10 @@ def time_to(scene: Given, state: Start | None = None, rate: Any = None, componen
     the size of each component, whichever comes first; component=(axis, limit), of the size of the rate about
     an axis: 1, 2, 3 or three numbers along it, or a list of such pairs, whichever comes first; energy,
     kinetic, of the body; tilt=(axis, angle), below pi, of the angle between a body axis and its own direction
-    in space at t = 0. t_max: the time at which the search ends; None: when its work is done. exact: a former
-    argument; a start is exact where it is text or rational. work: multiplications that the proof for a motion
-    may take; 0: no proof.
+    in space at t = 0; nutation=(axis, angle), likewise, of that between a body axis and the angular momentum;
+    below, of |omega|, and nutation_below, the first time at which it is no larger. t_max: the time at which
+    the search ends; None: when its work is done. exact: a former argument; a start is exact where it is text
+    or rational. work: multiplications that the proof for a motion may take; 0: no proof.
 
     Torque and wheel: the motion is enclosed and its crossing proved where the work reaches; beyond that by
     compiled steps (with numba), roots along a run, the clock of the spin-up. Other effects: roots along a
@@ -73,8 +75,9 @@ def time_to(scene: Given, state: Start | None = None, rate: Any = None, componen
     case, array = asked_of(scene, state if exact is None else exact, states, None, "time_to", frame)
     plain = NONE if case.variables == "scaled" else RATE
     ask = {"rate": _of(rate, plain, "rate"), "energy": _of(energy, ENERGY, "energy"),
-           "component": _pairs(case, component, plain, "component"),
-           "tilt": _pairs(case, tilt, ANGLE, "tilt")}
+           "below": _of(below, plain, "below"), "component": _pairs(case, component, plain, "component"),
+           "tilt": _pairs(case, tilt, ANGLE, "tilt"), "nutation": _pairs(case, nutation, ANGLE, "nutation"),
+           "nutation_below": _pairs(case, nutation_below, ANGLE, "nutation_below")}
     end = time_in(case.scene, t_max, "t_max")
     if array.ndim == 1:
         result = times.time_of_case(case, ask, end, work)

@@ -48,7 +48,7 @@ from ...reasons import Mass, Quantity, Rate, Reason, Reasoned, Sentence, Time, c
 from ..attitude import of_motion
 from ..attitude_result import Attitude
 from ..caveats import of_case
-from ..limit import Limit, asked
+from ..limit import Limit, asked, starts_above
 from ..motion import motion
 from ..motions.rows import periods
 from ..passage import ROUNDING, WIDER, Found, TimeTo, largest_rate, times_of
@@ -449,6 +449,7 @@ def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = Non
     """
     chain = Chain(burning)
     limit = asked(chain.base, **ask)
+    starts_above(limit, chain.case)
     result = _first_crossing(chain, limit, ask, until)
     case = chain.case
     end = until if until is not None else max(chain.closed, Fraction(case.span[1]) if case.span else 0)
@@ -471,7 +472,7 @@ def _first_crossing(chain: Chain, limit: Limit, ask: dict[str, Any], until: Frac
         if after.never:
             return replace(after, reason=NEVER_WITH_THRUSTERS)
     end = until if until is not None else max(closed, Fraction(case.span[1]) if case.span else closed)
-    result = crossing_of(chain, limit, end)
+    result = crossing_of(chain, limit, end) if limit.momentum is None else None
     if result is None and limit.kind != "tilt":
         rest = [Piece(closed, end - closed, (), chain.base)] if end > closed else []
         result = first_along(list(links_of(chain, [*chain.pieces(), *rest])), limit, every=True)

@@ -94,7 +94,7 @@ def quick_time(chain: Chain, limit: Limit, end: Fraction) -> float:
     rest = [Piece(chain.closed, end - chain.closed, (), chain.base)] if end > chain.closed else []
     state: Sequence[float] | np.ndarray = np.array(chain.case.state, float)
     for begin, length, _, scene in [*chain.pieces(), *rest]:
-        if limit.kind != "tilt" and begin < end:
+        if not limit.angular and begin < end:
             time, _ = run_once(scene, list(state), limit, float(min(length, end - begin)))
             if math.isfinite(time):
                 return float(begin) + time
@@ -105,9 +105,9 @@ def quick_time(chain: Chain, limit: Limit, end: Fraction) -> float:
 def over_forces(burning: Any, ask: dict[str, Any], end: Fraction,
                 answer: Callable[[Chain], Found]) -> Spread | None:
     """The range of the time at a limit by `end`, s, over all forces; None where all are certain, or the limit
-    is of an angle. answer: the time of one burn, as well as it is known."""
+    is of an angle or one that |omega| falls to. answer: the time of one burn, as well as it is known."""
     forces, limit = forces_of(burning), asked(Chain(burning).base, **ask)
-    if forces is None or limit.kind == "tilt":
+    if forces is None or limit.angular or limit.falls:
         return None
     time = lambda item: quick_time(Chain(item), limit, end)
     places = [burning, *(forces.at(location) for location in forces.places())]

@@ -163,7 +163,8 @@ class Box:
 
 
 def box_of(case: Any) -> Box:
-    """The box of a Case. Raises InputError for scenes beyond a gyrostat under a constant torque."""
+    """The box of a Case, without its state where that is stated as it is observed: such a start is no linear
+    function of its numbers. Raises InputError for scenes beyond a gyrostat under a constant torque."""
     if not case.scene.plain:
         raise InputError("what uncertain numbers do to the verdicts is known for a gyrostat under a constant "
                          "torque alone; this scene has other effects")
@@ -184,6 +185,8 @@ def box_of(case: Any) -> Box:
         middle.update({"a": (a,), "b": (b,), "mu": case.scene.exact_mu})
     if case.state is not None and not oblique:
         middle["state"] = tuple(map(Fraction, case.state))
+    if case.observed:
+        middle.pop("state", None)
     arms = tuple(_arm(case, item, oblique) for item in forces)
     if forces:
         middle |= {"force": tuple(item.middle for item in forces),
@@ -192,6 +195,8 @@ def box_of(case: Any) -> Box:
                                    for i, m in enumerate(middle["torque"]))}
     half = {name: [Fraction(0)] * len(numbers) for name, numbers in middle.items()}
     for result in case.uncertain:
+        if case.observed and result.path[0] == "motion":
+            continue
         at = forces.index(result) if result in forces else result.path[-1]
         half[_name(result.path)][at if isinstance(at, int) else 0] = result.half
     box = Box(middle, {name: tuple(widths) for name, widths in half.items()}, case.variables, oblique, arms)

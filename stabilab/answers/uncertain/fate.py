@@ -136,6 +136,9 @@ AXIS_OPEN = Sentence("axis-open-over-box", "the axis it ends about is not follow
 MAY_VANISH = Sentence(
     "momentum-may-vanish", "the gyrostatic moment along {axis}, the torque's, may vanish or not: where it "
     "does not, there is no reduction to one degree of freedom, and no motion is bounded")
+OBSERVED_START = Sentence(
+    "box-of-observed-start", "what uncertain numbers do to the fate under a torque is known of a start in "
+    "rates alone, and this one is stated as it is observed; stabilab sweep --samples draws from them")()
 BY_SAMPLES = Sentence("box-by-samples",
                       "{question} over the uncertain numbers by samples, not by proof: {found}")
 ELSEWHERE = Sentence("box-elsewhere", "within the uncertainties {what}")
@@ -606,6 +609,13 @@ def _caveat(name: str, over: Over) -> Caveat | None:
         Kind.SAMPLES, BY_SAMPLES(question=name, found=over.samples.reason))
 
 
+def _of_observed(box: Box) -> Over:
+    """What becomes over the box of a motion whose start is stated as it is observed."""
+    if not any(present(m) for m in box.rates(_root(box)).m):
+        return Over("holds", Fate.BOUNDED.word, reason=REASONS[Basis.TORQUE_FREE], proved=np.inf)
+    return Over("undecided", None, reason=OBSERVED_START)
+
+
 def uncertain(case: Any, questions: Sequence[str] = ("equilibria", "fate")) -> Uncertainty | None:
     """What the uncertain numbers of a Case do to its verdicts, None where it has none; questions: those to be
     answered."""
@@ -616,6 +626,8 @@ def uncertain(case: Any, questions: Sequence[str] = ("equilibria", "fate")) -> U
     try:
         box = box_of(case)
         entries = {name: ask[name](box) for name in request}
+        if case.observed and "fate" in request:
+            entries["fate"] = _of_observed(box)
     except InputError as error:
         entries = {name: Over("undecided", None, reason=refusal_of(error)) for name in request}
     return Uncertainty(case.uncertain, entries.get("equilibria"), entries.get("fate"))

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
+from ...case.observed import plainly
 from ...case.read import Case, read_text
 from ...case.table import Written
 from ...case.write import data_of, data_of_scene, exact_text, text_of
@@ -192,7 +193,7 @@ def _base(case: Case) -> dict[str, Any]:
     data = {key: value for key, value in data_of(case.text).items() if key not in SPOKEN_FOR}
     scaled = case.scene.variables == "scaled"
     if not scaled and (case.frame is None or case.frame.as_given):
-        return data
+        return data | ({"motion": plainly(case, data["motion"], exact_text)} if case.observed else {})
     built = data_of_scene(case.scene, case.exact_state)
     if "motion" in built:
         built["motion"] |= _kept(data.get("motion", {}), *(("x", "tau") if scaled else ("span",)))

@@ -178,7 +178,9 @@ def limit_words(atlas: Atlas, units: Units) -> str:
         return "no limit"
     if limit.kind == "energy":
         return units.energy(limit.limits[0], SHORT)
-    if limit.kind == "tilt":
+    if limit.kind == "below":
+        return f"|ω| < {units.rate(limit.limits[0], SHORT)}"
+    if limit.kind in ("tilt", "nutation", "nutation_below"):
         return f"{limit.names[0]} by {units.angle(limit.limits[0], SHORT)}"
     printed = " or ".join(dict.fromkeys(units.rate(item, SHORT) for item in limit.limits))
     return printed if limit.kind == "rate" else f"{' or '.join(map(lettered, limit.names))} = {printed}"
@@ -390,11 +392,11 @@ def atlas(case: Given, torque: Any = None, wheel: str | None = None,
     case: in any form, or a scene with `state` and `span`. torque: its size, "1 N m"; None: that of the case.
     wheel: momenta beside each of which all directions are asked, "0:2:5" along the wheel of the case, or
     "z=0:2:5"; None: the case's own. level: 8 4^level cells at first; refine: how often those along a boundary
-    are cut in four. limit: rate, component, energy, tilt or until, as the options of `stabilab when`; without
-    any, that of [limits] of the case, if it has one; timed: whether that time is asked. certify: prove what
-    can be. follow: how long motions are followed that only a run decides. out: a .nc file; workers and
-    scheduler: as of `stabilab.sweep`; the numbers are the same whoever computes them. Raises InputError for
-    what cannot be asked.
+    are cut in four. limit: rate, component, energy, tilt, below or until, as the options of `stabilab when`;
+    without any, that of [limits] of the case, if it has one; timed: whether that time is asked. certify:
+    prove what can be. follow: how long motions are followed that only a run decides. out: a .nc file; workers
+    and scheduler: as of `stabilab.sweep`; the numbers are the same whoever computes them. Raises InputError
+    for what cannot be asked.
     """
     case = written(case, state, span)
     demand("xarray")

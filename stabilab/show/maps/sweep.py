@@ -293,11 +293,11 @@ def sweep(case: Given, vary: Mapping[str, Any] | None = None,
     "0:30:31 deg/s", "0.1:10:21:log", or numbers in SI units; names such as "motion.angular_velocity[1]",
     "wheels.pitch.speed", or their ends where these are unique. samples, seed: as many random points of the
     box of the case's uncertain numbers, one more dimension. answer: names of `maps.columns.ANSWERS`; None:
-    fate, level and margin. limit: rate, component, energy, tilt or until, as the options of `stabilab when`,
-    for the answer "when". out: a .nc file, written in chunks that outlive a killed run; follow: how long
-    motions are followed that only a run decides, "200 s"; workers: processes, None for one a core; scheduler:
-    address of a Dask scheduler. The bytes are the same whoever computes them. Raises InputError for what
-    cannot be varied or asked.
+    fate, level and margin. limit: rate, component, energy, tilt, below or until, as the options of
+    `stabilab when`, for the answer "when". out: a .nc file, written in chunks that outlive a killed run;
+    follow: how long motions are followed that only a run decides, "200 s"; workers: processes, None for one a
+    core; scheduler: address of a Dask scheduler. The bytes are the same whoever computes them. Raises
+    InputError for what cannot be varied or asked.
     """
     case = written(case, state, span)
     demand("xarray")

@@ -13,7 +13,7 @@ from ...equilibrium.circular_orbit import yaw_pitch_roll
 from ...orbit.result import HEADS, Motion
 from ...reasons import outward
 from ...representation import values_of
-from .. import frame, limiting
+from .. import ending, frame, limiting
 from ..axes import axes_of
 from ..terminal import lettered
 from ..units import DEG, DIGITS, SHORT, Units, as_bound, but_for_rounding, number, vector
@@ -72,7 +72,8 @@ def margins(motion: Motion, units: Units) -> list[tuple[str, str]]:
     result = (("margin, rate", rate_margin(motion, units, DIGITS)),
              ("margin, energy", "" if energy is None else energy_margin(energy, units.energy)),
              *energy_integral(motion, units),
-             ("period", "" if motion.period is None else units.time(motion.period)))
+             ("period", "" if motion.period is None else units.time(motion.period)),
+             ("time constants", ending.constants(motion.ending, units)))
     return [(name, text) for name, text in result if text]
 
 

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 
 # --- When a limit is reached
 ANSWER_HEADS = {"yes": "reached by", "unknown": "NOT KNOWN of", "never": "NEVER by"}
+FALLING = ("below", "nutation_below")  # kinds of limits to which something falls
 COLUMNS = ("case", "quantity", "limit", "time_low", "time_high", "level")
 
 
@@ -105,32 +106,35 @@ def reached(low: float, high: float):
 
 def _answer(limit: StatedLimit, result: TimeTo, low: float, high: float, units: Units, short: bool):
     aim = asked(limit, units)
+    reaches = "has" if limit.kind in FALLING else "reaches"
     if math.isinf(low):
         holds = limiting.condition(result.caveats, units, short=short)
         departs = limiting.unstable(result.caveats, units)
         declared = " with the force as stated" * varies(result)
         return f"{departs}; undisturbed it " * bool(departs) + (
-            f"NEVER reaches {aim}{declared} ({result.level}){',' * bool(holds)}{holds}")
+            f"NEVER {reaches} {aim}{declared} ({result.level}){',' * bool(holds)}{holds}")
     if math.isnan(high):
-        return f"NOT KNOWN when it reaches {aim}; not before {units.time(low, side=-1)} ({result.level})"
+        return f"NOT KNOWN when it {reaches} {aim}; not before {units.time(low, side=-1)} ({result.level})"
     if high == 0:
         return f"starts at or beyond {aim}"
     if result.decimals is not None:
         return f"reaches {aim} in {result.decimals} {lettered(result.scene.time_unit)} (each digit proved)"
     name, item = units.times(high)
     a, b = bracket(low, high, item)
-    return f"reaches {aim} in {number((low + high) / 2 * item)} {name} ({result.level} {a} to {b})"
+    after = "after" if limit.kind in FALLING else "in"
+    return f"{reaches} {aim} {after} {number((low + high) / 2 * item)} {name} ({result.level} {a} to {b})"
 
 
 def asked(limit, units):
     """A limit in words: "|ω| = 60 deg/s", of several "|ωx| or |ωy| = 5 deg/s" where it is one number."""
-    unit = {"energy": units.of("J"), "tilt": units.angles}.get(limit.kind, units.rates)
+    unit = {"energy": units.of("J"), "tilt": units.angles, "nutation": units.angles,
+            "nutation_below": units.angles}.get(limit.kind, units.rates)
     # the rate about an axis as everywhere else: "|omega 3|" is |ω3|, and "|omega z|" |ωz|
     names = [lettered(name).replace(" ", "") if limit.kind == "component"
              else lettered(units.axes.sentence(name)) for name in limit.names]
     printed = [units.told(upper, unit, DIGITS) for upper in limit.limits]
     if len(set(printed)) == 1:
-        return f"{listed(names, 'or')} = {printed[0]}"
+        return f"{listed(names, 'or')} {'<' if limit.kind in FALLING else '='} {printed[0]}"
     return " or ".join(f"{name} = {upper}" for name, upper in zip(names, printed))
 
 

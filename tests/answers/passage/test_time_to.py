@@ -219,8 +219,8 @@ def test_a_bound_of_the_rate_keeps_other_limits_from_being_reached():
 
 
 @pytest.mark.parametrize("question, words", [
-    ({}, "expected one of rate, component, energy and tilt, got none"),
-    ({"rate": 2, "energy": 1}, "expected one of rate, component, energy and tilt, got rate, energy"),
+    ({}, "expected one of rate, component, energy, tilt, below, nutation and nutation_below, got none"),
+    ({"rate": 2, "energy": 1}, "expected one of rate, component, energy, tilt, below, nutation and nutation_below, got rate, energy"),
     ({"rate": -2}, "expected a positive limit, got -2"),
     ({"rate": "30 deg"}, "rate: expected angular velocity (rad/s), got angle"),
     ({"component": 3}, "component: expected"),
