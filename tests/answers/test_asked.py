@@ -10,7 +10,7 @@ from stabilab.physics.effects.base import Effect
 from tests.shared import CASES
 
 STATE, TIMES = (0.1, 0.05, 0.02), (0.0, 1.0)
-OF_A_SCENE = {"equilibria": (), "fate": (STATE,), "fate_grid": ([[0.1], [0.2], [0.3]],), "motion": (STATE,), "attitude": (STATE,),
+OF_A_SCENE = {"equilibria": (), "fate": (STATE,), "fate_grid": ([[0.1], [0.2], [0.3]],), "motion": (STATE,), "attitude": (STATE,), "angles": (STATE,),
               "extremes": (STATE,), "period": (STATE,),
               "spin_up": (STATE,), "separatrix": (), "time_to": (STATE, 1.0), "trajectory": (STATE, TIMES),
               "ensemble": ([STATE], TIMES),
@@ -139,9 +139,9 @@ def test_what_is_no_number_no_state_and_no_time_is_bad_input_in_every_place_of_a
                         or isinstance(given, str) and given != "1e999"), (place, given)
 
 
-@pytest.mark.parametrize("digits", [0, 51, -1, 2.5, "x", True, [1]])
+@pytest.mark.parametrize("digits", [0, 10_001, -1, 2.5, "x", True, [1]])
 @pytest.mark.parametrize("name", ["fate", "extremes", "period"])
-def test_digits_are_a_whole_number_from_1_to_50(name, digits):
+def test_digits_are_a_whole_number_from_1_to_10_000(name, digits):
     with pytest.raises(stabilab.InputError):
         getattr(stabilab, name)(SCENES["bounded"], STATE, digits=digits)
 

@@ -102,7 +102,7 @@ def test_a_body_whose_moment_vanishes_in_the_range_is_refuted():
 
 def test_a_diagram_over_two_numbers_has_no_certificate():
     with pytest.raises(InputError, match="over one number"):
-        command(CASES / "wheel-and-thruster.toml", ["torque[3]=0:1", "torque[1]=0:1"], False, None,
+        command(CASES / "wheel-and-thruster.toml", ["torque[3]=0:1", "torque[1]=0:1"], False, None, None, None,
                 "diagram.json", False, False)
 
 

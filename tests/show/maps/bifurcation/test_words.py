@@ -76,4 +76,4 @@ def test_labels_take_the_lowest_row_with_room_and_none_where_no_row_has():
 
 def test_a_range_that_is_missing_is_asked_for_in_the_form_that_a_diagram_takes():
     with pytest.raises(InputError, match=r'expected KEY=FROM:TO, got "torque\[3\]"'):
-        maps.bifurcation(MINOR, ["torque[3]"], False, None, None, False, False)
+        maps.bifurcation(MINOR, ["torque[3]"], False, None, None, None, False, False, False)
