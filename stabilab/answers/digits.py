@@ -29,20 +29,17 @@ from ..integrate.reference import (
     widen,
 )
 from ..integrate.to_heyoka import TAYLOR_TOLERANCE
-from ..numbers.balls import DOUBLE_BITS, Digits, working
+from ..numbers.balls import Digits, working
 from ..numbers.vectors import Exact3, Number
-from ..orbit.extremes import extreme_balls
-from ..orbit.fate import free_margin, is_free, precise_margin
-from ..orbit.landscape import landscape
-from ..orbit.one_orbit import Orbit
-from ..orbit.period import free_quartic, period_ball, real_period
+from ..orbit.fate import is_free
+from ..orbit.period import free_quartic, real_period
 from ..orbit.reduction import reduce
-from ..orbit.result import Fate, Motion, Needs, no_period
+from ..orbit.result import Fate, Motion, Needs
 from ..physics.coefficients import effective
 from ..physics.equations import Equations
-from ..physics.scene import AnyScene, QuadraticForm, Scene, aligned, time_left
+from ..physics.scene import AnyScene, QuadraticForm, Scene, time_left
 from ..physics.states import checked_states, equations_and_start, moved_row
-from ..reasons import Filling, Quantity, Reason, Sentence, as_reason
+from ..reasons import Filling, Quantity, Sentence, as_reason
 from ..unreduced.growth_certificate import law_extremes
 from ..unreduced.near_rest import beside_rest, small_loop
 from ..validation import reach_of
@@ -50,29 +47,28 @@ from .digits_asked import (
     CAUTION,
     DIGITS_MISSED,
     DOUBLE_DIGITS,
-    MOST_DECIMALS,
     MOST_DIGITS,
     Told,
+    by_formula,
     checked_digits,
     digits_of,
+    each_of,
     followed_digits,
+    gap_of,
+    judged,
     nothing,
     number_of,
+    of_balls,
+    proved,
 )
 from .motion import motion
 
-FORMULA_DIGITS = 11  # the formulas hand over to balls where they hold less
 SAMPLE = 16  # states of an array that are checked one by one; where all agree the formulas serve for the rest
 LAW_BITS = 200  # at least, of the numbers of a law that holds for all time
 
 
-NO_MARGIN = Sentence("no-margin-in-energy", "there is no margin in energy to be judged")()
 IN_EQUILIBRIUM = Sentence("digits-of-equilibrium", "the state is an equilibrium")()
-BARRIER_BY_ALGEBRA = Sentence("barrier-by-algebra", "the energy equals the barrier's, by algebra")()
 SAMPLED = Sentence("states-checked", "{checked} of {states} states checked")
-BESIDE_BALLS = Sentence("formulas-and-balls", "formulas in doubles, {error} from ball arithmetic")
-BY_BALLS = Sentence("by-balls", "ball arithmetic: the number is within {width}")
-BY_MANY_BALLS = Sentence("by-many-balls", "ball arithmetic: {digits} digits of the number are proved")
 NO_RETURN_IN_DIGITS = Sentence(
     "no-return-in-digits", "no return was found in many digits within the work allowed")()
 RETURN_OF_RUN = Sentence(
@@ -103,31 +99,22 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
     """
     digits = checked_digits(digits, MOST_DIGITS)
     twin = effective(scene)  # it turns alike and has nothing but a wheel and a torque, if `plain`
-    land = landscape(twin) if twin.plain else None
     if resolved is None:  # by a reduction none of the three questions needs the distance from the separatrix
-        resolved = motion(scene, state, span, needs=Needs.ALL if land is None else Needs.RETURN, exact=exact)
-    if question != "extremes" and number_of(question, resolved) is None:
-        return nothing(question, digits, no_period(resolved.fate) if question == "period" else NO_MARGIN)
-    if question == "fate" and is_free(twin):
-        return _margin_without_reduction(twin, resolved, digits, exact or resolved.at[:3])
-    if land is not None:
-        orbit = Orbit(land.reduction, exact or resolved.at[:3])
-        balls = _balls(question, orbit, resolved.fate, max(digits, DOUBLE_DIGITS) + 1, tell)
-        return (_tie(question, digits) if balls is None  # on the separatrix
-                else _judged(question, number_of(question, resolved), balls, digits))
+        reduced = twin.plain and reduce(twin)
+        resolved = motion(scene, state, span, needs=Needs.RETURN if reduced else Needs.ALL, exact=exact)
+    if (item := by_formula(question, twin, resolved, digits, exact, tell)) is not None:
+        return item
     if resolved.fate == Fate.EQUILIBRIUM:
         return Told(question, number_of(question, resolved), digits, math.inf, "exact",
                     reason=IN_EQUILIBRIUM)
-    if question == "fate":
-        return _margin_without_reduction(twin, resolved, digits, exact or resolved.at[:3])
     if question == "period" and resolved.period and is_free(twin):
         body: Any = twin  # that is free is no scene in scaled variables
         quartic = free_quartic(body.body.exact, body.vector("gyrostat"), exact or resolved.at[:3])
-        return _proved(question, real_period(quartic, max(digits, DOUBLE_DIGITS) + 1), digits)
+        return proved(question, real_period(quartic, max(digits, DOUBLE_DIGITS) + 1), digits)
     bits = max(LAW_BITS, int(3.33 * digits) + LAW_BITS // 4)
     if question == "extremes" and (balls := law_extremes(twin, exact or resolved.at[:3],
                                                          resolved.evidence.get("certificate"), bits)):
-        return _judged(question, resolved.extremes, [list(pair) for pair in balls], digits)
+        return judged(question, resolved.extremes, [list(pair) for pair in balls], digits)
     followed_digits(digits, "this motion")
     if resolved.period:
         return _by_return(question, twin, resolved, digits, exact or resolved.at[:3])
@@ -159,110 +146,7 @@ def ask_all(question: str, scene: AnyScene, states: Any, digits: int, values: An
                    reason=worst.reason.then(sampled), decimals=texts)
 
 
-# -- motions with a reduction
-
-
-def _tie(question: str, digits: int) -> Told:
-    return Told(question, 0.0, digits, math.inf, "balls", reason=BARRIER_BY_ALGEBRA)
-
-
-def _judged(question: str, values: Any, balls: Any, digits: int) -> Told:
-    """The formulas' values where the balls (to max(digits, MOST) + 1 digits) confirm so many digits, else the
-    balls'."""
-    with working(DOUBLE_BITS):
-        error = _gap(values, balls)
-    if digits <= FORMULA_DIGITS and error <= 10.0**-digits:
-        return Told(question, values, digits, digits_of(error), "formulas",
-                    reason=BESIDE_BALLS(error=Quantity(error, digits=2)))
-    return _proved(question, balls, digits)
-
-
-def _proved(question: str, balls: Any, digits: int) -> Told:
-    """What balls (to max(digits, DOUBLE_DIGITS) + 1 digits) prove."""
-    wanted = max(digits, DOUBLE_DIGITS) + 1
-    held = _digits_held(balls, wanted)
-    return _of_balls(question, balls, digits, held, "balls", BY_BALLS(width=Quantity(
-        10.0**-held, digits=1).upper) if digits <= MOST_DECIMALS else BY_MANY_BALLS(digits=int(held)))
-
-
-def _of_balls(question: str, balls: Any, digits: int, held: float, method: str, reason: Reason) -> Told:
-    """The balls as floats, and written out where more digits are asked for than these have. held: digits."""
-    more = digits > DOUBLE_DIGITS
-    return Told(question, _floats(balls), digits, held if more else min(held, DOUBLE_DIGITS + 0.95), method,
-                _decimals(balls, digits) if more else None, reason=reason)
-
-
-def _balls(question: str, orbit: Orbit, label: Fate, digits: int,
-           tell: Callable[[float], None] | None) -> Any:
-    """The answer in balls, nested as its floats are."""
-    if question == "extremes":
-        return extreme_balls(orbit, int(label), math.ceil(digits * math.log2(10)))
-    if question == "period":
-        return period_ball(orbit, digits, tell) if label == Fate.BOUNDED else Digits(DOUBLE_BITS).ball(0)
-    return precise_margin(orbit, digits)
-
-
-def _each(values: Any) -> list[tuple[Any, Any]]:
-    """(value, size of its component) of a number or of pairs."""
-    if not isinstance(values, (list, tuple, np.ndarray)):
-        return [(values, values)]
-    return [(v, max((u for u in pair if math.isfinite(float(u))), key=lambda u: abs(float(u)), default=1))
-            for pair in values for v in pair]
-
-
-def _gap(values: Any, balls: Any) -> float:
-    """Largest distance of floats from balls, relative to the component's size."""
-    from flint import arb
-    worst = 0.0
-    for (value, _), (exact, size) in zip(_each(values), _each(balls)):
-        if math.isinf(float(value)) or math.isinf(float(exact)):
-            worst = worst if float(value) == float(exact) else math.inf
-        elif (far := float(abs(arb(float(value)) - exact).mid())) > 0:
-            worst = max(worst, far / abs(float(size)) if float(size) else math.inf)
-    return worst
-
-
-def _digits_held(balls: Any, largest: float) -> float:
-    """Digits that the radii of balls leave, relative to their component's size, at most `largest`."""
-    from flint import arb
-    result = largest
-    with working(DOUBLE_BITS):
-        for value, size in _each(balls):
-            width = arb(value).rad() / (abs(arb(size).mid()) or 1)
-            if width.is_finite() and width > 0:
-                result = min(result, float(-width.log() / arb(10).log()))
-    return max(0.0, result)
-
-
-def _floats(balls: Any) -> Any:
-    if isinstance(balls, list):
-        return tuple(tuple(map(_floats, pair)) for pair in balls)
-    return float(balls) if isinstance(balls, float) or 0 not in balls else 0.0
-
-
-def _decimals(balls: Any, digits: int) -> Any:
-    """Written out with one digit more, so that writing costs none of them."""
-    if isinstance(balls, list):
-        return [[_decimals(v, digits) for v in pair] for pair in balls]
-    from flint import arb
-    if isinstance(balls, float):
-        return str(balls)
-    return "0" if 0 in arb(balls) else arb(balls).mid().str(digits + 1, radius=False)
-
-
-# -- motions without one
-
-
-def _margin_without_reduction(scene: AnyScene, resolved: Motion, digits: int, state: Any) -> Told:
-    wanted = max(digits, DOUBLE_DIGITS) + 1
-    if is_free(scene):
-        margin = free_margin(scene, state, wanted)
-        balls = None if margin.tie else margin.ball
-    else:
-        turn: Any = aligned(scene)  # between two equal moments, or there were no margin
-        twin: Any = reduce(turn.twin)
-        balls = precise_margin(Orbit(twin, turn(state)), wanted)
-    return _tie("fate", digits) if balls is None else _judged("fate", resolved.margin_energy, balls, digits)
+# -- motions without a reduction
 
 
 def _by_return(question: str, scene: AnyScene, resolved: Any, digits: int, state: Any) -> Told:
@@ -280,12 +164,12 @@ def _by_return(question: str, scene: AnyScene, resolved: Any, digits: int, state
                  else [[add(v) for v in pair] for pair in exact.extremes])
         # two doubles hold 32 digits
         own = max(exact.period[2] if question == "period" else exact.extremes_error, 1e-31)
-        error = max(_gap(values, result), own)
+        error = max(gap_of(values, result), own)
         pair: dict[str, Filling] = {"fewer": int(exact.digits[0]), "more": int(exact.digits[1])}
         if digits <= DOUBLE_DIGITS and error <= 10.0**-digits:
             reason = RETURN_OF_RUN(**pair, error=Quantity(error, digits=2))
             return Told(question, values, digits, digits_of(error), "run", reason=reason)
-        return _of_balls(question, result, digits, digits_of(own, 31.0), "many digits",
+        return of_balls(question, result, digits, digits_of(own, 31.0), "many digits",
                          RETURN_OF_SERIES(**pair, error=Quantity(own, digits=1)))
 
 
@@ -300,10 +184,10 @@ def _by_small_loop(question: str, form: QuadraticForm, values: Any, digits: int,
             return Told(question, values, digits, 0.0, "run",
                         reason=NO_RETURN_IN_DIGITS)
         error = max(_balls_apart(rows[1], rows[0]), 10.0**-more)
-        if digits <= DOUBLE_DIGITS and (gap := max(_gap(values, rows[1]), error)) <= 10.0**-digits:
+        if digits <= DOUBLE_DIGITS and (gap := max(gap_of(values, rows[1]), error)) <= 10.0**-digits:
             return Told(question, values, digits, digits_of(gap), "run",
                         reason=SERIES_FROM_START(error=Quantity(gap, digits=2)))
-        return _of_balls(question, rows[1], digits, digits_of(error, more), "many digits",
+        return of_balls(question, rows[1], digits, digits_of(error, more), "many digits",
                          TWO_SERIES(error=Quantity(error, digits=1)))
 
 
@@ -367,7 +251,7 @@ def _many_digits(equations: Equations, start: Sequence[Number], length: float, d
                 return None
             error = max(_balls_apart(now, before), 10.0**-n) if before else 1.0
             if before and error <= 10.0**-digits:
-                return _of_balls("extremes", now, digits, digits_of(error, n), "many digits",
+                return of_balls("extremes", now, digits, digits_of(error, n), "many digits",
                                  TWO_PRECISIONS(error=Quantity(error, digits=1)))
             before = now
     return None
@@ -376,7 +260,7 @@ def _many_digits(equations: Equations, start: Sequence[Number], length: float, d
 def _balls_apart(now: Any, before: Any) -> float:
     """Largest distance of balls, relative to the size of their component."""
     return max(float(abs(a - b) / abs(size)) if size != 0 else 0.0
-               for (a, size), (b, _) in zip(_each(now), _each(before)))
+               for (a, size), (b, _) in zip(each_of(now), each_of(before)))
 
 
 def _series_extremes(recursion: Recursion, start: Sequence[Number], length: float, digits: int,

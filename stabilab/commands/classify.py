@@ -10,10 +10,11 @@ from functools import partial
 
 from ..answers.attitude import attitude as turning
 from ..answers.attitude import in_closed_form, of_motion
-from ..answers.digits_asked import DEFAULT, by_bound, short
+from ..answers.digits_asked import DEFAULT, by_bound, by_formula, short
 from ..answers.equilibria import equilibria
 from ..answers.motion import Needs
 from ..case.read import blamed_on
+from ..physics.coefficients import effective
 from ..show.text import classification, headline, questions, scene
 from ..show.text.angles import angle_lines, angle_rows, angles_dict
 from ..show.text.motion import attitude_object, attitude_objects, attitude_text, row_of
@@ -132,6 +133,9 @@ def _view(question, digits, why):
 def _told(question, case, motion, digits):
     """The answer with its digits; unasked, the bound of a formula on its own error is the check."""
     result = by_bound(question, motion) if digits is None else None
+    if result is None and digits is None:
+        with blamed_on(case):
+            result = by_formula(question, effective(case.scene), motion, DEFAULT, case.exact_state)
     if result is None:
         from ..answers.digits import ask
         with blamed_on(case):

@@ -120,3 +120,13 @@ def test_one_state_is_answered_and_certified_with_python_flint_alone():
                                                            for c in DRAWING)))
 def test_command_loads_only_the_effects_that_any_scene_names(tmp_path, command):
     check(tmp_path, (command,), MANY)
+
+
+@pytest.mark.parametrize("question", ["fate", "extremes", "period"])
+def test_one_state_under_a_reduction_loads_no_numpy(question):
+    """Counted by modules: NumPy alone takes longer than the answer."""
+    code = ("import sys; sys.argv = ['stabilab', *sys.argv[1:]]\nfrom stabilab import cli\n"
+            "try: cli.main()\nexcept SystemExit: pass\nprint('LOADED', 'numpy' in sys.modules, file=sys.stderr)")
+    run = subprocess.run([sys.executable, "-c", code, question, "cases/minor-axis-100.toml"], capture_output=True,
+                         text=True, cwd=ROOT)
+    assert "LOADED False" in run.stderr and "BOUNDED" in run.stdout
