@@ -405,7 +405,7 @@ def period_in_pieces(stops: np.ndarray, count: int, nearby: np.ndarray, weights:
     """(time from the first stop to the last and back, its relative error) by the double-exponential rule from
     stop to stop, K from the nearer one; NaN, inf where a sum does not settle. turning: whether the motion
     turns at the first and at the last."""
-    period, worst, cut = 0.0, 1.0, 0.0
+    period, worst, cut, slow = 0.0, 1.0, 0.0, 0.0
     if turning and count > 1:  # what the nodes leave out of the arcs at both ends along which K is linear
         length = stops[count - 1, STOP_ARC] - stops[0, STOP_ARC]
         cut = CUT_OFF * (np.sqrt(length * linear(stops[0])) + np.sqrt(length * linear(stops[count - 1])))
@@ -415,6 +415,9 @@ def period_in_pieces(stops: np.ndarray, count: int, nearby: np.ndarray, weights:
         one, other = kinetic_from(0.5 * length, here)[0], kinetic_from(-0.5 * length, there)[0]
         if not (length > 0 and abs(one - other) <= PIECE_DIGITS * one):
             return np.nan, INFINITY
+        for k in (here[0], there[0]):
+            if k > 0:  # the same at a barrier, which a motion that hardly passes it passes slowly
+                slow += 2 * CUT_OFF * length / np.sqrt(2 * k)
         total, before, change, earlier, settled = 0.0, np.nan, np.nan, np.nan, False
         for level in range(len(levels) - 1):
             for node in range(levels[level], levels[level + 1]):
@@ -436,4 +439,4 @@ def period_in_pieces(stops: np.ndarray, count: int, nearby: np.ndarray, weights:
             before, change, earlier = now, new, change
         if not settled:
             return np.nan, INFINITY
-    return period, ROUNDINGS * ULP * worst + cut
+    return period, ROUNDINGS * ULP * worst + cut + slow / period

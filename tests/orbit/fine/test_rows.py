@@ -187,3 +187,14 @@ def test_periods_of_nearly_equal_moments_have_eleven_digits():
     states = rng.normal(size=(40, 3)) * rng.uniform(0.01, 1, (40, 1))
     for state, period in zip(states.tolist(), stabilab.period(scene, states)):
         assert period == pytest.approx(motion_of(scene, state, needs=Needs.QUICK).period, rel=1e-11)
+
+
+def test_a_motion_that_hardly_passes_a_barrier_has_its_time_there():
+    """Two wells, and rates over the barrier from 1e-16 to 1e2, beside balls of one state: what the nodes leave out
+    of the arc next to the barrier is much of a period where the motion creeps."""
+    scene = stabilab.Scene(stabilab.Body((1.0, 0.07533266861279389, 1.0)),
+                           stabilab.Gyrostat((0.2591282813657506, 0.027846392183237333, 0.0)),
+                           stabilab.ConstantTorque((0.0, 0.0, -186.3663263554538)))
+    states = np.array([(-7369.855148325185, 0.002767306901105778, 10.0**p) for p in range(-16, 3)])
+    expected = [float(stabilab.period(scene, tuple(state))) for state in states]
+    np.testing.assert_allclose(np.asarray(stabilab.period(scene, states), float), expected, rtol=1e-11)
