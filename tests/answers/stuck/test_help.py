@@ -206,7 +206,8 @@ def test_the_headline_of_a_bounded_motion_says_what_a_tilt_does(asked, stabilab,
     code, out, _ = stabilab("stuck", tmp_path / "own.toml")
     first = in_one_line(out)
     assert code == 0
-    assert "only while the torque is exactly along z (minor axis); tilted by 5 deg it reaches 12 deg/s after " in first
+    assert "STAYS BOUNDED only while the torque is exactly along z (minor axis)" in first
+    assert "tilted by 5 deg it reaches 12 deg/s after " in first
     assert asked(CASE.replace('[limits]\nrate = "60 deg/s"\n', ""), "0.02").rows[0].tilt is None
 
 
