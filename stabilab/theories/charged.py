@@ -272,6 +272,8 @@ def verdict(tilt, t, until) -> tuple[str, Reason]:
     small = Angle(SMALL_ANGLE)
     promise = (STAYS_BELOW(angle=small) if until == np.inf
                else NOT_REACHED_BEFORE(angle=small, time=Time(float(until)).lower))
+    if np.isnan(tilt).any():  # the case is asked for the number that is to blame
+        raise OverflowError("the linear model leaves the range of doubles")
     if np.all(tilt <= SMALL_ANGLE):
         return WITHIN, promise
     first = float(np.min(np.abs(t[tilt > SMALL_ANGLE])))

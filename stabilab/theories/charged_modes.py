@@ -20,7 +20,7 @@ from cmath import exp
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from math import atan2, hypot, inf, sqrt
+from math import atan2, hypot, inf, isnan, sqrt
 from typing import Any
 
 import numpy as np
@@ -327,5 +327,7 @@ def spin_drift(body: ChargedBody) -> SpinDrift:
     # the integral of pq = Im(Pi^2)/2 from 0 swings about a mean of its own
     spun = (asymmetry * (2 * z.rate * (z.plus - z.minus) + (z.plus**2 - z.minus**2) / 2).real
             / (2 * z.frequency))
-    return SpinDrift(tilting - with_rate + spun, asymmetry * (z.rate**2 + 2 * z.plus * z.minus).imag / 2,
-                     "mean exists", reason=MEAN)
+    rate, acceleration = tilting - with_rate + spun, asymmetry * (z.rate**2 + 2 * z.plus * z.minus).imag / 2
+    if isnan(rate + acceleration):  # the case is asked for the number that is to blame
+        raise OverflowError("the mean of the linear model leaves the range of doubles")
+    return SpinDrift(rate, acceleration, "mean exists", reason=MEAN)
