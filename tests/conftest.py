@@ -20,7 +20,8 @@ settings.load_profile("same")
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
     """One in n, and so that each of n values of another parameter comes up too: the 1st, then the 2nd of the
-    next n, and so on. Of the rows that are left every fourth is for the slow tests, the others for the long."""
+    next n, and so on. Of the rows that are left every fourth is for the slow tests, the others for the long.
+    first(n, m): the first n rows of a test by default, the next m for the slow tests, the others for the long."""
     seen, left = Counter(), Counter()
     for item in items:
         if mark := item.get_closest_marker("one_in"):
@@ -31,6 +32,13 @@ def pytest_collection_modifyitems(items):
                 if left[item.path, item.originalname] % 4:
                     item.add_marker("long")
                 left[item.path, item.originalname] += 1
+        if mark := item.get_closest_marker("first"):
+            (quick, slow), place = mark.args, seen[item.path, item.originalname]
+            seen[item.path, item.originalname] += 1
+            if place >= quick:
+                item.add_marker("slow")
+            if place >= quick + slow:
+                item.add_marker("long")
 
 
 def pytest_collection_finish():

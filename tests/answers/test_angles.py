@@ -45,7 +45,8 @@ def _random(n):
     return case, (lambda omega: M - C * omega), D, wheel, w
 
 
-@pytest.mark.parametrize("n", [*range(6), *(pytest.param(n, marks=pytest.mark.slow) for n in range(6, 300))])
+@pytest.mark.first(6, 30)
+@pytest.mark.parametrize("n", range(300))
 def test_the_angles_of_a_random_motion_are_the_largest_of_its_run(n):
     case, torque, D, wheel, w = _random(n)
     found = case.angles()

@@ -21,10 +21,10 @@ OF_A_SCENE = {"equilibria": {}, "fate": {}, "motion": {}, "extremes": {}, "perio
               "spin_up": {"budget": 200}, "separatrix": {}, "derive": {}, "validity": {},
               "chaos": {"until": 20.0}, "fate_grid": {"axes": [[0.1], [0.2], [0.3]]},
               "simulate": {"times": [0.0, 1.0]}, "trajectory": {"times": [0.0, 1.0]}, "attitude": {},
-              "ensemble": {"times": [0.0, 1.0]}, "time_to": {"rate": "3"}}
+              "angles": {}, "ensemble": {"times": [0.0, 1.0]}, "time_to": {"rate": "3"}}
 START = {"fate": "state", "motion": "state", "extremes": "state", "period": "state", "spin_up": "state",
          "validity": "states", "chaos": "states", "simulate": "state", "trajectory": "state", "attitude": "state",
-         "ensemble": "states", "time_to": "states"}
+         "angles": "state", "ensemble": "states", "time_to": "states"}
 OF_A_CASE = {"stuck": {}, "flat_spin": {}, "compare": {}, "theory": {}, "when": {"rate": "0.6"},
              "sweep": {"vary": {"effects.constant_torque.torque[3]": "0:1:2 mN m"}, "answer": "fate"},
              "bifurcation": {"vary": {"effects.constant_torque.torque[3]": "0:1 mN m"}},
@@ -51,7 +51,7 @@ def own_case(name):
     """(its path, the options) of a case that the question answers."""
     if name == "flat_spin":
         return CASES / "rahn-barba.toml"
-    if name in ("attitude", "time_to", "when", "stuck", "sweep", "bifurcation", "basin", "atlas"):
+    if name in ("attitude", "angles", "time_to", "when", "stuck", "sweep", "bifurcation", "basin", "atlas"):
         return TORQUE
     return CASES / "charged-body.toml" if name in ("compare", "theory", "validity") else FILE
 

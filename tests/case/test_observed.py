@@ -26,7 +26,8 @@ def _moments(rng, n):
     return rng.permutation(D).tolist()
 
 
-@pytest.mark.parametrize("n", [*range(25), *(pytest.param(n, marks=pytest.mark.slow) for n in range(25, 500))])
+@pytest.mark.first(25, 100)
+@pytest.mark.parametrize("n", range(500))
 def test_a_tumbler_is_back_at_its_periods(n):
     """The periods of random rates, by `attitude`; the rates of these periods; and their periods again."""
     rng = np.random.default_rng([11, n])

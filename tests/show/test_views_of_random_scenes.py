@@ -33,6 +33,7 @@ WHY = ("fate", "extremes", "period", "classify", "stuck")
 NO_TEXT = {"reference", "verify"}  # whose text is its CSV; a certificate's
 QUICK = ("fate", "classify")
 SLOW = ("precision",)  # half a minute each: of one scene
+FEW, LONG = 20, [pytest.mark.slow, pytest.mark.long]  # scenes of the slow tests; the others take a quarter hour
 SCENES = [f"{kind}-{n:02}" for n, kind in zip(range(MANY), [*KINDS] * MANY)]
 TEMPLATES = {sentence.code: sentence.template for _, sentence in sentences()}
 NO_LEVEL = ("exact", "undecided", "none")  # exact is a matter of course; what is undecided is headed so
@@ -109,7 +110,8 @@ def rows():
         for name in SCENES:
             if command not in SLOW or name == SCENES[0]:
                 quick = command in QUICK and name in SCENES[:len(KINDS)]
-                yield pytest.param(command, tabled, name, marks=[] if quick else [pytest.mark.slow])
+                marks = [] if quick else [pytest.mark.slow] if name in SCENES[:FEW] else LONG
+                yield pytest.param(command, tabled, name, marks=marks)
 
 
 @pytest.mark.parametrize("command, tabled, name", list(rows()))
@@ -133,7 +135,7 @@ def view_texts(case, folder) -> dict[str, str]:
     return {"page": str([page[part] for part in parts]), "explorer": f"{answer['headline']}; {answer['note']}"}
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=[] if n in (1, 13) else [pytest.mark.slow])
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[] if n in (1, 13) else [pytest.mark.slow] if n < FEW else LONG)
                                   for n, name in enumerate(SCENES) if not name.startswith(("burning", "satellite"))])
 def test_python_page_and_explorer_have_every_caveat_and_the_level(name, scenes, tmp_path):
     case = package.load(scenes[name])

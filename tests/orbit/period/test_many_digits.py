@@ -208,6 +208,7 @@ def test_beside_a_barrier_the_period_under_a_torque_is_proved(decade):
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_ten_thousand_digits_under_a_torque_by_two_rules():
     # equal steps of an angle, with the potential of the scaled equations written here, against the sum of the
     # package, whose steps are those of a Jacobian elliptic argument; they share arb's sine and cosine alone
