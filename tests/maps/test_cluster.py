@@ -148,6 +148,7 @@ PARENT = """
 import signal, sys
 from pathlib import Path
 from stabilab.processes import helpers
+signal.signal(signal.SIGHUP, signal.SIG_DFL)  # which a run under nohup ignores, and hands on
 with helpers("endless", Path(sys.argv[1]), 2) as found:
     for number, one in enumerate(found):
         one.stdin.write(b"%d\\n" % number)
