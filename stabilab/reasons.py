@@ -14,6 +14,7 @@ from string import Formatter
 from typing import Any, TypeAlias
 
 DIGITS = 6  # of a number in a sentence in SI
+BROAD = 0.1  # of the greater of two ends of a time
 # What stands for the letters of a sentence where there are none: in JSON, CSV, Python, on a plain terminal
 ASCII = {"ω": "omega", "λ": "lambda", "Λ": "Lambda", "μ": "mu", "γ": "gamma", "α": "alpha", "σ": "sigma",
          "ζ": "zeta", "τ": "tau", "β": "beta", "δ": "delta", "ε": "eps", "η": "eta", "θ": "theta", "κ":
@@ -69,6 +70,11 @@ Mass = partial(Quantity, unit="kg")
 Length = partial(Quantity, unit="m")
 Inertia = partial(Quantity, unit="kg m^2")
 PerSecond = partial(Quantity, unit="1/s")
+
+
+def broad(low: float, high: float) -> bool:
+    """Whether two ends are so far apart that a middle would say more than is known."""
+    return high - low > BROAD * high
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from ..errors import Caveat, Kind, without
 from ..orbit.result import Fate, Motion, Stability
 from ..physics.coefficients import effective
 from ..physics.scene import AnyScene, aligned, torque_axis
-from ..reasons import DIGITS, Angle, Axis, Quantity, Rate, Reason, Sentence, Time
+from ..reasons import DIGITS, Angle, Axis, Filling, Quantity, Rate, Reason, Sentence, Time, broad
 from ..representation import Answer
 
 if TYPE_CHECKING:
@@ -39,6 +39,7 @@ UNSTABLE_SLOWLY = Sentence("unstable-not-exponential",
 UNSTABLE_POINT = Sentence("unstable-equilibrium-of-a-point",
                           "an equilibrium that is not known to be stable")()
 STABILITY_OPEN = Sentence("stability-open", "whether this equilibrium is stable is not known")
+BETWEEN = Sentence("between-times", "{low} to {high}")
 REACHES = Sentence("reaches-limit", "reaches {limit} after {time} ({level})")
 AT_START = Sentence("limit-at-start", "reaches {limit} at the start already")
 IN_A_COMPONENT = Sentence("rate-of-a-component", "{rate} in a component")
@@ -164,9 +165,16 @@ def of_limit(resolved: Known) -> list[Caveat]:
     if resolved.first is None or not math.isfinite(resolved.first[1].high):
         return []
     limit, result = resolved.first
-    after = Quantity(0.5 * float(result.low + result.high), resolved.scene.time_unit)
+    after = known_between(float(result.low), float(result.high), resolved.scene.time_unit)
     return [Caveat(Kind.LIMIT, REACHES(limit=limit, time=after, level=str(result.level)) if result.high > 0
                    else AT_START(limit=limit))]
+
+
+def known_between(low: float, high: float, unit: str = "s") -> Filling:
+    """A time by its middle, or by both ends where these are far apart."""
+    if broad(low, high):
+        return BETWEEN(low=Quantity(low, unit).lower, high=Quantity(high, unit).upper)
+    return Quantity(0.5 * (low + high), unit)
 
 
 def of_direction(resolved: Known) -> list[Caveat]:

@@ -28,7 +28,7 @@ from ..physics.coefficients import three_floats
 from ..physics.scene import AnyScene, Scene, torque_axis
 from ..reasons import Filling, Quantity, Rate, Reason, Sentence, Time
 from ..validation import checked_scene
-from .caveats import STEADY, varied
+from .caveats import STEADY, known_between, varied
 from .kinds import kind_of
 from .limit import Limit, asked
 from .motion import motion
@@ -310,7 +310,8 @@ class Spread:
             return BY_FATES(**resolved, fates=fates)
         resolved |= {"limit": Rate(self.limit)}
         if self.earliest is None and self.untilted:
-            return RUNS_END(**resolved, time=Time(self.followed).lower, untilted=Time(sum(self.untilted) / 2))
+            return RUNS_END(**resolved, time=Time(self.followed).lower,
+                            untilted=known_between(*self.untilted))
         if self.earliest is None:
             return NONE_REACHES(**resolved, time=Time(self.followed).lower)
         resolved |= {"first": Time(self.earliest[0]).lower, "level": self.level}

@@ -69,6 +69,7 @@ def torques(sizes, azimuths, angle=0.5 * DEGREE):
                 math.cos(phi) * first + math.sin(phi) * second))
 
 
+@pytest.mark.slow
 def test_a_force_and_the_same_torque_have_one_verdict(stabilab, case_file):
     """The proved and the flipping share of the box are those of the torque written itself; at +30 % the body
     reaches 1631 deg/s by DOP853 (above)."""

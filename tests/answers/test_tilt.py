@@ -221,6 +221,7 @@ def test_rates_whose_squares_are_no_doubles_are_answered_in_words(stabilab, case
     assert code == 0 and ("NEVER reaches" in out or "proved not to be reached" in out)
 
 
+@pytest.mark.slow
 def test_runs_that_end_before_the_untilted_time_do_not_read_as_if_a_tilt_helped(monkeypatch):
     """The time of the torque itself by DOP853 from Euler's equations."""
     monkeypatch.setattr("stabilab.answers.tilt.AZIMUTH_STEPS", 40)

@@ -129,6 +129,7 @@ def test_the_space_draws_all_of_a_bounded_motion_and_of_a_spin_up_what_is_near_t
         assert size < 4 * max(first, moved.margin_velocity or 0.0) * one
 
 
+@pytest.mark.slow
 def test_a_motion_that_turns_often_is_drawn_as_it_is_and_not_by_chords_across_it():
     """The rates of liquid-sensible go round axis 3 at 5.7 deg/s and more: even chords would cut across, down
     to less than half of that."""

@@ -26,7 +26,7 @@ UNIT = re.compile(rf"(?:\s*(?:to|and|or|,|±|x)\s{ONE})*\s*({NAMES})(?![\w/²])"
 OF_VECTOR = re.compile(rf"(?:,\s{ONE})*\)\s?({NAMES})?(?![\w/²])")
 COMMANDS = {"fate": ("--why",), "extremes": ("--why",), "period": ("--why",), "classify": ("--why",),
             "stuck": ("--why",), "attitude": (), "flat-spin": (), "when": ("--rate", "30 deg/s")}
-QUICK = ("minor-axis-100", "phone", "t-handle", "upper-stage", "rahn-barba", "symmetric-spin-up", "toy-top")
+QUICK = ("minor-axis-100", "phone", "t-handle", "rahn-barba", "symmetric-spin-up", "toy-top")
 
 
 def numbers(value):

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from ...errors import printable
 from ...orbit.result import Fate, Motion, no_period
+from ...reasons import broad
 from ...representation import values_of
 from .. import ending, frame, limiting
 from ..axes import axes_of
@@ -122,6 +123,8 @@ def _answer(limit: StatedLimit, result: TimeTo, low: float, high: float, units: 
     name, item = units.times(high)
     a, b = bracket(low, high, item)
     after = "after" if limit.kind in FALLING else "in"
+    if broad(low, high):
+        return f"{reaches} {aim} {after} {a} to {b} {name} ({result.level})"
     return f"{reaches} {aim} {after} {number((low + high) / 2 * item)} {name} ({result.level} {a} to {b})"
 
 

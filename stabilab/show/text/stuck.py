@@ -6,6 +6,7 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 
 from ...errors import printable
 from ...orbit.result import HEADS, OUTCOMES, Fate
+from ...reasons import broad
 from ...representation import values_of
 from .. import limiting
 from ..axes import axes_of, direction
@@ -166,6 +167,8 @@ def _when(row, units, short: bool = False) -> str:
     if high == 0:
         return f"starts at its limit, {_limit(row.limit, units)}"
     a, b = bracket(low, high, item)
+    if broad(low, high):
+        return f"reaches {_limit(row.limit, units)} in {a} to {b} {name} ({row.time_level})"
     time = f"{number((low + high) / 2 * item)} {name}"
     reached = f"reaches {_limit(row.limit, units)} in {time} ({row.time_level}"
     return f"{reached}); that is {a} to {b} {name}" if short else f"{reached} {a} to {b})"

@@ -235,6 +235,7 @@ def test_an_attitude_in_the_file_is_none_of_a_flat_spin(no_search):
     assert (one.outcome, one.crosses.at) == (other.outcome, other.crosses.at)
 
 
+@pytest.mark.slow
 def test_a_liquid_tumbles_a_body_as_well(no_search):
     scene = Scene(Body((12, 9, 5)), LiquidCavity.of_sphere(10_000, "0.01", "0.12"))  # a heavy one is quick
     found = flat_spin(load(scene, (0.02, 0.01, 0.1)))

@@ -8,9 +8,11 @@ import re
 import pytest
 
 import stabilab as package
+from stabilab.answers.caveats import known_between
 from stabilab.answers.time_to import time_of_case
 from stabilab.case.limit_options import stated_limit
 from stabilab.errors import InputError
+from stabilab.reasons import Quantity
 from tests.shared import CASES
 
 CUBESAT, OFF_AXIS, MAJOR = (CASES / f"{name}.toml"
@@ -91,3 +93,33 @@ def test_a_case_without_a_limit_says_how_to_give_one(stabilab):
 def test_two_limits_at_once_are_refused():
     with pytest.raises(InputError, match="expected one limit, got --rate and --energy"):
         stated_limit(package.load(CUBESAT), rate="1", energy="2")
+
+
+WIDE = """[body]
+inertia = [350, 300, 400]
+[effects.gyrostat]
+momentum = ["418.879 N m s", 0, 0]
+[[thrusters]]
+position = [1, 0, 0]
+direction = [0, 1, 0.1]
+force = "1 N"
+stuck = true
+[motion]
+angular_velocity = ["1 deg/s", 0, "0.1 deg/s"]
+[limits]
+rate = "20 deg/s"
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("command", ["fate", "when", "stuck"])
+def test_a_time_known_between_ends_far_apart_is_said_by_both_ends(stabilab, case_file, command):
+    """A middle of 2 and 403 days, with four digits, would say more than is known."""
+    out = stabilab(command, case_file(WIDE))[1]
+    line = next(line for line in out.splitlines() if "20 deg/s" in line)
+    assert re.search(r"(after|in) [\d.]+ (day )?to 40\d(\.\d+)? day \(certified\)", line), out
+
+
+def test_ends_within_a_tenth_have_a_middle_and_others_have_none():
+    assert known_between(100, 110) == Quantity(105, "s")
+    assert str(known_between(100, 112)) == "100 s to 112 s"
