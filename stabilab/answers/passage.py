@@ -40,7 +40,7 @@ from ..errors import Caveat
 from ..integrate.events import zeros_passed
 from ..integrate.to_heyoka import TAYLOR_TOLERANCE
 from ..numbers.exact import precise
-from ..numbers.vectors import CYCLE, Float3
+from ..numbers.vectors import CYCLE, Exact3, Float3
 from ..physics.coefficients import limits_of
 from ..physics.equations import Equations, derive, rotation
 from ..physics.own_unit import in_unit, mass_unit, own_unit
@@ -320,9 +320,14 @@ def _quadratic(scene: AnyScene, parts: Sequence[Any] = (), square: Fraction = Fr
     state, symbols, expressions = _structure(len(parts))
     numbers = [*sum(zip(*scene.quadratic().coefficients), ())]
     for terms, largest in parts:
-        numbers += ([float(sum(c * a[i] * a[j] * (1 + (i != j)) for c, a in terms)) for i, j in PRODUCTS]
-                    + [float(min(largest / square, FARTHEST))])
+        numbers += [*_products(terms), float(min(largest / square, FARTHEST))]
     return Form(state, expressions, symbols, tuple(numbers))
+
+
+@lru_cache(maxsize=16)
+def _products(terms: tuple[tuple[Fraction, Exact3], ...]) -> list[float]:
+    """The coefficients of `PRODUCTS` in sum c (a . omega)^2: many runs are compared at one limit."""
+    return [float(sum(c * a[i] * a[j] * (1 + (i != j)) for c, a in terms)) for i, j in PRODUCTS]
 
 
 @lru_cache(maxsize=4)

@@ -12,6 +12,6 @@ def sweep(case, vary, samples, seed, answer, follow, out, workers, scheduler, cs
     plan = planned(case, split_keys(vary or []), samples, seed, answer, follow, **limits)
     if out:
         sweep_shown.checked(out)
-    with run(plan, out, workers, scheduler) as result:
+    with run(plan, out, workers, scheduler, in_file=True) as result:
         files = [sweep_shown.write(sweep_shown.dataset(result), out)] if out else []
     of_map(sweep_shown, result, plan.case, files, json, csv, strict)

@@ -44,7 +44,10 @@ def of_map(shown, result, case, files, json: bool, csv: bool, strict: bool, *mor
 
 def write_answer(shown, result, json: bool, csv: bool, *more):
     """What was found by json, csv or text of `shown`; `more`: for all but csv."""
-    if json or csv:
+    if csv and not json and hasattr(shown, "csv_pieces"):
+        sys.stdout.writelines(shown.csv_pieces(result))
+        sys.stdout.flush()
+    elif json or csv:
         write(shown.json(result, *more) if json else shown.csv(result))
     else:
         tell(shown.text(result, *more))

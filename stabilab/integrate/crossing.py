@@ -15,6 +15,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
 from ..numbers.vectors import Number
 
@@ -99,6 +100,8 @@ class Search:
 
     def take(self, piece: Piece) -> bool:
         """Look at the next piece; whether the crossing is known from both sides."""
+        if _far_below(self.threshold, piece, self.exactly):
+            return False
         g = _Excess(self.threshold, piece, self.exactly)
         if g.stays_below():
             return False
@@ -138,19 +141,22 @@ class _Excess:
         else:  # squares, then weights and limit rounded
             self.err = (self._sum([2 * v * r + r * r for v, r in zip(self.sizes, off)])
                         + sum((v * v >> self.bits) + 1 for v in self.sizes) + self.one)
-        self.bend, self.rough = self._bend(), self._rough(max(map(len, self.rows)))
 
     def _sum(self, values: Iterable[int]) -> int:
         return sum(c * v for c, v in zip(self.weights, values)) + self.one - 1 >> self.bits
 
-    def _bend(self) -> int:
+    @cached_property
+    def bend(self) -> int:
+        """A bound of |g''|."""
         first = [sum(n * abs(v) for n, v in enumerate(row)) for row in self.rows]
         second = [sum(n * (n - 1) * abs(v) for n, v in enumerate(row)) for row in self.rows]
         return (second[0] if self.linear
                 else 2 * self._sum([f * f + v * w for f, v, w in zip(first, self.sizes, second)]))
 
-    def _rough(self, terms: int) -> int:
+    @cached_property
+    def rough(self) -> int:
         """What rounding may take from the slope."""
+        terms = max(map(len, self.rows))
         steep = [sum(n * abs(v) for n, v in enumerate(row)) for row in self.rows]
         return (terms * (terms + 1) if self.linear
                 else 2 * self._sum([terms * (terms + 1) * v + terms * w for v, w in zip(self.sizes, steep)])
@@ -218,6 +224,23 @@ class _Excess:
             s += self.one >> WIDE
             s = self.reaches(-1, s, allowed) if s < self.one else None
         return self.one if s is not None and self.value(self.one)[0] > self.err else None
+
+
+def _far_below(threshold: Threshold, piece: Piece, exactly: bool) -> bool:
+    """Whether the sizes of the components alone keep squares below half of their limit, in doubles: most
+    pieces of a motion are far from it, and to combine their rows takes long."""
+    if threshold.linear or threshold.falls:
+        return False
+    unit, rounded = 2.0**-piece.bits, 4 * max(map(len, piece.rows)) + 8  # no less than in `_Excess`
+    try:
+        largest = 0.0
+        for c, vector in threshold.terms:
+            size = sum(abs(float(a)) * size + math.ceil(abs(a)) * (radius if exactly else 0)
+                       for a, size, radius in zip(vector, piece.sizes, piece.radii))
+            largest += float(c) * ((size + rounded) * unit) ** 2
+        return largest + len(threshold.terms) * 4 * unit < float(threshold.limit) / 2
+    except OverflowError:
+        return False
 
 
 def _combined(vector: Sequence[Fraction], piece: Piece) -> tuple[list[int], int]:

@@ -31,6 +31,7 @@ from ..files import alone_in, whole_file
 from ..interrupt import undoing
 from ..orbit.result import Fate
 from ..physics.coefficients import effective
+from . import blocks
 from .axes import Key, with_values
 from .columns import ANSWERS, CAVEATS, Column, columns_of, record
 from .plan import Chunk, Plan
@@ -161,6 +162,7 @@ def _caveats(case: Case, states: np.ndarray, out: np.ndarray) -> np.ndarray:
 
 # --- The parts of a sweep, a folder beside its file
 PLAN = "sweep.json"
+RECORDS = ".records"  # all of a large sweep, put together
 PARTS = ".parts"  # what the name of a folder has behind that of its file
 DIGEST = 32  # bytes in front of a part
 
@@ -268,12 +270,16 @@ def missing(plan: Plan, folder: Path) -> list[int]:
     return [number for number in range(len(plan.chunks)) if read(plan, folder, number) is None]
 
 
-def whole(plan: Plan, folder: Path) -> np.ndarray:
-    """All records in the user's order, of the shape of the sweep; in one row where places are listed."""
-    rows, end = np.empty(plan.points, record(plan.answers)), 0
+def whole(plan: Plan, folder: Path, in_file: bool = False) -> np.ndarray:
+    """All records in the user's order, of the shape of the sweep; in one row where places are listed.
+    in_file: whether those of a large sweep lie in a file of the folder instead of in memory."""
+    dtype, end = record(plan.answers), 0
+    large = in_file and plan.points >= blocks.LARGE and blocks.can_map()
+    rows = (blocks.mapped(folder / RECORDS, plan.points, dtype) if large else np.empty(plan.points, dtype))
     for number, chunk in enumerate(plan.chunks):  # one at a time: two copies of a large sweep are too many
         rows[end:end + chunk.points] = read(plan, folder, number)
         end += chunk.points
+        blocks.given_back(rows)
     if plan.listed:
         return rows
     order = (*plan.outer, *plan.inner)

@@ -38,6 +38,7 @@ from ..processes import cores, helpers
 from ..streams import Progress
 from ..version import __version__
 from . import parts
+from .blocks import blocks
 from .parts import answered, case_of, states_at
 from .plan import Plan, from_json
 
@@ -248,11 +249,11 @@ class Swept:
 
 @contextmanager
 def run(plan: Plan, out: Path | None = None, workers: int | None = None, scheduler: str | None = None,
-        command: str = "") -> Iterator[Swept]:
+        command: str = "", in_file: bool = False) -> Iterator[Swept]:
     """The finished sweep as a context; the parts of `out` are removed when its block ends well, and stay
     otherwise. out: the file that the parts are for, None to keep none. workers: processes on this machine;
     None: one a core where that pays. scheduler: address of a Dask scheduler whose workers do it instead.
-    command: of what the sweep is part of."""
+    command: of what the sweep is part of; in_file: whether the records of a large one may lie in a file."""
     if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int) or workers < 1):
         raise InputError(f"workers: expected a number of processes of at least 1, got {workers!r:.40}")
     with _folder(plan, out, command) as folder:
@@ -261,7 +262,7 @@ def run(plan: Plan, out: Path | None = None, workers: int | None = None, schedul
         with _counted(plan, points) as tell:
             for number in _makers(plan, folder, left, workers, scheduler):
                 tell(plan.chunks[number].points)
-        yield _finished(plan, parts.whole(plan, folder), plan.points - points)
+        yield _finished(plan, parts.whole(plan, folder, in_file), plan.points - points)
         if out is not None:
             parts.remove(folder)
 
@@ -295,18 +296,22 @@ def _here(plan: Plan, folder: Path, left: Sequence[int]):
 
 
 def _finished(plan: Plan, records: np.ndarray, resumed: int) -> Swept:
-    bad = records["valid"] == 0
-    if not bad.any():
+    bad, first, looked = 0, -1, 0
+    for block in blocks(records["valid"]):  # scene by scene
+        broken = block == 0
+        if first < 0 and broken.any():
+            first = (looked + int(np.argmax(broken))) // (plan.points // plan.scenes)
+        bad, looked = bad + int(broken.sum()), looked + len(block)
+    if not bad:
         return Swept(plan, records, resumed)
-    first = int(np.flatnonzero(bad.transpose((*plan.outer, *plan.inner)).reshape(plan.scenes, -1)[:, 0])[0])
     try:
         case_of(plan, first)
         why = ""
     except InputError as error:
         why = str(error).splitlines()[0]
-    if bad.all():
+    if bad == plan.points:
         raise InputError(f"none of the {plan.points:,} points makes a case: {why}")
-    return Swept(plan, records, resumed, int(bad.sum()), why)
+    return Swept(plan, records, resumed, bad, why)
 
 
 @contextmanager

@@ -176,6 +176,8 @@ def without_trace(vector: Exact3, other: Exact3) -> Exact3:
         return vector
     smallest = NOTHING * NOTHING * size * dot(vector, vector)
     terms = sum(abs(v * o) for v, o in zip(vector, other))
+    if level * level > smallest and abs(level) > MAX_ZEROED * terms:
+        return vector  # whatever the digits show, and to count these takes longer
     open_ = sum(abs(v) for v in vector) * rounding(other) + sum(abs(v) for v in other) * rounding(vector)
     if level * level > smallest and not abs(level) <= open_ <= MAX_ZEROED * terms:
         return vector

@@ -17,11 +17,12 @@ from stabilab.answers.equilibria import equilibria
 from stabilab.answers.motion import motion
 from stabilab.case.read import read_text
 from stabilab.errors import InputError
-from stabilab.maps import columns, parts
+from stabilab.maps import blocks, columns, parts
 from stabilab.maps.parts import answered
 from stabilab.maps.plan import from_json, planned
-from stabilab.maps.run import run
+from stabilab.maps.run import Swept, run
 from stabilab.orbit.result import Fate
+from stabilab.show.maps import netcdf
 from stabilab.show.maps import sweep as words
 from tests.shared import CASES
 
@@ -319,3 +320,46 @@ def test_records_are_put_together_in_one_copy(tmp_path, monkeypatch):
         tracemalloc.stop()
     largest = max(chunk.points for chunk in plan.chunks) / plan.points
     assert whole.nbytes == size and peak < size * (1.05 + 3 * largest)
+
+
+@pytest.mark.parametrize("vary", [
+    {"x[1]": "-3:3:60", "x[2]": "-3:3:50"}, {"x[1]": "-3:3:60", "mu[3]": "0.5:1:20"}], ids=["states", "turned"])
+def test_records_in_a_file_make_the_same_answers_and_take_the_memory_of_a_block(
+        vary, tmp_path, monkeypatch):
+    """Blocks and chunks of a few points; Python's allocator counts what is held beside the file."""
+    def answers_of(large, block):
+        monkeypatch.setattr(blocks, "LARGE", large)
+        monkeypatch.setattr(blocks, "BLOCK", block)
+        monkeypatch.setattr(words, "TOGETHER", block)
+        out = tmp_path / f"{large}-{block}.nc"
+        with run(planned(CASES / "minor-axis-100.toml", vary), out, 1, in_file=True) as result:
+            assert isinstance(result.records, np.memmap) == (large == 0)
+            words.write(words.dataset(result), out)
+            return out.read_bytes(), words.text(result), "".join(words.csv_pieces(result))
+    assert answers_of(0, 7) == answers_of(0, 64) == answers_of(10**9, 1 << 18)
+
+
+def test_records_in_a_file_are_counted_and_written_in_memory_that_does_not_grow(tmp_path, monkeypatch):
+    """Counted by Python's allocator, four times as many points beside each other."""
+    monkeypatch.setattr(blocks, "LARGE", 0)
+    monkeypatch.setattr(blocks, "BLOCK", 1 << 12)
+    monkeypatch.setattr(netcdf, "BLOCK", 1 << 12)
+    peaks = []
+    for count in (100, 400):
+        plan = planned(CASES / "minor-axis-100.toml", {"x[1]": f"-3:3:{count}", "x[2]": "-3:3:1000"})
+        folder = tmp_path / str(count)
+        folder.mkdir()
+        for number, chunk in enumerate(plan.chunks):
+            rows = np.zeros(chunk.points, parts.record(plan.answers))
+            rows["valid"] = 1
+            parts.write(plan, folder, number, rows.tobytes())
+        records = parts.whole(plan, folder, in_file=True)
+        tracemalloc.start()
+        try:
+            result = Swept(plan, records)
+            words.text(result)
+            words.write(words.dataset(result), tmp_path / "all.nc")
+            peaks.append(tracemalloc.get_traced_memory()[1])
+        finally:
+            tracemalloc.stop()
+    assert peaks[1] < peaks[0] + 100_000 < 400_000 * parts.record(plan.answers).itemsize / 2, peaks

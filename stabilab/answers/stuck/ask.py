@@ -15,6 +15,8 @@ from fractions import Fraction
 from itertools import combinations
 from typing import Any, TypeAlias, TypeGuard
 
+import numpy as np
+
 from ...case.given import Amount, Given, Span, Start, as_case
 from ...case.limit_options import angle_of
 from ...case.read import Case
@@ -124,12 +126,15 @@ def _stops(scenario: Scenario, torque: Exact3, chosen: Chosen) -> tuple[Helper, 
 
 def _best_pairs(scenario: Scenario, torque: Exact3, pairs: Sequence[Chosen]) -> list[tuple[Helper, Exact3]]:
     """As many helpers as are listed, of the pairs that leave the least torque: `_stops` of each."""
-    def least(torque: Sequence[Number], arms: Sequence[Sequence[Number]]) -> float:
+    def least_of(torque: Sequence[float], arms: Sequence[Sequence[float]]) -> float:
         none = _shares_left(torque, arms, _least_squares(torque, arms))
         if math.hypot(*none) < ROUGH * sum(math.hypot(*arm) for arm in arms):
             return 0.0
         return min((abs(_shares_left(torque, arms, _onto_axis(torque, arms, i))[i]) for i in scenario.held),
                    default=math.inf)
+
+    def least(torque: np.ndarray, arms: np.ndarray) -> np.ndarray:
+        return np.array([least_of(torque.tolist(), pair) for pair in arms.tolist()])
 
     out: list[tuple[Helper, Exact3]] = []
     for bound, pair in _by_doubles(torque, pairs, least):
@@ -148,15 +153,39 @@ def _shares_left(torque: Sequence[Number], arms: Sequence[Sequence[Number]],
     return _left(torque, arms, duty)
 
 
-def _by_doubles(torque: Exact3, sets: Sequence[Chosen], least: Callable[[Any, Any], float]
+def _by_doubles(torque: Exact3, sets: Sequence[Chosen], least: Callable[[Any, Any], Any]
                 ) -> list[tuple[float, Chosen]]:
     """(a bound that the torque left by a set does not fall below, the set), rising; without those that leave
-    an infinite one. least(torque, arms): the least torque that is left, in doubles."""
-    size, out = list(map(float, torque)), []
-    for chosen in sets:
-        arms = [list(map(float, arm)) for _, arm in chosen]
-        out.append((least(size, arms) - ROUGH * sum(math.hypot(*arm) for arm in arms), chosen))
-    return sorted((item for item in out if item[0] < math.inf), key=lambda item: item[0])
+    an infinite one. sets: as many thrusters in each; least(torque (3,), arms (n, thrusters, 3)): (n,) the
+    least torque that is left, in doubles."""
+    if not sets:
+        return []
+    rows: dict[int, list[float]] = {}  # many sets share an arm, and to round it takes long
+    arms = np.array([[rows.get(id(arm)) or rows.setdefault(id(arm), list(map(float, arm)))
+                      for _, arm in chosen] for chosen in sets])
+    bounds = least(np.array(torque, float), arms) - ROUGH * np.linalg.norm(arms, axis=-1).sum(axis=-1)
+    return sorted(((bound, chosen) for bound, chosen in zip(bounds.tolist(), sets) if bound < math.inf),
+                  key=lambda item: item[0])
+
+
+def _left_in_the_box(torque: np.ndarray, arms: np.ndarray) -> np.ndarray:
+    """(n,) the least torque that one or two thrusters leave by shares in 0 to 1, in doubles, where
+    `_in_the_box` has the shares. torque: (3,); arms: (n, 1 or 2, 3)."""
+    def on_an_edge(rest: np.ndarray, arm: np.ndarray) -> np.ndarray:
+        share = np.clip(-(rest * arm).sum(axis=-1) / (arm * arm).sum(axis=-1), 0, 1)
+        return np.linalg.norm(rest + share[:, None] * arm, axis=-1)
+
+    if arms.shape[1] == 1:
+        return on_an_edge(torque, arms[:, 0])
+    a, b = arms[:, 0], arms[:, 1]
+    edges = [on_an_edge(torque + full * arms[:, n], arms[:, 1 - n]) for n in (0, 1) for full in (0, 1)]
+    p, q, r, x, y = ((v * w).sum(axis=-1) for v, w in ((a, a), (a, b), (b, b), (a, -torque), (b, -torque)))
+    with np.errstate(all="ignore"):  # of parallel arms an edge is no worse
+        u, v = (x * r - q * y) / (p * r - q * q), (p * y - q * x) / (p * r - q * q)
+    inside = (u >= 0) & (u <= 1) & (v >= 0) & (v <= 1)
+    left = np.linalg.norm(torque + np.where(inside, u, 0)[:, None] * a + np.where(inside, v, 0)[:, None] * b,
+                          axis=-1)
+    return np.min([left, *edges], axis=0)
 
 
 def _possible(duty: Duty | None) -> TypeGuard[Duty]:
@@ -222,12 +251,9 @@ def _slowest(scenario: Scenario, torque: Exact3, sets: Sequence[Sequence[Chosen]
 
 def _least_left(torque: Exact3, sets: Sequence[Chosen]) -> list[tuple[Fraction, Chosen, Duty]]:
     """(square of the torque that is left, thrusters, shares of time), the `TRIED` that leave the least."""
-    def least(torque: Sequence[Number], arms: Sequence[Sequence[Number]]) -> float:
-        return min(math.hypot(*_left(torque, arms, duty)) for duty in _in_the_box(torque, arms))
-
     out: list[tuple[Fraction, Chosen, Duty]] = []
     size = dot(torque, torque)
-    for bound, chosen in _by_doubles(torque, sets, least):
+    for bound, chosen in _by_doubles(torque, sets, _left_in_the_box):
         if bound > 0 and sum(square < bound * bound for square, *_ in out) >= TRIED:
             break
         arms = [arm for _, arm in chosen]

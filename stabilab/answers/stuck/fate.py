@@ -121,6 +121,11 @@ class Scenario:
             return replace(result, label="components in the frame of the file")
         return result
 
+    @cached_property
+    def begins_at_limit(self) -> bool:
+        """Whether the limit is reached by the state."""
+        return self.exact_limit.reached_by(self.state)
+
     @property
     def start(self) -> Float3:
         """The state in doubles."""
@@ -217,7 +222,7 @@ def first_time(scenario: Scenario, torque: Sequence[Fraction], wheel: Sequence[F
                t_max: float) -> float:
     """The time at which a plain run comes to the limit, s, for searches; inf where not until t_max, and where
     its steps end before that, the time it got to."""
-    if scenario.exact_limit.reached_by(scenario.state):
+    if scenario.begins_at_limit:
         return 0.0
     # a run is one in doubles: long fractions would cost more than the run
     torque, wheel = ([Fraction(float(v)) for v in vector] for vector in (torque, wheel or scenario.wheel))

@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...maps.blocks import blocks, given_back
+
 if TYPE_CHECKING:
     import xarray
 
@@ -30,7 +32,8 @@ def fits(built: xarray.Dataset) -> bool:
     coordinates along their own dimension."""
     return all(_kind(variable.dtype) in TYPES and (name not in built.coords or variable.dims == (name,))
                and variable.nbytes < 2**31 - 4
-               and not (variable.dtype == np.int64 and np.any(np.abs(variable.values) >= 2**31))
+               and not (variable.dtype == np.int64
+                        and any(np.any(np.abs(block) >= 2**31) for block in blocks(variable.values)))
                for name, variable in built.variables.items())
 
 
@@ -44,6 +47,7 @@ def write(built: xarray.Dataset, path: Path) -> None:
             count = 0
             for block in _blocks(variable.values):
                 file.write(block)
+                given_back(variable.values)
                 count += len(block)
             fill = FILLS.get(_kind(variable.dtype), b"\0")
             file.write(fill * (-count % 4 // len(fill)))

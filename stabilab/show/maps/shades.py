@@ -13,6 +13,7 @@ from ...case.lines import KeyLines
 from ...case.table import Faults, Table
 from ...errors import Caveat, Kind, without
 from ...maps.axes import Key, Span, value_at
+from ...maps.blocks import blocks, counted
 from ...maps.columns import ENERGY, NO_CASE, PACE, RATE, TIME, Column
 from ...maps.plan import Plan
 from ...numbers.units import unit_of
@@ -97,13 +98,13 @@ def limits_of(case: Case, records: np.ndarray) -> list[Caveat]:
     rows = [*of_case(case)]
     counts: Counter[int] = Counter()
     unphysical = unstable = points = 0
-    for number, count in (zip(*np.unique(records["caveats"], return_counts=True))
+    for number, count in (counted(blocks(records["caveats"])).items()
                           if "caveats" in records.dtype.names else ()):
-        full, condition = divmod(int(number), len(CONDITIONS))
-        counts[condition] += int(count)
-        unphysical += int(count) * (full % 2)
-        unstable += int(count) * (full >= 2)
-        points += int(count)
+        full, condition = divmod(number, len(CONDITIONS))
+        counts[condition] += count
+        unphysical += count * (full % 2)
+        unstable += count * (full >= 2)
+        points += count
     parts = [(Kind.TILT, HOLDS(condition=CONDITIONS[n]), count) for n, count in sorted(counts.items()) if n]
     if all(item.kind is not Kind.UNPHYSICAL for item in rows):
         parts += [(Kind.UNPHYSICAL, NO_SUCH_BODY, unphysical)]

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import chain, islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +17,7 @@ from ...case.given import Given, Span, Start, written
 from ...case.read import Case
 from ...errors import Kind, printable, without
 from ...files import whole_file
+from ...maps.blocks import blocks, counted, given_back
 from ...maps.columns import CAVEATS, ENDLESS, NO_CASE, NONE, OPEN, TIME, VALID, Column, columns_of
 from ...maps.plan import Plan, planned
 from ...maps.run import Swept, run
@@ -36,6 +38,7 @@ if TYPE_CHECKING:
 
 SWEEP_SCHEMA = "stabilab.sweep/1"
 ROWS = 40  # points of a table
+TOGETHER = 8192  # lines of CSV that are made together
 FEW = 100  # points that are counted; of more their share is given
 # what points do, what one point does
 DOES = {fate: (x.do, x.does) for fate, x in OUTCOMES.items()} | {NO_CASE: ("are no case", "is no case")}
@@ -83,10 +86,8 @@ def _number(value: int) -> str:
 
 def _shares(values: np.ndarray, phrase: Any) -> str:
     """"62 % of 10,201 points stay bounded, 38 % spin up"."""
-    kinds, counts = np.unique(values, return_counts=True)
-    order = np.argsort(-counts, kind="stable")
-    parts = [(_share(int(counts[n]), values.size),
-              phrase(int(kinds[n]))[int(counts[n]) == 1 and values.size <= FEW]) for n in order]
+    parts = [(_share(count, values.size), phrase(kind)[count == 1 and values.size <= FEW])
+             for kind, count in _often_first(counted(blocks(values)))]
     if len(parts) == 1:
         return (f"all {values.size:,} points {parts[0][1]}" if values.size > 1
                 else f"the one point {parts[0][1]}")
@@ -112,29 +113,31 @@ def per_cent(fraction: float) -> str:
 
 def _details(result: Swept) -> list[str]:
     lines, names = [], result.records.dtype.names
-    valid = result.records["valid"] == 1
-    cases = result.records if valid.all() else result.records[valid]
-    if "spin_axis" in names and (result.records["fate"] == Fate.SPIN_UP).any():
-        about = result.records["spin_axis"][result.records["fate"] == Fate.SPIN_UP]
+    valid = lambda column: (block[column][block["valid"] == 1] for block in blocks(result.records))
+    about = counted(block["spin_axis"][block["fate"] == Fate.SPIN_UP]
+                    for block in blocks(result.records)) if "spin_axis" in names else {}
+    if about:
         signed = axes_of(result.plan.case).signed
         lines.append("  spin-up about " + _listed(about, lambda axis: signed(abs(axis), axis) if axis
                                                   else "an axis between equal moments"))
     if "level" in names:
         flags = next(c.flags for c in columns_of(result.plan.answers) if c.name == "level")
-        lines.append("  the fate is known as " + _listed(cases["level"], lambda level: flags[level]))
+        lines.append("  the fate is known as " + _listed(counted(valid("level")), lambda level: flags[level]))
     for column in columns_of(result.plan.answers):
         if column.kind == "f8":
-            lines.append(_range(cases[column.name], column, *_unit(result.plan, column)))
+            lines.append(_range(valid(column.name), column, *_unit(result.plan, column)))
         elif column.kind == "i4":
-            lines.append(f"  {column.description}: " + _listed(cases[column.name],
-                                                         lambda value: COUNTS.get(value, str(value))))
+            lines.append(f"  {column.description}: " + _listed(
+                counted(valid(column.name)), lambda value: COUNTS.get(value, str(value))))
     return lines
 
 
-def _listed(values: np.ndarray, phrase: Any) -> str:
-    kinds, counts = np.unique(values, return_counts=True)
-    return ", ".join(f"{phrase(int(kind))} ({count:,})" for kind,
-                     count in sorted(zip(kinds.tolist(), counts.tolist()), key=lambda pair: -pair[1]))
+def _listed(counts: Mapping[int, int], phrase: Any) -> str:
+    return ", ".join(f"{phrase(kind)} ({count:,})" for kind, count in _often_first(counts))
+
+
+def _often_first(counts: Mapping[int, int]) -> list[tuple[int, int]]:
+    return sorted(counts.items(), key=lambda pair: -pair[1])
 
 
 def _unit(plan: Plan, column: Column) -> Unit:
@@ -145,23 +148,28 @@ def _unit(plan: Plan, column: Column) -> Unit:
     return units_of(plan.case).of(of)
 
 
-def _range(values: np.ndarray, column: Column, of: str, item: float) -> str:
-    finite, name = np.isfinite(values), column.name.replace("_", " ")
+def _range(pieces: Iterable[np.ndarray], column: Column, of: str, item: float) -> str:
+    name = column.name.replace("_", " ")
+    least, most, negative, positive, unknown = np.inf, -np.inf, 0, 0, 0
+    for values in pieces:
+        finite = np.isfinite(values)
+        least, most = (min(least, float(values.min(where=finite, initial=np.inf))),
+                       max(most, float(values.max(where=finite, initial=-np.inf))))
+        negative, positive, unknown = (total + int(of_kind(values).sum()) for total, of_kind in (
+            (negative, np.isneginf), (positive, np.isposinf), (unknown, np.isnan)))
     (below, *_), (above, *_) = INFINITE.get(column.name, (("-∞",), ("∞",)))
     rest = [f"{phrase} at {count:,}" for phrase, count in (
-        (below, np.isneginf(values).sum()), (above, np.isposinf(values).sum()),
-        ("not known", np.isnan(values).sum())) if count]
-    ends = (list(dict.fromkeys(_in_unit(float(end), item, column.name)
-                               for end in (values.min(where=finite, initial=np.inf),
-                                           values.max(where=finite, initial=-np.inf))))
-            if finite.any() else [])
+        (below, negative), (above, positive), ("not known", unknown)) if count]
+    ends = (list(dict.fromkeys(_in_unit(end, item, column.name) for end in (least, most)))
+            if least <= most else [])
     printed = " to ".join(ends) + (f" {of}" if of else "") if ends else "no finite value"
     return f"  {name}: {printed}" + (f" ({', '.join(rest)})" if rest else "")
 
 
 def undecided(result: Swept) -> bool:
     """Whether the fate of a point is."""
-    return "fate" in result.plan.answers and bool((result.records["fate"] == Fate.UNDECIDED).any())
+    return "fate" in result.plan.answers and any((block == Fate.UNDECIDED).any()
+                                                 for block in blocks(result.records["fate"]))
 
 
 def heads(result: Swept) -> list[str]:
@@ -179,11 +187,17 @@ def heads(result: Swept) -> list[str]:
 def rows(result: Swept) -> Iterator[list[Any]]:
     """A row for every point, the last dimension fastest: what varies, then the answers, words for flags."""
     plan = result.plan
-    sampled = plan.sampled.values(0, plan.sampled.count).tolist() if plan.sampled else []
-    columns = columns_of(plan.answers)[1:]
-    for index in np.ndindex(*plan.shape):
+    columns, begin, sampled = columns_of(plan.answers)[1:], -1, []
+    for number, index in enumerate(np.ndindex(*plan.shape)):
+        if number % TOGETHER == 0:
+            given_back(result.records)
         row: list[Any] = [axis.values[n] for axis, n in zip(plan.axes, index)]
-        row += [index[-1], *sampled[index[-1]]] if plan.sampled else []
+        if plan.sampled:
+            if index[-1] // TOGETHER != begin:
+                begin = index[-1] // TOGETHER
+                sampled = plan.sampled.values(begin * TOGETHER, min((begin + 1) * TOGETHER,
+                                                                    plan.sampled.count)).tolist()
+            row += [index[-1], *sampled[index[-1] % TOGETHER]]
         for column in columns:
             value = result.records[column.name][index].tolist()
             row += (value if column.shape else [column.flags[value] if column.flags and value >= 0
@@ -202,13 +216,21 @@ def _case_of(plan: Plan) -> Any:
 
 def csv(result: Swept) -> str:
     """Every point as a line, with what limits the answers of all points beside what limits its own."""
+    return "".join(csv_pieces(result))
+
+
+def csv_pieces(result: Swept) -> Iterator[str]:
+    """The same, so many lines at a time that a large sweep needs no memory for its text."""
     case, records = _case_of(result.plan), result.records
     if CAVEATS not in columns_of(result.plan.answers):
         full = limiting.cell(case, limits_of(case, records))
-        return csv_lines([[*heads(result), CAVEATS.name], *([*row, full] for row in rows(result))])
-    every = limiting.cell(case, of_every_point(case, records))
-    return csv_lines([heads(result),
-                      *([*row, "; ".join(filter(None, (every, own)))] for *row, own in rows(result))])
+        lines = chain([[*heads(result), CAVEATS.name]], ([*row, full] for row in rows(result)))
+    else:
+        every = limiting.cell(case, of_every_point(case, records))
+        lines = chain([heads(result)], ([*row, "; ".join(filter(None, (every, own)))]
+                                        for *row, own in rows(result)))
+    while some := list(islice(lines, TOGETHER)):
+        yield csv_lines(some)
 
 
 def json(result: Swept) -> str:

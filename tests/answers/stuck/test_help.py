@@ -1,6 +1,7 @@
 """Margins, other thrusters, and wheels that only delay: what is told is checked by changing just that."""
 import json
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -289,3 +290,22 @@ def test_doubles_rank_pairs_and_miss_none_that_exact_numbers_would_list(asked, m
     assert every == few and any(len(helper.thrusters) == 2 for helper in every)
     assert judged_of_few < sum(judged) / 2
     assert len(ranked((1, 0, 0), [(("a", (-1, 0, 0)), ("b", (0, 1, 0)))], lambda *_: math.inf)) == 0
+
+
+def test_doubles_leave_as_little_torque_in_the_box_of_shares_as_exact_numbers():
+    """Random arms, some parallel, some that end inside and some on the border of the box."""
+    from stabilab.answers.stuck import ask
+    rng = np.random.default_rng(44)
+    exact = lambda rows: [tuple(map(Fraction, row)) for row in rows.tolist()]
+    inside = 0
+    for many in (1, 2):
+        torque, arms = rng.normal(size=3), rng.normal(size=(60, many, 3))
+        arms[:5, -1] = -2 * arms[:5, 0]
+        least = ask._left_in_the_box(torque, arms)
+        for rows, size in zip(arms, least):
+            (m,), rows = exact(torque[None]), exact(rows)
+            shares = ask._in_the_box(m, rows)
+            inside += len(shares) == 1 and many == 2
+            assert size == pytest.approx(min(math.hypot(*map(float, ask._left(m, rows, duty)))
+                                             for duty in shares), rel=1e-12)
+    assert 0 < inside < 55
