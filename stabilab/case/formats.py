@@ -11,6 +11,11 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 
+_ROOT = re.compile(r"\s*(?:<\?.*?\?>\s*|<!--.*?-->\s*|<!DOCTYPE[^>\[]*(?:\[.*?\])?\s*>\s*)*"
+                   r"<([A-Za-z_][\w.:-]*)", re.S)
+_APM = re.compile(r"\s*(?:COMMENT.*\n\s*)*CCSDS_APM_VERS")
+
+
 class Importer(NamedTuple):
     """Files of another program. name: with its article; holds: whether a text is one; module: of this room,
     loaded where one is read, with a function `read(text, path, body)` -> a `Craft`, or the text of a case;
@@ -32,10 +37,23 @@ def is_42(text: str) -> bool:
     return "42:" in text[:200] and "!" in text
 
 
+def root_of(text: str) -> str:
+    """The tag of the first element of an XML text, without its namespace; "" of any other text."""
+    match = _ROOT.match(text.lstrip("\ufeff"))
+    return match[1].rpartition(":")[2] if match else ""
+
+
+def is_apm(text: str) -> bool:
+    """Whether a text is a CCSDS attitude parameter message (in XML alone, or among others)."""
+    return bool(_APM.match(text.lstrip("\ufeff"))) or root_of(text) == "apm" or (
+        root_of(text) == "ndm" and "<apm" in text)
+
+
 # The first row that holds a text reads it: a new importer is a file and a row above the last, which takes all
 # others.
 IMPORTERS = (
     Importer("a NASA 42 spacecraft file", is_42, "import_42", " (SC_*.txt)", bodies=True),
+    Importer("a CCSDS attitude parameter message", is_apm, "import_apm", " (APM, KVN or XML)"),
     Importer("JSON or a Python dictionary with Basilisk's names or with the tables of a case",
              lambda text: True, "import_basilisk"))
 FORMATS = ", and ".join(importer.name + importer.files for importer in IMPORTERS)
@@ -72,14 +90,14 @@ _DICTIONARY = re.compile(r"^\w+\s*=\s*\{\s*(?:#.*\n\s*)*[\"'][^\"'\n]*[\"']\s*:"
 def seems(text: str) -> str:
     """What the text seems to be, in words; "" where nothing speaks for anything."""
     head = text.lstrip("\ufeff \t\r\n")
+    if (item := importer_of(text)) is not IMPORTERS[-1]:
+        return item.name
     if head.startswith("<"):
         tags = re.findall(r"<([A-Za-z][\w.-]*)", head[:4000])
         return next((XML[tag.lower()] for tag in tags if tag.lower() in XML), "XML")
     ccsds = re.match(r"(?:COMMENT.*\n\s*)*CCSDS_([A-Z]{3})_VERS", head)
     if ccsds:
         return f"a CCSDS {CCSDS.get(ccsds[1], 'message')} ({ccsds[1]})"
-    if (item := importer_of(text)) is not IMPORTERS[-1]:
-        return item.name
     if re.match(r"\{\s*[\"}]|\[\s*\{", head):
         return "JSON"
     if _DICTIONARY.search(head):

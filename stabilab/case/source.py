@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import CaseError, InputError, Problem, printable
 from .aliases import LISTS
-from .formats import BY_HAND, READ, seems
+from .formats import BY_HAND, IMPORTERS, READ, seems
 from .lines import KeyLines, key_lines
 from .repairs import repair
 from .table import Faults, Table, Written, described, did_you_mean, dotted
@@ -135,7 +135,7 @@ def _double(key: tuple) -> str:
 def _not_toml(message: str, text: str, line: int | None) -> Problem:
     """What a text that is no TOML seems to be, or how its line was meant."""
     format = seems(text)
-    if format == "JSON" or "42" in format:
+    if format == "JSON" or format in (importer.name for importer in IMPORTERS):
         return Problem("", f"not TOML ({message}): this seems to be {format}; `stabilab import FILE --out "
                            "case.toml` writes it as a case", line)
     if format not in ("", "YAML"):

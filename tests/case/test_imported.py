@@ -140,8 +140,8 @@ def test_a_motion_of_a_flat_dictionary_is_read_or_a_caveat(tmp_path, stabilab, n
 
 
 @pytest.mark.parametrize("text, words", [
-    ("CCSDS_APM_VERS = 2.0\nCREATION_DATE = 2026-01-01T00:00:00\nORIGINATOR = TEST\n",
-     "CCSDS attitude parameter message (APM)"),
+    ("CCSDS_OPM_VERS = 2.0\nCREATION_DATE = 2026-01-01T00:00:00\nORIGINATOR = TEST\n",
+     "CCSDS orbit parameter message (OPM)"),
     ('<?xml version="1.0"?>\n<robot name="sat"><link name="hub"/></robot>\n',
      "robot description (URDF, XML)"),
     ('<?xml version="1.0"?>\n<sdf version="1.9"><model name="sat"/></sdf>\n',
