@@ -27,7 +27,7 @@ class Importer(NamedTuple):
     files: str = ""
     bodies: bool = False
 
-    def read(self, text: str, path: Path, body: int | None = None) -> Any:
+    def read(self, text: str, path: Path, body: str | None = None) -> Any:
         """What the file says of its spacecraft. Raises InputError where that makes no case."""
         return import_module(f".{self.module}", __package__).read(text, path, body)
 
@@ -43,6 +43,11 @@ def root_of(text: str) -> str:
     return match[1].rpartition(":")[2] if match else ""
 
 
+def with_root(tag: str) -> Callable[[str], bool]:
+    """Whether a text is XML whose root has this tag."""
+    return lambda text: root_of(text) == tag
+
+
 def is_apm(text: str) -> bool:
     """Whether a text is a CCSDS attitude parameter message (in XML alone, or among others)."""
     return bool(_APM.match(text.lstrip("\ufeff"))) or root_of(text) == "apm" or (
@@ -54,6 +59,9 @@ def is_apm(text: str) -> bool:
 IMPORTERS = (
     Importer("a NASA 42 spacecraft file", is_42, "import_42", " (SC_*.txt)", bodies=True),
     Importer("a CCSDS attitude parameter message", is_apm, "import_apm", " (APM, KVN or XML)"),
+    Importer("a robot description", with_root("robot"), "import_urdf", " (URDF)", bodies=True),
+    Importer("a simulation description", with_root("sdf"), "import_sdf", " (SDFormat)", bodies=True),
+    Importer("a model of MuJoCo", with_root("mujoco"), "import_mjcf", " (MJCF)", bodies=True),
     Importer("JSON or a Python dictionary with Basilisk's names or with the tables of a case",
              lambda text: True, "import_basilisk"))
 FORMATS = ", and ".join(importer.name + importer.files for importer in IMPORTERS)
@@ -69,9 +77,8 @@ def importer_of(text: str) -> Importer:
 BY_HAND = ("write its moments as [body] inertia = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]] in kg m^2, "
            "about "
            "the centre of mass, and its rates as [motion] angular_velocity = [x, y, z]")
-XML = {"robot": "a robot description (URDF, XML)", "sdf": "a simulation description (SDF, XML)",
-       "mujoco": "a model of MuJoCo (MJCF, XML)", "ndm": "a CCSDS navigation data message (XML)",
-       "apm": "a CCSDS attitude parameter message (APM, XML)", "aem": "a CCSDS attitude ephemeris (AEM, XML)",
+XML = {"ndm": "a CCSDS navigation data message (XML)",
+       "aem": "a CCSDS attitude ephemeris (AEM, XML)",
        "html": "a page (HTML)", "svg": "a picture (SVG)", "collada": "a mesh (COLLADA, XML)"}
 CCSDS = {"APM": "attitude parameter message", "AEM": "attitude ephemeris message",
          "ACM": "attitude comprehensive message", "OPM": "orbit parameter message",

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..errors import InputError
+from ..errors import InputError, printable
 from .imported import Craft
 from .orbit_42 import Unknown, add_orbit, from_quaternion
 from .parts import ONE, Joint, Part, decimals, joined, parallel, places, rows_of, turn
@@ -48,22 +48,23 @@ class Entry(NamedTuple):
     line: int
 
 
-def read(text: str, path: Path, body: int | None = None) -> Craft:
+def read(text: str, path: Path, body: str | None = None) -> Craft:
     """What the file says of all its bodies as one, or of one of them alone, in that body's frame. Raises
     InputError where it says no inertia."""
     entries = _used(_entries(text))
     craft = Craft(_value(entries, "", "description") or "spacecraft")
     bodies = ([rows for _, rows in _blocks(entries, "body")]
               or [[e for e in entries if e.section.startswith("body")]])
-    if body is not None and not 0 <= body < len(bodies):
+    number = int(body) if body is not None and re.fullmatch(r"[0-9]+", body) else None
+    if body is not None and (number is None or number >= len(bodies)):
         raise InputError(
-            f"--body {body}: no such body; the file has "
+            f"--body {printable(body)}: no such body; the file has "
             f"{f'bodies 0 to {len(bodies) - 1}' if len(bodies) > 1 else 'body 0 alone'}")
     where = _places(entries, len(bodies), path)
-    alone, full = bodies[body or 0], body is None and len(bodies) > 1
+    alone, full = bodies[number or 0], number is None and len(bodies) > 1
     craft.rate, craft.rate_unit = _numbers(entries, "ang vel (", 3, path), "deg/s"
-    if body and craft.rate:
-        craft.rate = decimals(where[body][0] @ [Fraction(v) for v in craft.rate])
+    if number and craft.rate:
+        craft.rate = decimals(where[number][0] @ [Fraction(v) for v in craft.rate])
     if full:
         parts = [_part(rows, _at_joint(entries), path) for rows in bodies]
         if sum(part.mass for part in parts) <= 0:
@@ -74,12 +75,12 @@ def read(text: str, path: Path, body: int | None = None) -> Craft:
     else:
         _alone(craft, alone, _at_joint(entries), path)
     for block, rows in _blocks(entries, "wheel"):
-        _wheel(craft, block, rows, where, body, path)
+        _wheel(craft, block, rows, where, number, path)
     for block, rows in _blocks(entries, "thr"):
         on = _on(rows, len(bodies), path)
-        if full or on == (body or 0):
+        if full or on == (number or 0):
             _thruster(craft, block, rows, where[on] if full else None, path)
-    _relative(craft, entries, where[body or 0], path)
+    _relative(craft, entries, where[number or 0], path)
     craft.omitted += _left(entries)
     return craft
 
