@@ -2,6 +2,7 @@
 files of other programs that `stabilab import` reads."""
 from __future__ import annotations
 
+import csv
 import re
 from collections.abc import Callable
 from importlib import import_module
@@ -54,6 +55,34 @@ def is_apm(text: str) -> bool:
         root_of(text) == "ndm" and "<apm" in text)
 
 
+# of a head of a table: a moment or a product of inertia
+TABLE_HEAD = r"[ij]_?(xx|yy|zz|xy|xz|yz|yx|zx|zy|11|22|33|12|13|23|21|31|32|[xyz123])"
+
+
+def split_head(cell: str) -> tuple[str, str]:
+    """(name, unit) of the head of a column, such as "Ixx [kg m^2]"; the unit "" where there is none."""
+    match = re.fullmatch(r"\s*(.*?)\s*(?:\[(.*)\]|\((.*)\))?\s*", cell, re.S)
+    return (match[1], (match[2] or match[3] or "").strip()) if match else (cell.strip(), "")
+
+
+def cells_of(text: str) -> list[tuple[int, list[str]]]:
+    """(line, cells) of the lines of a table that are neither empty nor comments, by the mark that its head "
+      "has most
+    often."""
+    lines = [(n, line) for n, line in enumerate(text.lstrip("\ufeff").splitlines(), 1)
+             if line.strip(" ,;\t") and not line.lstrip().startswith("#")]
+    mark = max(",;\t", key=lines[0][1].count) if lines else ","
+    return [(n, next(csv.reader([line], delimiter=mark))) for n, line in lines]
+
+
+def is_table(text: str) -> bool:
+    """Whether a text is a table of which a column is a moment of inertia."""
+    lines = [line for line in text[:4000].splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    heads = re.split(r"[,;\t]", lines[0]) if lines else []
+    return len(heads) > 2 and "=" not in lines[0] and "{" not in lines[0] and any(
+        re.fullmatch(TABLE_HEAD, split_head(head.strip("\" "))[0], re.IGNORECASE) for head in heads)
+
+
 # The first row that holds a text reads it: a new importer is a file and a row above the last, which takes all
 # others.
 IMPORTERS = (
@@ -62,6 +91,7 @@ IMPORTERS = (
     Importer("a robot description", with_root("robot"), "import_urdf", " (URDF)", bodies=True),
     Importer("a simulation description", with_root("sdf"), "import_sdf", " (SDFormat)", bodies=True),
     Importer("a model of MuJoCo", with_root("mujoco"), "import_mjcf", " (MJCF)", bodies=True),
+    Importer("a table of bodies", is_table, "import_table", " (CSV)"),
     Importer("JSON or a Python dictionary with Basilisk's names or with the tables of a case",
              lambda text: True, "import_basilisk"))
 FORMATS = ", and ".join(importer.name + importer.files for importer in IMPORTERS)

@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, printable
-from .read import load_orbiting, read_text
+from .read import load_orbiting, read_all
 from .write import exact_text, plain, text_of
 
 if TYPE_CHECKING:
@@ -118,7 +118,7 @@ def faults_of(text: str, path: Path) -> list[str]:
         if "\n[circular_orbit]" in text:
             load_orbiting(text)
         else:
-            read_text(path, text)
+            read_all(os.fspath(path), text)
     except InputError as error:
         return str(error).split("\n")
     return []

@@ -143,7 +143,7 @@ def test_a_motion_of_a_flat_dictionary_is_read_or_a_caveat(tmp_path, stabilab, n
     ("CCSDS_OPM_VERS = 2.0\nCREATION_DATE = 2026-01-01T00:00:00\nORIGINATOR = TEST\n",
      "CCSDS orbit parameter message (OPM)"),
     ('<?xml version="1.0"?>\n<COLLADA version="1.4"><asset/></COLLADA>\n', "a mesh (COLLADA, XML)"),
-    ("name,Ixx,Iyy,Izz\nsat,100,120,180\n", "table of values (CSV)"),
+    ("t,x,y,z\n0,100,120,180\n", "table of values (CSV)"),
     ("body:\n  inertia: [1, 2, 3]\n  mass: 4\n", "YAML"), ("[body]\ninertia = [3, 2, 1]\n",
                                                            "a case already")])
 def test_a_file_of_another_kind_is_named_with_what_is_read(tmp_path, stabilab, text, words):
