@@ -2,6 +2,7 @@
 files of other programs that `stabilab import` reads."""
 from __future__ import annotations
 
+import csv
 import re
 from collections.abc import Callable
 from importlib import import_module
@@ -9,6 +10,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+
+_ROOT = re.compile(r"\s*(?:<\?.*?\?>\s*|<!--.*?-->\s*|<!DOCTYPE[^>\[]*(?:\[.*?\])?\s*>\s*)*"
+                   r"<([A-Za-z_][\w.:-]*)", re.S)
+_APM = re.compile(r"\s*(?:COMMENT.*\n\s*)*CCSDS_APM_VERS")
 
 
 class Importer(NamedTuple):
@@ -22,7 +28,7 @@ class Importer(NamedTuple):
     files: str = ""
     bodies: bool = False
 
-    def read(self, text: str, path: Path, body: int | None = None) -> Any:
+    def read(self, text: str, path: Path, body: str | None = None) -> Any:
         """What the file says of its spacecraft. Raises InputError where that makes no case."""
         return import_module(f".{self.module}", __package__).read(text, path, body)
 
@@ -32,10 +38,60 @@ def is_42(text: str) -> bool:
     return "42:" in text[:200] and "!" in text
 
 
+def root_of(text: str) -> str:
+    """The tag of the first element of an XML text, without its namespace; "" of any other text."""
+    match = _ROOT.match(text.lstrip("\ufeff"))
+    return match[1].rpartition(":")[2] if match else ""
+
+
+def with_root(tag: str) -> Callable[[str], bool]:
+    """Whether a text is XML whose root has this tag."""
+    return lambda text: root_of(text) == tag
+
+
+def is_apm(text: str) -> bool:
+    """Whether a text is a CCSDS attitude parameter message (in XML alone, or among others)."""
+    return bool(_APM.match(text.lstrip("\ufeff"))) or root_of(text) == "apm" or (
+        root_of(text) == "ndm" and "<apm" in text)
+
+
+# of a head of a table: a moment or a product of inertia
+TABLE_HEAD = r"[ij]_?(xx|yy|zz|xy|xz|yz|yx|zx|zy|11|22|33|12|13|23|21|31|32|[xyz123])"
+
+
+def split_head(cell: str) -> tuple[str, str]:
+    """(name, unit) of the head of a column, such as "Ixx [kg m^2]"; the unit "" where there is none."""
+    match = re.fullmatch(r"\s*(.*?)\s*(?:\[(.*)\]|\((.*)\))?\s*", cell, re.S)
+    return (match[1], (match[2] or match[3] or "").strip()) if match else (cell.strip(), "")
+
+
+def cells_of(text: str) -> list[tuple[int, list[str]]]:
+    """(line, cells) of the lines of a table that are neither empty nor comments, by the mark that its head "
+      "has most
+    often."""
+    lines = [(n, line) for n, line in enumerate(text.lstrip("\ufeff").splitlines(), 1)
+             if line.strip(" ,;\t") and not line.lstrip().startswith("#")]
+    mark = max(",;\t", key=lines[0][1].count) if lines else ","
+    return [(n, next(csv.reader([line], delimiter=mark))) for n, line in lines]
+
+
+def is_table(text: str) -> bool:
+    """Whether a text is a table of which a column is a moment of inertia."""
+    lines = [line for line in text[:4000].splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    heads = re.split(r"[,;\t]", lines[0]) if lines else []
+    return len(heads) > 2 and "=" not in lines[0] and "{" not in lines[0] and any(
+        re.fullmatch(TABLE_HEAD, split_head(head.strip("\" "))[0], re.IGNORECASE) for head in heads)
+
+
 # The first row that holds a text reads it: a new importer is a file and a row above the last, which takes all
 # others.
 IMPORTERS = (
     Importer("a NASA 42 spacecraft file", is_42, "import_42", " (SC_*.txt)", bodies=True),
+    Importer("a CCSDS attitude parameter message", is_apm, "import_apm", " (APM, KVN or XML)"),
+    Importer("a robot description", with_root("robot"), "import_urdf", " (URDF)", bodies=True),
+    Importer("a simulation description", with_root("sdf"), "import_sdf", " (SDFormat)", bodies=True),
+    Importer("a model of MuJoCo", with_root("mujoco"), "import_mjcf", " (MJCF)", bodies=True),
+    Importer("a table of bodies", is_table, "import_table", " (CSV)"),
     Importer("JSON or a Python dictionary with Basilisk's names or with the tables of a case",
              lambda text: True, "import_basilisk"))
 FORMATS = ", and ".join(importer.name + importer.files for importer in IMPORTERS)
@@ -51,9 +107,8 @@ def importer_of(text: str) -> Importer:
 BY_HAND = ("write its moments as [body] inertia = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]] in kg m^2, "
            "about "
            "the centre of mass, and its rates as [motion] angular_velocity = [x, y, z]")
-XML = {"robot": "a robot description (URDF, XML)", "sdf": "a simulation description (SDF, XML)",
-       "mujoco": "a model of MuJoCo (MJCF, XML)", "ndm": "a CCSDS navigation data message (XML)",
-       "apm": "a CCSDS attitude parameter message (APM, XML)", "aem": "a CCSDS attitude ephemeris (AEM, XML)",
+XML = {"ndm": "a CCSDS navigation data message (XML)",
+       "aem": "a CCSDS attitude ephemeris (AEM, XML)",
        "html": "a page (HTML)", "svg": "a picture (SVG)", "collada": "a mesh (COLLADA, XML)"}
 CCSDS = {"APM": "attitude parameter message", "AEM": "attitude ephemeris message",
          "ACM": "attitude comprehensive message", "OPM": "orbit parameter message",
@@ -72,14 +127,14 @@ _DICTIONARY = re.compile(r"^\w+\s*=\s*\{\s*(?:#.*\n\s*)*[\"'][^\"'\n]*[\"']\s*:"
 def seems(text: str) -> str:
     """What the text seems to be, in words; "" where nothing speaks for anything."""
     head = text.lstrip("\ufeff \t\r\n")
+    if (item := importer_of(text)) is not IMPORTERS[-1]:
+        return item.name
     if head.startswith("<"):
         tags = re.findall(r"<([A-Za-z][\w.-]*)", head[:4000])
         return next((XML[tag.lower()] for tag in tags if tag.lower() in XML), "XML")
     ccsds = re.match(r"(?:COMMENT.*\n\s*)*CCSDS_([A-Z]{3})_VERS", head)
     if ccsds:
         return f"a CCSDS {CCSDS.get(ccsds[1], 'message')} ({ccsds[1]})"
-    if (item := importer_of(text)) is not IMPORTERS[-1]:
-        return item.name
     if re.match(r"\{\s*[\"}]|\[\s*\{", head):
         return "JSON"
     if _DICTIONARY.search(head):

@@ -13,110 +13,20 @@ or about its origin (REFPT_JOINT).
 """
 from __future__ import annotations
 
-import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..errors import InputError
-from ..numbers.exact import precise
+from ..errors import InputError, printable
 from .imported import Craft
 from .orbit_42 import Unknown, add_orbit, from_quaternion
+from .parts import ONE, Joint, Part, decimals, joined, parallel, places, rows_of, turn
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-# Matrices (3, 3) and vectors (3,) are arrays of Fractions: products of these are exact.
-ONE = np.array([[Fraction(i == j) for j in range(3)] for i in range(3)])
-# of the largest number of a vector or a tensor: products of decimals and cosines do not end
-TENSOR_DIGITS = 12
-
-
-class Part(NamedTuple):
-    """A body in its own frame. mass, kg; tensor about its mass centre, kg m^2; centre, m, from its origin;
-    momentum of its wheels, N m s."""
-
-    mass: Fraction
-    tensor: np.ndarray
-    centre: np.ndarray
-    momentum: np.ndarray
-
-
-class Joint(NamedTuple):
-    """From body `inner` to `outer`. turn: components of the inner frame to those of the outer; origin: of the
-    outer body in the inner frame, m."""
-
-    inner: int
-    outer: int
-    turn: np.ndarray
-    origin: np.ndarray
-
-
-Places = dict[int, tuple[np.ndarray, np.ndarray]]
-
-
-def turn(angles: Iterable[Fraction], sequence: str) -> np.ndarray:
-    """What turns components by angles in deg about the axes of a sequence such as "312", the first first."""
-    result = ONE
-    for angle, axis in zip(angles, sequence):
-        result = _about(int(axis) - 1, angle) @ result
-    return result
-
-
-def _about(axis: int, angle: Fraction) -> np.ndarray:
-    j, k, c, s = (axis + 1) % 3, (axis + 2) % 3, _cosine(angle), _cosine(angle - 90)
-    result = ONE.copy()
-    result[j, j], result[j, k], result[k, j], result[k, k] = c, s, -s, c
-    return result
-
-
-def _cosine(angle: Fraction) -> Fraction:
-    """Of an angle in deg, exact at quarters of a turn."""
-    quarters = {0: 1, 90: 0, 180: -1, 270: 0}
-    angle %= 360
-    return (Fraction(quarters[int(angle)]) if angle in quarters
-            else precise("cos", angle * precise("pi") / 180))
-
-
-def _parallel(mass: Fraction, arm: np.ndarray) -> np.ndarray:
-    """mass (|arm|^2 I - arm arm^T): what parallel axes add to a tensor, kg m^2."""
-    return mass * (arm @ arm * ONE - np.outer(arm, arm))
-
-
-def places(joints: Sequence[Joint], count: int) -> Places:
-    """Of every body that joints tie to body 0: (what turns components of body 0 to its own, its origin in the
-    frame of body 0)."""
-    result: Places = {0: (ONE, 0 * ONE[0])}
-    for _ in range(count):  # 42 wants inner bodies first; a tree in any other order is read too
-        for joint in joints:
-            if joint.inner in result and joint.outer not in result:
-                to_inner, at = result[joint.inner]
-                result[joint.outer] = joint.turn @ to_inner, at + to_inner.T @ joint.origin
-    return result
-
-
-def joined(parts: Sequence[Part], where: Places) -> Part:
-    """The parts as one body in the frame of body 0, by parallel axes about their common mass centre. Their
-    masses are positive together."""
-    turns, origins = zip(*(where[index] for index in range(len(parts))))
-    centres = [at + turn.T @ part.centre for part, turn, at in zip(parts, turns, origins)]
-    mass = sum((part.mass for part in parts), Fraction(0))
-    centre = sum(part.mass * own for part, own in zip(parts, centres)) / mass
-    tensor = sum(turn.T @ part.tensor @ turn + _parallel(part.mass, own - centre)
-                 for part, turn, own in zip(parts, turns, centres))
-    return Part(mass, tensor, centre, sum(turn.T @ part.momentum for part, turn in zip(parts, turns)))
-
-
-def decimals(numbers: Iterable[Fraction]) -> list[str]:
-    """The numbers to so many digits of the largest of them, as a case file writes them."""
-    numbers = list(numbers)
-    largest = max(map(abs, numbers))
-    places = TENSOR_DIGITS - 1 - math.floor(math.log10(largest)) if largest else 0
-    return [f"{float(round(v, places)) + 0.0:.{TENSOR_DIGITS}g}" for v in numbers]
-
 
 _TITLE = re.compile(r"\s*([*=<]{3,})\s*(.*?)\s*[*=>]*\s*")
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
@@ -138,22 +48,23 @@ class Entry(NamedTuple):
     line: int
 
 
-def read(text: str, path: Path, body: int | None = None) -> Craft:
+def read(text: str, path: Path, body: str | None = None) -> Craft:
     """What the file says of all its bodies as one, or of one of them alone, in that body's frame. Raises
     InputError where it says no inertia."""
     entries = _used(_entries(text))
     craft = Craft(_value(entries, "", "description") or "spacecraft")
     bodies = ([rows for _, rows in _blocks(entries, "body")]
               or [[e for e in entries if e.section.startswith("body")]])
-    if body is not None and not 0 <= body < len(bodies):
+    number = int(body) if body is not None and re.fullmatch(r"[0-9]+", body) else None
+    if body is not None and (number is None or number >= len(bodies)):
         raise InputError(
-            f"--body {body}: no such body; the file has "
+            f"--body {printable(body)}: no such body; the file has "
             f"{f'bodies 0 to {len(bodies) - 1}' if len(bodies) > 1 else 'body 0 alone'}")
     where = _places(entries, len(bodies), path)
-    alone, full = bodies[body or 0], body is None and len(bodies) > 1
+    alone, full = bodies[number or 0], number is None and len(bodies) > 1
     craft.rate, craft.rate_unit = _numbers(entries, "ang vel (", 3, path), "deg/s"
-    if body and craft.rate:
-        craft.rate = decimals(where[body][0] @ [Fraction(v) for v in craft.rate])
+    if number and craft.rate:
+        craft.rate = decimals(where[number][0] @ [Fraction(v) for v in craft.rate])
     if full:
         parts = [_part(rows, _at_joint(entries), path) for rows in bodies]
         if sum(part.mass for part in parts) <= 0:
@@ -164,12 +75,12 @@ def read(text: str, path: Path, body: int | None = None) -> Craft:
     else:
         _alone(craft, alone, _at_joint(entries), path)
     for block, rows in _blocks(entries, "wheel"):
-        _wheel(craft, block, rows, where, body, path)
+        _wheel(craft, block, rows, where, number, path)
     for block, rows in _blocks(entries, "thr"):
         on = _on(rows, len(bodies), path)
-        if full or on == (body or 0):
+        if full or on == (number or 0):
             _thruster(craft, block, rows, where[on] if full else None, path)
-    _relative(craft, entries, where[body or 0], path)
+    _relative(craft, entries, where[number or 0], path)
     craft.omitted += _left(entries)
     return craft
 
@@ -182,23 +93,17 @@ def _alone(craft: Craft, rows: Sequence[Entry], at_joint: bool, path: Path):
     craft.centre = _numbers(rows, "location of mass center", 3, path)
     craft.momentum = _acting(_numbers(rows, "constant embedded momentum", 3, path))
     if at_joint and _acting(craft.centre):
-        craft.inertia, craft.products = _rows(_part(rows, at_joint, path)), None
+        craft.inertia, craft.products = rows_of(_part(rows, at_joint, path)), None
         craft.said.append("moments about the body's origin (REFPT_JOINT) are brought to its mass centre")
 
 
 def _together(craft: Craft, full: Part, count: int):
     """Several bodies as one."""
-    craft.mass, craft.inertia = decimals([full.mass])[0], _rows(full)
+    craft.mass, craft.inertia = decimals([full.mass])[0], rows_of(full)
     craft.centre, craft.momentum = decimals(full.centre), _acting(decimals(full.momentum))
     craft.said.append(f"{count} bodies are combined into one rigid body about their common mass centre, in "
                       "the frame of body 0, the joints locked as the file places them (--body N takes one "
                       "alone)")
-
-
-def _rows(part: Part) -> list:
-    """The tensor of a part, or its moments where it is diagonal."""
-    flat = decimals(part.tensor.ravel())
-    return flat[::4] if not any(float(flat[i]) for i in (1, 2, 5)) else [flat[i:i + 3] for i in (0, 3, 6)]
 
 
 def _moments(rows: Sequence[Entry], path: Path) -> list[str]:
@@ -217,7 +122,7 @@ def _part(rows, at_joint: bool, path) -> Part:
     xy, xz, yz = -_exact(rows, "products of inertia", 3, path)
     centre = _exact(rows, "location of mass center", 3, path)
     tensor = np.array([(x, xy, xz), (xy, y, yz), (xz, yz, z)])
-    return Part(mass, tensor - _parallel(mass, centre) if at_joint else tensor, centre,
+    return Part(mass, tensor - parallel(mass, centre) if at_joint else tensor, centre,
                 _exact(rows, "constant embedded momentum", 3, path))
 
 

@@ -5,11 +5,12 @@ import json
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, printable
-from .read import load_orbiting, read_text
-from .write import plain, text_of
+from .read import load_orbiting, read_all
+from .write import exact_text, plain, text_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -26,8 +27,9 @@ class Craft:
 
     inertia: three texts, or three rows of three; products: texts xy, xz, yz whose integrals are positive, or
     None; thrusters and wheels: {key of the case: text or three texts}; altitude: of a circular orbit about
-    the Earth, km; caveats: what limits every answer, in words; omitted: what has no counterpart in a
-    case, in words; said: what was done with the rest.
+    the Earth, km; attitude: 3-1-2 angles, rad; torques: {name, torque: three texts, N m, caveat: what is to
+    be said where it does not act} that act where they are stuck; caveats: what limits every answer, in words;
+    omitted: what has no counterpart in a case, in words; said: what was done with the rest.
     """
 
     title: str
@@ -41,22 +43,26 @@ class Craft:
     rate: list | None = None
     rate_unit: str = ""
     altitude: str | None = None
+    attitude: list | None = None
+    torques: list = field(default_factory=list)
     caveats: list = field(default_factory=list)
     omitted: list = field(default_factory=list)
     said: list = field(default_factory=list)
 
 
 def case_text(craft: Craft, path, stuck=()) -> str:
-    """The case as TOML. stuck: names of the thrusters that are."""
-    names = [t["name"] for t in craft.thrusters]
+    """The case as TOML. stuck: names of the thrusters, and of torques, that are."""
+    names = [t["name"] for t in (*craft.thrusters, *craft.torques)]
     for name in stuck:
         if name not in names:
             raise InputError(
-                f"--stuck {printable(name)}: no such thruster; the file has "
+                f"--stuck {printable(name)}: no such thruster{' or maneuver' * bool(craft.torques)}; the "
+                f"file has "
                 f"{', '.join(map(printable, names)) or 'none that can be used'}")
     lines = [f"title = {_text(craft.title)}",
              f"source = {_text('imported from ' + os.path.basename(os.fspath(path)))}"]
-    lines += [f"caveats = {_list(map(_text, craft.caveats))}"] if craft.caveats else []
+    caveats = [*craft.caveats, *(t["caveat"] for t in craft.torques if t["name"] not in stuck)]
+    lines += [f"caveats = {_list(map(_text, caveats))}"] if caveats else []
     lines += ["", "[body]"]
     rows = [_list(row) for row in craft.inertia] if isinstance(craft.inertia[0], list) else None
     lines.append(f"inertia = [{', '.join(rows)}]" if rows else f"inertia = {_list(craft.inertia)}")
@@ -66,15 +72,22 @@ def case_text(craft: Craft, path, stuck=()) -> str:
     lines += [f"mass = {craft.mass}"] if craft.mass else []
     lines += [f"centre_of_mass = {_list(craft.centre)}"] if craft.centre else []
     lines += ["", "[effects.gyrostat]", f"momentum = {_list(craft.momentum)}"] if craft.momentum else []
+    acting = [t["torque"] for t in craft.torques if t["name"] in stuck]
+    if acting:
+        total = [exact_text(sum(map(Fraction, parts), Fraction(0))) for parts in zip(*acting)]
+        lines += ["", "[effects.constant_torque]", f"torque = {_list(map(str, total))}"]
     for thruster in craft.thrusters:
         lines += ["", "[[thrusters]]", *_pairs(thruster),
                   *(["stuck = true"] if thruster["name"] in stuck else [])]
     for wheel in craft.wheels:
         lines += ["", "[[wheels]]", *_pairs(wheel)]
     lines += ["", "[circular_orbit]", f'altitude = "{craft.altitude} km"'] if craft.altitude else []
+    if craft.rate or craft.attitude:
+        lines += ["", "[motion]"]
     if craft.rate:
         rate = [_text(f"{v} {craft.rate_unit}") for v in craft.rate] if craft.rate_unit else craft.rate
-        lines += ["", "[motion]", f"angular_velocity = {_list(rate)}"]
+        lines.append(f"angular_velocity = {_list(rate)}")
+    lines += [f"attitude = {_list(craft.attitude)}"] if craft.attitude else []
     return "\n".join(lines) + "\n"
 
 
@@ -105,7 +118,7 @@ def faults_of(text: str, path: Path) -> list[str]:
         if "\n[circular_orbit]" in text:
             load_orbiting(text)
         else:
-            read_text(path, text)
+            read_all(os.fspath(path), text)
     except InputError as error:
         return str(error).split("\n")
     return []

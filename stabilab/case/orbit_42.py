@@ -19,6 +19,7 @@ from ..errors import InputError
 from ..numbers.exact import sqrt_fraction
 from ..numbers.units import pi
 from .imported import Craft
+from .parts import of_quaternion
 from .sections import ATTRACTION, EARTH
 from .source import source_text
 
@@ -78,12 +79,9 @@ def from_quaternion(q: Sequence[str]) -> np.ndarray:
     """What turns components of the frame to those of the body, of 42's quaternion (the scalar last), as its
     Q2C has it; exact, of any length but zero."""
     x, y, z, w = map(Fraction, q)
-    length = x * x + y * y + z * z + w * w
-    if not length:
+    if not any((x, y, z, w)):
         raise Unknown("its quaternion is zero")
-    return np.array([[x*x - y*y - z*z + w*w, 2 * (x*y + z*w), 2 * (x*z - y*w)],
-                     [2 * (x*y - z*w), y*y - x*x - z*z + w*w, 2 * (y*z + x*w)],
-                     [2 * (x*z + y*w), 2 * (y*z - x*w), z*z - x*x - y*y + w*w]]) / length
+    return of_quaternion(w, (x, y, z))
 
 
 def add_orbit(craft: Craft, path: Any, to_body: np.ndarray) -> None:

@@ -51,7 +51,7 @@ from .sections import (
     segments,
     vertical_of,
 )
-from .source import combinations, parsed, place, source_text, swept
+from .source import TOGETHER, combinations, parsed, place, source_text, swept
 from .table import OBSERVED, Faults, Table, Uncertain, described, did_you_mean, dotted, expected
 from .write import data_of_scene, plain, text_of
 
@@ -395,15 +395,18 @@ def read_all(path: str, text: str) -> list[Case]:
     result = combinations(Table((), data, faults))
     if not result:
         return [base]
-    moved = {place(data, key): ("sweep", key) for key in data["sweep"]}
+    keys = {key: values for key, values in data["sweep"].items() if key != TOGETHER}
+    moved = {place(data, key): ("sweep", key) for key in keys}
     return [replace(_built(path, text, values, Faults(faults.lines, moved), suffix),
-                    swept=_swept(data["sweep"], suffix)) for suffix, values in result]
+                    swept=_swept(keys, suffix)) for suffix, values in result]
 
 
 def _swept(sweep: Mapping[str, Any], suffix: str) -> tuple:
-    """(key, value) of a combination: "-2-1" is the second value of the first key and the first of the second.
-    """
-    return tuple((key, values[int(n) - 1]) for (key, values), n in zip(sweep.items(), suffix.split("-")[1:]))
+    """(key, value) of a combination: "-2-1" is the second value of the first key and the first of the second,
+    "-2" alone the second of every key."""
+    numbers = suffix.split("-")[1:]
+    numbers = numbers * len(sweep) if len(numbers) == 1 else numbers
+    return tuple((key, values[int(n) - 1]) for (key, values), n in zip(sweep.items(), numbers))
 
 
 def read_text(path: str | Path, text: str) -> Case:

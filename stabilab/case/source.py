@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import copy
+import math
 import os
 import re
 import stat
@@ -12,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import CaseError, InputError, Problem, printable
 from .aliases import LISTS
-from .formats import BY_HAND, READ, seems
+from .formats import BY_HAND, IMPORTERS, READ, seems
 from .lines import KeyLines, key_lines
 from .repairs import repair
 from .table import Faults, Table, Written, described, did_you_mean, dotted
@@ -135,7 +136,7 @@ def _double(key: tuple) -> str:
 def _not_toml(message: str, text: str, line: int | None) -> Problem:
     """What a text that is no TOML seems to be, or how its line was meant."""
     format = seems(text)
-    if format == "JSON" or "42" in format:
+    if format == "JSON" or format in (importer.name for importer in IMPORTERS):
         return Problem("", f"not TOML ({message}): this seems to be {format}; `stabilab import FILE --out "
                            "case.toml` writes it as a case", line)
     if format not in ("", "YAML"):
@@ -152,6 +153,7 @@ def _not_toml(message: str, text: str, line: int | None) -> Problem:
 
 
 # --- [sweep] of a case file: keys that take several values, every combination of them one case
+TOGETHER = "together"  # the key of [sweep] by which the others vary together
 MAX_COMBINATIONS = 10_000  # combinations; a sweep beyond that is a program's work, not a file's
 SWEPT = ("body", "effects", "scaled", "motion", "thrusters", "wheels", "limits")
 
@@ -161,8 +163,22 @@ def combinations(top: Table) -> list[tuple[str, dict]]:
     "-2-1": the second value of the first key, the first of the second. Faults are kept by the table."""
     paths, choices = swept(top)
     plain = {key: value for key, value in top.data.items() if key not in ("sweep", "expect")}
-    return ([("".join(f"-{i}" for i, _ in pick), _with(plain, paths, pick)) for pick in product(*choices)]
-            if paths else [])
+    if not paths:
+        return []
+    picks = zip(*choices) if is_together(top.data) else product(*choices)
+    return [(variant_of([i for i, _ in pick], is_together(top.data)), _with(plain, paths, pick))
+            for pick in picks]
+
+
+def is_together(data: Mapping[str, Any]) -> bool:
+    """Whether the keys of [sweep] vary together, one case for each value, not for each combination."""
+    table = data.get("sweep")
+    return isinstance(table, dict) and table.get(TOGETHER) is True
+
+
+def variant_of(numbers: list[int], together: bool) -> str:
+    """The suffix of a combination: the number of the value of each key, once where they vary together."""
+    return "".join(f"-{i}" for i in (numbers[:1] if together else numbers))
 
 
 def swept(top: Table) -> tuple[list[tuple], list[list]]:
@@ -173,6 +189,10 @@ def swept(top: Table) -> tuple[list[tuple], list[list]]:
         return [], []
     paths, choices = [], []
     for key, values in table.data.items():
+        if key == TOGETHER:
+            if not isinstance(values, bool):
+                table.fault(f"expected true or false, got {described(values)}", key)
+            continue
         path = place(top.data, key)
         if not isinstance(values, list) or not values:
             table.fault(f"expected a list of the values that {key} takes, got {described(values)}", key)
@@ -182,9 +202,13 @@ def swept(top: Table) -> tuple[list[tuple], list[list]]:
         else:
             paths.append(path)
             choices.append(list(enumerate(values, 1)))
-    count = 1
-    for values in choices:
-        count *= len(values)
+    counts = {len(values) for values in choices}
+    if is_together(top.data) and len(counts) > 1:
+        table.fault(f"expected as many values of each key, got {', '.join(map(str, sorted(counts)))}: with "
+                    f"together "
+                    "= true the first value of each key is one case, the second the next", TOGETHER)
+        return [], []
+    count = max(counts, default=1) if is_together(top.data) else math.prod(map(len, choices))
     if count > MAX_COMBINATIONS:
         table.fault(f"{count} combinations; at most {MAX_COMBINATIONS} are run from one file")
         return [], []

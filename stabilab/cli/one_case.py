@@ -61,15 +61,19 @@ def precision(
 @opens("one_case.import_")
 def import_(
         file: Annotated[Path, argument(
-            "FILE", "A NASA 42 spacecraft file, or JSON or a Python dictionary with Basilisk's names.")],
+            "FILE", "A NASA 42 spacecraft file, a CCSDS APM, URDF, SDFormat, MJCF, or JSON or a Python "
+            "dictionary with Basilisk's names.")],
         out: Annotated[Path | None, option("FILE.toml", "Write the case to a file.")] = None,
         stuck: Annotated[list[str] | None, option(
-            "NAME", "A thruster that is stuck open; may be repeated.")] = None,
-        body: Annotated[int | None, option(
-            "N", "Take one body alone of several in a NASA 42 file.", show_default="all, joined")] = None):
+            "NAME", "A thruster that is stuck open, or a maneuver of an APM that acts for ever; may be "
+            "repeated.")] = None,
+        body: Annotated[str | None, option(
+            "N|NAME", "Take one body alone of several: its number in a NASA 42 file, the name of a link or "
+            "body of a robot description.", show_default="all, joined")] = None):
     """Write another program's spacecraft as a case.
 
-    Several bodies on joints become one rigid body, with the joints locked in the positions of the file.
+    Several bodies on joints become one rigid body, with the joints locked in the positions of the file. An
+    angular velocity is read where the file has one.
 
     What has no counterpart in a case is listed on stderr. Exits with 2 where the case still has faults.
 

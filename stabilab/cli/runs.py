@@ -35,7 +35,10 @@ def simulate(
         attitude: Annotated[bool, flag(
             "--attitude", "Add the attitude as a quaternion, and the angular momentum in space.")] = False,
         matrix: Annotated[bool, flag("--matrix", "The same with the attitude as a rotation matrix.")] = False,
-        out: Annotated[Path | None, option("FILE.nc|.csv", "Write the states to a file.")] = None,
+        out: Annotated[Path | None, option("FILE.nc|.csv|.aem",
+            "Write the states to a file; .aem: a CCSDS attitude ephemeris, quaternions and rates.")] = None,
+        epoch: Annotated[str | None, option("DATE",
+            "The date of time 0 (TAI) in an .aem: 2026-01-01T00:00:00.")] = None,
         json: Json = False, strict: Strict = False, units: UnitsOption = None):
     """Follow a motion in time.
 

@@ -65,8 +65,8 @@ def import_(file, out, stuck, body=None):
     supplied = source_text(file)
     importer = importer_of(supplied)
     if body is not None and not importer.bodies:
-        names = " or ".join(item.name for item in IMPORTERS if item.bodies)
-        raise InputError(f"--body counts the bodies of {names}, and {printable(str(file))} is none")
+        names = ", ".join(item.name for item in IMPORTERS if item.bodies)
+        raise InputError(f"--body takes a body of one of {names}, and {printable(str(file))} is none")
     result = importer.read(supplied, file, body)
     if isinstance(result, str):
         _written(result, file, out, stuck)

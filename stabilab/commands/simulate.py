@@ -17,6 +17,7 @@ from ..show import reference as shown
 from ..show.data import as_json
 from ..show.terminal import say
 from ..show.text import headline, simulation
+from ..show.text.aem import epoch_of
 from ..theories.euler_angles import with_euler_angles
 from ..theories.follow import follow
 from ..theories.theory import theory
@@ -26,8 +27,14 @@ from .writing import all_reached, write, write_each
 
 
 def simulate(case, at, model, order, method, rtol, digits, angles, attitude, matrix, out, json, strict,
-             units):
+             units, epoch=None):
     """Follow the motion of a case, of every combination where it has a [sweep]."""
+    ephemeris = bool(out) and endings.ending(out) == ".aem"
+    if epoch and not ephemeris:
+        raise InputError("--epoch is the date of time 0 in an attitude ephemeris: give it with --out FILE.aem")
+    if ephemeris and matrix:
+        raise InputError("--matrix: an attitude ephemeris has quaternions: leave it away with --out FILE.aem")
+    moment, attitude = epoch_of(epoch) if ephemeris else None, attitude or ephemeris
     burning = load_burning(case) if fires_on_schedule(case) else None
     if burning is not None and (model != "exact" or angles or not method is rtol is order is digits is None):
         raise InputError(f"{case}: its thrusters fire on a schedule, so that it is followed from switch to "
@@ -56,7 +63,8 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, mat
         with blamed_on(item):
             runs[n] = item, with_euler_angles(item, run, model, order), reached
     if out:
-        write_each(out, [(entry, partial(simulation.write, entry, run)) for entry, run, _ in runs])
+        write_each(out, [(entry, partial(simulation.write, entry, run, epoch=moment))
+                         for entry, run, _ in runs])
     view = _view(digits)
     rows = collected(view, loaded, systems, [(answered(run, entry, run.validity), reached)
                                              for entry, run, reached in runs])

@@ -140,13 +140,10 @@ def test_a_motion_of_a_flat_dictionary_is_read_or_a_caveat(tmp_path, stabilab, n
 
 
 @pytest.mark.parametrize("text, words", [
-    ("CCSDS_APM_VERS = 2.0\nCREATION_DATE = 2026-01-01T00:00:00\nORIGINATOR = TEST\n",
-     "CCSDS attitude parameter message (APM)"),
-    ('<?xml version="1.0"?>\n<robot name="sat"><link name="hub"/></robot>\n',
-     "robot description (URDF, XML)"),
-    ('<?xml version="1.0"?>\n<sdf version="1.9"><model name="sat"/></sdf>\n',
-     "simulation description (SDF, XML)"),
-    ("name,Ixx,Iyy,Izz\nsat,100,120,180\n", "table of values (CSV)"),
+    ("CCSDS_OPM_VERS = 2.0\nCREATION_DATE = 2026-01-01T00:00:00\nORIGINATOR = TEST\n",
+     "CCSDS orbit parameter message (OPM)"),
+    ('<?xml version="1.0"?>\n<COLLADA version="1.4"><asset/></COLLADA>\n', "a mesh (COLLADA, XML)"),
+    ("t,x,y,z\n0,100,120,180\n", "table of values (CSV)"),
     ("body:\n  inertia: [1, 2, 3]\n  mass: 4\n", "YAML"), ("[body]\ninertia = [3, 2, 1]\n",
                                                            "a case already")])
 def test_a_file_of_another_kind_is_named_with_what_is_read(tmp_path, stabilab, text, words):
@@ -167,5 +164,5 @@ def test_a_new_importer_is_a_module_and_a_row(tmp_path, monkeypatch, capsys):
     import_(path, None, None)
     assert "inertia = [3, 4, 5]" in capsys.readouterr().out
     assert formats.seems("TOY 3 4 5") == "a toy"
-    with pytest.raises(InputError, match="counts the bodies of a NASA 42 spacecraft file, and .*a.toy is none"):
+    with pytest.raises(InputError, match="takes a body of .*NASA 42 spacecraft file, .*MuJoCo, and .*a.toy is none"):
         import_(path, None, None, 0)

@@ -253,10 +253,10 @@ MORE = [
     (BASE, f"{BASE}mass = 3\n", 28, "motion.mass", "it is written in [body]"),
     (BASE, '{"body": {"inertia": [3, 2, 1]}}', 1, "", "stabilab import FILE"),
     (BASE, '<?xml version="1.0"?>\n<robot name="sat"></robot>\n', 1, "",
-     "this seems to be a robot description (URDF, XML)"),
+     "this seems to be a robot description; `stabilab import FILE"),
     (BASE, "CCSDS_APM_VERS = 2.0\nCREATION_DATE = 2026-01-01T00:00:00\nORIGINATOR = TEST\n", 3, "",
      "CCSDS attitude parameter message"),
-    (BASE, "name,Ixx,Iyy,Izz\nsat,100,120,180\n", 1, "", "a table of values (CSV)"),
+    (BASE, "name,Ixx,Iyy,Izz\nsat,100,120,180\n", 1, "", "a table of bodies; `stabilab import FILE"),
 ]
 
 

@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 from decimal import ROUND_CEILING, Decimal, localcontext
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from ..data import csv_lines
 from ..results import BODILY, Variables, frame_attributes, in_file, matrix_of, of_parts, turned_to_file
 from ..terminal import lettered, written
 from ..units import DIGITS, SHORT, Units, with_unit
+from .aem import message
 
 if TYPE_CHECKING:
     from ...answers.simulate import Simulation
@@ -173,17 +174,20 @@ def _in_file(case: Case, run: Simulation) -> tuple[list[str], list[str], list]:
 
 def checked(path: Path) -> Path:
     """The path, if it can be written by its ending; InputError otherwise."""
-    path = endings.file(path, (".nc", ".csv"))
+    path = endings.file(path, (".nc", ".csv", ".aem"))
     if endings.ending(path) == ".nc":
         demand("xarray", "scipy")
     return path
 
 
-def write(case: Case, run: Simulation, path: Path) -> Path:
-    """Write a run of a case to `path` (.nc or .csv), whole or not at all. Of a full tensor NetCDF has the
+def write(case: Case, run: Simulation, path: Path, epoch: Any = None) -> Path:
+    """Write a run of a case to `path` (.nc, .csv or .aem), whole or not at all. epoch: as of "
+      "`aem.epoch_of`. Of a full tensor NetCDF has the
     vectors of the body in the frame of the file, named x, y, z, the principal axes as an attribute, and those
     along them as omega_principal and so on; CSV has both beside each other."""
     path = checked(path)
+    if endings.ending(path) == ".aem":
+        return write_text(path, message(case, run, epoch))
     if endings.ending(path) == ".csv":
         names, rows = columns(run)
         more, units, turned = _in_file(case, run)

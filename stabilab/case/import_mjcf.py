@@ -1,0 +1,189 @@
+"""A model of MuJoCo (MJCF) as a case: its bodies as one rigid body, in the frame of the outermost body.
+
+A body is placed in the one that holds it by pos and one of quat (scalar first), axisangle, xyaxes, zaxis and
+euler; its `<inertial>` has the mass centre at pos, and the moments along axes that are placed alike. Angles
+are in deg unless `<compiler angle="radian">` says otherwise; eulerseq names axes that turn with the body in
+small letters, fixed ones in capitals. Joints are where the file places the bodies (qpos0).
+"""
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from ..errors import InputError, printable
+from ..numbers.exact import precise, sqrt_fraction
+from .imported import Craft
+from .parts import ONE, cosine, of_quaternion, turn, turn_of_radians
+from .rigid_pieces import Frame, Piece, combined, piece, tensor_of, unread
+from .xml_tree import Element, fractions, tree
+
+ORIENTATIONS = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
+WORDS = {"include": "other files", "keyframe": "positions of "
+                                               "keyframes", "actuator": "actuators", "tendon": "tendons",
+         "equality": "constraints", "sensor": "sensors", "contact": "contacts", "geom": "shapes and meshes",
+         "plugin": "plugins"}
+NOT_READ = {"replicate": "copies of bodies", "attach": "bodies of other models", "composite": "composite "
+                                                                                              "bodies",
+            "flexcomp": "flexible bodies"}
+
+
+class _Compiler(NamedTuple):
+    """degrees: of angles; sequence: of Euler angles."""
+
+    degrees: bool
+    sequence: str
+
+
+def read(text: str, path: Path, body: str | None = None) -> Craft:
+    """What the model says. Raises InputError where no body, or more than one free of each other, has mass."""
+    root = tree(text, path)
+    compiler = _compiler(root)
+    worlds = [*root.all("worldbody")]
+    for element in (element for world in worlds for element in world.within() if element.tag in NOT_READ):
+        raise element.fault(f"{NOT_READ[element.tag]} are not read: save the model as MuJoCo compiled it "
+                            "(mj_saveLastXML)")
+    pieces: list[Piece] = []
+    locked: list[str] = []
+    outermost: list[tuple[str, Frame, int]] = []
+    for world in worlds:
+        for element, frame in _bodies(world, Frame(), compiler):
+            first = len(pieces)
+            _walk(element, frame, compiler, pieces, locked)
+            if any(item.part.mass for item in pieces[first:]):
+                outermost.append((element.name, frame, first))
+    if not outermost:
+        raise root.fault("no body has an <inertial>, and without mass and moments no motion can be found: "
+                         "add "
+                         '<inertial pos="..." mass="..." diaginertia="..."/> to a body (MuJoCo writes those '
+                         'that it '
+                         "finds from shapes by mj_saveLastXML)")
+    if len(outermost) > 1 and body is None:
+        raise InputError(f"{printable(str(path))}: the bodies "
+                         f"{', '.join(printable(name) for name, _, _ in outermost)} "
+                         "move freely of each other: they are no rigid body; --body NAME takes one body "
+                         "alone")
+    craft = Craft(root.attributes.get("model", "") or "model")
+    unread(craft, root, set(), WORDS)
+    return combined(craft, pieces, outermost[0][1], "body", locked, body, path)
+
+
+def _compiler(root: Element) -> _Compiler:
+    settings: dict[str, str] = {}
+    for element in root.all("compiler"):
+        settings |= element.attributes
+        if element.attributes.get("inertiafromgeom") == "true":
+            raise element.fault("the moments are those of shapes, which are not read: save the model as "
+                                "MuJoCo compiled "
+                                "it (mj_saveLastXML)", "inertiafromgeom")
+        if element.attributes.get("coordinate") == "global":
+            raise element.fault("global coordinates are not read: save the model with a newer "
+                                "MuJoCo", "coordinate")
+        for key in ("settotalmass", "balanceinertia", "boundmass", "boundinertia"):
+            value = element.attributes.get(key)
+            if value not in (None, "false", "-1", "0"):
+                raise element.fault(f"{key} changes masses or moments when MuJoCo compiles the model: save "
+                                    f"it as "
+                                    "compiled (mj_saveLastXML)", key)
+    sequence = settings.get("eulerseq", "xyz")
+    if len(sequence) != 3 or not set(sequence) <= set("xyz") and not set(sequence) <= set("XYZ"):
+        raise root.fault(f"compiler: expected eulerseq of three letters x, y, z or X, Y, Z, got {sequence}")
+    return _Compiler(settings.get("angle", "degree") != "radian", sequence)
+
+
+def _bodies(holder: Element, frame: Frame, compiler: _Compiler) -> Iterator[tuple[Element, Frame]]:
+    """(body, its frame) of the bodies right inside an element, those in <frame> too."""
+    for child in holder.children:
+        if child.tag == "body":
+            yield child, frame.then(_frame(child, compiler))
+        elif child.tag == "frame":
+            yield from _bodies(child, frame.then(_frame(child, compiler)), compiler)
+
+
+def _walk(element: Element, frame: Frame, compiler: _Compiler, pieces: list[Piece],
+          locked: list[str]) -> None:
+    """Collect a body and those inside it."""
+    locked += [joint.name or f"of {element.name or 'a body'}" for joint in element.all("joint")
+               if joint.attributes.get("type") != "free"]
+    inertial = element.one("inertial")
+    name = element.name or f"body in line {element.line}"
+    if inertial is None:
+        if any(child.tag == "geom" for child in element.children):
+            raise element.fault(f"{name}: no <inertial>; MuJoCo finds its mass and moments from its shapes, "
+                                f"which are not "
+                                "read: add <inertial>, or save the model as compiled (mj_saveLastXML)")
+        pieces.append(piece(name, "0", tensor_of(["0"] * 6), frame, frame, element))
+    else:
+        pieces.append(_piece(name, inertial, frame, compiler))
+    for child, inner in _bodies(element, frame, compiler):
+        _walk(child, inner, compiler, pieces, locked)
+
+
+def _piece(name: str, inertial: Element, frame: Frame, compiler: _Compiler) -> Piece:
+    present = [key for key in ("diaginertia", "fullinertia") if key in inertial.attributes]
+    if len(present) != 1:
+        raise inertial.fault(f"{name}: expected one of diaginertia and fullinertia, got "
+                             f"{' and '.join(present) or 'none'}")
+    if present == ["fullinertia"]:
+        numbers = inertial.attribute("fullinertia", 6)
+        if any(key in inertial.attributes for key in ORIENTATIONS):
+            raise inertial.fault(f"{name}: fullinertia is along the axes of the body: take the orientation "
+                                 f"away",
+                                 "fullinertia")
+    else:
+        numbers = [*inertial.attribute("diaginertia", 3), "0", "0", "0"]
+    inertial.attribute("pos", 3)
+    return piece(name, inertial.attribute("mass", 1)[0], tensor_of(numbers),
+                 frame.then(_frame(inertial, compiler)), frame, inertial)
+
+
+def _frame(element: Element, compiler: _Compiler) -> Frame:
+    """Where pos and the orientation of an element place it."""
+    present = [key for key in ORIENTATIONS if key in element.attributes]
+    if len(present) > 1:
+        raise element.fault(f"{' and '.join(present)} say the same thing in two ways: keep one of them")
+    origin = np.array(fractions(element.attribute("pos", 3, "0 0 0")))
+    return Frame(_turn(element, present[0], compiler) if present else ONE, origin)
+
+
+def _turn(element: Element, key: str, compiler: _Compiler) -> np.ndarray:
+    counts = {"quat": 4, "axisangle": 4, "xyaxes": 6, "zaxis": 3, "euler": 3}
+    texts = element.attribute(key, counts[key])
+    numbers = fractions(texts)
+    if not any(numbers[:3 if key == "axisangle" else len(numbers)]) and key != "euler":
+        raise element.fault("expected numbers that are not all zero", key)
+    if key == "quat":
+        return of_quaternion(numbers[0], numbers[1:])
+    if key == "euler":
+        fixed = compiler.sequence.isupper()
+        order = "".join(str("xyz".index(letter) + 1) for letter in compiler.sequence.lower())
+        if fixed:  # about fixed axes: the last first about those that turn
+            order, texts = order[::-1], texts[::-1]
+        return (turn(fractions(texts), order) if compiler.degrees else turn_of_radians(texts, order))
+    if key == "axisangle":
+        angle = numbers[3] * (1 if compiler.degrees else 180 / precise("pi"))
+        length = sqrt_fraction(sum((v * v for v in numbers[:3]), Fraction(0)))
+        half = [v / length * cosine(angle / 2 - 90) for v in numbers[:3]]
+        return of_quaternion(cosine(angle / 2), half)
+    if key == "xyaxes":
+        return _axes(element, np.array(numbers[:3]), np.array(numbers[3:]))
+    z = _unit(np.array(numbers))  # the smallest turn from (0, 0, 1)
+    if z[0] == z[1] == 0:
+        return ONE if z[2] > 0 else turn([Fraction(180)], "1")
+    return of_quaternion(1 + z[2], [-z[1], z[0], Fraction(0)])
+
+
+def _unit(vector: np.ndarray) -> np.ndarray:
+    return vector / sqrt_fraction(vector @ vector)
+
+
+def _axes(element: Element, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """The turn to axes of which x is one and y, made orthogonal, the next."""
+    if not x.any() or not np.cross(x, y).any():
+        raise element.fault("expected two directions that are not along one line", "xyaxes")
+    first = _unit(x)
+    second = _unit(y - (y @ first) * first)
+    return np.array([first, second, np.cross(first, second)])

@@ -1,0 +1,104 @@
+"""Bodies of a robot description as one rigid body: what is common to URDF, SDFormat and MJCF."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ..errors import InputError, printable
+from .imported import Craft
+from .parts import ONE, Part, decimals, full, is_positive, joined, rows_of
+from .xml_tree import Element, fractions
+
+ORIGIN = 0 * ONE[0]
+LARGEST = 12  # names in a sentence
+
+
+class Frame(NamedTuple):
+    """turn: components of the frame that all are placed in to those of this one; origin: of this one in that
+    frame, m."""
+
+    turn: np.ndarray = ONE
+    origin: np.ndarray = ORIGIN
+
+    def then(self, inner: Frame) -> Frame:
+        """A frame that is placed in this one."""
+        return Frame(inner.turn @ self.turn, self.origin + self.turn.T @ inner.origin)
+
+    def seen_from(self, other: Frame) -> Frame:
+        """The frame placed in another one."""
+        return Frame(self.turn @ other.turn.T, other.turn @ (self.origin - other.origin))
+
+
+class Piece(NamedTuple):
+    """name: of a link or body; part: about its mass centre, along the axes of `frame`, whose origin is the
+    mass centre; own: the frame of the link itself."""
+
+    name: str
+    part: Part
+    frame: Frame
+    own: Frame
+
+
+def piece(name: str, mass: str, tensor: np.ndarray, frame: Frame, own: Frame, inertia: Element) -> Piece:
+    """A piece with positive mass and moments, or with none at all; a fault of any other."""
+    kilograms, = fractions([mass])
+    empty = not kilograms and not tensor.any()
+    if kilograms < 0 or not (empty or kilograms and is_positive(tensor)):
+        raise inertia.fault(f"{name}: no body has a mass of {mass} kg with these moments: expected a "
+                            f"positive mass, "
+                            "and moments of inertia about the mass centre in kg m^2 that are positive along "
+                            "all axes")
+    return Piece(name, Part(kilograms, tensor, ORIGIN, ORIGIN), frame, own)
+
+
+def tensor_of(numbers: Sequence[str]) -> np.ndarray:
+    """xx, yy, zz, xy, xz, yz as they are written."""
+    return full(*fractions(numbers))
+
+
+def combined(craft: Craft, pieces: Sequence[Piece], root: Frame, kind: str, locked: Sequence[str],
+             body: str | None, path: object) -> Craft:
+    """The craft with these pieces as one body in the frame `root`, or with the one named `body` in its own
+    frame. locked: names of joints that may move."""
+    heavy = [item for item in pieces if item.part.mass]
+    if body is not None:
+        named = [item for item in pieces if item.name == body]
+        if not named:
+            raise InputError(f"--body {printable(body)}: no such {kind}; the file has {_names(pieces)}")
+        if not named[0].part.mass:
+            raise InputError(f"--body {printable(body)}: this {kind} has no mass; those that have one are "
+                             f"{_names(heavy)}")
+        heavy, root = named, named[0].own
+    where = dict(enumerate(item.frame.seen_from(root) for item in heavy))
+    whole = joined([item.part for item in heavy], where)  # type: ignore[arg-type]
+    craft.mass, craft.inertia = decimals([whole.mass])[0], rows_of(whole)
+    craft.centre = decimals(whole.centre)
+    if len(heavy) > 1:
+        craft.said.append(f"{len(heavy)} {'bodies' if kind == 'body' else kind + 's'} are joined into one "
+                          f"rigid body "
+                          f"about their common mass centre: {_names(heavy)} (--body NAME takes one alone)")
+    if locked and len(heavy) > 1:
+        craft.caveats.append(f"of one rigid body, with the joints of the imported file locked in the "
+                             f"position that it "
+                             f"gives: {_list(locked)}")
+    empty = [item.name for item in pieces if not item.part.mass]
+    if empty and body is None:
+        craft.said.append(f"without mass, and left out: {_list(empty)}")
+    return craft
+
+
+def _names(pieces: Sequence[Piece]) -> str:
+    return _list([item.name for item in pieces])
+
+
+def _list(names: Sequence[str]) -> str:
+    more = f" and {len(names) - LARGEST} more" if len(names) > LARGEST else ""
+    return ", ".join(map(printable, names[:LARGEST])) + more
+
+
+def unread(craft: Craft, root: Element, read: set[str], words: dict[str, str]) -> None:
+    """Name what the elements inside the root have that is not read. words: what each tag is."""
+    present = {element.tag for element in root.within()} - read
+    craft.omitted += [f"{words[tag]} (<{tag}>)" for tag in words if tag in present]

@@ -1,0 +1,115 @@
+"""A run as a CCSDS attitude ephemeris message (AEM, 504.0-B-2, KVN): quaternion and angular velocity over "
+  "time.
+
+The quaternion leads from inertial space (REF_FRAME_A) to the body (REF_FRAME_B), its scalar last; the
+angular velocity is along the axes of the body, deg/s. Both are those of the frame of the file, also where its
+tensor is not diagonal.
+"""
+from __future__ import annotations
+
+import math
+import re
+from datetime import UTC, datetime, timedelta
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...answers.simulate import Simulation
+from ...case.read import Case
+from ...errors import InputError, printable
+from ...numbers.principal import oblique
+
+DIGITS = 9  # of a second
+EPOCH = re.compile(r"\d{4}-\d{2}-\d{2}T\d{2}:\d{2}:\d{2}(\.\d{1,9})?")
+INERTIAL, BODY = "EME2000", "SC_BODY_1"
+
+
+def epoch_of(text: str | None) -> tuple[datetime, Fraction]:
+    """(whole second, rest of it) of time 0. Raises InputError."""
+    if text is None:
+        raise InputError("--epoch: an attitude ephemeris has dates: give that of time 0, as in "
+                         "--epoch 2026-01-01T00:00:00")
+    if not EPOCH.fullmatch(text):
+        raise InputError(f"--epoch: expected a date such as 2026-01-01T00:00:00 or 2026-01-01T00:00:00.5, "
+                         f"got "
+                         f"{printable(text)[:40]}")
+    whole, _, rest = text.partition(".")
+    try:
+        return datetime.fromisoformat(whole), Fraction(f"0.{rest or 0}")
+    except ValueError as error:
+        raise InputError(f"--epoch {text}: {error}") from None
+
+
+def _date(epoch: tuple[datetime, Fraction], t: float) -> str:
+    units = round((epoch[1] + Fraction(t)) * 10**DIGITS)
+    seconds, rest = divmod(units, 10**DIGITS)
+    try:
+        return f"{(epoch[0] + timedelta(seconds=seconds)).isoformat()}.{rest:0{DIGITS}d}"
+    except OverflowError:
+        raise InputError(f"--epoch: the time {t:.6g} s after it is beyond the year 9999") from None
+
+
+def message(case: Case, run: Simulation, epoch: tuple[datetime, Fraction]) -> str:
+    """The message as text. The run has its attitude as quaternions."""
+    dates = [_date(epoch, float(t)) for t in run.t]
+    if any(second <= first for first, second in zip(dates, dates[1:])) or len(dates) < 2:
+        raise InputError("an attitude ephemeris has two times or more, each later than the one before by a "
+                         "nanosecond: "
+                         "give others by --at")
+    quaternions, rates = in_the_file(case, run.state["quaternion"], run.state["omega"])
+    name = re.sub(r"\s+", " ", printable(case.title)).strip() or case.name
+    today = datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%S")
+    head = [("CCSDS_AEM_VERS", "2.0"), ("CREATION_DATE", today), ("ORIGINATOR", "STABILAB")]
+    meta = [("OBJECT_NAME", name), ("OBJECT_ID", "UNKNOWN"), ("REF_FRAME_A", INERTIAL), ("REF_FRAME_B", BODY),
+            ("TIME_SYSTEM", "TAI"), ("START_TIME", dates[0]), ("STOP_TIME", dates[-1]),
+            ("ATTITUDE_TYPE", "QUATERNION/ANGVEL"), ("ANGVEL_FRAME", BODY)]
+    space = "space is the inertial frame of the run; the attitude at time 0 is that of [motion], or identity"
+    comments = [f"COMMENT {line}" for line in (space, *(item.words for item in case.caveats))]
+    lines = [f"{date} {' '.join(f'{v:.16g}' for v in (*q, *np.degrees(w)))}"
+             for date, q, w in zip(dates, quaternions, rates)]
+    return "\n".join([*(f"{key} = {value}" for key, value in head), "", "META_START", *comments,
+                      *(f"{key} = {value}" for key, value in meta), "META_STOP", "", "DATA_START", *lines,
+                      "DATA_STOP", ""])
+
+
+def in_the_file(case: Case, quaternions: ArrayLike,
+                rates: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+    """Quaternions (n, 4) from body to space, scalar last, and rates (n, 3) along the principal axes as "
+      "those of
+    the frame of the file."""
+    quaternions, rates = np.asarray(quaternions, float), np.asarray(rates, float)
+    axes = oblique(case.frame)
+    if axes is None:
+        return quaternions, rates
+    rows = np.array([[float(v) for v in axis] for axis in axes.axes])  # of the principal axes in the file
+    turn = np.array(_quaternion(rows))  # takes the file's components to those along principal axes
+    result = _product(quaternions, turn)
+    start = case.blocks.get("attitude")
+    if start is None or tuple(start) == (0.0, 0.0, 0.0, 1.0):  # none is given: the file's axes are space's
+        result = _product(turn * [-1, -1, -1, 1], result)
+    return result, rates @ rows
+
+
+def _product(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """The rotation `second`, then `first`, of quaternions (..., 4), scalar last."""
+    a, b, c, d = np.moveaxis(first, -1, 0)
+    x, y, z, w = np.moveaxis(second, -1, 0)
+    return np.stack([d*x + a*w + b*z - c*y, d*y - a*z + b*w + c*x, d*z + a*y - b*x + c*w,
+                     d*w - a*x - b*y - c*z], axis=-1)
+
+
+def _quaternion(matrix: np.ndarray) -> tuple[float, float, float, float]:
+    """(x, y, z, w) of a rotation matrix, from its largest component (Shepperd)."""
+    m, squares = matrix, np.array([*np.diag(matrix), np.trace(matrix)])
+    n = int(np.argmax(squares))
+    if n == 3:
+        w = math.sqrt(1 + squares[3]) / 2
+        x, y, z = m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]
+        return x / (4 * w), y / (4 * w), z / (4 * w), w
+    i, j, k = n, (n + 1) % 3, (n + 2) % 3
+    result = [0.0] * 4
+    result[i] = math.sqrt(1 + m[i, i] - m[j, j] - m[k, k]) / 2
+    result[j], result[k] = ((m[i, j] + m[j, i]) / (4 * result[i]), (m[i, k] + m[k, i]) / (4 * result[i]))
+    result[3] = (m[k, j] - m[j, k]) / (4 * result[i])
+    return result[0], result[1], result[2], result[3]

@@ -1,0 +1,262 @@
+"""Robot descriptions (URDF, SDFormat, MJCF) as one rigid body: real files against matrices of 4 x 4, and faults."""
+import tomllib
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from stabilab import load
+
+FILES = Path(__file__).parent / "exchanged"
+
+
+def placed(xyz, rotation):
+    """The matrix (4, 4) that takes coordinates in a frame to those in the one it is placed in."""
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = rotation.as_matrix(), xyz
+    return matrix
+
+
+def moments(mass, tensor, at):
+    """The pseudo-inertia (4, 4) of a mass, the integral of (r, 1)(r, 1)^T dm, in the frame that `at` leads to."""
+    second = np.zeros((4, 4))
+    second[:3, :3], second[3, 3] = np.trace(tensor) / 2 * np.eye(3) - tensor, mass
+    return at @ second @ at.T
+
+
+def symmetric(xx, yy, zz, xy, xz, yz):
+    return np.array([(xx, xy, xz), (xy, yy, yz), (xz, yz, zz)])
+
+
+def about_mass_centre(J):
+    """(mass, centre, tensor) of a pseudo-inertia: no parallel axes are used."""
+    mass, centre = J[3, 3], J[:3, 3] / J[3, 3]
+    second = J[:3, :3] - mass * np.outer(centre, centre)
+    return mass, centre, np.trace(second) * np.eye(3) - second
+
+
+def numbers(text):
+    return [float(v) for v in text.split()]
+
+
+def angles(values):
+    """Angles in rad of files, in which 1.5708 is meant as a quarter turn; random ones are not so near."""
+    return [np.pi / 2 * round(v / (np.pi / 2)) if abs(v - np.pi / 2 * round(v / (np.pi / 2))) < 1e-5 else v for v in values]
+
+
+def of_urdf(root):
+    """SciPy: small letters turn about fixed axes."""
+    def origin(element):
+        at = element.find("origin")
+        return np.eye(4) if at is None else placed(numbers(at.get("xyz", "0 0 0")),
+                                                   Rotation.from_euler("xyz", numbers(at.get("rpy", "0 0 0"))))
+    parent = {joint.find("child").get("link"): joint for joint in root.findall("joint")}
+
+    def frame(name):
+        return frame(parent[name].find("parent").get("link")) @ origin(parent[name]) if name in parent else np.eye(4)
+    return sum(moments(float(item.find("mass").get("value")),
+                       symmetric(*(float(item.find("inertia").get(key)) for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz"))),
+                       frame(link.get("name")) @ origin(item))
+               for link in root.findall("link") if (item := link.find("inertial")) is not None)
+
+
+def of_sdf(root):
+    def pose(element):
+        text = element.findtext("pose") if element is not None else None
+        at = numbers(text) if text else [0] * 6
+        return placed(at[:3], Rotation.from_euler("xyz", angles(at[3:])))
+
+    def frame(link):
+        relative = link.find("pose").get("relative_to") if link.find("pose") is not None else None
+        relative = relative or link.findtext("child")  # of a joint
+        return (frame(model.find(f"*[@name='{relative}']")) if relative else np.eye(4)) @ pose(link)
+
+    def value(element, tag, otherwise):
+        text = element.findtext(tag) if element is not None else None
+        return float(text or otherwise)
+    model = next(item for item in root.iter("model") if item.findtext("static") not in ("true", "1"))
+    total = 0
+    for link in model.findall("link"):
+        item = link.find("inertial")
+        inertia = None if item is None else item.find("inertia")
+        entries = [value(inertia, key, key[1] == key[2]) for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")]
+        total = total + moments(value(item, "mass", 1), symmetric(*entries), frame(link) @ pose(item))
+    return total
+
+
+def of_mjcf(root):
+    degrees = (root.find("compiler") is None or root.find("compiler").get("angle", "degree") == "degree")
+
+    def pose(element):
+        turn = Rotation.identity()
+        if element.get("quat"):
+            turn = Rotation.from_quat(numbers(element.get("quat")), scalar_first=True)
+        if element.get("euler"):
+            turn = Rotation.from_euler("XYZ", numbers(element.get("euler")), degrees=degrees)
+        if element.get("axisangle"):
+            *axis, angle = numbers(element.get("axisangle"))
+            turn = Rotation.from_rotvec(np.array(axis) / np.linalg.norm(axis) * (np.radians(angle) if degrees else angle))
+        if element.get("zaxis"):
+            z = np.array(numbers(element.get("zaxis")))
+            z /= np.linalg.norm(z)
+            across = np.cross([0, 0, 1], z)
+            turn = Rotation.from_rotvec(across / np.linalg.norm(across) * np.arccos(z[2]))
+        if element.get("xyaxes"):
+            x, y = np.array(numbers(element.get("xyaxes"))).reshape(2, 3)
+            q, r = np.linalg.qr(np.array([x, y, np.cross(x, y)]).T)
+            turn = Rotation.from_matrix(q * np.sign(np.diag(r)))
+        return placed(numbers(element.get("pos", "0 0 0")), turn)
+
+    def of(body, frame):
+        total, item = 0, body.find("inertial")
+        if item is not None:
+            entries = (numbers(item.get("fullinertia")) if item.get("fullinertia")
+                       else [*numbers(item.get("diaginertia")), 0, 0, 0])
+            total = moments(float(item.get("mass")), symmetric(*entries), frame @ pose(item))
+        for child in body:
+            if child.tag == "body":
+                total = total + of(child, frame @ pose(child))
+        return total
+    return of(root.find("worldbody/body"), np.eye(4))
+
+
+OF = {".urdf": of_urdf, ".sdf": of_sdf, ".xml": of_mjcf}
+
+
+def read_back(text):
+    body = tomllib.loads(text)["body"]
+    tensor = np.array(body["inertia"], float)
+    return body["mass"], np.array(body["centre_of_mass"], float), np.diag(tensor) if tensor.ndim == 1 else tensor
+
+
+def compared(path, out):
+    """To the 12 digits that a case is written in, and what doubles leave."""
+    mass, centre, tensor = about_mass_centre(OF[path.suffix](ET.parse(path).getroot()))
+    got = read_back(out)
+    assert got[0] == pytest.approx(mass, rel=1e-11)
+    assert got[1] == pytest.approx(centre, abs=1e-11 * (1 + np.abs(centre).max()))
+    assert got[2] == pytest.approx(tensor, abs=2e-11 * np.abs(tensor).max())
+
+
+@pytest.mark.parametrize("name, bodies, caveats", [
+    ("07-physics.urdf", 16, 1), ("cf2x.urdf", 1, 0), ("pr2_gripper.urdf", 3, 1), ("x500_base.sdf", 5, 1),
+    ("rc_cessna.sdf", 12, 1), ("pendulum_links.sdf", 3, 2), ("a1.mjcf.xml", 13, 1), ("cf2.mjcf.xml", 1, 0),
+    ("hand.mjcf.xml", 3, 1)])
+def test_a_file_of_the_field_is_one_rigid_body(stabilab, name, bodies, caveats):
+    code, out, err = stabilab("import", FILES / name)
+    assert code == 0 and (f"{bodies} " in err and "are joined into one rigid body" in err) == (bodies > 1)
+    compared(FILES / name, out)
+    case = load(out)
+    assert len(case.caveats) >= caveats and all(item.kind == "stated" for item in case.caveats[:caveats])
+    if caveats:
+        assert "locked in the position" in case.caveats[caveats - 1].words
+
+
+def test_one_link_alone_is_in_its_own_frame(stabilab):
+    _, out, _ = stabilab("import", FILES / "a1.mjcf.xml", "--body", "trunk")
+    assert read_back(out)[0] == 4.713 and read_back(out)[1].tolist() == [0, 0.0041, -0.0005]
+    assert read_back(out)[2].tolist() == [[0.0158533, -3.66e-5, -6.11e-5], [-3.66e-5, 0.0377999, -2.75e-5],
+                                          [-6.11e-5, -2.75e-5, 0.0456542]]
+    code, _, err = stabilab("import", FILES / "a1.mjcf.xml", "--body", "tail")
+    assert code == 2 and "--body tail: no such body; the file has trunk, FR_hip" in err
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("ending", [".urdf", ".sdf", ".xml"])
+def test_random_trees_of_bodies(tmp_path, stabilab, seed, ending):
+    rng = np.random.default_rng([seed, ord(ending[1])])
+
+    def vector(n=3):
+        return " ".join(f"{v:.3f}" for v in rng.uniform(-2, 2, n))
+    bodies = []
+    for _ in range(5):  # moments of five random points: those of a body
+        points = rng.uniform(-1, 1, (5, 3))
+        t = np.round(sum(p @ p * np.eye(3) - np.outer(p, p) for p in points), 4)
+        bodies.append((f"{rng.uniform(0.5, 3):.3f}", (t[0, 0], t[1, 1], t[2, 2], t[0, 1], t[0, 2], t[1, 2])))
+    if ending == ".urdf":
+        text = "<robot name='r'>" + "".join(
+            f"<link name='l{i}'><inertial><origin xyz='{vector()}' rpy='{vector()}'/><mass value='{m}'/><inertia " + " ".join(
+                f"{key}='{v}'" for key, v in zip(("ixx", "iyy", "izz", "ixy", "ixz", "iyz"), t)) + "/></inertial></link>"
+            + (f"<joint name='j{i}' type='revolute'><parent link='l{rng.integers(i)}'/><child link='l{i}'/>"
+               f"<origin xyz='{vector()}' rpy='{vector()}'/></joint>" if i else "")
+            for i, (m, t) in enumerate(bodies)) + "</robot>"
+    elif ending == ".sdf":
+        text = "<sdf version='1.9'><model name='r'>" + "".join(
+            f"<link name='l{i}'><pose" + (f" relative_to='l{rng.integers(i)}'" if i else "") + f">{vector(6)}</pose><inertial>"
+            f"<pose>{vector(6)}</pose><mass>{m}</mass><inertia>" + "".join(
+                f"<{key}>{v}</{key}>" for key, v in zip(("ixx", "iyy", "izz", "ixy", "ixz", "iyz"), t))
+            + "</inertia></inertial></link>" + (f"<joint name='j{i}' type='ball'><parent>l{i - 1}</parent><child>l{i}</child>"
+                                                "</joint>" if i else "")
+            for i, (m, t) in enumerate(bodies)) + "</model></sdf>"
+    else:
+        turns = ["quat='{}'", "euler='{}'", "axisangle='{}'", "zaxis='{}'", "xyaxes='{}'"]
+        count = [4, 3, 4, 3, 6]
+        text = "<mujoco><worldbody>" + "".join(
+            f"<body name='b{i}' " + (f"pos='{vector()}' " + turns[i].format(vector(count[i])) if i else "") + f"><joint name='j{i}'/>"
+            f"<inertial pos='{vector()}' mass='{m}' fullinertia='" + " ".join(map(str, t)) + "'/>"
+            for i, (m, t) in enumerate(bodies)) + "</body>" * 5 + "</worldbody></mujoco>"
+    path = tmp_path / f"own{ending}"
+    path.write_text(text)
+    code, out, err = stabilab("import", path)
+    assert code == 0, err
+    compared(path, out)
+
+
+def test_fixed_axes_and_frames_of_mjcf(tmp_path, stabilab):
+    """eulerseq in capitals is about fixed axes; SciPy has them in small letters."""
+    turn = Rotation.from_euler("zxy", [20, 30, 40], degrees=True)
+    (tmp_path / "own.xml").write_text(
+        "<mujoco><compiler eulerseq='ZXY'/><worldbody><body name='a'><inertial pos='0 0 0' mass='1' diaginertia='3 2 4'/>"
+        "<frame pos='1 2 3' euler='20 30 40'><body name='b' pos='0.5 0 0'><inertial pos='0 0 0' mass='2' diaginertia='1 2 2.5'/>"
+        "</body></frame></body></worldbody></mujoco>")
+    _, out, _ = stabilab("import", tmp_path / "own.xml")
+    J = moments(1, np.diag([3.0, 2, 4]), np.eye(4)) + moments(
+        2, np.diag([1, 2, 2.5]), placed([1, 2, 3], turn) @ placed([0.5, 0, 0], Rotation.identity()))
+    assert read_back(out)[2] == pytest.approx(about_mass_centre(J)[2], abs=1e-10)
+
+
+LINK = "<link name='{}'><inertial><mass value='1'/><inertia ixx='3' iyy='2' izz='4' ixy='0' ixz='0' iyz='0'/></inertial></link>"
+JOINT = "<joint name='j' type='{}'><parent link='{}'/><child link='{}'/></joint>"
+BODY = "<body name='{}'><inertial pos='0 0 0' mass='1' diaginertia='3 2 4'/></body>"
+SDF = "<link name='{}'><inertial><mass>1</mass><inertia><ixx>3</ixx><iyy>2</iyy><izz>4</izz></inertia></inertial></link>"
+
+
+@pytest.mark.parametrize("text, line, words", [
+    ("<robot name='r'>\n<link name='a'/>\n</robot>", 1, "no link has an <inertial>"),
+    ("<robot name='r'>\n<link name='a'><inertial>\n<mass value='1'/></inertial></link></robot>", 2, "<inertia> is missing"),
+    ("<robot>\n" + LINK.format("a").replace("ixx='3'", "ixx='-3'") + "</robot>", 2, "no body has a mass of 1 kg with these"),
+    ("<robot>\n" + LINK.format("a").replace("value='1'", "value='one'") + "</robot>", 2, "<mass> value: expected a decimal"),
+    ("<robot>" + LINK.format("a") + "\n" + LINK.format("b") + "</robot>", 1, "expected one link that is no child of a joint"),
+    ("<robot>" + LINK.format("a") + "\n" + JOINT.format("fixed", "a", "c") + "</robot>", 2, "no link c"),
+    ("<robot>" + LINK.format("a") + LINK.format("b") + "\n" + JOINT.format("floating", "a", "b") + "</robot>", 2, "move freely"),
+    ("<robot>" + LINK.format("a") + LINK.format("b") + "\n" + JOINT.format("hinge", "a", "b") + "</robot>", 2, "expected a type of"),
+    ("<robot xmlns:xacro='x'>\n<xacro:macro name='m'/></robot>", 1, "this is a xacro file"),
+    ("<robot>\n<link></robot>", 2, "not well-formed XML"),
+    ("<!DOCTYPE r [<!ENTITY a 'b'>]>\n<robot/>", 1, "a document type"),
+    ("<mujoco>\n<worldbody><body name='a'/></worldbody></mujoco>", 1, "no body has an <inertial>"),
+    ("<mujoco><worldbody>\n<body name='a'><geom type='box'/></body></worldbody></mujoco>", 2, "finds its mass and moments from"),
+    ("<mujoco><worldbody>\n" + BODY.format("a").replace("diaginertia='3 2 4'", "") + "</worldbody></mujoco>", 2, "expected one of diag"),
+    ("<mujoco>\n<compiler inertiafromgeom='true'/><worldbody/></mujoco>", 2, "inertiafromgeom"),
+    ("<mujoco><worldbody>\n" + BODY.format("a").replace("name='a'", "name='a' quat='1 0 0 0' euler='0 0 0'")
+     + "</worldbody></mujoco>", 2, "in two ways"),
+    ("<sdf>\n<model name='m'><link name='a'/></model></sdf>", 2, "no link has an <inertial>"),
+    ("<sdf>\n<model name='m'/>\n<model name='n'/></sdf>", 1, "the models m, n move freely"),
+    ("<sdf><model>" + SDF.format("a") + "\n" + SDF.format("b") + "</model></sdf>", 2, "no joint ties link b"),
+    ("<sdf><model>\n" + SDF.format("a").replace("<inertial>", "<pose>1 2 3</pose><inertial>") + "</model></sdf>", 2, "six numbers"),
+    ("<sdf><model>\n" + SDF.format("a").replace("<inertial>", "<pose relative_to='q'>1 2 3 0 0 0</pose><inertial>")
+     + "</model></sdf>", 2, "no frame q"),
+    ("<sdf><model>\n" + SDF.format("a").replace("<inertial>", "<inertial auto='true'>") + "</model></sdf>", 2, "auto")])
+def test_a_fault_has_its_line_and_what_to_do(tmp_path, stabilab, text, line, words):
+    (tmp_path / "own.txt").write_text(text)
+    code, out, err = stabilab("import", tmp_path / "own.txt")
+    assert code == 2 and not out and f"own.txt:{line}: " in err and words in err and "Traceback" not in err
+    assert len(err.strip().splitlines()) == 1
+
+
+def test_bodies_that_are_free_of_each_other_are_no_rigid_body(tmp_path, stabilab):
+    (tmp_path / "own.xml").write_text("<mujoco><worldbody>" + BODY.format("a") + BODY.format("b") + "</worldbody></mujoco>")
+    code, _, err = stabilab("import", tmp_path / "own.xml")
+    assert code == 2 and "the bodies a, b move freely of each other" in err
+    assert stabilab("import", tmp_path / "own.xml", "--body", "b")[0] == 0
