@@ -165,7 +165,7 @@ class Plan:
     points, None without; answers: names of `columns.ANSWERS`; limit: options of `when`, by name; listed: of a
     plane of states those places alone (`listed.packed`), in one row; follow: how long motions are followed
     that only a run decides, as it was written; pointed: of an atlas, its directions, the only dimension
-    then."""
+    then; quick: times to a limit by runs, without a proof."""
 
     path: str
     text: str = field(repr=False)
@@ -177,6 +177,7 @@ class Plan:
     listed: str = field(default="", repr=False)
     follow: str | None = None
     pointed: Pointed | None = field(default=None, repr=False)
+    quick: bool = False
 
     @cached_property
     def data(self) -> dict[str, Any]:
@@ -285,7 +286,8 @@ class Plan:
                            "vary": self.vary, "samples": self.samples, "seed": self.seed,
                            "answers": self.answers, "limit": self.limit}
                           | pointed | {name: text for name,
-                                       text in (("listed", self.listed), ("follow", self.follow)) if text})
+                                       text in (("listed", self.listed), ("follow", self.follow),
+                                                     ("quick", self.quick)) if text})
 
     @cached_property
     def digest(self) -> str:
@@ -315,7 +317,8 @@ def from_json(text: str) -> Plan:
     rows = lambda name: tuple((key, value) for key, value in shown[name])
     pointed = pointed_from(shown["pointed"]) if "pointed" in shown else None
     return Plan(shown["path"], shown["text"], rows("vary"), shown["samples"], shown["seed"],
-                tuple(shown["answers"]), rows("limit"), shown.get("listed", ""), shown.get("follow"), pointed)
+                tuple(shown["answers"]), rows("limit"), shown.get("listed", ""), shown.get("follow"), pointed,
+                shown.get("quick", False))
 
 
 def split_keys(text: Sequence[str],
@@ -350,6 +353,12 @@ def planned(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Seque
             request in (vary.items() if isinstance(vary, Mapping) else vary)]
     plan = Plan(path, text, tuple(rows), samples, seed, asked_answers(answer),
                 tuple((k, v) for k, v in limit.items() if v is not None), follow=follow)
+    _judge(plan)
+    return plan
+
+
+def judged(plan: Plan) -> Plan:
+    """The plan, once every part of it is checked. Raises InputError with what is wrong."""
     _judge(plan)
     return plan
 
