@@ -312,8 +312,8 @@ def fires_on_schedule(path: str | os.PathLike[str]) -> bool:
 
 def load_burning(given: Any) -> Burning:
     """The case, or that of a file, a text of several lines or a dict, whose thrusters fire on a schedule
-    (start, stop, period, duty, on_time, propellant, mass_flow), for `burn`. Where none does, the stuck ones
-    fire from 0 on. Raises CaseError as `load` does."""
+    (start, stop, period, duty, on_time, profile, propellant, mass_flow), for `burn`. Where none does, the
+    stuck ones fire from 0 on. Raises CaseError as `load` does."""
     path, text, data, faults = _stated(given, "load_burning")
     if not _scheduled(data, faults) and isinstance(declared := data.get("thrusters"), list):
         data = data | {"thrusters": [_from_start(item) for item in declared]}

@@ -63,7 +63,8 @@ HOMES = {word: home for home, value in {
     "[[wheels]], or as [effects.gyrostat]": ("momentum", "wheel", "gyrostat"),
     "[effects.constant_torque]": ("torque", "constant_torque"),
     "[[thrusters]]": ("force", "position", "direction", "thruster", "stuck", "misalignment",
-                      "force_tolerance", "stop", "duty", "on_time", "propellant", "mass_flow"),
+                      "force_tolerance", "stop", "duty", "on_time", "propellant", "mass_flow",
+                      "profile"),
     "[[wheels]]": ("axis", "speed"),
     "[effects.gravity]": ("weight",),
     "[effects] of its own, such as [effects.resistance]": ("coefficient",),
@@ -229,6 +230,20 @@ class Table:
             return None
         read = [[self._exact(item, key, i, j) for j, item in enumerate(row)] for i, row in enumerate(value)]
         return None if any(None in row for row in read) else tuple(map(tuple, read))
+
+    def entry(self, key: str, row: int, place: int, share: bool = False) -> Fraction | None:
+        """One exact number of the rows of a list. share: of a whole, without a unit or in per cent."""
+        value = self.data[key][row][place]
+        if not share:
+            return self._exact(value, key, row, place)
+        try:
+            if isinstance(value, str) and not isinstance(value, Written) and value.strip().endswith("%"):
+                return exact(value.strip()[:-1].strip()) / 100
+            text = isinstance(value, str) and not isinstance(value, Written)
+            return exact(value) if text else _number(value)
+        except InputError as error:
+            self.fault(f"row {row + 1}, number {place + 1}: {error}", key)
+            return None
 
     def vector(self, key: str) -> Exact3 | None:
         """Three exact numbers."""
