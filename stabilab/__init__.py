@@ -36,6 +36,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .case.source import example as example
     from .errors import InputError as InputError
     from .maps.bifurcation.ask import bifurcation as bifurcation
+    from .maps.percentiles import percentiles as percentiles
     from .orbit.result import Fate as Fate
     from .papers.report import report as report
     from .physics.effects.body_force import BodyForce as BodyForce
@@ -90,7 +91,8 @@ _HOME = {
     "WheelMotor": "physics.effects.wheel_motor",
     "derive": "answers.motions.scenes", "validity": "answers.motions.scenes",
     "plot": "show", "sweep": "show.maps.sweep", "atlas": "show.maps.atlas",
-    "basin": "show.maps.basins", "bifurcation": "maps.bifurcation.ask", "InputError": "errors",
+    "basin": "show.maps.basins", "bifurcation": "maps.bifurcation.ask",
+    "percentiles": "maps.percentiles", "InputError": "errors",
 }
 __all__ = [*_HOME, "__version__"]
 

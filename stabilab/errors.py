@@ -33,6 +33,7 @@ class Kind(StrEnum):
     UNSTABLE = "unstable"
     TOLERANCE = "tolerance"
     MISALIGNMENT = "misalignment"
+    DISTRIBUTION = "distribution"
 
 
 @dataclass(frozen=True)

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from .answers.when import Crossings
     from .case.given import Amount, Given, Span, Start, Starts
     from .equilibrium.result import Equilibria
+    from .maps.percentiles import Percentiles
     from .orbit.result import Motion
 
 
@@ -130,6 +131,18 @@ class Case(read.Case):
         """What the stuck thrusters do, and what helps: see `stabilab.stuck`."""
         from .answers.stuck.ask import stuck
         return stuck(self, all_thrusters, progress, state=state, span=span, tilt=tilt, frame=frame)
+
+    @_in_doubles
+    def percentiles(self, samples: int = 1000, seed: int = 1, *, rate: Amount | None = None,
+                    component: str | None = None, energy: Amount | None = None, tilt: str | None = None,
+                    until: Amount | None = None, below: Amount | None = None, nutation: str | None = None,
+                    nutation_below: str | None = None, largest: bool = True, workers: int | None = None,
+                    state: Start | None = None, span: Span | None = None) -> Percentiles:
+        """Percentiles over the uncertain numbers: see `stabilab.percentiles`."""
+        from .maps.percentiles import percentiles
+        return percentiles(self, samples, seed, rate=rate, component=component, energy=energy, tilt=tilt,
+                           until=until, below=below, nutation=nutation, nutation_below=nutation_below,
+                           largest=largest, workers=workers, state=state, span=span)
 
     @_in_doubles
     def burn(self, stop: Amount | None = None, below: Amount | None = None) -> Burned:

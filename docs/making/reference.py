@@ -18,7 +18,7 @@ GROUPS = {
                                  "spin_up", "stuck", "burn", "flat_spin", "chaos", "when", "time_to",
                                  "TimeTo", "validity"),
     "Questions about all motions": ("equilibria", "circular_orbit", "separatrix"),
-    "Many cases at once": ("sweep", "atlas", "basin", "bifurcation"),
+    "Many cases at once": ("sweep", "percentiles", "atlas", "basin", "bifurcation"),
     "Motions in time": ("trajectory", "ensemble", "simulate", "compare", "theory", "derive"),
     "Errors": ("InputError",),
 }

@@ -94,6 +94,7 @@ KEYS: dict[str, dict[str, str]] = {
     | dict.fromkeys(("toff", "closes", "end", "stoptime", "close"), "stop")
     | dict.fromkeys(("dutycycle", "dutyratio", "pwm"), "duty")
     | dict.fromkeys(("pulse", "pulsewidth", "ontime", "width"), "on_time")
+    | dict.fromkeys(("thrustprofile", "thrustcurve", "levels", "throttle"), "profile")
     | dict.fromkeys(("fuel", "fuelmass", "propellantmass"), "propellant")
     | dict.fromkeys(("mdot", "flow", "massflow", "massflowrate"), "mass_flow"),
     "wheels": dict.fromkeys(("direction", "dir", "spinaxis", "gshatb", "vector", "orientation"), "axis")

@@ -28,7 +28,8 @@ from ..physics.scene import INSIDE, ROUNDING, Body, along_principal_axes, slack_
 from ..reasons import Length, Sentence
 from . import sections
 from .aliases import shown
-from .table import Faults, Table, Uncertain, Written, described, plus_minus, states_uncertainty
+from .table import Faults, Table, Written, described
+from .uncertain import NORMAL, SIGMAS, Stated, Uncertain, states_uncertainty, uncertain_number
 
 # --- [body] of a case file: moments, a full tensor, or moments beside products of inertia; mass and centre
 # of mass
@@ -131,7 +132,8 @@ def _possible(table: Table, moments: Sequence[Fraction]) -> bool:
     for index, moment in enumerate(moments):
         supplied = table.faults.uncertain.get(table.path + ("inertia", index))
         if supplied and moment <= supplied.half:
-            table.fault(f"number {index + 1}: the uncertainty reaches moments down to "
+            size = "the uncertainty" if supplied.law != NORMAL else f"{SIGMAS} sigma"
+            table.fault(f"number {index + 1}: {size} reaches moments down to "
                         f"{float(moment - supplied.half)!r}; no rigid body has these: "
                         "make it smaller", "inertia", index)
             return False
@@ -156,7 +158,7 @@ def _half(value: object) -> Fraction:
     if not isinstance(value, str) or isinstance(value, Written):
         return half_unit(value)
     if states_uncertainty(value):
-        return plus_minus(value, INERTIA)[1]
+        return uncertain_number(value, INERTIA).half
     return half_digit(value, INERTIA)
 
 
@@ -327,7 +329,8 @@ def _thruster(table: Table, otherwise: str, centre: Exact3) -> Thruster | None:
                               direction="add that of its force on the body, three numbers, any length",
                               force='add its size, such as force = "1 N"')
     position, direction = table.vector("position"), _direction(table, "direction")
-    force, tolerance = _force(table)
+    force, declared = _force(table)
+    tolerance = declared and declared.half
     angle = table.positive("misalignment", zero=True)
     if angle is not None and 2 * angle >= pi():
         table.fault(f"expected the half-angle of a cone below 90 deg, got "
@@ -339,7 +342,8 @@ def _thruster(table: Table, otherwise: str, centre: Exact3) -> Thruster | None:
     if tolerance and (stuck or burn):  # the torque of a thruster that does not fire is certain: there is none
         path, supplied = (*table.path, "force"), table.data.get("name")
         label = supplied if isinstance(supplied, str) else table.path[-1] + 1
-        table.faults.uncertain[path] = Uncertain(path, force, tolerance, f"thrusters.{label}.force")
+        table.faults.uncertain[path] = Uncertain(path, force, tolerance, f"thrusters.{label}.force",
+                                                 declared.law, declared.sigma)
     raw, length = direction
     arm = tuple(p - c for p, c in zip(position, centre))
     torque = tuple(force * t / length for t in crossed(arm, raw))
@@ -348,11 +352,12 @@ def _thruster(table: Table, otherwise: str, centre: Exact3) -> Thruster | None:
 
 
 def _force(table: Table):
-    """(force, its tolerance or None), N; None for a force that is at fault."""
-    text, tolerance = table.data.get("force"), None
-    if isinstance(text, str) and states_uncertainty(text):
+    """(force, N, None where it is at fault; what is stated of its tolerance or distribution, or None)."""
+    text, number = table.data.get("force"), None
+    if isinstance(text, str) and not isinstance(text, Written) and states_uncertainty(text):
         try:
-            force, tolerance, _ = plus_minus(text, FORCE)
+            number = uncertain_number(text, FORCE)
+            force, tolerance = number.middle, number.half
         except InputError as error:
             table.fault(str(error), "force")
             return None, None
@@ -361,17 +366,19 @@ def _force(table: Table):
     else:
         force = table.number("force")
         tolerance = _tolerance(table, force)
+        number = None if tolerance is None else Stated(force or Fraction(0), tolerance, True)
     if force is not None and force <= 0:
         table.fault(
             f"expected a positive force, got {float(force):.6g} N; turn the direction round for a force the "
             f"other way", "force")
         return None, None
     if force is not None and tolerance is not None and tolerance >= force:
-        table.fault(f"expected a tolerance below the force, {float(force):.6g} N, got {float(tolerance):.6g} "
+        what = f"{SIGMAS} sigma" if number.law == NORMAL else "a tolerance"
+        table.fault(f"expected {what} below the force, {float(force):.6g} N, got {float(tolerance):.6g} "
                     f"N: the force would have no sure direction",
                     "force_tolerance" if "force_tolerance" in table else "force")
         return None, None
-    return force, tolerance
+    return force, number
 
 
 def _tolerance(table: Table, force: Fraction | None):

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
@@ -19,7 +19,7 @@ from ..physics.coefficients import Scaling, to_scaled, torque_from_mu
 from ..physics.effects import REGISTRY, effect_class
 from ..physics.effects.base import Effect, effect_words
 from ..physics.scene import INSIDE, Body, ScaledGyrostat, Scene
-from ..reasons import Reason, Sentence
+from ..reasons import Quantity, Reason, Sentence, chained
 from ..validation import came, checked_span
 from .aliases import cure_of_key, cure_of_units
 from .body import (
@@ -39,6 +39,7 @@ from .body import (
     turned_motion,
     wheels_of,
 )
+from .correlations import correlations_of
 from .far import in_doubles
 from .lines import KeyLines, key_lines
 from .sections import (
@@ -52,13 +53,14 @@ from .sections import (
     vertical_of,
 )
 from .source import TOGETHER, combinations, parsed, place, source_text, swept
-from .table import OBSERVED, Faults, Table, Uncertain, described, did_you_mean, dotted, expected
+from .table import OBSERVED, Faults, Table, described, did_you_mean, dotted, expected
+from .uncertain import BEYOND, NORMAL, SIGMAS, Correlation, Uncertain
 from .write import data_of_scene, plain, text_of
 
 # --- A case file: a body, its effects and one motion, read from TOML; every fault with file, line and key
 TABLES = ("title", "source", "caveats", "body", "effects", "thrusters", "wheels", "limits", "circular_orbit",
           "scaled",
-          "motion", "output", "expect", "sweep")
+          "motion", "correlations", "output", "expect", "sweep")
 SYSTEMS = ("deg", "deg/day", "rpm", "rev/s", "si")  # of units in which text is printed
 STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
 # key: block
@@ -73,6 +75,13 @@ TILTS = Sentence("misalignment-not-looked-at", "the misalignment of {thrusters} 
                  "stabilab fate and stabilab when look at it")
 MIDDLES = Caveat(Kind.UNCERTAIN, Sentence(
     "of-the-middles", "of the middles of the uncertain numbers; stabilab fate says what their box does")())
+NORMALS = Sentence(
+    "normal-numbers", "{keys}: normal; what is said of all values of the uncertain numbers is said of those "
+    "within {sigmas} sigma, beyond which at most {percent} % of the draws lie")
+CORRELATED = Sentence(
+    "correlated-numbers", "correlations of uncertain numbers ({pairs}) count in samples (--samples); what is "
+    "said of all values holds for every correlation")
+PAIR = Sentence("correlated-pair", "{first} with {second}: {value}")
 NO_CENTRE = Sentence("no-centre-of-mass",
                      "the file gives no centre_of_mass: thrusters are placed from it")()
 STATED = Sentence("stated-by-the-file", "{statement}")
@@ -104,7 +113,7 @@ class Case:
     to read answers (empty where the file does not say); swept: (key, value as written) of every key of
     [sweep].
     caveats: what the file itself says that limits every answer. observed: whether the start is stated by
-    periods, or by spin and nutation, from which the state was found.
+    periods, or by spin and nutation, from which the state was found. correlations: of uncertain numbers.
     """
 
     path: str = field(compare=False)
@@ -133,6 +142,7 @@ class Case:
     swept: tuple[tuple[str, Any], ...] = ()
     caveats: tuple[Caveat, ...] = ()
     observed: bool = False
+    correlations: tuple[Correlation, ...] = ()
 
     def __eq__(self, other: object) -> bool:
         """By what it holds, whether it has methods or not."""
@@ -302,8 +312,8 @@ def fires_on_schedule(path: str | os.PathLike[str]) -> bool:
 
 def load_burning(given: Any) -> Burning:
     """The case, or that of a file, a text of several lines or a dict, whose thrusters fire on a schedule
-    (start, stop, period, duty, on_time, propellant, mass_flow), for `burn`. Where none does, the stuck ones
-    fire from 0 on. Raises CaseError as `load` does."""
+    (start, stop, period, duty, on_time, profile, propellant, mass_flow), for `burn`. Where none does, the
+    stuck ones fire from 0 on. Raises CaseError as `load` does."""
     path, text, data, faults = _stated(given, "load_burning")
     if not _scheduled(data, faults) and isinstance(declared := data.get("thrusters"), list):
         data = data | {"thrusters": [_from_start(item) for item in declared]}
@@ -416,7 +426,8 @@ def read_text(path: str | Path, text: str) -> Case:
 
 def with_data(path: str, text: str, data: dict) -> Case:
     """The case in TOML data that is the text's but for numbers that were put in; its faults are
-    reported as of the text."""
+    reported as of the text. Numbers that were put in are certain, so that correlations are left out."""
+    data = {key: value for key, value in data.items() if key != "correlations"}
     return _built(path, text, data, Faults(key_lines(text)))
 
 
@@ -447,6 +458,7 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
     span = _span(motion, variables, scaling)
     _judge_burns(top, burning)
     judge_orbit(top, physical.effects if physical else (), orbiting)
+    correlations = correlations_of(top, tuple(faults.uncertain.values()))
     if faults.problems:
         raise CaseError(path, faults.ordered())
     return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect,
@@ -455,12 +467,14 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
                 craft.thrusters, craft.wheels, craft.limits,
                 tuple(dict.fromkeys(map(dotted, sorted(faults.inexact, key=str)))),
                 (*craft.assumed, *taken), units, observed=motion.state_key in OBSERVED,
+                correlations=correlations,
                 caveats=(*(Caveat(Kind.STATED, STATED(statement=item)) for item in declared),
                          *(physical.body.caveats if physical else ()),
                          *(far_off(physical.body, craft.thrusters) if physical else ()),
                          *(caveat for effect in scene.effects for caveat in effect.caveats),
                          *_silent(craft.thrusters),
-                         *_middles(tuple(faults.uncertain.values()), craft.thrusters)))
+                         *_middles(tuple(faults.uncertain.values()), craft.thrusters),
+                         *_distributed(tuple(faults.uncertain.values()), correlations)))
 
 
 def _silent(thrusters: tuple[Thruster, ...]) -> tuple[Caveat, ...]:
@@ -479,6 +493,18 @@ def _middles(uncertain: tuple[Uncertain, ...], thrusters: tuple[Thruster, ...]) 
     return [*([MIDDLES] if len(uncertain) > len(sized) else []),
             *(Caveat(kind, sentence(thrusters=names)) for kind, sentence, names in (
                 (Kind.TOLERANCE, SIZES, sized), (Kind.MISALIGNMENT, TILTS, tilts)) if names)]
+
+
+def _distributed(uncertain: tuple[Uncertain, ...], correlations: tuple[Correlation, ...]) -> Iterator[Caveat]:
+    """How far the box of normal numbers reaches, and what correlations count for."""
+    normal = tuple(item.key for item in uncertain if item.law == NORMAL)
+    if normal:
+        outside = Quantity(100 * BEYOND * len(normal), digits=3).upper
+        yield Caveat(Kind.DISTRIBUTION, NORMALS(keys=normal, sigmas=SIGMAS, percent=outside))
+    if correlations:
+        pairs = [PAIR(first=row.first, second=row.second, value=Quantity(float(row.value), digits=6))
+                 for row in correlations]
+        yield Caveat(Kind.DISTRIBUTION, CORRELATED(pairs=chained(*pairs, joint=", ")))
 
 
 def _units(output: Table | None) -> str:

@@ -5,8 +5,8 @@ Attitude at t = 0: its angles and its vertical must agree.
 [circular_orbit]: the orbit of a satellite, by its rate, its period, or its height or radius about the
 Earth.
 
-Burns: when a thruster of a case file fires, as `start`, `stop`, pulses (`period` with `duty` or `on_time`)
-and `propellant` with its `mass_flow` say it; exact times."""
+Burns: when a thruster of a case file fires, as `start`, `stop`, pulses (`period` with `duty` or `on_time`),
+`profile` and `propellant` with its `mass_flow` say it; exact times."""
 from __future__ import annotations
 
 import math
@@ -19,7 +19,7 @@ from ..numbers.units import pi
 from ..numbers.vectors import Float3
 from ..physics.effects.base import Effect
 from ..physics.scene import AnyScene, ordered
-from .table import Table
+from .table import Table, described
 
 # --- The attitude at t = 0
 SLACK = 1e-6  # of a component: a direction given to six decimals is consistent
@@ -122,7 +122,8 @@ def rate_squared(table: Table) -> Fraction | None:
 
 
 # --- Burns
-BURN_KEYS = ("start", "stop", "period", "duty", "on_time", "propellant", "mass_flow")
+BURN_KEYS = ("start", "stop", "period", "duty", "on_time", "propellant", "mass_flow",
+             "profile")
 PULSES = 10_000  # pulses: each is a run of its own
 BURN_ONLY = ("this thruster fires on a schedule, and this question takes a torque that never changes: ask "
         "`stabilab burn` (stabilab.burn), or take away its keys {} and write stuck = true for one that fires "
@@ -133,7 +134,8 @@ BURN_ONLY = ("this thruster fires on a schedule, and this question takes a torqu
 class Burn:
     """start, stop: s, from the time of the motion's start; stop None: none is given. period, on: s, of
     pulses, each `on` long; None: it fires without a pause. propellant: kg, None: without end; mass_flow:
-    kg/s while it fires, or None."""
+    kg/s while it fires with its full force, or None. profile: (s from `start`, share of the force from then
+    on), in order of time, () for the full force."""
 
     start: Fraction
     stop: Fraction | None
@@ -141,11 +143,33 @@ class Burn:
     on: Fraction | None
     propellant: Fraction | None
     mass_flow: Fraction | None
+    profile: tuple[tuple[Fraction, Fraction], ...] = ()
 
     @property
     def endless(self) -> bool:
         """Whether nothing in the file ends it."""
-        return self.stop is None and self.propellant is None
+        off = bool(self.profile) and not self.profile[-1][1]
+        return self.stop is None and self.propellant is None and not off
+
+    def steps(self, until: Fraction | None = None) -> Iterator[tuple[Fraction, Fraction, Fraction]]:
+        """(from, to, share of the force) while it fires, s, in order; until: as of `windows`."""
+        if not self.profile:
+            yield from ((opens, closes, Fraction(1)) for opens, closes in self.windows(until))
+            return
+        end = min((t for t in (self.stop, until) if t is not None), default=None)
+        left = None if self.propellant is None or not self.mass_flow else self.propellant / self.mass_flow
+        after = [begin for begin, _ in self.profile[1:]]
+        for (begin, level), following in zip(self.profile, [*after, None]):
+            opens = self.start + begin
+            ends = [end, None if following is None else self.start + following,
+                    None if left is None or not level else opens + left / level]
+            closes = min((t for t in ends if t is not None), default=None)
+            if not level:
+                continue
+            if closes is None or closes <= opens:  # closed, used up, or a burn without end that needs `until`
+                return
+            yield opens, closes, level
+            left = None if left is None else left - level * (closes - opens)
 
     def windows(self, until: Fraction | None = None) -> Iterator[tuple[Fraction, Fraction]]:
         """(opens, closes) of each pulse, s, in order; until: it is closed then. A burn without end needs it.
@@ -173,27 +197,31 @@ class Burn:
 
 
 class Segment(NamedTuple):
-    """From `begin` to `end`, s, the thrusters of these indices fire and no other."""
+    """From `begin` to `end`, s, the thrusters of these indices fire, with these shares of their forces, and
+    no other."""
 
     begin: Fraction
     end: Fraction
     firing: tuple[int, ...]
+    levels: tuple[Fraction, ...]
 
 
 def segments(burns: Sequence[Burn | None], until: Fraction | None = None) -> list[Segment]:
     """From time 0 to the last closing: which of the thrusters fire, between exact switching times. A thruster
     without a burn is None."""
-    windows = [(*window, n) for n, burn in enumerate(burns) if burn for window in burn.windows(until)]
-    switches = sorted({Fraction(0), *(t for opens, closes, _ in windows for t in (opens, closes))})
-    firing: dict[Fraction, set[int]] = {t: set() for t in switches}
-    opening = sorted(windows)
-    active: list[tuple[Fraction, Fraction, int]] = []
+    steps = [(opens, closes, n, level) for n, burn in enumerate(burns) if burn
+             for opens, closes, level in burn.steps(until)]
+    switches = sorted({Fraction(0), *(t for opens, closes, *_ in steps for t in (opens, closes))})
+    firing: dict[Fraction, dict[int, Fraction]] = {t: {} for t in switches}
+    opening = sorted(steps)
+    active: list[tuple[Fraction, Fraction, int, Fraction]] = []
     for t in switches:
         while opening and opening[0][0] <= t:
             active.append(opening.pop(0))
         active = [item for item in active if item[1] > t]
-        firing[t] = {n for _, _, n in active}
-    return [Segment(a, b, tuple(sorted(firing[a]))) for a, b in zip(switches, switches[1:])]
+        firing[t] = {n: level for _, _, n, level in sorted(active, key=lambda item: item[2])}
+    return [Segment(a, b, tuple(firing[a]), tuple(firing[a].values()))
+            for a, b in zip(switches, switches[1:])]
 
 
 def burn_of(table: Table) -> Burn | None:
@@ -209,6 +237,7 @@ def burn_of(table: Table) -> Burn | None:
         table.fault(f"the burn stops at {float(stop):.6g} s and starts at {float(start):.6g} s: give a stop "
                     f"after the start", "stop")
     period, on = _pulses(table)
+    profile = _profile(table)
     flow, mass = table.positive("mass_flow"), table.positive("propellant")
     if "propellant" in table and "mass_flow" not in table:
         table.fault('propellant without a mass flow says nothing of when it is used up: add mass_flow, such '
@@ -218,7 +247,7 @@ def burn_of(table: Table) -> Burn | None:
                     f"({', '.join(supplied)})", "stuck")
     if len(table.faults.problems) > before:
         return None
-    burn = Burn(start, stop, period, on, mass, flow)
+    burn = Burn(start, stop, period, on, mass, flow, profile)
     if burn.pulses() > PULSES:
         table.fault(f"{float(burn.pulses()):.6g} pulses are more than the {PULSES} that are followed one by "
                     f"one: give a longer period, or the mean force without pulses", "period")
@@ -246,3 +275,43 @@ def _pulses(table: Table) -> tuple[Fraction | None, Fraction | None]:
                     f"expected at most the period, {float(period):.6g} s, got {float(value):.6g} s", key)
         return None, None
     return (None, None) if on == period else (period, on)
+
+
+def _profile(table: Table) -> tuple[tuple[Fraction, Fraction], ...]:
+    """The levels of `profile`, each with the time from which it holds, s; () without one, and where it is at
+    fault."""
+    if "profile" not in table:
+        return ()
+    rows = table.data["profile"]
+    if (not isinstance(rows, list) or not rows
+            or not all(isinstance(row, list) and len(row) == 2 for row in rows)):
+        table.fault("expected pairs of a time and the share of the force from then on, such as "
+                    f'[["0 s", 1], ["2 s", 0.4], ["5 s", 0]], got {described(rows)}', "profile")
+        return ()
+    before = len(table.faults.problems)
+    if len(rows) > PULSES:
+        table.fault(f"{len(rows)} levels are more than the {PULSES} that are followed one by one", "profile")
+    pulses = [key for key in ("period", "duty", "on_time") if key in table]
+    if pulses:
+        table.fault(f"a profile says when it fires by itself: take away {', '.join(pulses)}", "profile")
+    times = [table.entry("profile", n, 0) for n in range(len(rows))]
+    levels = [table.entry("profile", n, 1, share=True) for n in range(len(rows))]
+    result: list[tuple[Fraction, Fraction]] = []
+    for n, (time, level) in enumerate(zip(times, levels), 1):
+        if time is None or level is None:
+            continue
+        if n == 1 and time:
+            table.fault(f"row 1: times count from the opening: expected 0, got {float(time):.6g} s; give the "
+                        "opening as start", "profile")
+        if result and time <= result[-1][0]:
+            table.fault(f"row {n}: expected a time after {float(result[-1][0]):.6g} s, got "
+                        f"{float(time):.6g} s", "profile")
+        if not 0 <= level <= 1:
+            table.fault(f"row {n}: expected a share of the force from 0 to 1, got {float(level):.6g}; give "
+                        "the largest force as force", "profile")
+        if not result or result[-1][1] != level:
+            result.append((time, level))
+    if len(table.faults.problems) == before and not any(level for _, level in result):
+        table.fault("every level is 0, so that it never fires: give one above, or take the thruster away",
+                    "profile")
+    return tuple(result)

@@ -11,13 +11,11 @@ import re
 from collections.abc import Iterable, Sequence
 from datetime import date, time
 from fractions import Fraction
-from typing import NamedTuple
 from unicodedata import category
 
 from ..errors import InputError, Problem, printable
 from ..numbers.exact import exact
-from ..numbers.miswritten import typed
-from ..numbers.units import NONE, Dimension, dimension_of, in_dimension, quantity, split, unit_of_key
+from ..numbers.units import dimension_of, quantity, unit_of_key
 from ..numbers.vectors import Exact3
 from .aliases import (
     cure_of_key,
@@ -29,54 +27,7 @@ from .aliases import (
     shown,
 )
 from .lines import KeyLines
-
-# --- Uncertain numbers as a case file writes them: "2000 +- 20", "12.0 +- 3 %", "12 +- 0.5 N"
-_PLUS_MINUS = re.compile(r"([^±%]*?)(?:\+-|±)([^±%]*)(%?)([^±%]*)")
-_BRACKETS = re.compile(r"\s*\(([^()]*)\)\s*([^()]*)")
-
-
-def states_uncertainty(text: str) -> bool:
-    """Whether a text is meant as a number with an uncertainty, well formed or not."""
-    return "±" in text or "+-" in text or "+/-" in text
-
-
-def plus_minus(text: str, wanted: Dimension = NONE) -> tuple[Fraction, Fraction, bool]:
-    """(middle, half-width, whether both are exact) in SI units, of "2000 +- 20", "1500 ± 1 %" (per cent of
-    the middle) or "12 +- 0.5 N". A unit at the end is that of both. Raises InputError."""
-    text = typed(text).replace("+/-", "+-")
-    if len(text) > 400 or text.count("±") + text.count("+-") != 1:
-        raise InputError(f'{_example(wanted)}, got "{text[:60]}"')
-    bracketed = _BRACKETS.fullmatch(text)
-    parts = _PLUS_MINUS.fullmatch(" ".join(bracketed.groups()) if bracketed else text)
-    if parts is None or (parts[4].strip() and not parts[3]):
-        raise InputError(f'{_example(wanted)}, got "{text[:60]}"')
-    left, right = split(parts[1]) or (parts[1], ""), split(parts[2]) or (parts[2], "")
-    after = parts[4].strip() if parts[3] else right[1]
-    if parts[3] and right[1]:
-        raise InputError(f'{_example(wanted)}, got "{text[:60]}"')
-    if left[1] and not after and not parts[3]:
-        raise InputError(
-            f'the uncertainty has no unit in "{text[:60]}"; write "{left[0]} +- {right[0]} {left[1]}"')
-    try:
-        middle, sharp = quantity(f"{left[0]} {left[1] or after}", wanted)
-        half, sharp_half = (exact(right[0]), True) if parts[3] else quantity(f"{right[0]} {after}", wanted)
-    except InputError as error:
-        raise InputError(str(error) if left[1] or after else f"{_example(wanted)}: {error}") from None
-    if after and left[1]:
-        in_dimension(after, wanted, text)
-    if half < 0:
-        raise InputError(f'the uncertainty is a half-width and not negative, got "{text[:60]}"')
-    if not parts[3]:
-        return middle, half, sharp and sharp_half
-    if not middle and half:
-        raise InputError("a percentage of zero is zero: give the uncertainty as a number")
-    return middle, abs(middle) * half / 100, sharp
-
-
-def _example(wanted) -> str:
-    units = "" if wanted == NONE else ' or "12 +- 0.5" with a unit at the end'
-    return f'expected a number and its uncertainty such as "2000 +- 20" or "1500 +- 1 %"{units}'
-
+from .uncertain import Uncertain, states_uncertainty, uncertain_number
 
 # Unicode's categories of control, format (such as right-to-left override) and surrogate characters
 UNSEEN = ("Cc", "Cf", "Cs")
@@ -112,22 +63,13 @@ HOMES = {word: home for home, value in {
     "[[wheels]], or as [effects.gyrostat]": ("momentum", "wheel", "gyrostat"),
     "[effects.constant_torque]": ("torque", "constant_torque"),
     "[[thrusters]]": ("force", "position", "direction", "thruster", "stuck", "misalignment",
-                      "force_tolerance", "stop", "duty", "on_time", "propellant", "mass_flow"),
+                      "force_tolerance", "stop", "duty", "on_time", "propellant", "mass_flow",
+                      "profile"),
     "[[wheels]]": ("axis", "speed"),
     "[effects.gravity]": ("weight",),
     "[effects] of its own, such as [effects.resistance]": ("coefficient",),
     "[effects.liquid_cavity]": ("density", "viscosity"),
 }.items() for word in value}  # where the words stand that a reader most often writes in another place
-
-
-class Uncertain(NamedTuple):
-    """A number known within bounds: its path in the file (with the list index), the middle and the
-    half-width, exact; name: of the key in words, where the path has an index before its end."""
-
-    path: tuple
-    middle: Fraction
-    half: Fraction
-    name: str = ""
 
 
 class Faults:
@@ -289,6 +231,20 @@ class Table:
         read = [[self._exact(item, key, i, j) for j, item in enumerate(row)] for i, row in enumerate(value)]
         return None if any(None in row for row in read) else tuple(map(tuple, read))
 
+    def entry(self, key: str, row: int, place: int, share: bool = False) -> Fraction | None:
+        """One exact number of the rows of a list. share: of a whole, without a unit or in per cent."""
+        value = self.data[key][row][place]
+        if not share:
+            return self._exact(value, key, row, place)
+        try:
+            if isinstance(value, str) and not isinstance(value, Written) and value.strip().endswith("%"):
+                return exact(value.strip()[:-1].strip()) / 100
+            text = isinstance(value, str) and not isinstance(value, Written)
+            return exact(value) if text else _number(value)
+        except InputError as error:
+            self.fault(f"row {row + 1}, number {place + 1}: {error}", key)
+            return None
+
     def vector(self, key: str) -> Exact3 | None:
         """Three exact numbers."""
         return self.numbers(key, 3)
@@ -321,12 +277,13 @@ class Table:
                              "rotation_period, precession_period, amplitude, spin, nutation and force of a "
                              "thruster")
         path = self.path + keys
-        middle, half, sharp = plus_minus(text, dimension_of(path))
-        if half:
-            self.faults.uncertain[path] = Uncertain(path, middle, half)
-        if not sharp:
+        number = uncertain_number(text, dimension_of(path))
+        if number.half:
+            self.faults.uncertain[path] = Uncertain(path, number.middle, number.half, law=number.law,
+                                                    sigma=number.sigma)
+        if not number.sharp:
             self.faults.inexact.add(path)
-        return middle
+        return number.middle
 
     def _number(self, value, keys) -> Fraction:
         if isinstance(value, Written) or not isinstance(value, str):

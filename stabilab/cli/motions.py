@@ -11,15 +11,18 @@ from .options import (
     CaseFiles,
     Csv,
     Digits,
+    Draws,
     Follow,
     Json,
     Prove,
+    Seed,
     Si,
     Strict,
     StrictFate,
     Tilt,
     UnitsOption,
     Why,
+    Workers,
     flag,
     opens,
     option,
@@ -50,8 +53,9 @@ def classify(
 @opens("classify.answer", question="fate")
 def fate(
         cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False,
-        follow: Follow = None, tilt: Tilt = None, certify: Prove = False, units: UnitsOption = None,
-        why: Why = False):
+        follow: Follow = None, tilt: Tilt = None, certify: Prove = False,
+        samples: Draws = None, seed: Seed = 1, workers: Workers = None,
+        units: UnitsOption = None, why: Why = False):
     """Say whether each motion stays bounded or spins up.
 
     Also how far it is from the separatrix. Digits are those of that distance in energy; the outcome itself
@@ -68,6 +72,7 @@ def extremes(
         angles: Annotated[bool, flag("--angles",
             "Also find the angles of the axes x, y, z to the angular momentum and to their own directions at "
             "the start.")] = False,
+        samples: Draws = None, seed: Seed = 1, workers: Workers = None,
         json: Json = False, csv: Csv = False, digits: Digits = None, strict: Strict = False,
         follow: Follow = None, units: UnitsOption = None, why: Why = False):
     """Find the least and greatest rates of each motion.
@@ -121,6 +126,7 @@ def when(
         until: Annotated[str | None, option("TIME", 'Search up to this time only: "10 min".')] = None,
         digits: Annotated[int | None, option(
             "N", "Write the time with N digits (1 to 10000), where a formula gives them.")] = None,
+        samples: Draws = None, seed: Seed = 1, workers: Workers = None,
         units: UnitsOption = None, si: Si = False, json: Json = False, csv: Csv = False,
         strict: Annotated[bool, flag("--strict",
             "Exit with 3 where the time is not known or an approximate law does not hold.")] = False):
@@ -139,6 +145,7 @@ def stuck(
         all_thrusters: Annotated[bool, flag("--all-thrusters",
             "Answer for each thruster alone, stuck or not; the one that reaches the limit first comes "
             "first.")] = False,
+        samples: Draws = None, seed: Seed = 1, workers: Workers = None,
         units: UnitsOption = None, si: Si = False, why: Why = False,
         out: Annotated[Path | None, option("FILE.png|.svg|.pdf", "Draw the rates against time.")] = None,
         json: Json = False, csv: Csv = False, strict: StrictFate = False):

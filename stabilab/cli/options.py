@@ -58,6 +58,10 @@ Strict = Annotated[bool, flag("--strict",
 StrictFate = Annotated[bool, flag("--strict", "Exit with 3 where an outcome is undecided.")]
 Workers = Annotated[int | None, option(
     "N", "Processes that share the work; default: one for each core where that is faster.")]
+Draws = Annotated[int | None, option(
+    "N", "Also give percentiles over so many draws of the uncertain numbers of the case, with their sampling "
+    "error.")]
+Seed = Annotated[int, option("S", "Seed of the draws.")]
 Scheduler = Annotated[str | None, option(
     "tcp://...", "Let the workers of this Dask scheduler do the work (needs stabilab[cluster]).")]
 Component = Annotated[str | None, option("AXIS=RATE", hidden=True)]

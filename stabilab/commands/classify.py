@@ -19,8 +19,8 @@ from ..show.text import classification, headline, questions, scene
 from ..show.text.angles import angle_lines, angle_rows, angles_dict
 from ..show.text.motion import attitude_object, attitude_objects, attitude_text, row_of
 from ..show.units import DEG
-from .common import answers_of, expected, load_cases, motion_of, one_by_one, tilted, units_asked
-from .runner import View, collected, every, judge, over_boxes, run, show
+from .common import answers_of, drawn, expected, load_cases, motion_of, one_by_one, tilted, units_asked
+from .runner import View, collected, every, judge, over_boxes, run, show, with_draws
 
 
 def _swept(rows, units):
@@ -75,7 +75,7 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
 
 
 def answer(question, cases, json, digits, strict, units, why, csv=False, follow=None, tilt=None,
-           certify=False, angles=False):
+           certify=False, angles=False, samples=None, seed=1, workers=None):
     """Answer a question for every case and say how many digits of it are known."""
     loaded = load_cases(cases, motion=True)
     systems = units_asked(loaded, units, tilt=tilt)
@@ -89,7 +89,8 @@ def answer(question, cases, json, digits, strict, units, why, csv=False, follow=
     result = list(zip(motions, digits_of))
     if angles:
         view, result = with_angles(view), list(zip(map(_leaning, loaded), *zip(*result)))
-    rows = collected(view, loaded, systems, result, boxes)
+    rows = with_draws(collected(view, loaded, systems, result, boxes),
+                      drawn(samples, seed, workers, lambda case: False, True))
     show(view, rows, json, csv)
     judge(view, rows, strict)
 

@@ -132,6 +132,17 @@ def _time(text: str, case: Case, option: str) -> Fraction:
         raise InputError(f"--{option}: {error}") from None
 
 
+# --- Percentiles over the uncertain numbers of a case
+def drawn(samples: int | None, seed: int, workers: int | None, timed: Callable[[Case], bool], largest: bool,
+          **limits: str | None) -> Callable[[Case], Any] | None:
+    """What finds them, None where no samples are asked for. timed: whether those of the time to the limit are
+    asked of a case; largest: whether those of its largest rate are."""
+    if samples is None:
+        return None
+    from ..maps.percentiles import of_case_drawn
+    return lambda case: of_case_drawn(case, samples, seed, workers, timed(case), largest, **limits)
+
+
 # --- The motion of a case, with what a tilt of its torque and uncertain numbers do to it
 def motion_of(case, needs=Needs.ALL, follow=None, proof=False):
     """The motion of a case. needs: what is printed of it; follow: how long a run follows it, as typed; proof:

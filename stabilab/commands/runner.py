@@ -14,7 +14,7 @@ from ..errors import Caveat, Kind
 from ..show import endings, frame, limiting
 from ..show.data import as_json
 from ..show.terminal import clauses_of, tell
-from ..show.text import classification, headline, scene
+from ..show.text import classification, headline, percentiles, scene
 from ..show.units import Units
 from .common import answers_of, units_asked
 from .writing import all_reached, hold_laws, leave_undecided, say_written, write, written
@@ -54,7 +54,8 @@ class View:
 
 @dataclass(frozen=True)
 class Answered:
-    """A case, what was found of it, and what limits that."""
+    """A case, what was found of it, and what limits that; draws: `Percentiles` over its uncertain numbers,
+    where these were asked for."""
 
     case: Case
     found: tuple[Any, ...]
@@ -62,6 +63,7 @@ class Answered:
     law: Any
     caveats: tuple[Caveat, ...]
     box: Any = None
+    draws: Any = None
 
 
 def every(objects: list[dict[str, Any]]) -> Any:
@@ -71,16 +73,25 @@ def every(objects: list[dict[str, Any]]) -> Any:
 
 def run(view: View, cases: Sequence[Case], ask: Callable[[Case], Any], *, units: str | None = None,
         systems: Sequence[Units] | None = None, out: Any = None, json: bool = False, csv: bool = False,
-        strict: bool = False, **typed: str | None) -> None:
-    """Answer every case. units, out, json, csv, strict: as options of a command; systems: the units of each,
-    where they are known; typed: angles and rates, as of `units_asked`."""
+        strict: bool = False, drawn: Callable[[Case], Any] | None = None, **typed: str | None) -> None:
+    """Answer every case. drawn: gives percentiles over the uncertain numbers of one; units, out, json, csv,
+    strict: as options of a command; systems: the units of each, where they are known; typed: angles and
+    rates, as of `units_asked`."""
     systems = units_asked(cases, units, **typed) if systems is None else systems
     if out:
         endings.file(out, view.files)
     result = [item if isinstance(item, tuple) else (item,) for _, item in answers_of(cases, ask)]
-    rows = collected(view, cases, systems, result)
+    rows = with_draws(collected(view, cases, systems, result), drawn)
     show(view, rows, json, csv, out)
     judge(view, rows, strict)
+
+
+def with_draws(rows: list[Answered], drawn: Callable[[Case], Any] | None) -> list[Answered]:
+    """With the percentiles of each case, where they are asked for."""
+    if drawn is None:
+        return rows
+    return [replace(row, draws=result)
+            for row, (_, result) in zip(rows, answers_of([row.case for row in rows], drawn))]
 
 
 def collected(view: View, cases: Sequence[Case], systems: Sequence[Units], result: Sequence[tuple[Any, ...]],
@@ -137,10 +148,14 @@ def _object(view: View, row: Answered) -> dict[str, Any]:
     return (built | ({} if view.parts else limiting.key(row.case, row.caveats))
             | (frame.key(row.case) if view.axes else {})
             | (headline.key(row.law) if view.law else {})
-            | (classification.uncertain_dict(row.box) if view.boxes else {}))
+            | (classification.uncertain_dict(row.box) if view.boxes else {})
+            | (percentiles.as_dict(row.case, row.draws) if row.draws else {}))
 
 
 def _csv(view: View, rows: list[Answered]) -> str:
+    if any(row.draws for row in rows):
+        return limiting.table(percentiles.COLUMNS, [(row.case, row.caveats, percentiles.lines(row.draws))
+                                                    for row in rows])
     head, lines = view.csv
     return limiting.table(head, [(row.case, row.caveats, lines(row.case, *row.found)) for row in rows])
 
@@ -168,7 +183,8 @@ def _part(view: View, rows: list[Answered], tabled: bool) -> str:
     answer = headline.first(headline.worst(*(row.law for row in rows)), label, first.units,
                             list(dict.fromkeys(_shown(view, rows, full, below))))
     return (classification.in_short(None if full else first.box, answer, outcome)
-            + "".join(dict.fromkeys(below)))
+            + "".join(dict.fromkeys(below))
+            + "".join("\n" + percentiles.text(row.draws, row.units) for row in rows if row.draws))
 
 
 def _shown(view: View, rows: list[Answered], full: bool, below: list[str]) -> Iterator[Caveat]:

@@ -30,7 +30,7 @@ from ..show.text import headline, questions
 from ..show.text import stuck as shown
 from ..show.text.flat_spin import any_dict, any_text
 from ..show.text.motion import circular_orbit_dict, circular_orbit_text
-from .common import expected, load_cases
+from .common import drawn, expected, load_cases
 from .runner import View, every, run
 
 
@@ -54,8 +54,11 @@ ORBIT = View(text=circular_orbit_text, data=circular_orbit_dict,
              drawn=lambda case, out, units, path: bifurcation_picture.write_orbit(case, out, path, units))
 
 
-def stuck(case, all_thrusters, units, why, out, json, csv, strict):
+def stuck(case, all_thrusters, units, why, out, json, csv, strict, samples=None, seed=1, workers=None):
     """Answer a case, every combination where it has a [sweep]."""
+    if samples is not None and all_thrusters:
+        raise InputError("--samples: percentiles are those of the thrusters that are stuck together; leave "
+                         "out --all-thrusters")
     loaded = load_cases([case], motion=True)
     loaded = list(map(each_firing, loaded)) if all_thrusters else loaded
     view = replace(STUCK, swept=None) if all_thrusters or why else STUCK
@@ -63,7 +66,8 @@ def stuck(case, all_thrusters, units, why, out, json, csv, strict):
     def asked(item):
         with told() as tell:
             return ask(item, all_thrusters, tell)
-    run(view, loaded, asked, units=units, out=out, json=json, csv=csv, strict=strict)
+    run(view, loaded, asked, units=units, out=out, json=json, csv=csv, strict=strict,
+        drawn=drawn(samples, seed, workers, lambda item: item.limits is not None, True))
 
 
 def burn(case, stop, below, units, json, strict):
@@ -75,7 +79,7 @@ def burn(case, stop, below, units, json, strict):
         below=below)
 
 
-def when(cases, units, json, csv, strict, digits, **limits):
+def when(cases, units, json, csv, strict, digits, samples=None, seed=1, workers=None, **limits):
     """Answer every case. limits: what is to be reached and by when, by the names of the options."""
     paths = list(map(str, cases))
     burns = {path: load_burning(path) for path in paths if fires_on_schedule(path)}
@@ -92,7 +96,12 @@ def when(cases, units, json, csv, strict, digits, **limits):
         if digits is not None:
             raise InputError(f"{case.path}: digits: a burn is followed in time: leave them out")
         return limit, time_of_burn(burns[case.path], limit.ask, limit.until)
+    if samples is not None and burns:
+        raise InputError(f"{next(iter(burns))}: --samples: percentiles are known of torques that stay, and "
+                         "thrusters of this case fire on a schedule: leave the samples out, or write stuck = "
+                         "true")
     run(WHEN, loaded, asked, units=units, json=json, csv=csv, strict=strict,
+        drawn=drawn(samples, seed, workers, lambda item: True, False, **limits),
         **{name: limits[name] for name in OPTIONS if name != "energy"})
 
 

@@ -12,7 +12,8 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 from ..case.source import SWEPT
-from ..case.table import Written, states_uncertainty
+from ..case.table import Written
+from ..case.uncertain import states_uncertainty
 from ..errors import InputError, printable
 from ..numbers.exact import exact
 from ..numbers.units import NAMES, NONE, dimension_of, in_dimension, quantity, split

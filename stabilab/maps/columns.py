@@ -132,6 +132,11 @@ ANSWERS: dict[str, Answer] = {
                note="+inf: never; NaN where that is not known"),
         Column("when_level", "i1", "", "how well the time is known", _limit_level,
                lambda result: _limit_level(result)[0], LIMIT_LEVELS, note="-1: no case", no_case=-1))),
+    "largest": Answer("largest", (1e-3, 5e-2), (
+        Column("largest", "f8", RATE, "largest |omega| over all time", lambda result: result.rate,
+               lambda result: result.rate, note=f"+inf where it grows without end, {NOT_KNOWN}"),
+        Column("size", "f8", RATE, "|omega| at the start", lambda result: result.size,
+               lambda result: result.size))),
     "equilibria": Answer("equilibria", (0, 0), (
         Column("equilibria", "i4", "", "number of equilibria", *_counted("equilibria"),
                note=COUNTS(curves=ENDLESS, open=OPEN, none=NONE).text(),

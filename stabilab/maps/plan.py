@@ -21,10 +21,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..answers.kinds import KINDS, kind_of
+from ..case.correlations import factor
 from ..case.limit_options import StatedLimit, stated_limit
 from ..case.read import Case, read_all, read_text
 from ..case.source import parsed, source_text
-from ..case.table import Uncertain
+from ..case.uncertain import NORMAL, Correlation, Uncertain
 from ..errors import InputError, printable
 from ..numbers.units import NONE, TIME, in_si
 from ..physics.coefficients import effective
@@ -47,17 +48,22 @@ def unpacked(text: str) -> np.ndarray:
     return np.cumsum(np.frombuffer(zlib.decompress(base64.b64decode(text)), "<i8"))
 
 
-# --- Random points of the box that a case's uncertain numbers span: the n-th is the same whoever asks for
-# it, and for how many
+# --- Random points of the uncertain numbers of a case, each by the distribution that the case states: the
+# n-th is the same whoever asks for it, and for how many. A tolerance is drawn as uniform; correlated numbers
+# have a Gaussian copula (`case.correlations`)
+SMALLEST = 2.0**-54  # of a draw from 0 to 1: half a step of the generator, where a normal number ends
+
+
 @dataclass(frozen=True)
 class Samples:
-    """count points, uniform in the box. keys: the uncertain numbers; numbers: their middles and half-widths.
-    """
+    """count points. keys: the uncertain numbers; numbers: their middles, half-widths and distributions;
+    correlations: of them."""
 
     keys: tuple[Key, ...]
     numbers: tuple[Uncertain, ...]
     count: int
     seed: int
+    correlations: tuple[Correlation, ...] = ()
 
     def values(self, start: int, stop: int) -> np.ndarray:
         """(stop - start, keys): points start to stop in SI units; a draw of 64 bits for each number."""
@@ -67,11 +73,49 @@ class Samples:
         unit = np.random.Generator(bits).random((stop - start, width))
         middle, half = (np.array([float(getattr(number, name)) for number in self.numbers])
                         for name in ("middle", "half"))
-        return middle + half * (2.0 * unit - 1.0)
+        out = middle + half * (2.0 * unit - 1.0)
+        for column, drawn in self._shaped(unit).items():
+            number = self.numbers[column]
+            out[:, column] = (float(number.middle) + float(number.sigma) * drawn if number.sigma
+                              else middle[column] + half[column] * (2.0 * _uniform(drawn) - 1.0))
+        return out
+
+    def _shaped(self, unit: np.ndarray) -> dict[int, np.ndarray]:
+        """Normal numbers of mean 0 and deviation 1 behind the normal and the correlated columns of draws."""
+        lower = self._factor
+        result: dict[int, np.ndarray] = {}
+        for column, number in enumerate(self.numbers):
+            parts = [(n, weight) for n, weight in enumerate(lower[column][:column + 1]) if weight]
+            if number.law != NORMAL and len(parts) == 1 and parts[0] == (column, 1.0):
+                continue
+            # sums in one order, whatever library would multiply matrices
+            drawn = np.zeros(len(unit))
+            for n, weight in parts:
+                drawn = drawn + weight * _normal(unit[:, n])
+            result[column] = drawn
+        return result
+
+    @cached_property
+    def _factor(self) -> list[list[float]]:
+        result = factor(self.numbers, self.correlations)
+        if result is None:  # the case was read, so that the matrix of all of its numbers is one
+            raise InputError("correlations: no numbers have these together")
+        return result
 
     def unit(self, number: int) -> str:
         """The SI unit of an uncertain number; "1" where it has none."""
         return si_unit(self.keys[number].paths[0]) or "1"
+
+
+def _normal(unit: np.ndarray) -> np.ndarray:
+    """Normal numbers of uniform draws from 0 to 1, by the inverse of their distribution."""
+    from scipy.special import ndtri
+    return np.asarray(ndtri(np.clip(unit + SMALLEST, SMALLEST, 1.0 - 2 * SMALLEST)))
+
+
+def _uniform(normal: np.ndarray) -> np.ndarray:
+    from scipy.special import ndtr
+    return np.asarray(ndtr(normal))
 
 
 def samples_of(case: Case, resolved: dict[str, Key], taken: set[tuple[Any, ...]], count: int | None,
@@ -90,7 +134,8 @@ def samples_of(case: Case, resolved: dict[str, Key], taken: set[tuple[Any, ...]]
     if not numbers:
         raise InputError(
             f'samples: {case.place} gives no number with an uncertainty: write one as "2000 +- 20"')
-    return Samples(tuple(by_path[number.path] for number in numbers), numbers, count, seed)
+    return Samples(tuple(by_path[number.path] for number in numbers), numbers, count, seed,
+                   case.correlations)
 
 
 AXES = 4
@@ -120,7 +165,7 @@ class Plan:
     points, None without; answers: names of `columns.ANSWERS`; limit: options of `when`, by name; listed: of a
     plane of states those places alone (`listed.packed`), in one row; follow: how long motions are followed
     that only a run decides, as it was written; pointed: of an atlas, its directions, the only dimension
-    then."""
+    then; quick: times to a limit by runs, without a proof."""
 
     path: str
     text: str = field(repr=False)
@@ -132,6 +177,7 @@ class Plan:
     listed: str = field(default="", repr=False)
     follow: str | None = None
     pointed: Pointed | None = field(default=None, repr=False)
+    quick: bool = False
 
     @cached_property
     def data(self) -> dict[str, Any]:
@@ -240,7 +286,8 @@ class Plan:
                            "vary": self.vary, "samples": self.samples, "seed": self.seed,
                            "answers": self.answers, "limit": self.limit}
                           | pointed | {name: text for name,
-                                       text in (("listed", self.listed), ("follow", self.follow)) if text})
+                                       text in (("listed", self.listed), ("follow", self.follow),
+                                                     ("quick", self.quick)) if text})
 
     @cached_property
     def digest(self) -> str:
@@ -270,7 +317,8 @@ def from_json(text: str) -> Plan:
     rows = lambda name: tuple((key, value) for key, value in shown[name])
     pointed = pointed_from(shown["pointed"]) if "pointed" in shown else None
     return Plan(shown["path"], shown["text"], rows("vary"), shown["samples"], shown["seed"],
-                tuple(shown["answers"]), rows("limit"), shown.get("listed", ""), shown.get("follow"), pointed)
+                tuple(shown["answers"]), rows("limit"), shown.get("listed", ""), shown.get("follow"), pointed,
+                shown.get("quick", False))
 
 
 def split_keys(text: Sequence[str],
@@ -305,6 +353,12 @@ def planned(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Seque
             request in (vary.items() if isinstance(vary, Mapping) else vary)]
     plan = Plan(path, text, tuple(rows), samples, seed, asked_answers(answer),
                 tuple((k, v) for k, v in limit.items() if v is not None), follow=follow)
+    _judge(plan)
+    return plan
+
+
+def judged(plan: Plan) -> Plan:
+    """The plan, once every part of it is checked. Raises InputError with what is wrong."""
     _judge(plan)
     return plan
 

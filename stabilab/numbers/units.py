@@ -89,7 +89,7 @@ DIMENSIONS: dict[str, Dimension] = {
     "thrusters.position": LENGTH, "thrusters.force": FORCE, "thrusters.force_tolerance": FORCE,
     "thrusters.misalignment": ANGLE,
     "thrusters.start": TIME, "thrusters.stop": TIME, "thrusters.period": TIME, "thrusters.on_time": TIME,
-    "thrusters.propellant": MASS, "thrusters.mass_flow": MASS_FLOW,
+    "thrusters.profile": TIME, "thrusters.propellant": MASS, "thrusters.mass_flow": MASS_FLOW,
     "wheels.momentum": MOMENTUM, "wheels.inertia": INERTIA, "wheels.speed": RATE,
     "circular_orbit.rate": RATE, "circular_orbit.period": TIME, "circular_orbit.altitude": LENGTH,
     "circular_orbit.radius": LENGTH,

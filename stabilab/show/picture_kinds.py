@@ -72,6 +72,9 @@ KINDS = {
         "how much later the limit is reached with another momentum of a wheel", "over_time.wheel", "wheel",
         Page("Time gained by another momentum of a wheel", "The other wheels left as they are.", "answer",
              size=SMALL)),
+    "histogram": Picture(
+        "how often draws of the uncertain numbers reach the limit after which time, or their largest rates",
+        "histogram.histogram", "draws"),
     "body": Picture(
         "the body as the box of its moments, with thrusters, wheels and what else acts on it", "body.body",
         "body",

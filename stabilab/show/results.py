@@ -621,6 +621,31 @@ def _plane(result):
 
 
 # class of a result -> (its line, its numbers)
+def _percentiles_words(result):
+    parts = [f"{word} {100 * of.fraction:.4g} %" for shares in (result.outcomes, result.reached)
+             for word, of in shares.items()]
+    parts += [f"{name} " + ", ".join(f"{q.percent} % {number(q.high, 6)}" for q in item.quantiles)
+              for name, item in (("time", result.time), ("largest", result.largest)) if item is not None]
+    return f"{result.name}, {some(result.number, 'draw')}: {'; '.join(parts)}"
+
+
+def _percentiles(result):
+    values, percents = {}, None
+    for name, item in (("time", result.time), ("largest", result.largest)):
+        if item is None:
+            continue
+        percents = [q.percent for q in item.quantiles]
+        unit = {"units": item.unit or "1"}
+        for end in ("low", "high", "least", "greatest"):
+            values[f"{name}_{end}"] = (("percent",), np.array(
+                [np.nan if (value := getattr(q, end)) is None else value for q in item.quantiles]), unit)
+    shares = {f"{name}_share": of.fraction for rows in (result.outcomes, result.reached)
+              for name, of in rows.items()}
+    return Variables(("percent",), values, {"percent": (percents, {"units": "%"})},
+                     {"case": result.name, "draws": result.draws, "number": result.number,
+                      "seed": result.seed, **shares})
+
+
 KINDS: dict[str, tuple[Callable[[Any], str], Callable[[Any], Variables]]] = {
     "Simulation": (_simulation_words, _simulation), "Trajectory": (_trajectory_words, _trajectory),
     "FateResult": (_fates_words, _fates), "Motions": (_motions_words, _fates),
@@ -634,7 +659,8 @@ KINDS: dict[str, tuple[Callable[[Any], str], Callable[[Any], Variables]]] = {
     "Stuck": (_stuck_words, _stuck), "SpinUp": (_spin_up_words, _spin_up),
     "FlatSpin": (_flat_spin_words, _flat_spin), "Ending": (_ending_words, _ending),
     "Rotations": (_rotations_words, _rotations), "GyrostatSpin": (_gyrostat_spin_words, _rotations),
-    "RotationDiagram": (_rotation_diagram_words, _rotation_diagram)}
+    "RotationDiagram": (_rotation_diagram_words, _rotation_diagram),
+    "Percentiles": (_percentiles_words, _percentiles)}
 
 
 # --- Any kind: as a data set, a table, a page

@@ -17,7 +17,8 @@ OF_A_SCENE = {"equilibria": (), "fate": (STATE,), "fate_grid": ([[0.1], [0.2], [
               "simulate": (STATE, TIMES), "derive": (), "validity": (STATE,), "chaos": (STATE,)}
 PLANE = {"x[1]": "0:1", "x[3]": "0:1"}
 OF_A_CASE = {"stuck": (), "flat_spin": (), "compare": (), "theory": (), "when": (), "report": (),
-             "sweep": ({"x[1]": "0:1:2"},), "atlas": (), "basin": (PLANE,), "bifurcation": ({"x[1]": "0:1"},)}
+             "sweep": ({"x[1]": "0:1:2"},), "atlas": (), "basin": (PLANE,), "bifurcation": ({"x[1]": "0:1"},),
+             "percentiles": ()}
 
 
 def test_every_public_function_of_a_scene_or_a_case_is_asked_here():

@@ -32,7 +32,8 @@ KINDS = {
     "thrusters": "the case has thrusters, and none of them fires",
     "unstable": "the state is an equilibrium that is unstable, or not known to be stable",
     "tolerance": "the stated tolerance of a thruster's force is not looked at",
-    "misalignment": "the stated misalignment of a thruster is not looked at"}
+    "misalignment": "the stated misalignment of a thruster is not looked at",
+    "distribution": "how far the box of normal numbers reaches, or what correlations count for"}
 HEAD = """# Codes of caveats and reasons
 
 What limits an answer is a *caveat*. In JSON it stands under the key `caveats`, an object each:

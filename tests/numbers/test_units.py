@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from stabilab.case.table import plus_minus
+from stabilab.case.uncertain import plus_minus
 from stabilab.errors import InputError
 from stabilab.numbers import units
 

@@ -21,6 +21,8 @@ DAMPED = stabilab.load(
 GYROSTAT = stabilab.load(stabilab.Scene(stabilab.Body((3, 2, 1)), stabilab.ViscousDamper("0.1", "0.3"),
                                         stabilab.Gyrostat((0, 0, 2))), (0.1, 0, 0.5))
 RESULTS = {
+    "Percentiles": lambda: stabilab.percentiles(
+        '[body]\ninertia = [3, 2, 1]\n[motion]\nangular_velocity = ["0.09 to 0.11, uniform", 0, 0]\n', 5),
     "Motion": lambda: stabilab.motion(SCENE, STATES[0]), "Equilibria": lambda: stabilab.equilibria(SCENE),
     "FateResult": lambda: fates(SCENE, STATES), "Motions": lambda: stabilab.fate(SCENE, STATES),
     "Values": lambda: stabilab.period(SCENE, STATES[0]),

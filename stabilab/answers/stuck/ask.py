@@ -20,7 +20,7 @@ import numpy as np
 from ...case.given import Amount, Given, Span, Start, as_case
 from ...case.limit_options import angle_of
 from ...case.read import Case
-from ...case.table import Uncertain
+from ...case.uncertain import Uncertain
 from ...errors import Caveat, InputError, Kind, without
 from ...numbers.exact import floats
 from ...numbers.principal import NOTHING, without_trace
@@ -379,7 +379,9 @@ def _over_box(scenario: Scenario, thrusters: Sequence[Any], scene: Scene) -> Unc
     a torque along an axis, where a proof is to be had."""
     case = scenario.case
     others = [item for item in case.uncertain if item.path[-1] != "force"]
-    forces = [Uncertain((*t.path, "force"), t.force, t.force_tolerance, f"thrusters.{t.name}.force")
+    laws = {item.path: item for item in case.uncertain}
+    forces = [laws.get((*t.path, "force")) or Uncertain((*t.path, "force"), t.force, t.force_tolerance,
+                                                        f"thrusters.{t.name}.force")
               for t in thrusters if t.force_tolerance]
     if case.variables == "scaled" or not torque_axis(scene):
         return None

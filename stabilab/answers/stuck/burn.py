@@ -299,12 +299,13 @@ def _again(base: Scene, links: Sequence[Link], after: float, size: float) -> tup
 @dataclass(frozen=True)
 class Switch:
     """time: s; firing: names of the thrusters that fire from then on; torque: theirs, N m; rates: rad/s;
-    vectors along the principal axes."""
+    vectors along the principal axes; levels: shares of their forces, by their profiles."""
 
     time: float
     firing: tuple[str, ...]
     torque: Float3
     rates: Float3
+    levels: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -373,7 +374,8 @@ def burn(burning: Any, stop: Amount | None = None, below: Amount | None = None) 
         raise InputError("below: a torque stays after the last closing, so that there is no largest rate for "
                          "ever; ask what one closing time leaves, with stop")
     links, craft = list(links_of(chain)), chain.case
-    switches = tuple(Switch(float(link.begin), link.firing, link.torque, tuple(link.start.tolist()))
+    switches = tuple(Switch(float(link.begin), link.firing, link.torque, tuple(link.start.tolist()),
+                            tuple(map(float, link.levels)))
                      for link in links)
     closed = _closed(chain, links)
     result = Burned(tuple(t.name for t in craft.thrusters), switches, closed,
@@ -401,15 +403,17 @@ def _closed(chain: Chain, links: Sequence[Link]) -> Closed:
     full = all(reached >= float(item.length) * (1 - ROUNDING) for item, _, reached in runs)
     before = max((size for _, size, _ in runs), default=math.hypot(*rates)) if full else None
     stop = chain.until
-    fired = [t.burn and sum((b - a for a, b in t.burn.windows(stop)), Fraction(0))
-             for t in chain.case.thrusters]
+    steps = [t.burn and tuple(t.burn.steps(stop)) for t in chain.case.thrusters]
+    fired = [of if of is None else sum((b - a for a, b, _ in of), Fraction(0)) for of in steps]
+    at_full = [of if of is None else sum((level * (b - a) for a, b, level in of), Fraction(0))
+               for of in steps]
     largest = result.largest
     if chain.free:
         largest = largest_after(chain.base, rates)
     elif chain.quiet and largest is not None:
         largest = largest_of_run(chain.base, rates)
-    used = [None if t.burn is None or t.burn.mass_flow is None else float(t.burn.mass_flow * time)
-            for t, time in zip(chain.case.thrusters, fired)]
+    used = [None if t.burn is None or t.burn.mass_flow is None or time is None
+            else float(t.burn.mass_flow * time) for t, time in zip(chain.case.thrusters, at_full)]
     return Closed(float(chain.closed), rates, error,
                   tuple(d * w + l for d, w, l in zip(body.inertia, rates, wheel)),
                   sum(d * w * w for d, w in zip(body.inertia, rates)) / 2,

@@ -34,12 +34,14 @@ SWITCHES = Sentence("switches-at-exact-times", "thrusters switch at exact times"
 
 # --- The chain of motions
 class Piece(NamedTuple):
-    """begin, length: s, exact; firing: names of the thrusters that fire; scene: with their torque."""
+    """begin, length: s, exact; firing: names of the thrusters that fire; scene: with their torque; levels:
+    shares of their forces."""
 
     begin: Fraction
     length: Fraction
     firing: tuple[str, ...]
     scene: Scene
+    levels: tuple[Fraction, ...] = ()
 
 
 class Chain:
@@ -84,9 +86,9 @@ class Chain:
 
     def pieces(self) -> Iterator[Piece]:
         """In order of time; none where nothing ever fires."""
-        for begin, end, firing in self.segments:
+        for begin, end, firing, levels in self.segments:
             names = tuple(self.case.thrusters[n].name for n in firing)
-            yield Piece(begin, end - begin, names, self._scene(firing))
+            yield Piece(begin, end - begin, names, self._scene(firing, levels), levels)
 
     def enclosed(self, limit: Limit, end: Fraction | None = None) -> Crossing:
         """The first crossing of a limit by `end` (s; None: by the last closing), proved over all switches, or
@@ -95,10 +97,10 @@ class Chain:
         start = self.case.exact_state or tuple(map(Fraction, self.case.state))
         return enclosed(scenes[0][1], start, limit, self.closed if end is None else end, later=scenes[1:])
 
-    def _scene(self, firing: Sequence[int]) -> Scene:
-        """With the torques of these thrusters added to what acts anyway."""
-        torque = [sum(parts, Fraction(0)) for parts in zip(
-            self.base.vector("constant_torque"), *(self.torques[n] for n in firing))]
+    def _scene(self, firing: Sequence[int], levels: Sequence[Fraction]) -> Scene:
+        """With these shares of the torques of these thrusters added to what acts anyway."""
+        own = [tuple(level * m for m in self.torques[n]) for n, level in zip(firing, levels)]
+        torque = [sum(parts, Fraction(0)) for parts in zip(self.base.vector("constant_torque"), *own)]
         effects = [effect for effect in self.base.effects if effect.name != "constant_torque"]
         effects += [effect_class("constant_torque")(tuple(torque))] if any(torque) else []
         return Scene(self.base.body, *effects)
@@ -184,6 +186,7 @@ class Link:
     end: np.ndarray
     second_end: np.ndarray
     exact: Exact3 | None
+    levels: tuple[Fraction, ...] = ()
 
 
 def links_of(chain: Chain, pieces: Sequence[Piece] | None = None) -> Iterator[Link]:
@@ -191,10 +194,10 @@ def links_of(chain: Chain, pieces: Sequence[Piece] | None = None) -> Iterator[Li
     supplied = chain.case.exact_state
     state = np.array(chain.case.state, float)
     second = moved_row(state, MOVED) if state.any() else state
-    for begin, length, firing, scene in chain.pieces() if pieces is None else pieces:
+    for begin, length, firing, scene, levels in chain.pieces() if pieces is None else pieces:
         after, after_second = (end_of(scene, item, length) for item in (state, second))
         yield Link(begin, length, firing, tuple(float(m) for m in scene.vector("constant_torque")), scene,
-                   state, second, after, after_second, supplied if not begin else None)
+                   state, second, after, after_second, supplied if not begin else None, levels)
         state, second = after, after_second
 
 

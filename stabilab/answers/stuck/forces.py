@@ -93,7 +93,7 @@ def quick_time(chain: Chain, limit: Limit, end: Fraction) -> float:
     """When a burn reaches a limit by one run, no word on its error; inf where it does not by `end`, s."""
     rest = [Piece(chain.closed, end - chain.closed, (), chain.base)] if end > chain.closed else []
     state: Sequence[float] | np.ndarray = np.array(chain.case.state, float)
-    for begin, length, _, scene in [*chain.pieces(), *rest]:
+    for begin, length, _, scene, _ in [*chain.pieces(), *rest]:
         if not limit.angular and begin < end:
             time, _ = run_once(scene, list(state), limit, float(min(length, end - begin)))
             if math.isfinite(time):

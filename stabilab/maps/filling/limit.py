@@ -19,6 +19,7 @@ def of_many(plan: Plan, case: Case, states: np.ndarray) -> Any:
     """The `TimeTo` of states (n, 3)."""
     limit = plan.limit_of(case)
     quick: dict[str, Any] = {} if plan.pointed is None or plan.pointed.certify else {"work": POINTED_WORK}
+    quick |= {"work": 0} if plan.quick else {}
     return time_to(case.scene, states, **limit.ask, t_max=limit.until, **quick)
 
 

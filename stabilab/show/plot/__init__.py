@@ -2,6 +2,7 @@
 from .basins import basin as basin
 from .body import body as body
 from .equilibria import equilibria as equilibria
+from .histogram import histogram as histogram
 from .in_space import space as space
 from .over_time import state as state
 from .over_time import tilt as tilt
@@ -15,5 +16,5 @@ from .surfaces import sphere as sphere
 from .to_file import write as write
 from .turning import attitude as attitude
 
-__all__ = ["attitude", "basin", "body", "budget", "equilibria", "phase", "potential", "section", "space",
-           "sphere", "state", "tilt", "time", "wheel", "write"]
+__all__ = ["attitude", "basin", "body", "budget", "equilibria", "histogram", "phase", "potential", "section",
+           "space", "sphere", "state", "tilt", "time", "wheel", "write"]

@@ -306,6 +306,8 @@ NEEDS: dict[str, tuple[bool, Callable[[Subject], str]]] = {
     "surface": (True, _sphere), "section": (True, _section), "tilt": (True, _tilt), "wheel": (True, _wheel),
     "equilibria": (False, _equilibria),
     "body": (False, lambda item: NO_BODY * (bodily(item) is None)),
+    "draws": (True, lambda item: "no number of the case has an uncertainty, from which draws could be made"
+              * (item.case is None or not item.case.uncertain)),
     "body that turns": (True, lambda item: "scaled variables have no body to turn: give the case in physical "
                                           "units" * (not item.physical)),
     "theory": (True, lambda item: ALIKE * item.scene.plain),

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 
 from ...answers.equilibria import once_stopped
 from ...answers.uncertain.verdicts import ALSO_ANOTHER, reason_of
+from ...case.uncertain import NORMAL, SIGMAS, UNIFORM
 from ...equilibrium.description import GREATER, LESSER, RATE, Description, holds_rates
-from ...errors import printable
 from ...numbers.units import unit_of_key
 from ...numbers.vectors import CYCLE
 from ...reasons import Quantity, Reason
@@ -312,7 +312,8 @@ def uncertain_dict(result) -> dict:
     witnesses are texts, to be written into a case file as they stand."""
     if result is None:
         return {}
-    numbers = [{"key": key(u), "middle": bare_number(u.middle), "half_width": bare_number(u.half)}
+    numbers = [{"key": u.key, "middle": bare_number(u.middle), "half_width": bare_number(u.half),
+                "distribution": u.law, "sigma": None if u.sigma is None else bare_number(u.sigma)}
                for u in result.numbers]
     return {"uncertain": {"numbers": numbers, "equilibria": _over(result.equilibria),
                           "fate": _over(result.fate)}}
@@ -332,14 +333,6 @@ def _over(over) -> dict | None:
         "witnesses": [{"verdict": w.verdict} | {
             name: [repr(float(v)).removesuffix(".0") if name == "state" else bare_number(v) for v in values]
             for name, values in w.values.items()} for w in over.witnesses]}
-
-
-def key(uncertain) -> str:
-    """The key of a case file, with the place in its list counted from one."""
-    *path, last = uncertain.path
-    if uncertain.name:
-        return printable(uncertain.name)
-    return ".".join(path) + f"[{last + 1}]" if isinstance(last, int) else ".".join(uncertain.path)
 
 
 def bare_number(value: Fraction) -> str:
@@ -367,7 +360,9 @@ def uncertain_text(result, units: Units) -> str:
     for u in result.numbers:  # the middle and half the width, with the unit
         unit, item = _of_file(units, unit_of_key(u.path))
         in_unit = rounded if item == 1.0 else lambda v, entry=item: number(float(v) * entry, DIGITS)
-        numbers.append(f"{key(u)} = {in_unit(u.middle)} ± {in_unit(u.half)} {unit}".rstrip())
+        law = {UNIFORM: ", uniform", NORMAL: f", sigma {in_unit(u.sigma or u.half)} {unit}".rstrip()
+               }.get(u.law, "")
+        numbers.append(f"{u.key} = {in_unit(u.middle)} ± {in_unit(u.half)} {unit}".rstrip() + law)
     lines = [f"uncertain: {', '.join(numbers)}"]
     for name in SUBJECTS:
         over = getattr(result, name)
@@ -414,7 +409,8 @@ def what_changes(result, units: Units) -> str:
     subject = "the fate is" if fate else "they are"
     nearby = fate and over.neighbours
     elsewhere = units.said(over.elsewhere if fate else ALSO_ANOTHER)
-    phrase = {"holds": f"{subject} the same for all that the uncertain numbers may be"
+    sigmas = f" within {SIGMAS} sigma" * any(u.law == NORMAL for u in result.numbers)
+    phrase = {"holds": f"{subject} the same for all that the uncertain numbers may be{sigmas}"
              + (", but for a set of measure zero" if over.exception else ""),
              "depends": f"BUT within the uncertainties {elsewhere}",
              "sampled": f"{subject} the same at {over.samples and over.samples.points} within the "

@@ -324,7 +324,7 @@ SHOWN = 12  # switches in text; JSON has them all
 def burn_dict(case, result) -> dict:
     """The object of `stabilab burn --json`: SI units, vectors in the frame of the file."""
     return {"schema": "stabilab.burn/1", "case": case.name, "thrusters": result.thrusters,
-            "switches": [{"time": switch.time, "firing": switch.firing,
+            "switches": [{"time": switch.time, "firing": switch.firing, "levels": switch.levels,
                           "torque": in_file(case, switch.torque), "rates": in_file(case, switch.rates)}
                          for switch in result.switches],
             "closed": _closed(case, result.closed), "latest": _latest(result.latest),
@@ -370,7 +370,9 @@ def burn_text(case, result, units: Units) -> str:
         lines += _of_latest(result, units)
     lines += _of_closed(case, result, result.closed, units)
     for switch in result.switches[:SHOWN]:
-        firing = ", ".join(switch.firing) or "none"
+        levels = switch.levels or (1.0,) * len(switch.firing)
+        firing = ", ".join(name if level == 1 else f"{name} at {number(100 * level)} %"
+                           for name, level in zip(switch.firing, levels)) or "none"
         lines.append(entry(units.moment(switch.time), f"firing: {firing}; rates "
                                                  f"{units.vector(_seen(case, switch.rates), units.rates)}"))
     if len(result.switches) > SHOWN:
