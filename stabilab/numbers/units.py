@@ -107,10 +107,11 @@ DIMENSIONS: dict[str, Dimension] = {
     "effects.liquid_cavity.P0": LENGTH_7,
     "effects.liquid_cavity.radius": LENGTH,
     "effects.viscous_damper.inertia": INERTIA, "effects.viscous_damper.coefficient": MOMENTUM,
+    "effects.damper_wheel.inertia": INERTIA, "effects.damper_wheel.coefficient": MOMENTUM,
     "effects.rate_damper.coefficient": MOMENTUM,
     "effects.eddy_currents.coefficient": EDDY, "effects.eddy_currents.field": FLUX,
     "effects.wheel_motor.torque": TORQUE, "effects.wheel_motor.duration": TIME,
-    "motion.damper": RATE, "motion.wheel": MOMENTUM, "motion.rotation_period": TIME,
+    "motion.damper_wheel": RATE, "motion.damper": RATE, "motion.wheel": MOMENTUM, "motion.rotation_period": TIME,
     "motion.precession_period": TIME, "motion.amplitude": ANGLE, "motion.spin": RATE,
     "motion.nutation": ANGLE,
 }

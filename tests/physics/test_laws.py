@@ -12,7 +12,7 @@ from stabilab.physics.to_numpy import to_numpy
 
 ARGUMENTS = {  # what each effect is made from; an effect of one vector needs no line
     "charge": ("0.003", 100, "1.02", "0.37"), "resistance": ("0.02",), "liquid_cavity": (1250, 1000, "1.9"),
-    "viscous_damper": (17, "2.5"), "rate_damper": (((3, "0.5", 0), ("0.5", 2, "-0.1"), (0, "-0.1", 1)),),
+    "viscous_damper": (17, "2.5"), "damper_wheel": (17, "2.5", (2, 0, "-1.5")), "rate_damper": (((3, "0.5", 0), ("0.5", 2, "-0.1"), (0, "-0.1", 1)),),
     "eddy_currents": ("0.3", 2), "newtonian_field": ("0.5",), "gravity": (2943, ("0.7", "0.3", "-0.1"))}
 
 
