@@ -17,6 +17,7 @@ from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import CYCLE, Exact3, dot
 from ..physics.coefficients import Content, Together, gyrostat_scene
 from ..physics.effects import effect_class
+from ..physics.equations import derive
 from ..physics.scene import Body, Scene
 from ..reasons import Reason, Sentence
 from .liquid import THE_LIQUID, liquid_equilibria
@@ -174,17 +175,10 @@ def jacobian(parts: Content, omega: Sequence[float]) -> Any:
     import numpy as np
     if not parts.movers:
         return damper_jacobian(parts, omega)
-    from ..physics.to_numpy import to_numpy
-    system = to_numpy(_scene(parts))
-    at = np.zeros(len(system.equations.state))
-    at[:3] = omega
-    return system.jacobian(at)
-
-
-def _scene(parts: Content) -> Scene:
-    """Of a body with wheels and dampers."""
     sphere = [effect_class("viscous_damper")(parts.inside, parts.friction)] if parts.inside else []
-    return Scene(Body(parts.D), Together(parts.Lambda), *sphere, *parts.movers)
+    equations = derive(Scene(Body(parts.D), Together(parts.Lambda), *sphere, *parts.movers))
+    at = dict(zip(equations.state, (*omega, *[0.0] * (len(equations.state) - 3))))
+    return np.array(equations.numeric(equations.jacobian).xreplace(at).tolist(), float)
 
 
 def damper_jacobian(parts: Content, omega: Sequence[float]) -> Any:
