@@ -46,6 +46,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .physics.effects.gyrostat import Gyrostat as Gyrostat
     from .physics.effects.liquid_cavity import LiquidCavity as LiquidCavity
     from .physics.effects.newtonian_field import NewtonianField as NewtonianField
+    from .physics.effects.damper_mass import DamperMass as DamperMass
     from .physics.effects.damper_wheel import DamperWheel as DamperWheel
     from .physics.effects.rate_damper import RateDamper as RateDamper
     from .physics.effects.resistance import Resistance as Resistance
@@ -87,7 +88,7 @@ _HOME = {
     "LiquidCavity": "physics.effects.liquid_cavity",
     "NewtonianField": "physics.effects.newtonian_field", "Gravity": "physics.effects.gravity",
     "BodyForce": "physics.effects.body_force", "ViscousDamper": "physics.effects.viscous_damper",
-    "DamperWheel": "physics.effects.damper_wheel",
+    "DamperWheel": "physics.effects.damper_wheel", "DamperMass": "physics.effects.damper_mass",
     "RateDamper": "physics.effects.rate_damper", "EddyCurrents": "physics.effects.eddy_currents",
     "WheelMotor": "physics.effects.wheel_motor",
     "derive": "answers.motions.scenes", "validity": "answers.motions.scenes",
