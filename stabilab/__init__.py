@@ -41,13 +41,13 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .physics.effects.body_force import BodyForce as BodyForce
     from .physics.effects.charge import Charge as Charge
     from .physics.effects.constant_torque import ConstantTorque as ConstantTorque
+    from .physics.effects.damper_mass import DamperMass as DamperMass
+    from .physics.effects.damper_wheel import DamperWheel as DamperWheel
     from .physics.effects.eddy_currents import EddyCurrents as EddyCurrents
     from .physics.effects.gravity import Gravity as Gravity
     from .physics.effects.gyrostat import Gyrostat as Gyrostat
     from .physics.effects.liquid_cavity import LiquidCavity as LiquidCavity
     from .physics.effects.newtonian_field import NewtonianField as NewtonianField
-    from .physics.effects.damper_mass import DamperMass as DamperMass
-    from .physics.effects.damper_wheel import DamperWheel as DamperWheel
     from .physics.effects.rate_damper import RateDamper as RateDamper
     from .physics.effects.resistance import Resistance as Resistance
     from .physics.effects.viscous_damper import ViscousDamper as ViscousDamper

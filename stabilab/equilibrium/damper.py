@@ -1,10 +1,11 @@
 """Equilibria of a free body with a damper inside, with wheels or without.
 
 At an equilibrium the damper's sphere is at rest in the body: sigma' + omega' = 0 gives c sigma/k = -omega x
-sigma, whose product with sigma is c |sigma|^2/k = 0; a damper wheel is, for s' = -c s/J there. So the equilibria are those of the body alone. The
-damper keeps |H|, wheels included, and takes energy at every rotation that is not permanent, so that exactly
-the strict minima of the energy on the spheres of constant |H| attract (`momentum_sphere`); without wheels
-they are the same as with a liquid. The eigenvalues are the damper's own."""
+sigma, whose product with sigma is c |sigma|^2/k = 0; a damper wheel is, for s' = -c s/J there. So the
+equilibria are those of the body alone. The damper keeps |H|, wheels included, and takes energy at every
+rotation that is not permanent, so that exactly the strict minima of the energy on the spheres of constant
+|H| attract (`momentum_sphere`); without wheels they are the same as with a liquid. The eigenvalues are the
+damper's own."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -80,7 +81,7 @@ def damped_equilibria(parts: Content) -> Equilibria:
         return Equilibria("undecided", reason=DAMPED_IN_PART)
     if any(parts.Lambda):
         return _with_wheels(parts)
-    out = liquid_equilibria(replace(parts, inside=Fraction(0), movers=(), kappa=Fraction(1)))  # verdicts of any liquid
+    out = liquid_equilibria(replace(parts, inside=Fraction(0), movers=(), kappa=Fraction(1)))  # any liquid's
     return Equilibria(out.kind, tuple(_with_damper(parts, point) for point in out.points),
                       tuple(_curve_with_damper(parts, curve) for curve in out.curves),
                       reason=_of_damper(out.reason))

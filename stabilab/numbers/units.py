@@ -114,7 +114,8 @@ DIMENSIONS: dict[str, Dimension] = {
     "effects.rate_damper.coefficient": MOMENTUM,
     "effects.eddy_currents.coefficient": EDDY, "effects.eddy_currents.field": FLUX,
     "effects.wheel_motor.torque": TORQUE, "effects.wheel_motor.duration": TIME,
-    "motion.damper_wheel": RATE, "motion.damper": RATE, "motion.wheel": MOMENTUM, "motion.rotation_period": TIME,
+    "motion.damper_wheel": RATE,
+    "motion.damper": RATE, "motion.wheel": MOMENTUM, "motion.rotation_period": TIME,
     "motion.precession_period": TIME, "motion.amplitude": ANGLE, "motion.spin": RATE,
     "motion.nutation": ANGLE,
 }

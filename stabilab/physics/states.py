@@ -17,7 +17,18 @@ from ..errors import InputError, told
 from ..numbers.double_double import EPS
 from ..validation import real
 from .equations import Equations, derive, rotation
-from .scene import BLOCKS, INSIDE, NO_MOTION, ORDER, AnyScene, Scene, judge_start, judge_starts, ordered, rests
+from .scene import (
+    BLOCKS,
+    INSIDE,
+    NO_MOTION,
+    ORDER,
+    AnyScene,
+    Scene,
+    judge_start,
+    judge_starts,
+    ordered,
+    rests,
+)
 from .to_numpy import equations_of
 
 if TYPE_CHECKING:

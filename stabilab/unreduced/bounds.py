@@ -385,7 +385,7 @@ def _permanent(parts: Content, H: Sequence[Fraction], twice: Fraction | int,
     """A free body of angular momentum H and kinetic energy twice/2 from which something takes energy."""
     square, order = dot(H, H), sorted(range(3), key=lambda i: -parts.D[i])
     size = _sqrt(square)
-    # without a damper |omega| <= |H|/(least moment); with it T >= (least of what the dampers leave) |omega|^2/2
+    # without a damper |omega| <= |H|/(least moment); with it T >= (least moment of the rest) |omega|^2/2
     bound = (_sqrt(twice / parts.rest_of_moments) if parts.damper_inside
              else size / float(min(parts.D)))
     bounds = {"energy": float(twice) / 2, "momentum": size, "rate_bound": bound}

@@ -28,8 +28,9 @@ class DamperMass(Effect):
 
     mass: m, kg, part of the body's whole mass. place: p, m, from the mass centre of the whole where x = 0,
     about which the moments of the body are those of the whole. line: n, of any length. stiffness: k, N/m;
-    coefficient: c, N s/m; mass_of_body: kg, of the whole, which the body states too. With mu = m (1 - m/mass of the whole), r = p/(1 - m/mass of the whole) the place from the mass centre
-    of the rest, q = r x n, and
+    coefficient: c, N s/m; mass_of_body: kg, of the whole, which the body states too. With mu = m (1 -
+    m/mass of the whole), r = p/(1 - m/mass of the whole) the place from the mass centre of the rest, q = r
+    x n, and
 
         J(x) = D + mu ((2 x r . n + x^2) 1 - x (r n^T + n r^T) - x^2 n n^T),
 
@@ -98,7 +99,7 @@ class DamperMass(Effect):
             return None
         if context.body.mass is None:
             if not context.stand_in:
-                table.fault("a mass that moves in the body moves the rest: give body.mass in kg, of the whole")
+                table.fault("a mass that moves in the body moves the rest: give body.mass, of the whole")
             return None
         built = cls(mass, place, line, stiffness, coefficient, context.body.mass)
         if not context.stand_in and (why := built.refused_by(context.body)):
@@ -151,8 +152,8 @@ class DamperMass(Effect):
         mu, _, _, *vectors = (p[name] for name in self.symbols)
         r, n = tuple(vectors[:3]), tuple(vectors[3:])
         along = dot(r, n)
-        added, slope = ([[mu * (int(i == j) * (f * along + g) - h * (r[i] * n[j] + n[i] * r[j]) - g * n[i] * n[j])
-                          for j in range(3)] for i in range(3)]
+        added, slope = ([[mu * (int(i == j) * (f * along + g) - h * (r[i] * n[j] + n[i] * r[j])
+                                - g * n[i] * n[j]) for j in range(3)] for i in range(3)]
                         for f, g, h in ((2 * x, x * x, x), (2, 2 * x, 1)))
         return added, slope, cross(r, n)
 

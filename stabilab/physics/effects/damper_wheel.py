@@ -112,10 +112,10 @@ class DamperWheel(Effect):
 
         It is where a . omega stays, which is linear in H = D omega + lambda: the path of H on its sphere is
         then a circle, n . H constant for n = D^-1 a. The energy is constant on a circle where D^-1 - mu is
-        the symmetric part of n m^T for some m, and D^-1 lambda = p m/2 + q n, p = n . H: with two equal moments for
-        n along the third axis, and lambda along it; with three equal moments for n along lambda; with three
-        different ones, mu = 1/D2, for n normal to a circular section of the ellipsoid of D^-1, and no lambda
-        along axis 2.
+        the symmetric part of n m^T for some m, and D^-1 lambda = p m/2 + q n, p = n . H: with two equal
+        moments for n along the third axis, and lambda along it; with three equal moments for n along
+        lambda; with three different ones, mu = 1/D2, for n normal to a circular section of the ellipsoid of
+        D^-1, and no lambda along axis 2.
         """
         n = tuple(a / d for a, d in zip(self.supplied, D))
         if D[0] == D[1] == D[2]:
