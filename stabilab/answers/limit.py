@@ -172,13 +172,13 @@ class Momentum:
         blocks = {name: tuple(map(Fraction, state[first:end])) for name, first, end in self.places}
         return self.components(tuple(map(Fraction, state[:3])), blocks)
 
-    def components(self, omega: Sequence[Any], blocks: Mapping[str, Sequence[Any]],
-                   number: Callable[[Fraction], Any] = Fraction) -> tuple[Any, Any, Any]:
+    def components(self, omega: Any, blocks: Mapping[str, Any],
+                   number: Callable[[Fraction], Any] = Fraction) -> Any:
         """H in the arithmetic of these rates, and blocks by name; number: what the numbers of the scene
         become."""
         H = [number(d) * w + number(l) for d, w, l in zip(self.D, omega, self.wheel)]
         added, _ = added_inside(self.inside, omega, blocks, number)
-        return tuple(h + v for h, v in zip(H, added))  # type: ignore[return-value]
+        return tuple(h + v for h, v in zip(H, added))
 
 
 def along_axes(terms: Iterable[Any]) -> list[float] | None:

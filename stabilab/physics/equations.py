@@ -205,7 +205,8 @@ def _derived(scene: Scene, names: tuple[str, ...]) -> Equations:
 
     torques, carried, outer, working, potential = {"inertia": motion.inertial}, zero, zero, zero, Integer(0)
     inside, loss, moments = Integer(0), Integer(0), D
-    relative, taken = zero, {}
+    relative = zero
+    taken: dict[str, tuple[Triple, ...]] = {}
     for effect in scene.effects:
         momentum, torque = effect.momentum(p) or zero, effect.torque_along(motion, p) or zero
         torques[effect.name] = add_terms(cross(momentum, motion.omega), torque)

@@ -116,7 +116,7 @@ class Spinner:
         return any(map(any, self.blocks.values()))
 
     @cached_property
-    def added(self) -> tuple[tuple[Fraction, ...], Fraction]:
+    def added(self) -> Any:
         """(momentum, energy) of that, exact."""
         return added_inside(self.scene.effects, self.omega, self.blocks)
 
@@ -128,7 +128,8 @@ class Spinner:
     @cached_property
     def energy(self) -> Fraction:
         """T, exact."""
-        return sum(d * w * w for d, w in zip(self.scene.body.exact, self.omega)) / 2 + self.added[1]
+        own = sum((d * w * w for d, w in zip(self.scene.body.exact, self.omega)), Fraction(0)) / 2
+        return own + self.added[1]
 
     @cached_property
     def moments(self) -> tuple[Fraction, Fraction, Fraction]:

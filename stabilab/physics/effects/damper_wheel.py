@@ -88,7 +88,7 @@ class DamperWheel(Effect):
         return {"inertia": self.exact[0], "coefficient": self.exact[1], "axis": self.supplied}
 
     def turned(self, frame: PrincipalAxes) -> DamperWheel:
-        return DamperWheel(*self.exact[:2], frame.turned(self.supplied))
+        return DamperWheel(self.exact[0], self.exact[1], frame.turned(self.supplied))
 
     def change(self, omega: Sequence[float], block: Sequence[float]) -> tuple[float, ...]:
         """The rates of the block where those of the body do not change."""
