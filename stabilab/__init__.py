@@ -42,6 +42,8 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .physics.effects.body_force import BodyForce as BodyForce
     from .physics.effects.charge import Charge as Charge
     from .physics.effects.constant_torque import ConstantTorque as ConstantTorque
+    from .physics.effects.damper_mass import DamperMass as DamperMass
+    from .physics.effects.damper_wheel import DamperWheel as DamperWheel
     from .physics.effects.eddy_currents import EddyCurrents as EddyCurrents
     from .physics.effects.gravity import Gravity as Gravity
     from .physics.effects.gyrostat import Gyrostat as Gyrostat
@@ -87,6 +89,7 @@ _HOME = {
     "LiquidCavity": "physics.effects.liquid_cavity",
     "NewtonianField": "physics.effects.newtonian_field", "Gravity": "physics.effects.gravity",
     "BodyForce": "physics.effects.body_force", "ViscousDamper": "physics.effects.viscous_damper",
+    "DamperWheel": "physics.effects.damper_wheel", "DamperMass": "physics.effects.damper_mass",
     "RateDamper": "physics.effects.rate_damper", "EddyCurrents": "physics.effects.eddy_currents",
     "WheelMotor": "physics.effects.wheel_motor",
     "derive": "answers.motions.scenes", "validity": "answers.motions.scenes",

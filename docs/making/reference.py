@@ -10,7 +10,8 @@ from importlib import import_module
 GROUPS = {
     "A case": ("load", "load_burning", "load_orbiting", "example", "Case", "Body", "Scene",
                "ScaledGyrostat", "Gyrostat", "ConstantTorque", "Charge", "Resistance", "LiquidCavity",
-               "NewtonianField", "Gravity", "BodyForce", "ViscousDamper", "RateDamper", "EddyCurrents",
+               "NewtonianField", "Gravity", "BodyForce", "ViscousDamper", "DamperWheel", "DamperMass",
+               "RateDamper", "EddyCurrents",
                "WheelMotor",
                "report"),
     "Questions about a motion": ("fate", "Fate", "fate_grid", "motion", "extremes", "period", "attitude",

@@ -9,7 +9,7 @@ beyond that by compiled steps. One search finds the crossing in either (`integra
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
@@ -21,9 +21,9 @@ from ..integrate.integer_flow import IntegerFlow
 from ..numbers.exact import exact, exact_vector, precise, sqrt_fraction, unit_vector
 from ..numbers.numba_door import installed
 from ..numbers.vectors import Exact3, Float3, Number, dot
-from ..physics.coefficients import content
+from ..physics.coefficients import added_inside, content
 from ..physics.own_unit import exact_unit
-from ..physics.scene import AnyScene, slices
+from ..physics.scene import INSIDE, AnyScene, slices
 from ..unreduced.crossing import first_crossing
 
 # --- The limit
@@ -148,14 +148,13 @@ def pointing_bound(begun: float, least: float, greatest: float) -> float:
 
 @dataclass(frozen=True)
 class Momentum:
-    """H = D omega + lambda + k sigma + h of a scene: k of a damper whose rates sigma stand at `damper` in the
-    state, h of a motor's wheel at `motor` (None: there is none). stays: whether no torque changes it."""
+    """H = D omega + lambda of a scene, and what moves inside: effects with a part, and places (name, first,
+    end) of their blocks in the state. stays: whether no torque changes it."""
 
     D: Exact3
     wheel: Exact3
-    inside: Fraction = Fraction(0)
-    damper: int | None = None
-    motor: int | None = None
+    inside: tuple[Any, ...] = ()
+    places: tuple[tuple[str, int, int], ...] = ()
     stays: bool = True
 
     @classmethod
@@ -164,17 +163,22 @@ class Momentum:
         parts, at = content(scene), slices(scene.blocks)
         outside = any(effect.takes == "outside" for effect in scene.effects) or (
             parts is None or any(parts.M) or parts.directed)
-        damper = at["damper"].start if "damper" in at else None
-        return cls(scene.body.exact, scene.vector("gyrostat"), parts.inside if parts else Fraction(0), damper,
-                   at["wheel"].start if "wheel" in at else None, not outside)
+        inside = tuple(effect for effect in scene.effects if not set(effect.needs).isdisjoint(INSIDE))
+        places = tuple((name, part.start, part.stop) for name, part in at.items() if name in INSIDE)
+        return cls(scene.body.exact, scene.vector("gyrostat"), inside, places, not outside)
 
     def of(self, state: Sequence[Number]) -> Exact3:
         """H, exact; state: the rates, and the blocks behind them."""
-        result = [d * Fraction(w) + l for d, w, l in zip(self.D, state, self.wheel)]
-        for factor, at in ((self.inside, self.damper), (Fraction(1), self.motor)):
-            if at is not None:
-                result = [v + factor * Fraction(s) for v, s in zip(result, state[at:at + 3])]
-        return tuple(result)
+        blocks = {name: tuple(map(Fraction, state[first:end])) for name, first, end in self.places}
+        return self.components(tuple(map(Fraction, state[:3])), blocks)
+
+    def components(self, omega: Any, blocks: Mapping[str, Any],
+                   number: Callable[[Fraction], Any] = Fraction) -> Any:
+        """H in the arithmetic of these rates, and blocks by name; number: what the numbers of the scene
+        become."""
+        H = [number(d) * w + number(l) for d, w, l in zip(self.D, omega, self.wheel)]
+        added, _ = added_inside(self.inside, omega, blocks, number)
+        return tuple(h + v for h, v in zip(H, added))
 
 
 def along_axes(terms: Iterable[Any]) -> list[float] | None:

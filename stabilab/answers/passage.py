@@ -375,10 +375,8 @@ def _nutation(limit: Limit, scene: AnyScene, equations: Equations) -> Any:
     from sympy import Rational, sqrt
     rational = lambda v: Rational(v.numerator, v.denominator)
     law, at = Momentum.made(scene), slices(equations.blocks)
-    H = [rational(d) * w + rational(l) for d, w, l in zip(law.D, equations.state[:3], law.wheel)]
-    for factor, name in ((law.inside, "damper"), (Fraction(1), "wheel")):
-        if name in at:
-            H = [v + rational(factor) * s for v, s in zip(H, equations.state[at[name]])]
+    H = law.components(equations.state[:3], {name: equations.state[part] for name, part in at.items()
+                                             if name != "omega"}, rational)
     ((_, direction),), angle = limit.parts[0]
     along = sum(rational(a) * v for a, v in zip(direction, H) if a)
     return along - rational(precise("cos", angle)) * sqrt(sum(v * v for v in H))

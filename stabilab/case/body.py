@@ -24,7 +24,7 @@ from ..numbers.principal import (
 from ..numbers.units import FORCE, INERTIA, half_digit, pi
 from ..numbers.vectors import Exact3, dot
 from ..physics.effects import effect_class
-from ..physics.scene import INSIDE, ROUNDING, Body, along_principal_axes, slack_of
+from ..physics.scene import ROUNDING, VECTORS_INSIDE, Body, along_principal_axes, slack_of
 from ..reasons import Length, Sentence
 from . import sections
 from .aliases import shown
@@ -514,7 +514,7 @@ def turned_motion(motion, frame: PrincipalAxes | None):
     try:
         turned = {"gamma": floats(frame.turned(motion.exact_vertical))} if motion.exact_vertical else {}
         turned |= {name: floats(frame.turned(tuple(map(Fraction, motion.blocks[name]))))
-                   for name in INSIDE if name in motion.blocks}
+                   for name in VECTORS_INSIDE if name in motion.blocks}
         return replace(motion, exact=state, state=state and floats(state), blocks=motion.blocks | turned)
     except OverflowError:
         motion.table.fault("exceeds the largest double (about 1.8e308) along the principal axes",

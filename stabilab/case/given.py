@@ -16,7 +16,16 @@ from ..numbers.exact import exact, floats
 from ..numbers.principal import IDENTITY, PrincipalAxes, oblique
 from ..numbers.units import ANGLE, LENGTH, MOMENTUM, NONE, RATE, TIME, VELOCITY, Dimension, in_si, split
 from ..numbers.vectors import Exact3
-from ..physics.scene import BLOCKS, INSIDE, AnyScene, ScaledGyrostat, Scene, slices
+from ..physics.scene import (
+    BLOCKS,
+    INSIDE,
+    NO_MOTION,
+    VECTORS_INSIDE,
+    AnyScene,
+    ScaledGyrostat,
+    Scene,
+    slices,
+)
 from ..validation import checked_span
 from .read import Case, load, with_text
 from .write import STATES
@@ -32,7 +41,8 @@ Span: TypeAlias = "Amount | Sequence[Amount]"  # (from, to), or the end
 
 FRAMES = ("principal", "file")
 UNITS = {"omega": RATE, "x": NONE, "gamma": NONE, "attitude": ANGLE, "velocity": VELOCITY,
-         "position": LENGTH, "damper": RATE, "wheel": MOMENTUM}  # of the blocks of a state
+         "position": LENGTH, "damper": RATE, "wheel": MOMENTUM, "damper_wheel": RATE,
+         "damper_mass": NONE}  # of the blocks of a state
 
 
 def as_case(supplied: Given, state: Start | None = None, span: Span | None = None,
@@ -91,7 +101,7 @@ def started(case: Case, state: Any, frame: str = "principal") -> Case:
     if (axes := turning(case, frame)) is not None:
         rates = axes.turned(rates)
         blocks |= {name: floats(axes.turned(tuple(map(Fraction, blocks[name]))))
-                   for name in ("gamma", *INSIDE) if name in blocks}
+                   for name in ("gamma", *VECTORS_INSIDE) if name in blocks}
     retained = {} if isinstance(state, Mapping) else {name: value for name, value in case.blocks.items()
                                                   if name not in blocks}
     return replace(case, state=floats(rates), decimals=rates, blocks=retained | blocks)
@@ -147,8 +157,9 @@ def _numbers(scene: AnyScene, name: str, values: Any) -> tuple[Fraction, ...]:
     row = _row(values)
     if name == "omega" and len(row) != 3:
         raise InputError(f"state: expected three numbers, got {len(row)} of them")
-    if len(row) != 3 and (name, len(row)) != ("attitude", 4):
-        raise InputError(f"state: {name} has 3 components, got {len(row)}")
+    size = len(NO_MOTION.get(name, (0.0,) * 3))
+    if len(row) != size and (name, len(row)) != ("attitude", 4):
+        raise InputError(f"state: {name} has {size} components, got {len(row)}")
     return tuple(_number(value, unit, where) for value in row)
 
 

@@ -18,7 +18,7 @@ from ..numbers.vectors import Exact3, Float3, dot
 from ..physics.coefficients import Scaling, to_scaled, torque_from_mu
 from ..physics.effects import REGISTRY, effect_class
 from ..physics.effects.base import Effect, effect_words
-from ..physics.scene import INSIDE, Body, ScaledGyrostat, Scene
+from ..physics.scene import INSIDE, NO_MOTION, Body, ScaledGyrostat, Scene
 from ..reasons import Quantity, Reason, Sentence, chained
 from ..validation import came, checked_span
 from .aliases import cure_of_key, cure_of_units
@@ -65,7 +65,7 @@ SYSTEMS = ("deg", "deg/day", "rpm", "rev/s", "si")  # of units in which text is 
 STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
 # key: block
 BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position",
-          "damper": "damper", "wheel": "wheel"}
+          "damper": "damper", "wheel": "wheel", "damper_wheel": "damper_wheel", "damper_mass": "damper_mass"}
 OBSERVED_KEYS = frozenset(OBSERVED)
 TURNED_BACK = Fraction(1, 10**15)
 UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector and stays as it is
@@ -193,7 +193,7 @@ class Case:
         if self.state is None:
             return None
         vertical = self.blocks["gamma"] if "gamma" in self.scene.blocks else ()
-        inside = [self.blocks.get(name, (0.0,) * 3) for name in INSIDE if name in self.scene.blocks]
+        inside = [self.blocks.get(name, NO_MOTION[name]) for name in INSIDE if name in self.scene.blocks]
         return (*self.state, *vertical, *(v for part in inside for v in part))
 
     @property
@@ -658,7 +658,8 @@ def _motion(top: Table) -> _Motion:
         for key, other in (("angular_velocity", "x"), ("span", "tau"), *((key, "x") for key in OBSERVED)):
             if key in table:
                 table.fault(f"a [scaled] system has no body to convert {key} with: give {other}", key)
-    vectors = {block: vector for key, block in BLOCKS.items() if (vector := table.vector(key)) is not None}
+    vectors = {block: vector for key, block in BLOCKS.items()
+               if (vector := table.numbers(key, len(NO_MOTION.get(block, (0.0,) * 3)))) is not None}
     if "gamma" in vectors:
         vectors["gamma"] = _unit(table, vectors["gamma"])
     blocks = {block: floats(vector) for block, vector in vectors.items()}
@@ -694,6 +695,10 @@ def _judge_blocks(motion: _Motion, scene):
     if "damper" in supplied and scene is not None and "damper" not in scene.blocks:
         table.fault("no damper turns in this body: give [effects.viscous_damper], or take the key away",
                     "damper")
+    for key in ("damper_wheel", "damper_mass"):
+        if key in supplied and scene is not None and key not in scene.blocks:
+            table.fault(f"no {effect_words(key)} is in this body: give [effects.{key}], or take the key away",
+                        key)
     if "wheel" in supplied and scene is not None and "wheel" not in scene.blocks:
         table.fault("no motor turns a wheel in this body: give [effects.wheel_motor]; the momentum of a "
                     "wheel that runs by itself is that of [effects.gyrostat]", "wheel")

@@ -39,6 +39,7 @@ class Written(str):
 
 UNCERTAIN = {("body", "inertia"), ("effects", "gyrostat", "momentum"),
              ("effects", "viscous_damper", "inertia"), ("effects", "viscous_damper", "coefficient"),
+             ("effects", "damper_wheel", "inertia"), ("effects", "damper_wheel", "coefficient"),
              ("effects", "constant_torque", "torque"),
              ("effects", "constant_torque", "mu"), ("motion", "angular_velocity"), ("motion", "x"),
              ("motion", "rotation_period"), ("motion", "precession_period"), ("motion", "amplitude"),
@@ -204,7 +205,7 @@ class Table:
         value = self.data.get(key)
         if value is None:
             return None
-        text = {2: "two", 3: "three"}[count]
+        text = {1: "one", 2: "two", 3: "three"}[count]
         if not isinstance(value, list):
             self.fault(
                 f"expected {text} numbers in square brackets, got "

@@ -94,7 +94,8 @@ def _value(value: Any) -> str:
 # --- What Python gives in place of a file: a dict of tables, or a scene with a state
 STATES = {"omega": "angular_velocity", "x": "x", "gamma": "vertical", "attitude": "attitude",
           "velocity": "velocity", "position": "position",
-          "damper": "damper", "wheel": "wheel"}  # block of a state: its key in [motion]
+          "damper": "damper", "wheel": "wheel", "damper_wheel": "damper_wheel",
+          "damper_mass": "damper_mass"}  # block of a state: its key in [motion]
 
 
 def plain(value: Any, name: str = "load") -> Any:

@@ -1,10 +1,11 @@
 """Equilibria of a free body with a damper inside, with wheels or without.
 
 At an equilibrium the damper's sphere is at rest in the body: sigma' + omega' = 0 gives c sigma/k = -omega x
-sigma, whose product with sigma is c |sigma|^2/k = 0. So the equilibria are those of the body alone. The
-damper keeps |H|, wheels included, and takes energy at every rotation that is not permanent, so that exactly
-the strict minima of the energy on the spheres of constant |H| attract (`momentum_sphere`); without wheels
-they are the same as with a liquid. The eigenvalues are the damper's own."""
+sigma, whose product with sigma is c |sigma|^2/k = 0; a damper wheel is, for s' = -c s/J there. So the
+equilibria are those of the body alone. The damper keeps |H|, wheels included, and takes energy at every
+rotation that is not permanent, so that exactly the strict minima of the energy on the spheres of constant
+|H| attract (`momentum_sphere`); without wheels they are the same as with a liquid. The eigenvalues are the
+damper's own."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -15,7 +16,10 @@ from typing import Any
 
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import CYCLE, Exact3, dot
-from ..physics.coefficients import Content, gyrostat_scene
+from ..physics.coefficients import Content, Together, gyrostat_scene
+from ..physics.effects import effect_class
+from ..physics.equations import derive
+from ..physics.scene import Body, Scene
 from ..reasons import Reason, Sentence
 from .liquid import THE_LIQUID, liquid_equilibria
 from .momentum_sphere import MINIMUM, MomentumSphere, nature_at
@@ -37,6 +41,14 @@ THE_DAMPER = Sentence("the-damper", "the damper")()
 DAMPER_FREE_ALONE = Sentence(
     "damper-free-alone",
     "undecided: with a damper the stability of equilibria is known of a free body, with wheels or without")()
+DAMPED_IN_PART = Sentence(
+    "damper-in-part",
+    "undecided: some rotation that is not permanent leaves the damper's wheel at rest in the body, and what "
+    "becomes of its neighbours is not known")()
+MASS_DISPLACED = Sentence(
+    "damper-mass-displaced",
+    "undecided: a rotation displaces the damper's mass, and the equilibria of body and mass are not known "
+    "in general")()
 DAMPED_PARALLEL = Sentence(
     "damped-momentum-along-rotation", "the damper's sphere is at rest in the body at every equilibrium, so "
     "that these are those of the body alone")()
@@ -63,9 +75,13 @@ def damped_equilibria(parts: Content) -> Equilibria:
     """Every permanent rotation with its stability; undecided beside a torque, a medium or a liquid."""
     if any(parts.M) or parts.c or parts.damped or parts.kappa:
         return Equilibria("undecided", reason=DAMPER_FREE_ALONE)
+    if parts.displaced:
+        return Equilibria("undecided", reason=MASS_DISPLACED)
+    if not parts.all_is_damped or parts.rest_of_moments <= 0:
+        return Equilibria("undecided", reason=DAMPED_IN_PART)
     if any(parts.Lambda):
         return _with_wheels(parts)
-    out = liquid_equilibria(replace(parts, inside=Fraction(0), kappa=Fraction(1)))  # verdicts of any liquid
+    out = liquid_equilibria(replace(parts, inside=Fraction(0), movers=(), kappa=Fraction(1)))  # any liquid's
     return Equilibria(out.kind, tuple(_with_damper(parts, point) for point in out.points),
                       tuple(_curve_with_damper(parts, curve) for curve in out.curves),
                       reason=_of_damper(out.reason))
@@ -133,7 +149,7 @@ def _plane(parts: Content, p: Pencil, plane: EquilibriumCurve) -> EquilibriumCur
 def _point(parts: Content, omega: Exact3, word: str, verdict: Verdict) -> EquilibriumPoint:
     import numpy as np
     at = tuple(float(v) for v in omega)
-    return EquilibriumPoint(at, ordered(np.linalg.eigvals(damper_jacobian(parts, at))), word, verdict.word,
+    return EquilibriumPoint(at, ordered(np.linalg.eigvals(jacobian(parts, at))), word, verdict.word,
                             reason=verdict.reason)
 
 
@@ -151,8 +167,19 @@ def _curve_with_damper(parts: Content, curve: EquilibriumCurve) -> EquilibriumCu
 
 def _with_damper(parts: Content, point: EquilibriumPoint) -> EquilibriumPoint:
     import numpy as np
-    return replace(point, eigenvalues=ordered(np.linalg.eigvals(damper_jacobian(parts, point.at))),
+    return replace(point, eigenvalues=ordered(np.linalg.eigvals(jacobian(parts, point.at))),
                    reason=_of_damper(point.reason))
+
+
+def jacobian(parts: Content, omega: Sequence[float]) -> Any:
+    """(n, n) array at a permanent rotation, of omega and what moves inside."""
+    import numpy as np
+    if not parts.movers:
+        return damper_jacobian(parts, omega)
+    sphere = [effect_class("viscous_damper")(parts.inside, parts.friction)] if parts.inside else []
+    equations = derive(Scene(Body(parts.D), Together(parts.Lambda), *sphere, *parts.movers))
+    at = dict(zip(equations.state, (*omega, *[0.0] * (len(equations.state) - 3))))
+    return np.array(equations.numeric(equations.jacobian).xreplace(at).tolist(), float)
 
 
 def damper_jacobian(parts: Content, omega: Sequence[float]) -> Any:

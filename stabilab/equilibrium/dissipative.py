@@ -82,7 +82,7 @@ AT_REST = Sentence("rates-vanish", "ω = 0")()
 
 def eddy_equilibria(parts: Content) -> Equilibria:
     """Rotations about the field and rest, of the body alone; undecided beside anything else."""
-    if (any(parts.M) or any(parts.Lambda) or parts.c or parts.damped or parts.inside or parts.kappa
+    if (any(parts.M) or any(parts.Lambda) or parts.c or parts.damped or parts.damper_inside or parts.kappa
             or any(parts.s) or parts.N or parts.E):
         return Equilibria("undecided", reason=EDDY_BESIDE)
     curves = [_rotations(parts, i, sign) for i in range(3) for sign in (1, -1)]
@@ -362,7 +362,7 @@ def decay(parts: Content) -> Fraction:
 
 def drawn_to(parts: Content) -> Float3 | None:
     """The equilibrium that draws every motion under resistance and a torque; None where none is proved to."""
-    if parts.inside or parts.kappa or parts.directed or any(parts.u) or not decay(parts):
+    if parts.damper_inside or parts.kappa or parts.directed or any(parts.u) or not decay(parts):
         return None
     points = [point for point in resisted_equilibria(parts).points if point.reason.says(GLOBAL.sentence)]
     return tuple(map(float, points[0].at[:3])) if points else None
@@ -412,7 +412,7 @@ CIRCLE_OF_REST = Sentence("circle-of-rest", "circle of rest positions")()
 def dissipative_equilibria(parts: Content) -> Equilibria:
     """Equilibria of the angular velocity with resistance, a liquid or both, a wheel, a constant charge and a
     torque."""
-    if parts.inside:
+    if parts.damper_inside:
         return damped_equilibria(parts)
     if not parts.kappa:
         return resisted_equilibria(parts)
@@ -430,7 +430,7 @@ def dissipative_equilibria(parts: Content) -> Equilibria:
 
 def held_in_a_field(parts: Content) -> Equilibria:
     """Equilibria of a body in a field that a liquid or a medium takes energy from."""
-    if parts.inside:
+    if parts.damper_inside:
         return Equilibria("undecided", reason=DAMPER_IN_FIELD)
     if parts.kappa:
         return Equilibria("undecided", reason=LIQUID_IN_FIELD)

@@ -21,7 +21,7 @@ from ..physics.own_unit import FAST, HEAVY, LIGHT, SLOW, exponent
 from ..physics.scene import BLOCKS
 from ..physics.to_numpy import to_numpy
 
-RATES = {"omega", "damper"}  # blocks of rates, rad/s
+RATES = {"omega", "damper", "damper_wheel"}  # blocks of rates, rad/s
 PLAIN = {"gamma", "attitude"}  # blocks of size 1
 # beside a block of size 1 slow rates are followed to 1e-16 of 1: a unit of their own from here on
 SLOW_BESIDE = 2.0**-20

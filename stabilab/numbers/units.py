@@ -66,6 +66,7 @@ INERTIA, VELOCITY, CHARGE, FLUX = (2, 1, 0, 0, 0), (1, 0, -1, 0, 0), (0, 0, 1, 1
 PER_SECOND, PER_SECOND_2, DENSITY, VISCOSITY = (0, 0, -1, 0,
                                                 0), (0, 0, -2, 0, 0), (-3, 1, 0, 0, 0), (2, 0, -1, 0, 0)
 MASS_FLOW, EDDY = (0, 1, -1, 0, 0), (2, -1, 3, 2, 0)
+STIFFNESS = (0, 1, -2, 0, 0)
 # an energy has the dimension of a torque
 ATTRACTION, LENGTH_7, ENERGY = (3, 0, -2, 0, 0), (7, 0, 0, 0, 0), (2, 1, -2, 0, 0)
 NAMES: dict[Dimension, str] = {
@@ -76,7 +77,7 @@ NAMES: dict[Dimension, str] = {
          INERTIA: "moment of inertia (kg m^2)", VELOCITY: "velocity (m/s)", CHARGE: "charge (C)",
          FLUX: "magnetic flux density (T)",
          PER_SECOND: "rate (1/s)", DENSITY: "density (kg/m^3)", VISCOSITY: "kinematic viscosity (m^2/s)",
-         MASS_FLOW: "mass flow (kg/s)",
+         MASS_FLOW: "mass flow (kg/s)", STIFFNESS: "stiffness (N/m)",
          EDDY: "torque over rate and field squared (N m s/T^2)", (2, 1, -3, 0, 0): "power (W)",
          (-1, 1, -2, 0, 0): "pressure (Pa)", (0, 0, -2, 0, 1): "angular acceleration (rad/s^2)",
          (1, 1, -1, 0, 0): "momentum (N s)"}
@@ -107,9 +108,13 @@ DIMENSIONS: dict[str, Dimension] = {
     "effects.liquid_cavity.P0": LENGTH_7,
     "effects.liquid_cavity.radius": LENGTH,
     "effects.viscous_damper.inertia": INERTIA, "effects.viscous_damper.coefficient": MOMENTUM,
+    "effects.damper_wheel.inertia": INERTIA, "effects.damper_wheel.coefficient": MOMENTUM,
+    "effects.damper_mass.mass": MASS, "effects.damper_mass.place": LENGTH,
+    "effects.damper_mass.stiffness": STIFFNESS, "effects.damper_mass.coefficient": MASS_FLOW,
     "effects.rate_damper.coefficient": MOMENTUM,
     "effects.eddy_currents.coefficient": EDDY, "effects.eddy_currents.field": FLUX,
     "effects.wheel_motor.torque": TORQUE, "effects.wheel_motor.duration": TIME,
+    "motion.damper_wheel": RATE,
     "motion.damper": RATE, "motion.wheel": MOMENTUM, "motion.rotation_period": TIME,
     "motion.precession_period": TIME, "motion.amplitude": ANGLE, "motion.spin": RATE,
     "motion.nutation": ANGLE,

@@ -23,10 +23,10 @@ The paper forgets the root of u in a and b, which is harmless only for its u = 1
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from ..errors import InputError
@@ -36,7 +36,7 @@ from ..reasons import Axis, Reason, Sentence
 from ..validation import checked_scene, real
 from .effects import effect_class
 from .effects.base import Effect
-from .scene import ZERO3, AnyScene, Body, ScaledGyrostat, Scene
+from .scene import INSIDE, NO_MOTION, ZERO3, AnyScene, Body, ScaledGyrostat, Scene
 
 if TYPE_CHECKING:
     import numpy as np
@@ -63,7 +63,8 @@ class Content:
     """The coefficients of the equations above, exact. printed: the liquid's torque is the printed one;
     inside, friction: of a damper, the moment of inertia of its sphere, which turns relative to the body, and
     the coefficient of its fluid. C: rows of a linear damper; eddy: k B^2 of eddy currents, N m s; u: torque
-    of a motor on its wheel, for so long as duration says, s (None: for ever)."""
+    of a motor on its wheel, for so long as duration says, s (None: for ever). movers: the effects that bring
+    a damper with another state of its own, a wheel or a mass."""
 
     D: Exact3
     Lambda: Exact3
@@ -80,6 +81,7 @@ class Content:
     eddy: Fraction = ZERO
     u: Exact3 = ZERO3
     duration: Fraction | None = None
+    movers: tuple[Any, ...] = ()
     charged: bool = False
     forced: bool = False
 
@@ -102,8 +104,31 @@ class Content:
     @property
     def dissipative(self) -> bool:
         """Whether a liquid, a medium, a damper or eddy currents take energy."""
-        return bool(self.c or self.inside or self.damped or self.eddy
+        return bool(self.c or self.damper_inside or self.damped or self.eddy
                     or (self.kappa and len(set(self.D)) + any(self.Lambda) + self.directed > 1))
+
+    @property
+    def damper_inside(self) -> bool:
+        """Whether a damper moves inside the body."""
+        return bool(self.inside or self.movers)
+
+    @property
+    def rest_of_moments(self) -> Fraction:
+        """T >= this |omega|^2/2: the least moment of what moves with the body, at least; not positive where
+        none is proved. A wheel of moment J leaves omega . (D - J a a^T) omega >= (1 - J a . D^-1 a) omega . D
+        omega."""
+        part = 1 - sum((item.share(self.D) for item in self.movers), Fraction(0))
+        return min(self.D) * part - self.inside
+
+    @property
+    def all_is_damped(self) -> bool:
+        """Whether some damper moves at every rotation that is not permanent."""
+        return bool(self.inside) or any(not item.never_turns(self.D, self.Lambda) for item in self.movers)
+
+    @property
+    def displaced(self) -> bool:
+        """Whether permanent rotations displace a damper, so that they are not those of the body alone."""
+        return any(item.displaced for item in self.movers)
 
     @property
     def unproved_loss(self) -> Reason | None:
@@ -146,9 +171,13 @@ def content(scene: AnyScene) -> Content | None:
         terms = effect.terms()
         if terms is None:
             return None
-        numbers |= {name: _sum(numbers[name], value) if name in numbers else value
+        numbers |= {name: _joined(name, numbers[name], value) if name in numbers else value
                     for name, value in terms.items()}
     return Content(scene.body.exact, **numbers)
+
+
+def _joined(name: str, item: Any, other: Any) -> Any:
+    return item + other if name == "movers" else _sum(item, other)
 
 
 def _sum(item: Any, other: Any) -> Any:
@@ -237,7 +266,7 @@ def split(parts: Content, state: Any) -> tuple[Float3, Float3 | None]:
     else:
         row = _row(state)
         own = 3 + 3 * parts.directed
-        row = row[:own] if (parts.inside or any(parts.u)) and len(row) > own else row
+        row = row[:own] if (parts.damper_inside or any(parts.u)) and len(row) > own else row
         rows = [row[:3], row[3:]]
     omega, gamma = (_row(row) if len(row) else () for row in rows)
     if len(omega) != 3 or len(gamma) not in (0, 3):
@@ -261,6 +290,31 @@ def taken_up(parts: Content, state: Any) -> Float3:
     """The momentum that a motor has given its wheel, N m s, likewise."""
     first = 3 + 3 * parts.directed + 3 * bool(parts.inside)
     return _inside(state, "wheel", first) if any(parts.u) else (0.0,) * 3
+
+
+def moved(parts: Content, state: Any) -> dict[str, tuple[float, ...]]:
+    """The blocks of dampers with another state of their own, likewise."""
+    first, result = 3 + 3 * (parts.directed + bool(parts.inside) + any(parts.u)), {}
+    for name in (name for name in INSIDE for item in parts.movers if name in item.needs):
+        size = len(NO_MOTION[name])
+        rows = state.get(name, ()) if isinstance(state, dict) else _row(state)[first:first + size]
+        result[name] = _row(rows) if len(rows) else NO_MOTION[name]
+        first += size
+    return result
+
+
+def added_inside(effects: Iterable[Any], omega: Sequence[Number], blocks: Mapping[str, Sequence[Number]],
+                 number: Callable[[Fraction], Any] = Fraction) -> tuple[Triple, Number]:
+    """(momentum, energy) that the motion of parts inside adds to those of the body with them at rest, in the
+    arithmetic of the state; omega and blocks of the state by name; number: what the numbers of the effects
+    become."""
+    momentum, energy = (omega[0] * 0,) * 3, omega[0] * 0
+    for effect in effects:
+        numbers = {name: number(value) for name, value in effect.parameters().items()}
+        if (part := effect.part(SimpleNamespace(omega=omega, **blocks), numbers)) is not None:
+            momentum = tuple(h + p for h, p in zip(momentum, part.momentum))
+            energy = energy + part.energy
+    return momentum, energy
 
 
 def _inside(state: Any, block: str, first: int) -> Float3:

@@ -5,12 +5,13 @@ hold along them.
     T' = omega . tau  (effects that do work),   (|H|^2 / 2)' = H . tau,   H = D omega + h
 
 A part that turns inside the body (`effects.base.Part`) has its moment taken off D on the left, its friction's
-torque on the right, and its own share of T and of H.
+torque on the right, and its own share of T and of H. Where that moment is not the same about all axes (a
+wheel, a mass on a line) the three equations are solved for omega' by the adjugate, which divides once.
 
 Everything here is a SymPy value; numbers enter at `to_numpy`."""
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache, reduce
@@ -205,6 +206,7 @@ def _derived(scene: Scene, names: tuple[str, ...]) -> Equations:
     torques, carried, outer, working, potential = {"inertia": motion.inertial}, zero, zero, zero, Integer(0)
     inside, loss, moments = Integer(0), Integer(0), D
     relative = zero
+    taken: dict[str, tuple[Triple, ...]] = {}
     for effect in scene.effects:
         momentum, torque = effect.momentum(p) or zero, effect.torque_along(motion, p) or zero
         torques[effect.name] = add_terms(cross(momentum, motion.omega), torque)
@@ -213,6 +215,7 @@ def _derived(scene: Scene, names: tuple[str, ...]) -> Equations:
             moments = tuple(d - part.inertia for d in moments)
             relative = add_terms(relative, part.momentum)
             inside, loss = inside + part.energy, loss + part.loss
+            taken |= {effect.name: part.taken} if part.taken is not None else {}
         carried, outer = add_terms(carried, momentum), add_terms(outer, torque)
         stored = effect.potential(motion, p)
         potential += stored or 0
@@ -223,7 +226,9 @@ def _derived(scene: Scene, names: tuple[str, ...]) -> Equations:
             raise InputError("velocity and position need the mass of the body: give body.mass in kg")
         parameters["mass"] = exact(scene.body.mass)
         symbols |= _symbols(("mass",), positive=True)
-    motion.change = tuple(total / d for total, d in zip(reduce(add_terms, torques.values()), moments))
+    motion.change = _turning(moments, tuple(taken.values()), reduce(add_terms, torques.values()))
+    for name, rows in taken.items():
+        torques[name] = add_terms(torques[name], (dot(row, motion.change) for row in rows))
     rates = {"omega": motion.change}
     rates |= {name: rate(scene, motion, symbols | p) for name, rate in KINEMATICS.items() if name in blocks}
     state, rhs = (tuple(v for name in names for v in part[name]) for part in (blocks, rates))
@@ -241,6 +246,17 @@ def _derived(scene: Scene, names: tuple[str, ...]) -> Equations:
         balances.append(Balance("quaternion", sum(a**2 for a in q), Integer(0), reason=LENGTH))
     return Equations("physical", state, parameters, symbols, inertia, torques, rhs, energy, tuple(balances),
                      names)
+
+
+def _turning(moments: Triple, taken: Iterable[Sequence[Triple]], total: Triple) -> Triple:
+    """omega' of (diag(moments) - sum of taken) omega' = total."""
+    if not taken:
+        return tuple(t / d for t, d in zip(total, moments))
+    rows = [[(moments[i] if i == j else 0) - sum(item[i][j] for item in taken) for j in range(3)]
+            for i in range(3)]
+    columns = [tuple(row[j] for row in rows) for j in range(3)]
+    crossed = [cross(columns[j], columns[k]) for j, k in ((1, 2), (2, 0), (0, 1))]  # rows of the adjugate
+    return tuple(dot(row, total) / dot(columns[0], crossed[0]) for row in crossed)
 
 
 def _gamma_laws(scene: Scene, motion: MotionView, symbols: Symbols, H: Triple) -> Iterator[Balance]:
@@ -268,6 +284,8 @@ class MotionView:
     velocity: Triple
     damper: Triple
     wheel: Triple
+    damper_wheel: tuple[Symbolic, ...]
+    damper_mass: tuple[Symbolic, ...]
     change: Triple  # omega', once it is known
 
     def __init__(self, scene: Scene, blocks: Mapping[str, tuple[Symbolic, ...]], D: Triple,
@@ -338,6 +356,8 @@ KINEMATICS = {
     "position": lambda scene, motion, symbols: motion.velocity,
     "damper": _inside("damper", "viscous damper"),
     "wheel": _inside("wheel", "wheel motor"),
+    "damper_wheel": _inside("damper_wheel", "damper wheel"),
+    "damper_mass": _inside("damper_mass", "damper mass"),
 }
 
 

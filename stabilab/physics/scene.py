@@ -183,9 +183,16 @@ BLOCKS = {block.name: block for block in (
     Block("position", ("x1", "x2", "x3"), "m", "position, inertial frame"),
     Block("damper", ("sigma1", "sigma2", "sigma3"), "rad/s",
           "angular velocity of the damper's sphere relative to the body, body frame"),
-    Block("wheel", ("h1", "h2", "h3"), "N m s", "momentum that a motor has given its wheel, body frame"))}
+    Block("wheel", ("h1", "h2", "h3"), "N m s", "momentum that a motor has given its wheel, body frame"),
+    Block("damper_wheel", ("sigmaw",), "rad/s", "rate of the damper's wheel relative to the body"),
+    Block("damper_mass", ("xm", "vm"), "m, m/s",
+          "place of the damper's mass on its line, from where its spring is relaxed, and its speed in the "
+          "body"))}
 ORDER = tuple(BLOCKS)
-INSIDE = ("damper", "wheel")  # what turns inside the body: zero where nothing is said of it
+# what moves inside the body: zero where nothing is said of it; the first are vectors
+VECTORS_INSIDE = ("damper", "wheel")
+INSIDE = (*VECTORS_INSIDE, "damper_wheel", "damper_mass")
+NO_MOTION = {name: (0.0,) * len(BLOCKS[name].components) for name in INSIDE}
 # what a run may show: the blocks, and what is formed from them
 PARTS = BLOCKS | {part.name: part for part in (
     Block("x", ("x1", "x2", "x3"), "", "angular velocity, body frame, scaled"),

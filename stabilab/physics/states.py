@@ -17,7 +17,18 @@ from ..errors import InputError, told
 from ..numbers.double_double import EPS
 from ..validation import real
 from .equations import Equations, derive, rotation
-from .scene import BLOCKS, INSIDE, ORDER, AnyScene, Scene, judge_start, judge_starts, ordered, rests
+from .scene import (
+    BLOCKS,
+    INSIDE,
+    NO_MOTION,
+    ORDER,
+    AnyScene,
+    Scene,
+    judge_start,
+    judge_starts,
+    ordered,
+    rests,
+)
 from .to_numpy import equations_of
 
 if TYPE_CHECKING:
@@ -112,7 +123,7 @@ def three_numbers(state: np.ndarray | Sequence[float | Fraction], name: str = "s
     return array
 
 REST = {"gamma": (0.0, 0.0, 1.0), "attitude": (1.0, 0.0, 0.0, 0.0), "velocity": (0.0,) * 3,
-        "position": (0.0,) * 3, "damper": (0.0,) * 3, "wheel": (0.0,) * 3}
+        "position": (0.0,) * 3} | NO_MOTION
 
 
 def equations_and_start(

@@ -125,8 +125,8 @@ def _unstructured(expression: Symbolic, resolved: dict[Symbolic, Symbolic], symb
     number."""
     from sympy import Float, Rational
     swap = {p: _numbered(_rounded(v), symbols, numbers) for p, v in resolved.items() if expression.has(p)}
-    swapped = expression.subs(swap)
-    return swapped.subs({r: Float(r, 17) for r in swapped.atoms(Rational) if not r.is_Integer})
+    swapped = expression.xreplace(swap)  # each for itself: a search for what it may stand in takes seconds
+    return swapped.xreplace({r: Float(r, 17) for r in swapped.atoms(Rational) if not r.is_Integer})
 
 
 def _numbered(number: float, symbols: list[Symbolic], numbers: list[float]) -> Symbolic:

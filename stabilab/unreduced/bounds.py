@@ -26,7 +26,7 @@ from ..numbers.exact import sqrt_fraction
 from ..numbers.vectors import Float3, dot
 from ..orbit.fate import REASONS, Basis
 from ..orbit.result import Fate, Motion, Needs
-from ..physics.coefficients import Content, at_rest, content, relative, split, taken_up
+from ..physics.coefficients import Content, added_inside, at_rest, content, moved, relative, split, taken_up
 from ..physics.scene import Scene, judge_start
 from ..reasons import (
     Axis,
@@ -75,6 +75,15 @@ WORK_OF_TORQUE_AND_LIQUID = Sentence(
 DAMPER_BESIDE = Sentence(
     "damper-beside", "undecided: no bound is proved for a damper inside beside a torque, a medium, another "
     "damper, a liquid or a field")()
+DAMPERS_TOO_LARGE = Sentence(
+    "dampers-too-large", "undecided: together the dampers may take more than the moments of the body hold")()
+SOME_GO_ON = Sentence(
+    "damped-in-part", "the damper keeps |H| and takes energy, so the motion is bounded; where it tends is "
+    "undecided, for some rotation that is not permanent leaves its wheel at rest in the body")()
+DISPLACED = Sentence(
+    "mass-moves", "the damper keeps |H| and takes energy wherever its mass moves, so the motion is bounded; "
+    "where it tends is undecided, for at most rotations the mass stays away from where its spring is "
+    "relaxed")()
 TAKES_ENERGY = Sentence(
     "takes-energy", "{part} keeps |H| and takes energy at every rotation that is not permanent (LaSalle), so "
     "the motion is bounded and tends to permanent rotations of its |H|")
@@ -186,21 +195,23 @@ def motion(scene: Scene, state: Sequence[float] | Mapping[str, Float3], span: Se
     omega, gamma = split(parts, state)
     sigma, wheel = relative(parts, state), taken_up(parts, state)
     judge_start(scene, {"wheel": wheel})
+    own = moved(parts, state) if parts.movers else {}
     at = omega + (gamma or ()) + (sigma if parts.inside else ()) + (wheel if any(parts.u) else ())
+    at += tuple(v for row in own.values() for v in row)
     visited = {}
     if span is not None and needs:
         from .evidence import seen_of_blocks
         visited = seen_of_blocks(scene, {"omega": omega} | ({"gamma": gamma} if gamma else {})
                          | ({"damper": sigma} if parts.inside else {})
-                         | ({"wheel": wheel} if any(parts.u) else {}), span)
+                         | ({"wheel": wheel} if any(parts.u) else {}) | own, span)
     fields: dict[str, Any]
     if any(parts.u):
         fields = {**visited, **_motor(parts, omega, gamma, wheel)}
-    elif at_rest(parts, exact or omega, gamma) and not any(sigma):
+    elif at_rest(parts, exact or omega, gamma) and not any(sigma) and _rest_too(parts, omega, own):
         fields = {"fate": Fate.EQUILIBRIUM, "reason": REASONS[Basis.AT_REST],
                   "extremes": tuple((w, w) for w in omega)}
     else:
-        fate, reason, bounds = judged(parts, omega, gamma, sigma, _end(visited))
+        fate, reason, bounds = judged(parts, omega, gamma, sigma, _end(visited), own)
         fields = {**visited, "fate": fate, "reason": reason, "invariants": bounds}
     reason = fields["reason"].then(parts.note)
     level = "undecided" if fields["fate"] == Fate.UNDECIDED else "exact"
@@ -214,11 +225,12 @@ def _end(visited: dict[str, Any]) -> tuple[float, ...]:
 
 
 def judged(parts: Content, omega: Sequence[float], gamma: Sequence[float] | None,
-           sigma: Sequence[float] = (0.0,) * 3, end: tuple[float, ...] = ()) -> tuple[Fate, Reason, dict]:
+           sigma: Sequence[float] = (0.0,) * 3, end: tuple[float, ...] = (),
+           own: Mapping[str, Sequence[float]] | None = None) -> tuple[Fate, Reason, dict]:
     """(fate, its proof, the numbers in it); sigma: rates of a damper relative to the body; end: omega
-    and gamma at the end of a run."""
-    if parts.inside:
-        return _damped(parts, omega, sigma)
+    and gamma at the end of a run; own: blocks of dampers with other states."""
+    if parts.damper_inside:
+        return _damped(parts, omega, {"damper": sigma, **(own or {})})
     if parts.unproved_loss is not None:
         return Fate.UNDECIDED, parts.unproved_loss, {}
     if gamma:
@@ -250,7 +262,7 @@ def _motor(parts: Content, omega, gamma, wheel) -> dict[str, Any]:
     """The fields of a motion in which a motor turns a wheel. As h x omega does no work, resistance bounds the
     rates as it does under the torque M - u."""
     others, smallest = parts.without_motor, float(min(parts.D))
-    if not parts.inside and not gamma and not parts.kappa and (slowest := decay(others)):
+    if not parts.damper_inside and not gamma and not parts.kappa and (slowest := decay(others)):
         T0, x0 = _energy(parts, omega)
         largest, late = energy_bound(replace(others, M=tuple(m - u for m, u in zip(parts.M, parts.u))), x0)
         if parts.duration is not None:
@@ -288,19 +300,33 @@ def _motor(parts: Content, omega, gamma, wheel) -> dict[str, Any]:
             "invariants": {} if outer else {"momentum": H}}
 
 
-def _damped(parts: Content, omega: Sequence[float], sigma: Sequence[float]) -> tuple[Fate, Reason, dict]:
-    """A damper alone, or with wheels: |H| stays, the energy falls."""
-    if any(parts.M) or parts.c or parts.damped or parts.kappa or parts.directed:
+def _rest_too(parts: Content, omega: Sequence[float], own: Mapping[str, Sequence[float]]) -> bool:
+    """Whether what has a state of its own inside stays, too, where the rates do."""
+    return not any(any(item.change(omega, own[item.needs[0]])) for item in parts.movers)
+
+
+def _damped(parts: Content, omega: Sequence[float], blocks: Mapping[str, Sequence[float]]
+            ) -> tuple[Fate, Reason, dict]:
+    """Dampers alone, or with wheels: |H| stays, the energy falls."""
+    if any(parts.M) or parts.c or parts.damped or parts.kappa or parts.directed or any(parts.u):
         return Fate.UNDECIDED, DAMPER_BESIDE, {}
     k = parts.inside
-    w, s = tuple(map(Fraction, omega)), tuple(map(Fraction, sigma))
-    H = tuple(d * x + l + k * y for d, x, l, y in zip(parts.D, w, parts.Lambda, s))
-    twice = sum(d * x * x for d, x in zip(parts.D, w)) + k * (2 * dot(w, s) + dot(s, s))
-    if not any(parts.Lambda):
-        return _permanent(parts, H, twice, "the damper")
-    return Fate.BOUNDED, TAKES_ENERGY(part="the damper"), {
-        "energy": float(twice / 2), "momentum": _sqrt(dot(H, H)),
-        "rate_bound": _sqrt(twice / (min(parts.D) - k))}
+    w, s = tuple(map(Fraction, omega)), tuple(map(Fraction, blocks["damper"]))
+    rows = {name: tuple(map(Fraction, row)) for name, row in blocks.items()}
+    momentum, energy = added_inside(parts.movers, w, rows)
+    H = tuple(d * x + l + k * y + h for d, x, l, y, h in zip(parts.D, w, parts.Lambda, s, momentum))
+    twice = sum(d * x * x for d, x in zip(parts.D, w)) + k * (2 * dot(w, s) + dot(s, s)) + 2 * energy
+    slowest = parts.rest_of_moments
+    bounds = {"energy": float(twice / 2), "momentum": _sqrt(dot(H, H))}
+    if slowest > 0:
+        bounds["rate_bound"] = _sqrt(twice / slowest)
+    if any(parts.Lambda) or not parts.all_is_damped or parts.displaced:
+        if slowest <= 0:
+            return Fate.UNDECIDED, DAMPERS_TOO_LARGE, bounds
+        if parts.displaced:
+            return Fate.BOUNDED, DISPLACED, bounds
+        return Fate.BOUNDED, TAKES_ENERGY(part="the damper") if parts.all_is_damped else SOME_GO_ON, bounds
+    return _permanent(parts, H, twice, "the damper")
 
 
 def _resisted(parts: Content, T0: float, x0: float) -> tuple[Fate, Reason, dict]:
@@ -359,8 +385,8 @@ def _permanent(parts: Content, H: Sequence[Fraction], twice: Fraction | int,
     """A free body of angular momentum H and kinetic energy twice/2 from which something takes energy."""
     square, order = dot(H, H), sorted(range(3), key=lambda i: -parts.D[i])
     size = _sqrt(square)
-    # without a damper |omega| <= |H|/(least moment); with it T >= (least moment - k) |omega|^2/2
-    bound = (_sqrt(twice / (min(parts.D) - parts.inside)) if parts.inside
+    # without a damper |omega| <= |H|/(least moment); with it T >= (least moment of the rest) |omega|^2/2
+    bound = (_sqrt(twice / parts.rest_of_moments) if parts.damper_inside
              else size / float(min(parts.D)))
     bounds = {"energy": float(twice) / 2, "momentum": size, "rate_bound": bound}
     first, second = order[:2]

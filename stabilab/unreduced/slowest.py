@@ -55,13 +55,13 @@ class SlowBy(NamedTuple):
 def least_rate(scene: Scene, state: Sequence[float] | Mapping[str, Float3]) -> Slowest | None:
     """The largest rate that a law keeps |omega| above; None where none does. state: as of `bounds.motion`."""
     parts = content(scene)
-    if parts is None or any(parts.u) or any(parts.M) or parts.c or parts.damped:
+    if parts is None or any(parts.u) or any(parts.M) or parts.c or parts.damped or parts.movers:
         return None
     if parts.unproved_loss is not None:
         return None
     omega, gamma = split(parts, state)
     if parts.directed:
-        return _directed(parts, omega, gamma or ()) if not (parts.kappa or parts.inside) else None
+        return _directed(parts, omega, gamma or ()) if not (parts.kappa or parts.damper_inside) else None
     if parts.inside or parts.kappa and not (parts.printed or any(parts.Lambda)):
         return _inside(parts, omega, relative(parts, state))
     return None
@@ -104,7 +104,8 @@ def below_by(scene: Scene, state: Any, rate: float) -> SlowBy | None:
     """By when |omega| is surely below `rate`, rad/s, for ever; None where no law says so. state: as of
     `bounds.motion`."""
     parts = content(scene)
-    if (parts is None or any(parts.u) or parts.directed or parts.inside or parts.unproved_loss is not None
+    if (parts is None or any(parts.u) or parts.directed or parts.damper_inside
+            or parts.unproved_loss is not None
             or parts.kappa and any(parts.Lambda)):
         return None
     slowest = float(decay(parts))

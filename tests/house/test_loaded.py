@@ -18,7 +18,9 @@ EFFECTS = {
     "resistance": "coefficient = 0.1", "liquid_cavity": "density = 1\nviscosity = 1\nradius = 0.1",
     "newtonian_field": "strength = 0.5",
     "gravity": "weight = 1\ncentre_of_mass = [0.1, 0, 0]", "body_force": "force = [1, 0, 0]",
-    "viscous_damper": "inertia = 0.1\ncoefficient = 0.5", "rate_damper": "coefficient = 0.1",
+    "viscous_damper": "inertia = 0.1\ncoefficient = 0.5",
+    "damper_mass": "mass = 0.1\nplace = [0.2, 0, 0]\nline = [0, 0, 1]\nstiffness = 1\ncoefficient = 0.1",
+    "damper_wheel": "inertia = 0.1\ncoefficient = 0.5\naxis = [0, 1, 1]", "rate_damper": "coefficient = 0.1",
     "eddy_currents": "coefficient = 0.1\nfield = 1", "wheel_motor": "torque = [0.01, 0, 0.02]"}
 GAMMA = ("newtonian_field", "gravity", "eddy_currents")
 PAIRS = (("gyrostat", "constant_torque"), ("charge", "constant_torque"), ("liquid_cavity", "resistance"))

@@ -40,6 +40,7 @@ FORMS = {  # cases that together have every key; each is asked with one number u
                                                "mode": "long-axis", "span": [0, 50]}},
     "spinning": BODY | {"motion": {"spin": "0.1", "axis": [0, 0, 1], "nutation": "0.2", "span": [0, 50]},
                         "effects": {"constant_torque": {"torque": [0, 0, "0.05"]}}},
+    "damper wheel": BODY | START | {"effects": {"damper_wheel": {"inertia": 3, "coefficient": 1, "axis": [0, 1, 1]}}},
     "damper": BODY | START | {"effects": {"viscous_damper": {"inertia": 3, "coefficient": 1}}},
     "thruster": BODY | START | {"thrusters": [FORCE]},
     "burning": BODY | START | {"thrusters": [{name: value for name, value in FORCE.items() if name != "stuck"}

@@ -153,7 +153,9 @@ def ending(case: Any, motion: Motion) -> Ending | None:
 def _free(parts: Content) -> bool:
     """Whether a body alone carries what takes its energy, with an angular momentum that it keeps."""
     outside = any(parts.M) or any(parts.u) or parts.c or parts.damped or parts.directed or parts.charged
-    return not outside and (parts.inside > 0 if any(parts.Lambda) else len(set(parts.D)) > 1)
+    if parts.movers and (parts.displaced or not parts.all_is_damped):
+        return False
+    return not outside and (parts.damper_inside if any(parts.Lambda) else len(set(parts.D)) > 1)
 
 
 # --- Inside a free body
@@ -215,7 +217,7 @@ def _outside(scene: AnyScene, parts: Content, start: np.ndarray, motion: Motion)
     energy = lambda states: states[:, :3] ** 2 @ np.array(D) / 2
     first = float(energy(start[None])[0])
     rests = motion.invariants.get("late_rate_bound") == 0.0
-    if rests and not parts.directed and not parts.inside and first > 0:
+    if rests and not parts.directed and not parts.damper_inside and first > 0:
         result = Ending("rest", "exact", reason=ENERGY_FALLS, rate=0.0, rates=(0.0,) * 3)
         slowest = float(decay(parts))
         latest = math.log(1 / END_REACHED) / slowest if slowest and not any(parts.M) else None
@@ -239,7 +241,7 @@ def _field_alone(parts: Content) -> bool:
     D = sorted(parts.D)
     return bool(parts.eddy) and D[1] < D[2] and not (
         any(parts.M) or any(parts.Lambda) or any(parts.u) or any(parts.s) or parts.N or parts.E or parts.c
-        or parts.damped or parts.kappa or parts.inside)
+        or parts.damped or parts.kappa or parts.damper_inside)
 
 
 def _about_the_field(scene: AnyScene, parts: Content, start: np.ndarray, energy: Callable[..., np.ndarray],

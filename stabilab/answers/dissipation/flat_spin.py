@@ -218,7 +218,7 @@ def _answered(spinner: Spinner, angle: float, spans: bool) -> FlatSpin:
         UNDECIDED, "undecided", axis + 1, spinner.order[2] + 1, size, size / float(D1), None,
         float(spinner.energy), float(dot(spinner.momentum, spinner.momentum) / (2 * D1)), angle,
         growth=growth, decay=decay, reason=NOT_KNOWN)
-    if not any(spinner.sigma) and not any(cross(spinner.momentum, spinner.omega)):  # nothing changes
+    if not spinner.moves_inside and not any(cross(spinner.momentum, spinner.omega)):  # nothing changes
         return _at_rest(spinner, result)
     if spinner.ratio * D2 < 1 and D1 > D2:
         direction = spinner.momentum[axis]

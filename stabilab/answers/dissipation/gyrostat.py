@@ -131,8 +131,7 @@ class Gyrostat(Spinner):
     def momentum(self) -> tuple[Fraction, ...]:
         """H, exact, wheels included."""
         wheel = self.scene.vector("gyrostat")
-        return tuple(d * w + self.inside * s + l
-                     for d, w, s, l in zip(self.scene.body.exact, self.omega, self.sigma, wheel))
+        return tuple(h + l for h, l in zip(super().momentum, wheel))
 
     @cached_property
     def sphere(self) -> MomentumSphere:
@@ -189,7 +188,7 @@ def _answered(case: Case, spinner: Gyrostat, angle: float) -> GyrostatSpin:
         energy=float(spinner.energy), within=angle)
     if not any(spinner.momentum):
         return _ending(result, 0, "exact", CANCELS)
-    if not any(spinner.sigma) and not any(cross(spinner.momentum, spinner.omega)):
+    if not spinner.moves_inside and not any(cross(spinner.momentum, spinner.omega)):
         return _at_rest(spinner, result)
     indices = [n for n, rotation in enumerate(sphere.rotations) if rotation.nature == MINIMUM]
     if not sphere.passes:

@@ -14,8 +14,9 @@ from ...errors import InputError
 from ...integrate.trajectory import root_between
 from ...numbers.exact import sqrt_fraction
 from ...numbers.vectors import CYCLE, dot
+from ...physics.coefficients import Content, added_inside, content
 from ...physics.effects.base import effect_words
-from ...physics.scene import Scene, slices
+from ...physics.scene import INSIDE, NO_MOTION, Scene, slices
 from ...physics.states import body_momentum, equations_and_start, start_of
 from ...physics.to_numpy import to_numpy
 from ...reasons import Quantity, Reason, Sentence, Time
@@ -30,14 +31,26 @@ NOT_ENOUGH = Sentence("run-not-enough", "{steps} steps, to t = {time}, were not 
                       "{above} above the level")
 
 
+def _not_known_of(parts: Content) -> str:
+    """Why the end is not known with the dampers of a scene."""
+    if parts.displaced:
+        return ("flat-spin: a rotation displaces the mass of the damper, so that the rotations of body and "
+                "mass are others than those of the body: `stabilab simulate` and `stabilab when` follow it")
+    if parts.rest_of_moments <= 0:
+        return "flat-spin: together the dampers may take more than the moments of the body hold"
+    return ("flat-spin: some rotation that is not permanent leaves the wheel of the damper at rest in the "
+            "body, as the nutation of a symmetric body does one about its axis: give the wheel another axis")
+
+
 @dataclass(frozen=True)
 class Spinner:
-    """A scene and its start, one row; order: axes of the greatest, the intermediate and the least moment."""
+    """A scene and its start, one row; blocks: what moves inside, by name; order: axes of the greatest, the
+    intermediate and the least moment."""
 
     scene: Scene
     start: np.ndarray
     omega: tuple[Fraction, ...]
-    sigma: tuple[Fraction, ...]
+    blocks: dict[str, tuple[Fraction, ...]]
     order: tuple[int, int, int]
 
     @classmethod
@@ -61,6 +74,10 @@ class Spinner:
         D = scene.body.exact
         if D[0] == D[1] == D[2] and not wheel:
             raise InputError("flat-spin: all moments are equal: every axis is a major axis")
+        parts = content(scene)
+        if parts is not None and parts.movers and (parts.displaced or parts.rest_of_moments <= 0
+                                                   or not parts.all_is_damped and not parts.kappa):
+            raise InputError(_not_known_of(parts))
         if 2 * max(D) > sum(D) and scene.effect("liquid_cavity"):
             raise InputError("flat-spin: a liquid takes energy for the moments of a rigid body alone, and no "
                              "rigid body has these")
@@ -77,8 +94,9 @@ class Spinner:
         D = scene.body.exact
         own = {name: value for name, value in case.blocks.items() if name in scene.blocks}
         start = equations_and_start(scene, start_of(scene, case.state, own))[1]
-        sigma = case.blocks.get("damper", (0.0,) * 3) if "damper" in scene.blocks else (0.0,) * 3
-        return cls(scene, start, tuple(case.exact_state), tuple(map(Fraction, sigma)),
+        blocks = {name: tuple(map(Fraction, case.blocks.get(name, NO_MOTION[name])))
+                  for name in INSIDE if name in scene.blocks}
+        return cls(scene, start, tuple(case.exact_state), blocks,
                    tuple(sorted(range(3), key=lambda i: -D[i])))  # type: ignore[arg-type]
 
     @property
@@ -88,21 +106,30 @@ class Spinner:
 
     @cached_property
     def inside(self) -> Fraction:
-        """The moment of inertia of what turns inside the body."""
+        """The moment of inertia of a sphere that turns inside the body."""
         damper = self.scene.effect("viscous_damper")
         return damper.exact[0] if damper else Fraction(0)
+
+    @property
+    def moves_inside(self) -> bool:
+        """Whether something moves inside the body at the start."""
+        return any(map(any, self.blocks.values()))
+
+    @cached_property
+    def added(self) -> Any:
+        """(momentum, energy) of that, exact."""
+        return added_inside(self.scene.effects, self.omega, self.blocks)
 
     @cached_property
     def momentum(self) -> tuple[Fraction, ...]:
         """H, exact."""
-        return tuple(d * w + self.inside * s
-                     for d, w, s in zip(self.scene.body.exact, self.omega, self.sigma))
+        return tuple(d * w + h for d, w, h in zip(self.scene.body.exact, self.omega, self.added[0]))
 
     @cached_property
     def energy(self) -> Fraction:
         """T, exact."""
-        return (sum(d * w * w for d, w in zip(self.scene.body.exact, self.omega)) / 2
-                + self.inside * (dot(self.omega, self.sigma) + dot(self.sigma, self.sigma) / 2))
+        own = sum((d * w * w for d, w in zip(self.scene.body.exact, self.omega)), Fraction(0)) / 2
+        return own + self.added[1]
 
     @cached_property
     def moments(self) -> tuple[Fraction, Fraction, Fraction]:
@@ -162,11 +189,8 @@ class Spinner:
 
     def directions(self, states: np.ndarray) -> np.ndarray:
         """The signs (n,) of H along the major axis of states (n, N)."""
-        at, parts = self.order[0], slices(self.scene.blocks)
-        along = self.scene.body.inertia[at] * states[:, parts["omega"]][:, at]
-        if "damper" in parts:
-            along = along + float(self.inside) * states[:, parts["damper"]][:, at]
-        return np.sign(along).astype(int)
+        blocks = {name: states[:, part] for name, part in slices(self.scene.blocks).items()}
+        return np.sign(body_momentum(self.scene, blocks)[:, self.order[0]]).astype(int)
 
     def levels(self, angle: float) -> dict[str, float]:
         """2 T/|H|^2 at which the polhode goes from the minor axis by an angle, at the separatrix, and from

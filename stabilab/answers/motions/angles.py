@@ -214,10 +214,8 @@ def _slopes(scene: AnyScene, equations: Equations, scaled: Equations, scale: np.
     own = {x: Float(float(s)) * x
            for x, s in zip(equations.state, np.broadcast_to(scale, (len(equations.state),)))}
     law, at = Momentum.made(scene), slices(equations.blocks)
-    H = [rational(d) * w + rational(l) for d, w, l in zip(law.D, equations.state[:3], law.wheel)]
-    for factor, name in ((law.inside, "damper"), (Fraction(1), "wheel")):
-        if name in at:
-            H = [v + rational(factor) * s for v, s in zip(H, equations.state[at[name]])]
+    H = law.components(equations.state[:3], {name: equations.state[part] for name, part in at.items()
+                                             if name != "omega"}, rational)
     rows, size = rotation(equations.state[at["attitude"]]), sqrt(sum(v * v for v in H))
     first = to_space(origin, [[float(v) for v in vector] for vector in vectors])
     cosines = []
@@ -234,10 +232,8 @@ def _angles(scene: AnyScene, equations: Equations, origin: np.ndarray, states: n
             vectors: Sequence[Exact3], pole: np.ndarray | None) -> tuple[np.ndarray, np.ndarray]:
     """(n, axes) angles of states (n, N) to the momentum, or a pole, and to the directions at an attitude."""
     law, at = Momentum.made(scene), slices(equations.blocks)
-    H = states[:, :3] * np.array([float(d) for d in law.D]) + [float(l) for l in law.wheel]
-    for factor, name in ((float(law.inside), "damper"), (1.0, "wheel")):
-        if name in at:
-            H = H + factor * states[:, at[name]]
+    columns = {name: states[:, part].T for name, part in at.items()}
+    H = np.stack(law.components(columns.pop("omega"), columns, float), axis=1)
     momentum, apart = [], []
     for vector in vectors:
         axis = np.array([float(v) for v in vector])

@@ -12,6 +12,8 @@ REGISTRY: dict[str, tuple[str, str]] = {
     "resistance": ("resistance", "Resistance"),
     "liquid_cavity": ("liquid_cavity", "LiquidCavity"),
     "viscous_damper": ("viscous_damper", "ViscousDamper"),
+    "damper_wheel": ("damper_wheel", "DamperWheel"),
+    "damper_mass": ("damper_mass", "DamperMass"),
     "rate_damper": ("rate_damper", "RateDamper"),
     "eddy_currents": ("eddy_currents", "EddyCurrents"),
     "wheel_motor": ("wheel_motor", "WheelMotor"),

@@ -46,9 +46,10 @@ class Part:
     """A part that turns inside the body, whose block of the state is the effect's own.
 
     inertia: its moment about any axis, kg m^2, held by the moments of the body; momentum: N m s, and energy:
-    J, what its motion adds to those of the body with the part at rest in it; torque: on the rest of the body,
-    N m, body frame, at the rates of the block alone; loss: W, what friction or a motor takes from the body;
-    rate: omega' -> rates of the block.
+    J, with that of its spring, what its motion adds to those of the body with the part at rest in it; torque:
+    on the rest of the body, N m, body frame, at the rates of the block alone; loss: W, what friction or a
+    motor takes from the body; rate: omega' -> rates of the block; taken: rows of what it takes off the tensor
+    of the body in front of omega' where that is not the same about all axes, kg m^2.
     """
 
     inertia: Number
@@ -57,6 +58,7 @@ class Part:
     torque: Triple
     loss: Number
     rate: Callable[[Triple], Triple]
+    taken: tuple[Triple, ...] | None = None
 
 
 @dataclass(frozen=True)

@@ -224,6 +224,20 @@ def _damper(ax, item, effect, sides):
             _ball(ax, sides, "damper"))
 
 
+def _damper_wheel(ax, item, effect, sides):
+    look = _arrow(ax, (0, 0, 0), _along(effect.axis, 0.6), "damper wheel", style.BLUE, 1.6)
+    return (f"damper: wheel of {effect.inertia:g} kg m² on a bearing of {effect.coefficient:g} N m s, about "
+            f"{_vector(effect.axis)}", look)
+
+
+def _damper_mass(ax, item, effect, sides):
+    place = _along(effect.place, 0.45) if np.any(effect.place) else np.zeros(3)
+    look = _arrow(ax, place, _along(effect.line, 0.35), "damper mass", style.BLUE, 1.6)
+    return (f"damper: mass of {effect.mass:g} kg at {_vector(effect.place)} m on a line along "
+            f"{_vector(effect.line)}, spring {effect.stiffness:g} N/m, dashpot {effect.coefficient:g} kg/s",
+            look)
+
+
 def _against(item: Subject, ax: Any, matrix: Any, label: str) -> dict[str, Any]:
     """An arrow against a multiple of the angular velocity at the start; its look in the legend."""
     torque = -np.array(matrix) @ np.array((0, 0, 0) if item.state is None else item.state)
@@ -289,6 +303,8 @@ PARTS: dict[str, tuple[str, Callable]] = {  # effect -> its words in the caption
     "resistance": ("the resistance", _resistance),
     "gravity": ("fixed point, centre of mass and weight", _weight),
     "newtonian_field": ("the attracting centre", _attraction), "viscous_damper": ("the damper", _damper),
+    "damper_wheel": ("the wheel of the damper", _damper_wheel),
+    "damper_mass": ("the mass of the damper", _damper_mass),
     "rate_damper": ("the linear damper", _rate_damper), "eddy_currents": ("the magnetic field", _eddy),
     "wheel_motor": ("the motor of the wheel", _vector_of(
         "motor", 0.8, "motor u", style.SKY, "torque of the motor on its wheel u = {} N m", 2.4, 0.27))}

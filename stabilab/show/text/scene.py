@@ -196,7 +196,8 @@ def filled(columns: Sequence[Column], answers: Sequence) -> tuple[list[tuple[str
 RATIO_LETTERS = 12  # up to which a ratio is printed as such, not as a decimal
 # parameters whose names are products
 PRODUCTS = {"Mgx": "M g x_c", "Mgy": "M g y_c", "Mgz": "M g z_c", "eHl2": "e H l^2",
-            "kd": "k_d", "cd": "c_d", "kB2": "k B^2"}
+            "kd": "k_d", "cd": "c_d", "kB2": "k B^2", "Jw": "J_w", "cw": "c_w", "mud": "mu_d", "ks": "k_s",
+            "cs": "c_s"}
 WORD_NAMES = ("mass",)  # parameters whose names are words
 
 

@@ -32,7 +32,8 @@ from stabilab.physics.to_numpy import Form, _function, form
 ALONE = {"constant_torque": (3, 3 + 3), "gyrostat": (3, 3 + 3), "charge": (3, 3 + 1),
          "resistance": (3, 3 + 1),
          "liquid_cavity": (3, 3 + 1), "newtonian_field": (6, 3 + 1), "gravity": (6, 3 + 3),
-         "body_force": (13, 3 + 3 + 1), "viscous_damper": (6, 3 + 2), "rate_damper": (3, 3 + 6),
+         "body_force": (13, 3 + 3 + 1), "viscous_damper": (6, 3 + 2), "damper_wheel": (4, 3 + 5), "damper_mass": (5, 3 + 7),
+         "rate_damper": (3, 3 + 6),
          "eddy_currents": (6, 3 + 1), "wheel_motor": (6, 3 + 3)}
 # Operations by hand, one added after the other. Body: c q r in each row, 2 * 3. Torque: one addition a row.
 # Gyrostat: two
@@ -53,13 +54,15 @@ ZERO = {  # the table of a case file, its strength zero
     "body_force": ["force = [0, 0, 0]"], "rate_damper": ["coefficient = 0", "coefficient = [0, 0, 0]"],
     "eddy_currents": ["coefficient = 0\nfield = 1", "coefficient = 1\nfield = 0"],
     "wheel_motor": ["torque = [0, 0, 0]", "torque = [0, 0, 0]\nduration = 5"],
-    "viscous_damper": []}  # a damper without strength is refused
+    "damper_mass": [], "damper_wheel": [], "viscous_damper": []}  # a damper without strength is refused
 FAULTY = {  # the same, wrong in a way that its strength does not excuse
     "constant_torque": "torque = [0, 0]", "gyrostat": "momentum = [0, 0, 0]\nspeed = 1",
     "resistance": "coefficient = -0.1",
     "charge": "charge = 0\nfield = 100\narm = 1", "liquid_cavity": "density = 0\nviscosity = 0\nP0 = 1",
     "newtonian_field": "lambda = 0\nR = 0", "gravity": 'weight = 0\ncentre_of_mass = "low"',
     "body_force": "force = 0", "viscous_damper": "inertia = 0\ncoefficient = 0.1",
+    "damper_mass": "mass = 0\nplace = [0, 0, 0]\nline = [0, 0, 1]\nstiffness = 1\ncoefficient = 1",
+    "damper_wheel": "inertia = 0.1\ncoefficient = 0.1\naxis = [0, 0, 0]",
     "rate_damper": "coefficient = [0, 0]", "eddy_currents": "coefficient = 0\nfield = -1",
     "wheel_motor": "torque = [0, 0, 0]\nduration = 0"}
 CASE = """[body]

@@ -1,0 +1,98 @@
+"""A mass on a spring with a dashpot in a body: against Newton's equations of the two bodies in space, with the
+force between them as an unknown, which share no equation with the package."""
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import stabilab
+from stabilab import Body, DamperMass, Gyrostat, InputError, Scene, load, trajectory
+from stabilab.orbit.result import Fate
+from stabilab.physics.to_numpy import to_numpy
+
+D, M = np.array([2.0, 1.5, 1.2]), 10.0
+
+
+def newton(m, place, line, k, c, omega, x, v, times, wheel=(0, 0, 0)):
+    """(omega, (x, v), energy, |H|) by DOP853. The rest of the body has the mass M - m and about its own mass centre
+    the moments B; r is the place from there. Unknowns of each step, in the body's axes: the acceleration A of that
+    centre, omega', x'' and the force f on the mass, of
+    (M - m) A = -f,  B omega' + omega x (B omega + wheel) = rho x (-f),  m a = f,  f . n = -k x - c v,
+    a = A + omega' x rho + omega x (omega x rho) + 2 omega x v n + x'' n,  rho = r + x n."""
+    n = np.array(line, float) / np.linalg.norm(line)
+    r, wheel = np.array(place, float) * M / (M - m), np.array(wheel, float)
+    mu = m * (M - m) / M
+    B = np.diag(D) - mu * (r @ r * np.eye(3) - np.outer(r, r))
+    turn = lambda u: np.array([[0, -u[2], u[1]], [u[2], 0, -u[0]], [-u[1], u[0], 0]])
+
+    def rate(t, y):
+        w, x, v = y[:3], y[3], y[4]
+        rho = r + x * n
+        left, right = np.zeros((10, 10)), np.zeros(10)  # A, omega', x'', f
+        left[:3, :3], left[:3, 7:] = (M - m) * np.eye(3), np.eye(3)
+        left[3:6, 3:6], left[3:6, 7:], right[3:6] = B, turn(rho), -np.cross(w, B @ w + wheel)
+        left[6:9, :3], left[6:9, 3:6], left[6:9, 6], left[6:9, 7:] = m * np.eye(3), -m * turn(rho), m * n, -np.eye(3)
+        right[6:9] = -m * (np.cross(w, np.cross(w, rho)) + 2 * np.cross(w, v * n))
+        left[9, 7:], right[9] = n, -k * x - c * v
+        solved = np.linalg.solve(left, right)
+        return [*solved[3:6], v, solved[6]]
+    y = solve_ivp(rate, (0, times[-1]), [*omega, x, v], "DOP853", times, rtol=1e-12, atol=1e-13).y.T
+    w, x, v = y[:, :3], y[:, 3], y[:, 4]
+    rho = r + x[:, None] * n
+    moving = v[:, None] * n + np.cross(w, rho)  # relative to the centre of the rest
+    energy = ((w @ B) * w).sum(axis=1) / 2 + mu * (moving**2).sum(axis=1) / 2 + k * x**2 / 2
+    H = w @ B + mu * np.cross(rho, moving) + wheel
+    return w, y[:, 3:], energy, np.linalg.norm(H, axis=1)
+
+
+@pytest.mark.parametrize("place, line, wheel", [
+    ((0.4, 0, 0), (0, 0, 1), (0, 0, 0)),
+    pytest.param((0.3, 0.1, -0.2), (1, 0, 2), (0.2, 0, 0.5), marks=pytest.mark.slow),
+    pytest.param((0.4, 0.1, 0.2), (-1, 2, 2), (0, 0, 0), marks=pytest.mark.slow)])
+def test_runs_as_newtons_equations_of_two_bodies_do(place, line, wheel):
+    m, k, c = 0.5, 2.0, 0.3
+    scene = Scene(Body(D.tolist(), M), DamperMass(m, place, line, k, c, M), *([Gyrostat(wheel)] if any(wheel) else []))
+    omega, times = np.array([0.3, 0.2, 1.0]), np.array([0.0, 2, 9, 30])
+    w, moved, energy, size = newton(m, place, line, k, c, omega, 0.05, 0.1, times, wheel)
+    run = trajectory(scene, {"omega": omega, "damper_mass": [0.05, 0.1]}, times)
+    assert run.states[:, :3] == pytest.approx(w, abs=1e-9) and run.states[:, 3:] == pytest.approx(moved, abs=1e-9)
+    laws = to_numpy(scene).invariants(run.states)
+    assert laws["energy"] == pytest.approx(energy, rel=1e-10) and (np.diff(energy) < 0).all()
+    # the law leaves out what is constant, |wheel|^2
+    assert 2 * laws["momentum"] + np.dot(wheel, wheel) == pytest.approx(size**2, rel=1e-10) and np.ptp(size) < 1e-10
+
+
+@pytest.mark.slow
+def test_a_mass_beside_the_spin_axis_damps_the_nutation_at_the_rate_of_the_linear_system():
+    """On a line along the axis of the spin its spring stays relaxed there (by hand: omega . J' omega vanishes), so that
+    the rotation stays; the fit of a run by Newton's equations has the time constant of the linearised system."""
+    scene = Scene(Body((1.2, 1.5, 2), M), DamperMass("0.5", ("0.4", 0, 0), (0, 0, 1), 2, "0.3", M))
+    assert stabilab.motion(load(scene, (0, 0, 1))).fate == Fate.EQUILIBRIUM
+    from stabilab.answers.dissipation.time_constants import time_constants
+    longest = time_constants(scene, [0, 0, 1, 0, 0])[0].time
+    global D
+    before, D = D, np.array([1.2, 1.5, 2.0])
+    try:
+        times = np.linspace(0, 2 * longest, 400)
+        w, *_ = newton(0.5, (0.4, 0, 0), (0, 0, 1), 2.0, 0.3, np.array([1e-3, 0, 1]), 0.0, 0.0, times)
+    finally:
+        D = before
+    across = np.log(np.hypot(w[:, 0] * 1.2, w[:, 1] * 1.5))
+    late = times > longest / 2
+    assert -1 / np.polyfit(times[late], across[late], 1)[0] == pytest.approx(longest, rel=3e-2)
+
+
+def test_file_and_faults():
+    text = ("[body]\ninertia = [2, 1.5, 1.2]\nmass = 10\n[effects.damper_mass]\nmass = \"500 g\"\nplace = [0.4, 0, 0]\n"
+            "line = [0, 0, 1]\nstiffness = 2\ncoefficient = 0.3\n"
+            "[motion]\nangular_velocity = [0.1, 0.2, 1]\ndamper_mass = [0.05, 0]\nspan = [0, 10]\n")
+    case = load(text)
+    assert case.start == (0.1, 0.2, 1.0, 0.05, 0.0)
+    again = load(stabilab.case.write.data_of_scene(case.scene, {"omega": case.state, **case.blocks}))
+    assert again.start == case.start and again.scene == case.scene
+    with pytest.raises(InputError, match="give body.mass"):
+        load(text.replace("mass = 10\n", "", 1))
+    with pytest.raises(InputError, match="smaller than the least moment"):
+        load(text.replace("0.4, 0, 0", "4, 0, 0"))
+    with pytest.raises(InputError, match="displaces the mass"):
+        stabilab.flat_spin(case)
+    assert stabilab.equilibria(case).kind == "undecided"
