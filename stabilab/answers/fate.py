@@ -36,8 +36,9 @@ def fate(scene: Given, state: Start | None = None, *, states: Starts | None = No
     """What becomes of the motion of a case, or from each of many starts.
 
     scene: a case in any form (see `stabilab.case.given`), or a scene. state: its start, where that is another
-    or none: three rates in its variables, all components of its state, or blocks by name; exact where it is
-    text or rational. states: many starts instead, (..., 3) or rows of whole states. frame: in which the
+    or none: three rates in its variables, all components of its state, or blocks by name; its rates are
+    exact where they are text, Fractions or Decimals. states: many starts instead, (..., 3) or rows of whole
+    states, rounded to doubles. frame: in which the
     vectors of these are, "principal", along the principal axes as `case.state` and all results are, or
     "file", of a full tensor. span: of the case, in its time. tilt: of one start, the half-angle of a cone of
     torques ("1 deg", or rad); without it what the case states. digits (1 to 10,000, 50 of what is followed in

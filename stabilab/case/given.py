@@ -1,7 +1,7 @@
 """What users give a question, as a case: a case, the path, text or dict of one, or a scene with its start.
 
-Numbers stay what they are: text ("0.1", "3 deg/s") and rationals are exact, doubles are taken at their
-word."""
+Numbers stay what they are: the rates of one start as text ("0.1", "1/3", "3 deg/s"), as Fractions and as
+Decimals are exact, doubles are taken at their word. Its other blocks, and many starts, are doubles."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
@@ -31,9 +31,11 @@ from .read import Case, load, with_text
 from .write import STATES
 
 if TYPE_CHECKING:
+    from decimal import Decimal
+
     from numpy.typing import ArrayLike
 
-Amount: TypeAlias = "float | str | Fraction"  # text may have a unit
+Amount: TypeAlias = "float | str | Fraction | Decimal"  # text may have a unit
 Given: TypeAlias = "Case | Scene | ScaledGyrostat | str | PathLike[str] | Mapping[str, object]"
 Start: TypeAlias = "Sequence[Amount] | Mapping[str, Sequence[Amount]] | ArrayLike"  # one, or blocks by name
 Starts: TypeAlias = "ArrayLike | Sequence[Mapping[str, Sequence[Amount]]]"  # many
@@ -176,9 +178,10 @@ def time_in(scene: AnyScene, value: Any, name: str) -> Any:
 
 
 def in_numbers(value: Any, unit: Dimension, name: str) -> Any:
-    """Numbers, nested in lists or not, with text that has a unit in SI; all else as it is."""
+    """Numbers, nested in lists or not, with text as doubles, in SI where it has a unit; all else as it is.
+    """
     if isinstance(value, str):
-        return float(in_si(value, unit, name)) if (split(value) or ("", ""))[1] else value
+        return float(in_si(value, unit, name)) if split(value) else value
     if hasattr(value, "dtype") and value.dtype.kind == "U":
         value = value.tolist()
     if not isinstance(value, (list, tuple)) or not any(isinstance(x, (str, list, tuple)) for x in value):

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import fields
+from decimal import Decimal
 from fractions import Fraction
 from numbers import Integral, Rational, Real
 from threading import RLock
@@ -24,10 +25,10 @@ _RATIO = re.compile(r"\s*[+-]?\d+\s*/\s*\d+\s*", re.ASCII)
 
 
 def exact(value: object, name: str = "") -> Fraction:
-    """The rational number that `value` denotes: int, float (its binary value), Fraction, or a string holding
-    a decimal or a ratio ("0.1", "2/3"). Raises InputError for anything else, and where the double nearest to
-    the value would be infinite or would lose a nonzero value to zero; its words begin with `name`, where
-    there is one."""
+    """The rational number that `value` denotes: int, float (its binary value), Fraction, Decimal, or a string
+    holding a decimal or a ratio ("0.1", "2/3"). Raises InputError for anything else, and where the double
+    nearest to the value would be infinite or would lose a nonzero value to zero; its words begin with `name`,
+    where there is one."""
     if name:
         try:
             return exact(value)
@@ -59,6 +60,13 @@ def _parse(value: Any) -> Fraction:
         if not math.isfinite(value):
             raise InputError(f"expected a finite number, got {float(value)}")
         return Fraction(float(value))
+    if isinstance(value, Decimal):
+        if not value.is_finite():
+            raise InputError(f"expected a finite number, got {value}")
+        if value and abs(value.adjusted()) > 9999:  # as of text: else a power of ten without an end is built
+            raise InputError(f"{_short(value)} is {'larger' if value.adjusted() > 0 else 'smaller'} than any "
+                             "double but 0")
+        return Fraction(value)
     if isinstance(value, str):
         if len(value) <= 400 and (_DECIMAL.fullmatch(value) or _RATIO.fullmatch(value)):
             try:

@@ -292,13 +292,17 @@ class EnergyIntegral:
     name: "G1" (torque on the minor or the major axis), "G2" (on the intermediate axis) or "G3" (there, on
     an invariant plane). on_separatrix: G1s, G2s or G3s, its value at the saddle that decides the fate, None
     where no saddle stands ahead at this value of the other invariant. difference: on_separatrix - value,
-    exact however near the two are; positive below the separatrix.
+    exact however near the two are; positive below the separatrix. turned_about: the formulas are those of a
+    torque in the positive direction of its axis; under one in the negative direction the number of the axis
+    (1, 2, 3, of the scene) about which state, wheel and torque are turned by half before they are applied;
+    else None.
     """
 
     name: str
     value: float
     on_separatrix: float | None = None
     difference: float | None = None
+    turned_about: int | None = None
 
 
 def energy_integral(scene: AnyScene, state: Sequence[float | Fraction],
@@ -317,13 +321,15 @@ def energy_integral(scene: AnyScene, state: Sequence[float | Fraction],
         if result is None:
             return None
         name, value = result
+        # the half turn that keeps the sine of G1, and of G2 and G3 the component about axis k
+        turned = None if r.torque > 0 else 1 + (r.j if name == "G1" and r.exact_constants["G"] > 0 else r.k)
         if margin is None:
-            return EnergyIntegral(name, value)
+            return EnergyIntegral(name, value, turned_about=turned)
         times = 1 if name == "G3" else 4
         difference = float(times * Fraction(margin) / (r.exact_energy_unit * r.exact_constants["mu"]))
     except OverflowError:  # squares of rates that are no doubles
         return None
-    return EnergyIntegral(name, value, value + difference, difference)
+    return EnergyIntegral(name, value, value + difference, difference, turned)
 
 
 def _canonical(r: Reduction, state: list[Fraction]) -> tuple[str, float] | None:

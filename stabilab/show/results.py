@@ -334,7 +334,8 @@ def _motion(m: Motion):
              } | values_of(m, "level because sense margin_energy period")
     if m.energy_integral is not None:
         notes |= {m.energy_integral.name: m.energy_integral.value,
-                  f"{m.energy_integral.name}s": m.energy_integral.on_separatrix}
+                  f"{m.energy_integral.name}s": m.energy_integral.on_separatrix,
+                  "turned_about": m.energy_integral.turned_about}
     return Variables(("axis",), values, AXIS, _known(notes))
 
 

@@ -3,6 +3,7 @@ text with a unit means the same as the number in SI units; a case says itself ag
 import dataclasses
 import pickle
 import tomllib
+from decimal import Decimal
 from fractions import Fraction
 
 import numpy as np
@@ -171,6 +172,59 @@ def test_parts_of_a_scene_take_text_with_units_exactly():
         assert one == other and one.exact == other.exact
     with pytest.raises(stabilab.InputError, match="torque: expected torque .N m. or energy"):
         stabilab.ConstantTorque(["1 N", 0, 0])
+
+
+# --- What is exact
+FORMS = (str, Decimal, Fraction)
+LIMIT = {"time_to": {"rate": "0.5"}, "when": {"rate": "0.5"}, "flat_spin": {"within": "5 deg"}}
+# 9 (9 - 5) 0.1^2 = 4 (5 - 4) 0.3^2: by H^2 = 2 D2 T on the separatrix of the free body (the doubles are not)
+ON_SEPARATRIX, FREE = ("0.1", "0.3", "0.3"), stabilab.Scene(stabilab.Body((9, 5, 4)))
+DAMPED = stabilab.Scene(stabilab.Body((9, 5, 4)), stabilab.ViscousDamper("0.01", 1))
+
+
+@pytest.mark.parametrize("name", [*(name for name in START if name != "validity"), "when", pytest.param("flat_spin", marks=pytest.mark.slow)])
+def test_a_start_in_text_in_decimals_and_in_fractions_is_the_same(name):
+    scene, start = (DAMPED, ("0.1", "0.01", "0.02")) if name == "flat_spin" else (FREE, ON_SEPARATRIX)
+    key, options = START.get(name, "state"), LIMIT.get(name) or OF_A_SCENE.get(name, {})
+    answers = [getattr(stabilab, name)(scene, **{key: [row] if key == "states" else row}, **options)
+               for row in ([form(v) for v in start] for form in FORMS)]
+    assert alike(answers[0], answers[1]) and alike(answers[1], answers[2])
+
+
+@pytest.mark.parametrize("name", ["fate", "extremes", "period", "chaos", "ensemble", "time_to"])
+def test_many_starts_are_taken_in_any_form_as_their_doubles(name):
+    options = {"rate": ["0.5", 1, 1]} if name == "time_to" else OF_A_SCENE[name]
+    rows = [("0.1", "0.3", "0.3"), ("1/3", "0.2", "0.1")]
+    doubles = [[float(Fraction(v)) for v in row] for row in rows]
+    for given in (rows, [[Fraction(v) for v in row] for row in rows]):
+        assert alike(getattr(stabilab, name)(FREE, states=given, **options),
+                     getattr(stabilab, name)(FREE, states=doubles, **options))
+
+
+def test_an_exact_start_on_a_separatrix_is_on_it_whatever_is_asked():
+    """By H^2 = 2 D2 T, in rationals; the nearest doubles are off it, and their motion repeats."""
+    start, doubles = [Decimal(v) for v in ON_SEPARATRIX], [float(v) for v in ON_SEPARATRIX]
+    w = [Fraction(v) for v in ON_SEPARATRIX]
+    assert sum((d * v) ** 2 for d, v in zip((9, 5, 4), w)) == 5 * sum(d * v * v for d, v in zip((9, 5, 4), w))
+    assert stabilab.fate(FREE, start).fate.word == stabilab.motion(FREE, start).fate.word == "separatrix"
+    assert [item.fate.word for item in stabilab.motion(FREE, states=[start, doubles])] == ["separatrix", "bounded"]
+    assert float(stabilab.period(FREE, start)) == np.inf and stabilab.attitude(FREE, start).mode == "separatrix"
+    assert stabilab.extremes(FREE, start)[0, 0] == 0  # it tends to the intermediate axis
+    assert stabilab.period(FREE, doubles) < np.inf and stabilab.attitude(FREE, doubles).mode != "separatrix"
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_an_exact_start_on_a_plane_has_the_integral_of_the_plane(form):
+    """x1 + b = x3 where 1 + b = 2.5 - 0.3: the paper's G3; beside it G2 has a pole of order one."""
+    scene = stabilab.ScaledGyrostat(form("0.6"), form("1.2"), (0, 1, 0))
+    assert stabilab.motion(scene, [form(v) for v in ("1.3", "1.3", "2.5")]).energy_integral.name == "G3"
+    assert stabilab.motion(scene, [1.3, 1.3, 2.5]).energy_integral.name != "G3"  # no double is 1.3
+
+
+@pytest.mark.parametrize("wrong", ["nan", "inf", "1e999999999", "1e-999999999"])
+def test_a_decimal_that_is_no_double_is_bad_input(wrong):
+    with pytest.raises(stabilab.InputError, match="^state: "):
+        stabilab.fate(FREE, [Decimal(wrong), 0, 0])
 
 
 # --- A tensor

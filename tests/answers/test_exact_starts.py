@@ -74,6 +74,13 @@ def test_a_start_in_a_file_beside_a_separatrix_is_answered_as_it_was_written():
     assert stabilab.fate(case, states=[case.state]).labels == Fate.SPIN_UP
 
 
+def test_a_spin_up_that_no_inequality_shows_is_judged_by_the_start_as_written():
+    """Bounded by the potential, whose word of the nearest doubles is spin-up (the test above)."""
+    case = stabilab.load(BESIDE)
+    assert stabilab.spin_up(case, budget=200).fate == Fate.BOUNDED
+    assert stabilab.spin_up(case.scene, case.state, budget=200).fate == Fate.UNDECIDED
+
+
 def test_what_extremes_prove_is_never_reached():
     """By the potential |omega| stays below the root of the sum of the squares of its extremes."""
     case = stabilab.load(BESIDE)

@@ -138,3 +138,70 @@ def test_the_difference_is_exact_beside_the_separatrix():
     near = [stabilab.motion(scene, (2.5, 4, x3 + n * 1e-13)).energy_integral.difference for n in (-3, 3)]
     assert near[0] - near[1] == pytest.approx(4 * x3 * 6e-13, rel=1e-2)
     assert near[0] > 0 > near[1]
+
+
+# --- A torque in the negative direction: docs/mathematics/reduction.md writes these formulas
+NEGATIVE = {
+    0: lambda x, a, b: 2 * x[0]**2 + x[1]**2 - x[2]**2 - 4 * math.atan2(x[2], -x[1]),
+    1: lambda x, a, b: (2 * x[1]**2 + (x[0] + b)**2 + x[2]**2 - 4 * (b - a) * (x[0] + b)
+                        + 2 * math.log(abs((x[0] + b + x[2]) / (x[0] + b - x[2])))),
+    2: lambda x, a, b: (2 * x[2]**2 + x[1]**2 - (x[0] + a)**2 - 4 * (b - a) * (x[0] + a)
+                        - 4 * math.atan2(x[0] + a, -x[1]))}
+
+
+@pytest.mark.parametrize("axis", range(3))
+@pytest.mark.parametrize("seed", range(4))
+def test_a_negative_torque_has_the_integral_of_the_state_turned_by_half(seed, axis):
+    """The formula is constant along DOP853's run of (5), but for the turns of its angle, and is that of the state
+    turned by half about the axis that the answer names, under a positive torque."""
+    scene, x = drawn(seed, axis)
+    a, b = (scene.a, scene.b) if axis else (0, 0)
+    torque = [0, 0, 0]
+    torque[axis] = -1
+    found = stabilab.motion(stabilab.ScaledGyrostat(a, b, torque), x.tolist()).energy_integral
+    value, scale = NEGATIVE[axis](x, a, b), 1 + abs(found.value)
+    assert found.value == pytest.approx(value, abs=1e-12 * scale)
+    end, _ = followed(stabilab.ScaledGyrostat(a, b, torque), x, 0.0, lambda y: 0.0)
+    apart = (NEGATIVE[axis](end, a, b) - value) / (8 * math.pi)  # by full turns of the angle on circles
+    assert abs(apart - (round(apart) if axis != 1 else 0)) < 1e-7 * scale
+    assert found.turned_about == (3 if axis == 0 else 1)
+    turned = [v if n + 1 == found.turned_about else -v for n, v in enumerate(x.tolist())]
+    positive = stabilab.ScaledGyrostat(a, b, [-v for v in torque])
+    same = stabilab.motion(positive, turned).energy_integral
+    assert same.turned_about is None and same.value == pytest.approx(found.value, abs=1e-12 * scale)
+    if found.difference is not None:
+        assert same.difference == pytest.approx(found.difference, rel=1e-9)
+
+
+@pytest.mark.parametrize("order", [*permutations((12, 9, 5))])
+@pytest.mark.parametrize("axis", range(3))
+def test_a_body_turned_by_half_with_its_wheels_has_the_same_integral(order, axis):
+    """The half turn is a change of axes, which changes no integral; in every order of the moments."""
+    wheel, torque, x = [0.8, -0.5, 0.3], [0, 0, 0], [0.4, -0.7, 0.9]
+    wheel[axis], torque[axis] = 0, -0.02
+    scene = lambda m, t: stabilab.Scene(stabilab.Body(order), stabilab.Gyrostat(m), stabilab.ConstantTorque(t))
+    found = stabilab.motion(scene(wheel, torque), x).energy_integral
+    turned = [[v if n + 1 == found.turned_about else -v for n, v in enumerate(row)] for row in (wheel, torque, x)]
+    same = stabilab.motion(scene(*turned[:2]), turned[2]).energy_integral
+    assert found.turned_about != axis + 1 and same.turned_about is None
+    assert (same.name, same.value) == (found.name, pytest.approx(found.value, rel=1e-12))
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_negative_torque_has_the_integral_of_a_plane_that_the_page_writes(side):
+    """On x1 + b = side x3 by hand; b - a = 0.6."""
+    scene = stabilab.ScaledGyrostat("0.6", "1.2", (0, -1, 0))
+    x1, x2, x3 = 1.3, 0.4, 2.5 * side
+    found = stabilab.motion(scene, ("1.3", "0.4", f"{2.5 * side}")).energy_integral
+    assert found.name == "G3" and found.turned_about == 1
+    assert found.value == pytest.approx((x2**2 + x3**2) / 2 - side * 0.6 * x3 + side * math.log(abs(x3)), rel=1e-14)
+
+
+def test_text_json_and_data_say_that_the_state_is_turned():
+    from stabilab.show import results
+    from stabilab.show.text.motion import energy_integral
+    from stabilab.show.units import SCALED
+    case = stabilab.load(stabilab.ScaledGyrostat("0.6", "1.2", (0, 0, -1)), (1, 2, 3))
+    (name, text), = energy_integral(case.motion(), SCALED)
+    assert name == "energy integral G1" and "turned by half about axis 1, as the torque is negative" in text
+    assert "turned_about" in str(results._motion(case.motion()))

@@ -39,7 +39,7 @@ def by_tool(validated):
 def test_every_value_agrees_or_its_difference_is_explained(validated):
     assert {name: shown.counts(found) for name, (_, found) in validated.items()} == {
         "42": "no values are printed", "apophis": "1 agrees", "moon": "2 agree", "basilisk": "15 agree, 3 differ for a known cause",
-        "nesc": "10 agree, 35 differ for a known cause", "orekit": "3 agree"}
+        "nesc": "10 agree, 35 differ for a known cause", "orekit": "3 agree", "shell": "1 agrees"}
 
 
 def test_sources_name_repository_commit_and_licence_or_the_publication(validated):
@@ -48,7 +48,8 @@ def test_sources_name_repository_commit_and_licence_or_the_publication(validated
             assert re.fullmatch(r"[0-9a-f]{40}", one.commit) and one.repository.count("/") == 1
         else:
             assert re.search(r"\(20\d\d\)$", one.repository)
-            assert all(one.url(v.printed.file).startswith("https://doi.org/10.") for v in found)
+            assert all(one.url(v.printed.file).startswith(("https://doi.org/10.", "https://smallsats.org/"))
+                       for v in found)
         assert one.licence
         assert all(v.printed.tolerance_is and v.printed.file for v in found)
 
@@ -106,6 +107,20 @@ def test_apophis_is_given_the_energy_and_the_precession_that_are_published():
     assert case.attitude().precession_period == pytest.approx(27.38 * 3600, abs=1e-2)
 
 
+def test_the_shell_has_the_spin_and_the_nutation_of_the_example():
+    """Its precession is wp = C w/((A - C) cos theta) by steady precession, w being the spin beside it; the rates
+    are wp sin theta across and wp cos theta + w along; (A, C) of a shell of 100 kg, 1 m and 3 m."""
+    import math
+    case = load(source("shell").printed[0].motion.case)
+    A, C = 100 / 2 + 100 * 9 / 12, 100
+    spin, nutation = 2 * math.pi / 60, math.radians(20)
+    precession = C * spin / ((A - C) * math.cos(nutation))
+    assert case.scene.body.inertia == (A, A, C)
+    assert case.state == pytest.approx((precession * math.sin(nutation), 0, precession * math.cos(nutation) + spin),
+                                       rel=1e-14)
+    assert float(findings(source("shell"))[0].ours) == pytest.approx(math.pi / precession, rel=1e-10)
+
+
 def test_the_moon_has_the_ratios_that_are_published_and_the_frequencies_of_debra_and_delp():
     """Pitch n sqrt(3 (B - A)/C); the roots of roll and yaw by the quadratic of DeBra and Delp 1961."""
     from math import sqrt
@@ -144,7 +159,7 @@ def test_a_difference_without_a_cause_ends_with_5(stabilab, monkeypatch):
 
 
 def test_unknown_source_is_bad_input(stabilab):
-    with pytest.raises(InputError, match="known are 42, apophis, basilisk, moon, nesc, orekit"):
+    with pytest.raises(InputError, match="known are 42, apophis, basilisk, moon, nesc, orekit, shell"):
         source("nase")
     assert stabilab("validate", "../x")[0] == 2
 

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ...case.given import (
     Amount,
@@ -23,6 +23,9 @@ from ...errors import InputError
 from ...orbit.result import Motion, Needs
 from .of_case import judged, motion_of_case, with_its_tilt
 
+if TYPE_CHECKING:
+    import numpy as np
+
 
 def motion(scene: Given, state: Start | None = None, span: Span | None = None, *,
            states: Starts | None = None, tilt: Amount | None = None, follow: Amount | None = None,
@@ -32,8 +35,8 @@ def motion(scene: Given, state: Start | None = None, span: Span | None = None, *
     """All that is known of the motion of a case: a `Motion`; of many starts (`states`) a list of them.
 
     scene, state, states, tilt, follow, proof, tell, frame: as of `fate`. span: (from, to), in whose times,
-    and from the start to them, extremes are searched where the motion is not integrable. brief, exact: former
-    arguments; a start is exact where it is text or rational. Raises InputError as `fate` does.
+    and from the start to them, extremes are searched where the motion is not integrable. Of a list of starts
+    each is exact, as one is. brief, exact: former arguments. Raises InputError as `fate` does.
     """
     if exact is not None:
         state = renamed("motion", "exact", "state", exact, None)
@@ -48,12 +51,18 @@ def motion(scene: Given, state: Start | None = None, span: Span | None = None, *
         from .starts import asked_of
         case, array = asked_of(scene, None, many, span, "motion", frame)
         many = None if array.ndim == 1 else many
-        cases = [case] if many is None else [started(case, row)
-                                             for row in array.reshape(-1, array.shape[-1])]
+        cases = [case] if many is None else _each(case, many, array, frame)
     angle = None if tilt is None else angle_of(tilt)
     needs = Needs.QUICK if brief else Needs.ALL
     rows = [_whole(item, needs, angle, time_in(item.scene, follow, "follow"), tell, proof) for item in cases]
     return rows[0] if many is None else rows
+
+
+def _each(case: Case, many: Any, array: np.ndarray, frame: str) -> list[Case]:
+    """The case from each of many starts, exact where each is one of a list; array: of the same, doubles."""
+    if isinstance(many, (list, tuple)) and all(map(is_one, many)):
+        return [with_start(started(case, item, frame), "motion") for item in many]
+    return [started(case, row) for row in array.reshape(-1, array.shape[-1])]
 
 
 def _whole(case: Case, needs: Needs, tilt: float | None, follow: float | None,

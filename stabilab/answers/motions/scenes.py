@@ -108,11 +108,11 @@ def chaos(scene: Given, state: Start | None = None, until: Amount | None = None,
     """Whether motions are regular or chaotic, by MEGNO, from variational equations derived from the scene's
     own (see `unreduced.chaos`).
 
-    scene: a case in any form, or a scene; state, states: as of `fate`. until: the time up to which they are
-    followed (None: a thousand turns of a motion of middling pace). Motions whose fate is spin-up are not
-    followed; a state at rest is regular, however fast its neighbours part. Works for every effect. A label is
-    what was seen up to that time: "regular" is no proof, the slowest chaos takes longer. tell(motions done)
-    is called meanwhile. Raises InputError for other shapes and numbers.
+    scene: a case in any form, or a scene; state, states: as of `fate`, rounded to doubles. until: the time up
+    to which they are followed (None: a thousand turns of a motion of middling pace). Motions whose fate is
+    spin-up are not followed; a state at rest is regular, however fast its neighbours part. Works for every
+    effect. A label is what was seen up to that time: "regular" is no proof, the slowest chaos takes longer.
+    tell(motions done) is called meanwhile. Raises InputError for other shapes and numbers.
     """
     case = as_case(scene)
     source: Any = state if states is None else states
@@ -144,15 +144,16 @@ def spin_up(scene: Given, state: Start | None = None, t_max: Amount | None = Non
     over torque); budget: in how many steps (None: 600,000). Slow drifts are run over many revolutions at
     once. after: the inequality is to hold for a state at this time or later: bounds and clocks of a later
     trap are narrower. proof: enclose the motion up to the inequality, so that nothing rests on a run in
-    machine precision: level "proved" where that succeeds; the start is then exact. tell(time, steps, motions
-    left): called meanwhile. fast: True for loops compiled by numba, False for the same loops as they are
-    written, None for whichever is sooner; the motions are the same to the last bit. Raises InputError for
-    scenes with other effects than turn the body as wheel and torque do, and for states that are none.
+    machine precision: level "proved" where that succeeds; without it the start of a run is rounded.
+    tell(time, steps, motions left): called meanwhile. fast: True for loops compiled by numba, False for the
+    same loops as they are written, None for whichever is sooner; the motions are the same to the last bit.
+    Raises InputError for scenes with other effects than turn the body as wheel and torque do, and for states
+    that are none.
     """
     case = with_start(as_case(scene, state), "spin_up")
     end, late = (time_in(case.scene, item, name) for item, name in ((t_max, "t_max"), (after, "after")))
-    return answered(spin_ups.spin_up(case.scene, case.exact_state if proof else case.state, end, budget, late,
-                                     proof, tell, fast), case)
+    return answered(spin_ups.spin_up(case.scene, case.exact_state, end, budget, late, proof, tell, fast),
+                    case)
 
 
 def separatrix(scene: Given, reach: float | None = None, shape: tuple[int, int] | None = None,
@@ -184,7 +185,8 @@ def trajectory(scene: Given, state: Start | None = None, times: ArrayLike | None
     its span. state: three numbers, the angular velocity (x when scaled); for scenes with more blocks of state
     all their components in order, or a dict of blocks {"omega": ..., "gamma": ..., "attitude": ...} as in
     `blocks`, the attitude as a quaternion, scalar first (a block beyond those that the scene needs is
-    integrated too; a missing one starts at gamma = e3, the unit quaternion, rest).
+    integrated too; a missing one starts at gamma = e3, the unit quaternion, rest). A run
+    starts at the doubles nearest to what is given.
 
     times: (n,) strictly increasing or decreasing, of any sign, in s (tau when scaled). method: "taylor"
     (heyoka; where it is not installed SciPy's DOP853 at rtol 1e-13, and `method` and `reason` say so) or a
@@ -222,11 +224,11 @@ def ensemble(scene: Given, states: Starts | None = None, times: ArrayLike | None
     (`trajectory` does).
 
     scene: a case in any form, or a scene; without `states` and `times` the case's own start, and the ends of
-    its span. states: (n, N), a row for each motion as `trajectory` takes it; state: one of them. times: (m,)
-    as for `trajectory`. rtol: relative tolerance, None for half an ulp. workers: threads that share the rows
-    out, 0 for all cores; the answer has the same bytes for any number. Where heyoka is not installed every
-    motion is run by itself with SciPy's DOP853, and workers gain nothing. Raises InputError for states,
-    times, rtol and workers that are none.
+    its span. states: (n, N), doubles, a row for each motion as `trajectory` takes it; state: one of them.
+    times: (m,) as for `trajectory`. rtol: relative tolerance, None for half an ulp. workers: threads that
+    share the rows out, 0 for all cores; the answer has the same bytes for any number. Where heyoka is not
+    installed every motion is run by itself with SciPy's DOP853, and workers gain nothing. Raises InputError
+    for states, times, rtol and workers that are none.
     """
     case = as_case(scene, state)
     unit = NONE if case.variables == "scaled" else RATE

@@ -148,6 +148,7 @@ COMPONENTS = {"omega": ("omega1", "omega2", "omega3"), "sigma": ("sigma1", "sigm
               "off_linear": ("angle off a constant rate",),
               "momentum_turn": ("turn of the angular momentum",),
               "rotation_period": ("period of rotation",),
+              "half_precession": ("time of half a turn",),
               "libration_periods": ("period of the wobble", "period of the libration in longitude")}
 UNITS = {"sigma": "", "angle3": "rad", "off_linear": "rad", "momentum_turn": "rad"}  # others: of the motion
 

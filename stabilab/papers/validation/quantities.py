@@ -263,6 +263,11 @@ def rotation_period(motion, at: At, numbers) -> list:
     return [_closed(attitude(load(motion.case)).rotation_period / HOUR, numbers)]
 
 
+def half_precession(motion, at: At, numbers) -> list:
+    """The time in which the axis of a free symmetric body precesses by half a turn, s."""
+    return [_closed(attitude(load(motion.case)).precession_period / 2, numbers)]
+
+
 def libration_periods(motion, at: At, numbers) -> list:
     """The longer two periods of the first stable attitude on a circular orbit, days."""
     first = circular_orbit(motion.case).equilibria.points[0]

@@ -89,6 +89,8 @@ def energy_integral(motion: Motion, units: Units) -> list[tuple[str, str]]:
         more = "more" if result.difference > 0 else "less"
         text += (f"; on the separatrix {result.name}s = {number(result.on_separatrix, DIGITS)}"
                   + (f", {number(abs(result.difference), DIGITS)} {more}" if result.difference else ""))
+    if result.turned_about is not None:
+        text += f"; of the state turned by half about axis {result.turned_about}, as the torque is negative"
     return [(f"energy integral {result.name}", text)]
 
 

@@ -11,11 +11,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...integrate.guard import too_far, why_given_up
+from ...numbers.exact import floats
 from ...orbit import one_state
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate, Needs
@@ -189,17 +191,18 @@ def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int
     result = chase(own, tests, np.array([state]) / unit, NATURAL_TIMES if t_max is None else t_max * unit,
                   BUDGET if budget is None else budget, after * unit,
                   tell and (lambda t, steps, left: tell(t / unit, steps, left)), fast)
-    answer = kept_by_law(scene, state, answer_of(scene, unit, result, 0))
     start = supplied if isinstance(supplied, (list, tuple)) else state
+    answer = kept_by_law(scene, start, answer_of(scene, unit, result, 0))
     return proved(scene, start, answer, fast=ADVANCE.pays(0.0, fast)) if proof else answer
 
 
-def kept_by_law(scene: AnyScene, state: tuple[float, ...], answer: SpinUp) -> SpinUp:
+def kept_by_law(scene: AnyScene, state: Sequence[Any], answer: SpinUp) -> SpinUp:
     """The answer, or, where no inequality came true and the law of a torque along a principal axis keeps the
     motion bounded, that."""
     if answer.fate != Fate.UNDECIDED or reduce(scene) is None:
         return answer
-    resolved = one_state.motion(scene, state, needs=Needs.FATE)
+    exactly_at = tuple(map(Fraction, state))  # next to a separatrix the double may lie on its other side
+    resolved = one_state.motion(scene, floats(exactly_at), exact=exactly_at, needs=Needs.FATE)
     if resolved.fate not in (Fate.BOUNDED, Fate.EQUILIBRIUM):
         return answer
     return replace(answer, fate=Fate.BOUNDED, level="exact",
