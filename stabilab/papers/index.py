@@ -3,7 +3,7 @@ JSON and a page of the report; claims and data of the papers' own pages, and the
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from types import SimpleNamespace
 
 SCHEMA = "stabilab.papers/1"
+TABLES = "stabilab tables --out tables"
 VERDICTS = Path(__file__).with_name("verdicts.toml")
 MODEL = "a sketch, drawn from a case of the paper"
 
@@ -39,7 +40,7 @@ class Item:
     place: str
 
 
-NAMED = ("data", "figure", "table")  # items whose verdict is in words
+NAMED = ("data", "figure", "table", "integrals")  # items whose verdict is in words
 # paper -> the case file that its data begin with
 DATA = {"constant-torque": "minor-axis-100", "charged": "charged-sweep", "cavity": "liquid-base",
         "top": "top-lx30-lz30"}
@@ -81,6 +82,9 @@ def _of_paper(paper: Paper, group: Sequence[Any]) -> list[Item]:
         rows.append(Item(paper.name, "data", "of its figures and tables", "in case files as it prints them; "
                           "what it leaves out is completed there, and said",
                           f"stabilab show cases/{DATA[paper.figures]}.toml"))
+    if paper.figures == FIRST:
+        rows.append(Item(paper.name, "integrals", "F, N, G1, G2, G3 of every motion, the equilibria beside "
+                         "it and their eigenvalues", "worked out by the true equations", TABLES))
     figures = [row for row in of_paper(paper.figures) if not row.added] if paper.figures else []
     for figure in figures:
         claims = [f for f in group if figure.number in f.row.options.get("figures", ())]
@@ -98,7 +102,7 @@ def _table(paper: Paper, finding: SimpleNamespace) -> Item:
         says = EXTREMES[int(number)][1] if int(number) in EXTREMES else "Equilibria and their stability"
         beside = ", beside what the printed formulas give" if int(number) in EXTREMES else ""
         return Item(paper.name, f"table {number}", says, f"worked out anew{beside}",
-                    "stabilab tables --out tables")
+                    TABLES)
     return Item(paper.name, f"table {number}", says, finding.verdict,
                 f"stabilab audit {paper.name} --equation {finding.row.equation}")
 
@@ -138,8 +142,8 @@ def page(findings: Sequence[tuple[Any, Sequence[Any]]], folder: Path, **around: 
     papers = []
     for paper, group in findings:
         rows = items([(paper, group)])
-        parts = {"equations": "(", "data": "data", "figures": "figure", "tables": "table",
-                 "claims of the text": "text"}
+        parts = {"equations": "(", "data": "data", "integrals": "integrals", "figures": "figure",
+                 "tables": "table", "claims of the text": "text"}
         papers.append({"name": paper.name, "title": paper.title, "parts": [
             (title, [_row(paper, row) for row in rows if row.item.startswith(begins)])
             for title, begins in parts.items()]})
@@ -159,6 +163,8 @@ def link(paper: Paper, row: Item) -> str:
     page = "constant-torque" if main else paper.figures
     if kind == "data":
         return f"{page}.html#data"
+    if kind == "integrals":
+        return f"{page}.html#table-{table.MOTIONS}"
     if kind == "figure":
         return f"{page}.html#{'figure' if main else page}-{number}"
     if kind == "table" and main:
@@ -174,8 +180,11 @@ def claims(paper: Paper, group: Sequence[Any]) -> list[dict[str, Any]]:
         if not item.row.equation.startswith("text") or item.verdict not in ("holds", "only-if", "wrong"):
             continue
         only = f"only if {item.condition}" if item.verdict == "only-if" else ""
+        so = item.correction
+        if item.row.kind == "number" and so:  # the truth stands in the note, where the formula is wrong
+            so = "; ".join(filter(None, [f"by that formula {so}", item.row.options.get("note", "")]))
         rows.append({"says": written(item.row.says), "right": item.verdict == "holds",
-                      "is": written("; ".join(filter(None, [only, item.correction]))),
+                      "is": written("; ".join(filter(None, [only, so]))),
                       "link": f"audit.html#{anchor(paper.name, item.row.equation)}"})
     return rows
 
@@ -184,6 +193,18 @@ def of_figure(paper: Paper, group: Sequence[Any], number: int) -> list[dict[str,
     """The rows of the audit that concern a figure: equation and link."""
     return [{"equation": item.row.equation, "link": f"audit.html#{anchor(paper.name, item.row.equation)}"}
             for item in group if number in item.row.options.get("figures", ())]
+
+
+# number of a figure of the main paper -> families of its cases
+OF_FIGURES = {**dict.fromkeys(range(1, 8), ("minor-axis",)), **dict.fromkeys(range(8, 12), ("major-axis",)),
+              **dict.fromkeys(range(12, 16), ("major-axis-spin3",)),
+              **dict.fromkeys((16, 17), ("middle-axis",))}
+
+
+def cases_of(number: int, pages: Mapping[str, str]) -> list[dict[str, str]]:
+    """The cases that a figure of the main paper draws: name and page. pages: case -> its page."""
+    return [{"name": name, "link": pages[name]} for family in OF_FIGURES.get(number, ())
+            for name in (f"{family}-{lam}" for lam in table.LAMBDAS) if name in pages]
 
 
 def data() -> list[tuple[str, str]]:
