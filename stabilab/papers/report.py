@@ -230,6 +230,7 @@ def everything_of(cases, folder: Path, tell, wanted: own.Wanted, workers=None,
     index.hard_cases(folder, nav=nav, here="hard-cases.html")
     if cost:
         html.write(folder / "cost.html", "cost.html", title="What answers cost", pages=cost, nav=nav,
+                   pictures=[(file, text) for file, text in COST_PICTURES if (folder / file).exists()],
                    here="cost.html")
     _start(cases, folder, result, nav, groups, audit, tools, cost, around)
     return [(value["beyond"], value["open"]) for name, value in result.items() if name.startswith("case ")]
@@ -360,6 +361,12 @@ COSTS = (("What accuracy costs",
          ("How cost grows", "with the number of states, the digits, and closeness to the separatrix",
           _growth), ("What each effect costs", "state, equations and time as effects are added one at a time",
                      _effects))
+
+
+# with which the page of costs begins, where they were drawn
+COST_PICTURES = ((precision_page.OVERVIEW, "Time against digits; solid: a run that is repeated in the same "
+                  "process; dashed: the first run, with import and compiling"),
+                 (cost_effects.BAR, "Time of one evaluation as effects are added one after the other"))
 
 
 def costs(cases, folder: Path) -> list[dict]:
