@@ -48,6 +48,8 @@ def precision(
         quick: Annotated[bool, flag("--quick", "Try few settings: seconds instead of a minute.")] = False,
         all_settings: Annotated[bool, flag(
             "--all", "Print every setting of every method, and the findings in words.")] = False,
+        overview: Annotated[bool, flag(
+            "--overview", "Draw at most five methods into --out, a first run and again.")] = False,
         strict: Strict = False):
     """Measure what accuracy costs: error and time of each method.
 

@@ -22,6 +22,7 @@ from ..cost.accuracy import precision as measure
 from ..errors import InputError, printable
 from ..files import write_text
 from ..show import precision as shown
+from ..show import precision_overview
 from ..show.space import natural, seen
 from ..show.terminal import say, tell
 from ..show.text import cost
@@ -106,13 +107,17 @@ def compare(case, order, out, json, strict, units):
         strict=strict)
 
 
-def precision(case, json, csv, out, until, quick, all_settings, strict):
+def precision(case, json, csv, out, until, quick, all_settings, overview, strict):
     """Measure error and time of every method."""
     if out:
         shown.checked(out)
     loaded = load_cases([case], motion=True)
     ends = {item.place: _end(item, until) for item in loaded}
     view = replace(PRECISION, text=lambda item, result, units: shown.text(result, all_settings))
+    if overview:
+        if out is None or out.suffix == ".csv":
+            raise InputError("--overview: expected a picture, --out FILE.png, .svg or .pdf")
+        view = replace(view, drawn=lambda item, result, units, path: precision_overview.write(result, path))
     run(view, loaded, lambda item: measure(item, "quick" if quick else "full", ends[item.place]),
         systems=[SI] * len(loaded), out=out, json=json, csv=csv, strict=strict)
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
@@ -18,8 +19,10 @@ import numpy as np
 
 from ..errors import InputError
 from ..integrate.reference import WORK, Recursion, Reference, one_run, pairs, reference, relative_errors
+from ..integrate.to_heyoka import compiled_anew
 from ..integrate.trajectory import SCIPY_METHODS
 from ..physics.coefficients import limits_of
+from .loading import loading
 from .many_digits import Digits, with_many_digits
 from .methods import Answer, Method, Problem, answer_methods, fate_methods, known_period, methods, problem
 
@@ -60,8 +63,9 @@ class Point:
     """One setting of one method on one question.
 
     error: relative; seconds: fastest run (for one of `lanes` motions followed at once), slowest: the slowest
-    of `repeats`; compile: seconds of what is done once. setting: what `value` is (rtol, nodes, order;
-    formula: nothing). parts: the blocks of the state that the method knows; "" for all.
+    of `repeats`; compile: seconds of what is done once a setting, loading: once a process, the integrator's
+    import and the start of its compiler; opening: of the run that comes first. setting: what `value` is
+    (rtol, nodes, order; formula: nothing). parts: the blocks of the state that the method knows; "" for all.
     """
 
     question: str
@@ -77,6 +81,13 @@ class Point:
     compile: float
     lanes: int = 1
     parts: str = ""
+    loading: float = 0.0
+    opening: float = 0.0
+
+    @property
+    def first(self) -> float:
+        """Seconds of a first run in a process: import, compiling and the run."""
+        return self.loading + self.compile + max(self.opening, self.seconds)
 
     @property
     def digits(self) -> float:
@@ -144,11 +155,11 @@ class Precision:
         needs several motions at once."""
         return pareto(p for p in self.of(question) if p.lanes == 1 and not p.parts)
 
-    def cheapest(self, digits: float, question: str = "span") -> list[Point]:
+    def cheapest(self, digits: float, question: str = "span", once: bool = False) -> list[Point]:
         """Of each method that has so many digits its cheapest point, cheapest first; without the batch and
-        what knows a part of the state only."""
+        what knows a part of the state only. once: of a first run, else of one that is repeated."""
         best: dict[str, Point] = {}
-        for p in sorted(self.of(question), key=lambda p: p.seconds):
+        for p in sorted(self.of(question), key=lambda p: p.first if once else p.seconds):
             if p.digits >= digits and p.lanes == 1 and not p.parts:
                 best.setdefault(p.method, p)
         return list(best.values())
@@ -208,7 +219,7 @@ def precision(case, effort: str = "full", until: float | None = None, progress=N
         tell(f"{method.name}, period and extremes")
         _measured(task, method, exact, largest, [None], points, left_out)
     fates = tuple(FateAnswer(name, word, *timing) for name, call in fate_methods(task) for word,
-                  *timing in [_timed(call, largest)])
+                  *timing, _ in [_timed(call, largest)])
     if exact.period:
         tell("formulas in many digits")
     many = with_many_digits(task, largest.digits) if exact.period else ()
@@ -217,30 +228,35 @@ def precision(case, effort: str = "full", until: float | None = None, progress=N
 
 
 def _timed(call: Callable[..., Any], effort: Effort):
-    """(answer of the first run, fastest, slowest, repeats) of the runs after it."""
-    answer, seconds, (largest, enough) = call(), [], effort.repeats
+    """(answer of the first run, fastest, slowest, repeats of the runs after it, seconds of the first)."""
+    start = time.process_time()
+    answer = call()
+    opening = time.process_time() - start
+    seconds: list[float] = []
+    largest, enough = effort.repeats
     while len(seconds) < largest and (not seconds or sum(seconds) < enough):
         start = time.process_time()
         call()
         seconds.append(time.process_time() - start)
-    return answer, min(seconds), max(seconds), len(seconds)
+    return answer, min(seconds), max(seconds), len(seconds), opening
 
 
 def _measured(task: Problem, method: Method, exact: Reference, effort: Effort, spans: Sequence[np.ndarray],
               points: list[Point], left_out: list[tuple[str, float, str]]):
     """Put what every rung of a method's ladder reaches into `points`, or into `left_out`. spans: times of its
     runs, rising to the end; None of a run that answers with period and extremes."""
-    last, growth = 0, 1.0
+    last, growth, loaded = 0, 1.0, loading(method.name)
     for value in method.ladder:
         if method.name in SCIPY_METHODS and last * growth > effort.evaluations:
             left_out.append((method.name, value,
                              f"more than the {effort.evaluations} evaluations allowed, by the growth so far"))
             continue
-        start = time.process_time()
-        run = method.prepare(task, value)
-        compiled = time.process_time() - start
+        with compiled_anew() if method.name.startswith("taylor") else nullcontext():
+            start = time.process_time()
+            run = method.prepare(task, value)
+            compiled = time.process_time() - start
         for question, times in zip(("span", "end"), spans):
-            answer, fast, slow, repeats = _timed(partial(run, times), effort)
+            answer, fast, slow, repeats, opening = _timed(partial(run, times), effort)
             info = "" if times is None or set(answer.parts) == set(task.slices) else ", ".join(answer.parts)
             errors = (_answer_errors(answer, exact) if times is None
                       else {question: _state_error(task, answer, exact, len(times))})
@@ -249,7 +265,7 @@ def _measured(task: Problem, method: Method, exact: Reference, effort: Effort, s
                 break
             points += [Point(name, method.name, method.setting, value, error, answer.steps,
                              answer.evaluations, fast / method.lanes, slow / method.lanes, repeats, compiled,
-                             method.lanes, info) for name, error in errors.items()]
+                             method.lanes, info, loaded, opening) for name, error in errors.items()]
         used = answer.evaluations or 0
         growth, last = max(1.0, used / last) if last and used else 1.0, used
 

@@ -164,6 +164,21 @@ def _integrator(structure: Structure, tolerance: float, lanes: int = 0):
                 pars=np.zeros((len(structure.symbols), *shape)), tol=tolerance)
 
 
+@contextmanager
+def compiled_anew():
+    """Integrators made inside are compiled, as on a computer that has not made them before: to measure it."""
+    _integrator.cache_clear()
+    _event_integrator.cache_clear()
+    cache = heyoka().llvm_state
+    cache.clear_memcache()
+    enabled = cache.get_diskcache_enabled()
+    cache.set_diskcache_enabled(False)
+    try:
+        yield
+    finally:
+        cache.set_diskcache_enabled(enabled)
+
+
 @lru_cache(maxsize=64)
 def _event_integrator(structure: Structure, tolerance: float):
     n, recorder = len(structure.state), _Recorder()

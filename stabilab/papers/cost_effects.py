@@ -184,7 +184,7 @@ def zero_is_absent(name: str) -> dict[str, bool]:
     return {question: plain[question] == named[question] for question in plain}
 
 
-PICTURE = "effects.png"
+PICTURE, BAR = "effects.png", "effects-bar.png"
 
 
 def page(folder, tell=None, **around) -> Path:
@@ -203,6 +203,7 @@ def page(folder, tell=None, **around) -> Path:
     zero = {name: zero_is_absent(name) for name, (_, none) in EXAMPLES.items() if none}
     with style.drawing() as plt:
         style.save(picture(plt, steps), folder / PICTURE)
+        style.save(bar(plt, steps), folder / BAR)
     return html.write(
         folder / "effects.html", "effects.html", picture=PICTURE, many=MANY, machine=caption(),
         words=words(steps, singles, zero),
@@ -273,4 +274,21 @@ def picture(plt, steps):
     right.tick_params(labelleft=False)
     style.legend(figure, looks, columns=3)
     figure.suptitle("Only the effects a scene calls for: one added after the other", fontsize=11)
+    return figure
+
+
+def bar(plt, steps):
+    """A bar a step of the ladder: the time of a Taylor step, or without heyoka that of the rates."""
+    figure, ax = plt.subplots(figsize=(5.6, 5.0), layout="constrained")
+    taylor = steps[0][1].taylor_step is not None
+    times = [(seconds.taylor_step if taylor else seconds.one) * 1e6 for _, seconds in steps]
+    names = ["body alone" if cost.added == NOTHING else f"+ {spoken(cost.added)}" for cost, _ in steps]
+    ax.barh(range(len(steps)), times, 0.7, color=style.SKY)
+    for place, microseconds in enumerate(times):
+        ax.annotate(f"{microseconds:.3g}", (microseconds, place), (4, 0),
+                    textcoords="offset points", va="center", fontsize=9 * style.share())
+    ax.set(yticks=range(len(steps)), yticklabels=names, xlim=(0, 1.18 * max(times)),
+           xlabel="processor time (microseconds)",
+           title="one Taylor step, effect after effect" if taylor else "one evaluation, effect after effect")
+    ax.invert_yaxis()
     return figure

@@ -2,15 +2,16 @@
 JSON and a page of the report; claims and data of the papers' own pages, and the table of hard cases."""
 from __future__ import annotations
 
+import re
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..physics.coefficients import shape_factors
 from ..show.report import html
-from ..show.terminal import written
+from ..show.terminal import capital, written
 from ..theories.printed.claims import Paper, Row, key
 from ..theories.printed.claims import paper as paper_named
 from ..theories.printed.claims import papers as all_papers
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from types import SimpleNamespace
 
 SCHEMA = "stabilab.papers/1"
+TABLES = "stabilab tables --out tables"
 VERDICTS = Path(__file__).with_name("verdicts.toml")
 MODEL = "a sketch, drawn from a case of the paper"
 
@@ -30,16 +32,18 @@ MODEL = "a sketch, drawn from a case of the paper"
 @dataclass(frozen=True)
 class Item:
     """paper: its name in the audit; item: "(30)", "figure 7", "table 3", or "text-..." of a claim of the
-    text; says: what it is; verdict; place: the command that shows it."""
+    text; says: what it is; verdict; place: the command that shows it; page: where it is in the folder of
+    `stabilab report --papers`."""
 
     paper: str
     item: str
     says: str
     verdict: str
     place: str
+    page: str
 
 
-NAMED = ("data", "figure", "table")  # items whose verdict is in words
+NAMED = ("data", "figure", "table", "integrals")  # items whose verdict is in words
 # paper -> the case file that its data begin with
 DATA = {"constant-torque": "minor-axis-100", "charged": "charged-sweep", "cavity": "liquid-base",
         "top": "top-lx30-lz30"}
@@ -70,37 +74,47 @@ def items(findings: Sequence[tuple[Any, Sequence[Any]]]) -> list[Item]:
 
 
 def _of_paper(paper: Paper, group: Sequence[Any]) -> list[Item]:
+    def item(name: str, says: str, verdict: str, command: str) -> Item:
+        return Item(paper.name, name, says, verdict, command, link(paper, name))
+
     rows = []
     for finding in group:
         name = finding.row.equation
         if not name.startswith("table-"):
-            item = name if name.startswith("text") else f"({name})"
-            rows.append(Item(paper.name, item, finding.row.says, finding.verdict,
-                              f"stabilab audit {paper.name} --equation {name}"))
+            rows.append(item(name if name.startswith("text") else f"({name})", finding.row.says,
+                             finding.verdict, audit_command(paper, name)))
     if paper.figures:
-        rows.append(Item(paper.name, "data", "of its figures and tables", "in case files as it prints them; "
-                          "what it leaves out is completed there, and said",
-                          f"stabilab show cases/{DATA[paper.figures]}.toml"))
+        rows.append(item("data", "of its figures and tables", "in case files as it prints them; "
+                         "what it leaves out is completed there, and said",
+                         f"stabilab show cases/{DATA[paper.figures]}.toml"))
+    if paper.figures == FIRST:
+        rows.append(item("integrals", "F, N, G1, G2, G3 of every motion, the equilibria beside it and their "
+                         "eigenvalues", "worked out by the true equations", TABLES))
     figures = [row for row in of_paper(paper.figures) if not row.added] if paper.figures else []
     for figure in figures:
         claims = [f for f in group if figure.number in f.row.options.get("figures", ())]
         wrong = sum(f.verdict == "wrong" for f in claims)
         verdict = MODEL if figure.number == 1 else "drawn from the exact equations" + (
             f"; {wrong} of {len(claims)} audited claims about it wrong" if claims else "")
-        rows.append(Item(paper.name, f"figure {figure.number}", figure.title, verdict, figure.command))
-    return rows + [_table(paper, finding) for finding in group if finding.row.equation.startswith("table-")]
+        rows.append(item(f"figure {figure.number}", figure.title, verdict, figure.command))
+    return rows + [item(*_table(paper, finding)) for finding in group
+                   if finding.row.equation.startswith("table-")]
 
 
-def _table(paper: Paper, finding: SimpleNamespace) -> Item:
+def audit_command(paper: Paper, equation: str) -> str:
+    """The command that shows a row of the audit."""
+    return f"stabilab audit {paper.name} --equation {equation}"
+
+
+def _table(paper: Paper, finding: SimpleNamespace) -> tuple[str, str, str, str]:
+    """(item, what it says, verdict, command) of a table."""
     number = finding.row.equation.removeprefix("table-")
-    says = finding.row.says
-    if paper.figures == "constant-torque":
-        says = EXTREMES[int(number)][1] if int(number) in EXTREMES else "Equilibria and their stability"
-        beside = ", beside what the printed formulas give" if int(number) in EXTREMES else ""
-        return Item(paper.name, f"table {number}", says, f"worked out anew{beside}",
-                    "stabilab tables --out tables")
-    return Item(paper.name, f"table {number}", says, finding.verdict,
-                f"stabilab audit {paper.name} --equation {finding.row.equation}")
+    if paper.figures != FIRST:
+        return (f"table {number}", finding.row.says, finding.verdict,
+                audit_command(paper, finding.row.equation))
+    says = EXTREMES[int(number)][1] if int(number) in EXTREMES else "Equilibria and their stability"
+    beside = ", beside what the printed formulas give" if int(number) in EXTREMES else ""
+    return f"table {number}", says, f"worked out anew{beside}", TABLES
 
 
 def as_dict(findings: Sequence[tuple[Any, Sequence[Any]]]) -> dict[str, Any]:
@@ -114,7 +128,9 @@ def text(findings: Sequence[tuple[Any, Sequence[Any]]]) -> str:
     for paper, group in findings:
         rows = _of_paper(paper, group)
         wide = max(len(row.item) for row in rows)
-        lines = [f"{paper.title}: {len(rows)} items; `stabilab audit {paper.name} --equation 30` shows one",
+        first = next(row for row in rows if not row.item.startswith(NAMED))
+        lines = [f"{paper.title}: {len(rows)} items; `{first.place}` shows {first.item}, and so on; "
+                 f"in the folder of `stabilab report --papers`: {first.page}",
                  *(f"  {row.item:<{wide}}  {verdict_words(row)}{': ' * bool(row.says)}{written(row.says)}"
                    f"{_shown(row)}" for row in rows)]
         parts.append("\n".join(lines))
@@ -127,7 +143,40 @@ def verdict_words(row: Item) -> str:
 
 
 def _shown(row: Item) -> str:
-    return f" -> {row.place}" if row.item.startswith(NAMED) and row.place else ""
+    return f" -> {row.place}, {row.page}" if row.item.startswith(NAMED) and row.place else ""
+
+
+HEAD = """# Every item of the papers
+
+Every numbered equation, figure and table of the five papers, and every claim of their texts that is tried:
+its verdict, the command that shows it, and its place in the folder that `stabilab report --papers` writes. In
+the terminal `stabilab papers` prints the same, `--json` as objects. How a verdict is found:
+[audit.md](audit.md). `python docs/making/papers.py` writes this page.
+"""
+MARKS = re.compile(r"([\\\\*_<>\\[\\]|~#])")  # of Markdown
+
+
+def markdown(findings: Sequence[tuple[Any, Sequence[Any]]]) -> str:
+    """The page of the docs: a table a paper and kind of item; figures lead to their pictures."""
+    lines = [HEAD]
+    for paper, group in findings:
+        lines += [f"## {paper.title}", ""]
+        for title, rows in _parts(_of_paper(paper, group)):
+            if rows:
+                lines += [f"### {capital(title)}: {paper.name}", "",
+                          "| item | verdict | what it says | command | page |",
+                          "| --- | --- | --- | --- | --- |", *(_line(paper, row) for row in rows), ""]
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def _line(paper: Paper, row: Item) -> str:
+    kind, _, number = row.item.partition(" ")
+    item = row.item
+    if kind == "figure":
+        file = next(figure.file for figure in of_paper(paper.figures) if figure.number == int(number))
+        item = f"[{item}](../figures/{file})"
+    phrases = (MARKS.sub(r"\\\1", written(text)) for text in (verdict_words(row), row.says))
+    return f"| {' | '.join([item, *phrases, f'`{row.place}`', f'`{row.page}`'])} |"
 
 
 HARD = Path(__file__).with_name("hard-cases.md")  # a link to the page of the docs
@@ -138,32 +187,40 @@ def page(findings: Sequence[tuple[Any, Sequence[Any]]], folder: Path, **around: 
     papers = []
     for paper, group in findings:
         rows = items([(paper, group)])
-        parts = {"equations": "(", "data": "data", "figures": "figure", "tables": "table",
-                 "claims of the text": "text"}
         papers.append({"name": paper.name, "title": paper.title, "parts": [
-            (title, [_row(paper, row) for row in rows if row.item.startswith(begins)])
-            for title, begins in parts.items()]})
+            (title, [_row(row) for row in part]) for title, part in _parts(rows)]})
     return html.write(folder / "where.html", "where.html", title="Where is it?", papers=papers, **around)
 
 
-def _row(paper: Paper, row: Item) -> dict[str, str]:
+PARTS = {"equations": "(", "data": "data", "integrals": "integrals", "figures": "figure", "tables": "table",
+         "claims of the text": "text"}  # title -> how its items begin
+
+
+def _parts(rows: Sequence[Item]) -> list[tuple[str, list[Item]]]:
+    """The items of a paper by kind, with a title each."""
+    return [(title, [row for row in rows if row.item.startswith(begins)]) for title, begins in PARTS.items()]
+
+
+def _row(row: Item) -> dict[str, str]:
     return {"item": row.item, "verdict": verdict_words(row), "says": written(row.says),
-            "link": link(paper, row)}
+            "link": row.page}
 
 
-def link(paper: Paper, row: Item) -> str:
+def link(paper: Paper, item: str) -> str:
     """Where an item is in the report: its figure or table on the page of its paper, else its row of the
     audit."""
-    kind, _, number = row.item.partition(" ")
+    kind, _, number = item.partition(" ")
     main = paper.figures == FIRST
     page = "constant-torque" if main else paper.figures
     if kind == "data":
         return f"{page}.html#data"
+    if kind == "integrals":
+        return f"{page}.html#table-{table.MOTIONS}"
     if kind == "figure":
         return f"{page}.html#{'figure' if main else page}-{number}"
     if kind == "table" and main:
         return f"{page}.html#table-{number}"
-    return f"audit.html#{anchor(paper.name, row.item.strip('()').replace('table ', 'table-'))}"
+    return f"audit.html#{anchor(paper.name, item.strip('()').replace('table ', 'table-'))}"
 
 
 def claims(paper: Paper, group: Sequence[Any]) -> list[dict[str, Any]]:
@@ -174,8 +231,11 @@ def claims(paper: Paper, group: Sequence[Any]) -> list[dict[str, Any]]:
         if not item.row.equation.startswith("text") or item.verdict not in ("holds", "only-if", "wrong"):
             continue
         only = f"only if {item.condition}" if item.verdict == "only-if" else ""
+        so = item.correction
+        if item.row.kind == "number" and so:  # the truth stands in the note, where the formula is wrong
+            so = "; ".join(filter(None, [f"by that formula {so}", item.row.options.get("note", "")]))
         rows.append({"says": written(item.row.says), "right": item.verdict == "holds",
-                      "is": written("; ".join(filter(None, [only, item.correction]))),
+                      "is": written("; ".join(filter(None, [only, so]))),
                       "link": f"audit.html#{anchor(paper.name, item.row.equation)}"})
     return rows
 
@@ -184,6 +244,18 @@ def of_figure(paper: Paper, group: Sequence[Any], number: int) -> list[dict[str,
     """The rows of the audit that concern a figure: equation and link."""
     return [{"equation": item.row.equation, "link": f"audit.html#{anchor(paper.name, item.row.equation)}"}
             for item in group if number in item.row.options.get("figures", ())]
+
+
+# number of a figure of the main paper -> families of its cases
+OF_FIGURES = {**dict.fromkeys(range(1, 8), ("minor-axis",)), **dict.fromkeys(range(8, 12), ("major-axis",)),
+              **dict.fromkeys(range(12, 16), ("major-axis-spin3",)),
+              **dict.fromkeys((16, 17), ("middle-axis",))}
+
+
+def cases_of(number: int, pages: Mapping[str, str]) -> list[dict[str, str]]:
+    """The cases that a figure of the main paper draws: name and page. pages: case -> its page."""
+    return [{"name": name, "link": pages[name]} for family in OF_FIGURES.get(number, ())
+            for name in (f"{family}-{lam}" for lam in table.LAMBDAS) if name in pages]
 
 
 def data() -> list[tuple[str, str]]:

@@ -127,7 +127,8 @@ def drawn(row, folder: Path) -> dict:
     path, *more = catalogue.write([row.number], folder / FOLDER, paper_name=row.paper or None)
     return picture(path, FOLDER, id=f"{row.paper or 'figure'}-{row.number}", number=row.number,
                    title=row.title, caption=row.caption, tolerance=row.tolerance, differences=words(row),
-                   command=row.command, rows=(), more=[FOLDER + part.name for part in more])
+                   command=row.command, rows=(), cases=(),
+                   more=[FOLDER + part.name for part in more])
 
 
 def _parameters(case: Case):
@@ -183,7 +184,7 @@ AUDIT_TAKES = {"constant-torque-gyrostat": 15.0, "charged-axisymmetric-short": 1
 
 
 def tables(folder: Path) -> list[dict]:
-    """Tables 1-4 in all formats, and what the page says of them."""
+    """All tables in all formats, and what the page says of them."""
     rows = []
     (folder / "tables").mkdir()
     for item in table.tables():
@@ -193,7 +194,7 @@ def tables(folder: Path) -> list[dict]:
             path.write_text(make(item), encoding="utf-8")
             names.append(f"tables/{path.name}")
         rows.append({"number": item.number, "title": item.title, "wide": item.wide, "rows": item.rows,
-                     "files": names, "html": table.html_fragment(item)})
+                     "files": names, "table": item})
     return rows
 
 
@@ -222,13 +223,14 @@ def everything_of(cases, folder: Path, tell, wanted: own.Wanted, workers=None,
     result = dict(zip([task.label for task in work], done(work, folder, tell, workers)))
     cost = result.get("what answers cost", [])
     nav = _nav(cost)
-    _papers(folder, result, nav)
+    _papers(cases, folder, result, nav)
     groups = _cases(cases, folder, result, nav, around)
     audit, tools = _audit(folder, result, nav), _validation(folder, result, nav)
     index.page([result[f"audit of {name}"] for name in audited_papers()], folder, nav=nav, here="where.html")
     index.hard_cases(folder, nav=nav, here="hard-cases.html")
     if cost:
         html.write(folder / "cost.html", "cost.html", title="What answers cost", pages=cost, nav=nav,
+                   pictures=[(file, text) for file, text in COST_PICTURES if (folder / file).exists()],
                    here="cost.html")
     _start(cases, folder, result, nav, groups, audit, tools, cost, around)
     return [(value["beyond"], value["open"]) for name, value in result.items() if name.startswith("case ")]
@@ -243,13 +245,16 @@ def _nav(cost):
     return [{"file": file, "title": title} for file, title in rows]
 
 
-def _papers(folder, result, nav):
-    """The pages of the papers."""
+def _papers(cases, folder, result, nav):
+    """The pages of the papers. cases: those that have pages, to which tables and figures lead."""
     from markupsafe import Markup
+    pages = {stem: f"{own.FOLDER}/{stem}.html" for stem, _ in own.entries(cases)}
     # escaped cell by cell in table.py
-    rows = [entry | {"html": Markup(entry["html"])} for entry in result["tables"]]
+    rows = [entry | {"html": Markup(table.html_fragment(entry["table"], pages))}
+            for entry in result["tables"]]
     main = result[f"audit of {MAIN}"]
-    drawn = [result[f"figure {row.number}"] | {"rows": index.of_figure(*main, row.number)}
+    drawn = [result[f"figure {row.number}"] | {"rows": index.of_figure(*main, row.number),
+                                               "cases": index.cases_of(row.number, pages)}
              for row in catalogue.FIGURES]
     html.write(folder / "constant-torque.html", "constant_torque.html", title="Constant torque",
                paper=table.PAPER, tables=rows, nav=nav, here="constant-torque.html", data=index.data(),
@@ -358,6 +363,12 @@ COSTS = (("What accuracy costs",
                      _effects))
 
 
+# with which the page of costs begins, where they were drawn
+COST_PICTURES = ((precision_page.OVERVIEW, "Time against digits; solid: a run that is repeated in the same "
+                  "process; dashed: the first run, with import and compiling"),
+                 (cost_effects.BAR, "Time of one evaluation as effects are added one after the other"))
+
+
 def costs(cases, folder: Path) -> list[dict]:
     """The pages that hold measured times, one after the other by one process: never two measurements at once.
     """
@@ -414,7 +425,7 @@ def _start(cases, folder, out, nav, groups, audit, tools, cost, around):
     inside."""
     hero = _hero(cases, out)
     drawn = [row.number for row in catalogue.FIGURES if not row.added]
-    text = {"constant-torque.html": f"{table.PAPER}: tables 1 to {len(out['tables'])}, figures {drawn[0]} "
+    text = {"constant-torque.html": f"{table.PAPER}: tables 1 to {max(table.EXTREMES)}, figures {drawn[0]} "
                                      f"to {drawn[-1]}, recomputed and corrected",
              "cases.html": "; ".join(f"{title[0].lower()}{title[1:]} ({some(number, 'case')})"
                                      for title, number in groups),

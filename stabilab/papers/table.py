@@ -1,30 +1,27 @@
-"""Amer et al. 2024: their data, what their formulas give, and Tables 1 to 4.
+"""Amer et al. 2024: their data, Tables 1 to 4, and one more of the integrals.
 
 The data are the paper's body, momentum wheels, torques and starts. The tables are recomputed, in five
 formats: terminal text, CSV, Markdown, LaTeX, HTML.
 
-Tables 2 to 4 rest on extremes by the printed formulas.
-
-Each pair of printed integrals puts the motion on a curve with one parameter s, along which the square of the
-rate about the torque's axis is known; the motion stays on the piece around its start where that square is not
-negative. Minor axis: (18) and (30). Middle axis: x1^2 - x3^2 = 2N and (71). Middle axis with x1 = x3: (79).
-The integrals are not constant along the true motion unless the wheel is still: see the audit."""
+Tables 2 to 4 set beside the truth what follows from the printed integrals (`printed_integrals`); a table that
+the paper has not gives the integrals of all its motions, and the equilibria beside them (`integrals`)."""
 from __future__ import annotations
 
 import html
 import math
 import os
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..answers.digits import ask
 from ..answers.motion import motion
-from ..case.read import load
+from ..case.read import Case, load
 from ..equilibrium.torque_table import torque_table
 from ..errors import InputError
 from ..physics.coefficients import to_scaled, torque_from_mu
@@ -33,6 +30,8 @@ from ..physics.effects.gyrostat import Gyrostat
 from ..physics.scene import Body, ScaledGyrostat, Scene
 from ..show import style
 from ..show.data import csv_lines
+from .integrals import Integrals, integrals
+from .printed_integrals import FAMILIES, printed_extremes, printed_integrals
 
 if TYPE_CHECKING:
     from ..orbit.separatrix.homoclinic import Branch
@@ -63,12 +62,6 @@ def physical(axis: str, lambda1: float) -> Scene:
 
 # of Fig. 4 in the text: lambda1 -> (left and right saddle, left and right centre), alpha
 FIG4 = {100: ((0.0, 6.2), (-3.0, 3.3)), 300: ((0.19, 6.15), (-3.1, 3.29)), 500: ((0.32, 5.8), (-3.13, 3.28))}
-
-
-def height(radius: float, wheel: float):
-    """Function of alpha, x^2/2 plus which is constant by (25): printed with F and b, true with A and b -
-    a."""
-    return lambda alpha: radius**2 * np.cos(alpha) - 4 * radius * wheel * np.sin(alpha / 2) - 2 * alpha
 
 
 def saddle(radius: float, turn: float = 0.0):
@@ -131,95 +124,6 @@ def name_space(ax, zoom=0.92, order=(1, 2, 3)):
         axis.set_pane_color((1, 1, 1, 0))  # white would cover a label of the panel before
     ax.patch.set_visible(False)
     ax.set_box_aspect(None, zoom=zoom)
-
-
-# --- Extremes by the printed formulas
-STEP, FAR = 2e-3, 40.0  # of the walk along the curve
-
-
-class Printed(NamedTuple):
-    """A curve: place(s) -> the two components off the torque's axis, square(s) of the third; stationary: the
-    s at which one of the two may be extreme inside a piece."""
-
-    place: Callable[[float], tuple[float, float]]
-    square: Callable[[float], float]
-    start: float
-    stationary: tuple[float, ...]
-
-
-def minor_axis(x: Sequence[float], a: float, b: float) -> Printed:
-    """x1 = F sin s, x2 = F cos s by (18); 2 x3^2 by (30)."""
-    F, start = math.hypot(x[0], x[1]), math.atan2(x[0], x[1])
-
-    level = height(F, b)
-    G = 2 * x[2] ** 2 + level(2 * start)
-    return Printed(lambda s: (F * math.sin(s), F * math.cos(s)), lambda s: (G - level(2 * s)) / 2, start,
-                   tuple(n * math.pi / 2 for n in range(-8, 9)))
-
-
-def middle_axis(x: Sequence[float], a: float, b: float) -> Printed:
-    """x1 = sqrt(2N) cosh s, x3 = sqrt(2N) sinh s; 2 x2^2 by (71), up to where its artanh ends."""
-    root = math.sqrt(x[0] ** 2 - x[2] ** 2)
-    start = math.atanh(x[2] / x[0])
-
-    def potential(x1: float, x3: float) -> float:
-        size = x1 * x1 + x3 * x3
-        return size * (1 + 2 * (a + b) / root) - 2 * math.atanh(2 * x1 * x1 * x3 * x3 / size)
-
-    def place(s: float) -> tuple[float, float]:
-        return root * math.cosh(s), root * math.sinh(s)
-
-    G = 2 * x[1] ** 2 + potential(x[0], x[2])
-    return Printed(place, lambda s: (G - potential(*place(s))) / 2, start, (0.0,))
-
-
-def middle_axis_equal(x: Sequence[float], a: float, b: float) -> Printed:
-    """x1 = x3 = exp(s); x2^2 by (79)."""
-    def potential(s: float) -> float:
-        return math.exp(2 * s) / 2 + (a + b) * math.exp(s) - s
-
-    start = math.log(x[0])
-    G = x[1] ** 2 / 2 + potential(start)
-    return Printed(lambda s: (math.exp(s), math.exp(s)), lambda s: 2 * (G - potential(s)), start, ())
-
-
-# family of cases -> (its curve, the axis of the torque)
-FAMILIES = {"minor-axis": (minor_axis, 2), "middle-axis": (middle_axis, 1),
-            "middle-axis-equal": (middle_axis_equal, 1)}
-
-
-def printed_extremes(family: str, x: Sequence[float], a: float,
-                     b: float) -> list[tuple[float, float]] | None:
-    """((least, greatest),) * 3 by the printed formulas from a start x; None where they leave the motion open
-    or end on the way."""
-    from scipy.optimize import minimize_scalar
-    curve, axis = FAMILIES[family]
-    result = curve(x, a, b)
-    ends = [_end(result, side) for side in (-1, 1)]
-    if None in ends:
-        return None
-    low, high = ends
-    at = [result.place(s) for s in (low, high, *(s for s in result.stationary if low < s < high))]
-    greatest = max(-minimize_scalar(lambda s: -result.square(s), bounds=(p, p + (high - low) / 50),
-                                    method="bounded", options={"xatol": 1e-12}).fun
-                   for p in (low + n * (high - low) / 50 for n in range(50)))
-    pairs = [(min(values), max(values)) for values in zip(*at)]
-    pairs.insert(axis, (-math.sqrt(greatest), math.sqrt(greatest)))
-    return pairs
-
-
-def _end(result: Printed, side: int) -> float | None:
-    """Where the square first vanishes on one side of the start; None where it does not, or is not defined."""
-    from scipy.optimize import brentq
-    s = result.start
-    try:
-        while result.square(s + side * STEP) >= 0:
-            s += side * STEP
-            if abs(s - result.start) > FAR:
-                return None
-        return brentq(result.square, *sorted((s, s + side * STEP)), xtol=1e-14)
-    except (ValueError, OverflowError):
-        return None
 
 
 # --- Tables
@@ -301,16 +205,36 @@ EXTREMES_HEADER = ("case", "λ1", "a", "b", "x1(0)", "x2(0)", "x3(0)", "fate", "
 EXTREMES = {
     2: (("minor-axis",), "Extremes, torque on the minor axis, from x(0) = (2.5, 4, 0.1)",
         "Extremes over all time. The rows as printed are worked out from (18) and (30), on which the "
-        "paper's own table rests: x1² + x2² = F² is not constant. Difference: as printed less true."),
+        "paper's own table rests: x1² + x2² = F² is not constant, (x1 + a)² + x2² is. Difference: as printed "
+        "less true."),
     3: (("middle-axis",), "Extremes, torque on the middle axis, from x(0) = (1.7, 1.1, −0.2)",
-        "Extremes over all time. The paper's own table rests on x1² − x3² = 2N, which is not constant, and "
-        "on (71), whose artanh ends before x2 returns to zero: as printed there are no extremes."),
+        "Extremes over all time. The paper's own table rests on x1² − x3² = 2N, which is not constant "
+        "((x1 + b)² − x3² is), and on (71), whose artanh ends before x2 returns to zero: as printed there "
+        "are no extremes."),
     4: (("middle-axis-equal", "middle-axis-plane"),
         "Extremes, torque on the middle axis, from x(0) = (2.5, 1.3, 2.5)",
         "The paper takes x1(0) = x3(0) for an invariant plane. It is none unless b = 0: the first rows show "
         "what the state really does, x1 and x3 part at once, beside what follows from the printed (79). The "
         "last three rows show the case that was meant, x1 + b = x3. Difference: as printed less true."),
 }
+# table -> its last columns: the integrals of a motion
+INTEGRALS = {2: ("F", "G1"), 3: ("N", "G2"), 4: ("N", "G2", "G3")}
+MOTIONS = 5  # number of the table that the paper has not
+MOTIONS_TITLE = "Integrals and equilibria of every motion (not in the paper)"
+MOTIONS_HEADER = ("case", "λ1", "x1(0)", "x2(0)", "x3(0)", "fate", "F", "N", "G1", "G2", "G3",
+                  "on separatrix", "centre x1", "centre x2", "centre x3", "eigenvalue ±i", "saddle x1",
+                  "saddle x2", "saddle x3", "eigenvalue ±")
+MOTIONS_CAPTION = (
+    "By the true equations. Minor axis: F² = (x1 + a)² + x2² and G1 = 2 x3² + x2² − (x1 + a)² − "
+    "4(b − a)(x1 + a) − 4 atan2(x1 + a, x2). Middle axis: 2N = (x1 + b)² − x3² and G2 = 2 x2² + (x1 + b)² + "
+    "x3² − 4(b − a)(x1 + b) − 4 artanh(x3/(x1 + b)); on the plane x1 + b = x3: G3 = (x2² + x3²)/2 − "
+    "(b − a) x3 − ln|x3|. On separatrix: the same integral at the saddle; a motion below it is bounded. "
+    "Centre: the equilibrium that the motion turns about, with eigenvalues 0 and ±i times the number; "
+    "saddle: that which decides, with eigenvalues 0 and ± the number. A wheel along the torque (major axis) "
+    "leaves no equilibrium and no such integral.")
+# family of cases, in the order of the figures
+MOTION_FAMILIES = ("minor-axis", "major-axis", "major-axis-spin3", "middle-axis", "middle-axis-equal",
+                   "middle-axis-plane")
 
 
 def cases_folder() -> Path:
@@ -336,40 +260,71 @@ def extremes_table(number: int) -> Table:
     """Table 2, 3 or 4: extremes of every component over all time, from the case files."""
     families, title, caption = EXTREMES[number]
     rows = [row for family in families for lam in LAMBDAS
-            for row in _with_printed(family, _extremes_row(cases_folder() / f"{family}-{lam}.toml", lam))]
-    return Table(number, title, caption, EXTREMES_HEADER, tuple(rows))
+            for row in _with_printed(family, _extremes_row(case_file(family, lam), lam, INTEGRALS[number]),
+                                     INTEGRALS[number])]
+    return Table(number, title, caption, EXTREMES_HEADER + INTEGRALS[number], tuple(rows))
 
 
-def _with_printed(family: str, row: tuple) -> list[tuple]:
-    """The row, and for a family whose formulas the paper prints what these give and the difference."""
+def case_file(family: str, lam: int) -> Path:
+    """The case file of a family at one lambda1."""
+    return cases_folder() / f"{family}-{lam}.toml"
+
+
+def _with_printed(family: str, row: tuple, columns: tuple[str, ...]) -> list[tuple]:
+    """The row, and for a family whose formulas the paper prints what these give and the difference. columns:
+    of the integrals."""
     if family not in FAMILIES:
         return [row]
-    name, lam, a, b, *start = row[:7]
+    _, lam, a, b, *start = row[:7]
     result = printed_extremes(family, start, a, b)
+    invariant, energy = printed_integrals(family, start, a, b)
+    # (79) is of a plane, G3
+    constants = [invariant, *[None] * (len(columns) - 2), energy]
     values = [None] * 6 if result is None else [v for pair in result for v in pair]
-    as_printed = ("as printed", lam, a, b, *start, None, None, *values)
-    if result is None:
-        return [row, as_printed]
-    apart = [printed - true for printed, true in zip(values, row[9:])]
+    as_printed = ("as printed", lam, a, b, *start, None, None, *values, *constants)
+    apart = [None if printed is None or true is None else printed - true
+             for printed, true in zip(values + constants, row[9:])]
     return [row, as_printed, ("difference", *[None] * 8, *apart)]
 
 
-def _extremes_row(path, lam):
+def _extremes_row(path, lam, columns):
     case = load(path)
     result = motion(case.scene, case.start, case.span, exact=case.exact_state)
     period, extremes = (ask(name, case.scene, case.start, DECIMALS, case.span, result,
                             case.exact_state).decimals for name in ("period", "extremes"))
     return (case.name, lam, case.scene.a, case.scene.b, *case.state, result.fate.word, float(period),
-            *(float(v) for pair in extremes for v in pair))
+            *(float(v) for pair in extremes for v in pair), *_named(integrals(case, result), columns))
+
+
+def _named(result: Integrals, columns: Sequence[str]) -> list[float | None]:
+    """F, N, G1, G2, G3 by these names, None where the motion has none."""
+    return [getattr(result, name) if name in "FN" else result.G.get(name) for name in columns]
+
+
+def motions_table() -> Table:
+    """Table 5, which the paper has not: integrals of every motion, the equilibria beside it, eigenvalues."""
+    return Table(MOTIONS, MOTIONS_TITLE, MOTIONS_CAPTION, MOTIONS_HEADER,
+                 tuple(_motion_row(load(case_file(family, lam)), lam)
+                       for family in MOTION_FAMILIES for lam in LAMBDAS))
+
+
+def _motion_row(case: Case, lam: int) -> tuple:
+    answer = motion(case)
+    result = integrals(case, answer)
+    places = [v for item in (result.centre, result.saddle)
+              for v in ((None,) * 4 if item is None else (*item.at, item.eigenvalue))]
+    return (case.name, lam, *map(float, case.state), answer.fate.word,
+            *_named(result, ("F", "N", "G1", "G2", "G3")), result.on_separatrix, *places)
 
 
 def tables(tell: Callable[[int, int, str], None] | None = None) -> tuple[Table, ...]:
-    """Tables 1-4, computed now. tell(done, count, words): before each."""
+    """Tables 1-4 and that of the integrals, computed now. tell(done, count, words): before each."""
     built = []
-    for done, number in enumerate(numbers := (1, *EXTREMES)):
+    for done, number in enumerate(numbers := (1, *EXTREMES, MOTIONS)):
         if tell:
             tell(done, len(numbers), f"table {number}")
-        built.append(torque_signs() if number == 1 else extremes_table(number))
+        built.append(torque_signs() if number == 1 else motions_table() if number == MOTIONS
+                     else extremes_table(number))
     return tuple(built)
 
 
@@ -453,18 +408,23 @@ def _is_text(table: Table, column: int):
     return any(isinstance(row[column], str) for row in table.rows)
 
 
-def html_fragment(table: Table) -> str:
-    """A <table> with everything escaped."""
+def html_fragment(table: Table, links: Mapping[str, str] = MappingProxyType({})) -> str:
+    """A <table> with everything escaped. links: cell -> the page that it leads to."""
     kinds = ["sentence" if table.wide else "words" if _is_text(table, n) else "number"
              for n in range(len(table.header))]
     head = "".join(f'<th scope="col" class="{kind}">{html.escape(h)}</th>'
                    for kind, h in zip(kinds, table.header))
-    body = "\n".join("<tr>" + "".join(f'<td class="{kind}">{html.escape(_signed(v))}</td>'
+    body = "\n".join("<tr>" + "".join(f'<td class="{kind}">{_linked(v, links)}</td>'
                                       for kind, v in zip(kinds, row)) + "</tr>" for row in table.rows)
     return (f'<table id="table-{table.number}">\n<caption>Table {table.number}. '
             f'{html.escape(table.title)}</caption>\n'
             f"<thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody>\n</table>\n<p "
             f"class=\"note\">{html.escape(table.caption)}</p>\n")
+
+
+def _linked(value, links: Mapping[str, str]) -> str:
+    phrase = html.escape(_signed(value))
+    return f'<a href="{html.escape(links[value])}">{phrase}</a>' if value in links else phrase
 
 
 def _signed(value: str) -> str:
@@ -487,8 +447,7 @@ def html_page(table: Table) -> str:
 
 
 # what tables() reads
-STEMS = tuple(f"{family}-{lam}"
-              for families, *_ in EXTREMES.values() for family in families for lam in LAMBDAS)
+STEMS = tuple(f"{family}-{lam}" for family in MOTION_FAMILIES for lam in LAMBDAS)
 TOLERANCES = {"equilibria and verdicts": "exact",
               "extremes and periods": "roots of the rates and of the reduced potential in balls, "
                                       "rounded once"}
@@ -496,7 +455,7 @@ FORMATS = {"txt": text, "csv": comma_separated, "md": markdown, "tex": latex, "h
 
 
 def write_tables(out, tell: Callable[[int, int, str], None] | None = None) -> list[Path]:
-    """Write Tables 1-4 into the folder `out`, one file a format (see FORMATS). tell: as of `tables`. Returns
+    """Write the tables into the folder `out`, one file a format (see FORMATS). tell: as of `tables`. Returns
     the paths."""
     written = []
     for table in tables(tell):

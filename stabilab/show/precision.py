@@ -15,7 +15,7 @@ from ..files import write_text
 from ..packages import demand
 from ..physics.equations import derive
 from ..processes import machine, versions
-from . import endings, limiting, style
+from . import endings, limiting, precision_overview, style
 from .report import html
 from .terminal import RAISED, written
 from .text.cost import (
@@ -91,7 +91,7 @@ def picture(plt, result, size=None, largest=None):
     ten = f"10{'⁻' * (power < 0)}{str(abs(power)).translate(RAISED)}"
     note = (
         f"Thin lines reach up to the slowest of several runs. {formulas}Error of the reference at most "
-        f"{ten}. {caption()}")
+        f"{ten}.")
     width = int((150 if columns == 2 else 84) * figure.get_figwidth() / usual[0])
     figure.legends[0].set_title("\n".join(textwrap.wrap(note, width)), prop={"size": 7.5})
     figure.legends[0].get_title().set(color=style.GREY, parse_math=False)
@@ -174,7 +174,8 @@ def _clipped(error) -> float:
 
 # --- Text, JSON, CSV, files
 COLUMNS = ("case", "question", "method", "setting", "value", "error", "digits", "steps", "evaluations",
-           "seconds", "slowest", "repeats", "compile_seconds", "lanes", "parts", "on_front")
+           "seconds", "slowest", "repeats", "compile_seconds", "lanes", "parts", "on_front",
+           "loading_seconds", "first_seconds")
 
 
 def text(result, all_settings: bool = False) -> str:
@@ -203,15 +204,19 @@ def text(result, all_settings: bool = False) -> str:
 
 
 def _by_digits(result):
-    """The table by digits wanted: the cheapest method, its time, that of fewest digits as one, the second."""
-    lines = [f"{'digits':>6}  {'cheapest':<40}{'time':>10}{'times 3 digits':>16}  second best"]
+    """The table by digits wanted: the cheapest method of a first run and of one that is repeated, with their
+    times, and the latter's with that of fewest digits as one."""
+    lines = [f"{'digits':>6}  {'first run':<29}{'time':>9}  {'again':<29}{'time':>9}{'times 3 digits':>16}"]
     for row in by_digits(result):
-        second = row["second"]
-        other = "" if second is None else f"{NAMES.get(second['method'], second['method'])}: " + duration(
-            second["seconds"])
-        lines.append(f"{row['digits']:>6}  {NAMES.get(row['method'], row['method']):<40}"
-                     f"{duration(row['seconds']):>10}{row['relative']:>16.3g}  {other}".rstrip())
-    return [*lines, *filter(None, [flat(result)])]
+        once = row["once"]
+        lines.append(f"{row['digits']:>6}  {NAMES.get(once['method'], once['method']):<29}"
+                     f"{duration(once['first_seconds']):>9}  {NAMES.get(row['method'], row['method']):<29}"
+                     f"{duration(row['seconds']):>9}{row['relative']:>16.3g}")
+    return [*lines, FIRST_RUN, *filter(None, [flat(result)])]
+
+
+FIRST_RUN = ("First run: the integrator is imported and compiled for its setting; again: in the same "
+             "process, or with what is cached.")
 
 
 def _many(result):
@@ -253,7 +258,8 @@ def as_dict(result) -> dict:
 def _row(out: Precision, p: Point) -> dict:
     values = (out.case.name, p.question, p.method, p.setting, p.value, p.error, min(p.digits, 99.0),
               p.steps, p.evaluations, p.seconds,
-              p.slowest, p.repeats, p.compile, p.lanes, p.parts, any(p is q for q in out.front(p.question)))
+              p.slowest, p.repeats, p.compile, p.lanes, p.parts, any(p is q for q in out.front(p.question)),
+              p.loading, p.first)
     return dict(zip(COLUMNS, values))
 
 
@@ -293,8 +299,7 @@ def checked(path) -> Path:
 
 # --- The page of the report
 SHORT = {"reduced": "closed form", "reference": "many digits"}
-STATES = "precision/states.png"
-ONE = (7.0, 5.8)  # inches of a picture of the states alone
+OVERVIEW = "precision/overview.png"  # with which the page begins
 FIRST = "minor-axis-100"  # the motion that the page begins with, where it was measured
 
 
@@ -311,7 +316,7 @@ def page(cases, folder, tell=None, passed=(), **around) -> Path:
             continue
         tell(f"precision of {case.name}")
         of = kind(case)
-        section, why = _section(case, folder, "glance" if of in seen else "brief")
+        section, why = _section(case, folder, "glance" if of in seen else "brief", not seen)
         if section is None:
             passed.append(f"{case.name}: {why}")
             continue
@@ -319,9 +324,8 @@ def page(cases, folder, tell=None, passed=(), **around) -> Path:
         sections.append(section)
     drawn = [section for section in sections if section["picture"]]
     first = next((section for section in drawn if section["name"] == FIRST), drawn[0] if drawn else None)
-    opening = first and (STATES if first["name"] == FIRST else first["picture"])
     return html.write(folder / "precision.html", "precision.html", cases=sections, passed=passed, first=first,
-                      opening=opening, machine=caption(), priced=DOUBLES, **around)
+                      opening=first and OVERVIEW, machine=caption(), priced=DOUBLES, **around)
 
 
 def kind(case) -> tuple:
@@ -331,8 +335,9 @@ def kind(case) -> tuple:
     return equations.blocks, tuple(map(str, equations.rhs)), acting
 
 
-def _section(case, folder, effort):
-    """(what the template says of a case, None), or (None, why nothing could be measured)."""
+def _section(case, folder, effort, opens):
+    """(what the template says of a case, None), or (None, why nothing could be measured). opens: whether the
+    page begins with it unless `FIRST` follows."""
     try:
         result = accuracy.precision(case, effort)
     except InputError as error:
@@ -341,8 +346,8 @@ def _section(case, folder, effort):
         return None, result.reference.because
     picture = None
     if effort == "brief":
-        if case.name == FIRST:
-            write(result, folder / STATES, ONE, most=1)
+        if case.name == FIRST or opens:
+            precision_overview.write(result, folder / OVERVIEW)
         picture = f"precision/{write(result, folder / 'precision' / f'{case.name}.png').name}"
     write(result, folder / "precision" / f"{case.name}.csv")
     rows = {row["digits"]: row for row in by_digits(result)}
@@ -350,8 +355,12 @@ def _section(case, folder, effort):
             "csv": f"precision/{case.name}.csv", "flat": flat(result), "times": len(result.reference.t),
             "command": f"stabilab precision {case.path}", "error": f"{result.reference.error.max():.0e}",
             "prices": [_price(rows.get(digits)) for digits in DOUBLES],
+            "firsts": [_price(row and row["once"] | {"seconds": row["once"]["first_seconds"]})
+                       for row in map(rows.get, DOUBLES)],
             "rows": [{"digits": row["digits"], "relative": so_many(row["relative"], 3),
                       "method": NAMES.get(row["method"], row["method"]), "time": duration(row["seconds"]),
+                      "once": NAMES.get(row["once"]["method"], row["once"]["method"]),
+                      "first": duration(row["once"]["first_seconds"]),
                       "second": second and NAMES.get(second["method"], second["method"]),
                       "its": second and duration(second["seconds"])}
                      for row in rows.values() for second in [row["second"] or ""]]}, None

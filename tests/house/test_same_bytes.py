@@ -200,7 +200,7 @@ def test_rerun_sees_a_file_that_differs_and_keeps_the_new_ones_where_asked(table
     again = tables.parent / "again"
     code, out, err = stabilab("rerun", tables, "--out", again)
     assert code == TOLERANCE_NOT_MET and "table-1.html: differs" in err and "table-1.csv: identical" in err
-    assert err.startswith("1 of 20 files differs\n")
+    assert err.startswith("1 of 25 files differs\n")
     assert err.splitlines()[2] == "  table-1.html: differs"
     assert (again / "table-2.csv").read_bytes() == (tables / "table-2.csv").read_bytes()
     code, out, err = stabilab("rerun", tables, "--out", again)

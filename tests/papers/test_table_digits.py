@@ -52,6 +52,6 @@ def oracle(case):
                          [(2, "minor-axis-100"), (2, "minor-axis-500"), (3, "middle-axis-500"),
                                           (4, "middle-axis-plane-500")])
 def test_every_number_is_the_double_next_to_the_true_one(number, stem):
-    row = table._extremes_row(table.cases_folder() / f"{stem}.toml", 0)
+    row = table._extremes_row(table.cases_folder() / f"{stem}.toml", 0, ())
     with mp.workdps(40):
         assert list(row[8:]) == [float(v) for v in oracle(load(table.cases_folder() / f"{stem}.toml"))]

@@ -23,6 +23,7 @@ from ...theories.follow import follow
 from .. import table as paper
 from ..families import FAMILIES, SPANS, sweep, with_wheel
 from ..figures import cavity
+from ..printed_integrals import height
 
 # --- How a quantity goes as a number grows, and on which side of zero it is
 GOES = {"rises": lambda change, size: change > size, "falls": lambda change, size: change < -size,
@@ -335,7 +336,7 @@ def _item4():
     at the saddle."""
     from scipy.optimize import brentq
     (saddle, _), (centre, _) = places(100)
-    true = paper.height(A, C)
+    true = height(A, C)
     end = brentq(lambda alpha: true(saddle) - true(alpha), -2 * math.pi, centre, xtol=1e-15)
 
     def invariant(alpha):
@@ -349,7 +350,7 @@ def loop_area(lam: float, side: int) -> float:
     """The area of a loop in the plane (alpha, x); side 0: left, 1: right."""
     from scipy.integrate import quad
     from scipy.optimize import brentq
-    true, (saddle, centre) = paper.height(*_circle(lam)), (pair[side] for pair in places(lam))
+    true, (saddle, centre) = height(*_circle(lam)), (pair[side] for pair in places(lam))
     square = lambda alpha: 2 * (true(saddle) - true(alpha))  # of x, by the corrected (25)
     end = brentq(square, centre - math.pi, centre)
     return 2 * quad(lambda alpha: math.sqrt(max(square(alpha), 0.0)), end, saddle)[0]

@@ -16,6 +16,7 @@ from ...show import style
 from ...unreduced.growth import captured_fate
 from .. import table
 from ..families import sweep
+from ..printed_integrals import height
 from .figure import PRINTED, farthest, listed
 from .minor_axis import WINDOW, outline
 
@@ -194,7 +195,7 @@ def _case():
 
 def printed_energy(radius: float, alpha: np.ndarray, side: str):
     """x^2/2 on the separatrix by the printed (26) and (27), b = 0."""
-    level = table.height(radius, 0.0)
+    level = height(radius, 0.0)
     return level(table.saddle(radius, SIDES[side])) - level(alpha)
 
 

@@ -15,6 +15,7 @@ from ...orbit.separatrix.branches import separatrix
 from ...show import style
 from ...show.plot.phase_plane import draw
 from .. import table
+from ..printed_integrals import height
 from .figure import GRID_POINTS, PRINTED, farthest, level_curves, listed, within
 
 # alpha = 2 theta: both wells and their saddles, no equilibrium at an edge; the plane repeats every 4 pi
@@ -80,8 +81,8 @@ def _left(saddles, start):
 def _heights():
     """(height by (25), as it is printed, true height) over alpha: x^2/2 + height is constant."""
     scene, (x1, x2, _) = table.printed_scene("minor", 100), table.START_MINOR
-    return (table.height(np.hypot(x1, x2), scene.b),
-            table.height(np.hypot(x1 + scene.a, x2), scene.b - scene.a))
+    return (height(np.hypot(x1, x2), scene.b),
+            height(np.hypot(x1 + scene.a, x2), scene.b - scene.a))
 
 
 def _separatrix_by(level, alpha):
@@ -239,7 +240,7 @@ def printed_loops() -> dict:
 def _printed_loop(radius, b, turn):
     """The loop of alpha = turn - asin(2/F^2)."""
     from scipy.optimize import brentq
-    level = table.height(radius, b)
+    level = height(radius, b)
     saddle = table.saddle(radius, turn)
     room = lambda alpha: level(saddle) - level(alpha)
     alpha = saddle + np.linspace(-2 * np.pi, 0.0, 4001)
