@@ -37,11 +37,11 @@ def sweep(
             'A number that varies: "torque[3]=0:0.1:101", "motion.angular_velocity[1]=-30:30:61 '
             'deg/s", "speed=1:1000:31:log rpm", "torque[1]=0, 1, 2". Up to four.')] = None,
         samples: Annotated[int | None, option(
-            "N", "Random points over the uncertainties that the case states.")] = None,
+            "N", "Random points of the uncertain numbers of the case, by their distributions.")] = None,
         seed: Annotated[int, option("S", "Seed of the random points.")] = 1,
         answer: Annotated[str | None, option("A,B,...",
-            "fate, level, reason, island, margin, distance, extremes, period, when, equilibria, "
-            "verdict, chaos. Default: fate,level,margin.")] = None,
+            "fate, level, reason, island, margin, distance, extremes, period, when, largest, "
+            "equilibria, verdict, chaos. Default: fate,level,margin.")] = None,
         out: Annotated[Path | None, option("FILE.nc",
             "Write NetCDF. Finished parts remain after an interrupted run: the same command "
             "continues it.")] = None,
