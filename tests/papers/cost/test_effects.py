@@ -32,7 +32,7 @@ from stabilab.physics.to_numpy import Form, _function, form
 ALONE = {"constant_torque": (3, 3 + 3), "gyrostat": (3, 3 + 3), "charge": (3, 3 + 1),
          "resistance": (3, 3 + 1),
          "liquid_cavity": (3, 3 + 1), "newtonian_field": (6, 3 + 1), "gravity": (6, 3 + 3),
-         "body_force": (13, 3 + 3 + 1), "viscous_damper": (6, 3 + 2), "damper_wheel": (4, 3 + 5), "damper_mass": (5, 3 + 7),
+         "body_force": (13, 3 + 3 + 1), "viscous_damper": (6, 3 + 2), "damper_wheel": (4, 3 + 5), "damper_mass": (5, 3 + 9),
          "rate_damper": (3, 3 + 6),
          "eddy_currents": (6, 3 + 1), "wheel_motor": (6, 3 + 3)}
 # Operations by hand, one added after the other. Body: c q r in each row, 2 * 3. Torque: one addition a row.
