@@ -16,7 +16,7 @@ and |gamma| != 1;
 l_z = 0 only;
 - (10): X and Omega^2 are cut off after the first power of l_z/r0 (C* = C + l_z/r0 in place of C makes them
 exact);
-- (42): 1 - gamma'^2 under psi' stands for 1 - gamma''^2; (43): csc(eps theta0) stands for csc theta0, kept as
+- (42) is read as meant, 1 - gamma''^2 under psi'; (43): csc(eps theta0) stands for csc theta0, kept as
 printed;
 - (43): wrong signs of the y0' terms, sin r0 t in theta2 and cos r0 t in psi2 (and so in phi2); theta1 carries
 y1 where P0

@@ -191,7 +191,7 @@ def test_a_body_turned_by_half_with_its_wheels_has_the_same_integral(order, axis
 def test_a_negative_torque_has_the_integral_of_a_plane_that_the_page_writes(side):
     """On x1 + b = side x3 by hand; b - a = 0.6."""
     scene = stabilab.ScaledGyrostat("0.6", "1.2", (0, -1, 0))
-    x1, x2, x3 = 1.3, 0.4, 2.5 * side
+    x2, x3 = 0.4, 2.5 * side
     found = stabilab.motion(scene, ("1.3", "0.4", f"{2.5 * side}")).energy_integral
     assert found.name == "G3" and found.turned_about == 1
     assert found.value == pytest.approx((x2**2 + x3**2) / 2 - side * 0.6 * x3 + side * math.log(abs(x3)), rel=1e-14)
