@@ -109,13 +109,13 @@ def by_digits(result) -> list[dict]:
     rows: list[dict] = []
     for digits in WANTED:
         offers = [_offer(p) for p in result.cheapest(digits, "span")[:2]]
-        once = [_offer(p) for p in result.cheapest(digits, "span", once=True)[:1]]
+        firsts = [_offer(p) for p in result.cheapest(digits, "span", once=True)[:1]]
         exact = result.reference.digits[0]
         if len(result.reference.t) and digits <= exact and len(offers) < 2:
             offers.append({"method": "reference", "setting": "digits", "value": exact,
                            "seconds": result.reference_seconds,
                            "first_seconds": result.reference_seconds})
-        once = min((*once, *offers), key=lambda offer: offer["first_seconds"], default=None)
+        once = min(firsts + offers, key=lambda offer: offer["first_seconds"], default=None)
         if offers:
             first = rows[0]["seconds"] if rows else offers[0]["seconds"]
             rows.append({"digits": digits, **offers[0], "once": once,
