@@ -11,11 +11,11 @@ import re
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..errors import InputError, printable
-from ..numbers.exact import exact
-from ..numbers.units import INERTIA, MASS, MOMENTUM, RATE, TORQUE, Dimension, in_dimension
-from .formats import TABLE_HEAD, cells_of, split_head
-from .write import text_of
+from ...errors import InputError, printable
+from ...numbers.exact import exact
+from ...numbers.units import INERTIA, MASS, MOMENTUM, RATE, TORQUE, Dimension, in_dimension
+from ..formats import TABLE_HEAD, cells_of, split_head
+from ..write import text_of
 
 
 class Column(NamedTuple):
