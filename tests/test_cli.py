@@ -236,7 +236,7 @@ def test_simulate_writes_netcdf_that_reads_back_to_the_last_bit(stabilab, tmp_pa
 
 
 @pytest.mark.parametrize("arguments, words", [
-    (("--out", "run.txt"), "expected a name that ends in .nc or .csv"),
+    (("--out", "run.txt"), "expected a name that ends in .nc, .csv or .aem"),
     (("--at", "0,soon"), "--at: expected a decimal"),
     (("--at", ""), "--at: expected a decimal"),
     (("--method", "RK54"), "did you mean"),
