@@ -236,7 +236,7 @@ def test_simulate_writes_netcdf_that_reads_back_to_the_last_bit(stabilab, tmp_pa
 
 
 @pytest.mark.parametrize("arguments, words", [
-    (("--out", "run.txt"), "expected a name that ends in .nc or .csv"),
+    (("--out", "run.txt"), "expected a name that ends in .nc, .csv or .aem"),
     (("--at", "0,soon"), "--at: expected a decimal"),
     (("--at", ""), "--at: expected a decimal"),
     (("--method", "RK54"), "did you mean"),
@@ -428,7 +428,7 @@ def test_a_scene_without_a_separatrix_is_an_answer_and_no_file(stabilab, tmp_pat
     (("plot", MINOR, "--out", "a"), ".png, .svg or .pdf"),
     (("plot", MINOR, "--out", "a.png.gz"), ".png, .svg or .pdf"),
     (("plot", MINOR, "--out", ".png"), ".png, .svg or .pdf"),
-    (("simulate", MINOR, "--out", "a.png"), ".nc or .csv"),
+    (("simulate", MINOR, "--out", "a.png"), ".nc, .csv or .aem"),
     (("compare", ROOT / "cases/charged-body.toml", "--out", "a.json"), ".csv"),
     (("precision", MINOR, "--out", "a.txt"), ".png, .svg, .pdf or .csv"),
     (("classify", MINOR, "--certify", "--out", "a.toml"), ".json"),

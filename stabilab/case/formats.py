@@ -18,7 +18,7 @@ _APM = re.compile(r"\s*(?:COMMENT.*\n\s*)*CCSDS_APM_VERS")
 
 
 class Importer(NamedTuple):
-    """Files of another program. name: with its article; holds: whether a text is one; module: of this room,
+    """Files of another program. name: with its article; holds: whether a text is one; module: of `programs`,
     loaded where one is read, with a function `read(text, path, body)` -> a `Craft`, or the text of a case;
     files: how they are named; bodies: whether one body of several can be asked for."""
 
@@ -30,7 +30,7 @@ class Importer(NamedTuple):
 
     def read(self, text: str, path: Path, body: str | None = None) -> Any:
         """What the file says of its spacecraft. Raises InputError where that makes no case."""
-        return import_module(f".{self.module}", __package__).read(text, path, body)
+        return import_module(f".programs.{self.module}", __package__).read(text, path, body)
 
 
 def is_42(text: str) -> bool:

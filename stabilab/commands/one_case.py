@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from ..answers.motion import Needs
 from ..case.formats import IMPORTERS, importer_of
-from ..case.imported import case_text, faults_of
+from ..case.programs.imported import case_text, faults_of
 from ..case.read import Case
 from ..case.source import EXAMPLES, command_of, source_text
 from ..case.source import example as text_of

@@ -31,7 +31,8 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, mat
     """Follow the motion of a case, of every combination where it has a [sweep]."""
     ephemeris = bool(out) and endings.ending(out) == ".aem"
     if epoch and not ephemeris:
-        raise InputError("--epoch is the date of time 0 in an attitude ephemeris: give it with --out FILE.aem")
+        raise InputError("--epoch is the date of time 0 in an attitude ephemeris: give it with --out "
+                         "FILE.aem")
     if ephemeris and matrix:
         raise InputError("--matrix: an attitude ephemeris has quaternions: leave it away with --out FILE.aem")
     moment, attitude = epoch_of(epoch) if ephemeris else None, attitude or ephemeris

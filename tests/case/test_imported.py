@@ -9,8 +9,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from stabilab.case import formats
-from stabilab.case.imported import Craft
-from stabilab.case.orbit_42 import from_quaternion
+from stabilab.case.programs.imported import Craft
+from stabilab.case.programs.orbit_42 import from_quaternion
 from stabilab.case.read import load, load_orbiting
 from stabilab.commands.one_case import import_
 from stabilab.errors import InputError
@@ -154,7 +154,7 @@ def test_a_file_of_another_kind_is_named_with_what_is_read(tmp_path, stabilab, t
 
 def test_a_new_importer_is_a_module_and_a_row(tmp_path, monkeypatch, capsys):
     """What the errors say is read, and what an error calls the file where a case is expected, are of the table."""
-    module = ModuleType("stabilab.case.import_toy")
+    module = ModuleType("stabilab.case.programs.import_toy")
     module.read = lambda text, path, body=None: Craft("toy", inertia=text.split()[1:4])
     monkeypatch.setitem(sys.modules, module.__name__, module)
     row = formats.Importer("a toy", lambda text: text.startswith("TOY"), "import_toy")

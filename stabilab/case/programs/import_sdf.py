@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import printable
+from ...errors import printable
 from .imported import Craft
 from .parts import of_quaternion, turn, turn_of_radians
 from .rigid_pieces import Frame, Piece, combined, piece, tensor_of, unread

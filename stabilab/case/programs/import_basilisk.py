@@ -12,8 +12,8 @@ from collections.abc import Sequence
 from decimal import Decimal
 from typing import TYPE_CHECKING, Any
 
-from ..errors import InputError, printable
-from .formats import BY_HAND, FORMATS, READ, seems
+from ...errors import InputError, printable
+from ..formats import BY_HAND, FORMATS, READ, seems
 from .imported import Craft, case_of_tables
 
 if TYPE_CHECKING:

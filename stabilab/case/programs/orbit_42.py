@@ -15,13 +15,13 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError
-from ..numbers.exact import sqrt_fraction
-from ..numbers.units import pi
+from ...errors import InputError
+from ...numbers.exact import sqrt_fraction
+from ...numbers.units import pi
+from ..sections import ATTRACTION, EARTH
+from ..source import source_text
 from .imported import Craft
 from .parts import of_quaternion
-from .sections import ATTRACTION, EARTH
-from .source import source_text
 
 
 class Unknown(Exception):

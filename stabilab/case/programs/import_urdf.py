@@ -120,11 +120,14 @@ def _piece(link: Element, frame: Frame) -> Piece:
     inertial = link.one("inertial")
     if inertial is None:
         return piece(link.name, "0", tensor_of(["0"] * 6), frame, frame, link)
-    mass, inertia = inertial.one("mass"), inertial.one("inertia")
-    for tag, element in (("mass", mass), ("inertia", inertia)):
-        if element is None:
-            raise inertial.fault(f"link {link.name}: <{tag}> is missing: add it")
-    assert mass is not None and inertia is not None
+    mass, inertia = (_needed(inertial, tag, link.name) for tag in ("mass", "inertia"))
     numbers = [inertia.attribute(key, 1)[0] for key in ENTRIES]
     return piece(link.name, mass.attribute("value", 1)[0], tensor_of(numbers),
                  frame.then(_origin(inertial)), frame, inertia)
+
+
+def _needed(inertial: Element, tag: str, name: str) -> Element:
+    result = inertial.one(tag)
+    if result is None:
+        raise inertial.fault(f"link {name}: <{tag}> is missing: add it")
+    return result

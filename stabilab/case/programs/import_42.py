@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..errors import InputError, printable
+from ...errors import InputError, printable
 from .imported import Craft
 from .orbit_42 import Unknown, add_orbit, from_quaternion
 from .parts import ONE, Joint, Part, decimals, joined, parallel, places, rows_of, turn

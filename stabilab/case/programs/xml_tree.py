@@ -8,8 +8,8 @@ from fractions import Fraction
 from pathlib import Path
 from xml.parsers import expat
 
-from ..errors import InputError, printable
-from ..numbers.exact import exact
+from ...errors import InputError, printable
+from ...numbers.exact import exact
 
 DEPTH = 200  # of elements inside each other
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import InputError, printable
+from ...errors import InputError, printable
 from .imported import Craft
 from .parts import ONE, Part, decimals, full, is_positive, joined, rows_of
 from .xml_tree import Element, fractions

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from ..errors import InputError, printable
-from .read import load_orbiting, read_all
-from .write import exact_text, plain, text_of
+from ...errors import InputError, printable
+from ..read import load_orbiting, read_all
+from ..write import exact_text, plain, text_of
 
 if TYPE_CHECKING:
     from pathlib import Path

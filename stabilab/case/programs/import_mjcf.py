@@ -14,8 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import InputError, printable
-from ..numbers.exact import precise, sqrt_fraction
+from ...errors import InputError, printable
+from ...numbers.exact import precise, sqrt_fraction
 from .imported import Craft
 from .parts import ONE, cosine, of_quaternion, turn, turn_of_radians
 from .rigid_pieces import Frame, Piece, combined, piece, tensor_of, unread

@@ -11,11 +11,11 @@ import re
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..errors import InputError, printable
-from ..numbers.exact import exact
-from ..numbers.units import INERTIA, MASS, MOMENTUM, RATE, TORQUE, Dimension, in_dimension
-from .formats import TABLE_HEAD, cells_of, split_head
-from .write import text_of
+from ...errors import InputError, printable
+from ...numbers.exact import exact
+from ...numbers.units import INERTIA, MASS, MOMENTUM, RATE, TORQUE, Dimension, in_dimension
+from ..formats import TABLE_HEAD, cells_of, split_head
+from ..write import text_of
 
 
 class Column(NamedTuple):
@@ -23,7 +23,7 @@ class Column(NamedTuple):
       "row."""
 
     key: str
-    index: int
+    component: int
     unit: str
     at: int
     head: str
@@ -93,11 +93,11 @@ def _columns(head: list[str], line: int, path: Path) -> tuple[list[Column], int 
             named = at
         elif column is None:
             left.append(cell.strip())
-        elif any((column.key, column.index) == (other.key, other.index) for other in columns):
+        elif any((column.key, column.component) == (other.key, other.component) for other in columns):
             raise _fault(path, line, cell.strip(), "a second column with this number: leave one")
         else:
             columns.append(column)
-    given = {(column.key, column.index) for column in columns}
+    given = {(column.key, column.component) for column in columns}
     missing = [f"I{axes} [kg "
                f"m^2]" for axes, n in list(PLACES.items())[:3] if ("body.inertia", n) not in given]
     if missing:
@@ -112,6 +112,7 @@ def _columns(head: list[str], line: int, path: Path) -> tuple[list[Column], int 
 
 def _column(name: str, unit: str, at: int, cell: str, line: int, path: Path) -> Column | None:
     entry = ENTRY.fullmatch(name)
+    dimension: Dimension
     if entry:
         axes = entry[1].lower().translate(DIGITS)
         key, index, dimension = "body.inertia", PLACES[axes if len(axes) == 2 else axes * 2], INERTIA
@@ -144,7 +145,7 @@ def _body(row: list[str], line: int, columns: list[Column], count: int, path: Pa
             exact(row[column.at].strip())
         except InputError as error:
             raise _fault(path, line, column.head, str(error)) from None
-        parts.setdefault(column.key, {})[column.index] = f"{row[column.at].strip()} {column.unit}".strip()
+        parts.setdefault(column.key, {})[column.component] = f"{row[column.at].strip()} {column.unit}".strip()
     result: dict[str, Any] = {}
     for key, numbers in parts.items():
         if key == "body.mass":

@@ -26,12 +26,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..errors import InputError, printable
-from ..numbers.units import pi
+from ...errors import InputError, printable
+from ...numbers.units import pi
+from ..write import exact_text
 from .ccsds import EULER, INERTIA, MANEUVER, QUATERNION, RATE, SPIN, Block, Message, Value, message
 from .imported import Craft
 from .parts import cosine, full, is_positive, of_quaternion, solved, turn
-from .write import exact_text
 
 BODY = re.compile(r"(SC_BODY|BODY_FRAME|INSTRUMENT|STAR_?TRACKER|SENSOR|ACTUATOR|ACC|AST|CSS|DSS|ESA|"
                   r"GYRO(_FRAME)?|IMU(_FRAME)?|MTA|RW|SA|TAM)(_?[A-Z0-9]+)?")
@@ -271,11 +271,10 @@ def _rate(value: Fraction) -> str:
     return repr(float(value)) if Fraction(repr(float(value))) == value else f"{float(value):.15g}"
 
 
-def _turned(frames: Frames, of_second: np.ndarray, to_second: np.ndarray | None) -> np.ndarray:
+def _turned(frames: Frames, of_second: np.ndarray, to_second: np.ndarray) -> np.ndarray:
     """The rates of the body from those of the second frame relative to the first, along the second's axes."""
     if frames.body == frames.second:
         return of_second
-    assert to_second is not None
     return -(to_second.T @ of_second)
 
 

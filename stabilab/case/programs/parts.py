@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..numbers.exact import half_unit, precise
+from ...numbers.exact import half_unit, precise
 
 # Matrices (3, 3) and vectors (3,) are arrays of Fractions: products of these are exact.
 ONE = np.array([[Fraction(i == j) for j in range(3)] for i in range(3)])

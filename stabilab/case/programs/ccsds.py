@@ -10,8 +10,8 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ..errors import InputError, printable
-from ..numbers.exact import exact
+from ...errors import InputError, printable
+from ...numbers.exact import exact
 from .xml_tree import Element, tree
 
 HEAD, META, QUATERNION, EULER, RATE, SPIN, INERTIA, MANEUVER = (

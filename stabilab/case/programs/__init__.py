@@ -1,0 +1,1 @@
+"""Files of other programs as cases: one file each, and what several of them share."""
