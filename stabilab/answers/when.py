@@ -278,6 +278,10 @@ def _with_digits(case: Any, result: TimeTo, ask: dict[str, Any], digits: int,
         raise InputError("digits: the time to this limit has no formula, the motion is followed (a formula "
                          "gives that to a rate or an energy, without a torque or with one on a principal "
                          "axis); leave the digits out: the two times of the answer have up to 15")
+    if limit.falls:
+        raise InputError("digits: the formula gives the time to a limit that is reached from below: ask with "
+                         "--rate, --component or --energy, or leave the digits out: the two times of the "
+                         "answer to --below have up to 15")
     why, ball = f"which crossing is the first is not proved ({result.reason})", None
     if result.level == "proved":
         why = "the crossing lies where the motion turns, or touches the limit, or beyond a period"

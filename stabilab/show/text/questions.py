@@ -70,7 +70,10 @@ def text(case, limit, result, units: Units) -> str:
     tilted = "BUT " * varies(result) + limiting.tilted(result.caveats, units)
     answer = limiting.fitted(lambda short: "; ".join(filter(None, [
         _answer(limit, result, low, high, units, short), tilted])), before(case, result))
-    printed = f"{printable(case.name)}: {answer}\n  {units.said(result.reason)}"
+    printed = f"{printable(case.name)}: {answer}\n"
+    if result.decimals is not None:
+        printed += f"  {result.decimals} {lettered(result.scene.time_unit)}, each digit proved\n"
+    printed += f"  {units.said(result.reason)}"
     end = ending.line(result.ending, units)
     return f"{printed}\n  in the end: {lettered(end)}" if end else printed
 
@@ -118,8 +121,9 @@ def _answer(limit: StatedLimit, result: TimeTo, low: float, high: float, units: 
         return f"NOT KNOWN when it {reaches} {aim}; not before {units.time(low, side=-1)} ({result.level})"
     if high == 0:
         return f"starts at or beyond {aim}"
-    if result.decimals is not None:
-        return f"reaches {aim} in {result.decimals} {lettered(result.scene.time_unit)} (each digit proved)"
+    if result.decimals is not None:  # they have a line of their own
+        time = number(float(result.decimals), SHOWN)
+        return f"reaches {aim} in {time} {lettered(result.scene.time_unit)} ({result.level})"
     name, item = units.times(high)
     a, b = bracket(low, high, item)
     after = "after" if limit.kind in FALLING else "in"

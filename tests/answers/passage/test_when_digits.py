@@ -89,6 +89,8 @@ def test_the_command_writes_the_digits(stabilab):
     found = found[0] if isinstance(found, list) else found
     assert code == 0 and found["decimals"] in out and len(found["decimals"]) == 43
     assert found["time"][0] <= float(found["decimals"]) <= found["time"][1]
+    first, written, *_ = out.splitlines()
+    assert len(first) <= 100 and written == f"  {found['decimals']} s, each digit proved"
 
 
 def test_what_has_no_formula_says_so(stabilab):
@@ -97,6 +99,8 @@ def test_what_has_no_formula_says_so(stabilab):
     assert code == 2 and "no formula" in err
     code, _, err = stabilab("when", CASES / "off-axis-two.toml", "--rate", "10 rad/s", "--digits", "30")
     assert code == 2 and "no formula" in err
+    code, _, err = stabilab("when", free, "--below", "0.52 rad/s", "--digits", "30")
+    assert code == 2 and "reached from below" in err and "--rate" in err
     code, _, err = stabilab("when", free, "--rate", "0.55 rad/s", "--digits", "10001")
     assert code == 2 and "1 to 10000" in err
     with pytest.raises(InputError, match="digits"):
