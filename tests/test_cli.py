@@ -448,7 +448,7 @@ def test_tables_writes_every_table_in_every_format_and_names_them(stabilab, tmp_
     written = [p for p in tmp_path.iterdir() if p.name != "manifest.json"]
     assert code == 0 and sorted(out.split()) == sorted(map(str,
                                                            written)) and (tmp_path / "manifest.json").exists()
-    assert {p.suffix for p in written} == {".txt", ".csv", ".md", ".tex", ".html"} and len(written) == 20
+    assert {p.suffix for p in written} == {".txt", ".csv", ".md", ".tex", ".html"} and len(written) == 25
 
 
 def test_an_intact_certificate_of_another_case_does_not_pass_for_this_one(stabilab, tmp_path, case_file):

@@ -84,6 +84,11 @@ CORRELATED = Sentence(
 PAIR = Sentence("correlated-pair", "{first} with {second}: {value}")
 NO_CENTRE = Sentence("no-centre-of-mass",
                      "the file gives no centre_of_mass: thrusters are placed from it")()
+NO_START = Sentence("start-not-looked-at",
+                    "the start in [motion] is not looked at: the attitudes are those at rest in the orbital "
+                    "frame; of a symmetric satellite that spins about its axis a wheel along the axis "
+                    "stands for the spin, with the momentum C (spin - rate of the orbit along the axis), C "
+                    "the moment about it, the spin in space")
 STATED = Sentence("stated-by-the-file", "{statement}")
 SILENT = Sentence("no-thruster-fires",
                   "no thruster fires: stuck = true in a table [[thrusters]] makes one act for ever "
@@ -358,6 +363,8 @@ def load_orbiting(given: Any) -> Orbiting:
     craft = _built(path, text, data, faults, orbiting=True)
     if "period" in data["circular_orbit"]:  # its rate holds pi
         craft = replace(craft, inexact=(*craft.inexact, "circular_orbit.period"))
+    if "motion" in data:
+        craft = replace(craft, caveats=(*craft.caveats, Caveat(Kind.STATED, NO_START())))
     # it has no fault, or the case had not been built
     return Orbiting(craft, rate_squared(Table(("circular_orbit",), data["circular_orbit"], faults)))
 

@@ -69,10 +69,6 @@ ORBIT_ONLY = ("a satellite on a circular orbit, and this question takes a body w
         "`stabilab orbit` (stabilab.circular_orbit), or take away [circular_orbit]")
 NONE = ('expected a table [circular_orbit] with rate, period, altitude or radius, such as '
         'altitude = "700 km"')
-STARTED = ("the attitudes at rest in the orbital frame are looked for, and no start is taken: take [motion] "
-           "away; of a symmetric satellite that spins about its axis a wheel along the axis stands for the "
-           "spin, with the momentum C (spin - rate of the orbit along the axis), C the moment about it, the "
-           "spin in space")
 WHEELS = ("on a circular orbit only wheels are known beside the gravity gradient: take it away, or "
           "take away [circular_orbit]")
 
@@ -89,8 +85,6 @@ def judge_orbit(top: Table, effects: Iterable[Effect], orbiting: bool):
             top.fault(NONE)
     elif (table := top.table("circular_orbit")) is not None:
         rate_squared(table)
-    if "motion" in top:
-        top.fault(STARTED, "motion")
     for key in ("scaled", "sweep"):
         if key in top:
             top.fault(f"a circular orbit takes one body in SI units: take away [{key}]", key)

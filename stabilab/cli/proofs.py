@@ -115,7 +115,7 @@ def papers(
 @commands.command()
 @opens("papers.tables")
 def tables(out: Folder = ...):  # type: ignore[assignment]  # typer: must be given
-    """Write Tables 1-4 of the constant-torque paper, and one of its integrals.
+    """Write the tables of the constant-torque paper.
 
     Formats: text, CSV, Markdown, LaTeX, HTML.
 

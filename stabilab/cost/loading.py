@@ -4,17 +4,30 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Callable
 from functools import lru_cache
+from importlib import import_module
 
 from ..integrate.trajectory import SCIPY_METHODS
 
-# the first integrator of a process, of the smallest system, starts the compiler
-TAYLOR = ("import heyoka\nx, v = heyoka.make_vars('x', 'v')\n"
-          "heyoka.taylor_adaptive([(x, v), (v, -x)], [0.0, 1.0], tol=1e-9)")
+CODE = ("import time, numpy, sympy, stabilab.cost.methods\nfrom stabilab.cost.loading import {0}\n"
+        "began = time.process_time()\n{0}()\nprint(time.process_time() - began)\n")
+
+
+def taylor() -> None:
+    """The first integrator of a process, of the smallest system, starts the compiler."""
+    heyoka = import_module("heyoka")
+    x, v = heyoka.make_vars("x", "v")
+    heyoka.taylor_adaptive([(x, v), (v, -x)], [0.0, 1.0], tol=1e-9)
+
+
+def scipy() -> None:
+    """SciPy's integrators."""
+    import_module("scipy.integrate")
+
+
 # method -> what it needs besides; the others come with the program
-STARTS = {"taylor": TAYLOR, "taylor-batch": TAYLOR, **dict.fromkeys(SCIPY_METHODS, "import scipy.integrate")}
-CODE = ("import time, numpy, sympy, stabilab.cost.methods\nbegan = time.process_time()\n{}\n"
-        "print(time.process_time() - began)\n")
+STARTS = {"taylor": taylor, "taylor-batch": taylor, **dict.fromkeys(SCIPY_METHODS, scipy)}
 
 
 def loading(method: str) -> float:
@@ -24,8 +37,8 @@ def loading(method: str) -> float:
 
 
 @lru_cache
-def _started(code: str) -> float:
-    exec(code, {})
-    run = subprocess.run([sys.executable, "-c", CODE.format(code)], capture_output=True, text=True,
+def _started(start: Callable[[], None]) -> float:
+    start()
+    run = subprocess.run([sys.executable, "-c", CODE.format(start.__name__)], capture_output=True, text=True,
                          check=True)
     return float(run.stdout.split()[-1])

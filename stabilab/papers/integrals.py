@@ -77,6 +77,6 @@ def beside(plane: PhasePlane) -> tuple[float | None, float | None]:
 
 
 def _equilibrium(case: Case, plane: PhasePlane, y: float) -> Equilibrium:
-    at = np.asarray(plane.states(np.float64(y), np.float64(0.0)), float) + 0.0
+    at = plane.states(np.array(y), np.array(0.0)) + 0.0
     m, _ = invariants(case.scene.quadratic(), at.tolist())
     return Equilibrium(tuple(at.tolist()), math.sqrt(abs(m)))

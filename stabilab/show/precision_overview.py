@@ -66,7 +66,7 @@ def drawn(result: Precision) -> dict[str, list[tuple[float, float, float]]]:
         points = [(p.digits, p.seconds, p.first) for p in result.of("span", method)
                   if p.lanes == 1 and not p.parts and 0 < p.digits < math.inf]
         if method == "reference" and len(result.reference.t):
-            points = [(float(result.reference.digits[0]), *[result.reference_seconds] * 2)]
+            points = [(float(result.reference.digits[0]), result.reference_seconds, result.reference_seconds)]
         if points and len(rows) < MANY:
             rows[method] = sorted(_worth(points))
     return rows

@@ -53,7 +53,7 @@ NO_NUMBERS = (None, "x", b"1", [], (1, 2), {}, [None] * 3, 1j, float("nan"), "1/
 
 @pytest.mark.parametrize("made", MADE, ids=lambda one: one.__name__)
 def test_a_scene_s_parts_called_with_other_arguments_than_they_take_say_what_they_take(made):
-    assert len(MADE) == 15
+    assert len(MADE) == 17
     expected = (
         rf"^{made.__name__}: .*; expected "
         rf"{made.__name__}\(.*{[*inspect.signature(made.__init__).parameters][-1]}.*\)$")
@@ -77,6 +77,7 @@ def test_a_scene_s_parts_made_of_no_numbers_are_bad_input_that_names_the_key(mad
            "vector": (1, 0, 0), "charge": 1,
            "field_strength": 1, "arm": 1, "angle": 0, "coefficient": 1, "density": 1, "viscosity": 1, "P0": 1,
            "law": "printed",
+           "axis": (1, 0, 0), "place": (1, 0, 0), "line": (0, 0, 1), "stiffness": 1, "mass_of_body": 9,
            "strength": 1, "distance": 9, "weight": 1, "centre_of_mass": (0, 0, 1),
            "body": stabilab.Body((3, 2, 2)), "effects": ()}
     for place, name in enumerate(takes):

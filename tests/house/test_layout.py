@@ -289,7 +289,8 @@ def test_one_state_reads_no_more_than_its_answer_needs():
 
 
 def test_a_sweep_loads_few_modules_before_its_first_point():
-    """No other map, no picture, and no answer that is not asked for: 116 of 340. The time that it takes to begin
+    """No other map, no picture, and no answer that is not asked for: 118 of 420, two of them for
+    uncertain numbers of a file and one for blocks on disk. The time that it takes to begin
     is a third of a second of processor time, most of it theirs and NumPy's."""
     code = ("import sys\nfrom stabilab.maps import run\nanswer = run.answered\n"
             "def first(*given):\n"
@@ -300,7 +301,7 @@ def test_a_sweep_loads_few_modules_before_its_first_point():
     asked = ["sweep", "cases/minor-axis-100.toml", "--vary", "x[1]=0:1:2"]
     run = subprocess.run([sys.executable, "-c", code, *asked], capture_output=True, text=True, cwd=ROOT)
     loaded = next(line for line in run.stderr.splitlines() if line.startswith("LOADED")).split()[1:]
-    assert len(loaded) <= 116 and {"stabilab.maps.parts", "stabilab.show.maps.sweep"} <= set(loaded)
+    assert len(loaded) <= 118 and {"stabilab.maps.parts", "stabilab.show.maps.sweep"} <= set(loaded)
     assert not {"stabilab.answers.chaos", "stabilab.answers.time_to", "stabilab.answers.equilibria",
                 "stabilab.show.plot"} & set(loaded)
 

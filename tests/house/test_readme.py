@@ -277,7 +277,7 @@ def test_blocks_are_of_a_kind_that_is_checked(page):
     text = page.read_text()
     assert text.count("\n```") == 2 * len(blocks(text))
     for language, body in blocks(text):
-        checked = language in ("sh", "console") or ">>>" in body or re.match(r"# \S+\.(toml|py)\n", body)
+        checked = language in ("sh", "console") or ">>>" in body or re.match(r"# \S+\.(toml|py|csv)\n", body)
         assert checked or body.strip() == LORENTZ_ROW, body
 
 

@@ -187,7 +187,7 @@ def test_every_page_is_well_formed_and_every_link_leads_to_a_file(pages):
             file, _, place = link.partition("#")
             if link.startswith("#"):
                 assert link[1:] in page.ids, (path, link)
-            elif not re.match(r"data:|https://(github\.com|doi\.org)/", link):
+            elif not re.match(r"data:|https://(github\.com|doi\.org|smallsats\.org)/", link):
                 assert (path.parent / file).is_file(), (path, link)
                 assert not place or place in Page((path.parent
                                                    / file).read_text(encoding="utf-8")).ids, (path, link)

@@ -77,7 +77,7 @@ def key_columns(cases: Sequence, location: int) -> list[tuple[str, str, list[str
     label = ".".join(LETTERS.get(word, word) for word in path[-1 if alone else -2:])
     # a matrix: which of those in the file
     if any(isinstance(v, list) and any(isinstance(item, list) for item in v) for v in values):
-        return [(label, "", [f"no. {_number(case.variant, location)}" for case in cases])]
+        return [(label, "", [f"no. {_of_matrices(case.variant, location)}" for case in cases])]
     if all(isinstance(v, list) and len(v) == len(values[0]) for v in values):
         moving = [i for i in range(len(values[0])) if len({repr(v[i]) for v in values}) > 1] or [0]
         return [(f"{label}[{i + 1}]", _unit(key, [v[i] for v in values]), [str(v[i]) for v in values])
@@ -85,7 +85,7 @@ def key_columns(cases: Sequence, location: int) -> list[tuple[str, str, list[str
     return [(label, _unit(key, values), [str(v) for v in values])]
 
 
-def _number(variant: str, location: int) -> str:
+def _of_matrices(variant: str, location: int) -> str:
     """Which value of a key a combination has; of keys that vary together all have the same."""
     numbers = variant.split("-")[1:]
     return numbers[location if len(numbers) > 1 else 0]
