@@ -121,7 +121,7 @@ def test_times_before_which_nothing_happens_are_rounded_down_in_every_view(syste
         tilt = Tilt(0.0123, "the torque", 0.5, True, value, None, None, "run", None, None, 10 * value,
                     np.zeros(3), np.full(3, math.inf))
         tilted = replace(motion, tilt=tilt, caveats=caveats_of(case.scene, True, tilt))
-        one = SimpleNamespace(low=value, high=math.nan, level="proved", caveats=(), reason=old(""), ending=None, tilt=None, validity=None)
+        one = SimpleNamespace(low=value, high=math.nan, level="proved", caveats=(), reason=old(""), ending=None, tilt=None, validity=None, decimals=None)
         asked = SimpleNamespace(kind="rate", names=("|omega|",), limits=(0.5,))
         for text, words in (("\n".join(lines_of.tilt_lines(case, tilted, units)), "not before"),
                             (questions.text(case, asked, one, units), "not before"),
