@@ -21,8 +21,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("do", nargs="?", choices=("measure", "docs"), default="measure")
-    parser.add_argument("--only", nargs="+", choices=list(suite.TOPICS), metavar="TOPIC",
-                        help=f"of {', '.join(suite.TOPICS)}")
+    parser.add_argument("--only", nargs="+", choices=list(record.TOPICS), metavar="TOPIC",
+                        help=f"of {', '.join(record.TOPICS)}")
     parser.add_argument("--small", action="store_true", help="tiny sizes, into the folder of --into alone")
     parser.add_argument("--into", type=Path,
                         help="a folder for results.json and RESULTS.md; no page is written")
@@ -39,7 +39,7 @@ def main(arguments: list[str] | None = None) -> int:
         run = record.Run(datetime.datetime.now(datetime.UTC).strftime("%Y-%m-%d %H:%M UTC"),
                          suite.commit(), suite.machine(), load, words)
         try:
-            suite.measure(results, asked.only or list(suite.TOPICS), run, asked.small, data)
+            suite.measure(results, asked.only or list(record.TOPICS), run, asked.small, data)
         except KeyboardInterrupt:
             print("\nended by Ctrl-C: the rows that were not reached are those of before", file=sys.stderr)
     if asked.into:

@@ -9,12 +9,14 @@ import sys
 from functools import partial
 from pathlib import Path
 
-from .rows import Row
+from .rows import PEAK, Row
 
 ROOT = Path(__file__).parents[1]
-SCENE = "from stabilab import ScaledGyrostat, extremes, fate, period\nscene = ScaledGyrostat('0.5', '3.1', (0, '-0.8', 0))\n"
-# processor time, s, after what comes before; peak, bytes
-CLOCK = "import json, resource, time\nimport numpy as np\n"
+BEGIN = """import json, time
+import numpy as np
+from stabilab import ScaledGyrostat, extremes, fate, period
+scene = ScaledGyrostat("0.5", "3.1", (0, "-0.8", 0))
+""" + PEAK
 CALLS = (1, 10, 100, 1000)
 ROWS = (100, 1000, 2000, 10_000)
 QUESTIONS = ("fate", "period", "extremes")
@@ -29,9 +31,9 @@ def measurements(small=False):
 
 def _run(code: str) -> list[float]:
     """What a fresh process prints last, a list in JSON."""
-    told = subprocess.run([sys.executable, "-c", CLOCK + SCENE + code], check=True, capture_output=True,
-                          text=True, cwd=ROOT, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"}).stdout
-    return json.loads(told.splitlines()[-1])
+    printed = subprocess.run([sys.executable, "-c", BEGIN + code], check=True, capture_output=True, text=True,
+                             cwd=ROOT, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"}).stdout
+    return json.loads(printed.splitlines()[-1])
 
 
 LIBRATIONS = """
@@ -49,8 +51,8 @@ at = time.process_time()
 for n in range(0, {total}, {each}):
     extremes(scene, states[n:n + {each}])
 print(json.dumps([time.process_time() - at]))""")
-    return Row(f"arrays-{each}-{total}", f"extremes of {total} states in a new process, {each} a call", spent, "s",
-               note="processor time after the start of the process; loops were compiled before")
+    return Row(f"arrays-{each}-{total}", f"extremes of {total} states in a new process, {each} a call", spent,
+               "s", note="processor time after the start of the process; loops were compiled before")
 
 
 def plain_and_compiled(total: int = 1000) -> list[Row]:
@@ -65,8 +67,8 @@ for by_numba in (False, True):
     times.append(time.process_time() - at)
 same = all(a.tobytes() == b.tobytes() for a, b in zip(*found))
 print(json.dumps([*(t / len(states) for t in times), float(same)]))""")
-    return [Row("arrays-plain", "extremes and period of a state, loops in plain Python", plain, "each", compiled,
-                "loops that numba compiles", compiled / plain, compiled / plain, compiled / plain,
+    return [Row("arrays-plain", "extremes and period of a state, loops in plain Python", plain, "each",
+                compiled, "loops that numba compiles", compiled / plain, compiled / plain, compiled / plain,
                 "the same bytes" if same else "bytes differ")]
 
 
@@ -75,11 +77,11 @@ def at_once(question: str, total: int) -> list[Row]:
     spent, peak = _run(LIBRATIONS.format(total=1000) + f"""
 {question}(scene, states)
 states = np.resize(states, ({total}, 3))
-before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+before = peak()
 at = time.process_time()
 found = {question}(scene, states)
 spent = time.process_time() - at
-print(json.dumps([spent, 1024.0 * (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)]))""")
+print(json.dumps([spent, peak() - before]))""")
     what = f"stabilab.{question} of {total} states in one call"
     return [Row(f"arrays-{question}", what, spent, "s"),
             Row(f"arrays-{question}-peak", f"{what}, peak beyond the process and its input", peak, "bytes")]

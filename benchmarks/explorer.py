@@ -17,7 +17,8 @@ CASES = Path(__file__).parents[1] / "cases"
 NAMES = ("thruster-stuck-major-axis", "minor-axis-100", "middle-axis-double-well", "cubesat-3u")
 FOLLOWED = ("liquid-sensible", "top-fast")  # bodies of other effects
 UPDATE, ANALYSIS = 0.1, 0.01  # s: of all, and of the outcome
-WHAT = "processor time; beside the outcome: equilibria with proofs, separatrix of 18 x 33 places a branch, motion, phase plane"
+WHAT = ("processor time; beside the outcome: equilibria with proofs, separatrix of 18 x 33 places a "
+        "branch, motion, phase plane")
 
 
 def measurements(small=False):

@@ -21,8 +21,10 @@ LATE = 1000.0
 def measurements(small=False):
     late, rounds = (20.0, 1) if small else (LATE, 7)
     contest = Stepping()
-    return [partial(bounded, contest, late, rounds), partial(spin_up, contest, 5.0 if small else late, rounds),
+    return [partial(bounded, contest, late, rounds),
+            partial(spin_up, contest, 5.0 if small else late, rounds),
             partial(many_times, contest, late, rounds)]
+
 
 
 class Stepping:

@@ -1,5 +1,5 @@
-"""Commands that compute many motions or equilibria, from the shell: the processor time of all their processes,
-start included."""
+"""Commands that compute many motions or equilibria, from the shell: the processor time of all their
+processes, start included; atlas and chaos in this process."""
 from __future__ import annotations
 
 import os
@@ -23,10 +23,12 @@ COMMANDS = {  # key -> (words, command)
     "basin-plane": ("basins under a torque on an axis, depth 6", (*BASIN, "6")),
     "basin-island": ("basins with an island under a torque off the axes, depth 5", (*ISLAND, "5")),
     "chaos": ("MEGNO over a thousand turns", ("chaos", "island.toml")),
-    "diagram": ("bifurcation diagram over one number", ("bifurcation", "tug.toml", "--vary", "torque[3]=0:0.5")),
+    "diagram": ("bifurcation diagram over one number",
+                ("bifurcation", "tug.toml", "--vary", "torque[3]=0:0.5")),
     "diagram-plane": ("bifurcation diagram over two numbers",
                       ("bifurcation", "tug.toml", "--vary", "torque[3]=0:0.5", "--vary", "momentum[1]=-2:2")),
-    "stuck-all": ("stuck --all-thrusters, six thrusters", ("stuck", "cases/cubesat-3u.toml", "--all-thrusters")),
+    "stuck-all": ("stuck --all-thrusters, six thrusters",
+                  ("stuck", "cases/cubesat-3u.toml", "--all-thrusters")),
 }
 
 
@@ -45,8 +47,8 @@ def shell(key: str, command: tuple[str, ...], words: str) -> Row:
         for name, page in PAGES.items():
             (Path(folder) / name).write_text(_of_a_page(name, page), encoding="utf-8")
         before = _spent()
-        subprocess.run([sys.executable, "-m", "stabilab", *command], cwd=folder, check=True, capture_output=True,
-                       env=os.environ | {"PYTHONPATH": str(ROOT)})
+        subprocess.run([sys.executable, "-m", "stabilab", *command], cwd=folder, check=True,
+                       capture_output=True, env=os.environ | {"PYTHONPATH": str(ROOT)})
         return Row(f"maps-{key}", f"{words}: `stabilab {' '.join(command[:2])} ...`", _spent() - before, "s",
                    note=START)
 
@@ -89,7 +91,8 @@ def megno(count: int = 64) -> Row:
     at = time.process_time()
     found = chaos(case.scene, states)
     assert np.isfinite(found.megno).all()
-    return Row("maps-megno", f"MEGNO of {count} motions over a thousand turns", (time.process_time() - at) / count,
+    return Row("maps-megno", f"MEGNO of {count} motions over a thousand turns",
+               (time.process_time() - at) / count,
                note="the equations were compiled before")
 
 
@@ -101,6 +104,7 @@ def damped() -> Row:
     at = time.process_time()
     found = flat_spin(case)
     spent = time.process_time() - at
-    return Row("maps-damped-step", f"a step, flat-spin of explorer-1-damped, {found.steps} steps", spent / found.steps)
+    return Row("maps-damped-step", f"a step, flat-spin of explorer-1-damped, {found.steps} steps",
+               spent / found.steps)
 
 

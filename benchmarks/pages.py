@@ -1,9 +1,9 @@
 """RESULTS.md, and the numbers of speed in README.md and docs/, from results.json.
 
-A page states a speed as a link to its row: `[0.11 us](../benchmarks/RESULTS.md#fate-minor)` is ours of the row
-`fate-minor`, `#fate-minor.theirs` the other's time, `#fate-minor.ratio` how many times as long the other takes
-(`26 times`), `#fate-minor.inverse` how many times as long we take. `python -m benchmarks docs` writes the
-words of every such link anew; nobody types them.
+A page states a speed as a link to its row: `[0.11 us](../benchmarks/RESULTS.md#fate-minor)` is ours of the
+row `fate-minor`. A title says that another number of the row is meant: `(...#fate-minor "theirs")` the
+other's, `"ratio"` how many times as long the other takes (`26 times`), `"inverse"` how many times as long we
+take. `python -m benchmarks docs` writes the words of every such link anew; nobody types them.
 """
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from .record import ROOT, Results
-from .suite import TOPICS
+from .record import ROOT, TOPICS, Results
 
 PAGE = Path(__file__).with_name("RESULTS.md")
-LINK = re.compile(r"\[([^\]\n]*)\]\(((?:\.\./)*benchmarks/RESULTS\.md)#([\w-]+)(?:\.(theirs|ratio|inverse))?\)")
+LINK = re.compile(r"\[([^\]\n]*)\]\((?:\.\./)*benchmarks/RESULTS\.md#([\w-]+)"
+                  r"(?: \"(theirs|ratio|inverse)\")?\)")
 HEAD = """# Speed, side by side
 
 How long stabilab takes beside what a careful user would write with heyoka, SciPy or VTK: a ratio of 10 says
@@ -36,7 +36,7 @@ def speed_pages() -> list[Path]:
 def number(value: float, digits: int = 3) -> str:
     """So many digits, as one reads them: 3,590 and not 3.59e+03."""
     rounded = float(f"{value:.{digits}g}")
-    return f"{rounded:,.0f}" if abs(rounded) >= 1000 else f"{rounded:.{digits}g}"
+    return f"{rounded:,.0f}" if abs(rounded) >= 100 else f"{rounded:.{digits}g}"
 
 
 def amount(value: float, unit: str, digits: int = 3) -> str:
@@ -88,9 +88,10 @@ def _table(results: Results, rows: dict[str, dict[str, Any]], names: dict[str, s
         theirs = f"{amount(row['theirs'], row['unit'])}{each} {row['other']}" if row["theirs"] else ""
         ratio = (f"{number(row['ratio'])} ({number(row['low'])} to {number(row['high'])})"
                  if row["ratio"] else "")
-        run = names[row["run"]] + ", changed" * results.changed(key)
-        yield (f"| <a id=\"{key}\"></a>{row['what']} | {amount(row['ours'], row['unit'])}{each} | {theirs} | "
-               f"{ratio} | {number(row['wanted']) if row['wanted'] else ''} | {row['error']} | {run} |")
+        run = names[row["run"]] + ", *changed*" * results.changed(key)
+        cells = [f'<a id="{key}"></a>{row["what"]}', f"{amount(row['ours'], row['unit'])}{each}", theirs,
+                 ratio, number(row["wanted"]) if row["wanted"] else "", row["error"], run]
+        yield "| " + " | ".join(cells) + " |"
 
 
 def _notes(rows: dict[str, dict[str, Any]]) -> Iterator[str]:
@@ -101,13 +102,14 @@ def _notes(rows: dict[str, dict[str, Any]]) -> Iterator[str]:
             about.setdefault(row["note"], []).append(row["what"])
     for note, whats in about.items():
         yield ""
-        yield note[:1].upper() + note[1:] + "." if len(whats) == len(rows) else f"*{'; '.join(whats)}*: {note}."
+        yield (f"{note[:1].upper()}{note[1:]}." if len(whats) == len(rows)
+               else f"*{'; '.join(whats)}*: {note}.")
 
 
 def updated(page: str, results: Results) -> str:
     """A page with the words of its links to rows written anew; KeyError for a row that there is not."""
     def words(link: re.Match[str]) -> str:
-        return link[0].replace(f"[{link[1]}]", f"[{figure(results, link[3], link[4])}]", 1)
+        return link[0].replace(f"[{link[1]}]", f"[{figure(results, link[2], link[3])}]", 1)
     return LINK.sub(words, page)
 
 
@@ -124,7 +126,7 @@ def write(results: Results) -> list[Path]:
 
 def missing(results: Results) -> list[str]:
     """Links to rows that there are not: `page: key`."""
-    return [f"{path.relative_to(ROOT).as_posix()}: {link[3]}" for path in speed_pages()
-            for link in LINK.finditer(path.read_text(encoding="utf-8")) if link[3] not in results.rows]
+    return [f"{path.relative_to(ROOT).as_posix()}: {link[2]}" for path in speed_pages()
+            for link in LINK.finditer(path.read_text(encoding="utf-8")) if link[2] not in results.rows]
 
 

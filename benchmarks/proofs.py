@@ -40,7 +40,7 @@ def certificates(scenes: int) -> list[Row]:
 
 
 def distances(scenes: int) -> Row:
-    """Processor time of the proved distance of a state in the space of rates, a state of each random scene."""
+    """Processor time of the proved distance from the separatrix, a state of each random scene."""
     times = []
     for one in drawn(scenes + 1):
         scene, state = one.scene, one.states(1)[0]

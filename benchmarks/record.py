@@ -16,6 +16,31 @@ ROOT = Path(__file__).parents[1]
 DATA = Path(__file__).with_name("results.json")
 FORMAT = "stabilab.benchmarks/1"
 
+# Topic -> its heading, and the code that it measures, in stabilab/: files, and rooms without their wings
+TOPICS: dict[str, tuple[str, tuple[str, ...]]] = {
+    "fates": ("Outcomes of many states", ("orbit",)),
+    "memory": ("Memory", ("orbit",)),
+    "orbit_extremes": ("Extremes of many orbits", ("orbit",)),
+    "periods": ("Periods of many orbits", ("orbit",)),
+    "surfaces": ("Separatrix surfaces", ("orbit/separatrix", "show/surface.py")),
+    "trajectories": ("Motions followed in time",
+                     ("integrate", "physics", "answers/simulate.py", "unreduced/crossing.py")),
+    "closed_forms": ("The charged body", ("theories",)),
+    "startup": ("Start-up", (".", "cli", "commands", "case", "answers", "physics")),
+    "late_times": ("States at late times", ("orbit",)),
+    "explorer": ("The explorer", ("show/explore", "orbit", "orbit/separatrix", "equilibrium")),
+    "waits": ("What one waits for", (".", "cli", "commands", "show/report", "numbers/numba_door.py")),
+    "sweeps": ("Sweeps", ("maps", "maps/filling", "orbit", "unreduced/spin_up")),
+    "spin_up": ("Torques off the axes", ("unreduced/spin_up", "unreduced/enclosure.py",
+                                         "unreduced/enclosure_kernel.py")),
+    "arrays": ("Loops plain and compiled", ("orbit", "numbers/numba_door.py")),
+    "digits": ("Many digits", ("orbit", "numbers", "answers/digits.py", "answers/attitude.py")),
+    "maps": ("Atlas, basins, diagrams and other maps",
+             ("maps", "maps/filling", "maps/bifurcation", "unreduced", "unreduced/spin_up", "equilibrium")),
+    "proofs": ("Certificates and distances", ("verify", "answers/certificate.py", "orbit/separatrix")),
+    "scenes": ("Random scenes", ("orbit", "orbit/separatrix", "show/surface.py")),
+}
+
 
 @dataclass(frozen=True)
 class Run:
@@ -74,18 +99,20 @@ def read(path: Path = DATA) -> Results:
     """What the file has; nothing where there is none."""
     if not path.exists():
         return Results()
-    told = json.loads(path.read_text(encoding="utf-8"))
-    return Results(told["runs"], told["rows"], told["failed"])
+    data = json.loads(path.read_text(encoding="utf-8"))
+    return Results(data["runs"], data["rows"], data["failed"])
 
 
 @cache
 def code_of(topic: str) -> str:
     """A fingerprint of the code that a topic measures, and of the topic's own."""
-    from .suite import TOPICS
     whole = hashlib.sha256()
     for place in TOPICS[topic][1]:
         path = ROOT / "stabilab" / place
-        for file in sorted(path.glob("*.py")) if path.is_dir() else [path]:
+        files = sorted(path.glob("*.py")) if path.is_dir() else [path]
+        if not files:
+            raise FileNotFoundError(f"{path}: has no code, but is what the topic {topic} measures")
+        for file in files:
             whole.update(f"{file.relative_to(ROOT).as_posix()}\n{_code(file)}".encode())
     whole.update(_code(Path(__file__).with_name(f"{topic}.py")).encode())
     return whole.hexdigest()[:16]

@@ -58,6 +58,19 @@ def random_states(n, seed=20261121):
     return np.random.default_rng(seed).uniform([-5, -5, -6], [5, 5, 6], (n, 3))
 
 
+# Of a fresh process: the most memory that it had, bytes. Not `ru_maxrss` where Linux has better, which counts
+# what the process that started it had
+PEAK = '''
+import resource
+def peak():
+    try:
+        with open("/proc/self/status") as status:
+            return 1024.0 * next(int(line.split()[1]) for line in status if line.startswith("VmHWM"))
+    except OSError:
+        return 1024.0 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+'''
+
+
 def numba_available() -> bool:
     """Whether numba is installed."""
     from importlib.util import find_spec

@@ -2,8 +2,8 @@
 would write.
 
 python -m benchmarks.scenes [SCENES [FIRST]]: prints the rows on so many scenes of the sample, from the number
-FIRST on; one line a scene goes to stderr, and Ctrl-C ends the sample. Times are processor times of one thread,
-each contestant warmed up, in turn on the same states.
+FIRST on; one line a scene goes to stderr, and Ctrl-C ends the sample. Times are processor times of one
+thread, each contestant warmed up, in turn on the same states.
 """
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from stabilab import Fate, extremes, fate, period, separatrix
 from stabilab.show.surface import triangulate
 
 from .contestants import BatchFate, SceneEvents, TurningTimes
-from .random_scenes import Drawn, drawn
 from .pages import amount
+from .random_scenes import Drawn, drawn
 from .rows import Row
 
 SCENES = 60
@@ -130,7 +130,8 @@ def _scene(one: Drawn, small, told):
             found.append(Measured(question, name, ours, theirs))
     found += _surface(scene, name, rounds, 24 if small else CELLS)
     if told:
-        print(one.number, one.kind, ", ".join(f"{m.question} {amount(m.ours, 's')} ({m.ratio:.3g})" for m in found),
+        print(one.number, one.kind,
+              ", ".join(f"{m.question} {amount(m.ours, 's')} ({m.ratio:.3g})" for m in found),
               file=told, flush=True)
     return found
 

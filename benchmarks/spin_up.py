@@ -1,5 +1,5 @@
-"""Spin-up under torques of any direction: how much is decided, by when and at what cost; many states of a scene
-beside heyoka's own batches run to the times of the certificates.
+"""Spin-up under torques of any direction: how much is decided, by when and at what cost; many states of a
+scene beside heyoka's own batches run to the times of the certificates.
 
 python -m benchmarks.spin_up SEED SCENES [TIMES STEPS SECONDS
 CONTINUED]: random bodies (half generic, the rest flat, rods, nearly equal moments), the torque uniform on the
@@ -132,8 +132,8 @@ def main(seed=1, scenes=100, times=2000.0, steps=60_000, seconds=170.0, continue
 
 
 def pace(scenes=10, states=1000, times=2000.0, steps=20_000, seed=1) -> Row:
-    """What deciding a state of a scene costs beside its raw integration by heyoka's batches up to the same time,
-    processor times."""
+    """What deciding a state of a scene costs beside its raw integration by heyoka's batches up to the same
+    time, processor times."""
     import numpy as np
 
     from stabilab.unreduced.spin_up.follow import spin_up_many
@@ -152,16 +152,17 @@ def pace(scenes=10, states=1000, times=2000.0, steps=20_000, seed=1) -> Row:
             left += int((found.level == 0).sum())
     ratios.sort()
     ours, raw = (max(float(v), 1e-9) / (scenes * states) for v in total)
-    return Row(f"spin-up-{states}", f"{states} states of each of {scenes} random scenes, torque off the axes, "
-               "decided", ours, "each", raw, "raw integration by heyoka's batches to the same times", raw / ours,
+    return Row(f"spin-up-{states}", f"{states} states of each of {scenes} random scenes, torque off the "
+               "axes, decided", ours, "each", raw, "raw integration by heyoka's batches to the same times",
+               raw / ours,
                min(ratios[0], raw / ours), max(ratios[-1], raw / ours), f"{left} undecided", 1 / 1.5,
-               "processor time; the ratio is that of all scenes together, its range that of single scenes; ours "
-               "evaluates the certificate as well, whose tables a scene needs once")
+               "processor time; the ratio is that of all scenes together, its range that of single scenes; "
+               "ours evaluates the certificate as well, whose tables a scene needs once")
 
 
 def one_by_one(scenes=200) -> list[Row]:
-    """One state of each of many new scenes: the certificate, and with the proof, where one was found; medians of
-    processor time."""
+    """One state of each of many new scenes: the certificate, and with the proof, where one was found;
+    medians of processor time."""
     from stabilab.unreduced.enclosure import proved
     rng, certified, sure, fast = random.Random(7), [], [], numba_available()
     for number in range(scenes + 1):

@@ -22,12 +22,12 @@ STEPPED = tuple((f"{question} {name}", (question, f"cases/{name}.toml"))
                 for question in ("classify", "simulate")
                 for name in ("liquid-base", "top-fast", "charged-body")
                 if (question, name) != ("classify", "charged-body"))
-BY_SYMBOLS = ("wanted: at most 1.3 times both imports. Equations of before are read from disk; `import heyoka` "
-              "alone takes longer than both packages, which it loads as well; compiling the series and its events, "
-              "reading case and program, and the equilibria of a top take the rest")
-LIMIT = ("wanted: at most twice the import of typer, with which every command begins. Beyond it: reading the case "
-         "and its classes (fractions, tomllib, some thirty records), exact equilibria, and for classify the "
-         "distance from the separatrix, whose search takes a quarter of it")
+BY_SYMBOLS = ("wanted: at most 1.3 times both imports. Equations of before are read from disk; `import "
+              "heyoka` alone takes longer than both packages, which it loads as well; compiling the series "
+              "and its events, reading case and program, and the equilibria of a top take the rest")
+LIMIT = ("wanted: at most twice the import of typer, with which every command begins. Beyond it: reading the "
+         "case and its classes (fractions, tomllib, some thirty records), exact equilibria, and for classify "
+         "the distance from the separatrix, whose search takes a quarter of it")
 
 
 
@@ -62,5 +62,6 @@ def _started(name, arguments, rounds, imports) -> Row:
     key = "start-" + ("help" if arguments == HELP[1] else name.replace(" of one state", "").replace(
         " one state", "").replace(" ", "-"))
     return against(key, f"start-up: stabilab {name}", timed, f'python -c "{imports}"',
-                   "none: text" if arguments == HELP[1] else "ours answers, to 12 digits; theirs does nothing",
+                   "none: text" if arguments == HELP[1] else
+                   "ours answers, to 12 digits; theirs does nothing",
                    wanted, note, "s")

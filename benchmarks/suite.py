@@ -1,5 +1,5 @@
-"""All comparisons. A topic is a module with `measurements(small=False)`, a list of calls of which each gives a
-row or several; small ones only show that they run."""
+"""All comparisons. A topic is a module with `measurements(small=False)`, a list of calls of which each
+gives a row or several; small ones only show that they run."""
 from __future__ import annotations
 
 import subprocess
@@ -14,31 +14,6 @@ from .record import Results, Run
 from .rows import Row
 
 ROOT = Path(__file__).parents[1]
-
-# Topic -> its heading, and the code that it measures, in stabilab/: files, and rooms without their wings
-TOPICS: dict[str, tuple[str, tuple[str, ...]]] = {
-    "fates": ("Outcomes of many states", ("orbit",)),
-    "memory": ("Memory", ("orbit",)),
-    "orbit_extremes": ("Extremes of many orbits", ("orbit",)),
-    "periods": ("Periods of many orbits", ("orbit",)),
-    "surfaces": ("Separatrix surfaces", ("orbit/separatrix", "show/surface.py")),
-    "trajectories": ("Motions followed in time",
-                     ("integrate", "physics", "answers/simulate.py", "unreduced/crossing.py")),
-    "closed_forms": ("The charged body", ("theories",)),
-    "startup": ("Start-up", (".", "cli", "commands", "case", "answers", "physics")),
-    "late_times": ("States at late times", ("orbit",)),
-    "explorer": ("The explorer", ("show/explore", "orbit", "orbit/separatrix", "equilibrium")),
-    "waits": ("What one waits for", (".", "cli", "commands", "show/report", "numbers/numba_door.py")),
-    "sweeps": ("Sweeps", ("maps", "maps/filling", "orbit", "unreduced/spin_up")),
-    "spin_up": ("Torques off the axes", ("unreduced/spin_up", "unreduced/enclosure.py",
-                                         "unreduced/enclosure_kernel.py")),
-    "arrays": ("Loops plain and compiled", ("orbit", "numbers/numba_door.py")),
-    "digits": ("Many digits", ("orbit", "numbers", "answers/digits.py", "answers/attitude.py")),
-    "maps": ("Atlas, basins, diagrams and other maps",
-             ("maps", "maps/filling", "maps/bifurcation", "unreduced", "unreduced/spin_up", "equilibrium")),
-    "proofs": ("Certificates and distances", ("verify", "answers/certificate.py", "orbit/separatrix")),
-    "scenes": ("Random scenes", ("orbit", "orbit/separatrix", "show/surface.py")),
-}
 
 
 def calls_of(topic: str, small: bool = False) -> list[Callable[[], Row | list[Row]]]:

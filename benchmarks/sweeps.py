@@ -23,14 +23,14 @@ from stabilab.maps.plan import planned
 from stabilab.maps.run import run
 
 from .contestants import BatchFate, BatchSpinUp
-from .rows import Row, against
+from .rows import PEAK, Row, against
 from .timing import side_by_side
 
 CASES = Path(__file__).parents[1] / "cases"
 MINOR = CASES / "minor-axis-100.toml"
 STEP, LONGEST = 0.01, 60.0  # of the plain NumPy integration
-OWN = ("one process of ours; states made from the axes, records, their checksums and files take about as much as "
-       "the kernel")
+OWN = ("one process of ours; states made from the axes, records, their checksums and files take about as "
+       "much as the kernel")
 ASKED = {  # key -> case, what varies, answers, words
     "state": ("minor-axis-100", {"x[1]": "-4:4:1000", "x[3]": "-3:3:1000"}, "fate,level,margin",
               "a state, torque on the minor axis: outcome, level, margin"),
@@ -112,8 +112,8 @@ def _off(small) -> list[Row]:
     timed = side_by_side(lambda: _swept(plan), lambda: _swept(plan, 2), plan.points, plan.points, rounds)
     return [*made, against("sweep-off-processes", f"{name}, one process", timed, "two processes of ours",
                            "the same bytes",
-                           note="elapsed time; a ratio below one is the gain of the second process, which takes"
-                                " some time to start and to load what it needs")]
+                           note="elapsed time; a ratio below one is the gain of the second process, which "
+                                "takes some time to start and to load what it needs")]
 
 
 @contextmanager
@@ -179,7 +179,8 @@ def _asked(key) -> Row:
                    answer=answer.replace("when", "fate")))
     begin = time.process_time()
     _swept(plan)
-    return Row(f"sweep-{key}", f"sweep of {plan.points} points: {words}", (time.process_time() - begin) / plan.points)
+    return Row(f"sweep-{key}", f"sweep of {plan.points} points: {words}",
+               (time.process_time() - begin) / plan.points)
 
 
 def _part(number=200) -> Row:
@@ -213,16 +214,18 @@ def _processes(workers) -> Row:
 def _into_a_file(side) -> list[Row]:
     """Elapsed time and memory of a sweep of states by two processes into a .nc file, from the shell."""
     with tempfile.TemporaryDirectory() as folder:
-        code = ("import resource, sys\nfrom stabilab.__main__ import main\n"
-                "try:\n    main()\nfinally:\n    for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN):\n"
-                "        print(1024 * resource.getrusage(who).ru_maxrss, file=sys.stderr)\n")
+        code = PEAK + ("import sys\nfrom stabilab.__main__ import main\n"
+                       "try:\n    main()\nfinally:\n"
+                       "    workers = resource.getrusage(resource.RUSAGE_CHILDREN)\n"
+                       "    print(peak(), 1024 * workers.ru_maxrss, file=sys.stderr)\n")
         begin = time.monotonic()
-        told = subprocess.run([sys.executable, "-c", code, "sweep", str(MINOR), "--vary", f"x[1]=-4:4:{side}",
-                               "--vary", f"x[3]=-3:3:{side}", "--workers", "2", "--out", f"{folder}/map.nc"],
-                              check=True, capture_output=True, text=True).stderr.split()
+        printed = subprocess.run([sys.executable, "-c", code, "sweep", str(MINOR),
+                                  "--vary", f"x[1]=-4:4:{side}", "--vary", f"x[3]=-3:3:{side}",
+                                  "--workers", "2", "--out", f"{folder}/map.nc"],
+                                 check=True, capture_output=True, text=True).stderr.split()
         wall = time.monotonic() - begin
     name = f"stabilab sweep of {side * side} states by two processes into a .nc file"
     key = f"sweep-file-{side * side // 1_000_000}"
     return [Row(key, f"{name}, elapsed time", wall, "s", note="the command's start is in it"),
-            Row(f"{key}-peak", f"{name}, peak of the first process", float(told[-2]), "bytes"),
-            Row(f"{key}-worker", f"{name}, peak of a worker", float(told[-1]), "bytes")]
+            Row(f"{key}-peak", f"{name}, peak of the first process", float(printed[-2]), "bytes"),
+            Row(f"{key}-worker", f"{name}, peak of a worker", float(printed[-1]), "bytes")]

@@ -76,8 +76,8 @@ def against_heyoka(span, count, repeats, rounds=7) -> list[Row]:
                              f"same tolerance and steps; states {apart:.0e} apart",
                              1 / 1.15 if span >= 1000 else 1 / 1.3,
                              "the laws' integrals are integrated with the motion and compared at every time"
-                             if laws else "processor time of one thread; a short run is mostly the reading and"
-                             " checking of its input" if span < 1000 else "processor time of one thread"))
+                             if laws else "processor time of one thread; a short run is mostly the reading "
+                             "and checking of its input" if span < 1000 else "processor time of one thread"))
     return found
 
 

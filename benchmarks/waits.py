@@ -19,17 +19,19 @@ CORES = 2  # of the machine that the limits are for; what runs in one process al
 
 def measurements(small=False):
     """The case of the README, in a fresh interpreter each time. Small: the first answer alone."""
-    first = partial(_waited, "wait-fate", "first answer of a newcomer, stabilab fate my.toml", ("fate", "my.toml"), 1,
-                    1.0, 1 if small else 9, "most of it imports: typer, and the program's own modules")
+    first = partial(_waited, "wait-fate", "first answer of a newcomer, stabilab fate my.toml",
+                    ("fate", "my.toml"), 1, 1.0, 1 if small else 9,
+                    "most of it imports: typer, and the program's own modules")
     if small:
         return [first]
     return [first,
-            partial(_waited, "wait-report", "stabilab report my.toml", ("report", "my.toml", "--out", "one"), 1,
-                    20.0, 3,
+            partial(_waited, "wait-report", "stabilab report my.toml",
+                    ("report", "my.toml", "--out", "one"), 1, 20.0, 3,
                     "the search for the worst tilt, and four pictures with Matplotlib: a third each"),
             partial(_waited, "wait-make-report", "make report, a core's share of two",
                     ("report", *CASES, "--papers", "--precision", "--out", "all"), CORES, 150.0, 1,
-                    "a page with pictures for each case, what answers cost, chapters and audit of the papers"),
+                    "a page with pictures for each case, what answers cost, chapters and audit of the "
+                    "papers"),
             compiling]
 
 
