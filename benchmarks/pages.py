@@ -17,6 +17,8 @@ from .record import ROOT, TOPICS, Results
 PAGE = Path(__file__).with_name("RESULTS.md")
 LINK = re.compile(r"\[([^\]\n]*)\]\((?:\.\./)*benchmarks/RESULTS\.md#([\w-]+)"
                   r"(?: \"(theirs|ratio|inverse)\")?\)")
+# Written by `make docs` from what stands elsewhere
+MADE = {"readme.md", "results.md", "api.md", "commands.md", "gallery.md", "contributing.md", "changelog.md"}
 HEAD = """# Speed, side by side
 
 How long stabilab takes beside what a careful user would write with heyoka, SciPy or VTK: a ratio of 10 says
@@ -29,8 +31,9 @@ speeds of all others, from `benchmarks/results.json`. Times are those of the mac
 
 def speed_pages() -> list[Path]:
     """The pages that may state speeds."""
-    return [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")),
-            *sorted((ROOT / "docs" / "mathematics").glob("*.md"))]
+    docs = ROOT / "docs"
+    return [ROOT / "README.md", *(page for page in sorted(docs.glob("*.md")) if page.name not in MADE),
+            *sorted((docs / "mathematics").glob("*.md"))]
 
 
 def number(value: float, digits: int = 3) -> str:
