@@ -1,13 +1,15 @@
 """The charged, nearly axisymmetric body: closed forms against its linear model integrated by heyoka."""
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from stabilab.integrate.to_heyoka import TAYLOR_TOLERANCE
 from stabilab.theories.charged import solution
 from stabilab.theories.charged_modes import ChargedBody
 
-from .rows import Row, each
+from .rows import Row, against
 from .timing import side_by_side
 
 # the body of Galal et al. at 2.7 turns a minute, with a start, torque and force that leave no term out;
@@ -21,9 +23,9 @@ SPANS = ((50.0, "the paper's span"), (86_400.0, "a day"), (604_800.0, "a week"),
 TIMES, CHECKED = 1000, 4
 
 
-def rows(small=False) -> list[Row]:
-    return [against_linear_model(*span, count=5, rounds=2) for span in SPANS[:2]] if small else [
-        against_linear_model(*span) for span in SPANS]
+def measurements(small=False):
+    return [partial(against_linear_model, *span, **({"count": 5, "rounds": 2} if small else {}))
+            for span in SPANS[:2 if small else None]]
 
 
 def body():
@@ -44,14 +46,13 @@ def against_linear_model(span, name, count=TIMES, rounds=7) -> Row:
     ours, theirs = (1, 1) if rounds < 7 else (5 if span < 1e3 else 50, 50 if span < 1e3 else 1)
     timed = side_by_side(lambda: [solution(one, times) for _ in range(ours)],
                          lambda: [raw(times) for _ in range(theirs)],
-                         ours, theirs, rounds)
+                         ours, theirs, min(rounds, 3) if span > 1e7 else rounds)
     ours = solution(one, times)
     ours = np.concatenate([ours.omega[:, :2], ours.angles[:, :2], ours.velocity, ours.position], axis=1)
     errors = "largest relative error: ours {:.0e}, theirs {:.0e}".format(*_errors(times, ours, raw(times)))
-    return Row(f"charged body, {count} times over {name}, {span * VALUES['r0'] / (2 * np.pi):.3g} turns",
-               f"{each(timed.ours)}",
-               f"{each(timed.theirs)} heyoka, {raw.steps} steps", timed.ratio, (timed.low, timed.high),
-               errors, note=f"the closed forms cost the same for any span, heyoka its {raw.steps} steps")
+    return against(f"charged-{name.split()[-1]}", f"charged body, {count} times over {name}, "
+                   f"{span * VALUES['r0'] / (2 * np.pi):.3g} turns", timed, f"heyoka, {raw.steps} steps",
+                   errors, note="closed forms cost the same for any span, heyoka its steps")
 
 
 def _errors(times, *answers):

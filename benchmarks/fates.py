@@ -1,14 +1,18 @@
 """The fate of many states against integration until it is decided."""
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene, fate
 
 from .contestants import BatchFate, SciPyFate
-from .rows import SCENE, Row, each, random_states
+from .rows import SCENE, Row, against, random_states
 from .timing import side_by_side
 
+KEYS = {"minor axis": "minor", "middle axis with two wells": "wells",
+        "major axis, perpendicular gyrostat": "major"}
 SCENES = {
     "minor axis": SCENE,
     "middle axis with two wells": ScaledGyrostat(0.5, 3.1, (0, -0.8, 0)),
@@ -18,10 +22,10 @@ SCENES = {
 BATCH = 100  # wanted ratio to heyoka's batch mode
 
 
-def rows(small=False) -> list[Row]:
+def measurements(small=False):
     size, sample, rounds = (6000, 50, 2) if small else (1_000_000, 4000, 7)
-    found = [against_batch(size, sample, rounds, name) for name in SCENES]
-    return found + [against_scipy(size, 4 if small else 24, rounds, name)
+    found = [partial(against_batch, size, sample, rounds, name) for name in SCENES]
+    return found + [partial(against_scipy, size, 4 if small else 24, rounds, name)
                     for name in list(SCENES)[:1 if small else 3]]
 
 
@@ -42,8 +46,8 @@ def _against(contestant, words, wanted, size, sample, rounds, name) -> Row:
     answer, brute = fate(scene, states), run(part)
     clear = np.abs(answer.margins[:sample]) > 1e-9
     wrong = int(((answer.labels[:sample] == Fate.SPIN_UP) != (brute == 1))[clear].sum())
-    return Row(f"fate of {size} states, {name}", each(timed.ours),
-               f"{each(timed.theirs)} {words}", timed.ratio, (timed.low, timed.high),
-               f"{wrong} of {int(clear.sum())} labels differ", wanted=wanted,
-               note=f"one thread; {answer.precise} states in ball arithmetic"
-                    "; the limit: some 500 passes over arrays at half a nanosecond a state")
+    key = f"fate-{KEYS[name]}{'-scipy' * (contestant is SciPyFate)}"
+    return against(key, f"fate of {size} states, {name}", timed, words,
+                   f"{wrong} of {int(clear.sum())} labels differ", wanted,
+                   f"one thread; {answer.precise} states in ball arithmetic; what limits it: some hundred "
+                   "passes over arrays")

@@ -3,6 +3,7 @@ events, its grid."""
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import numpy as np
 
@@ -10,18 +11,20 @@ from stabilab.integrate.reference import reference, relative_errors
 from stabilab.orbit.flow import reduced_motion
 
 from .contestants import scaled_minor_system
-from .rows import SCENE, A, B, Row, each
+from .rows import SCENE, A, B, Row, against
 from .timing import side_by_side
 
 HELD, SPINNING = (2.75, 1.125, 1.0), (1.375, 4.625, 3.375)  # well inside, and spinning up (exact doubles)
 LATE = 1000.0
 
 
-def rows(small=False) -> list[Row]:
+def measurements(small=False):
     late, rounds = (20.0, 1) if small else (LATE, 7)
     contest = Stepping()
-    spinning = spin_up(contest, 5.0 if small else late, rounds)
-    return [*bounded(contest, late, rounds), *spinning, *many_times(contest, late, rounds)]
+    return [partial(bounded, contest, late, rounds),
+            partial(spin_up, contest, 5.0 if small else late, rounds),
+            partial(many_times, contest, late, rounds)]
+
 
 
 class Stepping:
@@ -76,17 +79,17 @@ def bounded(contest, late, rounds) -> list[Row]:
     name, kept = f"bounded motion at t = {late:g}", "after its preparation"
     said = "relative error: ours {:.1e}, theirs {:.1e}".format
     return [
-        _row(f"{name}, {kept}",
+        against("late", f"{name}, {kept}",
              side_by_side(repeated(lambda: motion.at(late), MANY), step, MANY, FEW, rounds), "heyoka",
              said(ready, plain)),
-        _row(f"{name}, {kept}",
+        against("late-period-known", f"{name}, {kept}",
              side_by_side(repeated(lambda: motion.at(fair), MANY), rest, MANY, MANY, rounds),
              "heyoka that knows the period", said(ready, folded),
              note="the fair control: its period is known to it, half of it is left to integrate"),
-        _row(f"{name}, preparation included", side_by_side(repeated(whole, MANY), step, MANY, FEW, rounds),
-             "heyoka",
-             said(first, plain)),
-        _row(f"{name}, preparation included", side_by_side(repeated(whole, MANY), found, MANY, MANY, rounds),
+        against("late-first", f"{name}, preparation included",
+                side_by_side(repeated(whole, MANY), step, MANY, FEW, rounds), "heyoka", said(first, plain)),
+        against("late-first-period-found", f"{name}, preparation included",
+                side_by_side(repeated(whole, MANY), found, MANY, MANY, rounds),
              "heyoka that finds the period by events", said(first, folded),
              note="one state asked once is cheaper by events, if its compiled code is at hand")]
 
@@ -116,8 +119,8 @@ def spin_up(contest, late, rounds) -> list[Row]:
     name = f"spin-up at t = {late:g}"
     late_one = side_by_side(repeated(ready, MANY), theirs, MANY, 1, rounds)
     first = side_by_side(repeated(whole, MANY // 2), theirs, MANY // 2, 1, rounds)
-    return [_row(f"{name}, after its preparation", late_one, "heyoka", said),
-            _row(f"{name}, preparation included", first, "heyoka", said)]
+    return [against("late-spin-up", f"{name}, after its preparation", late_one, "heyoka", said),
+            against("late-spin-up-first", f"{name}, preparation included", first, "heyoka", said)]
 
 
 def many_times(contest, late, rounds, count=10_000) -> list[Row]:
@@ -132,10 +135,5 @@ def many_times(contest, late, rounds, count=10_000) -> list[Row]:
     asked, grid, whole = repeated(lambda: motion.states(times),
                                   6), repeated(grid, 3), repeated(ready, 6)
     asked, whole = side_by_side(asked, grid, 6, 3, rounds), side_by_side(whole, grid, 6, 3, rounds)
-    return [_row(f"{name}, after its preparation", asked, "heyoka's grid", said),
-            _row(f"{name}, preparation included", whole, "heyoka's grid", said)]
-
-
-def _row(name, timed, other, error, wanted=0.0, note=""):
-    theirs = f"{each(timed.theirs)} {other}"
-    return Row(name, each(timed.ours), theirs, timed.ratio, (timed.low, timed.high), error, wanted, note)
+    return [against("late-many", f"{name}, after its preparation", asked, "heyoka's grid", said),
+            against("late-many-first", f"{name}, preparation included", whole, "heyoka's grid", said)]

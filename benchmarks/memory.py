@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import tracemalloc
+from functools import partial
 
 from stabilab import fate
 
@@ -10,9 +11,8 @@ from .rows import SCENE, Row, random_states
 MOST = 3  # input included
 
 
-def rows(small=False) -> list[Row]:
-    size = 6000 if small else 1_000_000
-    return [fate_map(size)]
+def measurements(small=False):
+    return [partial(fate_map, 6000 if small else 1_000_000)]
 
 
 def fate_map(size=1_000_000) -> Row:
@@ -27,9 +27,6 @@ def fate_map(size=1_000_000) -> Row:
         tracemalloc.stop()
     kept = sum(getattr(answer, name).nbytes for name in ("labels", "margins", "axis", "sense", "reasons"))
     ratio = MOST * states.nbytes / peak
-    return Row(f"memory of a fate map of {size} states",
-               f"{peak / 1e6:.3g} MB peak, input included",
-               f"{MOST} x {states.nbytes / 1e6:.3g} MB of input", ratio, (ratio, ratio),
-               f"peak is {peak / states.nbytes:.2f} times the input, the result alone "
-               f"{kept / states.nbytes:.2f}", wanted=1.0,
-               note="the ratio is the allowance over the peak")
+    return Row("memory-fate", f"peak of a fate map of {size} states, input included", peak, "bytes",
+               float(MOST * states.nbytes), f"allowed, {MOST} times the input", ratio, ratio, ratio,
+               f"the result alone is {kept / states.nbytes:.2f} times the input", 1.0)

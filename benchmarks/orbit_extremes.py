@@ -1,22 +1,23 @@
 """Extremes of many bounded orbits."""
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from stabilab import extremes, fate
 
 from .contestants import EventExtremes
-from .rows import SCENE, A, B, Row, each, random_states
+from .rows import SCENE, A, B, Row, against, random_states
 from .timing import side_by_side
 
 WANTED = 20  # times as fast as heyoka with events
 
 
-def rows(small=False) -> list[Row]:
-    found = [against_events(*((100, 5, 2) if small else (200_000, 4000, 7)))]
-    found.append(against_scipy(*((100, 2, 2) if small else (20_000, 10, 7))))
-    found.append(beside_the_separatrix(2 if small else 40))
-    return found
+def measurements(small=False):
+    return [partial(against_events, *((100, 5, 2) if small else (200_000, 4000, 7))),
+            partial(against_scipy, *((100, 2, 2) if small else (20_000, 10, 7))),
+            partial(beside_the_separatrix, 2 if small else 40)]
 
 
 def bounded_states(size):
@@ -33,9 +34,8 @@ def against_events(size=20_000, sample=400, rounds=7) -> Row:
     timed = side_by_side(lambda: extremes(SCENE, states), lambda: events(part), len(states), len(part),
                          rounds)
     difference = np.abs(extremes(SCENE, part) - events(part)).max() / np.abs(part).max()
-    return Row(f"extremes of {len(states)} orbits", each(timed.ours),
-               f"{each(timed.theirs)} heyoka with events", timed.ratio, (timed.low, timed.high),
-               f"largest relative difference {difference:.1e}", wanted=WANTED)
+    return against("extremes", f"extremes of {len(states)} orbits", timed, "heyoka with events",
+                   f"largest relative difference {difference:.1e}", WANTED)
 
 
 class SciPyEvents:
@@ -78,9 +78,8 @@ def against_scipy(size, sample, rounds) -> Row:
     best = EventExtremes(A, B)(part)
     ours, theirs = (np.abs(box - best).max() / np.abs(part).max()
                     for box in (extremes(SCENE, part), events(part)[0]))
-    return Row(f"extremes of {len(states)} orbits", each(timed.ours),
-               f"{each(timed.theirs)} SciPy DOP853 with events", timed.ratio, (timed.low, timed.high),
-               f"differs from heyoka by {ours:.1e}, SciPy (1e-12) by {theirs:.1e}", wanted=8000)
+    return against("extremes-scipy", f"extremes of {len(states)} orbits", timed, "SciPy DOP853 with events",
+                   f"differs from heyoka by {ours:.1e}, SciPy (1e-12) by {theirs:.1e}", 8000)
 
 
 def brink(part, count):
@@ -117,9 +116,6 @@ def beside_the_separatrix(count) -> Row:
     states, events = np.concatenate(states), EventExtremes(A, B)
     timed = side_by_side(lambda: extremes(SCENE, states), lambda: events(states), len(states), len(states), 2)
     words = ", ".join(f"{x:.0e}/{t:.0e}" for x, t in zip(boxes_off, periods_off))
-    return Row("extremes next to the separatrix", each(timed.ours),
-               f"{each(timed.theirs)} heyoka with events", timed.ratio,
-               (timed.low, timed.high),
-               f"of extremes/periods at 1e-3, -6, -9, -12, -15 of the barrier: {words}",
-               note="timed at 1e-3, -6, -9 alike; ball arithmetic from 1e-7 on, where doubles would lose "
-                    "digits")
+    return against("extremes-brink", "extremes next to the separatrix", timed, "heyoka with events",
+                   f"of extremes/periods at 1e-3, -6, -9, -12, -15 of the barrier: {words}",
+                   note="timed at 1e-3, 1e-6 and 1e-9 of the barrier alike")

@@ -1,9 +1,9 @@
 """Every question on a sample of random scenes, each scene beside what a careful user of the general tools
 would write.
 
-python -m benchmarks.scenes [SCENES [FIRST]]: the rows on so many scenes of the sample, from the number FIRST
-on; one line a scene goes to stderr, and Ctrl-C ends the sample: the rows are those of the scenes that were
-measured. Times are processor times of one thread, each contestant warmed up, in turn on the same states.
+python -m benchmarks.scenes [SCENES [FIRST]]: prints the rows on so many scenes of the sample, from the number
+FIRST on; one line a scene goes to stderr, and Ctrl-C ends the sample. Times are processor times of one
+thread, each contestant warmed up, in turn on the same states.
 """
 from __future__ import annotations
 
@@ -19,10 +19,11 @@ from stabilab import Fate, extremes, fate, period, separatrix
 from stabilab.show.surface import triangulate
 
 from .contestants import BatchFate, SceneEvents, TurningTimes
+from .pages import amount
 from .random_scenes import Drawn, drawn
 from .rows import Row
 
-SCENES = 200
+SCENES = 60
 STATES = 20_000     # of ours; theirs are asked of `SAMPLE` of them
 SAMPLE = 32
 # bounded motions at least: where a scene has few, of as many states as it takes, for a call has costs of its
@@ -35,6 +36,8 @@ ROUNDS = 3
 PATIENCE = 1.5      # s for a call: of slower questions fewer states are asked
 LONG = 0.05         # s
 CELLS = 256         # of Flying Edges along each side
+KEYS = {"first call of fate less the next": "first", "fate": "fate", "extremes": "extremes",
+        "period": "period", "separatrix surfaces": "surface"}
 WANTED = {"fate": 100, "extremes": 5, "period": 2,
           "separatrix surfaces": 5}
 
@@ -54,49 +57,50 @@ class Measured:
         return self.theirs / self.ours
 
 
+def measurements(small=False):
+    return [partial(rows, small)]
+
+
 def rows(small=False, scenes=SCENES, first=0, told=None) -> list[Row]:
     """One row a question, and one for a scene's first call."""
     sample = drawn(first + (3 if small else scenes))[first:]
-    measured = []
+    measured, failed = [], []
     try:
         for one in sample:
-            measured += _scene(one, small, told)
+            try:
+                measured += _scene(one, small, told)
+            except Exception as error:  # the other scenes are measured all the same
+                failed.append(f"number {one.number} failed: {type(error).__name__}: {error}")
+                print(failed[-1], file=sys.stderr)
     except KeyboardInterrupt:
+        if told is None:
+            raise
         print("ended by Ctrl-C", file=told)
     questions = dict.fromkeys(m.question for m in measured)
-    return [_row(question, [m for m in measured if m.question == question]) for question in questions]
+    return [_row(question, [m for m in measured if m.question == question], failed) for question in questions]
 
 
-def _row(question, found) -> Row:
+def _row(question, found, failed) -> Row:
     ours = sorted(found, key=lambda m: m.ours)
     known = sorted((m for m in found if m.theirs == m.theirs), key=lambda m: m.ratio)
     ninety = ours[min(len(ours) - 1, int(0.9 * len(ours)))]
     median = statistics.median(m.ours for m in ours)
-    words = f"{_time(median)} median, {_time(ninety.ours)} 90 %, {_time(ours[-1].ours)} worst"
+    key, what = f"scenes-{KEYS[question]}", f"{len(found)} random scenes, {question}, median"
+    note = "; ".join([f"processor time; 90 % within {amount(ninety.ours, 's')}, the slowest in "
+                      f"{amount(ours[-1].ours, 's')}: {ours[-1].scene}", *failed])
     if not known:
-        return Row(f"{len(found)} random scenes, {question}", words, "-", 1.0, (1.0, 1.0),
-                   f"worst over median {ours[-1].ours / median:.3g}",
-                   note=f"worst: {ours[-1].scene}")
-    theirs = statistics.median(m.theirs for m in known)
-    return Row(f"{len(found)} random scenes, {question}", words,
-               f"{_time(theirs)} median {OTHERS[question.split(',')[0]]}",
-               statistics.median(m.ratio for m in known), (known[0].ratio, known[-1].ratio),
-               f"worst over median {ours[-1].ours / median:.3g}", WANTED.get(question, 0),
-               f"wanted on every scene, reached on {sum(m.ratio >= WANTED[question] for m in known)} of "
-               f"{len(known)}; slowest: {ours[-1].scene}; "
-               f"least ratio: {known[0].scene}")
+        return Row(key, what, median, note=note)
+    reached = sum(m.ratio >= WANTED[question] for m in known)
+    return Row(key, what, median, "each", statistics.median(m.theirs for m in known),
+               f"{OTHERS[question]}, median", statistics.median(m.ratio for m in known), known[0].ratio,
+               known[-1].ratio, "", WANTED[question],
+               f"{note}; wanted on every scene, reached on {reached} of {len(known)}; least ratio: "
+               f"{known[0].scene}")
 
 
 OTHERS = {"fate": "heyoka batch with compaction", "extremes": "heyoka with events",
           "period": "heyoka with events at the turns only",
           "separatrix surfaces": f"Flying Edges at {CELLS}^3, field and contour"}
-
-
-def _time(seconds) -> str:
-    for size, unit in ((1.0, "s"), (1e-3, "ms"), (1e-6, "us")):
-        if seconds >= size:
-            return f"{seconds / size:.3g} {unit}"
-    return f"{seconds * 1e9:.3g} ns"
 
 
 def _scene(one: Drawn, small, told):
@@ -126,7 +130,8 @@ def _scene(one: Drawn, small, told):
             found.append(Measured(question, name, ours, theirs))
     found += _surface(scene, name, rounds, 24 if small else CELLS)
     if told:
-        print(one.number, one.kind, ", ".join(f"{m.question} {_time(m.ours)} ({m.ratio:.3g})" for m in found),
+        print(one.number, one.kind,
+              ", ".join(f"{m.question} {amount(m.ours, 's')} ({m.ratio:.3g})" for m in found),
               file=told, flush=True)
     return found
 
@@ -223,6 +228,5 @@ def _error(scene, contour, cell, sample=400) -> float:
 if __name__ == "__main__":
     for row in rows(scenes=int(sys.argv[1]) if sys.argv[1:] else SCENES,
                     first=int(sys.argv[2]) if sys.argv[2:] else 0, told=sys.stderr):
-        print(
-            f"| {row.name} | {row.ours} | {row.theirs} | {row.ratio:.3g} ({row.spread[0]:.3g} to "
-            f"{row.spread[1]:.3g}) | {row.error}; {row.note} |")
+        print(f"{row.what}: {amount(row.ours, 's')}, ratio {row.ratio} "
+              f"({row.low} to {row.high}); {row.note}")

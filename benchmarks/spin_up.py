@@ -1,8 +1,7 @@
-"""Spin-up under torques of any direction: how much is decided, by when and at what cost; none against a run
-of another kind.
+"""Spin-up under torques of any direction: how much is decided, by when and at what cost; many states of a
+scene beside heyoka's own batches run to the times of the certificates.
 
-python -m benchmarks.spin_up pace SEED SCENES STATES: many states of a scene beside heyoka's own batches run
-to the times at which the certificates fire. python -m benchmarks.spin_up SEED SCENES [TIMES STEPS SECONDS
+python -m benchmarks.spin_up SEED SCENES [TIMES STEPS SECONDS
 CONTINUED]: random bodies (half generic, the rest flat, rods, nearly equal moments), the torque uniform on the
 sphere, wheels of 0, 0.1, 1, 10 and states of 0.1 to 30 natural units.
 """
@@ -10,18 +9,25 @@ from __future__ import annotations
 
 import math
 import random
+import statistics
 import sys
 import time
 from fractions import Fraction
-from functools import lru_cache
+from functools import lru_cache, partial
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.unreduced.spin_up.follow import spin_up
 
-from .rows import numba_available
+from .rows import Row, numba_available
 
 WHEELS, SHARES, RATES = (0, .1, 1, 10), (40, 20, 25, 15), (.1, 1, 3, 10, 30)
 KINDS = ("generic", "flat", "rod", "near")
+
+
+def measurements(small=False):
+    if small:
+        return [partial(pace, 1, 24, 50.0, 300), partial(one_by_one, 3)]
+    return [*(partial(pace, 10, states) for states in (10, 100, 1000)), one_by_one]
 
 
 def random_scene(rng):
@@ -125,16 +131,15 @@ def main(seed=1, scenes=100, times=2000.0, steps=60_000, seconds=170.0, continue
     return rows
 
 
-def pace(seed=1, scenes=10, states=1000, times=2000.0, steps=20_000):
-    """Prints, by scene, what deciding a state costs beside its raw integration by heyoka's batches up to the
-    same time; returns (ours, raw), s."""
+def pace(scenes=10, states=1000, times=2000.0, steps=20_000, seed=1) -> Row:
+    """What deciding a state of a scene costs beside its raw integration by heyoka's batches up to the same
+    time, processor times."""
     import numpy as np
 
     from stabilab.unreduced.spin_up.follow import spin_up_many
-    rng, total, ratios = random.Random(seed), np.zeros(2), []
-    print(f"{'':>8}{'wheel':>6}{'undecided':>10}{'steps':>9}{'ours us':>9}{'raw us':>9}{'ratio':>7}")
+    rng, total, ratios, left = random.Random(seed), np.zeros(2), [], 0
     for number in range(scenes + 1):
-        scene, _, kind, wheel = random_scene(rng)
+        scene = random_scene(rng)[0]
         starts = np.array([_sphere(rng, rng.choice(RATES)) for _ in range(states)])
         at = time.process_time()
         found = spin_up_many(scene, starts, times, steps)
@@ -142,14 +147,38 @@ def pace(seed=1, scenes=10, states=1000, times=2000.0, steps=20_000):
         raw = _raw(scene, starts, found.t)
         if number:  # the first one compiles
             total += ours, raw
-            ratios.append(ours / raw if raw else np.inf)  # a clock of ticks may see none go by
-            left = int((found.level == 0).sum())
-            print(f"{kind:>8}{wheel:6}{left:10d}{found.steps.mean():9.0f}{1e6 * ours / states:9.1f}"
-                  f"{1e6 * raw / states:9.1f}{ratios[-1]:7.2f}")
-    print(
-        f"all together: {total[0] / total[1]:.2f} times the raw integration; median of the scenes "
-        f"{sorted(ratios)[len(ratios) // 2]:.2f}")
-    return tuple(total)
+            # a clock of ticks may see none go by
+            ratios.append(raw / ours if raw and ours else 1.0)
+            left += int((found.level == 0).sum())
+    ratios.sort()
+    ours, raw = (max(float(v), 1e-9) / (scenes * states) for v in total)
+    return Row(f"spin-up-{states}", f"{states} states of each of {scenes} random scenes, torque off the "
+               "axes, decided", ours, "each", raw, "raw integration by heyoka's batches to the same times",
+               raw / ours,
+               min(ratios[0], raw / ours), max(ratios[-1], raw / ours), f"{left} undecided", 1 / 1.5,
+               "processor time; the ratio is that of all scenes together, its range that of single scenes; "
+               "ours evaluates the certificate as well, whose tables a scene needs once")
+
+
+def one_by_one(scenes=200) -> list[Row]:
+    """One state of each of many new scenes: the certificate, and with the proof, where one was found;
+    medians of processor time."""
+    from stabilab.unreduced.enclosure import proved
+    rng, certified, sure, fast = random.Random(7), [], [], numba_available()
+    for number in range(scenes + 1):
+        scene, state, *_ = random_scene(rng)
+        at = time.process_time()
+        found = spin_up(scene, state, fast=fast)
+        took = time.process_time() - at
+        done = found.level == "certified" and number % 4 == 1 and proved(
+            scene, state, found, fast=fast).level == "proved"
+        if number:  # the first one loads what is compiled
+            certified.append(took)
+            sure += [time.process_time() - at] * done
+    what = "random scenes, torque off the axes, one state each: "
+    return [Row("spin-up-one", f"{len(certified)} {what}certified, median", statistics.median(certified)),
+            *(Row("spin-up-one-proved", f"{len(sure)} {what}proved, median", statistics.median(sure))
+              for _ in sure[:1])]
 
 
 def _raw(scene, starts, times):
@@ -207,8 +236,5 @@ def _line(group):
 
 
 if __name__ == "__main__":
-    if sys.argv[1:2] == ["pace"]:
-        pace(*map(int, sys.argv[2:]))
-    else:
-        kinds = (int, int, float, lambda v: int(float(v)), float, float)
-        main(*(kind(v) for kind, v in zip(kinds, sys.argv[1:])))
+    kinds = (int, int, float, lambda v: int(float(v)), float, float)
+    main(*(kind(v) for kind, v in zip(kinds, sys.argv[1:])))

@@ -82,24 +82,19 @@ def groups(rows):
 
 def table(rows) -> str:
     """Shares in per cent as Markdown."""
-    head = ["", "scenes", "t < 100", "1e3", "5e3", "steps < 1e3", "1e4", "1e5", "certified", "in 1 ms",
-            "10 ms", "100 ms", "median ms",
-            "asked for proof", "proved", "in 3 ms", "10 ms", "100 ms", "median ms"]
+    head = ["", "scenes", "t < 100", "1e3", "5e3", "steps < 1e3", "1e4", "1e5", "certified",
+            "asked for proof", "proved"]
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    middle = lambda values: f"{sorted(values)[len(values) // 2]:.1f}" if values else "-"
     for name, group in groups(rows):
         good, asked = [r for r in group
                        if r["level"] != "undecided"], [r for r in group if r["proof_ms"] is not None]
-        sure = [r["ms"] + r["proof_ms"] for r in asked if r["level"] in ("proved", "exact")]
+        sure = [r for r in asked if r["level"] in ("proved", "exact")]
         of_all = ([sum(r["t"] < t for r in good) for t in (100, 1e3, 5e3)]
                   + [sum(r["steps"] < k for r in good) for k in (1e3, 1e4, 1e5)] + [len(good)])
-        of_all += [sum(r["ms"] < ms for r in good) for ms in (1, 10, 100)]
-        of_asked = [len(sure)] + [sum(took < ms for took in sure) for ms in (3, 10, 100)]
         shares = lambda counts, whole: " | ".join(f"{100 * count / max(1, len(whole)):.1f}"
                                                   for count in counts)
-        lines.append(f"| {name} | {len(group)} | {shares(of_all, group)} | "
-                     f"{middle([r['ms'] for r in group])} | {len(asked)} | {shares(of_asked, asked)} | "
-                     f"{middle(sure)} |")
+        lines.append(f"| {name} | {len(group)} | {shares(of_all, group)} | {len(asked)} | "
+                     f"{shares([len(sure)], asked)} |")
     return "\n".join(lines)
 
 

@@ -1,12 +1,14 @@
 """The separatrix surface as a mesh."""
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from stabilab import fate, separatrix
 from stabilab.show.surface import triangulate
 
-from .rows import SCENE, A, Row
+from .rows import SCENE, A, Row, against
 from .timing import side_by_side
 
 HALF = 6.0        # of the side of the cube that the grid of margins fills
@@ -18,8 +20,8 @@ NOTE = ("ours holds meshing too. What limits it is the number of calls: some hun
 
 
 
-def rows(small=False) -> list[Row]:
-    return against_flying_edges(32, 2, sample=4000, checked=3) if small else against_flying_edges()
+def measurements(small=False):
+    return [partial(against_flying_edges, 32, 2, sample=4000, checked=3) if small else against_flying_edges]
 
 
 def against_flying_edges(cells=512, rounds=7, sample=200_000, checked=24) -> list[Row]:
@@ -41,13 +43,14 @@ def against_flying_edges(cells=512, rounds=7, sample=200_000, checked=24) -> lis
         f"largest distance of the triangles from the surface: ours {our_error:.1e}, theirs {their_error:.1e}")
     count, found = sum(len(m.triangles) for m in meshes), []
     name = f"separatrix mesh, {count} triangles (1/{theirs.n_cells / count:.0f} of theirs)"
-    for other, what in ((lambda: _contour(grid), "contouring alone"),
+    contouring = partial(_contour, grid)
+    for other, what in ((contouring, "contouring alone"),
                         (lambda: _contour(_field(axis)), "margins and contouring")):
         timed = side_by_side(_mesh, other, 1, 1, rounds)
-        found.append(Row(name, f"{timed.ours * 1e3:.2f} ms",
-                         f"{timed.theirs * 1e3:.0f} ms Flying Edges at {cells}^3, {what}, "
-                         f"{theirs.n_cells} triangles", timed.ratio, (timed.low, timed.high), error, 1000.0,
-                         NOTE))
+        key = "surface" if other is contouring else "surface-with-field"
+        found.append(against(key, name, timed,
+                             f"Flying Edges at {cells}^3, {what}, {theirs.n_cells} triangles", error, 1000.0,
+                             NOTE, "s"))
     return found
 
 

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 import time
+from functools import partial
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from stabilab.integrate.reference import reference, relative_errors
 from stabilab.integrate.to_heyoka import TAYLOR_TOLERANCE
 
 from .contestants import BatchRuns, ScalarRuns, off_axis_rates, with_effects
-from .rows import Row, each
+from .rows import Row, against
 from .timing import side_by_side
 
 # no axis or plane is singled out
@@ -44,14 +45,16 @@ OTHERS = {  # what they do besides -> (scene, what the rates by hand need)
                                        {"c": 0.01, "kappa": float(LIQUID.exact), "centre": CENTRE})}
 START = (0.1, 0.2, 0.3)
 SCIPY_RTOL = 1e-12
+PACE = "processor time of one thread; eight motions of like pace are integrated together"
 
 
-def rows(small=False) -> list[Row]:
+def measurements(small=False):
     if small:
-        return [*against_heyoka(20.0, 5, 1, 2), against_scipy(5.0, 1, 2), *against_batch(20, 5.0, 3, 2),
-                *with_other_effects(20, 2.0, 3, 2)]
-    return [*against_heyoka(1000.0, 1000, 1), *against_heyoka(100.0, 100, 20), against_scipy(),
-            *against_batch(), *with_other_effects()]
+        return [partial(against_heyoka, 20.0, 5, 1, 2), partial(against_scipy, 5.0, 1, 2),
+                partial(against_batch, 20, 5.0, 3, 2),
+                *(partial(with_other_effects, name, 20, 2.0, 3, 2) for name in OTHERS)]
+    return [partial(against_heyoka, 1000.0, 1000, 1), partial(against_heyoka, 100.0, 100, 20), against_scipy,
+            against_batch, *(partial(with_other_effects, name) for name in OTHERS)]
 
 
 def against_heyoka(span, count, repeats, rounds=7) -> list[Row]:
@@ -64,17 +67,17 @@ def against_heyoka(span, count, repeats, rounds=7) -> list[Row]:
         run = trajectory(OFF_AXIS, START, times, laws=laws)
         timed = side_by_side(lambda laws=laws: [trajectory(OFF_AXIS, START, times, laws=laws)
                                                 for _ in range(repeats)],
-                             lambda: [raw(START, times) for _ in range(repeats)], repeats, repeats, rounds)
+                             lambda: [raw(START, times) for _ in range(repeats)], repeats, repeats, rounds,
+                             time.thread_time)
         apart = np.abs(run.states - theirs).max() / np.abs(theirs).max()
-        found.append(Row(f"trajectory off the axes, {span:g} s, {count} times, {run.counters['steps']} "
-                         f"steps, "
-                         f"laws {'' if laws else 'un'}checked", each(timed.ours),
-                         f"{each(timed.theirs)} heyoka by hand", timed.ratio,
-                         (timed.low, timed.high), f"same tolerance and steps; states {apart:.0e} apart",
-                         1 / 1.15 if span >= 1000 else 1 / 1.3,
-                         f"reading and checking the input costs some 30 us a "
-                         f"call{', comparing the laws as much again' * laws}" if span < 1000 else
-                         "the laws' integrals ride along and are compared at every time" if laws else ""))
+        found.append(against(f"trajectory-{'long' if span >= 1000 else 'short'}{'-laws' * laws}",
+                             f"trajectory off the axes, {span:g} s, {count} times, {run.counters['steps']} "
+                             f"steps, laws {'' if laws else 'un'}checked", timed, "heyoka by hand",
+                             f"same tolerance and steps; states {apart:.0e} apart",
+                             1 / 1.15 if span >= 1000 else 1 / 1.3,
+                             "the laws' integrals are integrated with the motion and compared at every time"
+                             if laws else "processor time of one thread; a short run is mostly the reading "
+                             "and checking of its input" if span < 1000 else "processor time of one thread"))
     return found
 
 
@@ -96,10 +99,9 @@ def against_scipy(span=300.0, repeats=10, rounds=7) -> Row:
     exact = reference(OFF_AXIS, START, times)
     errors = [relative_errors(states, exact.states, exact.rest, exact.slices).max()
               for states in (fast(), slow())]
-    return Row(f"trajectory off the axes, {span:g} s, laws unchecked", each(timed.ours),
-               f"{each(timed.theirs)} SciPy DOP853 at 1e-12 in Python",
-               timed.ratio, (timed.low, timed.high),
-               "largest relative error: ours {:.0e}, theirs {:.0e}".format(*errors), 300)
+    return against("trajectory-scipy", f"trajectory off the axes, {span:g} s, laws unchecked", timed,
+                   "SciPy DOP853 at 1e-12 in Python",
+                   "largest relative error: ours {:.0e}, theirs {:.0e}".format(*errors), 300)
 
 
 def against_batch(size=256, span=200.0, count=21, rounds=7) -> list[Row]:
@@ -111,33 +113,27 @@ def against_batch(size=256, span=200.0, count=21, rounds=7) -> list[Row]:
     for workers in (1, 2):
         timed = side_by_side(lambda workers=workers: ensemble(OFF_AXIS, states, times, workers=workers),
                              lambda: raw(states, times),
-                             size, size, rounds)
-        found.append(Row(f"ensemble of {size} motions off the axes, {span:g} s, {count} times, {workers} "
-                         f"worker{'s' * (workers > 1)}",
-                         each(timed.ours), f"{each(timed.theirs)} heyoka batch by hand", timed.ratio,
-                         (timed.low, timed.high),
-                         f"same tolerance; states {apart:.0e} apart", 1 / 1.1,
-                         "a row holds motions of like pace" if workers == 1 else ""))
+                             size, size, rounds,
+                             time.thread_time if workers == 1 else time.perf_counter)
+        found.append(against(f"ensemble-{workers}", f"ensemble of {size} motions off the axes, {span:g} s, "
+                             f"{count} times, {workers} worker{'s' * (workers > 1)}", timed,
+                             "heyoka batch by hand", f"same tolerance; states {apart:.0e} apart", 1 / 1.1,
+                             "elapsed time; one process by hand" if workers > 1 else PACE))
     return found
 
 
-def with_other_effects(size=256, span=200.0, count=21, rounds=7) -> list[Row]:
-    """The same with one worker, of scenes with other effects; by hand with the rates of `with_effects`, in
+def with_other_effects(name, size=256, span=200.0, count=21, rounds=7) -> Row:
+    """The same with one worker, of a scene with other effects; by hand with the rates of `with_effects`, in
     processor time of the one thread."""
-    omega, times, found = np.random.default_rng(1).normal(size=(size,
-                                                                3)) * 0.5, np.linspace(0, span, count), []
-    for name, (scene, by_hand) in OTHERS.items():
-        states = np.hstack([omega, np.tile((0.6, 0.0, 0.8), (size, 1))]) if "gamma" in scene.blocks else omega
-        raw = BatchRuns(with_effects(**{"inertia": INERTIA, "moment": MOMENT, "torque": TORQUE} | by_hand),
-                        TAYLOR_TOLERANCE)
-        theirs, ours = raw(states, times), ensemble(scene, states, times).states
-        apart = np.abs(ours - theirs).max() / np.abs(theirs).max()
-        timed = side_by_side(lambda scene=scene, states=states: ensemble(scene, states, times),
-                             lambda raw=raw, states=states: raw(states, times),
-                             size, size, rounds, time.thread_time)
-        found.append(Row(f"ensemble of {size} motions off the axes {name}, {span:g} s, {count} times, 1 "
-                         f"worker", each(timed.ours),
-                         f"{each(timed.theirs)} heyoka batch by hand", timed.ratio, (timed.low, timed.high),
-                         f"same tolerance; states {apart:.0e} apart",
-                         1 / 1.1, "in processor time of one thread; a row holds motions of like pace"))
-    return found
+    omega, times = np.random.default_rng(1).normal(size=(size, 3)) * 0.5, np.linspace(0, span, count)
+    scene, by_hand = OTHERS[name]
+    states = np.hstack([omega, np.tile((0.6, 0.0, 0.8), (size, 1))]) if "gamma" in scene.blocks else omega
+    raw = BatchRuns(with_effects(**{"inertia": INERTIA, "moment": MOMENT, "torque": TORQUE} | by_hand),
+                    TAYLOR_TOLERANCE)
+    theirs, ours = raw(states, times), ensemble(scene, states, times).states
+    apart = np.abs(ours - theirs).max() / np.abs(theirs).max()
+    timed = side_by_side(lambda: ensemble(scene, states, times), lambda: raw(states, times), size, size,
+                         rounds, time.thread_time)
+    return against(f"ensemble-{name.replace(',', '').replace(' ', '-')}",
+                   f"ensemble of {size} motions off the axes {name}, {span:g} s, {count} times, 1 worker",
+                   timed, "heyoka batch by hand", f"same tolerance; states {apart:.0e} apart", 1 / 1.1, PACE)

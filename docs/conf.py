@@ -36,6 +36,9 @@ PAGES = {"README.md": "readme.md", "benchmarks/RESULTS.md": "results.md",
 # have none
 FILES = re.compile(r"\[[\w./-]+\.md\]\(((?!index\.md)[\w./-]+\.md(?:#[\w-]+)?)\)")
 
+# A speed, which leads to its row of the results; what is meant of the row stands in a title
+SPEEDS = re.compile(r"\[([^\]\n]*)\]\((?:\.\./)*benchmarks/RESULTS\.md#([\w-]+)(?: \"\w+\")?\)")
+
 
 def setup(app):
     app.connect("builder-inited", write_pages)
@@ -62,7 +65,9 @@ def write_pages(app):
 
 
 def point_inside(app, name, source):
-    """Links to files outside of docs/ lead to their pages here."""
+    """Links to files outside of docs/ lead to their pages here, those of speeds to their rows."""
+    up = "../" * name.count("/")
+    source[0] = SPEEDS.sub(rf'<a href="{up}results.html#\2">\1</a>', source[0])
     for outside, inside in PAGES.items():
         source[0] = source[0].replace(f"](../{outside}", f"]({inside}").replace(f"]({outside}", f"]({inside}")
     source[0] = source[0].replace(".ipynb)", ".md)")

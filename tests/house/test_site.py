@@ -192,7 +192,9 @@ def test_words_have_the_signs_of_a_book_and_commands_stay_as_they_are_typed(conf
     ("[docs/atlas.md](atlas.md) and [benchmarks/RESULTS.md](../benchmarks/RESULTS.md)",
      "[](atlas.md) and [](results.md)"),
     ("[the README](../README.md), [docs/index.md](index.md)",
-     "[the README](readme.md), [docs/index.md](index.md)")])
+     "[the README](readme.md), [docs/index.md](index.md)"),
+    ('takes [2 us](../benchmarks/RESULTS.md#arrays-plain "theirs").',
+     'takes <a href="results.html#arrays-plain">2 us</a>.')])
 def test_a_link_that_a_file_names_has_the_heading_of_the_page(conf, written, told):
     source = [written]
     conf["point_inside"](None, "page", source)
