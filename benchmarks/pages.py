@@ -110,8 +110,10 @@ def _notes(rows: dict[str, dict[str, Any]]) -> Iterator[str]:
 
 
 def updated(page: str, results: Results) -> str:
-    """A page with the words of its links to rows written anew; KeyError for a row that there is not."""
+    """A page with the words of its links to rows written anew; one to a row that there is not (`missing`) stays."""
     def words(link: re.Match[str]) -> str:
+        if link[2] not in results.rows:
+            return link[0]
         return link[0].replace(f"[{link[1]}]", f"[{figure(results, link[2], link[3])}]", 1)
     return LINK.sub(words, page)
 

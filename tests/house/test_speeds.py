@@ -103,6 +103,14 @@ def test_a_part_that_is_measured_anew_leaves_the_dates_of_the_others(sandbox):
     assert commits == {"fate": "bbb", "period": "aaa"}  # a row that the topic has no longer goes
 
 
+def test_a_link_to_a_row_has_its_number_and_one_to_none_stays(sandbox):
+    sandbox.calls = {"fates": [lambda: Row("fate", "f", 2e-7, "each", 6e-6, "by hand", 30.0, 29.0, 31.0)]}
+    sandbox.measure("fates")
+    page = '[{}](../benchmarks/RESULTS.md#fate), [{}](../benchmarks/RESULTS.md#fate "ratio"), [{}]({}#gone)'.format
+    assert pages.updated(page("?", "?", "?", "../benchmarks/RESULTS.md"), sandbox.results) == page(
+        "200 ns", "30 times", "?", "../benchmarks/RESULTS.md")
+
+
 def test_a_row_is_marked_when_its_code_has_changed(sandbox, monkeypatch):
     sandbox.calls = {"fates": [lambda: Row("fate", "f", 1.0)]}
     sandbox.measure("fates")
