@@ -110,7 +110,7 @@ def _notes(rows: dict[str, dict[str, Any]]) -> Iterator[str]:
 
 
 def updated(page: str, results: Results) -> str:
-    """A page with the words of its links to rows written anew; one to a row that there is not (`missing`) stays."""
+    """A page with the words of its links to rows written anew; one to no row (`missing`) stays."""
     def words(link: re.Match[str]) -> str:
         if link[2] not in results.rows:
             return link[0]
