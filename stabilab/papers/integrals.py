@@ -14,6 +14,7 @@ from ..orbit.phase_plane import PhasePlane, phase_plane
 from ..orbit.result import Motion
 
 Place = tuple[float, float, float]
+DIGITS = 12  # of places and eigenvalues: the last ones of a double hang on the processor's sines
 
 
 @dataclass(frozen=True)
@@ -79,4 +80,6 @@ def beside(plane: PhasePlane) -> tuple[float | None, float | None]:
 def _equilibrium(case: Case, plane: PhasePlane, y: float) -> Equilibrium:
     at = plane.states(np.array(y), np.array(0.0)) + 0.0
     m, _ = invariants(case.scene.quadratic(), at.tolist())
-    return Equilibrium(tuple(at.tolist()), math.sqrt(abs(m)))
+    decimals = DIGITS - 1 - math.floor(math.log10(np.abs(at).max() or 1.0))
+    place = (np.round(at, decimals) + 0.0).tolist()
+    return Equilibrium(tuple(place), float(f"{math.sqrt(abs(m)):.{DIGITS}g}"))

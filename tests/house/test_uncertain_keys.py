@@ -68,7 +68,8 @@ QUICK = ("extremes", "show", "orbit")  # run by default: a second each
 VARIED = {  # of each form, what is varied that stays certain
     "torque": "effects.gyrostat.momentum[2]", "mu": "motion.x[3]", "scaled": "motion.x[3]",
     "tumbling": "motion.span[1]", "tumbling by its cone": "motion.span[1]", "spinning": "motion.span[1]",
-    "damper": "motion.angular_velocity[3]", "thruster": "motion.angular_velocity[3]",
+    "damper": "motion.angular_velocity[3]", "damper wheel": "motion.angular_velocity[3]",
+    "thruster": "motion.angular_velocity[3]",
     "burning": "motion.angular_velocity[3]", "orbit": "effects.gyrostat.momentum[2]",
     "top": "motion.angular_velocity[3]"}
 # commands whose answer is a file: pages and the explorer have tests of their own below
