@@ -56,17 +56,18 @@ def test_integrals_and_eigenvalues_are_those_of_the_papers_equations(stem):
             if at[0] is None:
                 assert name != "G1" and at is not centre  # |b - a| < 4 (1/27)^(1/4): no saddle for the paper's data
                 continue
-            assert max(map(abs, rates(at, a, b, mu))) < 1e-13
-            assert float(conic(at)) == pytest.approx(float(conic(x)), abs=1e-13)
+            # places have twelve digits, and rates and integrals change by some twenty times what they do
+            assert max(map(abs, rates(at, a, b, mu))) < 1e-10
+            assert float(conic(at)) == pytest.approx(float(conic(x)), abs=1e-10)
             pair, other, zero = eigenvalues(at, a, b)
             assert abs(zero) < 1e-6  # a zero eigenvalue of a matrix with rounding
             for value in (pair, other):
-                assert min(abs(value - sign * turn * cells[name_of]) for sign in (1, -1)) < 1e-12
+                assert min(abs(value - sign * turn * cells[name_of]) for sign in (1, -1)) < 1e-10
         if name == "G1":  # the saddle ahead is within one turn of the angle, where that of G1 counts on
             saddle = [cells[f"saddle x{n}"] for n in (1, 2, 3)]
             ahead = integral(name, saddle, a, b)
             ahead -= 0 if mp.atan2(saddle[0] + a, saddle[1]) > mp.atan2(x[0] + a, x[1]) else 8 * mp.pi
-            assert cells["on separatrix"] == pytest.approx(float(ahead), rel=1e-12)
+            assert cells["on separatrix"] == pytest.approx(float(ahead), rel=1e-11)  # of twelve digits of the place
             assert cells["on separatrix"] > cells[name]  # all three are bounded
 
 
