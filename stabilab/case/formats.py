@@ -66,9 +66,8 @@ def split_head(cell: str) -> tuple[str, str]:
 
 
 def cells_of(text: str) -> list[tuple[int, list[str]]]:
-    """(line, cells) of the lines of a table that are neither empty nor comments, by the mark that its head "
-      "has most
-    often."""
+    """(line, cells) of the lines of a table that are neither empty nor comments, by the mark that its head
+    has most often."""
     lines = [(n, line) for n, line in enumerate(text.lstrip("\ufeff").splitlines(), 1)
              if line.strip(" ,;\t") and not line.lstrip().startswith("#")]
     mark = max(",;\t", key=lines[0][1].count) if lines else ","
@@ -105,8 +104,7 @@ def importer_of(text: str) -> Importer:
 
 # Of which the numbers go over by hand: what they are called there, and where they go.
 BY_HAND = ("write its moments as [body] inertia = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]] in kg m^2, "
-           "about "
-           "the centre of mass, and its rates as [motion] angular_velocity = [x, y, z]")
+           "about the centre of mass, and its rates as [motion] angular_velocity = [x, y, z]")
 XML = {"ndm": "a CCSDS navigation data message (XML)",
        "aem": "a CCSDS attitude ephemeris (AEM, XML)",
        "html": "a page (HTML)", "svg": "a picture (SVG)", "collada": "a mesh (COLLADA, XML)"}

@@ -99,8 +99,8 @@ class Block:
     def add(self, value: Value, unit: str | None) -> None:
         """Take a keyword in; its number and its unit are checked."""
         if value.key in self.values:
-            raise value.fault(f"given twice in this block, first in line {self.values[value.key].line}: "
-                              f"keep one")
+            raise value.fault(f"given twice in this block, first in line {self.values[value.key].line}: keep "
+                              "one")
         wanted = None if value.key in FRAMES else KEYWORDS[value.key][1]
         if wanted is not None:
             try:
@@ -109,8 +109,7 @@ class Block:
                 raise value.fault(str(error)) from None
             if unit is not None and _plain(unit) != _plain(wanted):
                 raise value.fault(f"expected the unit {f'[{wanted}]' if wanted else 'none'}, got [{unit}]: "
-                                  f"write the "
-                                  "number in that unit, or leave the brackets away where it is")
+                                  "write the number in that unit, or leave the brackets away where it is")
         self.values[value.key] = value
 
 

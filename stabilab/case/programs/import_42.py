@@ -294,9 +294,8 @@ def _relative(craft: Craft, entries: Sequence[Entry], location: Sequence[np.ndar
     except Unknown as error:
         craft.caveats.append(
             f"no motion: the imported file gives an angular velocity of [{', '.join(craft.rate)}] deg/s "
-            "relative "
-            f"to the orbit frame (Ang Vel wrt L), and {error}; write [motion] angular_velocity relative to "
-            "inertial space")
+            f"relative to the orbit frame (Ang Vel wrt L), and {error}; write [motion] angular_velocity "
+            "relative to inertial space")
         craft.rate = None
 
 

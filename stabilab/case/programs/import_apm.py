@@ -83,8 +83,7 @@ def read(text: str, path: Path, body: None = None) -> Craft:
         _motion(item, craft, tensor, frame, attitudes)
     except Unknown as error:
         craft.caveats.append(f"no motion: {error}; write [motion] angular_velocity relative to inertial "
-                             f"space, in the "
-                             "frame of the inertia")
+                             "space, in the frame of the inertia")
     _attitude(craft, attitudes, frame, diagonal)
     for n, block in enumerate(item.all(MANEUVER), 1):
         _maneuver(craft, block, f"maneuver {n}", frame)
@@ -109,8 +108,7 @@ def _inertia(item: Message, craft: Craft, path: Path) -> tuple[np.ndarray, str]:
     if not blocks:
         keys = "I11, I22, I33, I12, I13, I23" if item.version == 1 else "IXX, IYY, IZZ, IXY, IXZ, IYZ"
         raise InputError(f"{printable(str(path))}:1: this attitude parameter message has no inertia, and "
-                         f"without it no "
-                         f"motion can be found: add {keys} in kg*m**2"
+                         f"without it no motion can be found: add {keys} in kg*m**2"
                          + ("" if item.version == 1 else " between INERTIA_START and INERTIA_STOP"))
     block = blocks[0]
     craft.omitted += ["a second block with inertia"] * (len(blocks) > 1)
@@ -122,8 +120,7 @@ def _inertia(item: Message, craft: Craft, path: Path) -> tuple[np.ndarray, str]:
     tensor = full(*moments, *products)
     if not is_positive(tensor):
         raise block.fault("inertia: no body has this tensor, one of its principal moments is not positive: "
-                          "correct "
-                          f"{', '.join(block.values)}")
+                          f"correct {', '.join(block.values)}")
     if any(products):
         convention = ("the products are entries of the tensor, as version 1 has "
                       "them" if item.version == 1 else
@@ -132,9 +129,8 @@ def _inertia(item: Message, craft: Craft, path: Path) -> tuple[np.ndarray, str]:
         craft.said.append(convention)
     frame = block.value("INERTIA_REF_FRAME")
     if frame and not BODY.fullmatch(frame.text.upper()):
-        raise frame.fault(f"expected a frame of the spacecraft such as SC_BODY_1, got {frame.text}: give "
-                          f"the inertia in "
-                          "the body's frame")
+        raise frame.fault(f"expected a frame of the spacecraft such as SC_BODY_1, got {frame.text}: give the "
+                          "inertia in the body's frame")
     return tensor, frame.text.upper() if frame else ""
 
 
@@ -160,8 +156,7 @@ def _known(value: Value) -> str:
     name = value.text.upper()
     if not any(kind.fullmatch(name) for kind in (BODY, INERTIAL, EARTH, ORBIT)):
         raise value.fault(f"unknown frame {value.text}: expected a frame of the spacecraft (SC_BODY_1), an "
-                          f"inertial one "
-                          "(ICRF, EME2000), of the Earth (ITRF2000) or of the orbit (LVLH)")
+                          "inertial one (ICRF, EME2000), of the Earth (ITRF2000) or of the orbit (LVLH)")
     return name
 
 
@@ -194,7 +189,7 @@ def _euler(block: Block, new: str, old: str) -> tuple[list[Fraction], str]:
     value = block.needed("EULER_ROT_SEQ")
     sequence = "".join(AXES.get(letter, letter) for letter in value.text.upper())
     if not re.fullmatch(r"[123]{3}", sequence) or sequence[0] == sequence[1] or sequence[1] == sequence[2]:
-        raise value.fault(f"expected three axes such as ZXZ or 321, none twice in succession, got "
+        raise value.fault("expected three axes such as ZXZ or 321, none twice in succession, got "
                           f"{value.text}")
     letters = ["XYZ"[int(digit) - 1] for digit in sequence]
     return [_number(block.needed(new.format(n), old.format(letter)))
@@ -216,7 +211,7 @@ def _attitude(craft: Craft, attitudes: Sequence[tuple[Frames, np.ndarray]], fram
         if INERTIAL.fullmatch(frames.other) and frame in ("", frames.body):
             if not diagonal:
                 craft.omitted.append(f"the attitude relative to {frames.other}: a case has one along "
-                                     f"principal axes alone")
+                                     "principal axes alone")
                 return
             rotation = (matrix if frames.second == frames.body else matrix.T).T.astype(float)  # body to space
             psi = math.atan2(rotation[2][1], math.hypot(rotation[2][0], rotation[2][2]))
@@ -243,11 +238,10 @@ def _motion(item: Message, craft: Craft, tensor: np.ndarray, frame: str,
             frames, rates = result
             if frame and frames.body != frame:
                 raise Unknown(f"the rates are those of the frame {frames.body}, the inertia is in the frame "
-                              f"{frame}, and "
-                              "the message does not say how one lies in the other")
+                              f"{frame}, and the message does not say how one lies in the other")
             if ORBIT.fullmatch(frames.other):
                 raise Unknown(f"the rates are relative to the orbit frame {frames.other}, and the message "
-                              f"has no orbit")
+                              "has no orbit")
             if EARTH.fullmatch(frames.other):
                 own = _attitudes(Message(item.version, [block]))
                 to_body = _between([*own, *attitudes], frames,
@@ -286,8 +280,8 @@ def _stated(block: Block, item: Message, craft: Craft, tensor: np.ndarray, attit
 
 
 def _along_body(rates: np.ndarray, frames: Frames, along: str, value: Value, attitudes: Any) -> np.ndarray:
-    """Components, in one of the two frames, of the rate of the second relative to the first, as the "
-      "body's."""
+    """Components, in one of the two frames, of the rate of the second relative to the first, as the
+    body's."""
     if along not in frames:
         raise value.fault(f"expected one of the frames {frames.first} and {frames.second}, got {value.text}")
     if along != frames.body:
@@ -327,9 +321,8 @@ def _of_euler_rate(block: Block, item: Message, craft: Craft, tensor: np.ndarray
         attitudes = [(frames, turn(*_euler(block, "ANGLE_{}", "{}_ANGLE"))), *attitudes]
     along = block.needed("RATE_FRAME")
     name = block.text(along.text.upper()) or along.text
-    craft.said.append("X_RATE, Y_RATE and Z_RATE count as components of the angular velocity of the frame "
-                      "to which "
-                      "EULER_DIR leads relative to the other, along the axes of RATE_FRAME")
+    craft.said.append("X_RATE, Y_RATE and Z_RATE count as components of the angular velocity of the frame to "
+                      "which EULER_DIR leads relative to the other, along the axes of RATE_FRAME")
     return frames, _along_body(rates, frames, name.upper(), along, attitudes)
 
 
@@ -371,17 +364,17 @@ def _momentum(block: Block) -> tuple[np.ndarray, Fraction]:
 
 def _momentum_size(block: Block, tensor: np.ndarray, spin: Fraction, direction: np.ndarray, period: Fraction,
                    named: Value, version: int, craft: Craft) -> Fraction:
-    """|H|, kg m^2 deg/s, of the free motion with this spin, whose nutation period must be that of the "
-      "message."""
+    """|H|, kg m^2 deg/s, of the free motion with this spin, whose nutation period must be that of the
+    message."""
     first, second, along = (tensor[i][i] for i in range(3))
     across = (first + second) / 2
     products = max(abs(tensor[i][j]) for i, j in ((0, 1), (0, 2), (1, 2)))
     uneven = max(abs(first - second) / 2, products)
     if uneven > ALIKE * abs(along - across):
         raise block.fault("spin: nutation at a constant angle is a motion of a body that is symmetric about "
-                          "the z axis of its frame, and this one is not (moments "
-                          f"{_six(first)}, {_six(second)}, {_six(along)}, products up to {_six(products)} "
-                          f"kg m^2): {INSTEAD}")
+                          f"the z axis of its frame, and this one is not (moments {_six(first)}, "
+                          f"{_six(second)}, {_six(along)}, products up to {_six(products)} kg m^2): "
+                          f"{INSTEAD}")
     level = direction[2]
     readings = [(RELATIVE, spin * across * along / ((across - along) * level)
                  if level and across != along else Fraction(0), False)]
@@ -402,8 +395,7 @@ def _momentum_size(block: Block, tensor: np.ndarray, spin: Fraction, direction: 
     allowed = (f"with these moments and this spin it is {' or '.join(wanted)} s" if wanted else
                "with these moments the axis of a free body nutates at no rate beside a spin of this sign")
     raise named.fault(f"a nutation period of {_six(period)} s does not agree with SPIN_ANGLE_VEL "
-                      f"{_six(spin)} deg/s: "
-                      f"{allowed}; {INSTEAD}")
+                      f"{_six(spin)} deg/s: {allowed}; {INSTEAD}")
 
 
 def _six(value: Fraction) -> str:

@@ -69,8 +69,7 @@ def from_dictionary(data: dict, path: str | Path = "the dictionary") -> Craft:
     turning = [] if rate else [name for name in left if MOTION.search(name)]
     if turning:
         craft.caveats.append(f"the motion that the imported file states ({', '.join(turning)}) is not read: "
-                             "its "
-                             "name or its unit is not known; write it as [motion] angular_velocity")
+                             "its name or its unit is not known; write it as [motion] angular_velocity")
     return craft
 
 
@@ -101,8 +100,7 @@ def dictionary(text: str, path: str) -> Any:
         raise InputError(f"{path}: this seems to be {format}, which is not read: {READ}; {BY_HAND}")
     if re.search(r"^\[\[?\w+(\.\w+)*\]\]?\s*$", text, re.M) and re.search(r"^\w+ *=", text, re.M):
         raise InputError(f"{path}: this seems to be a case already, or TOML: ask it as it is, `stabilab fate "
-                         "FILE`; "
-                         f"{READ}")
+                         f"FILE`; {READ}")
     try:
         return json.loads(text, parse_float=Decimal)
     except ValueError as error:
@@ -118,8 +116,8 @@ def dictionary(text: str, path: str) -> Any:
             return _literal(node)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         raise InputError(
-            f"{path}: neither JSON ({json_words}) nor a dictionary of plain numbers in Python "
-            f"({error}); {READ}") from None
+            f"{path}: neither JSON ({json_words}) nor a dictionary of plain numbers in Python ({error}); "
+            f"{READ}") from None
     raise InputError(
         f"{path}: expected {FORMATS}; JSON says: {json_words}")
 

@@ -22,13 +22,11 @@ from .rigid_pieces import Frame, Piece, combined, piece, tensor_of, unread
 from .xml_tree import Element, fractions, tree
 
 ORIENTATIONS = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
-WORDS = {"include": "other files", "keyframe": "positions of "
-                                               "keyframes", "actuator": "actuators", "tendon": "tendons",
-         "equality": "constraints", "sensor": "sensors", "contact": "contacts", "geom": "shapes and meshes",
-         "plugin": "plugins"}
-NOT_READ = {"replicate": "copies of bodies", "attach": "bodies of other models", "composite": "composite "
-                                                                                              "bodies",
-            "flexcomp": "flexible bodies"}
+WORDS = {"include": "other files", "keyframe": "positions of keyframes", "actuator": "actuators",
+         "tendon": "tendons", "equality": "constraints", "sensor": "sensors", "contact": "contacts",
+         "geom": "shapes and meshes", "plugin": "plugins"}
+NOT_READ = {"replicate": "copies of bodies", "attach": "bodies of other models",
+            "composite": "composite bodies", "flexcomp": "flexible bodies"}
 
 
 class _Compiler(NamedTuple):
@@ -57,15 +55,12 @@ def read(text: str, path: Path, body: str | None = None) -> Craft:
                 outermost.append((element.name, frame, first))
     if not outermost:
         raise root.fault("no body has an <inertial>, and without mass and moments no motion can be found: "
-                         "add "
-                         '<inertial pos="..." mass="..." diaginertia="..."/> to a body (MuJoCo writes those '
-                         'that it '
-                         "finds from shapes by mj_saveLastXML)")
+                         'add <inertial pos="..." mass="..." diaginertia="..."/> to a body (MuJoCo writes '
+                         "those that it finds from shapes by mj_saveLastXML)")
     if len(outermost) > 1 and body is None:
         raise InputError(f"{printable(str(path))}: the bodies "
-                         f"{', '.join(printable(name) for name, _, _ in outermost)} "
-                         "move freely of each other: they are no rigid body; --body NAME takes one body "
-                         "alone")
+                         f"{', '.join(printable(name) for name, _, _ in outermost)} move freely of each "
+                         "other: they are no rigid body; --body NAME takes one body alone")
     craft = Craft(root.attributes.get("model", "") or "model")
     unread(craft, root, set(), WORDS)
     return combined(craft, pieces, outermost[0][1], "body", locked, body, path)
@@ -77,8 +72,7 @@ def _compiler(root: Element) -> _Compiler:
         settings |= element.attributes
         if element.attributes.get("inertiafromgeom") == "true":
             raise element.fault("the moments are those of shapes, which are not read: save the model as "
-                                "MuJoCo compiled "
-                                "it (mj_saveLastXML)", "inertiafromgeom")
+                                "MuJoCo compiled it (mj_saveLastXML)", "inertiafromgeom")
         if element.attributes.get("coordinate") == "global":
             raise element.fault("global coordinates are not read: save the model with a newer "
                                 "MuJoCo", "coordinate")
@@ -86,8 +80,7 @@ def _compiler(root: Element) -> _Compiler:
             value = element.attributes.get(key)
             if value not in (None, "false", "-1", "0"):
                 raise element.fault(f"{key} changes masses or moments when MuJoCo compiles the model: save "
-                                    f"it as "
-                                    "compiled (mj_saveLastXML)", key)
+                                    "it as compiled (mj_saveLastXML)", key)
     sequence = settings.get("eulerseq", "xyz")
     if len(sequence) != 3 or not set(sequence) <= set("xyz") and not set(sequence) <= set("XYZ"):
         raise root.fault(f"compiler: expected eulerseq of three letters x, y, z or X, Y, Z, got {sequence}")
@@ -113,8 +106,8 @@ def _walk(element: Element, frame: Frame, compiler: _Compiler, pieces: list[Piec
     if inertial is None:
         if any(child.tag == "geom" for child in element.children):
             raise element.fault(f"{name}: no <inertial>; MuJoCo finds its mass and moments from its shapes, "
-                                f"which are not "
-                                "read: add <inertial>, or save the model as compiled (mj_saveLastXML)")
+                                "which are not read: add <inertial>, or save the model as compiled "
+                                "(mj_saveLastXML)")
         pieces.append(piece(name, "0", tensor_of(["0"] * 6), frame, frame, element))
     else:
         pieces.append(_piece(name, inertial, frame, compiler))
@@ -131,7 +124,7 @@ def _piece(name: str, inertial: Element, frame: Frame, compiler: _Compiler) -> P
         numbers = inertial.attribute("fullinertia", 6)
         if any(key in inertial.attributes for key in ORIENTATIONS):
             raise inertial.fault(f"{name}: fullinertia is along the axes of the body: take the orientation "
-                                 f"away",
+                                 "away",
                                  "fullinertia")
     else:
         numbers = [*inertial.attribute("diaginertia", 3), "0", "0", "0"]

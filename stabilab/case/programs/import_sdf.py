@@ -37,10 +37,9 @@ def read(text: str, path: Path, body: str | None = None) -> Craft:
     links = {link.name: link for link in model.all("link")}
     if not any(link.one("inertial") for link in links.values()):
         raise model.fault("no link has an <inertial>, and without mass and moments no motion can be found: "
-                          "add "
-                          "<inertial><mass>...</mass><inertia><ixx>...</ixx> ... </inertia></inertial> to a "
-                          "link"
-                          + (f"; files of <include> are not read: import "
+                          "add <inertial><mass>...</mass><inertia><ixx>...</ixx> ... </inertia></inertial> "
+                          "to a link"
+                          + ("; files of <include> are not read: import "
                              f"{_uri(model)}" if _uri(model) else ""))
     frames = _Frames(model)
     pieces = [_piece(link, frames.of(name, link), craft) for name, link in links.items()]
@@ -64,7 +63,7 @@ def _model(root: Element) -> Element:
     if len(moving) != 1:
         names = ", ".join(printable(model.name) for model in moving)
         raise root.fault(f"the models {names} move freely of each other: put the one that is meant into a "
-                         f"file of its own"
+                         "file of its own"
                          if moving else "no model that is not static: expected <model> with links")
     return moving[0]
 
@@ -95,7 +94,7 @@ class _Frames:
         if relative not in ("", "__model__"):
             if relative not in self.elements:
                 raise (pose or element).fault(f"no frame {relative}: expected a link, a joint or a frame of "
-                                              f"the model",
+                                              "the model",
                                               "relative_to")
             base = self.of(relative, self.elements[relative], (*seen, name))
         return base.then(_pose(pose))
@@ -121,15 +120,13 @@ def _piece(link: Element, frame: Frame, craft: Craft) -> Piece:
     inertial = link.one("inertial")
     if inertial is not None and inertial.attributes.get("auto") in ("true", "1"):
         raise inertial.fault(f"link {link.name}: auto finds mass and moments from shapes, which are not "
-                             f"read: write <mass> "
-                             "and <inertia>", "auto")
+                             "read: write <mass> and <inertia>", "auto")
     inertia = inertial.one("inertia") if inertial else None
     missing = [key for key in ("mass",) if inertial is None or inertial.one(key) is None]
     missing += [key for key in ("ixx", "iyy", "izz") if inertia is None or inertia.one(key) is None]
     if missing:
         craft.caveats.append(f"the imported file does not give {', '.join(missing)} of link {link.name}: "
-                             f"SDFormat takes 1 "
-                             "kg, and 1 kg m^2")
+                             "SDFormat takes 1 kg, and 1 kg m^2")
     mass = _number(inertial, "mass", "1")
     tensor = tensor_of([_number(inertia, key, default) for key, default in ENTRIES.items()])
     centre = frame.then(_pose(inertial.one("pose") if inertial else None))
@@ -150,13 +147,12 @@ def _judge_tied(model: Element, links: dict[str, Element], joints: list[Element]
             name = _text(joint, tag, "")
             if name not in links and not (tag == "parent" and name == "world"):
                 raise joint.fault(f"joint {joint.name}: no link {name or 'is named'}: expected one of the "
-                                  f"links", tag)
+                                  "links", tag)
             ends.append(name)
         if ends[0] in groups:
             union = groups[ends[0]] | groups[ends[1]]
             groups |= dict.fromkeys(union, union)
     apart = [name for name in links if name not in groups[next(iter(links))]]
     if apart and body is None:
-        raise links[apart[0]].fault(f"no joint ties link {apart[0]} to link {next(iter(links))}: they are "
-                                    f"no rigid body; "
-                                    "--body NAME takes one link alone")
+        raise links[apart[0]].fault(f"no joint ties link {apart[0]} to link {next(iter(links))}: they are no "
+                                    "rigid body; --body NAME takes one link alone")

@@ -19,8 +19,8 @@ from ..write import text_of
 
 
 class Column(NamedTuple):
-    """key: of the case, with the index of its component; unit: as the head has it; at: its number in a "
-      "row."""
+    """key: of the case, with the index of its component; unit: as the head has it; at: its number in a
+    row."""
 
     key: str
     component: int
@@ -99,14 +99,14 @@ def _columns(head: list[str], line: int, path: Path) -> tuple[list[Column], int 
             columns.append(column)
     given = {(column.key, column.component) for column in columns}
     missing = [f"I{axes} [kg "
-               f"m^2]" for axes, n in list(PLACES.items())[:3] if ("body.inertia", n) not in given]
+               "m^2]" for axes, n in list(PLACES.items())[:3] if ("body.inertia", n) not in given]
     if missing:
         raise _fault(path, line, "", f"the head has no {', '.join(missing)}: add the moments of inertia")
     for key, _, _, example in VECTORS:
         parts = [n for n in range(3) if (key, n) in given]
         if parts and len(parts) < 3:
-            raise _fault(path, line, key, f"expected three components, such as {example} and the others, "
-                                          f"got {len(parts)}")
+            raise _fault(path, line, key, f"expected three components, such as {example} and the others, got "
+                                          f"{len(parts)}")
     return columns, named, left
 
 
@@ -131,7 +131,7 @@ def _column(name: str, unit: str, at: int, cell: str, line: int, path: Path) -> 
         in_dimension(unit, dimension)
     except InputError as error:
         raise _fault(path, line, cell, f"{error}; write the unit behind the name, as in Ixx [kg m^2], wx "
-                                       f"[deg/s]") from None
+                                       "[deg/s]") from None
     return Column(key, index, unit, at, cell)
 
 

@@ -27,8 +27,8 @@ ENTRIES = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 
 
 def read(text: str, path: Path, body: str | None = None) -> Craft:
-    """What the description says. Raises InputError where no link has an inertial, or links are not one "
-      "tree."""
+    """What the description says. Raises InputError where no link has an inertial, or links are not one
+    tree."""
     root = tree(text, path)
     if any(element.tag in ("macro", "property", "include", "arg") for element in root.children):
         raise root.fault("this is a xacro file, whose macros are not read: `xacro FILE > robot.urdf` writes "
@@ -40,8 +40,7 @@ def read(text: str, path: Path, body: str | None = None) -> Craft:
         links[link.name] = link
     if not any(link.one("inertial") for link in links.values()):
         raise root.fault("no link has an <inertial>, and without mass and moments no motion can be found: "
-                         "add "
-                         "<inertial><mass value=\"...\"/><inertia ixx=\"...\" .../></inertial> to a link")
+                         'add <inertial><mass value="..."/><inertia ixx="..." .../></inertial> to a link')
     joints = [*root.all("joint")]
     frames, locked, free = _placed(root, links, joints)
     pieces = [_piece(link, frames[name]) for name, link in links.items() if name in frames]
@@ -49,8 +48,7 @@ def read(text: str, path: Path, body: str | None = None) -> Craft:
     for joint, below in free:
         if heavy & below and heavy - below and body is None:
             raise joint.fault(f"{joint.name} lets links with mass move freely of each other: they are no "
-                              f"rigid body; "
-                              "--body NAME takes one link alone")
+                              "rigid body; --body NAME takes one link alone")
     craft = Craft(root.name or "robot")
     unread(craft, root, set(), WORDS)
     return combined(craft, pieces, Frame(), "link", locked, body, path)
@@ -70,7 +68,7 @@ def _placed(root: Element, links: dict[str, Element], joints: list[Element]
             name = end.attributes.get("link", "") if end else ""
             if name not in links:
                 raise (end or joint).fault(f"joint {joint.name}: no link {name or 'is named'}: expected one "
-                                           f"of the links",
+                                           "of the links",
                                            "link")
             ends.append(name)
         if ends[1] in parents:
@@ -79,8 +77,7 @@ def _placed(root: Element, links: dict[str, Element], joints: list[Element]
     roots = [name for name in links if name not in parents]
     if len(roots) != 1:
         raise root.fault(f"expected one link that is no child of a joint, got {', '.join(roots) or 'none'}: "
-                         f"tie the "
-                         "links by joints")
+                         "tie the links by joints")
     frames = {roots[0]: Frame()}
     for name in links:
         chain = []

@@ -57,8 +57,7 @@ def case_text(craft: Craft, path, stuck=()) -> str:
         if name not in names:
             raise InputError(
                 f"--stuck {printable(name)}: no such thruster{' or maneuver' * bool(craft.torques)}; the "
-                f"file has "
-                f"{', '.join(map(printable, names)) or 'none that can be used'}")
+                f"file has {', '.join(map(printable, names)) or 'none that can be used'}")
     lines = [f"title = {_text(craft.title)}",
              f"source = {_text('imported from ' + os.path.basename(os.fspath(path)))}"]
     caveats = [*craft.caveats, *(t["caveat"] for t in craft.torques if t["name"] not in stuck)]

@@ -93,5 +93,4 @@ def add_orbit(craft: Craft, path: Any, to_body: np.ndarray) -> None:
     craft.rate = [f"{float(a + b):.12g}" for a, b in zip(supplied, turning)]
     craft.altitude = altitude
     craft.said.append("the angular velocity relative to the orbit frame becomes that relative to inertial "
-                      "space on "
-                      f"the circular orbit of {altitude} km beside it")
+                      f"space on the circular orbit of {altitude} km beside it")

@@ -47,9 +47,8 @@ def piece(name: str, mass: str, tensor: np.ndarray, frame: Frame, own: Frame, in
     empty = not kilograms and not tensor.any()
     if kilograms < 0 or not (empty or kilograms and is_positive(tensor)):
         raise inertia.fault(f"{name}: no body has a mass of {mass} kg with these moments: expected a "
-                            f"positive mass, "
-                            "and moments of inertia about the mass centre in kg m^2 that are positive along "
-                            "all axes")
+                            "positive mass, and moments of inertia about the mass centre in kg m^2 that are "
+                            "positive along all axes")
     return Piece(name, Part(kilograms, tensor, ORIGIN, ORIGIN), frame, own)
 
 
@@ -77,12 +76,11 @@ def combined(craft: Craft, pieces: Sequence[Piece], root: Frame, kind: str, lock
     craft.centre = decimals(whole.centre)
     if len(heavy) > 1:
         craft.said.append(f"{len(heavy)} {'bodies' if kind == 'body' else kind + 's'} are joined into one "
-                          f"rigid body "
-                          f"about their common mass centre: {_names(heavy)} (--body NAME takes one alone)")
+                          f"rigid body about their common mass centre: {_names(heavy)} (--body NAME takes "
+                          "one alone)")
     if locked and len(heavy) > 1:
-        craft.caveats.append(f"of one rigid body, with the joints of the imported file locked in the "
-                             f"position that it "
-                             f"gives: {_list(locked)}")
+        craft.caveats.append("of one rigid body, with the joints of the imported file locked in the position "
+                             f"that it gives: {_list(locked)}")
     empty = [item.name for item in pieces if not item.part.mass]
     if empty and body is None:
         craft.said.append(f"without mass, and left out: {_list(empty)}")

@@ -34,7 +34,7 @@ class Element:
         first, *others = [*self.all(tag)] or [None]
         if others:
             raise others[0].fault(f"a second <{tag}> in <{self.tag}>; the first is in line {first.line}: "
-                                  f"keep one")
+                                  "keep one")
         return first
 
     def within(self) -> Iterator[Element]:
@@ -102,8 +102,7 @@ def tree(text: str, path: Path) -> Element:
 
     def document_type(*_: object) -> None:
         raise InputError(f"{printable(str(path))}:{parser.CurrentLineNumber}: a document type (<!DOCTYPE "
-                         f"...>) is "
-                         "not read, as its entities may stand for anything: take it away")
+                         "...>) is not read, as its entities may stand for anything: take it away")
 
     parser.buffer_text = True
     parser.StartElementHandler, parser.EndElementHandler = start, end
@@ -113,6 +112,5 @@ def tree(text: str, path: Path) -> Element:
     except expat.ExpatError as error:
         words = expat.ErrorString(error.code)
         raise InputError(f"{printable(str(path))}:{error.lineno}: this is not well-formed XML ({words}): "
-                         f"correct it "
-                         "there, or write the file anew with the program that made it") from None
+                         "correct it there, or write the file anew with the program that made it") from None
     return stack[0].children[0]

@@ -1,5 +1,5 @@
-"""A run as a CCSDS attitude ephemeris message (AEM, 504.0-B-2, KVN): quaternion and angular velocity over "
-  "time.
+"""A run as a CCSDS attitude ephemeris message (AEM, 504.0-B-2, KVN): quaternion and angular velocity
+over time.
 
 The quaternion leads from inertial space (REF_FRAME_A) to the body (REF_FRAME_B), its scalar last; the
 angular velocity is along the axes of the body, deg/s. Both are those of the frame of the file, also where its
@@ -28,11 +28,10 @@ INERTIAL, BODY = "EME2000", "SC_BODY_1"
 def epoch_of(text: str | None) -> tuple[datetime, Fraction]:
     """(whole second, rest of it) of time 0. Raises InputError."""
     if text is None:
-        raise InputError("--epoch: an attitude ephemeris has dates: give that of time 0, as in "
-                         "--epoch 2026-01-01T00:00:00")
+        raise InputError("--epoch: an attitude ephemeris has dates: give that of time 0, as in --epoch "
+                         "2026-01-01T00:00:00")
     if not EPOCH.fullmatch(text):
-        raise InputError(f"--epoch: expected a date such as 2026-01-01T00:00:00 or 2026-01-01T00:00:00.5, "
-                         f"got "
+        raise InputError("--epoch: expected a date such as 2026-01-01T00:00:00 or 2026-01-01T00:00:00.5, got "
                          f"{printable(text)[:40]}")
     whole, _, rest = text.partition(".")
     try:
@@ -55,8 +54,7 @@ def message(case: Case, run: Simulation, epoch: tuple[datetime, Fraction]) -> st
     dates = [_date(epoch, float(t)) for t in run.t]
     if any(second <= first for first, second in zip(dates, dates[1:])) or len(dates) < 2:
         raise InputError("an attitude ephemeris has two times or more, each later than the one before by a "
-                         "nanosecond: "
-                         "give others by --at")
+                         "nanosecond: give others by --at")
     quaternions, rates = in_the_file(case, run.state["quaternion"], run.state["omega"])
     name = re.sub(r"\s+", " ", printable(case.title)).strip() or case.name
     today = datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%S")
@@ -75,9 +73,8 @@ def message(case: Case, run: Simulation, epoch: tuple[datetime, Fraction]) -> st
 
 def in_the_file(case: Case, quaternions: ArrayLike,
                 rates: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
-    """Quaternions (n, 4) from body to space, scalar last, and rates (n, 3) along the principal axes as "
-      "those of
-    the frame of the file."""
+    """Quaternions (n, 4) from body to space, scalar last, and rates (n, 3) along the principal axes as
+    those of the frame of the file."""
     quaternions, rates = np.asarray(quaternions, float), np.asarray(rates, float)
     axes = oblique(case.frame)
     if axes is None:

@@ -181,10 +181,10 @@ def checked(path: Path) -> Path:
 
 
 def write(case: Case, run: Simulation, path: Path, epoch: Any = None) -> Path:
-    """Write a run of a case to `path` (.nc, .csv or .aem), whole or not at all. epoch: as of "
-      "`aem.epoch_of`. Of a full tensor NetCDF has the
-    vectors of the body in the frame of the file, named x, y, z, the principal axes as an attribute, and those
-    along them as omega_principal and so on; CSV has both beside each other."""
+    """Write a run of a case to `path` (.nc, .csv or .aem), whole or not at all. epoch: as of
+    `aem.epoch_of`. Of a full tensor NetCDF has the vectors of the body in the frame of the file, named x, y,
+    z, the principal axes as an attribute, and those along them as omega_principal and so on; CSV has both
+    beside each other."""
     path = checked(path)
     if endings.ending(path) == ".aem":
         return write_text(path, message(case, run, epoch))
