@@ -7,7 +7,6 @@ tensor is not diagonal.
 """
 from __future__ import annotations
 
-import math
 import re
 from datetime import UTC, datetime, timedelta
 from fractions import Fraction
@@ -19,10 +18,12 @@ from ...answers.simulate import Simulation
 from ...case.read import Case
 from ...errors import InputError, printable
 from ...numbers.principal import oblique
+from ..results import matrix_of, turned_to_file
 
 DIGITS = 9  # of a second
 EPOCH = re.compile(r"\d{4}-\d{2}-\d{2}T\d{2}:\d{2}:\d{2}(\.\d{1,9})?")
 INERTIAL, BODY = "EME2000", "SC_BODY_1"
+CONJUGATE = np.array([-1.0, -1.0, -1.0, 1.0])
 
 
 def epoch_of(text: str | None) -> tuple[datetime, Fraction]:
@@ -79,34 +80,9 @@ def in_the_file(case: Case, quaternions: ArrayLike,
     axes = oblique(case.frame)
     if axes is None:
         return quaternions, rates
-    rows = np.array([[float(v) for v in axis] for axis in axes.axes])  # of the principal axes in the file
-    turn = np.array(_quaternion(rows))  # takes the file's components to those along principal axes
-    result = _product(quaternions, turn)
+    rows = matrix_of(axes)
+    turned = turned_to_file("quaternion", quaternions, rows)
     start = case.blocks.get("attitude")
     if start is None or tuple(start) == (0.0, 0.0, 0.0, 1.0):  # none is given: the file's axes are space's
-        result = _product(turn * [-1, -1, -1, 1], result)
-    return result, rates @ rows
-
-
-def _product(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """The rotation `second`, then `first`, of quaternions (..., 4), scalar last."""
-    a, b, c, d = np.moveaxis(first, -1, 0)
-    x, y, z, w = np.moveaxis(second, -1, 0)
-    return np.stack([d*x + a*w + b*z - c*y, d*y - a*z + b*w + c*x, d*z + a*y - b*x + c*w,
-                     d*w - a*x - b*y - c*z], axis=-1)
-
-
-def _quaternion(matrix: np.ndarray) -> tuple[float, float, float, float]:
-    """(x, y, z, w) of a rotation matrix, from its largest component (Shepperd)."""
-    m, squares = matrix, np.array([*np.diag(matrix), np.trace(matrix)])
-    n = int(np.argmax(squares))
-    if n == 3:
-        w = math.sqrt(1 + squares[3]) / 2
-        x, y, z = m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]
-        return x / (4 * w), y / (4 * w), z / (4 * w), w
-    i, j, k = n, (n + 1) % 3, (n + 2) % 3
-    result = [0.0] * 4
-    result[i] = math.sqrt(1 + m[i, i] - m[j, j] - m[k, k]) / 2
-    result[j], result[k] = ((m[i, j] + m[j, i]) / (4 * result[i]), (m[i, k] + m[k, i]) / (4 * result[i]))
-    result[3] = (m[k, j] - m[j, k]) / (4 * result[i])
-    return result[0], result[1], result[2], result[3]
+        turned = CONJUGATE * turned_to_file("quaternion", CONJUGATE * turned, rows)
+    return turned, turned_to_file("omega", rates, rows)
