@@ -577,6 +577,11 @@ def _physical(top: Table, craft: _Craft,
         top.fault(f"added up along principal axes, {error}",
                   next(key for key in ("thrusters", "wheels", "effects") if key in top))
         return None, None, frame
+    refused = [(effect, why) for effect in full if (why := effect.refused_by(body))]
+    for effect, why in refused:
+        top.fault(why, "effects", effect.name, effect.keys[0])
+    if refused:
+        return None, None, frame
     torque = (top.data.get("effects", {}).get("constant_torque") if isinstance(top.data.get("effects"), dict)
               else None)
     if not isinstance(torque, dict):  # absent, or no table, which is noted already

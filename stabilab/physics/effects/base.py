@@ -11,7 +11,7 @@ from dataclasses import dataclass, fields
 from fractions import Fraction
 from typing import Any, ClassVar
 
-from ...errors import Caveat
+from ...errors import Caveat, InputError
 from ...numbers.principal import PrincipalAxes
 from ...numbers.vectors import Number, Triple
 from ...reasons import Reason
@@ -39,6 +39,15 @@ class Limit:
     follows: Reason | str
     source: str
     needs: str = "a part of the state"
+
+
+def of_a_damper(name: str, value: Fraction, zero: bool = False) -> float:
+    """A number of a damper as a double. zero: whether it may be zero. Raises InputError for any other."""
+    if value < 0 or not value and not zero:
+        wanted = "no negative" if zero else "a positive"
+        raise InputError(f"{name}: expected {wanted} number, got {float(value):g}; a body without a damper "
+                         "is given without this effect")
+    return float(value)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from ...numbers.exact import floats, unit_vector
 from ...numbers.principal import PrincipalAxes
 from ...numbers.units import LENGTH, MASS, MASS_FLOW, NONE, STIFFNESS, in_si, vector_in_si
 from ...numbers.vectors import Exact3, Given, Number, Triple, cross, dot
-from .base import Effect, Part
+from .base import Effect, Part, of_a_damper
 
 if TYPE_CHECKING:
     from types import SimpleNamespace
@@ -68,10 +68,7 @@ class DamperMass(Effect):
         given = (in_si(self.mass, MASS, "mass"), in_si(self.stiffness, STIFFNESS, "stiffness"),
                  in_si(self.coefficient, MASS_FLOW, "coefficient"))
         for name, value in zip(("mass", "stiffness", "coefficient"), given):
-            if value < 0 or not value and name != "stiffness":
-                raise InputError(f"{name}: expected a positive number, got {float(value):g}; a body without "
-                                 "a damper is given without this effect")
-            object.__setattr__(self, name, float(value))
+            object.__setattr__(self, name, of_a_damper(name, value, zero=name == "stiffness"))
         place, line = vector_in_si(self.place, LENGTH, "place"), vector_in_si(self.line, NONE, "line")
         if not any(line):
             raise InputError("line: expected a direction, got zero: give a vector of any length but that")
@@ -91,7 +88,8 @@ class DamperMass(Effect):
     def from_case(cls, table: Any, context: Any) -> DamperMass | None:
         complete = table.required(*cls.keys)
         mass, coefficient = table.positive("mass"), table.positive("coefficient")
-        stiffness, place, line = table.number("stiffness"), table.vector("place"), table.vector("line")
+        stiffness = table.positive("stiffness", zero=True)
+        place, line = table.vector("place"), table.vector("line")
         if None in (mass, coefficient, stiffness, place, line) or not complete:
             return None
         if not any(line):
@@ -101,11 +99,7 @@ class DamperMass(Effect):
             if not context.stand_in:
                 table.fault("a mass that moves in the body moves the rest: give body.mass, of the whole")
             return None
-        built = cls(mass, place, line, stiffness, coefficient, context.body.mass)
-        if not context.stand_in and (why := built.refused_by(context.body)):
-            table.fault(why, "mass")
-            return None
-        return built
+        return cls(mass, place, line, stiffness, coefficient, context.body.mass)
 
     def terms(self) -> dict[str, Any]:
         return {"movers": (self,)}

@@ -11,7 +11,7 @@ from ...numbers.exact import floats, unit_vector
 from ...numbers.principal import PrincipalAxes
 from ...numbers.units import INERTIA, MOMENTUM, NONE, in_si, vector_in_si
 from ...numbers.vectors import Exact3, Given, Number, Triple, cross, dot
-from .base import Effect, Part
+from .base import Effect, Part, of_a_damper
 
 if TYPE_CHECKING:
     from types import SimpleNamespace
@@ -58,10 +58,7 @@ class DamperWheel(Effect):
     def __post_init__(self) -> None:
         numbers = in_si(self.inertia, INERTIA, "inertia"), in_si(self.coefficient, MOMENTUM, "coefficient")
         for name, value in zip(self.keys, numbers):
-            if value <= 0:
-                raise InputError(f"{name}: expected a positive number, got {float(value):g}; a body without "
-                                 "a damper is given without this effect")
-            object.__setattr__(self, name, float(value))
+            object.__setattr__(self, name, of_a_damper(name, value))
         axis = vector_in_si(self.axis, NONE, "axis")
         if not any(axis):
             raise InputError("axis: expected a direction, got zero: give a vector of any length but that")

@@ -6,10 +6,9 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from ...errors import InputError
 from ...numbers.units import INERTIA, MOMENTUM, in_si
 from ...numbers.vectors import Given, Number, Triple, cross, dot
-from .base import Effect, Part
+from .base import Effect, Part, of_a_damper
 
 if TYPE_CHECKING:
     from types import SimpleNamespace
@@ -52,10 +51,7 @@ class ViscousDamper(Effect):
     def __post_init__(self) -> None:
         exact = in_si(self.inertia, INERTIA, "inertia"), in_si(self.coefficient, MOMENTUM, "coefficient")
         for name, value in zip(self.keys, exact):
-            if value <= 0:
-                raise InputError(f"{name}: expected a positive number, got {float(value):g}; a body without "
-                                 "a damper is given without this effect")
-            object.__setattr__(self, name, float(value))
+            object.__setattr__(self, name, of_a_damper(name, value))
         object.__setattr__(self, "exact", exact)
 
     @classmethod
@@ -64,11 +60,7 @@ class ViscousDamper(Effect):
         inertia, coefficient = table.positive("inertia"), table.positive("coefficient")
         if inertia is None or coefficient is None or not complete:
             return None
-        built = cls(inertia, coefficient)
-        if not context.stand_in and (why := built.refused_by(context.body)):
-            table.fault(why, "inertia")
-            return None
-        return built
+        return cls(inertia, coefficient)
 
     def terms(self) -> dict[str, Any]:
         return dict(zip(("inside", "friction"), self.exact))

@@ -138,3 +138,15 @@ def test_absent_is_free_and_faults_say_what_to_do(tmp_path):
     assert load(stabilab.case.write.data_of_scene(case.scene, {"omega": case.state, **case.blocks})).start == case.start
     with pytest.raises(InputError, match="no damper wheel is in this body"):
         load(text.replace("[effects.damper_wheel]\ninertia = 0.1\ncoefficient = 0.2\naxis = [0, 0, 1]\n", ""))
+
+
+@pytest.mark.parametrize("moments, share", [("[3, 2, 1.5]", 1.5), ("[[2, 0, 1], [0, 2, 0], [1, 0, 2]]", 1.5)])
+def test_a_wheel_that_the_body_cannot_hold_is_one_fault_of_its_line(moments, share):
+    """By hand: about e3 the limit is 1/(e3 . D^-1 e3); of the second tensor D^-1 has 2/3 there."""
+    text = (f"[body]\ninertia = {moments}\n[effects.damper_wheel]\ncoefficient = 1\naxis = [0, 0, 1]\n"
+            "inertia = {}\n[motion]\nangular_velocity = [0.1, 0.02, 1]\n")
+    load(text.format(share - 0.01))
+    with pytest.raises(InputError, match=f"must be smaller than {share}, ") as error:
+        load(text.format(share + 0.01))
+    (problem,) = error.value.problems
+    assert (problem.line, problem.key) == (6, "effects.damper_wheel.inertia")
