@@ -75,11 +75,12 @@ def _form(state: tuple[Symbolic, ...], resolved: Known, expressions: tuple[Symbo
     numbers_of = dict(resolved)
     symbols: list[Symbolic] = []
     numbers: list[float] = []
+    named: dict[Symbolic, Symbolic] = {}
     result = []
     for expression in expressions:
         terms = _terms(expression, state, resolved)
         if terms is None:
-            result.append(_unstructured(expression, numbers_of, symbols, numbers))
+            result.append(_unstructured(expression, numbers_of, named, symbols, numbers))
             continue
         full = _whole(expression, state, tuple(numbers_of)) if any(c.is_Integer for _, c in terms) else {}
         total = expression * 0
@@ -119,13 +120,15 @@ def _monomial(state: Sequence[Symbolic], powers: Sequence[int]) -> Symbolic:
     return prod(x**n for x, n in zip(state, powers))
 
 
-def _unstructured(expression: Symbolic, resolved: dict[Symbolic, Symbolic], symbols: list[Symbolic],
-                  numbers: list[float]) -> Symbolic:
+def _unstructured(expression: Symbolic, resolved: dict[Symbolic, Symbolic],
+                  named: dict[Symbolic, Symbolic], symbols: list[Symbolic], numbers: list[float]) -> Symbolic:
     """An expression that is no polynomial in the state: every parameter and every ratio in it becomes a
-    number."""
+    number. named: parameter -> the number that it has in the expressions before, and so in this one: what
+    they have in common is formed once."""
     from sympy import Float, Rational
-    swap = {p: _numbered(_rounded(v), symbols, numbers) for p, v in resolved.items() if expression.has(p)}
-    swapped = expression.xreplace(swap)  # each for itself: a search for what it may stand in takes seconds
+    for p in (p for p in resolved if p in expression.free_symbols and p not in named):
+        named[p] = _numbered(_rounded(resolved[p]), symbols, numbers)
+    swapped = expression.xreplace(named)  # each for itself: a search for what it may stand in takes seconds
     return swapped.xreplace({r: Float(r, 17) for r in swapped.atoms(Rational) if not r.is_Integer})
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
+from stabilab import Body, ConstantTorque, DamperMass, Gyrostat, ScaledGyrostat, Scene
 from stabilab.errors import InputError
 from stabilab.physics.effects.body_force import BodyForce
 from stabilab.physics.effects.charge import Charge
@@ -17,7 +17,7 @@ from stabilab.physics.effects.gravity import Gravity
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.equations import derive, invariants
-from stabilab.physics.to_numpy import to_numpy
+from stabilab.physics.to_numpy import form, to_numpy
 from stabilab.show.text.scene import latex, lines
 
 BODY = Body((2000, "1500.5", 1000))
@@ -210,3 +210,13 @@ def test_a_scene_is_hashed_once_and_as_an_equal_one_in_any_process():
     sent = pickle.loads(pickle.dumps(plain))
     assert "_hash" not in vars(sent) and sent == plain and hash(sent) == hash(plain)
     assert copy.copy(plain) == plain
+
+
+def test_a_parameter_is_one_number_in_all_rates_so_that_what_they_share_is_formed_once():
+    """Beside a mass on a line the rates have one divisor, the determinant, and are no polynomials: all parameters
+    of the file are numbers, and shared terms are found only where these are the same in every rate."""
+    equations = derive(Scene(Body((3, 2, 2), 10), DamperMass("0.1", (0.2, 0.1, 0.05), (1, 1, 2), 2, "0.3", 10)))
+    rates = form(equations, equations.rhs)
+    assert len(rates.symbols) == len(equations.parameters) == 12
+    shared, rest = sp.cse(rates.expressions)
+    assert sum(map(sp.count_ops, (*(e for _, e in shared), *rest))) < 0.05 * sum(map(sp.count_ops, rates.expressions))
