@@ -103,7 +103,11 @@ def _normal(text: str, result: re.Match[str], wanted: Dimension) -> Stated:
     if states_uncertainty(mean) or not split(mean) or not size.strip() or not count:
         raise InputError('expected a mean and its standard deviation such as "2 N, sigma 5 %" or "2 N, sigma '
                          f'0.1 N", got "{text[:60]}"')
-    middle, deviation, sharp = plus_minus(f"{mean} +- {size}", wanted)
+    joined = f"{mean} +- {size}"
+    try:
+        middle, deviation, sharp = plus_minus(joined, wanted)
+    except InputError as error:  # with what the file says
+        raise InputError(str(error).replace(joined[:60], text[:60])) from None
     if not deviation:
         raise InputError(f'sigma is above zero; of a number that is certain write "{mean.strip()[:40]}"')
     sigma = deviation / count

@@ -41,7 +41,7 @@ EXAMPLES = {
     "rate_damper": (((("0.03", "0.01", "0.01"), ("0.01", "0.02", "0.01"), ("0.01", "0.01", "0.03")),), (0,)),
     "eddy_currents": (("0.01", "2"), (0, 2)),
     "wheel_motor": ((("0.02", "0.01", "0.03"),), ((0, 0, 0),)),
-    # a damper without strength is refused; the mass comes last, for what is solved beside it compiles for long
+    # a damper without strength is refused; the mass comes last, as what is solved beside it compiles for long
     "damper_wheel": (("0.1", "0.05", (1, 2, 2)), None), "viscous_damper": (("0.1", "0.05"), None),
     "damper_mass": (("0.1", ("0.2", "0.1", "0.05"), (1, 1, 2), 2, "0.3", 10), None)}
 NOTHING = "body alone"

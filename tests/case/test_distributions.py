@@ -32,7 +32,7 @@ def test_a_number_is_read_with_its_distribution(text, middle, half, law, sigma):
 
 @pytest.mark.parametrize("text, cure", [
     ("2 +- 0.1, sigma 0.2", "a mean and its standard deviation"), ("2, sigma", "a mean and its standard"),
-    ("2, sigma 0", "sigma is above zero"), ("2, sigma -1", "half-width and not negative"),
+    ("2, sigma 0", "sigma is above zero"), ("2, sigma -1", 'half-width and not negative, got "2, sigma -1"'),
     ("3 to 2, uniform", "the lower end first"), ("2, uniform", "a number and its uncertainty"),
     ("2, sigma 1 kg", "expected force"), ("0, sigma 5 %", "a percentage of zero")])
 def test_what_is_no_distribution_is_refused_with_a_cure(text, cure):
