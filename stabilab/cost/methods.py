@@ -27,6 +27,7 @@ from ..integrate.to_heyoka import (
     heyoka,
     heyoka_available,
     heyoka_form,
+    in_loops,
     taylor_events,
     to_taylor,
 )
@@ -152,7 +153,7 @@ def _batch(task: Problem, tolerance: float):
     variables, expressions = heyoka_form(rates.state, rates.symbols, rates.expressions)
     spread = task.start[:, None] * (1 + NUDGE * np.arange(LANES))
     integrator = heyoka().taylor_adaptive_batch(list(zip(variables, expressions)), spread.copy(),
-                                                tol=tolerance,
+                                                tol=tolerance, compact_mode=in_loops(rates.expressions),
                                               pars=np.repeat(np.array(rates.numbers)[:, None], LANES, axis=1))
 
     def run(times: np.ndarray):

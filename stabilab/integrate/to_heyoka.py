@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import lru_cache, reduce
@@ -152,6 +152,20 @@ def _from_sympy(expression: Expr, swap: dict[Expr, Any]):
     return heyoka().from_sympy(expression.xreplace(high), swap | products)
 
 
+LARGE = 500  # different subexpressions, from which on straight code takes ten seconds and more to compile
+
+
+def in_loops(expressions: Iterable[Expr]) -> bool:
+    """Whether heyoka is to compile the series in loops (its compact mode), not as straight code: of many
+    operations that takes under a second in place of a minute, and the steps are as fast."""
+    seen, left = set(), list(expressions)
+    while left:
+        if (item := left.pop()) not in seen:
+            seen.add(item)
+            left.extend(item.args)
+    return len(seen) > LARGE
+
+
 @lru_cache(maxsize=64)
 def _integrator(structure: Structure, tolerance: float, lanes: int = 0):
     n, count = len(structure.state), len(structure.expressions)
@@ -161,7 +175,8 @@ def _integrator(structure: Structure, tolerance: float, lanes: int = 0):
     rates[n:] = [FEATHER * r for r in rates[n:]]
     make, shape = (heyoka().taylor_adaptive_batch, (lanes,)) if lanes else (heyoka().taylor_adaptive, ())
     return make(list(zip([*variables, *extra], rates)), np.zeros((count, *shape)),
-                pars=np.zeros((len(structure.symbols), *shape)), tol=tolerance)
+                pars=np.zeros((len(structure.symbols), *shape)), tol=tolerance,
+                compact_mode=in_loops(structure.expressions))
 
 
 @contextmanager
@@ -186,5 +201,5 @@ def _event_integrator(structure: Structure, tolerance: float):
     events = [heyoka().nt_event(e, _Note(i, recorder, n)) for i, e in enumerate(everything[n:])
               if structure.expressions[n + i].free_symbols & set(structure.state)]
     integrator = heyoka().taylor_adaptive(list(zip(variables, everything[:n])), [0.0] * n, tol=tolerance,
-                                          nt_events=events)
+                                          nt_events=events, compact_mode=in_loops(structure.expressions))
     return integrator, recorder

@@ -13,7 +13,10 @@ from stabilab.integrate import to_heyoka
 from stabilab.integrate import trajectory as trajectories
 from stabilab.integrate.to_heyoka import heyoka_available
 from stabilab.integrate.trajectory import SCIPY_METHODS
+from stabilab.papers.cost_effects import ladder
 from stabilab.physics.effects.base import Effect
+from stabilab.physics.equations import derive
+from stabilab.physics.to_numpy import form
 from tests.oracles import model, taylor
 from tests.shared import SCALED_MINOR
 
@@ -294,3 +297,20 @@ def test_a_second_short_run_reads_no_fractions_and_calls_few_functions():
     finally:
         sys.setprofile(None)
     assert "fractions.py" not in counts and sum(counts.values()) < 200
+
+
+@needs_heyoka
+def test_the_series_of_many_effects_is_compiled_in_loops_and_gives_what_another_method_gives():
+    """DOP853 shares the equations alone. Straight code of these rates took heyoka a minute."""
+    scenes = [scene for _, scene in ladder()]
+    many = next(scene for scene in scenes if to_heyoka.in_loops(rates_of(scene)))
+    assert not to_heyoka.in_loops(rates_of(scenes[scenes.index(many) - 1]))
+    state = derive(many).state
+    start = np.linspace(0.1, 0.4, len(state)) * [str(item) not in ("h1", "h2", "h3") for item in state]
+    one, other = (trajectory(many, start, [0, 0.5, 1.0], method) for method in ("taylor", "DOP853"))
+    np.testing.assert_allclose(one.states, other.states, rtol=1e-9, atol=1e-9)
+
+
+def rates_of(scene):
+    equations = derive(scene)
+    return form(equations, equations.rhs).expressions
