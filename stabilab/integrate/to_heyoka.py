@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..physics.equations import Equations
-from ..physics.to_numpy import Form, Structure, equations_of, form
+from ..physics.to_numpy import Form, Structure, equations_of, extent, form
 
 if TYPE_CHECKING:
     from sympy import Expr
@@ -158,12 +158,7 @@ LARGE = 500  # different subexpressions, from which on straight code takes ten s
 def in_loops(expressions: Iterable[Expr]) -> bool:
     """Whether heyoka is to compile the series in loops (its compact mode), not as straight code: of many
     operations that takes under a second in place of a minute, and the steps are as fast."""
-    seen, left = set(), list(expressions)
-    while left:
-        if (item := left.pop()) not in seen:
-            seen.add(item)
-            left.extend(item.args)
-    return len(seen) > LARGE
+    return extent(expressions)[1] > LARGE
 
 
 @lru_cache(maxsize=64)

@@ -251,7 +251,22 @@ def equations_of(equations_or_scene: Equations | AnyScene) -> Equations:
 
 @lru_cache(maxsize=256)
 def _function(arguments: tuple[Symbolic, ...], expressions: tuple[Symbolic, ...]) -> Callable[..., Any]:
-    return lambdified(arguments, list(expressions))
+    written, different = extent(expressions)
+    return lambdified(arguments, list(expressions), cse=written > REPEATED * different)
+
+
+REPEATED = 4  # times that an expression stands in others on average: then it is formed once
+
+
+def extent(expressions: Iterable[Symbolic]) -> tuple[int, int]:
+    """(how many subexpressions stand there written out, how many of them differ)."""
+    sizes: dict[Any, int] = {}
+
+    def size(item: Any) -> int:
+        if item not in sizes:
+            sizes[item] = 1 + sum(map(size, item.args))
+        return sizes[item]
+    return sum(map(size, expressions)), len(sizes)
 
 
 def lambdified(arguments: Sequence[Symbolic], expressions: Sequence[Symbolic],
