@@ -222,12 +222,11 @@ def _blocks(scene: AnyScene, states: States) -> Blocks:
 
 def _components(values: np.ndarray | Sequence[float]) -> tuple[Number, ...]:
     """Floats of one state; arrays of several."""
-    try:
+    if not any(hasattr(item, "__len__") for item in values[:1]):  # not by float(), which takes rows of one
         return tuple(map(float, values))
-    except TypeError:
-        import numpy as np
-        array = np.asarray(values, float)
-        return tuple(array[..., i] for i in range(array.shape[-1]))
+    import numpy as np
+    array = np.asarray(values, float)
+    return tuple(array[..., i] for i in range(array.shape[-1]))
 
 
 def _judged(scene: AnyScene, blocks: Blocks, over: Reason | str, axis: int | None) -> Validity | None:

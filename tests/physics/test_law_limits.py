@@ -15,11 +15,13 @@ from stabilab.physics.coefficients import content, liquid_torque
 from stabilab.physics.effects.body_force import BodyForce
 from stabilab.physics.effects.charge import Charge
 from stabilab.physics.effects.constant_torque import ConstantTorque
+from stabilab.physics.effects.damper_wheel import DamperWheel
 from stabilab.physics.effects.gravity import Gravity
 from stabilab.physics.effects.gyrostat import Gyrostat
 from stabilab.physics.effects.liquid_cavity import NEXT_TERM, LiquidCavity, pace
 from stabilab.physics.effects.newtonian_field import NewtonianField
 from stabilab.physics.effects.resistance import Resistance
+from stabilab.physics.law_limits import along
 from stabilab.physics.scene import Body, Scene
 from stabilab.show.text import headline
 from stabilab.theories.follow import follow
@@ -281,3 +283,13 @@ def test_a_law_beside_other_answers_is_judged_along_the_first_turns_of_a_motion_
     assert str(found.over) == "along the first 0.033 s of the run"
     assert found.value == pytest.approx(stabilab.validity(scene, (0, 0, 3e6)).value, rel=1e-9)
     assert "along the run" in headline.of_case(case, (0, 0.01)).words
+
+
+def test_a_block_of_one_component_is_told_from_one_state():
+    """Of a wheel's rates in many states each is a row of one number, which float() takes for a number on old NumPy."""
+    scene = Scene(Body((6000, 5500, 5000)), LiquidCavity.of_sphere(1000, 1, "0.5"), DamperWheel(9, 2, (1, 2, 2)))
+    states = np.array([[0.05, 0.02, 0.01, 0.3], [0.02, 0.07, 0.04, -0.1]])
+    blocks = {"omega": states[:, :3], "damper_wheel": states[:, 3:]}
+    found = along(scene, blocks, "these states")
+    alone = [along(scene, {name: rows[n:n + 1] for name, rows in blocks.items()}, "one") for n in range(2)]
+    assert found.value == max(one.value for one in alone) > 0
