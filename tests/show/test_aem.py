@@ -43,6 +43,24 @@ def test_the_ephemeris_is_the_motion_in_the_frame_of_the_file(case_file, tmp_pat
     assert off.magnitude() == pytest.approx(0, abs=1e-9) and table[:, 4:] == pytest.approx(np.degrees(y[:3].T), abs=1e-8)
 
 
+def test_the_same_run_gives_the_same_bytes(case_file, tmp_path, stabilab, monkeypatch):
+    """The date of the message is no clock's: that of time 0, which a comment says, or SOURCE_DATE_EPOCH's (1767225600 s is
+    2026-01-01 UTC, by `date -u -d @1767225600`)."""
+    path = case_file(f"[body]\ninertia = [3, 2, 4]\n[motion]\nangular_velocity = {RATES}\n")
+
+    def head(stamp):
+        monkeypatch.setenv("SOURCE_DATE_EPOCH", stamp)
+        code, _, err = stabilab("simulate", path, "--at", "0,5", "--out", tmp_path / "run.aem", "--epoch",
+                                "2030-05-06T07:08:09.5")
+        return (tmp_path / "run.aem").read_text().splitlines()[:3] if not code else err
+    version, comment, date = head("")
+    assert version == "CCSDS_AEM_VERS = 2.0" and comment.startswith("COMMENT CREATION_DATE is the date of time 0")
+    assert date == "CREATION_DATE = 2030-05-06T07:08:09"
+    assert head("1767225600")[1] == "CREATION_DATE = 2026-01-01T00:00:00"
+    for wrong in ("yesterday", "1e9", "9" * 30):
+        assert "SOURCE_DATE_EPOCH (environment): expected whole seconds" in head(wrong)
+
+
 @pytest.mark.parametrize("options, words", [
     (("--out", "run.aem"), "--epoch 2026-01-01T00:00:00"), (("--out", "run.aem", "--epoch", "tomorrow"), "got tomorrow"),
     (("--out", "run.aem", "--epoch", "2026-13-01T00:00:00"), "--epoch 2026-13-01T00:00:00: "),

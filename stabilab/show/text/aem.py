@@ -1,12 +1,17 @@
 """A run as a CCSDS attitude ephemeris message (AEM, 504.0-B-2, KVN): quaternion and angular velocity
 over time.
 
+The same run gives the same bytes: CREATION_DATE is that of the environment's SOURCE_DATE_EPOCH, seconds since
+1970 (https://reproducible-builds.org/specs/source-date-epoch), and else the date of time 0, which a comment
+says.
+
 The quaternion leads from inertial space (REF_FRAME_A) to the body (REF_FRAME_B), its scalar last; the
 angular velocity is along the axes of the body, deg/s. Both are those of the frame of the file, also where its
 tensor is not diagonal.
 """
 from __future__ import annotations
 
+import os
 import re
 from datetime import UTC, datetime, timedelta
 from fractions import Fraction
@@ -50,6 +55,20 @@ def _date(epoch: tuple[datetime, Fraction], t: float) -> str:
         raise InputError(f"--epoch: the time {t:.6g} s after it is beyond the year 9999") from None
 
 
+def creation_date(epoch: tuple[datetime, Fraction]) -> tuple[str, str]:
+    """(date, comment on it or "") of when the message is made, which is not that of the clock. Raises
+    InputError."""
+    text = os.environ.get("SOURCE_DATE_EPOCH", "")
+    if not text:
+        return epoch[0].isoformat(), ("CREATION_DATE is the date of time 0, so that one run gives one "
+                                      "message; SOURCE_DATE_EPOCH sets it")
+    try:
+        return datetime.fromtimestamp(int(text), UTC).strftime("%Y-%m-%dT%H:%M:%S"), ""
+    except (ValueError, OverflowError, OSError):
+        raise InputError("SOURCE_DATE_EPOCH (environment): expected whole seconds since 1970 such as "
+                         f"1767225600, got {printable(text)[:40]}") from None
+
+
 def message(case: Case, run: Simulation, epoch: tuple[datetime, Fraction]) -> str:
     """The message as text. The run has its attitude as quaternions."""
     dates = [_date(epoch, float(t)) for t in run.t]
@@ -58,8 +77,8 @@ def message(case: Case, run: Simulation, epoch: tuple[datetime, Fraction]) -> st
                          "nanosecond: give others by --at")
     quaternions, rates = in_the_file(case, run.state["quaternion"], run.state["omega"])
     name = re.sub(r"\s+", " ", printable(case.title)).strip() or case.name
-    today = datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%S")
-    head = [("CCSDS_AEM_VERS", "2.0"), ("CREATION_DATE", today), ("ORIGINATOR", "STABILAB")]
+    date, remark = creation_date(epoch)
+    head = [("CREATION_DATE", date), ("ORIGINATOR", "STABILAB")]
     meta = [("OBJECT_NAME", name), ("OBJECT_ID", "UNKNOWN"), ("REF_FRAME_A", INERTIAL), ("REF_FRAME_B", BODY),
             ("TIME_SYSTEM", "TAI"), ("START_TIME", dates[0]), ("STOP_TIME", dates[-1]),
             ("ATTITUDE_TYPE", "QUATERNION/ANGVEL"), ("ANGVEL_FRAME", BODY)]
@@ -67,7 +86,8 @@ def message(case: Case, run: Simulation, epoch: tuple[datetime, Fraction]) -> st
     comments = [f"COMMENT {line}" for line in (space, *(item.words for item in case.caveats))]
     lines = [f"{date} {' '.join(f'{v:.16g}' for v in (*q, *np.degrees(w)))}"
              for date, q, w in zip(dates, quaternions, rates)]
-    return "\n".join([*(f"{key} = {value}" for key, value in head), "", "META_START", *comments,
+    return "\n".join(["CCSDS_AEM_VERS = 2.0", *[f"COMMENT {remark}"] * bool(remark),
+                      *(f"{key} = {value}" for key, value in head), "", "META_START", *comments,
                       *(f"{key} = {value}" for key, value in meta), "META_STOP", "", "DATA_START", *lines,
                       "DATA_STOP", ""])
 
