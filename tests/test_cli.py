@@ -490,7 +490,7 @@ def test_every_command_has_help_with_an_example(stabilab):
     commands = [line.split()[0] for line in groups.splitlines() if line.startswith("  ")]
     assert code == 0
     assert set(commands) == {"atlas", "attitude", "audit", "basin", "bifurcation", "burn", "chaos",
-                             "classify", "compare", "doctor", "example", "explore", "extremes", "fate",
+                             "classify", "compare", "doctor", "example", "explore", "export", "extremes", "fate",
                              "figures", "flat-spin", "import", "orbit", "period", "plot", "papers",
                              "precision", "reference", "report", "rerun", "show", "simulate", "stuck",
                              "surface", "sweep", "tables", "validate", "verify", "when"}

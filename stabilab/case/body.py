@@ -85,6 +85,17 @@ def _frame(table: Table) -> PrincipalAxes | None:
     return None if wrong or rows is None else principal_axes(rows, off)
 
 
+def tensor_of(table: Table) -> Sequence[Sequence[Fraction]]:
+    """The tensor of [body] as it is stated, in the frame of the file, kg m^2: of a table without a fault."""
+    if isinstance(table.data["inertia"][0], list):
+        return _tensor(table)[0]
+    return _with_products(table) if "products" in table else _diagonal(table.vector("inertia"))
+
+
+def _diagonal(moments: Sequence[Fraction] | None) -> list[list[Fraction]]:
+    return [[moment * (i == j) for j in range(3)] for i, moment in enumerate(moments or ZERO3)]
+
+
 def _tensor(table: Table):
     """(the 3 x 3 tensor, the mean of two entries that differ by the rounding of doubles; what its digits
     leave open), None where it is at fault."""
@@ -109,7 +120,7 @@ def _with_products(table: Table):
         products.fault(
             f"products of inertia are printed with either sign: add convention = {CONVENTIONS}{came}", *keys)
         return None
-    rows = [[moments[i] if i == j else Fraction(0) for j in range(3)] for i in range(3)]
+    rows = _diagonal(moments)
     for name, (i, j) in PAIRS.items():
         value = products.number(name) if name in products else Fraction(0)
         if value is None:

@@ -1,5 +1,5 @@
-"""More about a case: its equations, its models and methods compared, a case from another program's file;
-cases to begin with, and the state of the machine."""
+"""More about a case: its equations, its models and methods compared, a case from another program's file, and
+for other programs; cases to begin with, and the state of the machine."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -80,6 +80,20 @@ def import_(
     What has no counterpart in a case is listed on stderr. Exits with 2 where the case still has faults.
 
     Example: stabilab import SC_Simple.txt --out simple.toml
+    """
+
+
+@commands.command()
+@opens("one_case.export")
+def export(
+        case: CaseFile, out: Annotated[Path | None, option(
+            "FILE.urdf", "Write the description to a file; with [sweep] a file a combination.")] = None):
+    """Write the body of a case as a robot description (URDF).
+
+    One link, whose inertial has the mass, the centre of mass and the tensor of the file, to the last digit.
+    What it has no place for, such as motion and thrusters, is listed on stderr.
+
+    Example: stabilab export cases/cubesat-3u.toml --out cubesat.urdf
     """
 
 

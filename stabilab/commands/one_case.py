@@ -1,7 +1,7 @@
 """Commands about one case file, and those that compare methods.
 
 `stabilab show`: the equations of a case and the laws that hold; `example`: a case to begin with; `import`:
-another program's spacecraft as a case.
+another program's spacecraft as a case; `export`: the body of a case for other programs.
 
 `stabilab compare` and `precision`: how far analytic models and numerical methods are from the exact
 motion, and at what cost.
@@ -9,10 +9,12 @@ motion, and at what cost.
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from ..answers.motion import Needs
 from ..case.formats import IMPORTERS, importer_of
+from ..case.programs.export_urdf import exported
 from ..case.programs.imported import case_text, faults_of
 from ..case.read import Case
 from ..case.source import EXAMPLES, command_of, source_text
@@ -21,8 +23,8 @@ from ..case.write import data_of
 from ..cost.accuracy import precision as measure
 from ..errors import InputError, printable
 from ..files import write_text
+from ..show import endings, precision_overview
 from ..show import precision as shown
-from ..show import precision_overview
 from ..show.space import natural, seen
 from ..show.terminal import say, tell
 from ..show.text import cost
@@ -32,7 +34,7 @@ from ..theories.follow import models_of
 from ..theories.theory import compare as set_side_by_side
 from .common import load_cases, motion_of, time_asked
 from .runner import View, run
-from .writing import write
+from .writing import write, write_each
 
 COMPARE = View(text=cost.text, data=cost.as_dict, law=lambda case, result: result.validity, files=(".csv",),
                drawn=lambda case, result, units, path: cost.write(case, result, path))
@@ -92,6 +94,26 @@ def _written(text, file, out, stuck, said=(), omitted=()):
     faults = faults_of(text, out or file)
     if faults:
         raise InputError("\n".join(("the case has faults yet:", *faults)))
+
+
+def export(case, out):
+    """Write the body of a case for other programs, of every combination where it has a [sweep]; name what
+    that has no place for."""
+    if out:
+        endings.file(out, (".urdf",))
+    results = exported(str(case))
+    if not out and len(results) > 1:
+        raise InputError(f"{printable(str(case))}: its [sweep] makes {len(results)} cases: give --out "
+                         "FILE.urdf for a file of each")
+    if out:
+        write_each(out, [(item.case, partial(write_text, text=item.text)) for item in results])
+    else:
+        write(results[0].text)
+    for phrase in dict.fromkeys(phrase for item in results for phrase in item.said):
+        say(f"{printable(str(case))}: {printable(phrase)}")
+    left = list(dict.fromkeys(phrase for item in results for phrase in item.left))
+    if left:
+        say(f"{printable(str(case))}: no place for: {', '.join(left)}")
 
 
 def compare(case, order, out, json, strict, units):

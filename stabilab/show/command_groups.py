@@ -33,7 +33,8 @@ GROUPS = {
         "show": "Which equations of motion and first integrals does my case have?",
         "compare": "For how long is an analytic theory close to the exact motion?",
         "precision": "What does accuracy cost?",
-        "import": "How do I import a spacecraft of another program?"}),
+        "import": "How do I import a spacecraft of another program?",
+        "export": "How do I give the body of my case to another program?"}),
     "Many cases at once": ("many_cases", {
         "sweep": "What are the answers over ranges of my numbers?",
         "atlas": "What does a torque do in each direction?",

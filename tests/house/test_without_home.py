@@ -46,7 +46,7 @@ LINES = {
     "tables": ("tables", "--out", "t"),
     "figures": ("figures", "9", "--out", "f"), "rerun": ("rerun", "s"), "doctor": ("doctor",),
     "example": ("example", "phone"),
-    "import": ("import", "body.json"), "explore": ("explore", MINOR, "--static", "x"),
+    "import": ("import", "body.json"), "export": ("export", "burn.toml"), "explore": ("explore", MINOR, "--static", "x"),
     "report": ("report", MINOR, "--out", "r"),
 }
 

@@ -5,7 +5,8 @@ takes the axes of the first to those of the second."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from decimal import Decimal, Inexact, localcontext
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -17,6 +18,7 @@ from ...numbers.exact import half_unit, precise
 ONE = np.array([[Fraction(i == j) for j in range(3)] for i in range(3)])
 # of the largest number of a vector or a tensor: products of decimals and cosines do not end
 TENSOR_DIGITS = 12
+LONGEST = 40  # digits of a decimal that is written whole
 
 
 class Part(NamedTuple):
@@ -106,9 +108,26 @@ def decimals(numbers: Iterable[Fraction]) -> list[str]:
     return [f"{float(round(v, places)) + 0.0:.{TENSOR_DIGITS}g}" for v in numbers]
 
 
-def rows_of(part: Part) -> list:
+def as_given(numbers: Iterable[Fraction]) -> list[str]:
+    """Decimals of a file as they stand there; those of more digits as `decimals` has them."""
+    return [ending_decimal(number) or decimals([number])[0] for number in numbers]
+
+
+def ending_decimal(value: Fraction) -> str | None:
+    """A number as the decimal that it is, None where it ends after more than `LONGEST` digits or never."""
+    with localcontext() as context:
+        context.prec = LONGEST
+        context.traps[Inexact] = True
+        try:
+            number = (Decimal(value.numerator) / Decimal(value.denominator)).normalize()
+        except Inexact:
+            return None
+    return f"{number:f}" if -6 <= number.adjusted() <= 15 else f"{number:e}".replace("e+", "e")
+
+
+def rows_of(part: Part, write: Callable[[Iterable[Fraction]], list[str]] = decimals) -> list:
     """The tensor of a part as a case writes it, or its moments where it is diagonal."""
-    flat = decimals(part.tensor.ravel())
+    flat = write(part.tensor.ravel())
     return flat[::4] if not any(float(flat[i]) for i in (1, 2, 5)) else [flat[i:i + 3] for i in (0, 3, 6)]
 
 

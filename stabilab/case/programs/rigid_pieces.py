@@ -8,7 +8,7 @@ import numpy as np
 
 from ...errors import InputError, printable
 from .imported import Craft
-from .parts import ONE, Part, decimals, full, is_positive, joined, rows_of
+from .parts import ONE, Part, as_given, decimals, full, is_positive, joined, rows_of
 from .xml_tree import Element, fractions
 
 ORIGIN = 0 * ONE[0]
@@ -72,8 +72,10 @@ def combined(craft: Craft, pieces: Sequence[Piece], root: Frame, kind: str, lock
         heavy, root = named, named[0].own
     where = dict(enumerate(item.frame.seen_from(root) for item in heavy))
     whole = joined([item.part for item in heavy], where)  # type: ignore[arg-type]
-    craft.mass, craft.inertia = decimals([whole.mass])[0], rows_of(whole)
-    craft.centre = decimals(whole.centre)
+    # of one body, unturned, the numbers are those of the file
+    write = as_given if len(heavy) == 1 and (where[0].turn == ONE).all() else decimals
+    craft.mass, craft.inertia = write([whole.mass])[0], rows_of(whole, write)
+    craft.centre = write(whole.centre)
     if len(heavy) > 1:
         craft.said.append(f"{len(heavy)} {'bodies' if kind == 'body' else kind + 's'} are joined into one "
                           f"rigid body about their common mass centre: {_names(heavy)} (--body NAME takes "
