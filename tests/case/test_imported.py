@@ -91,9 +91,12 @@ def test_a_quaternion_of_42_turns_as_its_source_says():
     ("LAL", {"Inp_Sim": SIMULATION.replace("SC_Own", "SC_Else"), "Orb_Own": ORBIT}, "names no orbits for it"),
     ("LAL", {"Inp_Sim": SIMULATION}, "Orb_Own.txt is not beside it"),
     ("LAL", {"Inp_Sim": SIMULATION, "Orb_Own": ORBIT.replace("500.0   500.0", "500.0   600.0")},
-     "is not circular"),
-    ("LAL", {"Inp_Sim": SIMULATION, "Orb_Own": ORBIT.replace("PA ", "AE ")}, "is not circular"),
-    ("LAL", {"Inp_Sim": SIMULATION, "Orb_Own": ORBIT.replace("EARTH", "LUNA")}, "no orbit about the Earth")])
+     "is not circular (eccentricity 0.00722)"),  # 100/(6878.137 + 6978.137) by hand
+    ("LAL", {"Inp_Sim": SIMULATION, "Orb_Own": ORBIT.replace("PA ", "AE ")}, "is not circular (eccentricity 0.1)"),
+    ("LAL", {"Inp_Sim": SIMULATION, "Orb_Own": ORBIT.replace("EARTH", "MINORBODY_1")}, "is about MINORBODY_1"),
+    ("LAL", {"Inp_Sim": SIMULATION, "Orb_Own": ORBIT.replace("CENTRAL ", "THREE_BODY ")}, "libration point"),
+    ("LAL", {"Inp_Sim": SIMULATION, "Orb_Own": ORBIT.replace("KEP ", "RV ")}, "given by position and velocity"),
+    ("LAL", {"Inp_Sim": SIMULATION, "Orb_Own": ORBIT.replace("KEP ", "FILE ")}, "given in a file of elements")])
 def test_rates_that_are_not_known_are_no_motion_and_a_caveat_of_every_answer(imported, stabilab, frames,
                                                                              beside, why):
     code, err, path = imported(frames, **beside)
@@ -105,9 +108,32 @@ def test_rates_that_are_not_known_are_no_motion_and_a_caveat_of_every_answer(imp
         assert why in stabilab("classify", path, *options)[1]
 
 
-def test_rates_relative_to_inertial_space_stay(imported):
-    _, _, path = imported("NAN")
+@pytest.mark.parametrize("change, words", [
+    ({}, '(Orb_Own.txt), 0.0634'), ({"Orb_Own": ORBIT.replace("500.0   500.0", "500.0   600.0")}, "is not circular"),
+    ({"Inp_Sim": ""}, None)])
+def test_rates_relative_to_inertial_space_stay(imported, change, words):
+    """An orbit that they do not need is named: of 500 km, n = 0.063414 deg/s, as `orbital_rate` has it."""
+    _, err, path = imported("NAN", **{"Inp_Sim": SIMULATION, "Orb_Own": ORBIT} | change)
     assert [math.degrees(v) for v in load(path).state] == pytest.approx([0.3, 0.4, 0.5])
+    assert (words in err and "no counterpart" in err) if words else "orbit" not in err
+    if words and "circular orbit of" in err:
+        assert f"{orbital_rate():.6g} deg/s" in err and 'add [circular_orbit] altitude = "500.0 km"' in err
+
+
+def test_an_orbit_about_another_world_has_the_rate_of_42(imported):
+    """42's own constants of the Moon, 4.902801e12 m^3/s^2 and 1738 km (LoadMoonOfEarth in 42init.c): sqrt(mu/r^3)."""
+    _, err, path = imported("LAL", Inp_Sim=SIMULATION, Orb_Own=ORBIT.replace("EARTH", "LUNA"))
+    rate = math.degrees(math.sqrt(4.902801e12 / 2238e3**3))
+    found = load_orbiting(path)
+    assert math.degrees(math.sqrt(found.rate_squared)) == pytest.approx(rate, rel=1e-11)
+    assert math.degrees(found.craft.state[1]) == pytest.approx(0.4 - rate, rel=1e-11) and "above the Moon" in err
+
+
+@pytest.mark.parametrize("text, words", [(ORBIT, "own.txt: an orbit file of 42"), (SIMULATION, "the simulation file of 42")])
+def test_a_file_beside_that_of_a_spacecraft_is_no_spacecraft(tmp_path, stabilab, text, words):
+    (tmp_path / "own.txt").write_text(text)
+    code, out, err = stabilab("import", tmp_path / "own.txt")
+    assert code == 2 and not out and words in err and "import the SC_*.txt beside it" in err
 
 
 TABLES = {"body": {"inertia": [100, 120.5, 180]}, "motion": {"angular_velocity": ["1 deg/s", 0, 0.1]},

@@ -22,7 +22,7 @@ import numpy as np
 
 from ...errors import InputError, printable
 from .imported import Craft
-from .orbit_42 import Unknown, add_orbit, from_quaternion
+from .orbit_42 import Unknown, add_orbit, from_quaternion, name_orbit
 from .parts import ONE, Joint, Part, decimals, joined, parallel, places, rows_of, turn
 
 if TYPE_CHECKING:
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 _TITLE = re.compile(r"\s*([*=<]{3,})\s*(.*?)\s*[*=>]*\s*")
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+# files beside that of a spacecraft, by what their first line holds
+OTHERS = {"Orbit Description": "an orbit file", "Mostly Harmless": "the simulation file"}
 USED = {"mass", "moments of inertia", "products of inertia", "location of mass center",
         "constant embedded momentum", "initial momentum",
         "wheel axis", "thrust force", "thrust axis", "ang vel ", "quaternion", "angles (", "description",
@@ -51,6 +53,10 @@ class Entry(NamedTuple):
 def read(text: str, path: Path, body: str | None = None) -> Craft:
     """What the file says of all its bodies as one, or of one of them alone, in that body's frame. Raises
     InputError where it says no inertia."""
+    other = next((words for phrase, words in OTHERS.items() if phrase in text[:200]), "")
+    if other:
+        raise InputError(f"{printable(str(path))}: {other} of 42, which describes no spacecraft: import the "
+                         "SC_*.txt beside it, with which its orbit is read where that is circular")
     entries = _used(_entries(text))
     craft = Craft(_value(entries, "", "description") or "spacecraft")
     bodies = ([rows for _, rows in _blocks(entries, "body")]
@@ -284,6 +290,7 @@ def _relative(craft: Craft, entries: Sequence[Entry], location: Sequence[np.ndar
     craft has no motion and every answer says why. location: of the body of the case, from body 0."""
     frames = (_value(entries, "", "ang vel wrt") or "").strip().upper()
     if not craft.rate or not frames or frames.startswith("N"):
+        name_orbit(craft, path)
         return
     try:
         if len(frames) < 3 or frames[2] != "L":

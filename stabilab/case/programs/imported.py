@@ -26,10 +26,10 @@ class Craft:
     """What a file says of a spacecraft, every number as it is written there.
 
     inertia: three texts, or three rows of three; products: texts xy, xz, yz whose integrals are positive, or
-    None; thrusters and wheels: {key of the case: text or three texts}; altitude: of a circular orbit about
-    the Earth, km; attitude: 3-1-2 angles, rad; torques: {name, torque: three texts, N m, caveat: what is to
-    be said where it does not act} that act where they are stuck; caveats: what limits every answer, in words;
-    omitted: what has no counterpart in a case, in words; said: what was done with the rest.
+    None; thrusters and wheels: {key of the case: text or three texts}; orbit: the line of
+    [circular_orbit]; attitude: 3-1-2 angles, rad; torques: {name, torque: three texts, N m, caveat: what is
+    to be said where it does not act} that act where they are stuck; caveats: what limits every answer, in
+    words; omitted: what has no counterpart in a case, in words; said: what was done with the rest.
     """
 
     title: str
@@ -42,7 +42,7 @@ class Craft:
     wheels: list = field(default_factory=list)
     rate: list | None = None
     rate_unit: str = ""
-    altitude: str | None = None
+    orbit: str | None = None
     attitude: list | None = None
     torques: list = field(default_factory=list)
     caveats: list = field(default_factory=list)
@@ -80,7 +80,7 @@ def case_text(craft: Craft, path, stuck=()) -> str:
                   *(["stuck = true"] if thruster["name"] in stuck else [])]
     for wheel in craft.wheels:
         lines += ["", "[[wheels]]", *_pairs(wheel)]
-    lines += ["", "[circular_orbit]", f'altitude = "{craft.altitude} km"'] if craft.altitude else []
+    lines += ["", "[circular_orbit]", craft.orbit] if craft.orbit else []
     if craft.rate or craft.attitude:
         lines += ["", "[motion]"]
     if craft.rate:

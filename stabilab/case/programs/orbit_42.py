@@ -1,5 +1,5 @@
-"""The motion of a spacecraft of NASA's simulator 42 relative to inertial space, where its file gives rates
-relative to the orbit frame: with the orbit file that Inp_Sim.txt in its folder names for it.
+"""The orbit of a spacecraft of NASA's simulator 42, in the file Orb_*.txt that Inp_Sim.txt in its folder
+names for it; and its motion relative to inertial space, where its file gives rates relative to the orbit frame.
 
 42 (InitSpacecraft in 42init.c, FindCLN in orbkit.c) adds C_BL w_LN to such rates; the orbit frame L has its
 third axis to the centre and its second against the angular momentum of the orbit, so that on a circular
@@ -11,7 +11,7 @@ import os
 import re
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -23,56 +23,99 @@ from ..source import source_text
 from .imported import Craft
 from .parts import of_quaternion
 
+SIMULATION = "Inp_Sim.txt"
+# attraction, m^3/s^2, and radius, m, from which heights count: those of 42 (LoadPlanets and LoadMoonOfEarth
+# in 42init.c); of the Earth those of [circular_orbit]
+WORLDS = {"EARTH": ("the Earth", ATTRACTION, EARTH),
+          "LUNA": ("the Moon", Fraction("4.902801e12"), Fraction(1738000)),
+          "MERCURY": ("Mercury", Fraction("2.18e13"), Fraction(2420000)),
+          "VENUS": ("Venus", Fraction("3.2485e14"), Fraction(6100000)),
+          "MARS": ("Mars", Fraction("4.293e13"), Fraction(3410000)),
+          "JUPITER": ("Jupiter", Fraction("1.2761e17"), Fraction(71400000)),
+          "SATURN": ("Saturn", Fraction("3.792e16"), Fraction(60400000))}
+KINDS = {"ZERO": "none: it stays where it is", "FLIGHT": "none: it moves near the ground",
+         "THREE_BODY": "about a libration point of three bodies"}
+GIVEN = {"RV": "by position and velocity", "FILE": "in a file of elements or of positions"}
+
 
 class Unknown(Exception):
-    """Why the rates relative to inertial space are not known."""
+    """Why the orbit, or the rates relative to inertial space, are not known."""
 
 
-def altitude_beside(path: Any) -> str:
-    """The height in km, as it is written, of the circular orbit about the Earth of a spacecraft file. Raises
-    Unknown."""
+class Circular(NamedTuple):
+    """A circular orbit. altitude: km, as it is written; world: in words; rate: deg/s, to 240 bits; file: that
+    says so."""
+
+    altitude: str
+    world: str
+    rate: Fraction
+    file: str
+
+    @property
+    def key(self) -> str:
+        """The line of [circular_orbit]."""
+        return (f'altitude = "{self.altitude} km"' if self.world == WORLDS["EARTH"][0]
+                else f'rate = "{float(self.rate):.12g} deg/s"')
+
+    @property
+    def words(self) -> str:
+        """What it is, for a sentence."""
+        return f"circular orbit of {self.altitude} km above {self.world}"
+
+
+def orbit_beside(path: Any) -> Circular:
+    """The circular orbit of a spacecraft file, which Inp_Sim.txt beside it names. Raises Unknown."""
     folder, name = os.path.split(os.fspath(path))
     try:
-        simulation = source_text(os.path.join(folder, "Inp_Sim.txt"))
+        simulation = source_text(os.path.join(folder, SIMULATION))
     except InputError:
-        raise Unknown("no Inp_Sim.txt beside it names its orbit") from None
+        raise Unknown(f"no {SIMULATION} beside it names its orbit") from None
     listed = set(re.findall(rf"^\s*(?:TRUE|FALSE)\s+(\d+)\s+{re.escape(name)}\s", simulation, re.M))
     if len(listed) != 1:
-        raise Unknown(f"Inp_Sim.txt beside it names {len(listed) or 'no'} orbits for it")
+        raise Unknown(f"{SIMULATION} beside it names {len(listed) or 'no'} orbits for it")
     number, = listed
     orbit = re.search(rf"^\s*(?:TRUE|FALSE)\s+(\S+)\s+!.*\bOrb {number}\s*$", simulation, re.M)
     if not orbit:
-        raise Unknown(f"Inp_Sim.txt beside it names no file for orbit {number}")
+        raise Unknown(f"{SIMULATION} beside it names no file for orbit {number}")
     try:
         text = source_text(os.path.join(folder, orbit[1]))
     except InputError:
         raise Unknown(f"its orbit file {orbit[1]} is not beside it") from None
-    return _altitude(text, orbit[1])
+    return circular(text, orbit[1])
 
 
-def _altitude(text: str, name: str) -> str:
+def circular(text: str, name: str) -> Circular:
+    """The circular orbit in the text of an orbit file. Raises Unknown of any other orbit."""
     values = {label.strip().lower(): value.split() for value, mark, label in
               (line.partition("!") for line in text.splitlines()) if mark}
 
     def of(label: str) -> list[str]:
         return next((value for key, value in values.items() if key.startswith(label)), [""])
 
-    if of("orbit type") != ["CENTRAL"] or of("orbit center") != ["EARTH"] or of("use keplerian") != ["KEP"]:
-        raise Unknown(f"{name} is no orbit about the Earth in Keplerian elements")
+    kind, world, elements = (" ".join(of(label)) for label in ("orbit type", "orbit center", "use keplerian"))
+    if kind != "CENTRAL":
+        raise Unknown(f"the orbit of {name} is {KINDS.get(kind, f'of the type {kind}')}")
+    if elements != "KEP":
+        raise Unknown(f"the orbit of {name} is given {GIVEN.get(elements, f'as {elements}')}, not in "
+                      "elements")
+    if world not in WORLDS:
+        raise Unknown(f"the orbit of {name} is about {world}, whose attraction is not known here")
     low_high = "PA" in of("use peri/apoapsis")
     numbers = of("periapsis & apoapsis" if low_high else "min altitude")
     try:
         first, second = map(Fraction, numbers)
     except ValueError:
         raise Unknown(f"{name} gives no altitude that is understood") from None
+    words, attraction, radius = WORLDS[world]
+    low = 1000 * first + radius
+    if low <= 0:
+        raise Unknown(f"{name} gives an altitude below the centre of {words}")
     if second != (first if low_high else 0):
-        raise Unknown(f"the orbit of {name} is not circular: its rate changes along it")
-    return numbers[0]
-
-
-def rate_of_orbit(altitude: str) -> Fraction:
-    """n of a circular orbit about the Earth at this height in km, deg/s, to 240 bits."""
-    return sqrt_fraction(ATTRACTION / (1000 * Fraction(altitude) + EARTH)**3) * 180 / pi()
+        far = 1000 * second + radius
+        eccentricity = (far - low) / (far + low) if low_high else second
+        raise Unknown(f"the orbit of {name} is not circular (eccentricity {float(eccentricity):.3g}): its "
+                      "rate changes along it")
+    return Circular(numbers[0], words, sqrt_fraction(attraction / low**3) * 180 / pi(), name)
 
 
 def from_quaternion(q: Sequence[str]) -> np.ndarray:
@@ -87,10 +130,22 @@ def from_quaternion(q: Sequence[str]) -> np.ndarray:
 def add_orbit(craft: Craft, path: Any, to_body: np.ndarray) -> None:
     """The rates of the craft, deg/s, relative to inertial space, and its orbit. to_body: what turns
     components of the orbit frame to those of the body. Raises Unknown."""
-    altitude = altitude_beside(path)
-    turning = to_body @ np.array([Fraction(0), -rate_of_orbit(altitude), Fraction(0)])
+    orbit = orbit_beside(path)
+    turning = to_body @ np.array([Fraction(0), -orbit.rate, Fraction(0)])
     supplied = [Fraction(v) for v in craft.rate or ("0", "0", "0")]
     craft.rate = [f"{float(a + b):.12g}" for a, b in zip(supplied, turning)]
-    craft.altitude = altitude
+    craft.orbit = orbit.key
     craft.said.append("the angular velocity relative to the orbit frame becomes that relative to inertial "
-                      f"space on the circular orbit of {altitude} km beside it")
+                      f"space on the {orbit.words}, of {orbit.file}")
+
+
+def name_orbit(craft: Craft, path: Any) -> None:
+    """Say of the orbit beside a craft whose rates do not need it what it is, or why it is not read."""
+    try:
+        orbit = orbit_beside(path)
+    except Unknown as error:
+        if SIMULATION not in str(error):  # what names no orbit for it leaves none out
+            craft.omitted.append(str(error))
+        return
+    craft.omitted.append(f"its orbit: a {orbit.words} ({orbit.file}), {float(orbit.rate):.6g} deg/s; for "
+                         f"`stabilab orbit` add [circular_orbit] {orbit.key}")
