@@ -206,13 +206,16 @@ class Thruster(Rounded):
 @dataclass(frozen=True, repr=False)
 class Wheel(Rounded):
     """axis: unit vector, input frame; momentum: along it relative to the body, N m s; vector: both as a
-    vector, input frame; inertia: kg m^2, about the axis, None where the file does not say."""
+    vector, input frame; inertia: kg m^2, about the axis, None where the file does not say; factors: the keys
+    whose product the momentum is; path: of its table."""
 
     name: str
     axis: Exact3
     momentum: Fraction
     vector: Exact3
     inertia: Fraction | None = None
+    factors: tuple[str, ...] = ("momentum",)
+    path: tuple = field(default=(), compare=False)
 
 
 @dataclass(frozen=True, repr=False)
@@ -430,7 +433,7 @@ def _wheel(table: Table, otherwise: str) -> Wheel | None:
         return None
     raw, length = axis
     return Wheel(name, tuple(v / length for v in raw), momentum, tuple(momentum * v / length for v in raw),
-                 inertia)
+                 inertia, ("momentum",) if "momentum" in table else ("inertia", "speed"), table.path)
 
 
 def _momentum(table: Table) -> tuple[Fraction | None, Fraction | None]:

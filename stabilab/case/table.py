@@ -37,14 +37,24 @@ class Written(str):
     """A number with a point or an exponent as it stands in the file, so that 0.1 means one tenth exactly."""
 
 
-UNCERTAIN = {("body", "inertia"), ("effects", "gyrostat", "momentum"),
-             ("effects", "viscous_damper", "inertia"), ("effects", "viscous_damper", "coefficient"),
-             ("effects", "damper_wheel", "inertia"), ("effects", "damper_wheel", "coefficient"),
-             ("effects", "constant_torque", "torque"),
-             ("effects", "constant_torque", "mu"), ("motion", "angular_velocity"), ("motion", "x"),
-             ("motion", "rotation_period"), ("motion", "precession_period"), ("motion", "amplitude"),
-             ("motion", "spin"), ("motion", "nutation"),
-             ("scaled", "a"), ("scaled", "b"), ("scaled", "mu")}  # the keys whose numbers may be uncertain
+# The keys whose numbers may be uncertain, by their tables. Directions and what is chosen, as a span or a
+# limit, are none of them; the force of a thruster is read with its tolerance.
+UNCERTAIN_KEYS = {
+    ("body",): ("inertia", "mass"), ("body", "products"): ("xy", "xz", "yz"), ("scaled",): ("a", "b", "mu"),
+    ("wheels",): ("momentum", "inertia", "speed"),
+    ("motion",): ("angular_velocity", "x", "rotation_period", "precession_period", "amplitude", "spin",
+                  "nutation"),
+    ("circular_orbit",): ("rate", "period", "altitude", "radius"),
+    **{("effects", name): keys for name, keys in {
+        "gyrostat": ("momentum",), "constant_torque": ("torque", "mu"),
+        "viscous_damper": ("inertia", "coefficient"), "damper_wheel": ("inertia", "coefficient"),
+        "damper_mass": ("mass", "stiffness", "coefficient"), "rate_damper": ("coefficient",),
+        "resistance": ("coefficient",),
+        "eddy_currents": ("coefficient", "field"), "liquid_cavity": ("density", "viscosity", "P0", "radius"),
+        "gravity": ("weight", "centre_of_mass"), "newtonian_field": ("strength", "lambda", "R"),
+        "charge": ("charge", "field", "arm", "angle"), "body_force": ("force",),
+        "wheel_motor": ("torque", "duration")}.items()}}
+UNCERTAIN = {(*table, key) for table, keys in UNCERTAIN_KEYS.items() for key in keys}
 
 
 # Keys of [motion] by which a start is stated as it is observed (`observed`): of a tumbling body, of a spin
@@ -272,19 +282,31 @@ class Table:
 
     def _middle(self, text: str, keys: tuple[str, int]) -> Fraction:
         """The middle of an uncertain number, which is noted."""
-        if self.path + keys[:1] not in UNCERTAIN or len(keys) > 2:
-            raise InputError(f"takes no uncertainty, got {described(text)}; one may stand in inertia, "
-                             "coefficient of a damper, momentum, torque, mu, a, b, angular_velocity, x, "
-                             "rotation_period, precession_period, amplitude, spin, nutation and force of a "
-                             "thruster")
+        place = tuple(part for part in self.path + keys[:1] if isinstance(part, str))
+        if len(keys) > 2:
+            raise InputError(f"takes no uncertainty in a row of a tensor, got {described(text)}: write the "
+                             "three moments as inertia, and the products of inertia as [body] products")
+        if place not in UNCERTAIN:
+            raise InputError(f"takes no uncertainty, got {described(text)}; one may stand in moments and "
+                             "products of inertia, mass, momentum, torque and speed, in the numbers of "
+                             "effects, in what [motion] says of rates and periods, in a, b, mu and in the "
+                             "force of a thruster")
         path = self.path + keys
         number = uncertain_number(text, dimension_of(path))
         if number.half:
-            self.faults.uncertain[path] = Uncertain(path, number.middle, number.half, law=number.law,
-                                                    sigma=number.sigma)
+            self.faults.uncertain[path] = Uncertain(path, number.middle, number.half, self._named(keys[0]),
+                                                    number.law, number.sigma)
         if not number.sharp:
             self.faults.inexact.add(path)
         return number.middle
+
+    def _named(self, key: str) -> str:
+        """The key with the name of its table, where that is one of several; "" of any other."""
+        *tables, last = self.path
+        if isinstance(last, str):
+            return ""
+        supplied = self.data.get("name")
+        return ".".join([*tables, supplied if isinstance(supplied, str) else str(last + 1), key])
 
     def _number(self, value, keys) -> Fraction:
         if isinstance(value, Written) or not isinstance(value, str):

@@ -45,11 +45,34 @@ FORMS = {  # cases that together have every key; each is asked with one number u
     "thruster": BODY | START | {"thrusters": [FORCE]},
     "burning": BODY | START | {"thrusters": [{name: value for name, value in FORCE.items() if name != "stuck"}
                                              | {"start": 0, "stop": 20}]},
-    "orbit": {"body": {"inertia": [100, 90, 40]}, "circular_orbit": {"altitude": "700 km"},
+    "orbit": {"body": {"inertia": [100, 90, 40]}, "circular_orbit": {"altitude": 700000},
               "effects": {"gyrostat": {"momentum": [3, 0, 0]}}},
+    "wheel": BODY | START | {"wheels": [{"name": "W", "axis": [1, 0, 0], "inertia": "0.01", "speed": 300}],
+                             "effects": {"constant_torque": {"torque": [0, 0, "0.05"]}}},
+    "wheel's momentum": BODY | START | {"wheels": [{"axis": [1, 0, 0], "momentum": 3}]},
     "top": {"body": {"inertia": [15, 15, 10]}, "effects": {"gravity": {"weight": 20,
                                                                        "centre_of_mass": [0, 0, "0.5"]}},
             "motion": {"angular_velocity": ["0.1", 0, 20], "vertical": ["0.6", 0, "0.8"], "span": [0, 1]}},
+}
+FIELD = {"motion": START["motion"] | {"vertical": ["0.6", 0, "0.8"]}}
+# a key of each other effect alone: their numbers are read, and what is not looked at is said, in the same places
+OTHERS = {
+    "products": {"body": BODY["body"] | {"products": {"xy": 1, "xz": 2, "yz": -1, "convention": "negative"}}} | START,
+    "damper mass": {"body": BODY["body"] | {"mass": 50}} | START | {"effects": {"damper_mass": {
+        "mass": 1, "place": ["0.5", 0, 0], "line": [0, 0, 1], "stiffness": 2, "coefficient": "0.3"}}},
+    "rate damper": BODY | START | {"effects": {"rate_damper": {"coefficient": "0.5"}}},
+    "resistance": BODY | START | {"effects": {"resistance": {"coefficient": "0.01"}}},
+    "eddy currents": BODY | FIELD | {"effects": {"eddy_currents": {"coefficient": 1, "field": "0.5"}}},
+    "liquid": BODY | START | {"effects": {"liquid_cavity": {"density": 1000, "viscosity": "0.01", "radius": "0.1"}}},
+    "charged": BODY | START | {"effects": {"charge": {"charge": "0.01", "field": 1, "arm": "0.5", "angle": "0.3"}}},
+    "motor": BODY | START | {"effects": {"gyrostat": {"momentum": [3, 0, 0]},
+                                         "wheel_motor": {"torque": ["0.1", 0, 0], "duration": 5}}},
+    "newtonian": BODY | FIELD | {"effects": {"newtonian_field": {"lambda": 3, "R": 100}}},
+    "strength": BODY | FIELD | {"effects": {"newtonian_field": {"strength": "1e-6"}}},
+    "liquid by P0": BODY | START | {"effects": {"liquid_cavity": {"density": 1000, "viscosity": "0.01", "P0": "1e-6"}}},
+    **{f"orbit by {key}": {"body": BODY["body"], "circular_orbit": {key: value}}
+       for key, value in (("rate", "0.001"), ("period", 6000), ("radius", 7000000))},
+    "forced": {"body": BODY["body"] | {"mass": 50}} | START | {"effects": {"body_force": {"force": [1, 0, 0]}}},
 }
 EXTRA = {"force_tolerance": "30 %", "misalignment": "2 deg"}  # keys that say by themselves what is uncertain
 WORDS = {"misalignment": "tilt|misalignment"}
@@ -68,6 +91,7 @@ QUICK = ("extremes", "show", "orbit")  # run by default: a second each
 VARIED = {  # of each form, what is varied that stays certain
     "torque": "effects.gyrostat.momentum[2]", "mu": "motion.x[3]", "scaled": "motion.x[3]",
     "tumbling": "motion.span[1]", "tumbling by its cone": "motion.span[1]", "spinning": "motion.span[1]",
+    "wheel": "motion.angular_velocity[3]", "wheel's momentum": "motion.angular_velocity[3]",
     "damper": "motion.angular_velocity[3]", "damper wheel": "motion.angular_velocity[3]",
     "thruster": "motion.angular_velocity[3]",
     "burning": "motion.angular_velocity[3]", "orbit": "effects.gyrostat.momentum[2]",
@@ -83,10 +107,17 @@ def keys() -> list[tuple]:
     found = []
     for path in sorted(UNCERTAIN):
         forms = [name for name, data in FORMS.items() if place(data, path) is not None]
-        assert forms, f"{path}: no case of this test has the key: add it to FORMS"
+        assert forms or path in {one for _, one in of_others()}, (
+            f"{path}: no case of this test has the key: add it to FORMS or OTHERS")
         found += [(form, path) for form in forms]
     return found + [(form, ("thrusters", key)) for form in ("thruster", "burning")
                     for key in (*loose_of_thrusters(), *EXTRA)]
+
+
+def of_others() -> list[tuple]:
+    """(form, path) of the keys of effects that are looked at alone."""
+    return [(name, path) for path in sorted(UNCERTAIN) for name, data in OTHERS.items()
+            if place(data, path) is not None and path != ("body", "inertia") and path[0] != "motion"]
 
 
 def loose_of_thrusters() -> list[str]:
@@ -116,7 +147,7 @@ def text(data) -> str:
 
 def loosened(form, path) -> str:
     """The case of this form with that number uncertain."""
-    data = json.loads(json.dumps(FORMS[form]))
+    data = json.loads(json.dumps((FORMS | OTHERS)[form]))
     *tables, last = path
     table = data
     for part in tables:
@@ -188,6 +219,16 @@ def test_every_command_and_view_says_of_every_key_that_it_is_uncertain(stabilab,
         empty = view == "csv" and out.count("\n") == 1  # the heads of a table without a line
         assert code or empty or says(path[-1], out), (label, out)
     assert 0 in refused.values(), refused
+
+
+@pytest.mark.parametrize("form, path", of_others(), ids=[f"{form}: {path[-1]}" for form, path in of_others()])
+def test_a_number_of_any_effect_may_be_uncertain(stabilab, case_file, form, path):
+    """By one command, in text: views and commands have no other place for it than those of the keys above."""
+    command = ("orbit",) if path[0] == "circular_orbit" else ("simulate", "--at", "0.5")
+    code, out, err = stabilab(command[0], case_file(loosened(form, path)), *command[1:])
+    assert code == 0 and says(path[-1], out), (out, err)
+    code, out, err = stabilab(command[0], case_file(text(OTHERS[form]), "plain"), *command[1:])
+    assert code == 0 and not says(path[-1], out), (out, err)
 
 
 MOVING = [(form, path) for form, path in KEYS if form not in ("burning", "orbit")]

@@ -29,6 +29,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from math import prod
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -45,6 +46,12 @@ from ...physics.scene import AnyScene, Body, QuadraticForm, ScaledGyrostat, Scen
 
 # --- The box
 TRACE = Fraction(1, 1 << 180)  # of the largest number: what axes good to 240 bits leave, there and back
+HARDWARE = ("thrusters", "wheels")  # tables whose numbers turn no axes
+PRODUCTS = ("xy", "xz", "yz")
+STRAIGHT = ("the products of inertia are uncertain about zero, so that the tensor is diagonal in the middle "
+            "alone, and what the turn of its axes does is not followed")
+NO_PART = {("body", "mass")}  # numbers that no verdict on a gyrostat hangs on
+Line: TypeAlias = tuple[tuple[tuple[str, int], ...], Exact3]
 Point: TypeAlias = Any  # of a box: a number in [-1, 1] for each place, an array or a sequence
 Numbers: TypeAlias = dict[str, tuple[Number, ...]]  # "inertia", "momentum", "torque" ... -> its numbers
 
@@ -52,9 +59,11 @@ Numbers: TypeAlias = dict[str, tuple[Number, ...]]  # "inertia", "momentum", "to
 @dataclass(frozen=True)
 class Box:
     """middle: name -> exact numbers, of "inertia", "momentum", "torque" or "mu" (a body), or "a", "b", "mu"
-    (a scaled system), "force" (N, of every firing thruster whose force is uncertain) and "state" (three, or
-    absent); half: name -> their half-widths, zero where certain. arms: of each force, the torque of one
-    newton of it, m; "torque" of the middle is that of all else.
+    (a scaled system), "force" (N, of every firing thruster whose force is uncertain), "wheel_momentum",
+    "wheel_inertia", "wheel_speed" (of every wheel of which one is uncertain) and "state" (three, or absent);
+    half: name -> their half-widths, zero where certain. arms: of each force, the torque of one newton of it,
+    m; "torque" of the middle is that of all else. lines: of each of those wheels, (name, index) of the
+    numbers whose product its momentum is, and its axis; "momentum" of the middle is that of all else.
     variables: those of scene and state, "physical" or "scaled" (a body may be asked in scaled variables).
     frame: None where all numbers are along the principal axes; else the principal axes of the middle, and all
     numbers are in the frame of the file, with "products", the xy, xz and yz entries of the tensor."""
@@ -64,6 +73,7 @@ class Box:
     variables: str
     frame: PrincipalAxes | None = None
     arms: tuple[Exact3, ...] = ()
+    lines: tuple[Line, ...] = ()
 
     @cached_property
     def places(self) -> tuple[tuple[str, int], ...]:
@@ -85,7 +95,7 @@ class Box:
             value = middle + Fraction(reach) * Fraction(e) * self.half[name][i]
             out[name][i] = (middle if value == middle
                             else _toward(value, middle, Fraction if name == "state" else _decimal))
-        return self._with_forces({name: tuple(numbers) for name, numbers in out.items()})
+        return self._with_hardware({name: tuple(numbers) for name, numbers in out.items()})
 
     def at(self, point: Point, reach: float = 1) -> tuple[AnyScene, Float3 | None]:
         """(scene, state or None) at a point, exact. Raises InputError where there is no such body or no such
@@ -118,15 +128,19 @@ class Box:
             g[:, k] = half * widths[:, k]
             out[name][i] = Affine(c, g,
                                   8 * EPS * (abs(middle) + np.abs(half * centres[:, k]) + g[:, k]) + LEAST)
-        return self._with_forces({name: tuple(numbers) for name, numbers in out.items()})
+        return self._with_hardware({name: tuple(numbers) for name, numbers in out.items()})
 
-    def _with_forces(self, numbers: Numbers) -> Numbers:
-        """With the torque of the uncertain forces in "torque", on the line of each: its components are not
-        independent, which `Affine` numbers keep."""
-        torque = list(numbers.get("torque", ()))
+    def _with_hardware(self, numbers: Numbers) -> Numbers:
+        """With the torque of the uncertain forces in "torque", and the momentum of the uncertain wheels in
+        "momentum", on the line of each: its components are not independent, which `Affine` numbers keep."""
+        torque, momentum = (list(numbers.get(name, ())) for name in ("torque", "momentum"))
         for force, arm in zip(numbers.get("force", ()), self.arms):
             torque = [m + force * along if along else m for m, along in zip(torque, arm)]
-        return numbers | {"torque": tuple(torque)} if torque else numbers
+        for factors, axis in self.lines:
+            size: Any = prod((numbers[name][i] for name, i in factors), start=Fraction(1))
+            momentum = [m + size * along if along else m for m, along in zip(momentum, axis)]
+        return numbers | {name: tuple(vector)
+                          for name, vector in (("torque", torque), ("momentum", momentum)) if vector}
 
     def impossible(self, numbers: Numbers) -> np.ndarray | np.bool_:
         """True for each sub-box that surely holds no body: a moment of inertia not positive (for a body in
@@ -170,8 +184,9 @@ def box_of(case: Any) -> Box:
                          "torque alone; this scene has other effects")
     middle = {}
     oblique = case.frame if case.frame is not None and not case.frame.as_given else None
-    forces = [item for item in case.uncertain if item.path[-1] == "force"]
-    if oblique and len(forces) == len(case.uncertain):  # nothing turns the axes: all stands along them
+    forces = [item for item in case.uncertain if item.path[0] == "thrusters"]
+    # numbers that turn no axes leave all along them
+    if oblique and all(item.path[0] in HARDWARE or item.path in NO_PART for item in case.uncertain):
         oblique = None
     if oblique:
         middle = _in_the_file(case, oblique)
@@ -190,18 +205,61 @@ def box_of(case: Any) -> Box:
     arms = tuple(_arm(case, item, oblique) for item in forces)
     if forces:
         middle |= {"force": tuple(item.middle for item in forces),
-                   "torque": tuple(_as_written(m - sum(x.middle * arm[i] for x, arm in zip(forces, arms)),
-                                               max(map(abs, middle["torque"])))
-                                   for i, m in enumerate(middle["torque"]))}
+                   "torque": _without(middle["torque"], [tuple(item.middle * v for v in arm)
+                                                         for item, arm in zip(forces, arms)])}
+    factors, lines = _wheels(case, oblique)
+    if lines:
+        middle |= {name: tuple(number for _, number in rows) for name, rows in factors.items()}
+        middle["momentum"] = _without(middle["momentum"], [
+            tuple(prod((factors[name][i][1] for name, i in places), start=Fraction(1)) * v for v in axis)
+            for places, axis in lines])
     half = {name: [Fraction(0)] * len(numbers) for name, numbers in middle.items()}
     for result in case.uncertain:
-        if case.observed and result.path[0] == "motion":
+        if case.observed and result.path[0] == "motion" or result.path in NO_PART:
+            continue
+        if result.path[0] == "wheels":
+            for name, rows in factors.items():  # none: the inertia beside a momentum has no part
+                for i, (path, _) in enumerate(rows):
+                    half[name][i] = result.half if path == result.path else half[name][i]
+            continue
+        if result.path[:2] == ("body", "products"):
+            if not oblique:
+                raise InputError(STRAIGHT)
+            half["products"][PRODUCTS.index(result.path[-1])] = result.half
             continue
         at = forces.index(result) if result in forces else result.path[-1]
         half[_name(result.path)][at if isinstance(at, int) else 0] = result.half
-    box = Box(middle, {name: tuple(widths) for name, widths in half.items()}, case.variables, oblique, arms)
+    box = Box(middle, {name: tuple(widths) for name, widths in half.items()}, case.variables, oblique, arms,
+              lines)
     _scalable(box)
     return box
+
+
+def _without(vector: Exact3, parts: Sequence[Exact3]) -> Exact3:
+    """What is left of a vector without these parts of it."""
+    size = max(map(abs, vector))
+    return tuple(_as_written(v - sum((part[i] for part in parts), Fraction(0)), size)
+                 for i, v in enumerate(vector))
+
+
+def _wheels(case: Any, oblique: PrincipalAxes | None) -> tuple[
+        dict[str, list[tuple[tuple[Any, ...], Fraction]]], tuple[Line, ...]]:
+    """(of each name the paths and middles of the numbers that make the momenta of uncertain wheels; of each
+    of these wheels its factors, and its axis in the frame of the box)."""
+    loose = {item.path for item in case.uncertain}
+    factors: dict[str, list[tuple[tuple[Any, ...], Fraction]]] = {}
+    lines = []
+    for wheel in case.wheels:
+        paths = [(*wheel.path, key) for key in wheel.factors]
+        if loose.isdisjoint(paths):
+            continue
+        stated = [wheel.momentum] if len(paths) == 1 else [wheel.inertia, wheel.momentum / wheel.inertia]
+        for key, path, number in zip(wheel.factors, paths, stated):
+            factors.setdefault(f"wheel_{key}", []).append((path, number))
+        axis = wheel.axis if oblique or case.frame is None else case.frame.turned(wheel.axis)
+        lines.append((tuple((name, len(factors[name]) - 1)
+                            for name in (f"wheel_{key}" for key in wheel.factors)), axis))
+    return factors, tuple(lines)
 
 
 def _arm(case: Any, force: Any, oblique: PrincipalAxes | None) -> Exact3:
@@ -252,7 +310,8 @@ def _scalable(box: Box) -> None:
         raise InputError("within the uncertainties the moments are not surely in falling order, as the "
                          "scaled variables and mu need: give the torque in N m and the motion as "
                          "angular_velocity")
-    if box.variables == "scaled" and any(box.half["momentum"][1:]):
+    if box.variables == "scaled" and (any(box.half["momentum"][1:])
+                                      or any(any(axis[1:]) for _, axis in box.lines)):
         raise InputError("the scaled variables need the gyrostatic moment along axis 1, without uncertainty "
                          "across it: use physical variables")
 

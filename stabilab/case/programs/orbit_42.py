@@ -1,5 +1,6 @@
 """The orbit of a spacecraft of NASA's simulator 42, in the file Orb_*.txt that Inp_Sim.txt in its folder
-names for it; and its motion relative to inertial space, where its file gives rates relative to the orbit frame.
+names for it; and its motion relative to inertial space, where its file gives rates relative to the orbit
+frame.
 
 42 (InitSpacecraft in 42init.c, FindCLN in orbkit.c) adds C_BL w_LN to such rates; the orbit frame L has its
 third axis to the centre and its second against the angular momentum of the orbit, so that on a circular

@@ -304,7 +304,8 @@ def rates_of(printed: Description, units: Units) -> Unit:
 SUBJECTS = {"equilibria": ("hold", "depend"), "fate": ("holds", "depends")}
 LONG = 8  # letters of a number in a line
 # of the numbers of a witness
-UNITS = {"inertia": "kg m²", "products": "kg m²", "momentum": "N m s", "torque": "N m", "force": "N"}
+UNITS = {"inertia": "kg m²", "products": "kg m²", "momentum": "N m s", "torque": "N m", "force": "N",
+         "wheel_momentum": "N m s", "wheel_inertia": "kg m²", "wheel_speed": "rad/s"}
 
 
 def uncertain_dict(result) -> dict:
@@ -456,7 +457,7 @@ def _lines(subject, over, units) -> list[str]:
         for name, values in w.values.items():
             unit, item = _of_file(units, resolved.get(name, ""))
             row = ", ".join(number(float(v) * item, DIGITS) for v in values)
-            numbers.append(f"{lettered(name)} = {row} {unit}".rstrip())
+            numbers.append(f"{lettered(name.replace('_', ' '))} = {row} {unit}".rstrip())
         lines.append(f"    {units.said(reason_of(w.verdict))} at {'; '.join(numbers)}")
     return lines
 
