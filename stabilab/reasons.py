@@ -295,7 +295,9 @@ def quantities_of(reason: Reason) -> dict[str, Any]:
 def plain(value: Any) -> Any:
     """A filling as JSON holds it."""
     if isinstance(value, Quantity):
-        return [*map(float, value.value)] if isinstance(value.value, tuple) else float(value.value)
+        if isinstance(value.value, tuple):
+            return [*map(float, value.value)]
+        return value.value if type(value.value) is int and not value.unit else float(value.value)
     if isinstance(value, Moment):
         return float(value.value)
     if isinstance(value, Span):

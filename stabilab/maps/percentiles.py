@@ -23,7 +23,7 @@ from ..case.read import Case, text_of_case
 from ..case.uncertain import TOLERANCE
 from ..errors import Caveat, InputError, Kind, printable, without
 from ..orbit.result import OUTCOMES, Fate
-from ..reasons import Quantity, Sentence
+from ..reasons import BROAD, Quantity, Sentence
 from ..representation import Answer, Compared
 from .plan import Plan, judged, place_and_text
 from .run import run
@@ -35,11 +35,12 @@ PERCENTS = (5, 50, 95)
 CONFIDENCE = 0.95
 AS_UNIFORM = Sentence("tolerance-drawn-as-uniform", "{keys}: a tolerance says nothing of how often each "
                       "value occurs; samples draw it as uniform")
-LEFT_OUT = Sentence("draws-left-out", "{number} of {draws} draws make no case and are left out: {fault}")
-OPEN_DRAWS = Sentence("draws-not-known",
-                      "of {number} draws the {what} is not known; they count at both ends of the bounds")
+LEFT_OUT = Sentence("draws-left-out",
+                    "draws that make no case and are left out: {number} of {draws}; {fault}")
+OPEN_DRAWS = Sentence("draws-not-known", "draws of which the {what} is not known: {number}; they count at "
+                      "both ends of the bounds")
 FROM_DRAWS = Sentence(
-    "from-draws", "percentiles of {number} draws (seed {seed}) of the uncertain numbers, with bounds that "
+    "from-draws", "percentiles over the uncertain numbers by draws ({number}, seed {seed}), with bounds that "
     "hold with 95 % confidence; samples, no proof")
 
 
@@ -85,9 +86,11 @@ class Distribution(Compared):
     quantiles: tuple[Quantile, ...]
 
     def histogram(self, bins: int | None = None) -> tuple[np.ndarray, list[int], int]:
-        """(edges (k + 1,), counts of the draws between them, how many are infinite or not known). bins: None
-        for twice the cube root of the number of draws (Rice's rule), 60 at most."""
+        """(edges (k + 1,), counts of the draws between them, how many are infinite or not known, those whose
+        ends are far apart among them). bins: None for twice the cube root of the number of draws (Rice's
+        rule), 60 at most."""
         finite = np.isfinite(self.high)
+        finite[finite] = self.high[finite] - self.low[finite] <= BROAD * np.abs(self.high[finite])
         values = 0.5 * (self.low[finite] + self.high[finite])
         if not len(values):
             return np.array([0.0, 1.0]), [0], len(self.high)
@@ -195,7 +198,7 @@ def of_plan(plan: Plan, timed: bool, largest: bool, workers: int | None,
 
 def _of_draws(plan: Plan, number: int, draws: int, fault: str) -> list[Caveat]:
     """That they are draws, what was drawn as uniform, and how many were left out."""
-    rows = [Caveat(Kind.SAMPLES, FROM_DRAWS(number=number, seed=Quantity(plan.seed, digits=12)))]
+    rows = [Caveat(Kind.SAMPLES, FROM_DRAWS(number=number, seed=Quantity(plan.seed, digits=20)))]
     sampled: Any = plan.sampled
     loose = tuple(item.key for item in sampled.numbers if item.law == TOLERANCE)
     rows += [Caveat(Kind.DISTRIBUTION, AS_UNIFORM(keys=loose))] if loose else []

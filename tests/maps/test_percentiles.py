@@ -132,6 +132,20 @@ def test_commands_give_percentiles_in_every_view(stabilab, case_file, command, k
         assert rows.startswith("case,quantity,of,low,high,least,greatest,caveats\n") and "no proof" in rows
 
 
+def test_one_draw_is_one_and_a_seed_is_whole(stabilab, case_file):
+    options = ("when", case_file(SPIN_UP.format("0.02, sigma 5 %")), "--samples", "1", "--workers", "1", "--seed", "12345")
+    text, told = stabilab(*options)[1], json.loads(stabilab(*options, "--json")[1])
+    assert "1 draw of" in text and "1 draws" not in text and "seed 12345" in text
+    seeds = [row["seed"] for row in told[0]["percentiles"]["caveats"] if "seed" in row]
+    assert seeds == [12345] and type(seeds[0]) is int
+
+
+def test_draws_between_ends_far_apart_stand_in_no_bar():
+    """A tenth of the greater end is near: of 1 to 2 a middle would say more than is known."""
+    edges, counts, beyond = distribution(np.array([1.0, 1.0, 1.0, 3.0]), np.array([1.05, 2.0, math.inf, 3.0]), "s").histogram()
+    assert sum(counts) == 2 and beyond == 2 and edges[0] == 1.025 and edges[-1] == 3
+
+
 @pytest.mark.parametrize("options, cure", [
     (("when", "--samples", "0"), "at least one point"), (("stuck", "--samples", "9", "--all-thrusters"), "leave out"),
     (("when", "--samples", "9", "--seed", "-1"), "not negative")])

@@ -18,6 +18,7 @@ from stabilab.case.read import read_text
 from stabilab.show import style
 from stabilab.show.plot import path, subject, to_file
 from stabilab.show.plot import subject as which
+from stabilab.show.plot.over_time import limit_marks
 from stabilab.show.text import cost
 from tests import shared
 from tests.shared import case as load
@@ -570,3 +571,18 @@ def _deep(box, other):
     wide, high = min(box.x1, other.x1) - max(box.x0, other.x0), min(box.y1, other.y1) - max(box.y0, other.y0)
     return (wide > 0 and high > 0
             and wide * high > 0.2 * min(box.width * box.height, other.width * other.height))
+
+
+@pytest.mark.parametrize("ends, words, marks", [
+    ((4.0, 4.1), "reached after 4.05 s", 1), ((2.0, 8.0), "reached after 2.0 to 8.0 s", 0), ((20.0, 30.0), None, 0),
+    (None, None, 0), ((float("inf"), float("inf")), None, 0), ((2.0, float("nan")), None, 0)])
+def test_a_time_between_ends_far_apart_is_a_band(ends, words, marks):
+    """A limit reached in 4.0 to 4.1 s is a point; 2 to 8 s, of which no middle is known, both ends of a band."""
+    t = np.linspace(0, 10, 11)
+    figure, ax = plt.subplots()
+    rows = limit_marks(ax, 0.5, ends, t, np.outer(t, [0.1, 0, 0]), ("s", 1.0), ("rad/s", 1.0))
+    assert [text for text, _ in rows[1:]] == ([words] if words else [])
+    assert sum(line.get_marker() == "o" for line in ax.lines) == marks
+    spans = [patch.get_extents().transformed(ax.transData.inverted()) for patch in ax.patches]
+    assert [(round(box.x0, 9), round(box.x1, 9)) for box in spans] == ([(2, 8)] if words and not marks else [])
+    plt.close(figure)

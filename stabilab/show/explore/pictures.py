@@ -35,6 +35,7 @@ from ...packages import demand, present
 from ...physics.coefficients import content
 from ...physics.effects.base import effect_words
 from ...physics.scene import AnyScene, QuadraticForm
+from ...reasons import broad
 from ...verify.numbers import shown
 from ..data import plain
 from ..space import limit_time, packed
@@ -221,7 +222,9 @@ def over_time(bag: Bag, case: Case, motion: Motion | None, times: list[float], p
         if motion.extremes is not None and motion.for_all_time:
             extremes = [[v * rate for v in pair] for pair in motion.extremes]
         period = None if motion.period is None else motion.period * item
-        reached = None if (at := limit_time(motion)) is None else at * item
+        if (at := limit_time(motion)) is not None:
+            low: Any = motion.first and float(motion.first[1].low)
+            reached = [low * item, at * item] if broad(low, at) else [at * item]
     return {"times": bag.add("float32", [t * item for t in times]),
             "rates": [bag.add("float32", [x[n] * rate for x in path]) for n in range(3)],
             "extremes": extremes, "period": period, "reached": reached,

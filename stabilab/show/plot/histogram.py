@@ -7,6 +7,7 @@ from ...case.given import Given
 from ...errors import InputError
 from ...maps.percentiles import of_case_drawn
 from .. import style
+from ..text.percentiles import drawn
 from ..units import SHORT, number
 from . import canvas
 from . import subject as subjects
@@ -49,7 +50,8 @@ def histogram(case: Given | Subject, ax: Axes | None = None, units: str | None =
         for quantile in spread.quantiles:
             look = MEDIAN if quantile.percent == 50 else ENDS
             if quantile.high < float("inf"):
-                target.axvline(per * quantile.high, **look)
+                for end in {quantile.low, quantile.high}:  # one, or both where they are apart
+                    target.axvline(per * end, **look)
                 low, high = quantile.least, quantile.greatest
                 if low is not None and high is not None and high < float("inf"):
                     target.axvspan(per * low, per * high, **BOUNDS)
@@ -58,7 +60,7 @@ def histogram(case: Given | Subject, ax: Axes | None = None, units: str | None =
         target.set_ylabel("draws")
         rows = [("median", MEDIAN), ("5 % and 95 %", ENDS), ("95 % bounds of each", BOUNDS)]
         other = "never reach it, or are not known" if timed else "grow without end, or are not known"
-        text = (f"{result.number:,} draws of the uncertain numbers, seed {result.seed}; samples, no proof"
+        text = (f"{drawn(result.number)} of the uncertain numbers, seed {result.seed}; samples, no proof"
                 + f"; {beyond:,} {other} ({number(100 * beyond / result.number, SHORT)} %)" * bool(beyond))
         return canvas.explained(target, rows if legend else [], ax is None, item.heading, text,
                                 *(caveat.words for caveat in result.caveats if "left out" in caveat.words))

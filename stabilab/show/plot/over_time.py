@@ -20,13 +20,14 @@ from ...answers.uncertain.boxes import box_of
 from ...answers.when import limit_of
 from ...errors import InputError
 from ...numbers.principal import without_trace
+from ...reasons import broad
 from ...theories.theory import side_by_side
 from .. import style
 from ..space import limit_time
 from ..text import cost
 from ..text.headline import headline
 from ..text.stuck import answer_line, row_name
-from ..units import SHORT, Units, number, with_unit
+from ..units import SHORT, Units, bracket, number, with_unit
 from . import canvas
 from . import subject as subjects
 from .path import SOLID, band, path, turning
@@ -46,6 +47,7 @@ SIZE_LOOK = {"color": style.BLACK, "linewidth": 2.2}
 EXTREME = {"linestyle": (0, (1, 2)), "linewidth": 1.1}
 LIMIT = {"color": style.VERMILION, "linestyle": "--", "linewidth": 1.5}
 REACHED = {"marker": "o", "color": style.VERMILION, "markersize": 6.5, "linestyle": "none"}
+BETWEEN = {"facecolor": style.VERMILION, "alpha": 0.18, "linewidth": 0}  # the ends of its time are far apart
 PERIOD = {"color": style.GREY, "linestyle": "-", "linewidth": 0.8}
 ALIKE = 0.004  # of the height of all curves: no more than the width of a line
 THIN = 0.02  # of the height of all curves: as high as a few lines
@@ -86,8 +88,8 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
         if item.motion.first is not None:
             reached, declared = item.motion.first[1], item.case.limits
             limit = declared.rate if declared.rate is not None else declared.rates
-            rows += _limit(target, limit, (reached.low + reached.high) / 2, t, omega, (time_unit, per_time),
-                           scale.rate)
+            rows += limit_marks(target, limit, (float(reached.low), float(reached.high)), t, omega,
+                                (time_unit, per_time), scale.rate)
         if turned is not None:
             target.set_ylabel(with_unit("rate, axes of the file", rate_unit))
         return canvas.explained(target, rows if legend else [], ax is None,
@@ -213,9 +215,10 @@ def file_axes(item: Subject):
     return np.array([[float(v) for v in axis] for axis in case.frame.axes]).T
 
 
-def _limit(ax, limit, when, t, omega, time_unit, rate_unit):
+def limit_marks(ax, limit, when, t, omega, time_unit, rate_unit):
     """Dashed lines at a limit of |omega| (a number) or of the components (three), and a point where it is
-    reached, at `when` or never (None); the rows of the legend."""
+    reached, between the ends of `when` or never (None), a band where these are far apart; the rows of the
+    legend."""
     (second, per_time), (name, per_rate) = time_unit, rate_unit
     alone = not isinstance(limit, (tuple, list))
     limits = [float(v) for v in ([limit] if alone else limit)]
@@ -225,12 +228,17 @@ def _limit(ax, limit, when, t, omega, time_unit, rate_unit):
             ax.axhline(sign * largest * per_rate, **LIMIT | ({} if same else {"color": look["color"]}))
     printed = f"limit of {'|ω|' if alone else 'each'}, {limits[0] * per_rate:.4g} {name}"
     rows = [(printed if same else "limits", LIMIT)]
-    if when is None or not t[0] <= when <= t[-1]:
+    low, high = when or (math.nan, math.nan)
+    if not (t[0] <= high < math.inf and low <= t[-1]):
         return rows
-    values = np.array([np.interp(float(when), t, column) for column in omega.T])
+    if broad(low, high):
+        ax.axvspan(max(low, t[0]) * per_time, min(high, t[-1]) * per_time, **BETWEEN)
+        return [*rows, (f"reached after {' to '.join(bracket(low, high, per_time))} {second}", BETWEEN)]
+    middle = (low + high) / 2
+    values = np.array([np.interp(middle, t, column) for column in omega.T])
     at = np.linalg.norm(values) if alone else values[np.argmax(np.abs(values) / np.array(limits))]
-    ax.plot([float(when) * per_time], [at * per_rate], zorder=5, **REACHED)
-    return [*rows, (f"reached after {float(when) * per_time:.4g} {second}", REACHED)]
+    ax.plot([middle * per_time], [at * per_rate], zorder=5, **REACHED)
+    return [*rows, (f"reached after {middle * per_time:.4g} {second}", REACHED)]
 
 
 # --- The rates after each thruster that is stuck open: a panel a row of the answer
@@ -259,8 +267,7 @@ def stuck(case: Case, found: Stuck, units: Units, plt: Any) -> Any:
         omega, time_unit = omega @ np.array(scenario.rows).T, units.times(until)
         drawn, _ = _rates(ax, t, omega, IN_FILE, scale, time_unit)
         if row.limit is not None:
-            when = sum(row.time_to_limit) / 2 if row.time_to_limit else None
-            drawn += _limit(ax, row.limit, when, t, omega, time_unit, scale.rate)
+            drawn += limit_marks(ax, row.limit, row.time_to_limit, t, omega, time_unit, scale.rate)
         ax.set_ylabel(with_unit("rate, axes of the file", scale.rate[0]))
         clauses = answer_line(row, units).split("; ")[:1 + (row.time_to_limit is not None)]
         became = "; ".join(clauses).rsplit(" (", 1)[0]  # without how well that is known
@@ -385,7 +392,9 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
             target.set_ylim(bottom=low)
             rows.append(("not yet, proved", SURE))
         if (at := limit_time(item.motion)) is not None:
-            target.axhline(per * at, **NOW)
+            first: Any = item.motion.first  # where there is a time there is a limit
+            for end in {float(first[1].low), at} if broad(float(first[1].low), at) else (at,):
+                target.axhline(per * end, **NOW)
             rows.append(("as it is", NOW))
         declared = [float(t.misalignment) for t in (() if supplied is None else supplied.thrusters)
                   if t.stuck and t.misalignment]
@@ -451,7 +460,8 @@ def wheel(case: Given | Subject, ax: Axes | None = None, units: str | None = Non
             for low, high in retained:
                 target.axvspan(max(low, momenta[0]), min(high, momenta[-1]), **KEEPS)
             rows += [("keeps the motion bounded", KEEPS)] if retained else []
-        rows.append((f"now: {scale.system.time(time[0], SHORT)}", style.MARKER["start"]))
+        now = scale.system.clock(*time) if broad(*time) else scale.system.time(time[0], SHORT)
+        rows.append((f"now: {now}", style.MARKER["start"]))
         target.axhline(0.0, color=style.GREY, linewidth=0.8)
         target.margins(y=0.12)
         target.set_xlabel("momentum of the wheel along its axis (N m s)")

@@ -17,6 +17,7 @@ from ...orbit.potential import potential
 from ...orbit.reduction import reduce
 from ...orbit.result import Motion
 from ...physics.coefficients import effective
+from ...reasons import broad
 from .. import ending, limiting
 from ..terminal import listed, printed
 from ..text import headline
@@ -60,8 +61,9 @@ def _when(motion, units):
     limit, result = motion.first or ("", None)
     limit = f"the limit, {units.filled(limit)},"
     if result is not None and math.isfinite(result.high):
-        middle = 0.5 * float(result.low + result.high)
-        return units.time(middle, SHORT), f"until {limit} is reached ({result.level})"
+        low, high = float(result.low), float(result.high)
+        time = units.clock(low, high) if broad(low, high) else units.time(0.5 * (low + high), SHORT)
+        return time, f"until {limit} is reached ({result.level})"
     tilt: Any = motion.tilt
     if tilt is not None and not tilt.ranges and tilt.ends:
         return (units.time(tilt.low, SHORT),

@@ -23,7 +23,7 @@ NO_END = {"time": "never", "largest": "without end"}
 def text(result: Percentiles, units: Units) -> str:
     """Lines below an answer: shares of the draws, then quantiles, each with its bounds, and what limits them.
     """
-    lines = [f"{printable(result.name)}, {result.number:,} draws of the uncertain numbers (seed "
+    lines = [f"{printable(result.name)}, {drawn(result.number)} of the uncertain numbers (seed "
              f"{result.seed}), in brackets 95 % bounds:"]
     if result.outcomes:
         lines.append("  " + ", ".join(f"{word} {_share(of)}" for word, of in result.outcomes.items()))
@@ -35,6 +35,11 @@ def text(result: Percentiles, units: Units) -> str:
         if item is not None:
             lines.append(f"  {label}: {_quantiles(item, name, units)}")
     return "\n".join([*lines, *limiting.lines(result.caveats, units)])
+
+
+def drawn(number: int) -> str:
+    """So many draws in words."""
+    return f"{number:,} draw{'s' * (number != 1)}"
 
 
 def _share(of: Fraction95) -> str:
