@@ -177,18 +177,20 @@ def explained(rows) -> tuple[list, list[str]]:
     return handles, list(looks)
 
 
-def legend(figure, rows, columns: int | None = None):
+def legend(figure, rows, columns: int | None = None, notes: str = ""):
     """One legend below the picture, if there is anything to tell: rows of (name, look). columns: at most;
-    None for as many as fit."""
-    below(figure, *explained(rows), columns)
+    None for as many as fit. notes: lines above the rows."""
+    below(figure, *explained(rows), columns, notes)
 
 
-def below(figure, handles, names, columns: int | None = None):
-    """A legend below a figure, if there are any names, of as few rows of about the same length as fit."""
-    for rows in range(1, len(names) + 1):
-        across = min(-(-len(names) // rows), columns or len(names))
-        built = figure.legend(handles, names, loc="outside lower center", ncols=across)
-        if columns or rows == len(names) or built.get_window_extent().width <= 0.97 * figure.bbox.width:
+def below(figure, handles, names, columns: int | None = None, notes: str = ""):
+    """A legend below a figure, if there are any names or notes, of as few rows of about the same length as
+    fit."""
+    for rows in range(1, max(len(names), bool(notes)) + 1):
+        across = max(1, min(-(-len(names) // rows), columns or len(names)))
+        built = figure.legend(handles, names, loc="outside lower center", ncols=across, title=notes or None,
+                              title_fontsize=RC["legend.fontsize"] * share())
+        if columns or rows >= len(names) or built.get_window_extent().width <= 0.97 * figure.bbox.width:
             return
         built.remove()
 

@@ -183,8 +183,9 @@ def draw(case: Any, path: Path) -> Path:
         ax.imshow(pixels)
         ax.set_axis_off()
         _label(ax, result)
-        canvas.title(ax, item.heading, canvas.answer(item, scale), away(item, result, scale))
-        canvas.legend(ax, rows(result), True)
+        notes = canvas.title(ax, item.heading, canvas.answer(item, scale), canvas.unsaid(item, scale),
+                             away(item, result, scale), most=canvas.TITLE_LINES)
+        canvas.legend(ax, rows(result), True, notes)
         return style.save(figure, path)
 
 

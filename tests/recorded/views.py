@@ -11,7 +11,8 @@ from stabilab.show.explore.session import Session
 from stabilab.show.plot.subject import offered, subject
 from stabilab.show.report import one_case
 
-PARTS = ("headline", "law", "caveats", "fate", "look", "tiles", "facts", "extremes", "over", "sensitivity",
+PARTS = ("headline", "first", "small", "law", "caveats", "fate", "look", "tiles", "facts", "extremes", "over",
+         "sensitivity",
          "equilibria", "uncertain", "absent")
 ANSWERED = ("headline", "fate", "look", "note", "rows", "equilibria")
 SLOW = {"attitude", "budget", "section", "tilt", "wheel"}  # kinds of plot that take seconds

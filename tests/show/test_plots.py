@@ -183,7 +183,8 @@ def test_limits_about_axes_of_the_file_are_drawn_beside_the_rates_about_those():
     back = case.frame.back([Fraction(v) for v in case.state])
     assert start == pytest.approx([math.degrees(float(v)) for v in back],
                                   abs=1e-9) and "axes of the file" in ax.get_ylabel()
-    assert "minor axis" in " ".join(ax.get_title().split())
+    assert "Spins up; 5 deg/s in a component after" in ax.get_title()  # no room for the axis in 60 letters
+    assert "the tolerance of the force of R3" in " ".join(ax.figure.legends[0].get_title().get_text().split())
 
 
 def test_a_curve_with_more_turns_than_columns_becomes_a_band_that_holds_it():

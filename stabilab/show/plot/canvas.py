@@ -13,7 +13,6 @@ from .. import limiting, style
 from ..axes import axes_of
 from ..terminal import written
 from ..text import headline
-from ..text.headline import outcome
 from ..units import units_of
 from .subject import Measures, Subject
 
@@ -23,6 +22,8 @@ if TYPE_CHECKING:
 
 SIZE = (7.6, 4.8)  # inches
 SQUARE = (7.0, 6.4)
+TITLE_LINES = 2  # of a picture of its own; more stand below it
+SMALL_NOTE = "what limits this: stabilab fate"
 BELOW = 0.14  # inches between axes in space and their legend, in a figure with room for it
 
 
@@ -57,37 +58,58 @@ def _checked(ax: Any, space: bool) -> Any:
 def explained(ax: Axes | Axes3D, rows: list[tuple[str, dict[str, Any]]], own: bool, heading: str,
               *lines: str) -> Any:
     """The axes, with a title as of `title` and with what the looks mean, rows of (name, look)."""
-    title(ax, heading, *lines)
-    legend(ax, rows, own)
+    notes = title(ax, heading, *lines, most=TITLE_LINES if own else None)
+    legend(ax, rows, own, notes)
     return ax
 
 
-def legend(ax: Axes | Axes3D, rows: list[tuple[str, dict[str, Any]]], own: bool) -> None:
-    """What the looks mean, rows of (name, look): below a figure of its own, inside axes that were given."""
-    if rows and own:
-        style.legend(ax.figure, rows)
+def legend(ax: Axes | Axes3D, rows: list[tuple[str, dict[str, Any]]], own: bool, notes: str = "") -> None:
+    """What the looks mean, rows of (name, look): below a figure of its own, with what its title has no room
+    for; inside axes that were given."""
+    if own and (rows or notes):
+        style.legend(ax.figure, rows, notes=notes)
     elif rows:
         ax.legend(*style.explained(rows), loc="best", fontsize="small")
 
 
 def answer(item: Subject, scale: Measures) -> str:
-    """What becomes of the motion of a case, and when it reaches its limit, as its headline begins; empty
-    without a case."""
+    """What becomes of the motion of a case: the first of the two lines of its headline; empty without a case.
+    """
+    if item.case is None or item.state is None:
+        return ""
+    return headline.two_lines(item.case, item.motion, scale.system)[0]
+
+
+def unsaid(item: Subject, scale: Measures) -> str:
+    """What limits that answer and does not stand in it: how far numbers of the case, forces and axes may be
+    others."""
     if item.case is None or item.state is None:
         return ""
     units = replace(scale.system or units_of(item.case), axes=axes_of(item.case))
-    became, limit, _ = outcome(item.motion, units)
-    left_out = [limiting.words(of, units).split("; ")[0] for of in item.motion.caveats
-                if of.kind in (Kind.TOLERANCE, Kind.MISALIGNMENT, Kind.UNCERTAIN)]
-    text = "; ".join(filter(None, (became, limit, *left_out)))
-    return headline.warned(item.motion.validity, limiting.ahead(item.motion.caveats, text, named=False))
+    return "; ".join(limiting.words(of, units).split("; ")[0] for of in item.motion.caveats
+                     if of.kind in (Kind.TOLERANCE, Kind.MISALIGNMENT, Kind.UNCERTAIN))
 
 
-def title(ax: Any, heading: str, *lines: str) -> None:
+def title(ax: Any, heading: str, *lines: str, most: int | None = None) -> str:
     """The heading of the case, as its user wrote it, and below it what the program says, names as letters
-    (omega becomes ω); nothing for what is empty."""
+    (omega becomes ω); nothing for what is empty. most: lines at most; None: as many as these take. Returns
+    what there is no room for, in lines that fit the figure: a heading is cut, and gives its line to what the
+    program says."""
     # beside others it has its own share alone
     width = ax.get_position().width if len(ax.figure.axes) > 1 else 1.0
-    printed = (style.clauses(line, ax.figure.get_figwidth() * width)
-            for line in (heading, *map(written, lines)) if line)
-    ax.set_title("\n".join(map(style.literal, printed)), wrap=True)
+    inches = ax.figure.get_figwidth() * width
+    own = style.clauses(heading, inches).split("\n") if heading else []
+    said = [style.clauses(line, inches).split("\n") for line in map(written, lines) if line]
+    below: list[str] = []
+    if most is not None:
+        first, rest = (said[0], said[1:]) if said else ([], [])
+        if len(own) > max(1, most - len(first)):
+            own = [f"{own[0].rstrip(',;:')} ..."]
+        shown = [*(own if len(first) < most else ()), *first][:most]
+        below = [*first[most:], *(line for part in rest for line in part)]
+    else:
+        shown = [*own, *(line for part in said for line in part)]
+    ax.set_title("\n".join(map(style.literal, shown)), wrap=True)
+    if below and style.share() < 1:  # of a small figure these lines would leave nothing
+        return SMALL_NOTE
+    return "\n".join(map(style.literal, below))

@@ -24,7 +24,6 @@ from ...theories.theory import side_by_side
 from .. import style
 from ..space import limit_time
 from ..text import cost
-from ..text.headline import headline
 from ..text.stuck import answer_line, row_name
 from ..units import SHORT, Units, number, with_unit
 from . import canvas
@@ -91,7 +90,7 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
         if turned is not None:
             target.set_ylabel(with_unit("rate, axes of the file", rate_unit))
         return canvas.explained(target, rows if legend else [], ax is None,
-                                item.heading, "" if item.case is None else _answer(item, scale))
+                                item.heading, canvas.answer(item, scale), _middles(item, scale))
 
 
 def _rates(ax: Axes, t: np.ndarray, omega: np.ndarray, names: Sequence[str], scale: Measures,
@@ -112,10 +111,11 @@ def _rates(ax: Axes, t: np.ndarray, omega: np.ndarray, names: Sequence[str], sca
     return [(scale.size or "$|x|$", SIZE_LOOK), *zip(names, looks)], looks
 
 
-def _answer(item: Subject, scale: Measures):
-    """The answer in one line; of uncertain numbers only their middles are drawn."""
-    printed = headline(item.case, item.motion, scale.system, placed=False)
-    return printed + ("; for the middles of the uncertain numbers" if item.case.uncertain else "")
+def _middles(item: Subject, scale: Measures) -> str:
+    """What limits the answer; of uncertain numbers only their middles are drawn."""
+    drawn = item.case is not None and item.case.uncertain
+    return "; ".join(filter(None, (canvas.unsaid(item, scale),
+                                   "for the middles of the uncertain numbers" if drawn else "")))
 
 
 def _samples(ax, item, t, per_time, per_rate, looks):
@@ -404,7 +404,7 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
         reaches = r"$|\omega|$ =" if out.limit.kind == "rate" else "a component of"
         target.set_ylabel(f"time to {reaches} {smallest} ({unit})")
         return canvas.explained(target, rows if legend else [], ax is None,
-                                item.heading, canvas.answer(item, scale))
+                                item.heading, canvas.answer(item, scale), canvas.unsaid(item, scale))
 
 
 def wheel(case: Given | Subject, ax: Axes | None = None, units: str | None = None,
@@ -457,4 +457,4 @@ def wheel(case: Given | Subject, ax: Axes | None = None, units: str | None = Non
         target.set_xlabel("momentum of the wheel along its axis (N m s)")
         target.set_ylabel(f"later by ({unit})")
         return canvas.explained(target, list(dict(rows).items()) if legend else [], ax is None,
-                                item.heading, canvas.answer(item, scale))
+                                item.heading, canvas.answer(item, scale), canvas.unsaid(item, scale))

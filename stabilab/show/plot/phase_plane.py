@@ -63,7 +63,7 @@ def phase(case: Given | Subject, state: Start | None = None, ax: Axes | None = N
         target.set_ylabel(with_unit(scale.names[i], scale.rate[0]))
         rows = rows_of({"centre": plane.centres, "saddle": plane.saddles})
         return canvas.explained(target, rows if legend else [], ax is None,
-                                item.heading, canvas.answer(item, scale))
+                                item.heading, canvas.answer(item, scale), canvas.unsaid(item, scale))
 
 
 # of the walls: a motion below it would be a line, and the grid may miss the bottom of its well
@@ -380,7 +380,7 @@ def potential(case: Scene, state: Sequence[float] | None = None, ax: Axes | None
                                     scale.angle[0]))
         target.set_ylabel(with_unit("energy", "J" if scale.size else ""))
         return canvas.explained(target, rows if legend else [], ax is None,
-                                item.heading, canvas.answer(item, scale))
+                                item.heading, canvas.answer(item, scale), canvas.unsaid(item, scale))
 
 
 def _barrier(plane: PhasePlane, margin: float | None, up: float, span: tuple[float, float]) -> float | None:

@@ -66,8 +66,10 @@ def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[
         for figure in figures:
             if size is not None:
                 figure.set_size_inches(*size)
-            if not titled:
+            if not titled:  # nor what the title had no room for: the page says that, too
                 figure.axes[0].set_title("")
+                for legend in figure.legends:
+                    legend.set_title(None)
         files = [style.save(figure, endings.numbered(path, n), dpi)
                  for n, figure in enumerate(figures, 1)]
         if narrow is not None:
