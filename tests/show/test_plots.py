@@ -284,7 +284,7 @@ def test_a_band_of_uncertain_rates_holds_the_motions_at_its_corners():
     Euler's equations written out here; 16 of the 32 corners are drawn, so a band is no bound."""
     ax = stabilab.plot.time(load("uncertain-separatrix"), span=5.0)
     names = [text.get_text() for text in ax.figure.legends[0].get_texts()]
-    assert "between 16 samples of the uncertain numbers" in names
+    assert "between 16 uncertain samples" in names
     ends = []
     for sign in product((-1, 1), repeat=5):
         a, b, c, d, e = sign

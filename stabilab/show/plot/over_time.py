@@ -90,7 +90,7 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
         if turned is not None:
             target.set_ylabel(with_unit("rate, axes of the file", rate_unit))
         return canvas.explained(target, rows if legend else [], ax is None,
-                                item.heading, canvas.answer(item, scale), _middles(item, scale))
+                                item.heading, canvas.answer(item, scale), notes=canvas.notes(item, scale))
 
 
 def _rates(ax: Axes, t: np.ndarray, omega: np.ndarray, names: Sequence[str], scale: Measures,
@@ -109,13 +109,6 @@ def _rates(ax: Axes, t: np.ndarray, omega: np.ndarray, names: Sequence[str], sca
     ax.set_xlabel(with_unit("time", unit) if scale.size else unit)
     ax.set_ylabel(with_unit("rate", rate_unit) if scale.size else "$x$")
     return [(scale.size or "$|x|$", SIZE_LOOK), *zip(names, looks)], looks
-
-
-def _middles(item: Subject, scale: Measures) -> str:
-    """What limits the answer; of uncertain numbers only their middles are drawn."""
-    drawn = item.case is not None and item.case.uncertain
-    return "; ".join(filter(None, (canvas.unsaid(item, scale),
-                                   "for the middles of the uncertain numbers" if drawn else "")))
 
 
 def _samples(ax, item, t, per_time, per_rate, looks):
@@ -137,7 +130,7 @@ def _samples(ax, item, t, per_time, per_rate, looks):
     for values, look in zip((*np.moveaxis(runs, 2, 0), np.linalg.norm(runs, axis=2)), (*looks, SIZE_LOOK)):
         ax.fill_between(times * per_time, values.min(axis=0) * per_rate, values.max(axis=0) * per_rate,
                         color=look["color"], alpha=0.2, linewidth=0, zorder=1)
-    return [(f"between {len(runs)} samples of the uncertain numbers",
+    return [(f"between {len(runs)} uncertain samples",
              {"facecolor": style.GREY, "alpha": 0.35, "linewidth": 0})]
 
 
@@ -404,7 +397,7 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
         reaches = r"$|\omega|$ =" if out.limit.kind == "rate" else "a component of"
         target.set_ylabel(f"time to {reaches} {smallest} ({unit})")
         return canvas.explained(target, rows if legend else [], ax is None,
-                                item.heading, canvas.answer(item, scale), canvas.unsaid(item, scale))
+                                item.heading, canvas.answer(item, scale), notes=canvas.notes(item, scale))
 
 
 def wheel(case: Given | Subject, ax: Axes | None = None, units: str | None = None,
@@ -457,4 +450,4 @@ def wheel(case: Given | Subject, ax: Axes | None = None, units: str | None = Non
         target.set_xlabel("momentum of the wheel along its axis (N m s)")
         target.set_ylabel(f"later by ({unit})")
         return canvas.explained(target, list(dict(rows).items()) if legend else [], ax is None,
-                                item.heading, canvas.answer(item, scale), canvas.unsaid(item, scale))
+                                item.heading, canvas.answer(item, scale), notes=canvas.notes(item, scale))

@@ -66,10 +66,8 @@ def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[
         for figure in figures:
             if size is not None:
                 figure.set_size_inches(*size)
-            if not titled:  # nor what the title had no room for: the page says that, too
+            if not titled:
                 figure.axes[0].set_title("")
-                for legend in figure.legends:
-                    legend.set_title(None)
         files = [style.save(figure, endings.numbered(path, n), dpi)
                  for n, figure in enumerate(figures, 1)]
         if narrow is not None:
@@ -85,8 +83,10 @@ def narrowed(figure: Any) -> Any:
     figure.set_size_inches(*TELEPHONE)
     for legend in list(figure.legends):
         names = [text.get_text() for text in legend.get_texts()]
+        notes = " ".join(legend.get_title().get_text().split("\n"))
         legend.remove()
-        style.below(figure, legend.legend_handles, names)
+        style.below(figure, legend.legend_handles, names, notes=notes and style.clauses(
+            notes, figure.get_figwidth(), style.RC["legend.fontsize"] * style.share()))
     return figure
 
 

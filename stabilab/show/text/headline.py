@@ -19,6 +19,7 @@ from ...errors import Kind, printable
 from ...orbit.result import HEADS, OVER_SPAN
 from .. import ending, limiting
 from ..axes import PLAIN, axes_of, direction
+from ..terminal import capital
 from ..units import SHORT, SI, Unit, Units, as_bound, number, units_of
 
 if TYPE_CHECKING:
@@ -179,13 +180,18 @@ def two_lines(case: Case, motion: Motion, units: Units | None = None) -> tuple[s
         motion, f"{head.lower()}{about}{where}", tail)] if len(text) <= FIRST), "")
     if not large:  # the condition is too long: that there is one must stay
         large = _large(motion, f"{head.lower()}, on a condition" if where else head.lower(), ())
-    clauses = [clause for clause in line.split("; ") if not _in(clause, large)]
+    became, *rest = line.split("; ")
+    if beyond(motion.validity):  # the warning stands alone before what that law has
+        became, *rest = [rest[0].removeprefix("by that law: "), *rest[1:]]
+    if became.lower().startswith(head.lower()):
+        became = became[len(head):].lstrip(":, ")
+    clauses = [clause for clause in [became, *rest] if clause and not _in(clause, large)]
     for clause in clauses:  # whatever comes next, if it fits
         if (where or about or not limit) and clause in (cause(motion, units), largest(motion, units)):
             if len(longer := f"{large}; {clause}") <= FIRST and motion.fate.word != "undecided":
                 large, clauses = longer, [other for other in clauses if other != clause]
             break
-    return large, "; ".join(clauses)
+    return large, capital("; ".join(clauses))
 
 
 def _large(motion: Motion, text: str, tail: Sequence[str]) -> str:
@@ -198,7 +204,8 @@ def _large(motion: Motion, text: str, tail: Sequence[str]) -> str:
 
 def _in(clause: str, large: str) -> bool:
     """Whether the first of two lines says a clause of the headline."""
-    return clause.removeprefix("reaches ").lower() in large.lower() or clause == "by that law: "
+    clause = clause.removeprefix("reaches ").lower()
+    return clause.replace(", at ", "; at ") in large.lower().replace(", at ", "; at ")
 
 
 def before(case: Case, answer) -> int:
