@@ -22,6 +22,35 @@ if TYPE_CHECKING:
 
 LAW_JUDGED = "law-judged"  # of `physics.law_limits`, which is not loaded where all laws are exact
 AHEAD = {Kind.THRUSTERS: "no thruster fires"}  # what a first line says before the answer
+# What limits an answer in few words, for a picture with no room for more, the kind that takes most first
+IN_BRIEF = {Kind.LAW: "a law is left", Kind.UNPHYSICAL: "no body has this tensor",
+            Kind.THRUSTERS: "no thruster fires", Kind.LIMIT: "reaches its limit",
+            Kind.TILT: "a tilt of the torque counts",
+            Kind.UNSTABLE: "not known to be stable", Kind.TOLERANCE: "tolerance left out",
+            Kind.MISALIGNMENT: "misalignment left out", Kind.SAMPLES: "samples, no proof",
+            Kind.UNCERTAIN: "of the middles of uncertain numbers", Kind.MOTOR: "a motor without an end",
+            Kind.BURN: "burn as stated", Kind.SIZE: "size or mass beyond reason",
+            Kind.DISTRIBUTION: "of a box of uncertain numbers", Kind.STATED: "a caveat of the file"}
+# the same of single sentences, by their codes
+BRIEFLY = {
+    "law-judged": "law of {effect} left", "no-such-body": "no body has these moments",
+    "reaches-limit": "{limit} after {time} ({level})", "limit-at-start": "{limit} at the start already",
+    "tilted-reaches": "{varied}: {limit} after {time} ({level})",
+    "tilted-not-before": "{varied}: not before {time}",
+    "tilted-not-found": "{varied}: not found within {time}",
+    "cone-none-found": "{varied}: not found within {time}",
+    "cone-not-looked-at": "a tilt is not looked at", "cone-fates": "{varied} it {fates}",
+    "cone-runs-end": "{varied}: {limit} earlier or later",
+    "cone-all-reach": "{varied}: {limit} after {first}",
+    "cone-some-reach": "{varied}: {limit} after {first}",
+    "cone-some-runs-end": "{varied}: {limit} after {first}",
+    "unstable-equilibrium": "unstable: factor e in {time}", "unstable-not-exponential": "unstable",
+    "tolerance-not-looked-at": "tolerance of {thrusters} left out",
+    "misalignment-not-looked-at": "misalignment of {thrusters} left out",
+    "normal-numbers": "normal numbers: within {sigmas} sigma",
+    "correlated-numbers": "correlations in samples alone",
+    "stated-by-the-file": "{statement}"}
+BRIEF = 44  # letters of these at most
 
 
 def reached(caveats: Iterable[Caveat], units: Units) -> str:
@@ -106,6 +135,49 @@ def unsaid(caveats: Iterable[Caveat], text: str, units: Units) -> list[Caveat]:
     return [caveat for caveat in dict.fromkeys(caveats) if not _of_law(caveat)
             and not any(form.removeprefix("holds ").removeprefix("unstable: ").lower() in text.lower()
                         for form in _forms(caveat, units))]
+
+
+class Note(NamedTuple):
+    """What limits an answer, in full and in few words."""
+
+    full: str
+    brief: str
+
+
+def notes(caveats: Iterable[Caveat], line: str, units: Units) -> list[Note]:
+    """A note on every caveat that a line leaves out, for a picture, the most important first: of a law by how
+    much it is left, of a condition that the line has what a tilt does to it."""
+    found = []
+    ranks = list(IN_BRIEF)
+    for item in sorted(dict.fromkeys(caveats), key=lambda item: ranks.index(item.kind)):
+        if not any(form.removeprefix("reaches ").removeprefix("holds ").lower() in line.lower()
+                   for form in _forms(item, units)):
+            found.append(Note(_for_a_picture(item, units), _briefly(item, item.reason, units)))
+        elif item.reason.sentence is HOLDS:
+            found += [Note(units.said(clause, SHORT), _briefly(item, clause, units))
+                      for _, clause in item.reason.rest]
+    return found
+
+
+def _for_a_picture(item: Caveat, units: Units) -> str:
+    """In full, but for what stands in the answer of a command."""
+    if _of_law(item):
+        (joint, measured), *_ = item.reason.rest
+        return units.said(item.reason.alone.then(measured.alone, joint), SHORT)
+    if item.kind in (Kind.TOLERANCE, Kind.MISALIGNMENT, Kind.UNCERTAIN):
+        return words(item, units).split("; ")[0]
+    return words(item, units)
+
+
+def _briefly(item: Caveat, reason: Reason, units: Units) -> str:
+    """In few words, by the code of the sentence, else by its kind."""
+    if reason.sentence is HOLDS:
+        return units.said(_unheld(reason.alone, True), SHORT, None)
+    if reason.code not in BRIEFLY:
+        return IN_BRIEF[item.kind]
+    filled = {name: units.filled(value, SHORT, None) for name, value in reason.filled}
+    text = BRIEFLY[reason.code].format_map(filled)
+    return text if len(text) <= BRIEF else text[:BRIEF - 3].rsplit(" ", 1)[0].rstrip(",;:") + " ..."
 
 
 def _of_law(caveat: Caveat) -> bool:

@@ -68,6 +68,7 @@ SERIES = (BLUE, ORANGE, GREEN, PURPLE, VERMILION)               # one curve each
 
 PACKAGES = ("matplotlib", "PIL")  # of every picture
 DPI = 110
+MARGIN = 0.3  # inches beside a line of a title
 TITLE = 0.008  # inches that a letter of a title takes, a point of its size
 # inches from which on letters have their full size; the least share of it in smaller figures: 7 points
 ROOMY, SMALLEST = (5.6, 3.8), 0.7
@@ -80,6 +81,10 @@ RC: dict[Any, Any] = {  # of Matplotlib
     "lines.solid_capstyle": "round",
     "mathtext.fontset": "dejavusans", "axes.formatter.use_mathtext": True, "svg.hashsalt": "stabilab",
 }
+
+# of legends in small figures, in letters
+DENSE = {"legend.handlelength": 1.3, "legend.handletextpad": 0.5, "legend.columnspacing": 1.0,
+         "legend.labelspacing": 0.2, "legend.borderpad": 0.3}
 
 
 def kind_of(part: CurveSegment | EquilibriumPoint) -> str:
@@ -177,28 +182,31 @@ def explained(rows) -> tuple[list, list[str]]:
     return handles, list(looks)
 
 
-def legend(figure, rows, columns: int | None = None):
+def legend(figure, rows, columns: int | None = None, notes: str = ""):
     """One legend below the picture, if there is anything to tell: rows of (name, look). columns: at most;
-    None for as many as fit."""
-    below(figure, *explained(rows), columns)
+    None for as many as fit. notes: lines above the rows."""
+    below(figure, *explained(rows), columns, notes)
 
 
-def below(figure, handles, names, columns: int | None = None):
-    """A legend below a figure, if there are any names, of as few rows of about the same length as fit."""
-    for rows in range(1, len(names) + 1):
-        across = min(-(-len(names) // rows), columns or len(names))
-        built = figure.legend(handles, names, loc="outside lower center", ncols=across)
-        if columns or rows == len(names) or built.get_window_extent().width <= 0.97 * figure.bbox.width:
+def below(figure, handles, names, columns: int | None = None, notes: str = ""):
+    """A legend below a figure, if there are any names or notes, of as few rows of about the same length as
+    fit."""
+    for rows in range(1, max(len(names), bool(notes)) + 1):
+        across = max(1, min(-(-len(names) // rows), columns or len(names)))
+        built = figure.legend(handles, names, loc="outside lower center", ncols=across, title=notes or None,
+                              title_fontsize=RC["legend.fontsize"] * share())
+        if columns or rows >= len(names) or built.get_window_extent().width <= 0.97 * figure.bbox.width:
             return
         built.remove()
 
 
 def letters(size: tuple[float, float] | None) -> dict[str, float]:
-    """The sizes of letters in a figure of so many inches: smaller in a small one, of which words would leave
-    nothing else."""
+    """The sizes of letters in a figure of so many inches: smaller, and with less room between the names of a
+    legend, in a small one, of which words would leave nothing else."""
     fraction = (1.0 if size is None
              else max(SMALLEST, min(1.0, *(supplied / roomy for supplied, roomy in zip(size, ROOMY)))))
-    return {key: fraction * value for key, value in RC.items() if key.endswith("size")}
+    dense = {} if fraction == 1 else DENSE
+    return {key: fraction * value for key, value in RC.items() if key.endswith("size")} | dense
 
 
 def share() -> float:
@@ -207,15 +215,23 @@ def share() -> float:
     return min(1.0, float(matplotlib.rcParams["font.size"]) / float(RC["font.size"]))
 
 
-def clauses(text: str, width: float) -> str:
-    """A title of clauses in lines that fit a figure of so many inches: each ends with a clause where one
-    alone is no longer than a line; a longer one is parted into lines of about one length."""
-    import textwrap
-
+def fitting(text: str, width: float) -> float:
+    """The size of letters, in points, at which a line fits a figure of so many inches: that of titles, or a
+    smaller one, of notes at least."""
     import matplotlib
     from matplotlib.font_manager import FontProperties
-    largest = (width
-            - 0.3) / (TITLE * FontProperties(size=matplotlib.rcParams["axes.titlesize"]).get_size_in_points())
+    usual = FontProperties(size=matplotlib.rcParams["axes.titlesize"]).get_size_in_points()
+    least = RC["legend.fontsize"] * share()
+    return max(min(usual, least), min(usual, (width - MARGIN) / (TITLE * max(1, len(text)))))
+
+
+def clauses(text: str, width: float, size: float | None = None) -> str:
+    """Clauses in lines that fit a figure of so many inches: each ends with a clause where one alone is no
+    longer than a line; a longer one is parted into lines of about one length. size: of letters, in points;
+    None: of a title."""
+    import textwrap
+
+    largest = math.floor((width - MARGIN) / (TITLE * (fitting("", width) if size is None else size)) + 1e-6)
     lines = [""]
     for clause in text.replace("; ", "; \n").split("\n"):
         if lines[-1] and len(lines[-1]) + len(clause.rstrip()) > largest:

@@ -183,8 +183,8 @@ def draw(case: Any, path: Path) -> Path:
         ax.imshow(pixels)
         ax.set_axis_off()
         _label(ax, result)
-        canvas.title(ax, item.heading, canvas.answer(item, scale), away(item, result, scale))
-        canvas.legend(ax, rows(result), True)
+        canvas.explained(ax, rows(result), True, item.heading, canvas.answer(item, scale),
+                         away(item, result, scale), notes=canvas.notes(item, scale))
         return style.save(figure, path)
 
 

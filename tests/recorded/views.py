@@ -11,9 +11,10 @@ from stabilab.show.explore.session import Session
 from stabilab.show.plot.subject import offered, subject
 from stabilab.show.report import one_case
 
-PARTS = ("headline", "law", "caveats", "fate", "look", "tiles", "facts", "extremes", "over", "sensitivity",
+PARTS = ("headline", "first", "small", "law", "caveats", "fate", "look", "tiles", "facts", "extremes", "over",
+         "sensitivity",
          "equilibria", "uncertain", "absent")
-ANSWERED = ("headline", "fate", "look", "note", "rows", "equilibria")
+ANSWERED = ("headline", "first", "small", "fate", "look", "note", "rows", "equilibria")
 SLOW = {"attitude", "budget", "section", "tilt", "wheel"}  # kinds of plot that take seconds
 
 
@@ -54,7 +55,8 @@ def of_pictures(path: Path) -> dict:
             made = getattr(stabilab.plot, kind)(case)
             figure = getattr(made, "figure", made)
             found[kind] = [_of_axes(ax) for ax in figure.axes] + [
-                [text.get_text() for text in legend.get_texts()] for legend in figure.legends]
+                [*filter(None, legend.get_title().get_text().split("\n")),
+                 *(text.get_text() for text in legend.get_texts())] for legend in figure.legends]
             plt.close("all")
     return found
 

@@ -7,7 +7,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from stabilab import Body, Gyrostat, Scene, load, motion
-from stabilab.show.text.headline import bracketed, headline
+from stabilab.show.plot.subject import subject
+from stabilab.show.text.headline import FIRST, bracketed, headline, two_lines
 from tests.shared import MOVING
 
 BODY, WHEEL, TORQUE = map(np.array, ([12.0, 9, 5], [0.8, 0, 0], [0, 0, 0.02]))
@@ -90,3 +91,18 @@ def test_proofs_and_algebra_stand_behind_why(stabilab, own):
 def test_open_bounds_are_rounded_outward_with_the_digits_that_tell_them_apart(low, high, words):
     """By hand: two digits of the difference, four digits at least."""
     assert bracketed(low, high, ("deg/s", 1.0), 4) == words
+
+
+@pytest.mark.parametrize("name", ["cubesat-3u", "geostationary-22n", "thruster-stuck-major-axis", "charged-body"])
+def test_two_lines_say_all_of_the_headline_and_the_first_has_at_most_sixty_letters(name):
+    """Every clause of the headline stands in one of them (as text, by comparison; the outcome, in capitals, in the
+    first alone), and so does each condition in the first: an axis that the torque lies along, a law that is left."""
+    case = load(f"cases/{name}.toml")
+    found = subject(case).motion
+    line, (large, small) = headline(case, found), two_lines(case, found)
+    assert 0 < len(large) <= FIRST
+    for clause in line.split("; "):
+        said = re.sub("^(by that law: )?[A-Z]{4}[A-Z ]*", "", clause).removeprefix("reaches ").strip().lower()
+        assert said in f"{large}\n{small}".lower()
+    assert ("only" in large) == ("only while" in line)
+    assert large.startswith("Beyond the law: ") == line.startswith("BEYOND THE LAW")

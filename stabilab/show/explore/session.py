@@ -40,7 +40,7 @@ from ..report.tables import tiles
 from ..space import natural, seen
 from ..terminal import capital, lettered, written
 from ..text.classification import called
-from ..text.headline import headline, judged, look
+from ..text.headline import headline, judged, look, two_lines
 from ..text.motion import margins
 from ..units import SHORT, Units, but_for_rounding, units_of
 from . import parameters, pictures
@@ -146,6 +146,7 @@ class Session:
             clicked = pictures.clicked(self._twin(case), case.state, request["click"], self.units)
             case, note = changed(self.case, request | {"start": clicked, "click": None}, self.units)
         result, text = self._motion(case, moving, stopped)
+        lines = text, ""
         if result is not None:
             result = judged(case, result, brief=True)
             if not moving and present("numpy"):
@@ -153,7 +154,7 @@ class Session:
             if case.limits is not None and not moving and present("numpy"):
                 from ...answers.when import with_first
                 result = with_first(case, result, QUICK)
-            text = headline(case, result, units)
+            text, lines = headline(case, result, units), two_lines(case, result, units)
         settled = time.process_time()
         twin = self._twin(case)
         at_rest = self._at_rest(case, twin, moving)
@@ -171,7 +172,8 @@ class Session:
         holds = None if result is None else result.validity  # of an approximate law
         notes = [note, self._swept, cut, holds and units.said(holds.reason),
                  *limiting.beside((case if result is None else result).caveats, units, text)]
-        built = {"headline": text, "fate": "undecided" if result is None else result.fate.word,
+        built = {"headline": text, "first": lines[0], "small": lines[1],
+                "fate": "undecided" if result is None else result.fate.word,
                 "look": "conditional" if result is None else look(result),
                 "moving": moving, "start": clicked,
                 "note": " ".join(map(capital, filter(None, notes))),

@@ -62,7 +62,7 @@ def body(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
         for text in target.texts:
             text.set(path_effects=halo, zorder=LETTERS["zorder"])
         if not bare:
-            canvas.title(target, item.heading)
+            canvas.title(target, item.heading, most=canvas.TITLE_LINES if ax is None else None)
         if legend:
             style.legend(target.figure, rows, columns=1)
     return target

@@ -2,18 +2,18 @@
 its title and its legend."""
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from ...errors import InputError, Kind
+from ...errors import InputError, Kind, without
 from ...packages import demand
 from .. import limiting, style
 from ..axes import axes_of
+from ..limiting import Note
 from ..terminal import written
 from ..text import headline
-from ..text.headline import outcome
 from ..units import units_of
 from .subject import Measures, Subject
 
@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 
 SIZE = (7.6, 4.8)  # inches
 SQUARE = (7.0, 6.4)
+TITLE_LINES = 2  # of a picture of its own; more stand below it
+NOTE_LINES, SMALL_LINES = 3, (1, 2)  # of notes below a picture; below a small one, in few words if need be
+COMMAND = "stabilab fate"  # which prints all notes
 BELOW = 0.14  # inches between axes in space and their legend, in a figure with room for it
 
 
@@ -55,39 +58,90 @@ def _checked(ax: Any, space: bool) -> Any:
 
 
 def explained(ax: Axes | Axes3D, rows: list[tuple[str, dict[str, Any]]], own: bool, heading: str,
-              *lines: str) -> Any:
-    """The axes, with a title as of `title` and with what the looks mean, rows of (name, look)."""
-    title(ax, heading, *lines)
-    legend(ax, rows, own)
+              *lines: str, notes: Sequence[Note] = ()) -> Any:
+    """The axes, with a title as of `title`, with what the looks mean, rows of (name, look), and with notes.
+    own: whether the figure is of this picture alone: its title has two lines then, and what it has no room
+    for stands below; axes that were given have all in their title."""
+    if own:
+        rest = title(ax, heading, *lines, most=TITLE_LINES)
+        legend(ax, rows, own, [*notes, *(Note(line, line) for line in rest)])
+    else:
+        title(ax, heading, *lines[:1], "; ".join(note.full for note in notes), *lines[1:])
+        legend(ax, rows, own)
     return ax
 
 
-def legend(ax: Axes | Axes3D, rows: list[tuple[str, dict[str, Any]]], own: bool) -> None:
-    """What the looks mean, rows of (name, look): below a figure of its own, inside axes that were given."""
-    if rows and own:
-        style.legend(ax.figure, rows)
+def legend(ax: Axes | Axes3D, rows: list[tuple[str, dict[str, Any]]], own: bool,
+           notes: Sequence[Note] = ()) -> None:
+    """What the looks mean, rows of (name, look): below a figure of its own, with notes above them; inside
+    axes that were given."""
+    if own and (rows or notes):
+        style.legend(ax.figure, rows, notes=fitted(notes, ax.figure.get_figwidth()))
     elif rows:
         ax.legend(*style.explained(rows), loc="best", fontsize="small")
 
 
+def fitted(notes: Sequence[Note], inches: float) -> str:
+    """Notes in lines that fit a figure of this width: in full, from the last on in few words where that takes
+    too many lines; of the last that have no room even so it says how many these are, never of the first."""
+    size = style.RC["legend.fontsize"] * style.share()
+
+    def lines(parts: Sequence[str]) -> list[str]:
+        return style.clauses("; ".join(parts), inches, size).split("\n") if parts else []
+    brief = [note.brief for note in notes]
+    forms = [[*(note.full for note in notes[:full]), *brief[full:]] for full in range(len(notes), -1, -1)]
+    forms += [[*brief[:shown], f"{len(notes) - shown} more: {COMMAND}"]
+              for shown in range(len(notes) - 1, 0, -1)]
+    for most in (NOTE_LINES,) if style.share() == 1 else SMALL_LINES:
+        for form in forms if most > 1 else forms[:len(notes) + 1]:
+            if len(found := lines(form)) <= most:
+                return "\n".join(map(style.literal, found))
+    return "\n".join(map(style.literal, found[:NOTE_LINES]))
+
+
 def answer(item: Subject, scale: Measures) -> str:
-    """What becomes of the motion of a case, and when it reaches its limit, as its headline begins; empty
-    without a case."""
+    """What becomes of the motion of a case: the first of the two lines of its headline; empty without a case.
+    """
     if item.case is None or item.state is None:
         return ""
+    return headline.two_lines(item.case, item.motion, scale.system)[0]
+
+
+def notes(item: Subject, scale: Measures, answered: bool = True) -> list[Note]:
+    """What limits that answer and does not stand in it; of no case nothing. answered: False of a picture that
+    shows no answer, but the motion or the body alone: what limits these."""
+    if item.case is None:
+        return []
     units = replace(scale.system or units_of(item.case), axes=axes_of(item.case))
-    became, limit, _ = outcome(item.motion, units)
-    left_out = [limiting.words(of, units).split("; ")[0] for of in item.motion.caveats
-                if of.kind in (Kind.TOLERANCE, Kind.MISALIGNMENT, Kind.UNCERTAIN)]
-    text = "; ".join(filter(None, (became, limit, *left_out)))
-    return headline.warned(item.motion.validity, limiting.ahead(item.motion.caveats, text, named=False))
+    caveats = item.case.caveats if item.state is None else item.motion.caveats
+    if answered:
+        return limiting.notes(caveats, answer(item, scale), units)
+    return limiting.notes(without(caveats, Kind.LIMIT, Kind.TILT, Kind.UNSTABLE, Kind.THRUSTERS), "", units)
 
 
-def title(ax: Any, heading: str, *lines: str) -> None:
+def title(ax: Any, heading: str, *lines: str, most: int | None = None) -> list[str]:
     """The heading of the case, as its user wrote it, and below it what the program says, names as letters
-    (omega becomes ω); nothing for what is empty."""
+    (omega becomes ω); nothing for what is empty. most: lines at most; None: as many as these take. Returns
+    the lines that there is no room for: the first of the program has one line, in smaller letters where it is
+    long (in a small figure the whole title, where it needs that), and the heading is cut."""
     # beside others it has its own share alone
     width = ax.get_position().width if len(ax.figure.axes) > 1 else 1.0
-    printed = (style.clauses(line, ax.figure.get_figwidth() * width)
-            for line in (heading, *map(written, lines)) if line)
-    ax.set_title("\n".join(map(style.literal, printed)), wrap=True)
+    inches = ax.figure.get_figwidth() * width
+    said = [written(line) for line in lines if line]
+    if most is None:
+        shown = [style.clauses(line, inches) for line in filter(None, (heading, *said))]
+        ax.set_title("\n".join(map(style.literal, shown)), wrap=True)
+        return []
+    size = style.fitting(said[0] if said else "", inches)
+    first = style.clauses(said[0], inches, size).split("\n") if said else []
+    if len(first) > 1 and (style.share() == 1 or len(first) > most):
+        first, said = [], ["", *said]
+    room = most - len(first)
+    own = style.clauses(heading, inches, size).split("\n") if heading else []
+    if len(own) > room > 0:
+        own[room - 1:] = [f"{own[room - 1].rstrip(',;:')} ..."]
+    drawn = ax.set_title("\n".join(map(style.literal, (*own[:room], *first))), fontsize=size)
+    if width == 1.0:  # over the figure, as axes with words on their left are not in its middle
+        from matplotlib.transforms import blended_transform_factory
+        drawn.set_transform(blended_transform_factory(ax.figure.transFigure, drawn.get_transform()))
+    return said[1:]

@@ -78,7 +78,8 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
                  f"{drawn.curves[0][1][0][flat] * per + 0.0:.4g} {scale.rate[0]}".rstrip())
         stopped = once_stopped(result)
         text = "; ".join(filter(None, (constant, stopped and stopped.text(letters=True))))
-        return canvas.explained(target, list(rows.items()) if legend else [], ax is None, item.heading, text)
+        return canvas.explained(target, list(rows.items()) if legend else [], ax is None, item.heading, text,
+                                notes=canvas.notes(item, scale, answered=False))
 
 
 def _box(result: Equilibria, folds: np.ndarray, item: Subject, number: int) -> Box:

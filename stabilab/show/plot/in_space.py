@@ -303,7 +303,8 @@ def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None
     with canvas.on(ax, size, space=True) as target:
         draw(target, result)
         return canvas.explained(target, rows(result) if legend else [], ax is None,
-                                x.heading, canvas.answer(x, scale), away(x, result, scale), result.part)
+                                x.heading, canvas.answer(x, scale), away(x, result, scale),
+                                result.part, notes=canvas.notes(x, scale))
 
 
 def space_of(item: Subject, names: Iterable[str], rate: tuple[str, float], resolved: Equilibria | None = None,

@@ -25,7 +25,6 @@ from ...theories.theory import side_by_side
 from .. import style
 from ..space import limit_time
 from ..text import cost
-from ..text.headline import headline
 from ..text.stuck import answer_line, row_name
 from ..units import SHORT, Units, bracket, number, with_unit
 from . import canvas
@@ -93,7 +92,7 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
         if turned is not None:
             target.set_ylabel(with_unit("rate, axes of the file", rate_unit))
         return canvas.explained(target, rows if legend else [], ax is None,
-                                item.heading, "" if item.case is None else _answer(item, scale))
+                                item.heading, canvas.answer(item, scale), notes=canvas.notes(item, scale))
 
 
 def _rates(ax: Axes, t: np.ndarray, omega: np.ndarray, names: Sequence[str], scale: Measures,
@@ -112,12 +111,6 @@ def _rates(ax: Axes, t: np.ndarray, omega: np.ndarray, names: Sequence[str], sca
     ax.set_xlabel(with_unit("time", unit) if scale.size else unit)
     ax.set_ylabel(with_unit("rate", rate_unit) if scale.size else "$x$")
     return [(scale.size or "$|x|$", SIZE_LOOK), *zip(names, looks)], looks
-
-
-def _answer(item: Subject, scale: Measures):
-    """The answer in one line; of uncertain numbers only their middles are drawn."""
-    printed = headline(item.case, item.motion, scale.system, placed=False)
-    return printed + ("; for the middles of the uncertain numbers" if item.case.uncertain else "")
 
 
 def _samples(ax, item, t, per_time, per_rate, looks):
@@ -139,7 +132,7 @@ def _samples(ax, item, t, per_time, per_rate, looks):
     for values, look in zip((*np.moveaxis(runs, 2, 0), np.linalg.norm(runs, axis=2)), (*looks, SIZE_LOOK)):
         ax.fill_between(times * per_time, values.min(axis=0) * per_rate, values.max(axis=0) * per_rate,
                         color=look["color"], alpha=0.2, linewidth=0, zorder=1)
-    return [(f"between {len(runs)} samples of the uncertain numbers",
+    return [(f"between {len(runs)} uncertain samples",
              {"facecolor": style.GREY, "alpha": 0.35, "linewidth": 0})]
 
 
@@ -413,7 +406,7 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
         reaches = r"$|\omega|$ =" if out.limit.kind == "rate" else "a component of"
         target.set_ylabel(f"time to {reaches} {smallest} ({unit})")
         return canvas.explained(target, rows if legend else [], ax is None,
-                                item.heading, canvas.answer(item, scale))
+                                item.heading, canvas.answer(item, scale), notes=canvas.notes(item, scale))
 
 
 def wheel(case: Given | Subject, ax: Axes | None = None, units: str | None = None,
@@ -467,4 +460,4 @@ def wheel(case: Given | Subject, ax: Axes | None = None, units: str | None = Non
         target.set_xlabel("momentum of the wheel along its axis (N m s)")
         target.set_ylabel(f"later by ({unit})")
         return canvas.explained(target, list(dict(rows).items()) if legend else [], ax is None,
-                                item.heading, canvas.answer(item, scale))
+                                item.heading, canvas.answer(item, scale), notes=canvas.notes(item, scale))

@@ -63,7 +63,7 @@ def phase(case: Given | Subject, state: Start | None = None, ax: Axes | None = N
         target.set_ylabel(with_unit(scale.names[i], scale.rate[0]))
         rows = rows_of({"centre": plane.centres, "saddle": plane.saddles})
         return canvas.explained(target, rows if legend else [], ax is None,
-                                item.heading, canvas.answer(item, scale))
+                                item.heading, canvas.answer(item, scale), notes=canvas.notes(item, scale))
 
 
 # of the walls: a motion below it would be a line, and the grid may miss the bottom of its well
@@ -216,7 +216,8 @@ def section(case: Any, states: Any = None, ax: Axes | None = None, units: str | 
         rows = _draw(target, sets, leave, orbit, plane, scale)
         return canvas.explained(target, rows if legend else [], ax is None, item.heading,
                                 _plane_words(plane, scale),
-                                *_passed(item, times, places, until, scale, orbit))
+                                *_passed(item, times, places, until, scale, orbit),
+                                notes=canvas.notes(item, scale, answered=False))
 
 
 def _motions(case: Any, states: Any) -> tuple[Subject, np.ndarray]:
@@ -380,7 +381,7 @@ def potential(case: Scene, state: Sequence[float] | None = None, ax: Axes | None
                                     scale.angle[0]))
         target.set_ylabel(with_unit("energy", "J" if scale.size else ""))
         return canvas.explained(target, rows if legend else [], ax is None,
-                                item.heading, canvas.answer(item, scale))
+                                item.heading, canvas.answer(item, scale), notes=canvas.notes(item, scale))
 
 
 def _barrier(plane: PhasePlane, margin: float | None, up: float, span: tuple[float, float]) -> float | None:

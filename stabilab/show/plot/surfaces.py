@@ -320,7 +320,8 @@ def sphere(case: Any, state: Any = None, ax: Axes | None = None, units: str | No
         for points, look in result.marks:
             in_space.line(target, points, look, zorder=8)
         in_space.furnish(target, result.box, result.labels, result.view)
-        return canvas.explained(target, result.rows if legend else [], ax is None, item.heading, result.title)
+        return canvas.explained(target, result.rows if legend else [], ax is None, item.heading, result.title,
+                                notes=canvas.notes(item, measures(item, units), answered=False))
 
 
 BEHIND = {"alpha": 0.3, "linewidth": 0.7}

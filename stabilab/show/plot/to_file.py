@@ -83,8 +83,10 @@ def narrowed(figure: Any) -> Any:
     figure.set_size_inches(*TELEPHONE)
     for legend in list(figure.legends):
         names = [text.get_text() for text in legend.get_texts()]
+        notes = " ".join(legend.get_title().get_text().split("\n"))
         legend.remove()
-        style.below(figure, legend.legend_handles, names)
+        style.below(figure, legend.legend_handles, names, notes=notes and style.clauses(
+            notes, figure.get_figwidth(), style.RC["legend.fontsize"] * style.share()))
     return figure
 
 

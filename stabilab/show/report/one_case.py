@@ -33,7 +33,7 @@ from ..plot.subject import subject
 from ..space import data
 from ..terminal import printed, some
 from ..text.classification import open_fate, uncertain_text, what_changes
-from ..text.headline import exceeded, headline, judged, lines_of, look
+from ..text.headline import exceeded, headline, judged, lines_of, look, two_lines
 from ..text.motion import constants, margins, shown, state
 from ..text.scene import fates, key_columns, latex, of_all_combinations, of_motions
 from ..units import DIGITS, but_for_rounding, number, parameter_unit, units_of, with_unit
@@ -122,7 +122,9 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     request = ("equilibria", "fate") if case.state else ("equilibria",)
     box = _tried(absent, "Uncertain numbers", lambda: uncertain(case, request)) if case.uncertain else None
     answer = f"No motion is given. Equilibria: {result.kind if result else 'not known'}"
+    first, small = two_lines(case, moved, units) if moved else (answer, "")
     answer = headline(case, moved, units) if moved else answer
+    changes = what_changes(box, units)
     held = moved is None or moved.validity is None or moved.validity.held
     law = "" if held else printed(units.said(moved.validity.reason))
     over = (Kind.UNCERTAIN, Kind.TOLERANCE) if box else (Kind.UNCERTAIN,) if case.uncertain else ()
@@ -130,7 +132,8 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
                               answer)
     page = {"name": case.name, "title": case.heading, "source": case.source,
             "path": case.path, "text": case.text,
-            "headline": printed("; ".join(filter(None, (answer, what_changes(box, units))))),
+            "headline": printed("; ".join(filter(None, (answer, changes)))),
+            "first": printed(first), "small": printed("; ".join(filter(None, (small, changes)))),
             "law": law, "exceeded": "" if held else printed(exceeded([(case, moved.validity)], units)),
             "caveats": list(map(printed, caveats)),
             "fate": "" if moved is None else "undecided" if open_fate(box) else moved.fate.word,

@@ -152,7 +152,8 @@ function show(answer) {
   $("note").className = note.startsWith("Within") ? "note" : "warning";  // a law that holds is no warning
   for (const {axis, called} of Object.values(fields)) if (axis) called(answer.axes[axis - 1]);
   [...$("axis").options].forEach((option, n) => { option.textContent = answer.axes[n]; });
-  $("headline").textContent = answer.headline; $("headline").className = `verdict-line ${answer.look}`;
+  $("headline").replaceChildren(answer.first, ...answer.small ? [" ", element("span", {className: "below", textContent: answer.small})] : []);
+  $("headline").className = `verdict-line ${answer.look}`;
   view.show(answer.space);
   fill("legend", answer.space.legend, rows => rows.map(([words, colour]) => { const mark = element("i", {}); mark.style.background = colour; return element("span", {}, mark, words); }));
   fill("space-words", `${answer.space.words}. Drag to turn; click a curve or a point to start there; double click: as at first.`, words => [signed(words)]);

@@ -19,6 +19,7 @@ from ...errors import Kind, printable
 from ...orbit.result import HEADS, OVER_SPAN
 from .. import ending, limiting
 from ..axes import PLAIN, axes_of, direction
+from ..terminal import capital
 from ..units import SHORT, SI, Unit, Units, as_bound, number, units_of
 
 if TYPE_CHECKING:
@@ -156,6 +157,55 @@ def verdict(case: Case, motion: Motion, units: Units | None = None, placed: bool
     def line(short: bool) -> str:
         return "; ".join(filter(None, [*outcome(motion, units, short), *rest]))
     return limiting.fitted(line, before(case, motion) if named else 0)
+
+
+FIRST = 60  # letters of the first of two lines
+
+
+def two_lines(case: Case, motion: Motion, units: Units | None = None) -> tuple[str, str]:
+    """(at most FIRST letters, which pages and pictures show large; all that these leave out of `headline`).
+
+    The first has what becomes of the motion and the condition that this rests on, then as much as fits: when
+    the limit is reached, the axis, the next number. units: as of `headline`."""
+    line = headline(case, motion, units)
+    units = (units_of(case) if units is None else replace(units, axes=axes_of(case)) if units.axes == PLAIN
+             else units)
+    head, about, where = fate_parts(motion, units, tilt=False, short=True)
+    settled = tuple(filter(None, (ending.rate(motion.ending, units), ending.when(motion.ending, units))))
+    limit = limiting.reached(motion.caveats, units)
+    axis = units.axes.signed(motion.axis, motion.sense) if motion.axis and motion.ending is None else ""
+    abouts = [about, *([f" about {axis}{known_as(motion)}", f" about {axis}"] if axis else []), ""]
+    limits = [(limit.removeprefix("reaches "),)] if limit else [settled, settled[:1]] if settled else []
+    large = next((text for tail in (*limits, ()) for about in abouts for text in [_large(
+        motion, f"{head.lower()}{about}{where}", tail)] if len(text) <= FIRST), "")
+    if not large:  # the condition is too long: that there is one must stay
+        large = _large(motion, f"{head.lower()}, on a condition" if where else head.lower(), ())
+    became, *rest = line.split("; ")
+    if beyond(motion.validity):  # the warning stands alone before what that law has
+        became, *rest = [rest[0].removeprefix("by that law: "), *rest[1:]]
+    if became.lower().startswith(head.lower()):
+        became = became[len(head):].lstrip(":, ")
+    clauses = [clause for clause in [became, *rest] if clause and not _in(clause, large)]
+    for clause in clauses:  # whatever comes next, if it fits
+        if (where or about or not limit) and clause in (cause(motion, units), largest(motion, units)):
+            if len(longer := f"{large}; {clause}") <= FIRST and motion.fate.word != "undecided":
+                large, clauses = longer, [other for other in clauses if other != clause]
+            break
+    return large, capital("; ".join(clauses))
+
+
+def _large(motion: Motion, text: str, tail: Sequence[str]) -> str:
+    """The first of two lines: as a sentence, behind what an answer must not lack."""
+    line = limiting.ahead(motion.caveats, "; ".join([text, *tail]), named=False)
+    if beyond(motion.validity):
+        line = f"{motion.validity.status.lower()}: {line}"
+    return line[:1].upper() + line[1:]
+
+
+def _in(clause: str, large: str) -> bool:
+    """Whether the first of two lines says a clause of the headline."""
+    clause = clause.removeprefix("reaches ").lower()
+    return clause.replace(", at ", "; at ") in large.lower().replace(", at ", "; at ")
 
 
 def before(case: Case, answer) -> int:
